@@ -1,0 +1,22 @@
+/// @file export.hpp
+/// Version, symbol visibility and the inline namespace every public name lives in.
+#pragma once
+
+#define SINEW_VERSION_MAJOR 0
+#define SINEW_VERSION_MINOR 1
+#define SINEW_VERSION_PATCH 0
+#define SINEW_VERSION_STRING "0.1.0"
+
+#if defined(SINEW_SHARED) && defined(__GNUC__)
+#define SINEW_API __attribute__((visibility("default")))
+#else
+#define SINEW_API
+#endif
+
+/// The inline namespace carries the ABI version: two incompatible sinews in one program do not link silently.
+namespace sinew::inline v0 {
+
+/// Version of the library that is linked (the macros above give that of the headers).
+SINEW_API const char* version() noexcept;
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,44 @@
+/// @file units.hpp
+/// Dimensions and ranges of quantities. Inside the library every number is SI and radians (DESIGN: a bare number
+/// is SI, a string may carry a unit whose dimension is checked). The spelling of units is in io/quantity.hpp.
+#pragma once
+#include <limits>
+
+#include "sinew/base/export.hpp"
+
+namespace sinew::inline v0 {
+
+/// What a number measures. `number` is dimensionless; `count` is a whole number.
+enum class Dimension {
+  number,
+  count,
+  length,
+  angle,
+  curvature,
+  force,
+  moment,
+  pressure,
+  mass,
+  density,
+  acceleration,
+  time,
+};
+
+/// An interval of allowed values; a bound may be excluded.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_excluded = false;
+  bool high_excluded = false;
+
+  constexpr bool contains(double value) const {  // NaN is in no range
+    return (low_excluded ? value > low : value >= low) && (high_excluded ? value < high : value <= high);
+  }
+
+  static constexpr Range any() { return {}; }
+  static constexpr Range positive() { return {.low = 0, .low_excluded = true}; }
+  static constexpr Range not_negative() { return {.low = 0}; }
+  static constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
+};
+
+}  // namespace sinew::inline v0
