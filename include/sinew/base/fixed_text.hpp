@@ -1,0 +1,57 @@
+/// @file fixed_text.hpp
+/// A short text of fixed capacity: a solver in a hot loop can say why it failed without touching the heap.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "sinew/base/export.hpp"
+
+namespace sinew::inline v0 {
+
+template <std::size_t Capacity>
+class FixedText {
+ public:
+  using value_type = char;
+
+  FixedText() = default;
+  FixedText(std::string_view text) { append(text); }  // NOLINT(google-explicit-constructor): a text is a text
+
+  /// Appends what fits; the rest is cut off.
+  void append(std::string_view text) {
+    const std::size_t count = std::min(text.size(), Capacity - size_);
+    std::copy_n(text.begin(), count, text_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += count;
+  }
+  void push_back(char c) {  // so that fmt can write through a back inserter
+    if (size_ < Capacity) text_[size_++] = c;
+  }
+
+  bool empty() const { return size_ == 0; }
+  std::string_view view() const { return {text_.data(), size_}; }
+
+ private:
+  std::size_t size_ = 0;
+  std::array<char, Capacity> text_;  // not initialised: only the first size_ characters are ever read
+};
+
+/// The length as people read it, "12.5 mm", written into `buffer` without the heap.
+SINEW_API std::string_view format_mm(double metres, std::span<char> buffer) noexcept;
+
+template <std::size_t Capacity>
+void append_mm(FixedText<Capacity>& text, double metres) {
+  std::array<char, 32> buffer;
+  text.append(format_mm(metres, buffer));
+}
+
+template <std::size_t Capacity>
+void append_number(FixedText<Capacity>& text, int number) {
+  std::array<char, 12> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
+  text.append({buffer.data(), static_cast<std::size_t>(end - buffer.data())});
+}
+
+}  // namespace sinew::inline v0

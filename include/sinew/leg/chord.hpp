@@ -1,0 +1,56 @@
+/// @file chord.hpp
+/// Chord closure: both ends of the link turn freely (R or U at the base, R or S at the platform), so all that the
+/// leg fixes is the distance between them, the link's chord.  |r| = |u(q)|
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "sinew/base/fixed_text.hpp"
+#include "sinew/leg/closure.hpp"
+
+namespace sinew::inline v0 {
+
+struct Chord {
+  static constexpr std::string_view name = "chord";
+  static constexpr bool base_turns = true;  ///< the base tangent is free: a base direction means nothing
+
+  template <class Self, class Visit>
+  static void fields(Self&, Visit&&) {}
+
+  /// @implements TDPCR (1), (3)-(4)
+  template <Scalar S, int D, int Q>
+  Anchor<S, D, Q> anchor(const Tip<S, D, Q>& tip) const {
+    return {Vec<S, D>::Zero(), Mat<S, D, Q>::Zero(), S(0.5) * squared_norm(tip.position),
+            tip.position.transpose() * tip.rate};
+  }
+
+  /// Bound on |∂²g/∂q²| for a link with one coordinate: (½|u|²)″ = |u′|² + u·u″.
+  double rate_rate_bound(double, const TipBounds& link) const {
+    return link.rate * link.rate + link.reach * link.rate_rate;
+  }
+
+  /// Closed form where the link has one: the two curvatures ±κ, once where the link is straight; none beyond it.
+  template <class Link, int D>
+    requires requires(const Link& link) { link.curvature_from_chord(1.0); }
+  int coordinates_at(const Link& link, const Vec<double, D>& r, std::span<double> roots) const {
+    const double curvature = link.curvature_from_chord(r.norm());
+    if (!(curvature < link.bounds().domain)) return 0;  // NaN: too far; a full turn: folded
+    if (curvature == 0) {
+      roots[0] = 0;
+      return 1;
+    }
+    roots[0] = -curvature;
+    roots[1] = curvature;
+    return 2;
+  }
+
+  void explain_unreachable(double distance, double reach, FixedText<240>& text) const {
+    text.append("needs a chord of ");
+    append_mm(text, distance);
+    text.append(", its backbone is ");
+    append_mm(text, reach);
+    text.append(" long");
+  }
+};
+
+}  // namespace sinew::inline v0

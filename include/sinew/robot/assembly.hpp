@@ -1,0 +1,42 @@
+/// @file assembly.hpp
+/// What assembly makes of the legs: `J·δx = K·δa + s` (x platform, a inputs). Forward, inverse and differential
+/// kinematics, singularities and sensitivities all read it. Theory: docs/theory/leg.md
+#pragma once
+#include "sinew/base/numbers.hpp"
+#include "sinew/math/linalg.hpp"
+#include "sinew/robot/workspace.hpp"
+#include "sinew/solve/report.hpp"
+
+namespace sinew::inline v0 {
+
+/// Rows in the papers' raw form (multiplied by the closure's distance). Views into the workspace.
+struct Reduced {
+  MatrixView J;               ///< rows × dof: stack of g_x, each row a Plücker line
+  MatrixView K;               ///< rows × inputs: −∂g/∂a, block diagonal where no legs are tied
+  std::span<const double> s;  ///< rows: −g [m²]
+  double closure_error = 0;   ///< largest distance by which a leg fails to close [m]
+  int worst_leg = 0;          ///< the leg that does
+};
+
+/// J, K and s at a platform pose and link coordinates (for arcs: curvatures [1/m], one a leg).
+/// @implements TDPCR (5)-(6), (17), (19)-(24), (28), (30)
+SINEW_API Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
+
+/// Link coordinates that the inputs command, in `work.coordinates`; the view returned is of them.
+/// The report says which input is missing, not finite or outside the link's domain.
+SINEW_API Report command(const AnyRobot& robot, Numbers inputs, Workspace& work);
+
+/// Inputs that command these link coordinates, in `work.inputs`. Legs that are tied must agree: the report says
+/// which do not.
+SINEW_API Report inputs_of(const AnyRobot& robot, Numbers coordinates, Workspace& work);
+
+/// What people want to know of each leg. View of `work.legs`.
+SINEW_API std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates,
+                                               Workspace& work);
+
+SINEW_API AnyPose home(const AnyRobot& robot);
+SINEW_API int leg_count(const AnyRobot& robot);
+SINEW_API int input_count(const AnyRobot& robot);
+SINEW_API int dof(const AnyRobot& robot);
+
+}  // namespace sinew::inline v0

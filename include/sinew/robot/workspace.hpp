@@ -1,0 +1,28 @@
+/// @file workspace.hpp
+/// All memory a solve needs, taken once. Answers are views into it and hold until its next use.
+/// One workspace a thread; the robot itself is shared.
+#pragma once
+#include <vector>
+
+#include "sinew/robot/any_robot.hpp"
+
+namespace sinew::inline v0 {
+
+struct Workspace {
+  /// Most solutions of one leg that are kept; an arc within a full turn either way has fewer.
+  static constexpr int max_solutions = 8;
+
+  SINEW_API explicit Workspace(const AnyRobot& robot);
+
+  std::vector<double> coordinates;  ///< link coordinates, leg by leg
+  std::vector<double> inputs;
+  std::vector<double> J, K, U, s;            ///< row-major: rows × dof, rows × inputs, dof × inputs, rows
+  std::vector<double> scratch;               ///< rows × dof
+  std::vector<double> rates;                 ///< inputs
+  std::vector<double> solutions;             ///< legs × max_solutions
+  std::vector<int> solution_count;           ///< legs
+  std::vector<int> type_1;                   ///< legs
+  std::vector<LegState> legs;
+};
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,129 @@
+/// @file newton.hpp
+/// Newton's method with a line search, on any problem that gives residuals and a Jacobian. It has never heard of
+/// a robot. Where the Newton step fails (singular Jacobian, no descent) a Levenberg-Marquardt step of the same
+/// iteration takes over, so that a start on a singular pose does not end the search.
+/// Theory: docs/theory/newton.md
+#pragma once
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+#include <concepts>
+#include <span>
+
+#include "sinew/math/vec.hpp"
+#include "sinew/solve/report.hpp"
+
+namespace sinew::inline v0 {
+
+/// Most residual rows a problem may have; with it nothing here touches the heap.
+inline constexpr int max_rows = 24;
+
+/// Residual, Jacobian and error of a problem with N unknowns at one point; rows ≥ N.
+template <int N>
+struct Linearised {
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign, max_rows, 1> residual;
+  Eigen::Matrix<double, Eigen::Dynamic, N, Eigen::DontAlign, max_rows, N> jacobian;
+  double error = 0;  ///< the same residual in the unit in which convergence is judged [m]
+
+  double merit() const { return 0.5 * residual.squaredNorm(); }
+};
+
+/// What the solver needs of a problem: `linearise` returns false where the point is outside the domain.
+template <class P>
+concept NewtonProblem = requires(const P& problem, const typename P::Point& point, Linearised<P::unknowns>& system,
+                                 const Vec<double, P::unknowns>& step) {
+  { problem.linearise(point, system) } -> std::same_as<bool>;
+  { problem.moved(point, step) } -> std::same_as<typename P::Point>;
+  { problem.shortened(step) } -> std::same_as<double>;  // factor ≤ 1 that keeps a step sensible
+};
+
+struct NewtonOptions {
+  double tolerance = 1e-14;  ///< on Linearised::error
+  int max_iterations = 50;
+  std::span<TraceStep> trace = {};  ///< filled as far as it reaches
+};
+
+namespace detail {
+
+/// Newton step of a square system, Gauss-Newton step of a tall one; false where the matrix is singular.
+template <int N>
+bool newton_step(const Linearised<N>& system, Vec<double, N>& step) {
+  if (system.residual.rows() == N) {
+    const Mat<double, N, N> square = system.jacobian;
+    step = -square.partialPivLu().solve(Vec<double, N>(system.residual));
+  } else {
+    const Mat<double, N, N> normal = system.jacobian.transpose() * system.jacobian;
+    step = -normal.ldlt().solve(Vec<double, N>(system.jacobian.transpose() * system.residual));
+  }
+  return step.allFinite();
+}
+
+/// Levenberg-Marquardt step, damped per column (Marquardt's scaling: the unknowns have different units).
+template <int N>
+Vec<double, N> damped_step(const Linearised<N>& system, double damping) {
+  Mat<double, N, N> normal = system.jacobian.transpose() * system.jacobian;
+  const double floor = 1e-12 * normal.diagonal().maxCoeff() + 1e-300;
+  for (int i = 0; i < N; ++i) normal(i, i) += damping * std::max(normal(i, i), floor);
+  return -normal.ldlt().solve(Vec<double, N>(system.jacobian.transpose() * system.residual));
+}
+
+}  // namespace detail
+
+/// Solves `problem` from `point`, which holds the best iterate afterwards. Bounded work: at most
+/// `max_iterations` steps of at most 2 × 12 evaluations each.
+template <NewtonProblem P>
+Report newton(const P& problem, typename P::Point& point, const NewtonOptions& options) {
+  constexpr int N = P::unknowns;
+  Linearised<N> here, there;
+  Report report;
+  if (!problem.linearise(point, here)) {
+    report.status = Status::left_domain;
+    return report;
+  }
+  const auto record = [&](double fraction) {
+    const auto i = static_cast<std::size_t>(report.iterations);
+    if (i < options.trace.size()) options.trace[i] = {report.iterations, here.error, fraction};
+  };
+  record(0);
+
+  // Tries point ⊕ fraction·step; keeps it if the merit falls.
+  const auto accept = [&](const Vec<double, N>& step, double fraction) {
+    const typename P::Point ahead = problem.moved(point, fraction * step);
+    if (!problem.linearise(ahead, there)) return false;
+    if (!(there.merit() < (1 - 1e-4 * fraction) * here.merit())) return false;
+    point = ahead;
+    std::swap(here, there);
+    return true;
+  };
+  const auto line_search = [&](const Vec<double, N>& step) {
+    double fraction = problem.shortened(step);
+    for (int halving = 0; halving < 12; ++halving, fraction /= 2)
+      if (accept(step, fraction)) return fraction;
+    return 0.0;
+  };
+  const auto damped_search = [&] {
+    double damping = 1e-6;
+    for (int tries = 0; tries < 12; ++tries, damping *= 10) {
+      const Vec<double, N> step = detail::damped_step(here, damping);
+      if (step.allFinite() && accept(step, problem.shortened(step))) return true;
+    }
+    return false;
+  };
+
+  while (here.error > options.tolerance && report.iterations < options.max_iterations) {
+    Vec<double, N> step;
+    double fraction = detail::newton_step(here, step) ? line_search(step) : 0;
+    if (fraction == 0 && !damped_search()) break;  // rounding level reached, or a local minimum
+    ++report.iterations;
+    record(fraction);
+  }
+  report.residual = here.error;
+  // The last digits: where no step lowers the merit any more, 100 times the tolerance is still an answer.
+  const bool solved = here.error <= options.tolerance * (report.iterations < options.max_iterations ? 100 : 1);
+  report.status = solved ? Status::converged
+                  : report.iterations >= options.max_iterations ? Status::iteration_limit
+                                                                 : Status::stalled;
+  return report;
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,46 @@
+/// @file report.hpp
+/// What a solver says of its answer. A solver that does not converge is an answer, never an exception.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "sinew/base/export.hpp"
+#include "sinew/base/fixed_text.hpp"
+
+namespace sinew::inline v0 {
+
+/// How a solve ended. The order is that of PROTOCOL: the first that holds is reported.
+enum class Status {
+  unreachable,      ///< no solution exists; the message names what cannot be met
+  left_domain,      ///< an input or iterate lies outside the model's domain
+  slack,            ///< a tendon would have to push
+  singular,         ///< the linear system has no unique answer here
+  stalled,          ///< no step lowers the residual any more, and it is not zero
+  iteration_limit,  ///< the bound on iterations was met
+  unstable,         ///< an equilibrium that does not hold by itself
+  converged,
+};
+
+SINEW_API std::string_view to_string(Status status) noexcept;
+
+/// Status with its evidence. `residual` is that of the best iterate, which is always handed back.
+struct Report {
+  Status status = Status::converged;
+  int iterations = 0;
+  double residual = 0;     ///< largest closure error of a leg [m]
+  FixedText<240> message;  ///< why not converged, in words; empty otherwise
+
+  bool ok() const noexcept { return status == Status::converged; }
+};
+
+/// One line: `converged in 4 iterations, residual 5e-14 m`.
+SINEW_API std::string to_string(const Report& report);
+
+/// One iterate of a solver, recorded on request.
+struct TraceStep {
+  int iteration;
+  double residual;  ///< largest closure error [m]
+  double step;      ///< fraction of the Newton step taken to get here; 0 for the start
+};
+
+}  // namespace sinew::inline v0

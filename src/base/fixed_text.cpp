@@ -1,0 +1,12 @@
+#include "sinew/base/fixed_text.hpp"
+
+#include <fmt/format.h>
+
+namespace sinew::inline v0 {
+
+std::string_view format_mm(double metres, std::span<char> buffer) noexcept {
+  const auto end = fmt::format_to_n(buffer.data(), buffer.size(), "{:.6g} mm", 1000 * metres);
+  return {buffer.data(), std::min(end.size, buffer.size())};
+}
+
+}  // namespace sinew::inline v0

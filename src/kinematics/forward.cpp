@@ -1,0 +1,96 @@
+#include "sinew/kinematics/forward.hpp"
+
+#include <array>
+
+#include "robot/pose.hpp"
+#include "sinew/solve/newton.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+/// The closures as a function of the platform pose. The links are shaped by the inputs alone, so their tips are
+/// computed once.
+template <class LegT>
+class Closing {
+ public:
+  using Space = typename LegT::Space;
+  using Point = typename Space::Pose;
+  using Tip = decltype(std::declval<const LegT&>().tip(0.0));
+  static constexpr int unknowns = Space::dof;
+
+  Closing(const ParallelRobot<LegT>& robot, Numbers coordinates) : robot_(robot), coordinates_(coordinates) {
+    for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+      tips_[i] = robot.legs[i].tip(coordinates[i]);
+      size_ = std::max(size_, with_leg(robot.legs[i], [](const auto& leg) { return leg.link.bounds().reach; }));
+    }
+  }
+
+  bool linearise(const Point& pose, Linearised<unknowns>& system) const {
+    const auto platform = Space::frame(pose);
+    system.residual.resize(robot_.row_count());
+    system.jacobian.resize(robot_.row_count(), unknowns);
+    system.error = 0;
+    for (std::size_t i = 0; i < robot_.legs.size(); ++i) {
+      const auto blocks = with_leg(
+          robot_.legs[i], [&](const auto& leg) { return leg.template blocks<double>(platform, tips_[i]); });
+      const auto row = static_cast<Eigen::Index>(i);
+      system.residual[row] = blocks.g;
+      system.jacobian.row(row) = blocks.g_x;
+      system.error = std::max(system.error, std::abs(blocks.error));
+    }
+    return true;
+  }
+
+  Point moved(const Point& pose, const Vec<double, unknowns>& step) const { return Space::moved(pose, step); }
+
+  /// At most half a radian and half the robot a step: Newton's model of the closures holds no further.
+  double shortened(const Vec<double, unknowns>& step) const {
+    const double shift = step.template head<Space::dimension>().norm();
+    const double turn = step.template tail<unknowns - Space::dimension>().norm();
+    return 1 / std::max({1.0, 2 * turn, 2 * shift / size_});
+  }
+
+  double size() const { return size_; }
+
+ private:
+  const ParallelRobot<LegT>& robot_;
+  Numbers coordinates_;
+  std::array<Tip, max_rows> tips_;
+  double size_ = 0;
+};
+
+void explain(Report& report, const Reduced& at_end) {
+  if (report.ok()) return;
+  report.message.append("the legs do not close from this start; legs[");
+  append_number(report.message, at_end.worst_leg);
+  report.message.append("] misses by ");
+  append_mm(report.message, at_end.closure_error);
+  report.message.append(report.status == Status::iteration_limit
+                            ? "; allow more iterations or start nearer"
+                            : "; these inputs may have no pose, or another start finds it");
+}
+
+template <class LegT>
+Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, const ForwardOptions& options,
+                      Workspace& work) {
+  using Space = typename LegT::Space;
+  const Closing<LegT> closing(robot, work.coordinates);
+  typename Space::Pose pose = options.start ? in_space<Space>(*options.start) : robot.home;
+  Forward answer{newton(closing, pose,
+                        {.tolerance = 1e-14 * closing.size(),
+                         .max_iterations = options.max_iterations,
+                         .trace = options.trace}),
+                 Space::tidy(pose), work.coordinates};
+  if (!answer.ok()) explain(answer.report, assemble(any, answer.pose, work.coordinates, work));
+  return answer;
+}
+
+}  // namespace
+
+Forward forward(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work) {
+  const Report commanded = command(robot, inputs, work);
+  if (!commanded.ok()) return {commanded, options.start.value_or(home(robot)), work.coordinates};
+  return std::visit([&](const auto& r) { return forward_robot(r, robot, options, work); }, robot.model);
+}
+
+}  // namespace sinew::inline v0
