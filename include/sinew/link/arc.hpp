@@ -59,6 +59,9 @@ struct Arc {
   /// Point of the backbone at arc length s [m]: the tip of a shorter arc of the same curvature.
   Vec2<double> point(double curvature, double s) const { return Arc{s}.tip(curvature).position; }
 
+  /// Unit normal of the backbone at arc length s, on the side of tendon 1.
+  Vec2<double> side(double curvature, double s) const { return {std::cos(curvature * s), -std::sin(curvature * s)}; }
+
   /// From u = ∫₀^ℓ (sin κs, cos κs) ds: |u| ≤ ℓ, |u′| ≤ ℓ²/2, |u″| ≤ ℓ³/3. Beyond a full turn a link is folded.
   TipBounds bounds() const {
     return {length, length * length / 2, length * length * length / 3, 2 * std::numbers::pi / length};

@@ -1,0 +1,92 @@
+/// @file figure.hpp
+/// Figures: a description of curves in panels, written as a gnuplot script that holds its data, and drawn by gnuplot.
+/// The script is there to be edited: `gnuplot fig9.gp` in its folder draws the same files again.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/base/error.hpp"
+
+namespace sinew::inline v0 {
+
+/// Okabe and Ito's palette, told apart with any colour vision; grey for what is only there for orientation.
+enum class Colour { black, blue, vermillion, green, orange, sky, purple, yellow, grey };
+
+enum class Mark {
+  line,
+  dashed,
+  dotted,
+  points,       ///< filled dots
+  line_points,
+  circles,      ///< open circles, white inside: joints
+  polygon,      ///< closed, filled with a pale shade of its colour
+  outline,      ///< closed, not filled
+};
+
+/// One curve. Where x or y is not finite the line is interrupted.
+struct Series {
+  std::string label;  ///< in the legend; empty: not there
+  std::vector<double> x, y;
+  Mark mark = Mark::line;
+  Colour colour = Colour::blue;
+  double width = 2;   ///< of the line, or of the dots [points of the page]
+};
+
+/// A text at a point of the panel, in its coordinates.
+struct Note {
+  std::string text;
+  double x, y;
+  enum class Side { left, centre, right } side = Side::right;  ///< of the point
+  Colour colour = Colour::black;
+};
+
+struct Axis {
+  std::string label;
+  std::string unit;  ///< appended in brackets; empty: none
+  bool log = false;
+  std::optional<double> low = {}, high = {};  ///< default: what the data need
+};
+
+enum class Legend { none, top_left, top_right, bottom_left, bottom_right, below };
+
+struct Panel {
+  std::string title;
+  Axis x, y;
+  std::vector<Series> series;
+  std::vector<Note> notes = {};
+  Legend legend = Legend::top_left;
+  bool equal_aspect = false;  ///< a metre is as long in y as in x
+};
+
+/// Panels in a grid, row by row. Text is taken literally: no markup.
+struct Figure {
+  std::string title;                  ///< above the panels; may be empty
+  std::vector<Panel> panels;
+  int columns = 1;                    ///< of the grid
+  double width = 800, height = 600;   ///< [px of the SVG]; the PNG has twice as many
+  std::vector<std::string> comments;  ///< at the top of the script: what this is and whence
+};
+
+enum class FigureFormat { svg, png, pdf };
+
+SINEW_API std::string_view extension(FigureFormat format) noexcept;  ///< `svg`
+
+struct FigureOptions {
+  std::vector<FigureFormat> formats = {FigureFormat::svg, FigureFormat::png};
+  std::string gnuplot = "gnuplot";  ///< a program on PATH, or a path to one
+};
+
+/// The script that draws `name.svg` and the like into the folder it is run in. The same figure gives the same bytes.
+SINEW_API std::string gnuplot_script(const Figure& figure, const std::string& name, const FigureOptions& options = {});
+
+/// Writes `stem.gp` and runs it. The files written: the script first, then one for each format. Where gnuplot is
+/// missing or fails the script stays. Codes: `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`.
+/// @param stem path without extension; its folder is made if need be
+SINEW_API Expected<std::vector<std::filesystem::path>> write_figure(const Figure& figure,
+                                                                    const std::filesystem::path& stem,
+                                                                    const FigureOptions& options = {});
+
+}  // namespace sinew::inline v0

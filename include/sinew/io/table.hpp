@@ -1,0 +1,70 @@
+/// @file table.hpp
+/// Tables of numbers with named columns and units, and their CSV form:
+///
+///     # sinew 0.1.0
+///     k,eta,x[m],phi[rad],condition
+///     0,0,0,0,14.661461344404344
+///     59,1,0.03,1.0471975511965976,
+///
+/// Comma, `\n`, the shortest digits that read back as the same number; an empty cell where there is no value.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/base/error.hpp"
+#include "sinew/base/numbers.hpp"
+
+namespace sinew::inline v0 {
+
+/// One column. A value that is not finite is missing.
+struct Column {
+  std::string name;            ///< without brackets
+  std::string unit;            ///< `m`, `rad/m`; empty for a plain number
+  std::vector<double> values;
+
+  /// `x[m]`, or the name alone where there is no unit.
+  SINEW_API std::string heading() const;
+
+  /// Name and unit as written in a heading.
+  SINEW_API static Column named(std::string_view heading);
+};
+
+/// Columns of the same length, left to right.
+struct Table {
+  std::vector<std::string> comments;  ///< lines at the top, without the `#`: what this is and whence
+  std::vector<Column> columns;
+
+  Table() = default;
+  /// @param headings `{"k", "x[m]"}`
+  SINEW_API explicit Table(std::initializer_list<std::string_view> headings);
+
+  std::size_t row_count() const { return columns.empty() ? 0 : columns.front().values.size(); }
+
+  /// @param row a value for every column
+  SINEW_API void add_row(Numbers row);
+
+  /// The column of that name, or none.
+  SINEW_API const Column* find(std::string_view name) const;
+};
+
+SINEW_API std::string to_csv(const Table& table);
+
+/// The table in a CSV text. A comment is a line that starts with `#`; empty lines are skipped.
+/// Codes: `no_heading`, `duplicate_column`, `wrong_cell_count`, `not_a_number`, `csv_syntax`.
+/// @param source names the text in errors
+SINEW_API Expected<Table> parse_csv(std::string_view text, const std::string& source);
+
+/// Codes: `file_unwritable`.
+SINEW_API Expected<void> write_csv(const Table& table, const std::filesystem::path& path);
+
+/// Codes: those of `parse_csv`, `file_missing`, `file_unreadable`.
+SINEW_API Expected<Table> read_csv(const std::filesystem::path& path);
+
+/// Write a whole file, making the folders above it. Codes: `file_unwritable`.
+SINEW_API Expected<void> write_text(std::string_view text, const std::filesystem::path& path);
+
+}  // namespace sinew::inline v0

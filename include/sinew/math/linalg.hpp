@@ -1,0 +1,53 @@
+/// @file linalg.hpp
+/// Decompositions of small matrices of run-time size, behind plain functions: compiling Eigen's takes seconds
+/// a file, and one object file pays for it. Nothing here allocates for up to 24 rows and columns; larger is a
+/// broken precondition (in a release build it is answered like numbers that are not finite: by NaN or false).
+/// Matrices are rows first; an output span may not overlap an input.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "sinew/math/vec.hpp"
+
+namespace sinew::inline v0 {
+
+inline constexpr int max_matrix_size = 24;
+
+/// Somebody's row-major numbers as a matrix: `MatrixView(data, rows, columns)`.
+using MatrixView = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+/// A = U·diag(σ)·Vᵀ, σ descending. U and V are square, columns are vectors: the last columns of V from `rank`
+/// on span the null space of A, those of U that of Aᵀ.
+struct Svd {
+  int rows = 0, columns = 0;
+  std::array<double, max_matrix_size> sigma_data;
+  std::array<double, max_matrix_size * max_matrix_size> u_data, v_data;
+
+  int count() const { return rows < columns ? rows : columns; }
+  std::span<const double> sigma() const { return {sigma_data.data(), static_cast<std::size_t>(count())}; }
+  MatrixView u() const { return {u_data.data(), rows, rows}; }
+  MatrixView v() const { return {v_data.data(), columns, columns}; }
+};
+
+/// min(rows, columns) singular values into `out`, descending. Those of a 3×3 matrix each to 1e-13 of itself,
+/// however ill-conditioned the matrix; others to a few eps of the largest.
+SINEW_API void singular_values(const MatrixView& a, std::span<double> out);
+
+SINEW_API Svd svd(const MatrixView& a);
+
+/// How many singular values exceed tolerance·(the largest); 0 for a matrix of zeros.
+SINEW_API int rank(std::span<const double> sigma, double tolerance = 1e-12);
+
+/// J⁻¹B (n×m, rows first) into `out`, by LU with partial pivoting. False, and `out` not to be used, if J is
+/// singular to working precision (estimated reciprocal condition number below n eps) or not finite.
+[[nodiscard]] SINEW_API bool solve(const MatrixView& j, const MatrixView& b, std::span<double> out);
+
+/// The shortest x that minimises |A x − b|, into `out`; singular values up to tolerance·(the largest) count
+/// as 0. Returns the rank.
+SINEW_API int least_norm(const MatrixView& a, std::span<const double> b, std::span<double> out,
+                         double tolerance = 1e-12);
+
+SINEW_API double determinant(const MatrixView& a);
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,35 @@
+/// @file session.hpp
+/// One request, one answer, in JSON: what the command, the server and every binding put their questions to.
+/// The fields are in docs/protocol.md; typed functions (kinematics/, analysis/) do the work.
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "sinew/base/error.hpp"
+#include "sinew/io/node.hpp"
+
+namespace sinew::inline v0 {
+
+/// A robot opened for questions. Not for two threads at once: open one a thread.
+class SINEW_API Session {
+ public:
+  /// From a robot file. All errors of the file at once.
+  static Expected<Session> open(const std::string& path);
+  static Expected<Session> open(Document document);
+
+  /// One query `{"query": "forward", ...}` in, one answer out, without a line break. Never throws on bad input:
+  /// the answer then is `{"error": {"code", "where", "message"}}`.
+  std::string answer(std::string_view query);
+
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  ~Session();
+
+ private:
+  struct State;
+  explicit Session(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sinew::inline v0

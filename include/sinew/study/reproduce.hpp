@@ -1,0 +1,46 @@
+/// @file reproduce.hpp
+/// The papers' figures and tables, made again: ours beside the paper's, the difference, a verdict.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/base/error.hpp"
+
+namespace sinew::inline v0 {
+
+/// Something of a paper that can be made again.
+struct StudyItem {
+  std::string_view id;     ///< paper/item: `tdpcr/fig9`
+  std::string_view title;
+};
+
+/// All of them, in the order of the papers.
+SINEW_API std::span<const StudyItem> study_items();
+
+/// One number or claim of the paper beside ours, formatted for people.
+struct Finding {
+  std::string quantity;
+  std::string paper;       ///< as printed; `not printed` where the paper gives none
+  std::string ours;
+  std::string difference;  ///< empty where there is nothing to subtract
+  std::string verdict;     ///< `agrees`, `differs`, `holds`, `fails`, or `for information`
+};
+
+struct Reproduction {
+  std::string id, title;
+  std::vector<Finding> findings;
+  std::vector<std::filesystem::path> files;  ///< written, in order
+};
+
+/// Makes one item again; its files go to `out`/paper/. What is written before an error stays: without gnuplot the
+/// table, the findings and the scripts of the figures are there.
+/// Codes: `unknown_study`, `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`.
+SINEW_API Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out);
+
+/// The findings as a Markdown table.
+SINEW_API std::string to_markdown(const Reproduction& reproduction);
+
+}  // namespace sinew::inline v0
