@@ -1,0 +1,53 @@
+/// @file random_leg.hpp
+/// Legs of every kind with random parameters, filled through the fields each part names.
+#pragma once
+#include <random>
+
+#include "sinew/robot/any_robot.hpp"
+
+namespace sinew::test {
+
+/// Fills any length with a plausible one.
+struct RandomFields {
+  std::mt19937& random;
+  void operator()(std::string_view, double& field, Dimension, Range, std::string_view) const {
+    field = std::uniform_real_distribution(0.05, 0.3)(random);
+  }
+  template <class T>
+  void operator()(std::string_view, std::optional<T>&, Dimension, Range, std::string_view) const {}
+};
+
+inline double uniform(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution(low, high)(random);
+}
+
+template <class LegT>
+LegT random_leg(std::mt19937& random) {
+  LegT leg{};
+  const RandomFields fill{random};
+  LegT::Link::fields(leg.link, fill);
+  LegT::Drive::fields(leg.drive, fill);
+  LegT::Closure::fields(leg.closure, fill);
+  leg.drive.offset /= 20;
+  leg.base = SE2<double>::from(uniform(random, -0.2, 0.2), uniform(random, -0.2, 0.2), uniform(random, -3, 3));
+  leg.platform_point = Vec2<double>(uniform(random, -0.1, 0.1), uniform(random, -0.1, 0.1));
+  return leg;
+}
+
+/// A curvature of a link of this length: anywhere within its turn, straight, or a hair beside it.
+inline double random_curvature(std::mt19937& random, double length) {
+  const double turn = 2 * std::numbers::pi / length;
+  switch (std::uniform_int_distribution(0, 6)(random)) {
+    case 0: return 0;
+    case 1: return uniform(random, -1e-8, 1e-8);
+    case 2: return uniform(random, -1e-3, 1e-3);
+    case 3: return uniform(random, 0.999, 1) * turn;
+    default: return uniform(random, -turn, turn);
+  }
+}
+
+inline PlanarPose random_pose(std::mt19937& random) {
+  return {uniform(random, -0.1, 0.1), uniform(random, -0.1, 0.1), uniform(random, -3.14, 3.14)};
+}
+
+}  // namespace sinew::test
