@@ -225,10 +225,11 @@ Expected<Document> listed(const Document& document) {
 }  // namespace
 
 Expected<AnyRobot> read_robot(const Document& document) {
-  const Expected<Document> whole = listed(document);
-  if (!whole) return tl::unexpected(whole.error());
+  const Expected<Document> longer = expanded(document);
+  if (!longer) return tl::unexpected(longer.error());
+  const Document whole = listed(*longer).value();
   Errors errors;
-  Reader robot(*whole, errors);
+  Reader robot = Reader(*longer, errors).over(whole.root);  // a shared default is named as such, and told once
   check_head(robot);
   if (!errors.empty() && !robot.is(Node::Kind::map)) return tl::unexpected(errors);
   AnyRobot result = read_listed(robot);

@@ -58,7 +58,7 @@ Solved solve_configuration(Context& context, const Configuration& given) {
   }
   if (!given.pose) {
     const Forward solved = forward(context.robot, *given.inputs,
-                                   {.start = given.start, .max_iterations = context.max_iterations.value_or(50)}, work);
+                                   {.start = given.start, .max_iterations = context.max_iterations.value_or(100)}, work);
     return {solved.report, solved.pose, {solved.coordinates.begin(), solved.coordinates.end()}};
   }
   Report report = command(context.robot, *given.inputs, work);

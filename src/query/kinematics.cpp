@@ -69,7 +69,7 @@ Json polylines(const std::vector<Polyline>& lines) {
 
 void answer_forward(Context& context) {
   const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
-  ForwardOptions options{.max_iterations = context.max_iterations.value_or(50)};
+  ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
   if (auto start = context.query.optional("start")) options.start = read_pose(std::move(*start));
   if (const auto all = context.query.optional("all"))
     if (all->boolean())

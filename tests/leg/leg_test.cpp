@@ -62,7 +62,9 @@ TYPED_TEST(EveryLeg, SolutionsCloseTheLegAndNoneIsMissed) {
     for (int i = 0; i < count; ++i) {
       const auto blocks = leg.template blocks<double>(platform, leg.tip(roots[static_cast<std::size_t>(i)]));
       EXPECT_LT(std::abs(blocks.error), 1e-13) << sample;
-      if (i > 0) EXPECT_GT(roots[static_cast<std::size_t>(i)], roots[static_cast<std::size_t>(i - 1)]);
+      if (i > 0) {
+        EXPECT_GT(roots[static_cast<std::size_t>(i)], roots[static_cast<std::size_t>(i - 1)]);
+      }
     }
     // An independent count: sign changes of g on a fine grid over the whole domain.
     const double end = leg.link.bounds().domain;
@@ -92,8 +94,9 @@ TYPED_TEST(EveryLeg, BaseFrameCarriesTheTipToTheAnchor) {
       const auto anchor = leg.closure.anchor(tip);
       const double distance = (platform.point(leg.platform_point) - frame.point(anchor.position)).norm();
       EXPECT_NEAR(distance, std::sqrt(2 * anchor.half_square), 1e-12);
-      if constexpr (TypeParam::Closure::base_turns)  // then the tip itself is the platform point
+      if constexpr (TypeParam::Closure::base_turns) {  // then the tip itself is the platform point
         EXPECT_LT((platform.point(leg.platform_point) - frame.point(tip.position)).norm(), 1e-12);
+      }
     }
   }
 }

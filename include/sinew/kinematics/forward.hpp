@@ -10,7 +10,7 @@ namespace sinew::inline v0 {
 
 struct ForwardOptions {
   std::optional<AnyPose> start = {};  ///< default: the robot's home. Newton answers with the mode it leads to
-  int max_iterations = 50;
+  int max_iterations = 100;
   std::span<TraceStep> trace = {};    ///< every iterate's residual, as far as the span reaches
 };
 

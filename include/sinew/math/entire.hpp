@@ -1,12 +1,13 @@
 /// @file entire.hpp
 /// sinc and its relatives, analytic through 0. Theory and loss estimates: docs/theory/math.md
 ///
-///   sinc x       = sin x / x              = Σ (−x²)ᵏ/(2k+1)!          1    − x²/6   + …
-///   sinc_slope x = (sinc x − cos x)/x²    = Σ (−x²)ᵏ(2k+2)/(2k+3)!    1/3  − x²/30  + …    sinc′ x =
-///   −x·sinc_slope x cosc x       = (1 − cos x)/x²         = Σ (−x²)ᵏ/(2k+2)!          1/2  − x²/24  + …
-///   sinc3 x      = (x − sin x)/x³         = Σ (−x²)ᵏ/(2k+3)!          1/6  − x²/120 + …
-///   cosc4 x      = (1/2 − cosc x)/x²      = Σ (−x²)ᵏ/(2k+4)!          1/24 − x²/720 + …
-///   sinc5 x      = (1/6 − sinc3 x)/x²     = Σ (−x²)ᵏ/(2k+5)!          1/120 − …
+///   sinc x       = sin x / x             1    − x²/6   + …   = Σ (−x²)ᵏ/(2k+1)!
+///   sinc_slope x = (sinc x − cos x)/x²   1/3  − x²/30  + …   = Σ (−x²)ᵏ(2k+2)/(2k+3)!
+///   cosc x       = (1 − cos x)/x²        1/2  − x²/24  + …   = Σ (−x²)ᵏ/(2k+2)!
+///   sinc3 x      = (x − sin x)/x³        1/6  − x²/120 + …   = Σ (−x²)ᵏ/(2k+3)!
+///   cosc4 x      = (1/2 − cosc x)/x²     1/24 − x²/720 + …   = Σ (−x²)ᵏ/(2k+4)!
+///   sinc5 x      = (1/6 − sinc3 x)/x²    1/120 − …           = Σ (−x²)ᵏ/(2k+5)!
+///   dsinc x      = sinc′ x = −x·sinc_slope x,   dcosc x = cosc′ x
 ///
 /// The threshold between series and closed form belongs to the order of the function: the closed form loses
 /// about (value of the subtracted terms)/(value of the difference), and that decides where the series ends.
@@ -19,11 +20,6 @@
 namespace sinew::inline v0 {
 
 namespace detail {
-
-template <class S>
-inline constexpr bool is_complex = false;
-template <class F>
-inline constexpr bool is_complex<std::complex<F>> = true;
 
 /// Σ cₖ qᵏ by Horner. The number of terms leaves less than eps/10 at the end of the range.
 template <std::size_t N>

@@ -1,7 +1,7 @@
 /// @file newton.hpp
 /// Newton's method with a line search, on any problem that gives residuals and a Jacobian. It has never heard of
-/// a robot. Where the Newton step fails (singular Jacobian, no descent) a Levenberg-Marquardt step of the same
-/// iteration takes over, so that a start on a singular pose does not end the search.
+/// a robot. Where the Newton step is too long or gives no descent (near a singular Jacobian) a Levenberg-Marquardt
+/// step takes its place: halving a Newton step there creeps along the singular surface.
 /// Theory: docs/theory/newton.md
 #pragma once
 #include <Eigen/Cholesky>
@@ -39,7 +39,7 @@ concept NewtonProblem = requires(const P& problem, const typename P::Point& poin
 
 struct NewtonOptions {
   double tolerance = 1e-14;  ///< on Linearised::error
-  int max_iterations = 50;
+  int max_iterations = 100;
   std::span<TraceStep> trace = {};  ///< filled as far as it reaches
 };
 
@@ -70,7 +70,7 @@ Vec<double, N> damped_step(const Linearised<N>& system, double damping) {
 }  // namespace detail
 
 /// Solves `problem` from `point`, which holds the best iterate afterwards. Bounded work: at most
-/// `max_iterations` steps of at most 2 × 12 evaluations each.
+/// `max_iterations` steps of at most 19 evaluations each.
 template <NewtonProblem P>
 Report newton(const P& problem, typename P::Point& point, const NewtonOptions& options) {
   constexpr int N = P::unknowns;
@@ -95,31 +95,37 @@ Report newton(const P& problem, typename P::Point& point, const NewtonOptions& o
     std::swap(here, there);
     return true;
   };
-  const auto line_search = [&](const Vec<double, N>& step) {
-    double fraction = problem.shortened(step);
-    for (int halving = 0; halving < 12; ++halving, fraction /= 2)
+  // The Newton step where it is trusted whole, or halved once or twice: then convergence is quadratic.
+  const auto newton_search = [&] {
+    Vec<double, N> step;
+    if (!detail::newton_step(here, step) || problem.shortened(step) < 1) return 0.0;
+    for (double fraction = 1; fraction > 0.2; fraction /= 2)
       if (accept(step, fraction)) return fraction;
     return 0.0;
   };
+  // Elsewhere, near a singular Jacobian above all, Levenberg-Marquardt; its damping is remembered.
+  double damping = 1e-3;
   const auto damped_search = [&] {
-    double damping = 1e-6;
-    for (int tries = 0; tries < 12; ++tries, damping *= 10) {
+    for (int tries = 0; tries < 16; ++tries, damping *= 5) {
       const Vec<double, N> step = detail::damped_step(here, damping);
-      if (step.allFinite() && accept(step, problem.shortened(step))) return true;
+      if (!step.allFinite()) continue;
+      const double fraction = problem.shortened(step);
+      if (!accept(step, fraction)) continue;
+      if (fraction == 1) damping = std::max(damping / 10, 1e-10);
+      return true;
     }
     return false;
   };
 
   while (here.error > options.tolerance && report.iterations < options.max_iterations) {
-    Vec<double, N> step;
-    double fraction = detail::newton_step(here, step) ? line_search(step) : 0;
+    const double fraction = newton_search();
     if (fraction == 0 && !damped_search()) break;  // rounding level reached, or a local minimum
     ++report.iterations;
     record(fraction);
   }
   report.residual = here.error;
-  // The last digits: where no step lowers the merit any more, 100 times the tolerance is still an answer.
-  const bool solved = here.error <= options.tolerance * (report.iterations < options.max_iterations ? 100 : 1);
+  // The last digits: where they do not come, 100 times the tolerance is still an answer.
+  const bool solved = here.error <= 100 * options.tolerance;
   report.status = solved ? Status::converged
                   : report.iterations >= options.max_iterations ? Status::iteration_limit
                                                                  : Status::stalled;

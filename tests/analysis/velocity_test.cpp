@@ -1,0 +1,111 @@
+#include "sinew/analysis/velocity.hpp"
+
+#include <gtest/gtest.h>
+
+#include "planar_robots.hpp"
+#include "random_leg.hpp"
+#include "sinew/analysis/shape.hpp"
+
+namespace sinew::test {
+namespace {
+
+class EveryRobotMoves : public testing::TestWithParam<std::string_view> {
+ protected:
+  AnyRobot robot = load(std::string(GetParam())).value();
+  Workspace work{robot};
+  std::mt19937 random{7};
+};
+
+TEST_P(EveryRobotMoves, TheWayJAndKSay) {  // @verifies TDPCR (17), (19), (23)-(24), (28), (30), (39)
+  int samples = 0;
+  while (samples < 300) {
+    const PlanarPose pose{uniform(random, -0.04, 0.04), uniform(random, -0.04, 0.04), uniform(random, -0.6, 0.6)};
+    const Inverse solved = inverse(robot, pose, {}, work);
+    if (!solved.ok()) continue;
+    const std::vector<double> inputs = values(solved.inputs), coordinates = values(solved.coordinates);
+    const Velocity v = velocity(robot, pose, coordinates, work);
+    if (v.indices.condition_homogenised > 50 || !v.type_1.empty()) continue;
+    ++samples;
+    const Eigen::MatrixXd U = v.U;
+    // Independent: forward kinematics at moved inputs.
+    for (int j = 0; j < 3; ++j) {
+      const double h = 1e-6;
+      const auto at = [&](double step) {
+        std::vector<double> moved = inputs;
+        moved[static_cast<std::size_t>(j)] += step;
+        const Forward there = forward(robot, moved, {.start = pose}, work);
+        EXPECT_TRUE(there.ok());
+        const auto& p = std::get<PlanarPose>(there.pose);
+        return Eigen::Vector3d(p.x, p.y, p.phi);
+      };
+      const Eigen::Vector3d slope = (at(h) - at(-h)) / (2 * h);
+      EXPECT_LT((slope - U.col(j)).norm(), 2e-5 * (1 + U.norm()));
+    }
+  }
+}
+
+TEST_P(EveryRobotMoves, WithTheRatesThatATwistNeeds) {  // @verifies TDPCR (41)
+  const PlanarPose pose{0.01, -0.01, 0.1};
+  ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
+  const std::vector<double> coordinates = values(work.coordinates);
+  const Velocity v = velocity(robot, pose, coordinates, work);
+  const std::array twist{0.1, -0.2, 0.3};
+  ASSERT_TRUE(rates(v, twist, work));
+  const Eigen::Vector3d back = Eigen::MatrixXd(v.U) * Eigen::Map<const Eigen::Vector3d>(work.rates.data());
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(back[i], twist[static_cast<std::size_t>(i)], 1e-13);
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, EveryRobotMoves, testing::ValuesIn(builtin_robot_names()),
+                         [](const auto& robot) { return "robot_" + std::to_string(robot.index); });
+
+TEST(TypeTwo, LastPoseOfTheExampleIsConcurrentAtItsKnownPoint) {  // TDPCR 5.1
+  const AnyRobot robot = rfr_in_code();
+  Workspace work(robot);
+  const PlanarPose pose{0.03, 0, std::numbers::pi / 3};
+  ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
+  const Velocity v = velocity(robot, pose, values(work.coordinates), work);
+  EXPECT_EQ(v.report.status, Status::singular);
+  EXPECT_TRUE(v.type_2.singular);
+  EXPECT_EQ(v.type_2.rank, 2);
+  EXPECT_EQ(v.type_2.kind, LineClass::concurrent);
+  EXPECT_NEAR(v.type_2.point.x(), 0.03 / (1 - 0.05 / 0.19), 1e-14);  // p/(1 − Rp/Rb)
+  EXPECT_NEAR(v.type_2.point.y(), 0, 1e-14);
+  EXPECT_EQ(v.U.rows(), 0);
+}
+
+TEST(TypeOne, AStraightLegOfTheRfrIsLostNotUndefined) {
+  const AnyRobot robot = rfr_in_code();
+  Workspace work(robot);
+  // Put the platform so that leg 1 is straight: forward with its tendon at the backbone's length.
+  const Forward there = forward(robot, {0.19, 0.2, 0.19}, {}, work);
+  ASSERT_TRUE(there.ok()) << to_string(there.report);
+  const Velocity v = velocity(robot, there.pose, values(there.coordinates), work);
+  ASSERT_EQ(v.type_1.size(), 1U);
+  EXPECT_EQ(v.type_1[0], 1);
+  EXPECT_EQ(v.K(1, 1), 0);
+  EXPECT_FALSE(rates(v, {1, 0, 0}, work));
+  EXPECT_FALSE(v.type_2.singular);
+}
+
+TEST(Shape, LegsRunFromTheirBaseToTheirPlatformPoint) {
+  const AnyRobot robot = rfr_in_code();
+  Workspace work(robot);
+  const PlanarPose pose{0.01, -0.01, 0.1};
+  ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
+  const std::vector<double> coordinates = values(work.coordinates), inputs = values(work.inputs);
+  const PlanarShape picture = shape(robot, pose, coordinates, 201);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT((picture.backbones[i].front() - picture.base[i]).norm(), 1e-15);
+    EXPECT_LT((picture.backbones[i].back() - picture.platform[i]).norm(), 1e-14);
+    double length = 0, tendon = 0;
+    for (std::size_t k = 1; k < 201; ++k) {
+      length += (picture.backbones[i][k] - picture.backbones[i][k - 1]).norm();
+      tendon += (picture.tendons[i][0][k] - picture.tendons[i][0][k - 1]).norm();
+    }
+    EXPECT_NEAR(length, 0.2, 1e-5);
+    EXPECT_NEAR(tendon, inputs[i], 1e-5);  // drawn where the model has it
+  }
+}
+
+}  // namespace
+}  // namespace sinew::test

@@ -1,0 +1,120 @@
+#include "sinew/io/robot_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "planar_robots.hpp"
+#include "sinew/io/parse.hpp"
+
+namespace sinew::test {
+namespace {
+
+Expected<AnyRobot> read(const std::string& yaml) { return read_robot(parse_yaml(yaml, "robot.yaml").value()); }
+
+const std::string head = "sinew: 1\nname: test\n";
+const std::string rfr_parts =
+    "defaults:\n  link: {type: arc, length: 200 mm, tendon_offset: 5 mm}\n  closure: {type: chord}\n";
+const std::string rfr_legs =
+    "legs:\n"
+    "  - {base: {point: {radius: 190 mm, angle: 90 deg}}, platform_point: {radius: 50 mm, angle: 30 deg}}\n"
+    "  - {base: {point: {radius: 190 mm, angle: 210 deg}}, platform_point: {radius: 50 mm, angle: 150 deg}}\n"
+    "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, platform_point: {radius: 50 mm, angle: 270 deg}}\n";
+
+void expect_same_motion(const AnyRobot& a, const AnyRobot& b) {
+  Workspace wa(a), wb(b);
+  const PlanarPose pose{0.01, -0.008, 0.2};
+  ASSERT_TRUE(inverse(a, pose, {}, wa).ok());
+  ASSERT_TRUE(inverse(b, pose, {}, wb).ok());
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(wa.inputs[i], wb.inputs[i], 1e-15);
+}
+
+TEST(RobotFile, ListsLegsOrNamesAnArchitectureOrIsBuiltInCodeAllTheSame) {
+  const auto listed = read(head + rfr_parts + rfr_legs);
+  const auto named = read(head + "architecture: 3-RFR\nbase: {radius: 190 mm, angle: 90 deg}\n"
+                                 "platform: {radius: 50 mm, angle: 30 deg}\n"
+                                 "defaults: {link: {length: 200 mm, tendon_offset: 5 mm}}\n");
+  ASSERT_TRUE(listed) << to_string(listed.error());
+  ASSERT_TRUE(named) << to_string(named.error());
+  expect_same_motion(*listed, *named);
+  expect_same_motion(*listed, rfr_in_code());
+  expect_same_motion(*listed, load("3-rfr").value());
+  expect_same_motion(*listed, load(std::string(SINEW_SOURCE_DIR) + "/robots/3-rfr.yaml").value());
+  EXPECT_EQ(named->model.index(), 0U);  // alike legs take the static path
+}
+
+TEST(RobotFile, PointsArePolarOrCartesianAndHomeIsRead) {
+  const auto robot = read(head + rfr_parts +
+                          "platform: {home: {x: 1 mm, phi: 10 deg}, radius: 60 mm}\n"
+                          "legs:\n"
+                          "  - {base: {point: [0, 0.19]}, platform_point: [0.04, 0.02]}\n"
+                          "  - {base: {point: [-0.16, -0.1]}, platform_point: [-0.04, 0.02]}\n"
+                          "  - {base: {point: [0.16, -0.1]}, platform_point: [0, -0.05]}\n");
+  ASSERT_TRUE(robot) << to_string(robot.error());
+  const auto& model = std::get<0>(robot->model);
+  EXPECT_EQ(model.home.x, 0.001);
+  EXPECT_EQ(model.home.y, 0);
+  EXPECT_NEAR(model.home.phi, 0.17453292519943295, 1e-16);
+  EXPECT_EQ(model.platform_radius, 0.06);
+  EXPECT_EQ(model.legs[0].base.p.y(), 0.19);
+}
+
+TEST(RobotFile, TiedLegsShareAnActuator) {
+  const auto robot = read(head + rfr_parts +
+                          "legs:\n"
+                          "  - {base: {point: {radius: 190 mm, angle: 90 deg}}, platform_point: {radius: 50 mm, angle: 30 deg}}\n"
+                          "  - {base: {point: {radius: 190 mm, angle: 210 deg}}, platform_point: {radius: 50 mm, angle: 150 deg}}\n"
+                          "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, platform_point: {radius: 50 mm, angle: 270 deg}, tied: 1}\n");
+  ASSERT_TRUE(robot) << to_string(robot.error());
+  Workspace work(*robot);
+  EXPECT_EQ(input_count(*robot), 2);
+  const Forward there = forward(*robot, {0.193, 0.188}, {}, work);
+  ASSERT_TRUE(there.ok());
+  const auto single = load("3-rfr").value();
+  Workspace single_work(single);
+  const Forward same = forward(single, {0.193, 0.188, 0.188}, {}, single_work);
+  EXPECT_NEAR(std::get<PlanarPose>(there.pose).x, std::get<PlanarPose>(same.pose).x, 1e-15);
+  // J δx = K δa: the tied column carries both legs.
+  const Reduced reduced = assemble(*robot, there.pose, values(there.coordinates), work);
+  EXPECT_EQ(reduced.K.cols(), 2);
+  EXPECT_NE(reduced.K(1, 1), 0);
+  EXPECT_NE(reduced.K(2, 1), 0);
+  // A pose at which the tied legs need different lengths cannot be held.
+  const Inverse no = inverse(*robot, PlanarPose{0.02, 0.01, 0.1}, {}, work);
+  EXPECT_EQ(no.report.status, Status::unreachable);
+  EXPECT_NE(no.report.message.view().find("tied"), std::string_view::npos);
+}
+
+TEST(RobotFile, FourLegsAreARedundantRobot) {
+  const auto robot = read(head + rfr_parts + rfr_legs +
+                          "  - {base: {point: [0, -0.2]}, platform_point: [0, -0.04]}\n");
+  ASSERT_TRUE(robot) << to_string(robot.error());
+  Workspace work(*robot);
+  const PlanarPose pose{0.005, 0.004, 0.05};
+  ASSERT_TRUE(inverse(*robot, pose, {}, work).ok());
+  const Forward back = forward(*robot, values(work.inputs), {}, work);
+  ASSERT_TRUE(back.ok()) << to_string(back.report);
+  EXPECT_NEAR(std::get<PlanarPose>(back.pose).phi, pose.phi, 1e-12);
+}
+
+TEST(RobotFile, ASettingReplacesOneValue) {
+  const Document document = read_robot_file("3-rfr").value();
+  Node length = make_node(0.21);
+  const auto changed = read_robot(with(document, "legs[1].link.length", length).value());
+  ASSERT_TRUE(changed) << to_string(changed.error());
+  const auto& legs = std::get<0>(changed->model).legs;
+  EXPECT_EQ(legs[0].link.length, 0.2);
+  EXPECT_EQ(legs[1].link.length, 0.21);
+  const auto all = read_robot(with(document, "defaults.link.length", length).value());
+  EXPECT_EQ(std::get<0>(all->model).legs[2].link.length, 0.21);
+  EXPECT_FALSE(with(document, "legs[7].link.length", length));
+}
+
+TEST(RobotFile, ErrorsOfSharedDefaultsAreToldOnce) {
+  const auto robot = read(head + "defaults:\n  link: {type: arc, length: -200 mm, tendon_offset: 5 mm}\n"
+                                 "  closure: {type: chord}\n" + rfr_legs);
+  ASSERT_FALSE(robot);
+  ASSERT_EQ(robot.error().size(), 1U) << to_string(robot.error());
+  EXPECT_EQ(robot.error()[0].where, "robot.yaml:4:29");
+}
+
+}  // namespace
+}  // namespace sinew::test

@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include "planar_robots.hpp"
+#include "random_leg.hpp"
+
+namespace sinew::test {
+namespace {
+
+const PlanarPose& planar(const AnyPose& pose) { return std::get<PlanarPose>(pose); }
+
+/// Every robot that comes with the library.
+class EveryRobot : public testing::TestWithParam<std::string_view> {
+ protected:
+  AnyRobot robot = load(std::string(GetParam())).value();
+  Workspace work{robot};
+  std::mt19937 random{20261121};
+
+  /// A pose near home that every leg reaches.
+  PlanarPose reachable() {
+    for (;;) {
+      const PlanarPose pose{uniform(random, -0.04, 0.04), uniform(random, -0.04, 0.04), uniform(random, -0.6, 0.6)};
+      if (inverse(robot, pose, {}, work).ok()) return pose;
+    }
+  }
+};
+
+TEST_P(EveryRobot, ForwardUndoesInverseOnEveryWorkingMode) {  // @verifies TDPCR (1), (4), (42)
+  for (int sample = 0; sample < 300; ++sample) {
+    const PlanarPose pose = reachable();
+    const WorkingModes modes = working_modes(robot, pose, work);
+    ASSERT_TRUE(modes.report.ok());
+    std::vector<double> coordinates(3);
+    for (std::size_t k = 0; k < modes.count; ++k) {
+      modes.mode(k, coordinates);
+      ASSERT_TRUE(inputs_of(robot, coordinates, work).ok());
+      const std::vector<double> inputs = values(work.inputs);
+      const Forward there = forward(robot, inputs, {.start = pose}, work);
+      ASSERT_TRUE(there.ok()) << to_string(there.report);
+      EXPECT_LE(there.report.residual, 1e-14);
+      EXPECT_NEAR(planar(there.pose).x, pose.x, 1e-11);
+      EXPECT_NEAR(planar(there.pose).y, pose.y, 1e-11);
+      EXPECT_NEAR(planar(there.pose).phi, pose.phi, 1e-11);
+      working_modes(robot, pose, work);  // the views of `modes` are of this workspace
+    }
+  }
+}
+
+TEST_P(EveryRobot, ForwardFromAFarStartConvergesOrSaysWhyNot) {
+  int converged = 0;
+  constexpr int samples = 500;
+  for (int sample = 0; sample < samples; ++sample) {
+    inverse(robot, reachable(), {}, work);
+    const std::vector<double> inputs = values(work.inputs);
+    const PlanarPose start{uniform(random, -0.3, 0.3), uniform(random, -0.3, 0.3), uniform(random, -3, 3)};
+    const Forward answer = forward(robot, inputs, {.start = start}, work);
+    converged += answer.ok();
+    const Reduced at = assemble(robot, answer.pose, values(answer.coordinates), work);
+    EXPECT_NEAR(at.closure_error, answer.report.residual, 1e-15);
+    EXPECT_EQ(answer.ok(), at.closure_error < 1e-12) << to_string(answer.report);
+    EXPECT_EQ(answer.ok(), answer.report.message.empty());
+  }
+  EXPECT_GT(converged, samples / 2);
+}
+
+TEST_P(EveryRobot, BranchIsChosenAsAsked) {
+  for (int sample = 0; sample < 200; ++sample) {
+    const PlanarPose pose = reachable();
+    const WorkingModes modes = working_modes(robot, pose, work);
+    std::vector<double> wanted(3);
+    modes.mode(modes.count / 2, wanted);
+    const Inverse nearest = inverse(robot, pose, {.curvature = wanted}, work);
+    ASSERT_TRUE(nearest.ok());
+    EXPECT_EQ(values(nearest.coordinates), wanted);
+    const std::array<int, 3> signs{wanted[0] < 0 ? -1 : 1, wanted[1] < 0 ? -1 : 1, wanted[2] < 0 ? -1 : 1};
+    const Inverse signed_ = inverse(robot, pose, {.bending = signs}, work);
+    ASSERT_TRUE(signed_.ok());
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_GE(signed_.coordinates[i] * signs[i], 0);
+      EXPECT_LE(std::abs(signed_.coordinates[i]), std::abs(wanted[i]));
+    }
+  }
+}
+
+TEST_P(EveryRobot, UnreachablePosesNameTheLegAndInputsOutsideTheDomainTheInput) {
+  const Inverse far = inverse(robot, PlanarPose{1, 0, 0}, {}, work);
+  EXPECT_EQ(far.report.status, Status::unreachable);
+  EXPECT_NE(far.report.message.view().find("legs[0]"), std::string_view::npos);
+  const Forward folded = forward(robot, {0.19, 0.4, 0.19}, {}, work);
+  EXPECT_EQ(folded.report.status, Status::left_domain);
+  EXPECT_NE(folded.report.message.view().find("inputs[1]"), std::string_view::npos);
+  EXPECT_EQ(forward(robot, {0.19, std::nan(""), 0.19}, {}, work).report.status, Status::left_domain);
+  EXPECT_EQ(forward(robot, {0.19, 0.19}, {}, work).report.status, Status::left_domain);
+  EXPECT_FALSE(inverse(robot, PlanarPose{std::nan(""), 0, 0}, {}, work).ok());
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, EveryRobot, testing::ValuesIn(builtin_robot_names()),
+                         [](const auto& robot) { return "robot_" + std::to_string(robot.index); });
+
+TEST(Inverse, DefaultIsTheSmallestCurvatureAndPositiveOfTwo) {
+  const AnyRobot robot = rfr_in_code();
+  Workspace work(robot);
+  const Inverse answer = inverse(robot, PlanarPose{0.01, 0, 0.1}, {}, work);
+  ASSERT_TRUE(answer.ok());
+  for (const double curvature : answer.coordinates) EXPECT_GT(curvature, 0);
+}
+
+TEST(Inverse, AStraightLegIsOneSolutionAtTheEdgeOfTheWorkspace) {
+  Leg<Planar, Arc, TendonPair, Chord> leg{};
+  leg.link.length = 0.2;
+  leg.drive.offset = 0.005;
+  std::array<double, 8> roots;
+  ASSERT_EQ(leg.coordinates_at(Planar::frame({0, 0.2, 1}), roots), 1);
+  EXPECT_EQ(roots[0], 0);
+  EXPECT_EQ(leg.coordinates_at(Planar::frame({0, 0.2 + 1e-15, 1}), roots), 0);
+  EXPECT_EQ(leg.coordinates_at(Planar::frame({0, 0.2 - 1e-15, 1}), roots), 2);
+}
+
+TEST(Forward, TraceTellsEveryIterate) {
+  const AnyRobot robot = rfr_in_code();
+  Workspace work(robot);
+  std::array<TraceStep, 50> trace{};
+  const Forward answer = forward(robot, {0.193, 0.189, 0.187}, {.trace = trace}, work);
+  ASSERT_TRUE(answer.ok());
+  const auto last = static_cast<std::size_t>(answer.report.iterations);
+  EXPECT_EQ(trace[last].residual, answer.report.residual);
+  EXPECT_GT(trace[0].residual, 1e-3);
+}
+
+TEST(Forward, NoIterationsIsAnAnswerToo) {
+  const AnyRobot robot = rfr_in_code();
+  Workspace work(robot);
+  const Forward answer = forward(robot, {0.193, 0.189, 0.187}, {.max_iterations = 0}, work);
+  EXPECT_EQ(answer.report.status, Status::iteration_limit);
+  EXPECT_EQ(planar(answer.pose).x, 0);
+}
+
+}  // namespace
+}  // namespace sinew::test

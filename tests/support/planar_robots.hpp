@@ -1,0 +1,28 @@
+/// @file planar_robots.hpp
+/// Robots for tests, built in C++ as a user would build them.
+#pragma once
+#include "sinew/io/robot_file.hpp"
+#include "sinew/kinematics/forward.hpp"
+#include "sinew/kinematics/inverse.hpp"
+
+namespace sinew::test {
+
+inline std::vector<double> values(std::span<const double> view) { return {view.begin(), view.end()}; }
+
+/// A 3-RFR of the paper's sizes, without a file.
+inline AnyRobot rfr_in_code() {
+  using RfrLeg = Leg<Planar, Arc, TendonPair, Chord>;
+  ParallelRobot<RfrLeg> robot{{}, {0, 1, 2}, {}, 0.05};
+  for (int i = 0; i < 3; ++i) {
+    const double foot = (90 + 120 * i) * std::numbers::pi / 180, head = (30 + 120 * i) * std::numbers::pi / 180;
+    RfrLeg leg{};
+    leg.base = SE2<double>::from(0.19 * std::cos(foot), 0.19 * std::sin(foot), 0.0);
+    leg.link = {.length = 0.2};
+    leg.drive = {.offset = 0.005};
+    leg.platform_point = Vec2<double>(0.05 * std::cos(head), 0.05 * std::sin(head));
+    robot.legs.push_back(leg);
+  }
+  return {"3-RFR in code", robot};
+}
+
+}  // namespace sinew::test
