@@ -1,6 +1,6 @@
 /// @file figure.hpp
-/// Figures: a description of curves in panels, written as a gnuplot script that holds its data, and drawn by gnuplot.
-/// The script is there to be edited: `gnuplot fig9.gp` in its folder draws the same files again.
+/// Figures: a description of curves in panels, written as a gnuplot script that holds its data, and drawn by
+/// gnuplot. The script is there to be edited: `gnuplot fig9.gp` in its folder draws the same files again.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -19,11 +19,11 @@ enum class Mark {
   line,
   dashed,
   dotted,
-  points,       ///< filled dots
+  points,  ///< filled dots
   line_points,
-  circles,      ///< open circles, white inside: joints
-  polygon,      ///< closed, filled with a pale shade of its colour
-  outline,      ///< closed, not filled
+  circles,  ///< open circles, white inside: joints
+  polygon,  ///< closed, filled with a pale shade of its colour
+  outline,  ///< closed, not filled
 };
 
 /// One curve. Where x or y is not finite the line is interrupted.
@@ -32,7 +32,7 @@ struct Series {
   std::vector<double> x, y;
   Mark mark = Mark::line;
   Colour colour = Colour::blue;
-  double width = 2;   ///< of the line, or of the dots [points of the page]
+  double width = 2;  ///< of the line, or of the dots [points of the page]
 };
 
 /// A text at a point of the panel, in its coordinates.
@@ -48,6 +48,7 @@ struct Axis {
   std::string unit;  ///< appended in brackets; empty: none
   bool log = false;
   std::optional<double> low = {}, high = {};  ///< default: what the data need
+  std::optional<double> step = {};            ///< between numbered tics; of a log axis a factor
 };
 
 enum class Legend { none, top_left, top_right, bottom_left, bottom_right, below };
@@ -63,7 +64,7 @@ struct Panel {
 
 /// Panels in a grid, row by row. Text is taken literally: no markup.
 struct Figure {
-  std::string title;                  ///< above the panels; may be empty
+  std::string title;  ///< above the panels; may be empty
   std::vector<Panel> panels;
   int columns = 1;                    ///< of the grid
   double width = 800, height = 600;   ///< [px of the SVG]; the PNG has twice as many
@@ -79,11 +80,13 @@ struct FigureOptions {
   std::string gnuplot = "gnuplot";  ///< a program on PATH, or a path to one
 };
 
-/// The script that draws `name.svg` and the like into the folder it is run in. The same figure gives the same bytes.
-SINEW_API std::string gnuplot_script(const Figure& figure, const std::string& name, const FigureOptions& options = {});
+/// The script that draws `name.svg` and the like into the folder it is run in. The same figure gives the same
+/// bytes.
+SINEW_API std::string gnuplot_script(const Figure& figure, const std::string& name,
+                                     const FigureOptions& options = {});
 
-/// Writes `stem.gp` and runs it. The files written: the script first, then one for each format. Where gnuplot is
-/// missing or fails the script stays. Codes: `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`.
+/// Writes `stem.gp` and runs it. The files written: the script first, then one for each format. Where gnuplot
+/// is missing or fails the script stays. Codes: `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`.
 /// @param stem path without extension; its folder is made if need be
 SINEW_API Expected<std::vector<std::filesystem::path>> write_figure(const Figure& figure,
                                                                     const std::filesystem::path& stem,

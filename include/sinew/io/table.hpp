@@ -22,8 +22,8 @@ namespace sinew::inline v0 {
 
 /// One column. A value that is not finite is missing.
 struct Column {
-  std::string name;            ///< without brackets
-  std::string unit;            ///< `m`, `rad/m`; empty for a plain number
+  std::string name;  ///< without brackets
+  std::string unit;  ///< `m`, `rad/m`; empty for a plain number
   std::vector<double> values;
 
   /// `x[m]`, or the name alone where there is no unit.

@@ -13,7 +13,7 @@ namespace sinew::inline v0 {
 
 /// Something of a paper that can be made again.
 struct StudyItem {
-  std::string_view id;     ///< paper/item: `tdpcr/fig9`
+  std::string_view id;  ///< paper/item: `tdpcr/fig9`
   std::string_view title;
 };
 
@@ -23,7 +23,7 @@ SINEW_API std::span<const StudyItem> study_items();
 /// One number or claim of the paper beside ours, formatted for people.
 struct Finding {
   std::string quantity;
-  std::string paper;       ///< as printed; `not printed` where the paper gives none
+  std::string paper;  ///< as printed; `not printed` where the paper gives none
   std::string ours;
   std::string difference;  ///< empty where there is nothing to subtract
   std::string verdict;     ///< `agrees`, `differs`, `holds`, `fails`, or `for information`
@@ -35,9 +35,9 @@ struct Reproduction {
   std::vector<std::filesystem::path> files;  ///< written, in order
 };
 
-/// Makes one item again; its files go to `out`/paper/. What is written before an error stays: without gnuplot the
-/// table, the findings and the scripts of the figures are there.
-/// Codes: `unknown_study`, `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`.
+/// Makes one item again; its files go to `out`/paper/. What is written before an error stays: without gnuplot
+/// the table, the findings and the scripts of the figures are there. Codes: `unknown_study`,
+/// `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`.
 SINEW_API Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out);
 
 /// The findings as a Markdown table.

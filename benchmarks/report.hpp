@@ -1,0 +1,79 @@
+/// @file report.hpp
+/// Benchmarks as ratios: every row beside its named baseline of the same run, with the accuracy reached. Machines
+/// are noisy; medians of repetitions are shown and the ratio is what to compare between machines.
+#pragma once
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sinew::bench {
+
+struct Row {
+  std::string what, baseline;           ///< names; the baseline says what it is
+  std::function<void()> run, run_baseline;  ///< one operation each
+  std::string accuracy;                 ///< what was reached, in words and numbers
+};
+
+inline std::vector<Row>& rows() {
+  static std::vector<Row> all;
+  return all;
+}
+
+/// Registers an operation and its baseline.
+inline void compare(Row row) { rows().push_back(std::move(row)); }
+
+/// Keeps the medians of all repetitions by name.
+class Medians : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs)
+      if (run.aggregate_name == "median") nanoseconds[run.run_name.function_name] = run.GetAdjustedCPUTime();
+  }
+  std::map<std::string, double> nanoseconds;
+};
+
+/// 99.9th percentile of single operations [ns]; includes the clock's own 20 to 30 ns.
+inline double slowest_of_1000(const std::function<void()>& run) {
+  std::vector<double> times(20000);
+  for (double& time : times) {
+    const auto start = std::chrono::steady_clock::now();
+    run();
+    time = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+  }
+  std::nth_element(times.begin(), times.end() - 20, times.end());
+  return *(times.end() - 20);
+}
+
+/// Runs all and prints the table.
+inline int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  const auto add = [](const std::string& name, const std::function<void()>& run) {
+    benchmark::RegisterBenchmark(name.c_str(), [&run](benchmark::State& state) {
+      for (auto _ : state) run();
+    })->MinTime(0.05)->Repetitions(9)->ReportAggregatesOnly(true);
+  };
+  for (const Row& row : rows()) {
+    add(row.what, row.run);
+    add(row.what + " / " + row.baseline, row.run_baseline);
+  }
+  Medians medians;
+  benchmark::RunSpecifiedBenchmarks(&medians);
+  std::printf("%-44s %10s %10s %12s %7s  %s\n", "operation", "median[ns]", "p99.9[ns]", "baseline[ns]", "ratio",
+              "baseline; accuracy");
+  for (const Row& row : rows()) {
+    const double ours = medians.nanoseconds[row.what], theirs = medians.nanoseconds[row.what + " / " + row.baseline];
+    if (ours == 0) continue;  // filtered out
+    std::printf("%-44s %10.0f %10.0f %12.0f %7.1f  %s; %s\n", row.what.c_str(), ours, slowest_of_1000(row.run), theirs,
+                theirs / ours, row.baseline.c_str(), row.accuracy.c_str());
+  }
+  return 0;
+}
+
+}  // namespace sinew::bench

@@ -1,0 +1,248 @@
+#include "sinew/io/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "sinew/base/assert.hpp"
+#include "sinew/io/quantity.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t most_errors = 20;  // of one file: after that it is not this kind of file
+
+/// Quoted as RFC 4180 has it where the text would not read back as one cell, or a heading as a comment.
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r#") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// Reads the lines of one CSV text and collects what is wrong with them.
+class CsvReader {
+ public:
+  CsvReader(std::string_view text, const std::string& source) : text_(text), source_(source) {}
+
+  Expected<Table> table() {
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // the byte order mark of spreadsheets
+    std::string_view line;
+    while (errors_.size() < most_errors && next(line)) take(line);
+    if (errors_.empty() && table_.columns.empty())
+      error("no_heading",
+            "there is no line with column names; the first line that is not a comment must hold them");
+    if (!errors_.empty()) return tl::unexpected<Errors>(std::move(errors_));
+    return std::move(table_);
+  }
+
+ private:
+  bool next(std::string_view& line) {
+    if (text_.empty()) return false;
+    const std::size_t end = text_.find('\n');
+    line = text_.substr(0, end);
+    text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    ++line_;
+    return true;
+  }
+
+  void take(std::string_view line) {
+    if (line.starts_with('#')) {
+      line.remove_prefix(1);
+      if (line.starts_with(' ')) line.remove_prefix(1);
+      table_.comments.emplace_back(line);
+    } else if (table_.columns.empty()) {
+      if (!trimmed(line).empty()) take_heading(line);
+    } else if (!trimmed(line).empty() ||
+               table_.columns.size() == 1) {  // of one column, an empty line is a cell
+      take_row(line);
+    }
+  }
+
+  void take_heading(std::string_view line) {
+    for (const std::string& cell : cells(line)) {
+      Column column = Column::named(cell);
+      if (table_.find(column.name) != nullptr)
+        error("duplicate_column",
+              fmt::format("the column \"{}\" is there twice; names must differ", column.name));
+      table_.columns.push_back(std::move(column));
+    }
+  }
+
+  void take_row(std::string_view line) {
+    const std::vector<std::string> row = cells(line);
+    if (row.size() != table_.columns.size()) {
+      error("wrong_cell_count",
+            fmt::format("{} cells, but the heading has {}; leave a cell empty where there is no "
+                        "value",
+                        row.size(), table_.columns.size()));
+      return;
+    }
+    for (std::size_t i = 0; i < row.size(); ++i) table_.columns[i].values.push_back(number(row[i], i));
+  }
+
+  double number(const std::string& cell, std::size_t column) {
+    if (cell.empty()) return missing;
+    if (const auto value = parse_number(cell)) return *value;
+    error("not_a_number",
+          fmt::format("column \"{}\": \"{}\" is not a number; write a decimal number, or nothing",
+                      table_.columns[column].name, cell));
+    return missing;
+  }
+
+  /// Cells of one line; a quoted cell does not reach over lines.
+  std::vector<std::string> cells(std::string_view line) {
+    std::vector<std::string> found;
+    while (true) {
+      found.push_back(line.starts_with('"') ? quoted(line) : plain(line));
+      if (line.empty()) return found;
+      if (!line.starts_with(',')) {
+        error("csv_syntax", "there is text after a closing quotation mark; a comma must follow it");
+        return found;
+      }
+      line.remove_prefix(1);
+    }
+  }
+
+  static std::string plain(std::string_view& line) {
+    const std::size_t end = std::min(line.find(','), line.size());
+    std::string cell(trimmed(line.substr(0, end)));
+    line.remove_prefix(end);
+    return cell;
+  }
+
+  std::string quoted(std::string_view& line) {
+    std::string cell;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      if (line[i] != '"') {
+        cell += line[i];
+      } else if (i + 1 < line.size() && line[i + 1] == '"') {
+        cell += line[i++];
+      } else {
+        line.remove_prefix(i + 1);
+        return cell;
+      }
+    }
+    error("csv_syntax", "a quotation mark is not closed on its line");
+    line = {};
+    return cell;
+  }
+
+  void error(std::string_view code, std::string message) {
+    errors_.push_back({std::string(code), fmt::format("{}:{}", source_, line_), std::move(message)});
+  }
+
+  std::string_view text_;
+  const std::string& source_;
+  int line_ = 0;
+  Table table_;
+  Errors errors_;
+};
+
+/// `reason` of the system for what has just failed.
+std::string last_reason() { return std::generic_category().message(errno); }
+
+}  // namespace
+
+std::string Column::heading() const { return unit.empty() ? name : name + '[' + unit + ']'; }
+
+Column Column::named(std::string_view heading) {
+  const std::size_t open = heading.rfind('[');
+  if (!heading.ends_with(']') || open == std::string_view::npos) return {std::string(heading), "", {}};
+  return {std::string(trimmed(heading.substr(0, open))),
+          std::string(heading.substr(open + 1, heading.size() - open - 2)),
+          {}};
+}
+
+Table::Table(std::initializer_list<std::string_view> headings) {
+  for (const std::string_view heading : headings) columns.push_back(Column::named(heading));
+}
+
+void Table::add_row(Numbers row) {
+  SINEW_EXPECTS(row.size() == columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) columns[i].values.push_back(row[i]);
+}
+
+const Column* Table::find(std::string_view name) const {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+std::string to_csv(const Table& table) {
+  std::string text;
+  for (const std::string& comment : table.comments) {
+    std::string line = comment;
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    text += line.empty() ? "#\n" : "# " + line + '\n';
+  }
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    text += (i == 0 ? "" : ",") + csv_cell(table.columns[i].heading());
+  text += '\n';
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      const double value = table.columns[i].values[row];
+      if (i > 0) text += ',';
+      if (std::isfinite(value)) text += si_text(value);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+Expected<Table> parse_csv(std::string_view text, const std::string& source) {
+  return CsvReader(text, source).table();
+}
+
+Expected<void> write_csv(const Table& table, const std::filesystem::path& path) {
+  return write_text(to_csv(table), path);
+}
+
+Expected<Table> read_csv(const std::filesystem::path& path) {
+  std::error_code code;
+  if (!std::filesystem::exists(path, code))
+    return failure("file_missing", path.string(), "there is no such file; check the path");
+  if (std::filesystem::is_directory(path, code))
+    return failure("file_unreadable", path.string(), "this is a folder; give the path of a file");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    return failure("file_unreadable", path.string(), fmt::format("cannot be read: {}", last_reason()));
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  return parse_csv(text, path.string());
+}
+
+Expected<void> write_text(std::string_view text, const std::filesystem::path& path) {
+  std::error_code code;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), code);
+  if (code)
+    return failure(
+        "file_unwritable", path.string(),
+        fmt::format("its folder cannot be made: {}; give a folder you may write to", code.message()));
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  file.close();
+  if (!file)
+    return failure("file_unwritable", path.string(),
+                   fmt::format("cannot be written: {}; give a folder you may write to", last_reason()));
+  return {};
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,16 @@
+/// @file item.hpp
+/// What one reproduction is made of inside this layer. A new item is a function here and a row in
+/// reproduce.cpp.
+#pragma once
+#include <filesystem>
+
+#include "sinew/study/reproduce.hpp"
+
+namespace sinew::inline v0 {
+
+/// Makes the files of an item in `folder` and compares.
+using StudyFunction = Expected<Reproduction> (*)(const StudyItem& item, const std::filesystem::path& folder);
+
+Expected<Reproduction> tdpcr_fig9(const StudyItem& item, const std::filesystem::path& folder);
+
+}  // namespace sinew::inline v0

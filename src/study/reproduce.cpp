@@ -1,0 +1,52 @@
+#include "sinew/study/reproduce.hpp"
+
+#include <array>
+#include <cstddef>
+
+#include "study/item.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+constexpr std::array items{
+    StudyItem{"tdpcr/fig9",
+              "Performance indices of the 3-RFR along the trajectory of section 5.1, constant curvature"},
+};
+constexpr std::array<StudyFunction, items.size()> functions{tdpcr_fig9};
+
+/// A bar would end the cell, and a line break the table.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::span<const StudyItem> study_items() { return items; }
+
+Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out) {
+  std::string known;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].id == id) return functions[i](items[i], out / std::string(id.substr(0, id.find('/'))));
+    known += (known.empty() ? "" : ", ") + std::string(items[i].id);
+  }
+  return failure("unknown_study", id, "there is no such figure or table here; there are: " + known);
+}
+
+std::string to_markdown(const Reproduction& reproduction) {
+  std::string text = "# " + reproduction.id + ": " + reproduction.title + "\n\n";
+  text += "| quantity | paper | ours | difference | verdict |\n|---|---|---|---|---|\n";
+  for (const Finding& finding : reproduction.findings) {
+    for (const std::string* part :
+         {&finding.quantity, &finding.paper, &finding.ours, &finding.difference, &finding.verdict})
+      text += "| " + cell(*part) + ' ';
+    text += "|\n";
+  }
+  return text;
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,63 @@
+/// @file tdpcr_example51.hpp
+/// The example of TDPCR section 5.1: robot, trajectory, and what can be derived of both by hand.
+/// Theory: docs/theory/example51.md
+#pragma once
+#include <array>
+#include <vector>
+
+#include "sinew/analysis/velocity.hpp"
+#include "sinew/base/error.hpp"
+#include "sinew/robot/any_robot.hpp"
+
+namespace sinew::inline v0::example51 {
+
+/// The geometry that section 5.1 prints.
+struct Printed {
+  double base_radius = 0.19;      ///< R_b [m]
+  double platform_radius = 0.05;  ///< R_p [m]
+  double tendon_offset = 0.005;   ///< d [m]
+  double backbone_length = 0.2;   ///< ℓ [m]
+  double last_x = 0.03;           ///< [m]
+  int configurations = 60;
+
+  std::array<Vec2<double>, 3> base_points() const;      ///< a_i [m]
+  std::array<Vec2<double>, 3> platform_points() const;  ///< b_i [m], in the platform's frame
+};
+
+/// x = 0.03 η, y = 0, φ = η π/3.  @implements TDPCR (68)-(70)
+PlanarPose pose(double eta);
+
+/// What the typed functions say of one configuration. All indices are NaN where J is singular.
+struct Sample {
+  double eta;
+  PlanarPose pose;
+  std::vector<double> tendons, curvatures;  ///< [m], [1/m]
+  std::vector<double> input_rate;           ///< diagonal of K [m]
+  Indices indices;
+  double determinant;           ///< [m⁴]
+  double closure_error;         ///< [m]
+  std::array<double, 3> sigma;  ///< singular values of J
+  TypeTwo type_2;
+};
+
+/// Bending positive in every leg.
+Expected<Sample> sample(const AnyRobot& robot, double eta, Workspace& work);
+
+/// η = k/59 for k = 0 … 59.
+Expected<std::vector<Sample>> trajectory(const AnyRobot& robot);
+
+/// det J = −(3√3/2) R_b R_p sin ψ (x² + y² − R_b² − R_p² + 2 R_b R_p cos ψ), ψ = φ − π/3 [m⁴].
+double determinant(const PlanarPose& pose);
+
+/// Where the lines meet in the last pose: p/(1 − R_p/R_b) [m].
+Vec2<double> meeting_point();
+
+/// Limits of index·(π/3 − φ) as the last pose is approached.
+struct Rates {
+  double condition, position, rotation;
+};
+
+/// @param last the singular sample
+Rates rates(const Sample& last);
+
+}  // namespace sinew::inline v0::example51

@@ -1,0 +1,80 @@
+/// The hot paths take no memory. Every malloc of this program is counted (under AddressSanitizer, which owns
+/// malloc, the test has nothing to count and says so).
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "planar_robots.hpp"
+#include "sinew/analysis/velocity.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+#if !defined(__SANITIZE_ADDRESS__)
+extern "C" void* __libc_malloc(std::size_t);                                   // NOLINT: glibc's name
+extern "C" void* __libc_calloc(std::size_t, std::size_t);                      // NOLINT
+extern "C" void* __libc_memalign(std::size_t, std::size_t);                    // NOLINT
+extern "C" void* malloc(std::size_t size) { ++allocations; return __libc_malloc(size); }
+extern "C" void* calloc(std::size_t n, std::size_t size) { ++allocations; return __libc_calloc(n, size); }
+extern "C" void* aligned_alloc(std::size_t a, std::size_t size) { ++allocations; return __libc_memalign(a, size); }
+#endif
+
+namespace sinew::test {
+namespace {
+
+template <class Work>
+long allocations_of(Work&& run) {
+  const long before = allocations;
+  run();
+  return allocations - before;
+}
+
+class NoHeap : public testing::TestWithParam<std::string_view> {
+ protected:
+  void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "AddressSanitizer owns malloc";
+#endif
+    ASSERT_GT(allocations_of([] { delete[] new double[100]; }), 0) << "the counter does not count";
+    ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
+    inputs = values(work.inputs);
+    coordinates = values(work.coordinates);
+  }
+  AnyRobot robot = load(std::string(GetParam())).value();
+  Workspace work{robot};
+  PlanarPose pose{0.005, -0.01, 0.08};
+  std::vector<double> inputs, coordinates;
+};
+
+TEST_P(NoHeap, Assembly) {
+  EXPECT_EQ(allocations_of([&] { assemble(robot, pose, coordinates, work); }), 0);
+}
+TEST_P(NoHeap, Forward) {
+  bool ok = false;
+  EXPECT_EQ(allocations_of([&] { ok = forward(robot, inputs, {.start = PlanarPose{0, 0, 0}}, work).ok(); }), 0);
+  EXPECT_TRUE(ok);
+}
+TEST_P(NoHeap, ForwardThatFails) {
+  bool ok = true;
+  EXPECT_EQ(allocations_of([&] { ok = forward(robot, {0.17, 0.23, 0.17}, {}, work).ok(); }), 0);
+  EXPECT_EQ(allocations_of([&] { ok = ok || forward(robot, {0.19, 0.5, 0.19}, {}, work).ok(); }), 0);
+  EXPECT_EQ(allocations_of([&] { forward(robot, inputs, {.max_iterations = 1}, work); }), 0);
+}
+TEST_P(NoHeap, Inverse) {
+  EXPECT_EQ(allocations_of([&] { inverse(robot, pose, {}, work); }), 0);
+  EXPECT_EQ(allocations_of([&] { working_modes(robot, pose, work); }), 0);
+  EXPECT_EQ(allocations_of([&] { inverse(robot, PlanarPose{1, 0, 0}, {}, work); }), 0);
+}
+TEST_P(NoHeap, Velocity) {
+  EXPECT_EQ(allocations_of([&] { velocity(robot, pose, coordinates, work); }), 0);
+  const Velocity v = velocity(robot, pose, coordinates, work);
+  const std::array twist{0.1, 0.2, 0.3};
+  EXPECT_EQ(allocations_of([&] { rates(v, twist, work); }), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, NoHeap, testing::ValuesIn(builtin_robot_names()),
+                         [](const auto& robot) { return "robot_" + std::to_string(robot.index); });
+
+}  // namespace
+}  // namespace sinew::test
