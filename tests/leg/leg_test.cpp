@@ -31,7 +31,7 @@ struct Residual {
   }
 };
 
-TYPED_TEST(EveryLeg, BlocksAreTheDerivativesOfTheResidual) {  // @verifies TDPCR (3), (5)-(6), (18)-(20), (22)
+TYPED_TEST(EveryLeg, BlocksAreTheDerivativesOfTheResidual) {  // @verifies TDPCR (3), (5)-(6), (18)-(20)
   double worst_exact = 0, worst_differences = 0;
   for (int sample = 0; sample < 2000; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);

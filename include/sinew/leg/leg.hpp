@@ -77,7 +77,7 @@ struct Leg {
     return in_base<S>(world);
   }
 
-  /// @implements TDPCR (18), (29)
+  /// @implements TDPCR (18)
   template <Scalar S>
   Blocks<S> blocks(const typename Space::template Frame<S>& platform, const LinkTip<S>& tip) const {
     const Vec<S, Space::dimension> b = platform.rotate(platform_point.template cast<S>());

@@ -19,7 +19,7 @@ struct Reduced {
 };
 
 /// J, K and s at a platform pose and link coordinates (for arcs: curvatures [1/m], one a leg).
-/// @implements TDPCR (5)-(6), (17), (19)-(24), (28), (30)
+/// @implements TDPCR (5)-(6), (17), (19)-(20)
 SINEW_API Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
 
 /// Link coordinates that the inputs command, in `work.coordinates`; the view returned is of them.
