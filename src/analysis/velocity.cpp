@@ -107,6 +107,11 @@ Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinate
                   .type_1 = {},
                   .type_2 = {}};
   answer.report.residual = reduced.closure_error;
+  if (std::isinf(reduced.closure_error)) {
+    answer.report.status = Status::left_domain;
+    answer.report.message.append("the configuration is not a finite number in every coordinate");
+    return answer;
+  }
   answer.type_1 = std::span(work.type_1)
                       .first(std::visit([&](const auto& r) { return type_one(r, pose, coordinates, work); }, robot.model));
   answer.type_2 = std::visit(

@@ -61,6 +61,10 @@ class Closing {
 
 void explain(Report& report, const Reduced& at_end) {
   if (report.ok()) return;
+  if (report.status == Status::left_domain) {
+    report.message.append("the start is not a finite number in every coordinate");
+    return;
+  }
   report.message.append("the legs do not close from this start; legs[");
   append_number(report.message, at_end.worst_leg);
   report.message.append("] misses by ");

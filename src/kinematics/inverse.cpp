@@ -27,10 +27,21 @@ template <class LegT>
 Report solve_legs(const ParallelRobot<LegT>& robot, const AnyPose& pose, Workspace& work) {
   using Space = typename LegT::Space;
   const auto platform = Space::frame(in_space<Space>(pose));
+  if (!Space::is_finite(platform)) {
+    Report report;
+    report.status = Status::left_domain;
+    report.message.append("the pose is not a finite number in every coordinate");
+    return report;
+  }
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     work.solution_count[i] = robot.legs[i].coordinates_at(platform, solutions_of(work, i));
     if (work.solution_count[i] > 0) continue;
     Report report = name_leg(i);
+    if (work.solution_count[i] < 0) {
+      report.status = Status::stalled;
+      report.message.append("has sizes so unlike each other that its solutions cannot be told apart");
+      return report;
+    }
     robot.legs[i].explain_unreachable(platform, report.message);
     return report;
   }

@@ -25,8 +25,9 @@ Reduced assemble_robot(const ParallelRobot<LegT>& robot, const AnyPose& pose, Nu
       for (int j = 0; j < Space::dof; ++j) work.J[at(i, j, Space::dof)] = blocks.g_x[j];
       work.K[at(i, robot.input_of_leg[index], inputs)] = -blocks.g_q[0] * leg.drive.rate(leg.link);
       work.s[index] = -blocks.g;
-      if (std::abs(blocks.error) > reduced.closure_error) {
-        reduced.closure_error = std::abs(blocks.error);
+      const double error = std::isfinite(blocks.error) ? std::abs(blocks.error) : std::numeric_limits<double>::infinity();
+      if (error > reduced.closure_error) {
+        reduced.closure_error = error;
         reduced.worst_leg = i;
       }
     });

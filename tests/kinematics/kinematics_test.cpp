@@ -90,7 +90,9 @@ TEST_P(EveryRobot, UnreachablePosesNameTheLegAndInputsOutsideTheDomainTheInput) 
   EXPECT_NE(folded.report.message.view().find("inputs[1]"), std::string_view::npos);
   EXPECT_EQ(forward(robot, {0.19, std::nan(""), 0.19}, {}, work).report.status, Status::left_domain);
   EXPECT_EQ(forward(robot, {0.19, 0.19}, {}, work).report.status, Status::left_domain);
-  EXPECT_FALSE(inverse(robot, PlanarPose{std::nan(""), 0, 0}, {}, work).ok());
+  EXPECT_EQ(inverse(robot, PlanarPose{std::nan(""), 0, 0}, {}, work).report.status, Status::left_domain);
+  const Forward nowhere = forward(robot, {0.19, 0.19, 0.19}, {.start = PlanarPose{0, std::nan(""), 0}}, work);
+  EXPECT_EQ(nowhere.report.status, Status::left_domain);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, EveryRobot, testing::ValuesIn(builtin_robot_names()),

@@ -103,6 +103,12 @@ TEST(Roots, RootsAtTheCutsCountOnce) {
   EXPECT_NEAR(roots[2], 0, 1e-15);
 }
 
+TEST(Roots, NotANumberEndsAtOnce) {
+  const auto f = [](double) { return ValueAndRate{std::nan(""), 0}; };
+  std::array<double, 8> roots;
+  EXPECT_EQ(all_roots(f, {.low = -1, .high = 1, .rate_rate = 1, .value_noise = 1e-16}, roots), -1);
+}
+
 TEST(Report, IsOneLine) {
   Report report;
   report.iterations = 4;

@@ -20,6 +20,10 @@ struct Planar {
     return {direction.x(), direction.y(), cross(point, direction)};
   }
 
+  static bool is_finite(const SE2<double>& frame) {
+    return frame.p.allFinite() && std::isfinite(frame.c) && std::isfinite(frame.s);
+  }
+
   static SE2<double> frame(const PlanarPose& pose) { return SE2<double>::from(pose); }
 
   template <Scalar S>

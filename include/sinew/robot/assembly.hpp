@@ -14,7 +14,7 @@ struct Reduced {
   MatrixView J;               ///< rows × dof: stack of g_x, each row a Plücker line
   MatrixView K;               ///< rows × inputs: −∂g/∂a, block diagonal where no legs are tied
   std::span<const double> s;  ///< rows: −g [m²]
-  double closure_error = 0;   ///< largest distance by which a leg fails to close [m]
+  double closure_error = 0;   ///< largest distance by which a leg fails to close [m]; infinite where not finite
   int worst_leg = 0;          ///< the leg that does
 };
 

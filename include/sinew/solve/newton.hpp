@@ -21,8 +21,10 @@ inline constexpr int max_rows = 24;
 /// Residual, Jacobian and error of a problem with N unknowns at one point; rows ≥ N.
 template <int N>
 struct Linearised {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign, max_rows, 1> residual;
-  Eigen::Matrix<double, Eigen::Dynamic, N, Eigen::DontAlign, max_rows, N> jacobian;
+  using Residual = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign, max_rows, 1>;
+  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, N, Eigen::DontAlign, max_rows, N>;
+  Residual residual = Residual::Zero(N);
+  Jacobian jacobian = Jacobian::Zero(N, N);
   double error = 0;  ///< the same residual in the unit in which convergence is judged [m]
 
   double merit() const { return 0.5 * residual.squaredNorm(); }
@@ -76,7 +78,8 @@ Report newton(const P& problem, typename P::Point& point, const NewtonOptions& o
   constexpr int N = P::unknowns;
   Linearised<N> here, there;
   Report report;
-  if (!problem.linearise(point, here)) {
+  // A maximum of errors hides a NaN, the sum of squares does not.
+  if (!problem.linearise(point, here) || !std::isfinite(here.merit())) {
     report.status = Status::left_domain;
     return report;
   }

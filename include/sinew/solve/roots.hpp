@@ -44,7 +44,8 @@ double bracketed_root(const F& f, double low, double high, bool rising) {
 
 }  // namespace detail
 
-/// Writes the roots in ascending order and returns how many there are (at most roots.size(), the lowest ones).
+/// Writes the roots in ascending order and returns how many there are (at most roots.size(), the lowest ones);
+/// -1 where f is not finite or the interval is not resolved within 10 000 cells (a few dozen are usual).
 /// A double root, where two solutions merge, is written once.
 template <class F>
 int all_roots(const F& f, const RootsOptions& options, std::span<double> roots) {
@@ -62,10 +63,11 @@ int all_roots(const F& f, const RootsOptions& options, std::span<double> roots) 
     last = x;
     if (!same && count < roots.size()) roots[count++] = x;
   };
-  while (pending > 0 && count < roots.size()) {
+  for (int cells = 0; pending > 0 && count < roots.size(); ++cells) {
     const auto [low, high] = stack[--pending];
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
     const ValueAndRate m = f(middle);
+    if (cells > 10000 || !std::isfinite(m.value)) return -1;
     const double bend = options.rate_rate * half;
     const double slope = std::abs(m.rate);
     if (std::abs(m.value) > slope * half + 0.5 * bend * half + options.value_noise) continue;  // no root here
