@@ -118,14 +118,14 @@ Legs read_legs(Reader& robot) {
   return result;
 }
 
-void check_legs(const Reader& robot, const Legs& read) {
+void check_legs(const Reader& legs, const Legs& read) {
   const std::size_t count = read.legs.size();
   if (count < Planar::dof)
-    robot.fail("too_few_legs", fmt::format("a planar platform has 3 freedoms and each leg holds one, but there {} {}; "
-                                           "list at least 3 under legs", count == 1 ? "is" : "are",
-                                           count == 0 ? "is none" : fmt::format("{} leg{}", count, count == 1 ? "" : "s")));
+    legs.fail("too_few_legs", fmt::format("a planar platform has 3 freedoms and each leg holds one, but {}; list at "
+                                          "least 3.", count == 0 ? "there is none"
+                                                      : count == 1 ? "there is 1 leg" : "there are 2 legs"));
   if (count > static_cast<std::size_t>(max_rows))
-    robot.fail("too_many_legs", fmt::format("lists {} legs; this build carries at most {}", count, max_rows));
+    legs.fail("too_many_legs", fmt::format("there are {} legs; this build carries at most {}.", count, max_rows));
 }
 
 PlanarPose read_home(Reader& platform) {
@@ -156,7 +156,8 @@ AnyRobot read_listed(Reader& robot) {
     result.geometry_inferred = geometry->choice({"given", "inferred"}) == "inferred";
   robot.has("defaults");  // already merged into the legs
   const Legs read = read_legs(robot);
-  if (robot.is(Node::Kind::map) && robot.node()->find("legs")) check_legs(robot, read);
+  if (const auto legs = robot.optional("legs"))
+    if (legs->is(Node::Kind::list)) check_legs(*legs, read);
 
   double radius = largest_platform_point(read.legs);
   PlanarPose home;
@@ -198,7 +199,8 @@ Expected<Document> expanded(const Document& document) {
   Reader robot(document, errors);
   const Architecture* architecture = architecture_of(robot);
   if (!errors.empty()) return tl::unexpected(errors);
-  if (robot.has("legs")) robot.fail("ambiguous", "gives both architecture and legs; keep one");
+  if (const auto legs = robot.optional("legs"))
+    legs->fail("ambiguous", "the file gives an architecture and legs; keep one.");
   Node legs = legs_of(*architecture, robot);
   if (!errors.empty()) return tl::unexpected(errors);
   Document longer = document;
@@ -249,7 +251,7 @@ Expected<Document> read_robot_file(const std::string& path_or_name) {
   auto document = read_file(path_or_name);
   if (document || path_or_name.find_first_of("./") != std::string::npos) return document;
   Errors errors = std::move(document.error());  // looks like a name, not a file
-  errors.front().message += fmt::format("; robots that come with sinew: {}", fmt::join(builtin_robot_names(), ", "));
+  errors.front().message += fmt::format(" Robots that come with sinew: {}.", fmt::join(builtin_robot_names(), ", "));
   return tl::unexpected(std::move(errors));
 }
 

@@ -50,7 +50,8 @@ std::string error_text(const Json& id, const Errors& errors) {
   Json answer = Json::object();
   if (!id.is_null()) answer["id"] = id;
   std::string message = errors.front().message;
-  for (std::size_t i = 1; i < errors.size(); ++i) message += "; " + errors[i].message;
+  for (std::size_t i = 1; i < errors.size(); ++i)
+    message += (message.ends_with('.') ? " " : "; ") + errors[i].message;
   answer["error"] = {{"code", errors.front().code}, {"where", errors.front().where}, {"message", message}};
   return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -1,0 +1,71 @@
+/// @file verbs.hpp
+/// The verbs of the command, written down once: the parser, the help and the completion all read these
+/// tables.
+#pragma once
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew::cli {
+
+/// A command line taken apart: texts as they were written.
+struct Arguments {
+  std::string_view verb;
+  std::vector<std::string> operands;
+  std::map<std::string, std::vector<std::string>, std::less<>>
+      options;  ///< by name without dashes; a flag has no text
+
+  bool has(std::string_view option) const { return options.find(option) != options.end(); }
+  /// The text of an option, or null.
+  const std::string* text(std::string_view option) const {
+    const auto found = options.find(option);
+    return found == options.end() || found->second.empty() ? nullptr : &found->second.front();
+  }
+  std::string operand() const { return operands.empty() ? std::string() : operands.front(); }
+};
+
+struct Option {
+  std::string_view name;   ///< without dashes
+  std::string_view value;  ///< what follows it; empty: nothing, it is a flag
+  std::string_view help;
+  char letter = 0;  ///< short form, if there is one
+  bool repeats = false;
+};
+
+struct Verb {
+  std::string_view name;
+  std::string_view operand;  ///< `ROBOT`; in brackets where it may be left out
+  std::string_view summary;
+  std::vector<std::string_view> options;
+  std::vector<std::string_view> needs;  ///< at least one of these options
+  std::string_view notes;
+  std::string_view example;  ///< works as it stands; the tests run it
+  int (*run)(const Arguments&);
+};
+
+std::span<const Verb> verbs();
+const Verb* find_verb(std::string_view name);
+const Option& option(std::string_view name);
+
+/// @name Texts
+/// @{
+std::vector<std::string_view> study_names();  ///< papers and their items
+std::string help();
+std::string help(const Verb& verb);
+std::string help_units();
+/// @}
+
+/// @name What the verbs do; the answer is the exit code
+/// @{
+int run_question(const Arguments& arguments);  ///< forward, inverse, analyse
+int run_query(const Arguments& arguments);
+int run_check(const Arguments& arguments);
+int run_reproduce(const Arguments& arguments);
+int run_plot(const Arguments& arguments);
+int run_completion(const Arguments& arguments);
+int run_help(const Arguments& arguments);
+/// @}
+
+}  // namespace sinew::cli

@@ -1,0 +1,137 @@
+/// help, completion: texts made of the tables of verbs and of the library's units.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "sinew/io/node.hpp"
+#include "sinew/io/quantity.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace sinew::cli {
+namespace {
+
+constexpr std::string_view exit_codes =
+    "Exit codes: 0 solved, 1 internal error, 2 bad input, 3 no solution (said why), 4 stopped by a limit or "
+    "a signal.\n";
+
+std::string joined_names(char separator) {
+  std::string names;
+  for (const Verb& verb : verbs())
+    names += fmt::format("{}{}", names.empty() ? "" : std::string(1, separator), verb.name);
+  return names;
+}
+
+std::string option_words(const Verb& verb) {
+  std::string words;
+  for (const std::string_view name : verb.options)
+    words += fmt::format("{}--{}", words.empty() ? "" : " ", name);
+  return words;
+}
+
+}  // namespace
+
+std::string help() {
+  std::string list;
+  for (const Verb& verb : verbs()) list += fmt::format("  {:<10}  {}\n", verb.name, verb.summary);
+  return fmt::format(
+      "sinew {}: kinematics and statics of continuum robots\n\n"
+      "Usage: sinew VERB ROBOT [OPTIONS]\n"
+      "ROBOT is a robot file or the name of a built-in robot: {}.\n\n{}\n"
+      "Numbers are SI and radians; with a unit they may be anything else: \"10 mm\", \"5 deg\" (sinew help "
+      "units).\n"
+      "Tables show mm and degrees, --json shows SI and radians.\n{}\n"
+      "Example:\n  sinew inverse 3-rfr --pose \"10 mm, -5 mm, 10 deg\"\n"
+      "Help on a verb: sinew VERB --help. Version: sinew --version.\n",
+      version(), fmt::join(builtin_robot_names(), ", "), list, exit_codes);
+}
+
+std::string help(const Verb& verb) {
+  std::size_t width = 0;
+  std::vector<std::pair<std::string, std::string_view>> rows;
+  for (const std::string_view name : verb.options) {
+    const Option& known = option(name);
+    const std::string letter = known.letter ? fmt::format("-{}, ", known.letter) : "    ";
+    rows.emplace_back(fmt::format("{}--{} {}", letter, name, known.value), known.help);
+    width = std::max(width, rows.back().first.size());
+  }
+  std::string list;
+  for (const auto& [spelling, words] : rows) list += fmt::format("  {:<{}}  {}\n", spelling, width, words);
+  return fmt::format("sinew {0}: {1}\n\nUsage: sinew {0} {2} [OPTIONS]\n\n{3}\n{4}{5}Example:\n  {6}\n",
+                     verb.name, verb.summary, verb.operand, list, verb.notes,
+                     verb.notes.empty() ? "" : "\n\n", verb.example);
+}
+
+std::string help_units() {
+  constexpr std::array dimensions{
+      Dimension::length,   Dimension::angle, Dimension::curvature, Dimension::force, Dimension::moment,
+      Dimension::pressure, Dimension::mass,  Dimension::density,   Dimension::time,  Dimension::acceleration};
+  std::string list;
+  for (const Dimension dimension : dimensions) list += fmt::format("  {}\n", advice(dimension));
+  return "A number without a unit is SI and radians; a number with a unit is text, in quotes where it holds "
+         "a blank:\n\n" +
+         list +
+         "\nA unit of another kind is refused. Fractions of whole numbers are read too: \"1/2 in\".\n"
+         "In tables lengths are in mm and angles in degrees; JSON is SI and radians throughout.\n";
+}
+
+int run_help(const Arguments& arguments) {
+  const std::string topic = arguments.operand();
+  if (topic.empty()) {
+    print(help());
+  } else if (topic == "units") {
+    print(help_units());
+  } else if (const Verb* verb = find_verb(topic)) {
+    print(help(*verb));
+  } else {
+    return refuse("help",
+                  {{"unknown_topic", in_quotes(topic),
+                    fmt::format("no such topic; there are units and the verbs {}.", joined_names(' '))}});
+  }
+  return solved;
+}
+
+int run_completion(const Arguments& arguments) {
+  const std::string shell = arguments.operand();
+  if (shell != "bash")
+    return refuse("completion", {{"unknown_shell", shell.empty() ? "shell" : in_quotes(shell),
+                                  "completion is for bash: sinew completion bash > sinew.bash"}});
+  std::string cases;
+  for (const Verb& verb : verbs())
+    cases += fmt::format("    {}) options=\"{}\" ;;\n", verb.name, option_words(verb));
+  print(fmt::format(R"(# Completion of sinew for bash: source this file, or save it as
+# ~/.local/share/bash-completion/completions/sinew
+_sinew() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} verb=${{COMP_WORDS[1]}} options=
+  COMPREPLY=()
+  if ((COMP_CWORD == 1)); then
+    mapfile -t COMPREPLY < <(compgen -W "{} --help --version" -- "$word")
+    return
+  fi
+  case $verb in
+{}  esac
+  if [[ $word == -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+  elif [[ $verb == help ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "{} units" -- "$word")
+  elif [[ $verb == completion ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "bash" -- "$word")
+  elif ((COMP_CWORD == 2)) && [[ $verb == reproduce ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "{}" -- "$word")
+  elif ((COMP_CWORD == 2)); then
+    local files='!*.yaml'
+    [[ $verb == plot ]] && files='!*.@(yaml|csv)'
+    mapfile -t COMPREPLY < <(compgen -W "{}" -- "$word"; compgen -d -S / -- "$word"
+                             shopt -s extglob; compgen -f -X "$files" -- "$word")
+  fi
+}}
+complete -o default -o nospace -F _sinew sinew
+)",
+                    joined_names(' '), cases, joined_names(' '), fmt::join(study_names(), " "),
+                    fmt::join(builtin_robot_names(), " ")));
+  return solved;
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,191 @@
+/// plot: curves of a table of results, or the shape of a robot.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "request.hpp"
+#include "sinew/io/figure.hpp"
+#include "sinew/io/table.hpp"
+#include "terminal.hpp"
+
+namespace sinew::cli {
+namespace {
+
+constexpr std::array formats{FigureFormat::svg, FigureFormat::png, FigureFormat::pdf};
+
+/// The format an extension names.
+const FigureFormat* format_of(const std::filesystem::path& file) {
+  const auto found = std::ranges::find_if(formats, [&](FigureFormat format) {
+    return file.extension() == fmt::format(".{}", extension(format));
+  });
+  return found == formats.end() ? nullptr : &*found;
+}
+
+/// The curve of a list of points in metres, in mm.
+Series curve(const Node& points, Mark mark, Colour colour, double width, std::string label = {}) {
+  Series series{.label = std::move(label), .x = {}, .y = {}, .mark = mark, .colour = colour, .width = width};
+  for (const Node& point : points.items) {
+    series.x.push_back(1e3 * point.items.at(0).number);
+    series.y.push_back(1e3 * point.items.at(1).number);
+  }
+  return series;
+}
+
+/// As Fig. 10 of [TDPCR]: backbones, tendons, platform, joints, and the lines along which the closures pull.
+Figure picture(const Answer& shape) {
+  Panel panel{.title = {},
+              .x = {.label = "x", .unit = "mm"},
+              .y = {.label = "y", .unit = "mm"},
+              .series = {},
+              .notes = {},
+              .legend = Legend::below,
+              .equal_aspect = true};
+  const auto once = [](std::size_t i, const char* label) {
+    return i == 0 ? std::string(label) : std::string();
+  };
+  const auto add = [&](Series series) { panel.series.push_back(std::move(series)); };
+  add(curve(*shape.find("platform"), Mark::polygon, Colour::green, 1.5, "platform"));
+  const auto& lines = shape.find("lines")->items;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    add(curve(lines[i], Mark::dashed, Colour::vermillion, 1.5, once(i, "line of the leg")));
+  const auto& tendons = shape.find("tendons")->items;
+  for (std::size_t i = 0; i < tendons.size(); ++i)
+    for (std::size_t k = 0; k < tendons[i].items.size(); ++k)
+      add(curve(tendons[i].items[k], Mark::dashed, Colour::grey, 1, once(i + k, "tendon")));
+  const auto& backbones = shape.find("backbones")->items;
+  for (std::size_t i = 0; i < backbones.size(); ++i)
+    add(curve(backbones[i], Mark::line, Colour::blue, 3, once(i, "backbone")));
+  add(curve(*shape.find("base"), Mark::circles, Colour::black, 1.5));
+  add(curve(*shape.find("platform"), Mark::circles, Colour::black, 1.5));
+  Figure figure;
+  figure.title = shape.text("robot");
+  figure.panels = {std::move(panel)};
+  figure.width = figure.height = 700;
+  return figure;
+}
+
+/// The robot's shape at the asked configuration, default its home. Nothing where it has none; `exit` then
+/// says why.
+std::optional<Figure> robot_figure(const Arguments& arguments, int& exit) {
+  auto session = Session::open(arguments.operand());
+  auto query = request("shape", arguments);
+  if (!session || !query) {
+    exit = refuse("plot", session ? query.error() : session.error());
+    return {};
+  }
+  if (!arguments.has("pose") && !arguments.has("inputs")) {
+    const Answer about = describe(*session, arguments);
+    if (const Errors errors = about.errors(); !errors.empty()) {
+      exit = refuse("plot", errors);
+      return {};
+    }
+    query->pop_back();  // its closing brace
+    *query += fmt::format(R"(, "pose": {{"x": {}, "y": {}, "phi": {}}}}})", about.text("home.x"),
+                          about.text("home.y"), about.text("home.phi"));
+  }
+  const Answer shape = ask(*session, *query);
+  exit = exit_code(shape);
+  if (const Errors errors = shape.errors(); !errors.empty())
+    refuse("plot", errors);
+  else if (!shape.converged())
+    message(fmt::format("plot {}: {}: {}", shape.text("robot"), shape.text("status"), shape.text("message")));
+  return exit == solved ? std::optional(picture(shape)) : std::nullopt;
+}
+
+const Column* column(const Table& table, std::string_view name, std::string_view option, Errors& errors) {
+  if (const Column* found = table.find(name)) return found;
+  std::vector<std::string_view> names;
+  for (const Column& known : table.columns) names.push_back(known.name);
+  const std::string_view hint = closest(name, names);
+  errors.push_back({"unknown_column", fmt::format("--{}", option),
+                    fmt::format("no column {}{} Columns: {}.", in_quotes(name),
+                                hint.empty() ? "." : fmt::format("; did you mean {}?", in_quotes(hint)),
+                                fmt::join(names, ", "))});
+  return nullptr;
+}
+
+std::vector<const Column*> columns_to_draw(const Table& table, const Column* x, const std::string* list,
+                                           Errors& errors) {
+  std::vector<const Column*> result;
+  if (!list) {
+    for (const Column& other : table.columns)
+      if (&other != x) result.push_back(&other);
+    return result;
+  }
+  for (std::string_view rest = *list;;) {
+    const std::size_t comma = rest.find(',');
+    const Column* found = column(table, rest.substr(0, comma), "y", errors);
+    if (found) result.push_back(found);
+    if (comma == std::string_view::npos) return result;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+Figure curves(const Arguments& arguments, const Column& x, const std::vector<const Column*>& ys) {
+  const bool has_one_unit =
+      std::ranges::all_of(ys, [&](const Column* y) { return y->unit == ys.front()->unit; });
+  Panel panel{.title = {},
+              .x = {.label = x.name, .unit = x.unit},
+              .y = {.label = ys.size() == 1 ? ys[0]->name : "", .unit = has_one_unit ? ys[0]->unit : ""},
+              .series = {}};
+  panel.y.log = arguments.has("log-y");
+  constexpr std::array colours{Colour::blue, Colour::vermillion, Colour::green, Colour::orange,
+                               Colour::sky,  Colour::purple,     Colour::black, Colour::yellow};
+  for (std::size_t i = 0; i < ys.size(); ++i)
+    panel.series.push_back({.label = ys.size() == 1 ? ""
+                                     : has_one_unit ? ys[i]->name
+                                                    : ys[i]->heading(),
+                            .x = x.values,
+                            .y = ys[i]->values,
+                            .colour = colours[i % colours.size()]});
+  Figure figure;
+  figure.panels = {std::move(panel)};
+  return figure;
+}
+
+std::optional<Figure> table_figure(const Arguments& arguments, int& exit) {
+  const auto table = read_csv(arguments.operand());
+  if (!table) {
+    exit = refuse("plot", table.error());
+    return {};
+  }
+  Errors errors;
+  const std::string* name = arguments.text("x");
+  const Column* x = name ? column(*table, *name, "x", errors) : &table->columns.front();
+  const auto ys = columns_to_draw(*table, x, arguments.text("y"), errors);
+  if (errors.empty() && ys.empty())
+    errors.push_back(
+        {"too_few_columns", arguments.operand(), "a curve needs two columns, x and y; there is one."});
+  if (errors.empty()) return curves(arguments, *x, ys);
+  exit = refuse("plot", errors);
+  return {};
+}
+
+}  // namespace
+
+int run_plot(const Arguments& arguments) {
+  if (arguments.operands.empty())
+    return refuse("plot",
+                  {{"missing_result", "RESULT|ROBOT", "what is to be drawn? Give a .csv file or a robot."}});
+  const std::string* output = arguments.text("output");
+  const std::filesystem::path file = *output;
+  const FigureFormat* format = format_of(file);
+  if (!format)
+    return refuse("plot", {{"no_figure_format", "--output",
+                            fmt::format("{} the figure's file ends in .svg, .png or .pdf: -o fig.svg.",
+                                        in_quotes(*output) + " names no format;")}});
+  int exit = solved;
+  auto figure =
+      arguments.operand().ends_with(".csv") ? table_figure(arguments, exit) : robot_figure(arguments, exit);
+  if (!figure) return exit;
+  if (const std::string* title = arguments.text("title")) figure->title = *title;
+  const auto written =
+      write_figure(*figure, std::filesystem::path(file).replace_extension(), {.formats = {*format}});
+  if (!written) return refuse("plot", written.error());
+  if (!arguments.has("quiet"))
+    for (const auto& path : *written) print(path.string() + '\n');
+  return solved;
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,234 @@
+// What a shell relies on: examples that work as printed, streams that do not break, signals, files.
+#include "command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+
+namespace {
+
+using namespace sinew::test;
+
+std::vector<std::string> verbs() {
+  std::vector<std::string> names;
+  const Scratch here;
+  for (const std::string& line : lines_of(run_command({"help"}, here.path()).out))
+    if (line.starts_with("  ") && !line.starts_with("  sinew"))
+      names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return names;
+}
+
+/// The lines below `Example:`.
+std::string example(const std::string& help) {
+  const std::size_t begin = help.find("Example:\n");
+  return begin == std::string::npos ? std::string() : help.substr(begin + 9);
+}
+
+TEST(Help, TheExampleOfEveryVerbWorksAsPrinted) {
+  ASSERT_GE(verbs().size(), 9U);
+  for (const std::string& verb : verbs()) {
+    const Scratch here;
+    const Outcome help = run_command({verb, "--help"}, here.path());
+    ASSERT_EQ(help.exit, 0) << verb;
+    EXPECT_EQ(help.out, run_command({"help", verb}, here.path()).out);
+    const std::string line = example(help.out);
+    ASSERT_FALSE(line.empty()) << verb;
+    const Outcome outcome = run_shell(line, here.path());
+    EXPECT_EQ(outcome.exit, 0) << line << outcome.err;
+    EXPECT_EQ(outcome.err, "") << line;
+  }
+}
+
+TEST(Help, WithoutArgumentsItGoesToStderr) {
+  const Scratch here;
+  const Outcome outcome = run_command({}, here.path());
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("Usage: sinew"), std::string::npos);
+}
+
+class Stream : public testing::Test {
+ protected:
+  Outcome stream(const std::string& lines) {
+    write_text(here_.path() / "lines", lines);
+    return run_command({"query", "3-rfr"}, here_.path(), here_.path() / "lines");
+  }
+  Scratch here_;
+};
+
+constexpr const char* inverse = R"({"query": "inverse", "pose": {"x": 0.31, "y": 0, "phi": 0}})";
+
+TEST_F(Stream, ALineOverOneMebibyteIsAnsweredAndTheNextOneToo) {
+  const Outcome outcome =
+      stream(std::string((1U << 20U) + 1, ' ') + '\n' + "x" + std::string(3U << 20U, 'x') + '\n' + inverse);
+  EXPECT_EQ(outcome.exit, 0);
+  const auto answers = lines_of(outcome.out);
+  ASSERT_EQ(answers.size(), 2U);  // a blank line is skipped, however long
+  EXPECT_NE(answers[0].find("too_large"), std::string::npos);
+  EXPECT_NE(answers[1].find("unreachable"), std::string::npos);
+}
+
+TEST_F(Stream, ALineOfOneMebibyteIsRead) {
+  const std::string query = inverse;
+  const auto answers = lines_of(stream(query + std::string((1U << 20U) - query.size(), ' ') + '\n').out);
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_NE(answers[0].find("unreachable"), std::string::npos);
+}
+
+TEST_F(Stream, LineEndsOfWindowsAndAMissingLastOneAreRead) {
+  const auto answers = lines_of(stream(std::string(inverse) + "\r\n\r\n" + inverse).out);
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_EQ(answers[0], answers[1]);
+}
+
+TEST_F(Stream, NoLineEndsIt) {
+  std::string lines;
+  for (int byte = 1; byte < 256; ++byte)
+    if (byte != '\n' && byte != ' ' && byte != '\t' && byte != '\r')
+      lines += std::string(3, static_cast<char>(byte)) + '\n';
+  lines += std::string("a\0b\n", 4) + std::string(5000, '[') + '\n' + inverse + '\n';
+  const Outcome outcome = stream(lines);
+  EXPECT_EQ(outcome.exit, 0);
+  EXPECT_EQ(outcome.err, "");
+  const auto answers = lines_of(outcome.out);
+  ASSERT_EQ(answers.size(), static_cast<std::size_t>(std::ranges::count(lines, '\n')));
+  for (std::size_t i = 0; i + 1 < answers.size(); ++i)
+    EXPECT_NE(answers[i].find(R"("error")"), std::string::npos);
+  EXPECT_NE(answers.back().find("unreachable"), std::string::npos);
+}
+
+TEST_F(Stream, AnswersComeInOrder) {
+  std::string lines;
+  for (int i = 0; i < 2000; ++i)
+    lines +=
+        R"({"query": "inverse", "pose": {"x": 0.31, "y": 0, "phi": 0}, "id": )" + std::to_string(i) + "}\n";
+  const auto answers = lines_of(stream(lines).out);
+  ASSERT_EQ(answers.size(), 2000U);
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    EXPECT_TRUE(answers[i].starts_with("{\"id\":" + std::to_string(i) + ","));
+}
+
+TEST_F(Stream, EachAnswerComesBeforeTheNextQuestion) {
+  const Outcome outcome =
+      run_shell(std::string("mkfifo q a && { sinew query 3-rfr < q > a & } && exec 3> q 4< a && "
+                            "for i in 1 2 3; do echo '") +
+                    inverse +
+                    "' >&3; read -r line <&4; done; "
+                    "exec 3>&-; wait $!; echo \"$? $line\"",
+                here_.path());
+  EXPECT_TRUE(outcome.out.starts_with("0 {\"query\":\"inverse\"")) << outcome.out << outcome.err;
+}
+
+TEST_F(Stream, AReaderThatLeavesIsNoError) {
+  const Outcome outcome =
+      run_shell(std::string("{ yes '") + inverse + "' | { sinew query 3-rfr; echo $? >&2; } | head -n 1; }",
+                here_.path());
+  EXPECT_EQ(lines_of(outcome.out).size(), 1U);
+  EXPECT_EQ(outcome.err.substr(0, 2), "4\n");
+}
+
+TEST_F(Stream, ASignalEndsItBetweenLines) {
+  const Outcome outcome =
+      run_shell(std::string("mkfifo q a && { sinew query 3-rfr < q > a & } && exec 3> q 4< a && echo '") +
+                    inverse + "' >&3 && read -r line <&4 && kill -TERM $! && wait $!; echo $?",
+                here_.path());
+  EXPECT_EQ(outcome.out, "4\n") << outcome.err;
+}
+
+TEST(Output, AFullDiskIsSaid) {
+  const Scratch here;
+  const Outcome outcome = run_shell("sinew help > /dev/full", here.path());
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_NE(outcome.err.find("stdout cannot be written"), std::string::npos);
+}
+
+TEST(Check, NamesAFileWithBlanksAndUmlauts) {
+  const Scratch here;
+  write_text(here.path() / "mein Röbi.yaml", "sinew: 1\nname: x\nlegs: 3\n");
+  const Outcome outcome = run_command({"check", "mein Röbi.yaml"}, here.path());
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_TRUE(outcome.err.starts_with("mein Röbi.yaml:3:7: legs")) << outcome.err;
+}
+
+TEST(Plot, DrawsARobotInEveryFormat) {
+  const Scratch here;
+  for (const char* format : {"svg", "png", "pdf"}) {
+    const std::string file = std::string("fig.") + format;
+    const Outcome outcome =
+        run_command({"plot", "3-rfr", "--pose", "10 mm, -5 mm, 10 deg", "-o", file}, here.path());
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "fig.gp\n" + file + "\n");
+    EXPECT_GT(std::filesystem::file_size(here.path() / file), 2000U);
+  }
+  const std::string script = read_text(here.path() / "fig.gp");
+  for (const char* word : {"backbone", "tendon", "platform", "x [mm]"})
+    EXPECT_NE(script.find(word), std::string::npos);
+}
+
+TEST(Plot, WithoutAPoseItDrawsTheHomeThatSetMoved) {
+  const Scratch here;
+  const auto drawn = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"plot", "3-rfr", "-o", "fig.svg"});
+    EXPECT_EQ(run_command(more, here.path()).exit, 0);
+    return read_text(here.path() / "fig.gp");
+  };
+  EXPECT_EQ(drawn({"--set", "platform.home.x=7 mm"}), drawn({"--pose", "7 mm, 0, 0"}));
+}
+
+TEST(Plot, DrawsColumnsOfATable) {
+  const Scratch here;
+  write_text(here.path() / "result.csv", "k,x[m],y[m],condition\n0,0.01,0.5,14.5\n1,0.02,0.25,150\n");
+  const Outcome outcome = run_command(
+      {"plot", "result.csv", "-o", "out/fig.svg", "--y", "x,y", "--log-y", "--title", "it's mine"},
+      here.path());
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const std::string script = read_text(here.path() / "out" / "fig.gp");
+  EXPECT_NE(script.find("set logscale y"), std::string::npos);
+  EXPECT_NE(script.find("0 0.01\n1 0.02\n"), std::string::npos);
+  EXPECT_EQ(script.find("14.5"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(here.path() / "out" / "fig.svg"));
+}
+
+TEST(Plot, DrawsNothingWhereTheRobotCannotBe) {
+  const Scratch here;
+  const Outcome outcome =
+      run_command({"plot", "3-rfr", "--pose", "310 mm, 0, 0", "-o", "fig.svg"}, here.path());
+  EXPECT_EQ(outcome.exit, 3);
+  EXPECT_TRUE(outcome.err.starts_with("plot 3-RFR: unreachable: legs[0]")) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(here.path() / "fig.svg"));
+}
+
+TEST(Reproduce, PrintsTheTableAndTheFilesItWrote) {
+  const Scratch here;
+  const Outcome outcome = run_command({"reproduce", "tdpcr/fig9", "-o", "made"}, here.path());
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  const auto lines = lines_of(outcome.out);
+  EXPECT_TRUE(lines.at(0).starts_with("tdpcr/fig9: "));
+  EXPECT_TRUE(lines.at(1).starts_with("quantity"));
+  int files = 0;
+  for (const std::string& line : lines) {
+    if (!line.starts_with("made/")) continue;
+    ++files;
+    EXPECT_TRUE(std::filesystem::exists(here.path() / line)) << line;
+  }
+  EXPECT_GE(files, 2);
+  EXPECT_NE(outcome.out.find(" | holds"), std::string::npos);
+}
+
+TEST(Completion, CompletesVerbsOptionsAndRobots) {
+  const Scratch here;
+  write_text(here.path() / "mine.yaml", "");
+  const auto completed = [&](const std::string& words, int at) {
+    return run_shell("bash -c 'source <(sinew completion bash); COMP_WORDS=(sinew " + words +
+                         "); COMP_CWORD=" + std::to_string(at) + "; _sinew; echo ${COMPREPLY[@]}'",
+                     here.path());
+  };
+  EXPECT_EQ(completed("inv", 1).out, "inverse\n");
+  EXPECT_EQ(completed("inverse 3-rfr --be", 3).out, "--bending\n");
+  EXPECT_EQ(completed("check 3-rf", 2).out, "3-rfr\n");
+  EXPECT_EQ(completed("check m", 2).out, "mine.yaml\n");
+  EXPECT_EQ(completed("reproduce tdpcr/fig9", 2).out, "tdpcr/fig9\n");
+}
+
+}  // namespace
