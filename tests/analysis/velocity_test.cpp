@@ -94,6 +94,27 @@ TEST(TypeOne, AStraightLegOfTheRfrIsLostNotUndefined) {
   EXPECT_FALSE(v.type_2.singular);
 }
 
+TEST(TypeOne, OfAStrutIsWhereTwoSolutionsMergeNotWhereItIsStraight) {  // poses of an independent implementation
+  const AnyRobot robot = load("3-frr").value();
+  Workspace work(robot);
+  const std::array<std::array<double, 2>, 2> merging{{{-0.11660045356481855, 6.4429325505368045},
+                                                      {0.0834680089743687, 6.0593172943123985}}};  // y, κ of leg 0
+  for (const auto& [y, curvature] : merging) {
+    const auto& leg = std::get<1>(robot.model).legs[0];
+    const auto at = leg.blocks<double>(Planar::frame({0, y, 0}), leg.tip(curvature));
+    EXPECT_LT(std::abs(at.error), 1e-14);
+    EXPECT_LT(std::abs(at.g_q[0]), 1e-10);
+    const Velocity v = velocity(robot, PlanarPose{0, y, 0}, {curvature, 3, 3}, work);  // the other legs need not close
+    ASSERT_GE(v.type_1.size(), 1U);
+    EXPECT_EQ(v.type_1[0], 0);
+  }
+  const Velocity straight = velocity(robot, PlanarPose{0.03, -0.023680500207804295, 0},
+                                     {0, 2.99398137534887, 0.34977812904474725}, work);
+  EXPECT_TRUE(straight.type_1.empty());
+  EXPECT_NEAR(straight.K(0, 0), -1.9484100091436105, 1e-11);
+  EXPECT_LT(straight.report.residual, 1e-14);
+}
+
 TEST(Shape, LegsRunFromTheirBaseToTheirPlatformPoint) {
   const AnyRobot robot = rfr_in_code();
   Workspace work(robot);

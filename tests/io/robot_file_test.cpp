@@ -41,6 +41,36 @@ TEST(RobotFile, ListsLegsOrNamesAnArchitectureOrIsBuiltInCodeAllTheSame) {
   EXPECT_EQ(named->model.index(), 0U);  // alike legs take the static path
 }
 
+TEST(RobotFile, FrrAsAnArchitectureIsTheListedOne) {
+  const auto named = read(head + "architecture: 3-FRR\nbase: {radius: 190 mm, angle: 90 deg, direction: 320 deg}\n"
+                                 "platform: {radius: 50 mm, angle: 30 deg}\n"
+                                 "defaults: {link: {length: 200 mm, tendon_offset: 5 mm}, closure: {length: 100 mm}}\n");
+  ASSERT_TRUE(named) << to_string(named.error());
+  expect_same_motion(*named, load("3-frr").value());
+}
+
+TEST(RobotFile, UnlikeLegsMakeAMixedRobotThatMovesAsItsParts) {
+  const auto mixed = read(head +
+                          "defaults: {link: {type: arc, length: 200 mm, tendon_offset: 5 mm}}\n"
+                          "legs:\n"
+                          "  - {base: {point: {radius: 190 mm, angle: 90 deg}}, closure: {type: chord}, platform_point: {radius: 50 mm, angle: 30 deg}}\n"
+                          "  - {base: {point: {radius: 190 mm, angle: 210 deg}, direction: 80 deg}, closure: {type: strut, length: 100 mm}, platform_point: {radius: 50 mm, angle: 150 deg}}\n"
+                          "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, closure: {type: chord}, platform_point: {radius: 50 mm, angle: 270 deg}}\n");
+  ASSERT_TRUE(mixed) << to_string(mixed.error());
+  const AnyRobot rfr = load("3-rfr").value(), frr = load("3-frr").value();
+  Workspace work(*mixed), rfr_work(rfr), frr_work(frr);
+  const PlanarPose pose{0.01, -0.008, 0.02};
+  ASSERT_TRUE(inverse(*mixed, pose, {}, work).ok());
+  ASSERT_TRUE(inverse(rfr, pose, {}, rfr_work).ok());
+  ASSERT_TRUE(inverse(frr, pose, {}, frr_work).ok());
+  EXPECT_EQ(work.inputs[0], rfr_work.inputs[0]);
+  EXPECT_EQ(work.inputs[1], frr_work.inputs[1]);
+  EXPECT_EQ(work.inputs[2], rfr_work.inputs[2]);
+  const Forward back = forward(*mixed, values(work.inputs), {}, work);
+  ASSERT_TRUE(back.ok()) << to_string(back.report);
+  EXPECT_NEAR(std::get<PlanarPose>(back.pose).phi, pose.phi, 1e-12);
+}
+
 TEST(RobotFile, PointsArePolarOrCartesianAndHomeIsRead) {
   const auto robot = read(head + rfr_parts +
                           "platform: {home: {x: 1 mm, phi: 10 deg}, radius: 60 mm}\n"

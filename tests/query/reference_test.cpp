@@ -57,6 +57,72 @@ TEST(Reference, PosesOf3Rfr) {  // @verifies TDPCR (17)-(20), (39)
   expect_poses("3-rfr", "3-RFR", "bending", "bending_signs");
 }
 
+TEST(Reference, PosesOf3Frr) {  // @verifies TDPCR (21)-(24), (28)-(30)
+  expect_poses("3-frr", "3-FRR", "curvature", "kappa");
+}
+
+TEST(Reference, EveryWorkingModeOf3Frr) {  // all roots of each leg within a full turn: none missing, none invented
+  const Json reference = read_json("data/tdpcr/poses.json")["3-FRR"]["poses"];
+  std::vector<Json> queries;
+  for (const Json& p : reference) queries.push_back({{"query", "inverse"}, {"pose", pose_of(p["pose"])}, {"all", true}});
+  const auto answers = ask("3-frr", queries);
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    std::size_t modes = 1;
+    for (const Json& roots : reference[i]["all_ik_kappa"]) modes *= roots.size();
+    ASSERT_EQ(answers[i]["solutions"].size(), modes);
+    for (const Json& solution : answers[i]["solutions"])
+      for (std::size_t leg = 0; leg < 3; ++leg) {
+        double nearest = 1;
+        for (const Json& root : reference[i]["all_ik_kappa"][leg])
+          nearest = std::min(nearest, std::abs(root.get<double>() - solution["legs"][leg]["curvature"].get<double>()));
+        EXPECT_LT(nearest, 1e-11);
+      }
+  }
+}
+
+TEST(Reference, MapsOfBothRobots) {  // singularities over a grid: det J, condition numbers, reachable or not
+  const Json all = read_json("data/tdpcr/singular_planar.json");
+  std::vector<Json> rfr, frr;
+  const auto over = [](const Json& map, std::vector<Json>& queries) {
+    for (const Json& phi : map["phi"])
+      for (const Json& y : map["y"])
+        for (const Json& x : map["x"]) queries.push_back({{"query", "velocity"}, {"pose", pose_of({x, y, phi})}});
+  };
+  over(all["3-RFR_map"], rfr);
+  over(all["3-FRR_map"], frr);
+  for (std::size_t i = 0; i < frr.size(); ++i)  // the reference takes the smallest signed root of each leg
+    if (const Json& expected = all["3-FRR_map"]["data"][i]; !expected.is_null()) frr[i]["curvature"] = expected[0];
+  const auto rfr_answers = ask("3-rfr", rfr), frr_answers = ask("3-frr", frr);
+  for (std::size_t i = 0; i < rfr.size(); ++i) {
+    const Json &expected = all["3-RFR_map"]["data"][i], &found = rfr_answers[i];
+    ASSERT_EQ(found["status"] != "unreachable", expected[3].get<bool>()) << rfr[i];
+    if (found["status"] != "converged") continue;
+    EXPECT_NEAR(found["determinant"].get<double>(), expected[0].get<double>(), 1e-16);
+    EXPECT_NEAR(1 / found["indices"]["condition"].get<double>(), expected[1].get<double>(), 1e-13);
+    EXPECT_NEAR(1 / found["indices"]["condition_homogenised"].get<double>(), expected[2].get<double>(), 1e-13);
+  }
+  for (std::size_t i = 0; i < frr.size(); ++i) {
+    const Json &expected = all["3-FRR_map"]["data"][i], &found = frr_answers[i];
+    ASSERT_EQ(found["status"], expected.is_null() ? "unreachable" : "converged") << frr[i];
+    if (expected.is_null()) continue;
+    EXPECT_NEAR(found["determinant"].get<double>(), expected[1].get<double>(), 1e-14);
+    EXPECT_NEAR(1 / found["indices"]["condition"].get<double>(), expected[2].get<double>(), 1e-12);
+    for (std::size_t leg = 0; leg < 3; ++leg)
+      EXPECT_NEAR(found["K"][leg][leg].get<double>(), expected[3][leg].get<double>(), 1e-9);
+  }
+}
+
+TEST(Reference, AStraightFrrLegIsRegular) {
+  const Json all = read_json("data/tdpcr/singular_planar.json");
+  const Json& straight = all["3-FRR_kappa0_regular"];
+  std::vector<Json> queries{{{"query", "velocity"}, {"pose", pose_of(straight["pose"])}, {"curvature", straight["kappa"]}}};
+  const auto answers = ask("3-frr", queries);
+  EXPECT_EQ(answers[0]["status"], "converged");
+  EXPECT_EQ(answers[0]["type_1"], Json::array());
+  EXPECT_LT(relative_error(answers[0]["J"], straight["J"]), 1e-11);
+  EXPECT_LT(relative_error(answers[0]["K"], diagonal(straight["K"])), 1e-11);
+}
+
 TEST(Reference, BaseTangentsOf3Rfr) {
   const Json reference = read_json("data/tdpcr/poses.json")["3-RFR"]["poses"];
   std::vector<Json> queries;

@@ -8,6 +8,7 @@
 
 #include "sinew/leg/chord.hpp"
 #include "sinew/leg/leg.hpp"
+#include "sinew/leg/strut.hpp"
 #include "sinew/link/arc.hpp"
 #include "sinew/tendon/pair.hpp"
 
@@ -17,7 +18,7 @@ template <class... Ts>
 struct TypeList {};
 
 /// Every kind of planar leg.
-using PlanarLegs = TypeList<Leg<Planar, Arc, TendonPair, Chord>>;
+using PlanarLegs = TypeList<Leg<Planar, Arc, TendonPair, Chord>, Leg<Planar, Arc, TendonPair, Strut>>;
 
 /// A named architecture: legs all alike, evenly around the base and the platform.
 struct Architecture {
@@ -30,6 +31,7 @@ struct Architecture {
 
 inline constexpr std::array architectures{
     Architecture{"3-RFR", "planar", 3, "arc", "chord", "TDPCR 2.1.1"},
+    Architecture{"3-FRR", "planar", 3, "arc", "strut", "TDPCR 2.1.2"},
 };
 
 }  // namespace sinew::inline v0
