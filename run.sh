@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds the library and the command, and runs them.
+#
+#   ./run.sh                 inverse kinematics of a robot and a figure of a paper, into out/
+#   ./run.sh ARGUMENTS...    the sinew command, e.g. ./run.sh forward ROBOT --json
+#   ./run.sh --yes ...       the same, and installs packages without asking
+set -euo pipefail
+caller=$PWD
+root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
+cd -- "$root"
+# shellcheck source=tools/packages.sh
+source tools/packages.sh
+
+yes=0
+if [[ ${1-} == --yes ]]; then
+  yes=1
+  shift
+fi
+
+sinew=build/release/bin/sinew
+stamp=build/release/.built  # as old as the start of the last build that succeeded
+
+up_to_date() {
+  local -a inputs=()
+  local input
+  [[ -x $sinew && -e $stamp ]] || return 1
+  for input in CMakeLists.txt CMakePresets.json cmake kernel include src cli; do
+    if [[ -e $input ]]; then inputs+=("$input"); fi
+  done
+  [[ -z $(find "${inputs[@]}" -newer "$stamp" -print -quit) ]]
+}
+
+need_packages "$yes" "${build_packages[@]}"
+if ! up_to_date; then
+  mkdir -p build/release
+  exec 9>build/release/.lock
+  flock 9
+  if ! up_to_date; then  # another run may just have built it
+    touch build/release/.started
+    build_preset release
+    mv build/release/.started "$stamp"
+  fi
+  exec 9>&-
+fi
+
+if (($#)); then
+  cd -- "$caller"
+  exec "$root/$sinew" "$@"
+fi
+
+pose="10 mm, -5 mm, 10 deg"
+echo "Inverse kinematics of the planar robot 3-RFR, platform at ($pose):"
+"$sinew" inverse robots/3-rfr.yaml --pose "$pose"
+echo
+echo "Figure 9 of [TDPCR], computed again:"
+mkdir -p out
+touch -d '1 second ago' build/release/.job
+"$sinew" reproduce tdpcr/fig9 -o out
+echo
+echo "Figure:"
+find "$root/out" -type f \( -name '*.svg' -o -name '*.png' -o -name '*.pdf' \) -newer build/release/.job |
+  LC_ALL=C sort | sed 's/^/  /'
+cat <<'TEXT'
+Try next:
+  ./run.sh analyse robots/3-rfr.yaml --pose "10 mm, -5 mm, 10 deg"
+  ./run.sh reproduce tdpcr -o out
+  ./run.sh --help
+TEXT

@@ -1,0 +1,26 @@
+# Compiles every kernel header alone, as a microcontroller's compiler would: C++14, no standard library at all.
+#   cmake -D HEADERS=dir -D COMPILERS=g++;clang++ -D WORK= -P kernel_headers.cmake
+cmake_minimum_required(VERSION 3.25)
+file(GLOB headers RELATIVE ${HEADERS} ${HEADERS}/sinew/kernel/*.h)
+if(NOT headers)
+  message(FATAL_ERROR "no kernel headers in ${HEADERS}")
+endif()
+set(failed "")
+foreach(header IN LISTS headers)
+  string(MAKE_C_IDENTIFIER ${header} name)
+  file(CONFIGURE OUTPUT ${WORK}/${name}.cpp CONTENT "#include \"${header}\"\n#include \"${header}\"\n" @ONLY)
+  foreach(compiler IN LISTS COMPILERS)
+    execute_process(COMMAND ${compiler} -std=c++14 -ffreestanding -nostdinc -fno-exceptions -fno-rtti
+                            -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I ${HEADERS} ${WORK}/${name}.cpp
+                    RESULT_VARIABLE result)
+    if(NOT result EQUAL 0)
+      list(APPEND failed "${header} (${compiler})")
+    endif()
+  endforeach()
+endforeach()
+if(failed)
+  list(JOIN failed ", " failed)
+  message(FATAL_ERROR "not freestanding C++14: ${failed}")
+endif()
+list(LENGTH headers count)
+message(STATUS "${count} kernel headers, each alone: ${COMPILERS}")

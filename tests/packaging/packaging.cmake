@@ -1,0 +1,79 @@
+# Builds and runs the consumer against sinew.  cmake -D MODE=install|subdirectory|shared -D SOURCE= -D BUILD= -D WORK=
+#   -D COMPILER= -D JOBS= -P packaging.cmake
+#   install       what is built in BUILD, installed and found with find_package
+#   subdirectory  sinew's sources inside the consumer's project
+#   shared        sinew as a shared library, installed and found; and the symbols it exports
+cmake_minimum_required(VERSION 3.25)
+set(prefix ${WORK}/prefix)
+set(consumer ${CMAKE_CURRENT_LIST_DIR}/consumer)
+# Quick to build; assertions on, where the library's own build has them off.
+set(flags -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_BUILD_TYPE=Debug -D "CMAKE_CXX_FLAGS_DEBUG=-O0")
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+# The prefix starts empty: a header that is no longer installed must not be found. Built objects are kept.
+file(REMOVE_RECURSE ${prefix})
+
+if(MODE STREQUAL "install")
+  run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+elseif(MODE STREQUAL "shared")
+  run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/sinew ${flags} -D BUILD_SHARED_LIBS=ON -D SINEW_BUILD_COMMAND=OFF)
+  run(${CMAKE_COMMAND} --build ${WORK}/sinew --parallel ${JOBS})
+  run(${CMAKE_COMMAND} --install ${WORK}/sinew --prefix ${prefix})
+endif()
+
+file(REMOVE ${WORK}/consumer/CMakeCache.txt)
+if(MODE STREQUAL "subdirectory")
+  run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/consumer ${flags} -D SINEW_SOURCE=${SOURCE})
+else()
+  run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/consumer ${flags} -D CMAKE_PREFIX_PATH=${prefix}
+      -D CMAKE_FIND_PACKAGE_NO_PACKAGE_REGISTRY=ON)
+  file(STRINGS ${WORK}/consumer/CMakeCache.txt found REGEX "^sinew_DIR:")
+  if(NOT found MATCHES "=${prefix}/")
+    message(FATAL_ERROR "the consumer found another sinew: ${found}")
+  endif()
+endif()
+run(${CMAKE_COMMAND} --build ${WORK}/consumer --parallel ${JOBS})
+run(${WORK}/consumer/consumer)
+
+if(EXISTS ${WORK}/consumer/consumer_avx512)
+  set(has_avx512 TRUE)
+  file(STRINGS /proc/cpuinfo cpu REGEX "^flags" LIMIT_COUNT 1)
+  foreach(feature avx512f avx512vl avx512bw avx512dq avx512cd)
+    if(NOT cpu MATCHES " ${feature}( |$)")
+      set(has_avx512 FALSE)
+    endif()
+  endforeach()
+  if(has_avx512)
+    run(${WORK}/consumer/consumer_avx512)
+    message(STATUS "the consumer ran with AVX-512 too")
+  else()
+    message(STATUS "the consumer with AVX-512 was built but not run: this processor has none")
+  endif()
+endif()
+
+if(MODE STREQUAL "install" AND EXISTS ${prefix}/bin/sinew)
+  run(${prefix}/bin/sinew --version)
+endif()
+
+if(MODE STREQUAL "shared")
+  file(GLOB_RECURSE library ${prefix}/*/libsinew.so)
+  execute_process(COMMAND nm --dynamic --defined-only ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^ \n]+\n" symbols "${symbols}")
+  set(kind "^_Z(T[ISTV]|GV|Z)*N?K?")  # functions, type information, tables, statics of functions
+  set(own 0)
+  set(foreign "")
+  foreach(symbol IN LISTS symbols)
+    if(symbol MATCHES "${kind}5sinew|^sinew_")
+      math(EXPR own "${own} + 1")
+    elseif(NOT symbol MATCHES "${kind}(S[tabsiod]|9__gnu_cxx)")  # std:: templates, which all libraries share
+      string(APPEND foreign "  ${symbol}")
+    endif()
+  endforeach()
+  if(foreign OR own EQUAL 0)
+    message(FATAL_ERROR "libsinew.so exports ${own} symbols of sinew, and these that it should not:\n${foreign}")
+  endif()
+  message(STATUS "libsinew.so exports ${own} symbols of sinew and no others")
+endif()

@@ -1,0 +1,41 @@
+# Checks of the tree itself: layers, equations, headers, packaging. Included by tests/CMakeLists.txt.
+find_package(Python3 COMPONENTS Interpreter REQUIRED)
+set(packaging_dir ${CMAKE_CURRENT_LIST_DIR}/packaging)
+set(tools_dir ${PROJECT_SOURCE_DIR}/tools)
+
+add_test(NAME tools.layers COMMAND Python3::Interpreter ${tools_dir}/layers.py)
+add_test(NAME tools.equations COMMAND Python3::Interpreter ${tools_dir}/equations.py --check)
+add_test(NAME tools.selftest COMMAND Python3::Interpreter ${packaging_dir}/tools_test.py)
+set_tests_properties(tools.layers tools.equations tools.selftest PROPERTIES LABELS tools TIMEOUT 60)
+
+# The kernel's headers need no standard library.
+find_program(CLANGXX NAMES clang++)
+set(kernel_compilers ${CMAKE_CXX_COMPILER})
+if(CLANGXX AND NOT CLANGXX STREQUAL CMAKE_CXX_COMPILER)
+  list(APPEND kernel_compilers ${CLANGXX})
+endif()
+add_test(NAME headers.kernel COMMAND ${CMAKE_COMMAND}
+  -D HEADERS=${PROJECT_SOURCE_DIR}/kernel/include "-D COMPILERS=${kernel_compilers}"
+  -D WORK=${CMAKE_CURRENT_BINARY_DIR}/kernel_headers -P ${packaging_dir}/kernel_headers.cmake)
+set_tests_properties(headers.kernel PROPERTIES LABELS tools TIMEOUT 120)
+
+# The rest builds a good deal, and what it finds does not depend on sanitizers.
+if(SINEW_SANITIZE)
+  return()
+endif()
+
+# Every public header compiles alone.
+set_target_properties(sinew PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+add_test(NAME headers.public COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR}
+  --target sinew_verify_interface_header_sets --parallel 2)
+set_tests_properties(headers.public PROPERTIES LABELS tools TIMEOUT 600 PROCESSORS 2)
+
+# A user's project, with sinew installed, as a subdirectory, and as a shared library.
+foreach(mode install subdirectory shared)
+  add_test(NAME packaging.${mode} COMMAND ${CMAKE_COMMAND}
+    -D MODE=${mode} -D SOURCE=${PROJECT_SOURCE_DIR} -D BUILD=${PROJECT_BINARY_DIR}
+    -D WORK=${CMAKE_CURRENT_BINARY_DIR}/packaging/${mode} -D COMPILER=${CMAKE_CXX_COMPILER} -D JOBS=2
+    -P ${packaging_dir}/packaging.cmake)
+  set_tests_properties(packaging.${mode} PROPERTIES LABELS packaging TIMEOUT 600 PROCESSORS 2)
+endforeach()
+set_tests_properties(packaging.install PROPERTIES PROCESSORS 1)
