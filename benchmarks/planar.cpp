@@ -44,6 +44,13 @@ double residual_as_printed(const Leg<Planar, Arc, TendonPair, Chord>& leg, const
          std::pow(2 / curvature * std::sin(length * curvature / 2), 2) / 2;
 }
 
+double residual_as_printed(const Leg<Planar, Arc, TendonPair, Strut>& leg, const Eigen::Vector2d& point, double l1) {
+  const double length = leg.link.length, curvature = (length - l1) / (leg.drive.offset * length);
+  const double u = (1 - std::cos(length * curvature)) / curvature, w = std::sin(length * curvature) / curvature;
+  const Eigen::Vector2d tip(leg.base.p[0] + leg.base.c * u - leg.base.s * w, leg.base.p[1] + leg.base.s * u + leg.base.c * w);
+  return ((point - tip).squaredNorm() - leg.closure.length * leg.closure.length) / 2;
+}
+
 /// All residuals of a robot at (pose, inputs).
 Eigen::Vector3d residuals_as_printed(const AnyRobot& any, const Unknowns& z) {
   return std::visit(
@@ -116,12 +123,17 @@ double bisected(const AnyRobot& robot, Unknowns z, int leg, double low, double h
   return 0.5 * (low + high);
 }
 
-void compare_inverse(const std::string& name) {
+/// @param warm whether the branch is told by the last pose's curvatures, as a controller does; else the smallest |κ|
+void compare_inverse(const std::string& name, bool warm) {
   auto walk = std::make_shared<Walk>(name);
+  const auto solve = [walk, warm](std::size_t i) {
+    const InverseOptions last{.curvature = walk->coordinates[walk->before(i)]};
+    return inverse(walk->robot, walk->poses[i], warm ? last : InverseOptions{}, walk->work).report.residual;
+  };
   double error = 0;
-  for (const PlanarPose& pose : walk->poses) error = std::max(error, inverse(walk->robot, pose, {}, walk->work).report.residual);
-  compare({name + " inverse", "bisection",
-           [walk] { benchmark::DoNotOptimize(inverse(walk->robot, walk->poses[walk->next()], {}, walk->work).inputs.data()); },
+  for (std::size_t i = 0; i < walk->poses.size(); ++i) error = std::max(error, solve(i));
+  compare({name + (warm ? " warm inverse" : " inverse"), "bisection",
+           [walk, solve] { benchmark::DoNotOptimize(solve(walk->next())); },
            [walk] {
              const std::size_t i = walk->next();
              const Unknowns z = unknowns(walk->poses[i], walk->inputs[i]);
@@ -169,9 +181,10 @@ void compare_forward(const std::string& name) {
 }  // namespace sinew::bench
 
 int main(int argc, char** argv) {
-  for (const std::string name : {"3-rfr"}) {
+  for (const std::string name : {"3-rfr", "3-frr"}) {
     sinew::bench::compare_jacobians(name);
-    sinew::bench::compare_inverse(name);
+    sinew::bench::compare_inverse(name, false);
+    sinew::bench::compare_inverse(name, true);
     sinew::bench::compare_forward(name);
   }
   return sinew::bench::main(argc, argv);

@@ -82,6 +82,27 @@ TYPED_TEST(EveryLeg, SolutionsCloseTheLegAndNoneIsMissed) {
   EXPECT_GT(solved, 200);
 }
 
+TYPED_TEST(EveryLeg, TheNearestSolutionIsTheNearestOfAll) {
+  for (int sample = 0; sample < 5000; ++sample) {
+    const auto leg = random_leg<TypeParam>(this->random);
+    const auto platform = Planar::frame(random_pose(this->random));
+    const double target = sample % 2 ? 0 : random_curvature(this->random, leg.link.length);
+    const int sign = sample % 3 - 1;
+    std::array<double, 8> roots;
+    const int count = leg.coordinates_at(platform, roots);
+    double best = 1e9;
+    for (int i = 0; i < count; ++i) {
+      const double q = roots[static_cast<std::size_t>(i)];
+      if (q * sign >= 0) best = std::min(best, std::abs(q - target));
+    }
+    const NearestRoot found = leg.coordinate_near(platform, target, sign);
+    ASSERT_EQ(found.count, best < 1e9) << sample;
+    if (found.count) {
+      EXPECT_NEAR(std::abs(found.root - target), best, 1e-6) << sample;  // double roots are known to 1e-8
+    }
+  }
+}
+
 TYPED_TEST(EveryLeg, BaseFrameCarriesTheTipToTheAnchor) {
   for (int sample = 0; sample < 500; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
@@ -106,8 +127,10 @@ TYPED_TEST(EveryLeg, RateRateBoundHolds) {
     const auto leg = random_leg<TypeParam>(this->random);
     const auto platform = Planar::frame(random_pose(this->random));
     const double q = 0.99 * random_curvature(this->random, leg.link.length), h = 1e-3;
-    const auto g_q = [&](double at) { return leg.template blocks<double>(platform, leg.tip(at)).g_q[0]; };
-    const double bound = leg.closure.rate_rate_bound(leg.template reach<double>(platform).norm(), leg.link.bounds());
+    const auto blocks_at = [&](double at) { return leg.template blocks<double>(platform, leg.tip(at)); };
+    const auto g_q = [&](double at) { return blocks_at(at).g_q[0]; };
+    const double pull = blocks_at(q).g_x.template head<2>().norm() + h * leg.link.bounds().rate;
+    const double bound = leg.closure.rate_rate_bound(pull, leg.link.bounds());
     EXPECT_LE(std::abs(g_q(q + h) - g_q(q - h)) / (2 * h), bound * (1 + 1e-6));
   }
 }

@@ -73,40 +73,46 @@ TEST(Newton, NanInTheProblemEndsHonestly) {
 
 TEST(Roots, FindsEveryRootOfAPolynomial) {
   const auto f = [](double x) {
-    return ValueAndRate{(x + 2) * (x + 1.999) * x * (x - 3), (x + 1.999) * x * (x - 3) + (x + 2) * x * (x - 3) +
-                                                                 (x + 2) * (x + 1.999) * (x - 3) + (x + 2) * (x + 1.999) * x};
+    return RootSample{(x + 2) * (x + 1.999) * x * (x - 3),
+                      (x + 1.999) * x * (x - 3) + (x + 2) * x * (x - 3) + (x + 2) * (x + 1.999) * (x - 3) +
+                          (x + 2) * (x + 1.999) * x,
+                      500};
   };
   std::array<double, 8> roots;
-  ASSERT_EQ(all_roots(f, {.low = -5, .high = 5, .rate_rate = 500, .value_noise = 1e-14}, roots), 4);
+  ASSERT_EQ(all_roots(f, {.low = -5, .high = 5, .stride = 1, .value_noise = 1e-14}, roots), 4);
   EXPECT_NEAR(roots[0], -2, 1e-12);
   EXPECT_NEAR(roots[1], -1.999, 1e-12);
   EXPECT_NEAR(roots[2], 0, 1e-14);
   EXPECT_NEAR(roots[3], 3, 1e-14);
+  EXPECT_NEAR(nearest_root(f, {.low = -5, .high = 5, .stride = 1, .value_noise = 1e-14}, 1.6).root, 3, 1e-14);
+  EXPECT_NEAR(nearest_root(f, {.low = -5, .high = 5, .stride = 1, .value_noise = 1e-14}, 1.4).root, 0, 1e-14);
+  EXPECT_NEAR(nearest_root(f, {.low = -5, .high = 5, .stride = 1, .value_noise = 1e-14}, 40).root, 3, 1e-14);
+  EXPECT_EQ(nearest_root(f, {.low = 1, .high = 2, .stride = 1, .value_noise = 1e-14}, 1.4).count, 0);
 }
 
 TEST(Roots, ADoubleRootIsWrittenOnceAndAMissIsNone) {
   const auto square = [](double shift) {
-    return [shift](double x) { return ValueAndRate{(x - 0.3) * (x - 0.3) + shift, 2 * (x - 0.3)}; };
+    return [shift](double x) { return RootSample{(x - 0.3) * (x - 0.3) + shift, 2 * (x - 0.3), 2}; };
   };
+  const RootsOptions options{.low = -1, .high = 1, .stride = 1, .value_noise = 1e-16};
   std::array<double, 8> roots;
-  ASSERT_EQ(all_roots(square(0), {.low = -1, .high = 1, .rate_rate = 2, .value_noise = 1e-16}, roots), 1);
+  ASSERT_EQ(all_roots(square(0), options, roots), 1);
   EXPECT_NEAR(roots[0], 0.3, 1e-7);
-  EXPECT_EQ(all_roots(square(1e-9), {.low = -1, .high = 1, .rate_rate = 2, .value_noise = 1e-16}, roots), 0);
-  EXPECT_EQ(all_roots(square(-1e-9), {.low = -1, .high = 1, .rate_rate = 2, .value_noise = 1e-16}, roots), 2);
+  EXPECT_EQ(all_roots(square(1e-9), options, roots), 0);
+  EXPECT_EQ(all_roots(square(-1e-9), options, roots), 2);
 }
 
-TEST(Roots, RootsAtTheCutsCountOnce) {
-  const auto f = [](double x) { return ValueAndRate{std::sin(x), std::cos(x)}; };
-  std::array<double, 8> roots;
-  const double end = 2.0001 * std::acos(-1.0);  // cut at 0, a root
-  EXPECT_EQ(all_roots(f, {.low = -end, .high = end, .rate_rate = 1, .value_noise = 1e-15}, roots), 5);
-  EXPECT_NEAR(roots[2], 0, 1e-15);
+TEST(Roots, NearestPrefersTheLargerOfTwoEquallyNear) {
+  const auto f = [](double x) { return RootSample{x * x - 0.25, 2 * x, 2}; };
+  const NearestRoot nearest = nearest_root(f, {.low = -1, .high = 1, .stride = 1, .value_noise = 1e-16}, 0);
+  EXPECT_EQ(nearest.root, 0.5);
 }
 
 TEST(Roots, NotANumberEndsAtOnce) {
-  const auto f = [](double) { return ValueAndRate{std::nan(""), 0}; };
+  const auto f = [](double) { return RootSample{std::nan(""), 0, 1}; };
   std::array<double, 8> roots;
-  EXPECT_EQ(all_roots(f, {.low = -1, .high = 1, .rate_rate = 1, .value_noise = 1e-16}, roots), -1);
+  EXPECT_EQ(all_roots(f, {.low = -1, .high = 1, .stride = 1, .value_noise = 1e-16}, roots), -1);
+  EXPECT_EQ(nearest_root(f, {.low = -1, .high = 1, .stride = 1, .value_noise = 1e-16}, 0).count, -1);
 }
 
 TEST(Report, IsOneLine) {

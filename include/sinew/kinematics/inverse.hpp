@@ -8,7 +8,7 @@ namespace sinew::inline v0 {
 
 /// Which of a leg's solutions is wanted; default the smallest |κ|, positive where both signs do.
 struct InverseOptions {
-  std::span<const int> bending = {};  ///< +1 or −1 a leg: only curvatures of this sign (0 has both)
+  std::span<const int> bending = {};  ///< +1 or −1 a leg: only curvatures of this sign (a straight link has both)
   Numbers curvature = {};             ///< κ a leg [1/m]: the nearest solution is taken
 };
 

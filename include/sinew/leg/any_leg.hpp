@@ -27,6 +27,9 @@ struct AnyLeg {
   int coordinates_at(const Frame& platform, std::span<double> roots) const {
     return std::visit([&](const auto& leg) { return leg.coordinates_at(platform, roots); }, kind);
   }
+  NearestRoot coordinate_near(const Frame& platform, double target, int sign) const {
+    return std::visit([&](const auto& leg) { return leg.coordinate_near(platform, target, sign); }, kind);
+  }
   void explain_unreachable(const Frame& platform, FixedText<240>& text) const {
     std::visit([&](const auto& leg) { leg.explain_unreachable(platform, text); }, kind);
   }

@@ -89,24 +89,32 @@ struct Leg {
     return {row.g, Space::line(to_world<S>(row.normal), b), row.g_q, error};
   }
 
-  /// All link coordinates in ascending order that close the leg at this platform pose; returns their number.
+  /// All link coordinates in ascending order that close the leg at this platform pose; returns their number, -1
+  /// where they cannot be told apart.
   int coordinates_at(const typename Space::template Frame<double>& platform, std::span<double> roots) const {
     const Point r = reach<double>(platform);
     if constexpr (requires { closure.coordinates_at(link, r, roots); }) {
       return closure.coordinates_at(link, r, roots);
     } else {
-      const TipBounds bounds = link.bounds();
-      const double size = r.norm() + bounds.reach;
-      const auto g = [&](double q) {
-        const DistanceRow<double, 2, 1> row = distance_row(r, closure.anchor(link.tip(q)));
-        return ValueAndRate{row.g, row.g_q[0]};
-      };
-      return all_roots(g,
-                       {.low = -bounds.domain,
-                        .high = bounds.domain,
-                        .rate_rate = closure.rate_rate_bound(r.norm(), bounds),
-                        .value_noise = 4 * std::numeric_limits<double>::epsilon() * size * size},
-                       roots);
+      return all_roots(closing_at(r), search_for(r, 0), roots);
+    }
+  }
+
+  /// The one of them that is nearest to a target; `sign` ±1 asks for coordinates of that sign (0 has both).
+  NearestRoot coordinate_near(const typename Space::template Frame<double>& platform, double target, int sign) const {
+    const Point r = reach<double>(platform);
+    if constexpr (requires(std::span<double> roots) { closure.coordinates_at(link, r, roots); }) {
+      std::array<double, 8> roots;
+      const int count = closure.coordinates_at(link, r, roots);
+      NearestRoot nearest{std::min(count, 0), 0};
+      for (int i = 0; i < count; ++i) {
+        const double q = roots[static_cast<std::size_t>(i)];
+        if (q * sign < 0 || (nearest.count > 0 && std::abs(q - target) > std::abs(nearest.root - target))) continue;
+        nearest = {1, q};
+      }
+      return nearest;
+    } else {
+      return nearest_root(closing_at(r), search_for(r, sign), target);
     }
   }
 
@@ -135,6 +143,25 @@ struct Leg {
   }
 
  private:
+  /// The residual as a function of the one link coordinate, the platform point held.
+  auto closing_at(const Point& r) const {
+    const TipBounds bounds = link.bounds();
+    return [this, r, bounds](double q) {
+      const auto row = distance_row(r, closure.anchor(link.tip(q)));
+      const double pull = row.normal.norm() + bounds.rate * stride(bounds);  // at most, within a stride
+      return RootSample{row.g, row.g_q[0], closure.rate_rate_bound(pull, bounds)};
+    };
+  }
+  static double stride(const TipBounds& bounds) { return bounds.domain / 8; }
+  RootsOptions search_for(const Point& r, int sign) const {
+    const TipBounds bounds = link.bounds();
+    const double size = r.norm() + bounds.reach;
+    return {.low = sign > 0 ? 0 : -bounds.domain,
+            .high = sign < 0 ? 0 : bounds.domain,
+            .stride = stride(bounds),
+            .value_noise = 2 * std::numeric_limits<double>::epsilon() * size * size};
+  }
+
   template <Scalar S>
   using Vector = Vec<S, Space::dimension>;
 

@@ -28,9 +28,9 @@ struct Strut {
     return {tip.position, tip.rate, S(0.5 * length * length), Mat<S, 1, Q>::Zero()};
   }
 
-  /// Bound on |∂²g/∂q²| for a link with one coordinate: (½|r − u|²)″ = |u′|² − (r − u)·u″.
-  double rate_rate_bound(double distance, const TipBounds& link) const {
-    return link.rate * link.rate + (distance + link.reach) * link.rate_rate;
+  /// Bound on |∂²g/∂q²| for a link with one coordinate while |r − u| ≤ pull: (½|r − u|²)″ = |u′|² − (r − u)·u″.
+  double rate_rate_bound(double pull, const TipBounds& link) const {
+    return link.rate * link.rate + pull * link.rate_rate;
   }
 
   void explain_unreachable(double distance, double reach, FixedText<240>& text) const {
