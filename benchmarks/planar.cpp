@@ -1,5 +1,6 @@
 /// Planar tendon-driven robots: J + K, inverse and warm forward kinematics. Run: build/dev/bin/bench_planar
-/// The baselines are what one writes first, straight from the paper: residuals only, differences for derivatives.
+/// The baselines are what one writes first, straight from the paper: residuals only, differences for
+/// derivatives.
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -38,16 +39,20 @@ struct Walk {
 };
 
 /// Closure residuals as the paper writes them: (1) with (7), (21) with (25); undefined at κ = 0.
-double residual_as_printed(const Leg<Planar, Arc, TendonPair, Chord>& leg, const Eigen::Vector2d& point, double l1) {
+double residual_as_printed(const Leg<Planar, Arc, TendonPair, Chord>& leg, const Eigen::Vector2d& point,
+                           double l1) {
   const double length = leg.link.length, curvature = (length - l1) / (leg.drive.offset * length);
   return (point - Eigen::Vector2d(leg.base.p)).squaredNorm() / 2 -
          std::pow(2 / curvature * std::sin(length * curvature / 2), 2) / 2;
 }
 
-double residual_as_printed(const Leg<Planar, Arc, TendonPair, Strut>& leg, const Eigen::Vector2d& point, double l1) {
+double residual_as_printed(const Leg<Planar, Arc, TendonPair, Strut>& leg, const Eigen::Vector2d& point,
+                           double l1) {
   const double length = leg.link.length, curvature = (length - l1) / (leg.drive.offset * length);
-  const double u = (1 - std::cos(length * curvature)) / curvature, w = std::sin(length * curvature) / curvature;
-  const Eigen::Vector2d tip(leg.base.p[0] + leg.base.c * u - leg.base.s * w, leg.base.p[1] + leg.base.s * u + leg.base.c * w);
+  const double u = (1 - std::cos(length * curvature)) / curvature,
+               w = std::sin(length * curvature) / curvature;
+  const Eigen::Vector2d tip(leg.base.p[0] + leg.base.c * u - leg.base.s * w,
+                            leg.base.p[1] + leg.base.s * u + leg.base.c * w);
   return ((point - tip).squaredNorm() - leg.closure.length * leg.closure.length) / 2;
 }
 
@@ -61,7 +66,8 @@ Eigen::Vector3d residuals_as_printed(const AnyRobot& any, const Unknowns& z) {
           for (int i = 0; i < 3; ++i) {
             const LegT& leg = robot.legs[static_cast<std::size_t>(i)];
             const auto& b = leg.platform_point;
-            g[i] = residual_as_printed(leg, {z[0] + c * b[0] - s * b[1], z[1] + s * b[0] + c * b[1]}, z[3 + i]);
+            g[i] =
+                residual_as_printed(leg, {z[0] + c * b[0] - s * b[1], z[1] + s * b[0] + c * b[1]}, z[3 + i]);
           }
         }
         return g;
@@ -94,13 +100,16 @@ void compare_jacobians(const std::string& name) {
   for (std::size_t i = 0; i < walk->poses.size(); ++i) {
     const Reduced reduced = assemble(walk->robot, walk->poses[i], walk->coordinates[i], walk->work);
     const auto fd = differences(walk->robot, unknowns(walk->poses[i], walk->inputs[i]), 6);
-    gap = std::max(gap, (fd.leftCols<3>() - reduced.J).cwiseAbs().maxCoeff() / reduced.J.cwiseAbs().maxCoeff());
-    gap = std::max(gap, (fd.rightCols<3>() + reduced.K).cwiseAbs().maxCoeff() / reduced.K.cwiseAbs().maxCoeff());
+    gap =
+        std::max(gap, (fd.leftCols<3>() - reduced.J).cwiseAbs().maxCoeff() / reduced.J.cwiseAbs().maxCoeff());
+    gap = std::max(gap,
+                   (fd.rightCols<3>() + reduced.K).cwiseAbs().maxCoeff() / reduced.K.cwiseAbs().maxCoeff());
   }
   compare({name + " J + K", "finite-difference Jacobian",
            [walk] {
              const std::size_t i = walk->next();
-             benchmark::DoNotOptimize(assemble(walk->robot, walk->poses[i], walk->coordinates[i], walk->work).closure_error);
+             benchmark::DoNotOptimize(
+                 assemble(walk->robot, walk->poses[i], walk->coordinates[i], walk->work).closure_error);
            },
            [walk] {
              const std::size_t i = walk->next();
@@ -123,7 +132,8 @@ double bisected(const AnyRobot& robot, Unknowns z, int leg, double low, double h
   return 0.5 * (low + high);
 }
 
-/// @param warm whether the branch is told by the last pose's curvatures, as a controller does; else the smallest |κ|
+/// @param warm whether the branch is told by the last pose's curvatures, as a controller does; else the
+/// smallest |κ|
 void compare_inverse(const std::string& name, bool warm) {
   auto walk = std::make_shared<Walk>(name);
   const auto solve = [walk, warm](std::size_t i) {
@@ -158,7 +168,8 @@ void compare_forward(const std::string& name) {
   auto walk = std::make_shared<Walk>(name);
   double error = 0, iterations = 0;
   for (std::size_t i = 0; i < walk->poses.size(); ++i) {
-    const Forward answer = forward(walk->robot, walk->inputs[i], {.start = walk->poses[walk->before(i)]}, walk->work);
+    const Forward answer =
+        forward(walk->robot, walk->inputs[i], {.start = walk->poses[walk->before(i)]}, walk->work);
     const auto& pose = std::get<PlanarPose>(answer.pose);
     error = std::max({error, std::abs(pose.x - walk->poses[i].x), std::abs(pose.y - walk->poses[i].y)});
     iterations += answer.report.iterations;
@@ -167,14 +178,16 @@ void compare_forward(const std::string& name) {
            [walk] {
              const std::size_t i = walk->next();
              benchmark::DoNotOptimize(
-                 forward(walk->robot, walk->inputs[i], {.start = walk->poses[walk->before(i)]}, walk->work).report.residual);
+                 forward(walk->robot, walk->inputs[i], {.start = walk->poses[walk->before(i)]}, walk->work)
+                     .report.residual);
            },
            [walk] {
              const std::size_t i = walk->next();
              benchmark::DoNotOptimize(
                  newton_on_differences(walk->robot, unknowns(walk->poses[walk->before(i)], walk->inputs[i])));
            },
-           fmt::format("{:.2f} iterations, pose error {:.0e} m", iterations / static_cast<double>(walk->poses.size()), error)});
+           fmt::format("{:.2f} iterations, pose error {:.0e} m",
+                       iterations / static_cast<double>(walk->poses.size()), error)});
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 /// @file report.hpp
-/// Benchmarks as ratios: every row beside its named baseline of the same run, with the accuracy reached. Machines
-/// are noisy; medians of repetitions are shown and the ratio is what to compare between machines.
+/// Benchmarks as ratios: every row beside its named baseline of the same run, with the accuracy reached.
+/// Machines are noisy; medians of repetitions are shown and the ratio is what to compare between machines.
 #pragma once
 #include <benchmark/benchmark.h>
 
@@ -15,9 +15,9 @@
 namespace sinew::bench {
 
 struct Row {
-  std::string what, baseline;           ///< names; the baseline says what it is
+  std::string what, baseline;               ///< names; the baseline says what it is
   std::function<void()> run, run_baseline;  ///< one operation each
-  std::string accuracy;                 ///< what was reached, in words and numbers
+  std::string accuracy;                     ///< what was reached, in words and numbers
 };
 
 inline std::vector<Row>& rows() {
@@ -55,9 +55,13 @@ inline double slowest_of_1000(const std::function<void()>& run) {
 inline int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   const auto add = [](const std::string& name, const std::function<void()>& run) {
-    benchmark::RegisterBenchmark(name.c_str(), [&run](benchmark::State& state) {
-      for (auto _ : state) run();
-    })->MinTime(0.05)->Repetitions(9)->ReportAggregatesOnly(true);
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [&run](benchmark::State& state) {
+                                   for (auto _ : state) run();
+                                 })
+        ->MinTime(0.05)
+        ->Repetitions(9)
+        ->ReportAggregatesOnly(true);
   };
   for (const Row& row : rows()) {
     add(row.what, row.run);
@@ -65,13 +69,14 @@ inline int main(int argc, char** argv) {
   }
   Medians medians;
   benchmark::RunSpecifiedBenchmarks(&medians);
-  std::printf("%-44s %10s %10s %12s %7s  %s\n", "operation", "median[ns]", "p99.9[ns]", "baseline[ns]", "ratio",
-              "baseline; accuracy");
+  std::printf("%-44s %10s %10s %12s %7s  %s\n", "operation", "median[ns]", "p99.9[ns]", "baseline[ns]",
+              "ratio", "baseline; accuracy");
   for (const Row& row : rows()) {
-    const double ours = medians.nanoseconds[row.what], theirs = medians.nanoseconds[row.what + " / " + row.baseline];
+    const double ours = medians.nanoseconds[row.what],
+                 theirs = medians.nanoseconds[row.what + " / " + row.baseline];
     if (ours == 0) continue;  // filtered out
-    std::printf("%-44s %10.0f %10.0f %12.0f %7.1f  %s; %s\n", row.what.c_str(), ours, slowest_of_1000(row.run), theirs,
-                theirs / ours, row.baseline.c_str(), row.accuracy.c_str());
+    std::printf("%-44s %10.0f %10.0f %12.0f %7.1f  %s; %s\n", row.what.c_str(), ours,
+                slowest_of_1000(row.run), theirs, theirs / ours, row.baseline.c_str(), row.accuracy.c_str());
   }
   return 0;
 }

@@ -28,7 +28,8 @@ void add_leg(PlanarShape& shape, const LegT& leg, const SE2<double>& platform, d
 }
 
 template <class LegT>
-PlanarShape shape_of(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates, int samples) {
+PlanarShape shape_of(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates,
+                     int samples) {
   PlanarShape shape;
   const auto platform = Planar::frame(in_space<Planar>(pose));
   for (std::size_t i = 0; i < robot.legs.size(); ++i)

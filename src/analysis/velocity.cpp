@@ -32,8 +32,8 @@ double block_norm(const MatrixView& U, Eigen::Index first, Eigen::Index count) {
   return sigma[0];
 }
 
-/// Dependent lines of the plane, told by the twists they leave free: a rotation about a point all of them meet, a
-/// translation all of them are perpendicular to, or both where they are one line.
+/// Dependent lines of the plane, told by the twists they leave free: a rotation about a point all of them
+/// meet, a translation all of them are perpendicular to, or both where they are one line.
 void classify(TypeTwo& type, const Svd& decomposition, const PlanarPose& pose, double radius) {
   if (type.rank < 2) {
     type.kind = LineClass::coincident;
@@ -50,8 +50,8 @@ void classify(TypeTwo& type, const Svd& decomposition, const PlanarPose& pose, d
 }
 
 template <class LegT>
-TypeTwo type_two(const ParallelRobot<LegT>& robot, const AnyPose& pose, const MatrixView& J, double& homogeneous,
-                 Workspace& work) {
+TypeTwo type_two(const ParallelRobot<LegT>& robot, const AnyPose& pose, const MatrixView& J,
+                 double& homogeneous, Workspace& work) {
   using Space = typename LegT::Space;
   const MatrixView lines = homogenised<Space::dimension>(J, robot.platform_radius, work.scratch);
   std::array<double, max_matrix_size> sigma;
@@ -65,9 +65,11 @@ TypeTwo type_two(const ParallelRobot<LegT>& robot, const AnyPose& pose, const Ma
   return type;
 }
 
-/// Legs whose tip velocity is perpendicular to the line they pull along, or that have no line (folded on the spot).
+/// Legs whose tip velocity is perpendicular to the line they pull along, or that have no line (folded on the
+/// spot).
 template <class LegT>
-std::size_t type_one(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
+std::size_t type_one(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates,
+                     Workspace& work) {
   using Space = typename LegT::Space;
   const auto platform = Space::frame(in_space<Space>(pose));
   std::size_t count = 0;
@@ -87,10 +89,14 @@ std::size_t type_one(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numb
 
 std::string_view to_string(LineClass kind) noexcept {
   switch (kind) {
-    case LineClass::regular: return "regular";
-    case LineClass::concurrent: return "concurrent";
-    case LineClass::parallel: return "parallel";
-    case LineClass::coincident: return "coincident";
+    case LineClass::regular:
+      return "regular";
+    case LineClass::concurrent:
+      return "concurrent";
+    case LineClass::parallel:
+      return "parallel";
+    case LineClass::coincident:
+      return "coincident";
   }
   return "unknown";
 }
@@ -113,11 +119,10 @@ Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinate
     return answer;
   }
   answer.type_1 = std::span(work.type_1)
-                      .first(std::visit([&](const auto& r) { return type_one(r, pose, coordinates, work); }, robot.model));
+                      .first(std::visit([&](const auto& r) { return type_one(r, pose, coordinates, work); },
+                                        robot.model));
   answer.type_2 = std::visit(
-      [&](const auto& r) {
-        return type_two(r, pose, reduced.J, answer.indices.condition_homogenised, work);
-      },
+      [&](const auto& r) { return type_two(r, pose, reduced.J, answer.indices.condition_homogenised, work); },
       robot.model);
 
   std::array<double, max_matrix_size> sigma;
@@ -140,7 +145,8 @@ Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinate
 bool rates(const Velocity& velocity, Numbers twist, Workspace& work) {
   if (!velocity.type_1.empty()) return false;
   const Eigen::Map<const Eigen::VectorXd> t(twist.data(), static_cast<Eigen::Index>(twist.size()));
-  for (Eigen::Index i = 0; i < velocity.J.rows(); ++i) work.s[static_cast<std::size_t>(i)] = velocity.J.row(i).dot(t);
+  for (Eigen::Index i = 0; i < velocity.J.rows(); ++i)
+    work.s[static_cast<std::size_t>(i)] = velocity.J.row(i).dot(t);
   least_norm(velocity.K, work.s, work.rates);
   return true;
 }

@@ -32,14 +32,16 @@ Ring read_ring(Reader& map, int count) {
     ring.angles = all->quantities(Dimension::angle, {}, static_cast<std::size_t>(count));
     if (map.has("angle")) map.fail("ambiguous", "gives both angle and angles; keep one");
   } else {
-    const double first = map.required("angle", "of the first leg; the others are spaced evenly").quantity(Dimension::angle);
+    const double first =
+        map.required("angle", "of the first leg; the others are spaced evenly").quantity(Dimension::angle);
     for (int i = 0; i < count; ++i) ring.angles.push_back(first + i * 2 * std::numbers::pi / count);
   }
   return ring;
 }
 
 Node polar(const Ring& ring, std::size_t i, const Node& like) {
-  return map_of(like, {{"radius", placed(make_node(ring.radius), like)}, {"angle", placed(make_node(ring.angles[i]), like)}});
+  return map_of(like, {{"radius", placed(make_node(ring.radius), like)},
+                       {"angle", placed(make_node(ring.angles[i]), like)}});
 }
 
 }  // namespace
@@ -69,10 +71,11 @@ Node legs_of(const Architecture& architecture, Reader& robot) {
     std::vector<std::pair<std::string, Node>> at{{"point", polar(feet, i, foot)}};
     if (direction)  // that of the first leg; the others are turned with their base points
       at.emplace_back("direction", placed(make_node(*direction + feet.angles[i] - feet.angles[0]), foot));
-    list.items.push_back(map_of(name, {{"base", map_of(foot, std::move(at))},
-                                       {"link", map_of(name, {{"type", placed(make_node(architecture.link), name)}})},
-                                       {"closure", map_of(name, {{"type", placed(make_node(architecture.closure), name)}})},
-                                       {"platform_point", polar(heads, i, head)}}));
+    list.items.push_back(
+        map_of(name, {{"base", map_of(foot, std::move(at))},
+                      {"link", map_of(name, {{"type", placed(make_node(architecture.link), name)}})},
+                      {"closure", map_of(name, {{"type", placed(make_node(architecture.closure), name)}})},
+                      {"platform_point", polar(heads, i, head)}}));
   }
   return list;
 }

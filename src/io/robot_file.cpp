@@ -32,13 +32,17 @@ SE2<double> read_base(Reader base) {
   double direction = std::numbers::pi / 2;
   if constexpr (Closure::base_turns) {
     if (base.has("direction"))
-      base.fail("no_effect", fmt::format("direction has no effect: a {} closure leaves the base joint free to turn; "
-                                         "remove it", Closure::name));
+      base.fail("no_effect",
+                fmt::format("direction has no effect: a {} closure leaves the base joint free to turn; "
+                            "remove it",
+                            Closure::name));
   } else {
-    direction = base.required("direction", "absolute angle of the backbone at its base").quantity(Dimension::angle);
+    direction =
+        base.required("direction", "absolute angle of the backbone at its base").quantity(Dimension::angle);
   }
   base.close();
-  return SE2<double>::from(point.x(), point.y(), direction - std::numbers::pi / 2);  // the tangent is the frame's +y
+  return SE2<double>::from(point.x(), point.y(),
+                           direction - std::numbers::pi / 2);  // the tangent is the frame's +y
 }
 
 Backbone read_backbone(Reader& link) {
@@ -121,11 +125,15 @@ Legs read_legs(Reader& robot) {
 void check_legs(const Reader& legs, const Legs& read) {
   const std::size_t count = read.legs.size();
   if (count < Planar::dof)
-    legs.fail("too_few_legs", fmt::format("a planar platform has 3 freedoms and each leg holds one, but {}; list at "
-                                          "least 3.", count == 0 ? "there is none"
-                                                      : count == 1 ? "there is 1 leg" : "there are 2 legs"));
+    legs.fail("too_few_legs",
+              fmt::format("a planar platform has 3 freedoms and each leg holds one, but {}; list at "
+                          "least 3.",
+                          count == 0   ? "there is none"
+                          : count == 1 ? "there is 1 leg"
+                                       : "there are 2 legs"));
   if (count > static_cast<std::size_t>(max_rows))
-    legs.fail("too_many_legs", fmt::format("there are {} legs; this build carries at most {}.", count, max_rows));
+    legs.fail("too_many_legs",
+              fmt::format("there are {} legs; this build carries at most {}.", count, max_rows));
 }
 
 PlanarPose read_home(Reader& platform) {
@@ -163,12 +171,14 @@ AnyRobot read_listed(Reader& robot) {
   PlanarPose home;
   if (auto platform = robot.optional("platform")) {
     home = read_home(*platform);
-    if (const auto given = platform->optional("radius")) radius = given->quantity(Dimension::length, Range::positive());
+    if (const auto given = platform->optional("radius"))
+      radius = given->quantity(Dimension::length, Range::positive());
     platform->close();
   }
   robot.close();
   if (read.legs.empty()) return result;
-  if (!(radius > 0)) robot.fail("collapsed_platform", "all platform points coincide with the reference point; spread them");
+  if (!(radius > 0))
+    robot.fail("collapsed_platform", "all platform points coincide with the reference point; spread them");
   result.model = make_robot(read.legs, read.inputs, home, radius);
   return result;
 }
@@ -231,7 +241,8 @@ Expected<AnyRobot> read_robot(const Document& document) {
   if (!longer) return tl::unexpected(longer.error());
   const Document whole = listed(*longer).value();
   Errors errors;
-  Reader robot = Reader(*longer, errors).over(whole.root);  // a shared default is named as such, and told once
+  Reader robot =
+      Reader(*longer, errors).over(whole.root);  // a shared default is named as such, and told once
   check_head(robot);
   if (!errors.empty() && !robot.is(Node::Kind::map)) return tl::unexpected(errors);
   AnyRobot result = read_listed(robot);
@@ -251,7 +262,8 @@ Expected<Document> read_robot_file(const std::string& path_or_name) {
   auto document = read_file(path_or_name);
   if (document || path_or_name.find_first_of("./") != std::string::npos) return document;
   Errors errors = std::move(document.error());  // looks like a name, not a file
-  errors.front().message += fmt::format(" Robots that come with sinew: {}.", fmt::join(builtin_robot_names(), ", "));
+  errors.front().message +=
+      fmt::format(" Robots that come with sinew: {}.", fmt::join(builtin_robot_names(), ", "));
   return tl::unexpected(std::move(errors));
 }
 

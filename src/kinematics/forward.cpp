@@ -8,8 +8,8 @@
 namespace sinew::inline v0 {
 namespace {
 
-/// The closures as a function of the platform pose. The links are shaped by the inputs alone, so their tips are
-/// computed once.
+/// The closures as a function of the platform pose. The links are shaped by the inputs alone, so their tips
+/// are computed once.
 template <class LegT>
 class Closing {
  public:
@@ -21,7 +21,8 @@ class Closing {
   Closing(const ParallelRobot<LegT>& robot, Numbers coordinates) : robot_(robot), coordinates_(coordinates) {
     for (std::size_t i = 0; i < robot.legs.size(); ++i) {
       tips_[i] = robot.legs[i].tip(coordinates[i]);
-      size_ = std::max(size_, with_leg(robot.legs[i], [](const auto& leg) { return leg.link.bounds().reach; }));
+      size_ =
+          std::max(size_, with_leg(robot.legs[i], [](const auto& leg) { return leg.link.bounds().reach; }));
     }
   }
 

@@ -79,7 +79,8 @@ Report solve_wanted(const ParallelRobot<LegT>& robot, const AnyPose& pose, const
 }
 
 Report solve(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options, Workspace& work) {
-  Report report = std::visit([&](const auto& r) { return solve_wanted(r, pose, options, work); }, robot.model);
+  Report report =
+      std::visit([&](const auto& r) { return solve_wanted(r, pose, options, work); }, robot.model);
   if (report.ok()) report = inputs_of(robot, work.coordinates, work);
   if (report.ok()) report.residual = assemble(robot, pose, work.coordinates, work).closure_error;
   return report;

@@ -28,7 +28,8 @@ Branch read_branch(Context& context) {
   }
   if (const auto curvature = context.query.optional("curvature")) {
     branch.curvature = curvature->quantities(Dimension::curvature, {}, legs);
-    if (!branch.bending.empty()) curvature->fail("ambiguous", "bending and curvature both choose a branch; keep one");
+    if (!branch.bending.empty())
+      curvature->fail("ambiguous", "bending and curvature both choose a branch; keep one");
   }
   return branch;
 }
@@ -41,12 +42,14 @@ Configuration read_configuration(Context& context) {
   Configuration configuration;
   configuration.branch = read_branch(context);
   if (auto pose = context.query.optional("pose")) configuration.pose = read_pose(std::move(*pose));
-  if (const auto inputs = context.query.optional("inputs")) configuration.inputs = read_inputs(context, *inputs);
+  if (const auto inputs = context.query.optional("inputs"))
+    configuration.inputs = read_inputs(context, *inputs);
   if (auto start = context.query.optional("start")) configuration.start = read_pose(std::move(*start));
   if (!configuration.pose && !configuration.inputs)
     context.query.fail("missing_key", "give a pose, or inputs, or both");
   if (configuration.pose && configuration.start)
-    context.query.fail("ambiguous", "start is where a search for the pose begins; the pose is given, remove it");
+    context.query.fail("ambiguous",
+                       "start is where a search for the pose begins; the pose is given, remove it");
   return configuration;
 }
 
@@ -57,8 +60,9 @@ Solved solve_configuration(Context& context, const Configuration& given) {
     return {solved.report, *given.pose, {solved.coordinates.begin(), solved.coordinates.end()}};
   }
   if (!given.pose) {
-    const Forward solved = forward(context.robot, *given.inputs,
-                                   {.start = given.start, .max_iterations = context.max_iterations.value_or(100)}, work);
+    const Forward solved =
+        forward(context.robot, *given.inputs,
+                {.start = given.start, .max_iterations = context.max_iterations.value_or(100)}, work);
     return {solved.report, solved.pose, {solved.coordinates.begin(), solved.coordinates.end()}};
   }
   Report report = command(context.robot, *given.inputs, work);
@@ -67,9 +71,11 @@ Solved solve_configuration(Context& context, const Configuration& given) {
   const Reduced reduced = assemble(context.robot, solved.pose, solved.coordinates, work);
   solved.report.residual = reduced.closure_error;
   if (reduced.closure_error > 1e-9)
-    context.query.fail("not_closed",
-                       fmt::format("pose and inputs contradict each other: legs[{}] misses by {:.3g} m; leave one of them "
-                                   "out to have it solved", reduced.worst_leg, reduced.closure_error));
+    context.query.fail(
+        "not_closed",
+        fmt::format("pose and inputs contradict each other: legs[{}] misses by {:.3g} m; leave one of them "
+                    "out to have it solved",
+                    reduced.worst_leg, reduced.closure_error));
   return solved;
 }
 
@@ -90,13 +96,15 @@ Json to_json(std::span<const double> values) {
 Json to_json(const MatrixView& matrix) {
   Json rows = Json::array();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    rows.push_back(to_json(std::span(matrix.data() + i * matrix.cols(), static_cast<std::size_t>(matrix.cols()))));
+    rows.push_back(
+        to_json(std::span(matrix.data() + i * matrix.cols(), static_cast<std::size_t>(matrix.cols()))));
   return rows;
 }
 
 Json to_json(const Vec2<double>& point) { return {point.x(), point.y()}; }
 
-Json legs_json(const AnyRobot& robot, const AnyPose& pose, std::span<const double> coordinates, Workspace& work) {
+Json legs_json(const AnyRobot& robot, const AnyPose& pose, std::span<const double> coordinates,
+               Workspace& work) {
   Json legs = Json::array();
   for (const LegState& leg : leg_states(robot, pose, coordinates, work))
     legs.push_back({{"curvature", leg.curvature},

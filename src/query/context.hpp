@@ -59,14 +59,16 @@ struct Solved {
 };
 
 Configuration read_configuration(Context& context);
-/// Solves what is missing. An error (with `context.errors` filled) where pose and inputs contradict each other.
+/// Solves what is missing. An error (with `context.errors` filled) where pose and inputs contradict each
+/// other.
 Solved solve_configuration(Context& context, const Configuration& configuration);
 
 Json to_json(const AnyPose& pose);
 Json to_json(std::span<const double> values);
 Json to_json(const MatrixView& matrix);
 Json to_json(const Vec2<double>& point);
-Json legs_json(const AnyRobot& robot, const AnyPose& pose, std::span<const double> coordinates, Workspace& work);
+Json legs_json(const AnyRobot& robot, const AnyPose& pose, std::span<const double> coordinates,
+               Workspace& work);
 
 void answer_forward(Context& context);
 void answer_inverse(Context& context);

@@ -13,7 +13,8 @@ struct FieldWriter {
     object[std::string(key)] = value;
   }
   template <class T>
-  void operator()(std::string_view key, const std::optional<T>& value, Dimension, Range, std::string_view) const {
+  void operator()(std::string_view key, const std::optional<T>& value, Dimension, Range,
+                  std::string_view) const {
     if (value) object[std::string(key)] = *value;
   }
 };
@@ -55,7 +56,8 @@ void answer_describe(Context& context) {
         radius = robot.platform_radius;
         for (std::size_t i = 0; i < robot.legs.size(); ++i) {
           with_leg(robot.legs[i], [&](const auto& leg) {
-            if (robot.input_of_leg[i] == static_cast<int>(inputs.size())) inputs.push_back(input_json(leg, i));
+            if (robot.input_of_leg[i] == static_cast<int>(inputs.size()))
+              inputs.push_back(input_json(leg, i));
             legs.push_back(leg_json(leg));
             legs.back()["input"] = robot.input_of_leg[i];
           });
@@ -67,7 +69,8 @@ void answer_describe(Context& context) {
   answer["kind"] = "parallel";
   answer["space"] = "planar";
   answer["inputs"] = inputs;
-  answer["pose"] = Json::array({{{"name", "x"}, {"unit", "m"}}, {{"name", "y"}, {"unit", "m"}}, {{"name", "phi"}, {"unit", "rad"}}});
+  answer["pose"] = Json::array(
+      {{{"name", "x"}, {"unit", "m"}}, {{"name", "y"}, {"unit", "m"}}, {{"name", "phi"}, {"unit", "rad"}}});
   answer["home"] = to_json(home(context.robot));
   answer["platform"] = {{"radius", radius}};
   answer["legs"] = legs;

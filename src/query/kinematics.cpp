@@ -73,7 +73,8 @@ void answer_forward(Context& context) {
   if (auto start = context.query.optional("start")) options.start = read_pose(std::move(*start));
   if (const auto all = context.query.optional("all"))
     if (all->boolean())
-      all->fail("not_available", "all assembly modes are not available in this version; give a start for each mode");
+      all->fail("not_available",
+                "all assembly modes are not available in this version; give a start for each mode");
   refuse_if_asked(context, "wrench", "a constant-curvature model bears no load; leave the wrench out");
   refuse_if_asked(context, "until", "a constant-curvature model bears no load; leave until out");
   if (!context.ready()) return;
@@ -114,7 +115,8 @@ void answer_velocity(Context& context) {
   std::vector<double> twist;
   if (const auto asked = context.query.optional("twist"))
     twist = asked->quantities(Dimension::number, {}, static_cast<std::size_t>(dof(context.robot)));
-  refuse_if_asked(context, "angles", "a constant-curvature model has no joint angles; give inputs or a branch");
+  refuse_if_asked(context, "angles",
+                  "a constant-curvature model has no joint angles; give inputs or a branch");
   if (!context.ready()) return;
   const Solved at = solve_configuration(context, given);
   if (!context.errors.empty()) return;

@@ -125,8 +125,10 @@ std::string Session::answer(std::string_view text) {
   if (!id.is_null()) answer["id"] = id;
   answer["query"] = kind.name;
   answer["robot"] = (other ? *other : state_->robot).name;
-  Context context{other ? *other : state_->robot, other_work ? *other_work : state_->work, query, errors, answer, {}};
-  if (const auto limit = query.optional("max_iterations")) context.max_iterations = limit->integer(Range::between(0, 100000));
+  Context context{
+      other ? *other : state_->robot, other_work ? *other_work : state_->work, query, errors, answer, {}};
+  if (const auto limit = query.optional("max_iterations"))
+    context.max_iterations = limit->integer(Range::between(0, 100000));
   kind.handler(context);
   if (!errors.empty()) return error_text(id, errors);
   return answer.dump(-1, ' ', false, Json::error_handler_t::replace);

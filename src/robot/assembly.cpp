@@ -11,11 +11,13 @@ namespace {
 std::size_t at(int row, int column, int columns) { return static_cast<std::size_t>(row * columns + column); }
 
 template <class LegT>
-Reduced assemble_robot(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
+Reduced assemble_robot(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates,
+                       Workspace& work) {
   using Space = typename LegT::Space;
   const auto platform = Space::frame(in_space<Space>(pose));
   const int rows = robot.row_count(), inputs = static_cast<int>(work.inputs.size());
-  Reduced reduced{MatrixView(work.J.data(), rows, Space::dof), MatrixView(work.K.data(), rows, inputs), work.s, 0, 0};
+  Reduced reduced{MatrixView(work.J.data(), rows, Space::dof), MatrixView(work.K.data(), rows, inputs),
+                  work.s, 0, 0};
   std::fill(work.K.begin(), work.K.end(), 0.0);
   for (int i = 0; i < rows; ++i) {
     const auto index = static_cast<std::size_t>(i);
@@ -25,7 +27,8 @@ Reduced assemble_robot(const ParallelRobot<LegT>& robot, const AnyPose& pose, Nu
       for (int j = 0; j < Space::dof; ++j) work.J[at(i, j, Space::dof)] = blocks.g_x[j];
       work.K[at(i, robot.input_of_leg[index], inputs)] = -blocks.g_q[0] * leg.drive.rate(leg.link);
       work.s[index] = -blocks.g;
-      const double error = std::isfinite(blocks.error) ? std::abs(blocks.error) : std::numeric_limits<double>::infinity();
+      const double error =
+          std::isfinite(blocks.error) ? std::abs(blocks.error) : std::numeric_limits<double>::infinity();
       if (error > reduced.closure_error) {
         reduced.closure_error = error;
         reduced.worst_leg = i;
@@ -80,9 +83,11 @@ Report inputs_of_robot(const ParallelRobot<LegT>& robot, Numbers coordinates, Wo
   SINEW_EXPECTS(coordinates.size() == robot.legs.size());
   std::fill(work.inputs.begin(), work.inputs.end(), std::nan(""));
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    const double a = with_leg(robot.legs[i], [&](const auto& leg) { return leg.drive.input(leg.link, coordinates[i]); });
+    const double a =
+        with_leg(robot.legs[i], [&](const auto& leg) { return leg.drive.input(leg.link, coordinates[i]); });
     double& input = work.inputs[static_cast<std::size_t>(robot.input_of_leg[i])];
-    if (std::isnan(input)) input = a;
+    if (std::isnan(input))
+      input = a;
     else if (std::abs(input - a) > 1e-12 * (1 + std::abs(a)))
       return refusal(Status::unreachable, "legs", static_cast<int>(i),
                      " is tied to another leg but needs a different input at this pose");
@@ -91,10 +96,12 @@ Report inputs_of_robot(const ParallelRobot<LegT>& robot, Numbers coordinates, Wo
 }
 
 template <class LegT>
-void states_of_robot(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
+void states_of_robot(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates,
+                     Workspace& work) {
   using Space = typename LegT::Space;
   const auto platform = Space::frame(in_space<Space>(pose));
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) work.legs[i] = robot.legs[i].state(platform, coordinates[i]);
+  for (std::size_t i = 0; i < robot.legs.size(); ++i)
+    work.legs[i] = robot.legs[i].state(platform, coordinates[i]);
 }
 
 }  // namespace

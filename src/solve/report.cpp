@@ -6,14 +6,22 @@ namespace sinew::inline v0 {
 
 std::string_view to_string(Status status) noexcept {
   switch (status) {
-    case Status::unreachable: return "unreachable";
-    case Status::left_domain: return "left_domain";
-    case Status::slack: return "slack";
-    case Status::singular: return "singular";
-    case Status::stalled: return "stalled";
-    case Status::iteration_limit: return "iteration_limit";
-    case Status::unstable: return "unstable";
-    case Status::converged: return "converged";
+    case Status::unreachable:
+      return "unreachable";
+    case Status::left_domain:
+      return "left_domain";
+    case Status::slack:
+      return "slack";
+    case Status::singular:
+      return "singular";
+    case Status::stalled:
+      return "stalled";
+    case Status::iteration_limit:
+      return "iteration_limit";
+    case Status::unstable:
+      return "unstable";
+    case Status::converged:
+      return "converged";
   }
   return "unknown";
 }

@@ -19,7 +19,8 @@ class EveryRobotMoves : public testing::TestWithParam<std::string_view> {
 TEST_P(EveryRobotMoves, TheWayJAndKSay) {  // @verifies TDPCR (17), (19), (39)
   int samples = 0;
   while (samples < 300) {
-    const PlanarPose pose{uniform(random, -0.04, 0.04), uniform(random, -0.04, 0.04), uniform(random, -0.6, 0.6)};
+    const PlanarPose pose{uniform(random, -0.04, 0.04), uniform(random, -0.04, 0.04),
+                          uniform(random, -0.6, 0.6)};
     const Inverse solved = inverse(robot, pose, {}, work);
     if (!solved.ok()) continue;
     const std::vector<double> inputs = values(solved.inputs), coordinates = values(solved.coordinates);
@@ -76,8 +77,10 @@ TEST(TypeTwo, LastPoseOfTheExampleIsConcurrentAtItsKnownPoint) {  // TDPCR 5.1
 TEST(Velocity, NotANumberIsNamed) {
   const AnyRobot robot = rfr_in_code();
   Workspace work(robot);
-  EXPECT_EQ(velocity(robot, PlanarPose{0, std::nan(""), 0}, {1, 2, 3}, work).report.status, Status::left_domain);
-  EXPECT_EQ(velocity(robot, PlanarPose{0, 0, 0}, {1, std::nan(""), 3}, work).report.status, Status::left_domain);
+  EXPECT_EQ(velocity(robot, PlanarPose{0, std::nan(""), 0}, {1, 2, 3}, work).report.status,
+            Status::left_domain);
+  EXPECT_EQ(velocity(robot, PlanarPose{0, 0, 0}, {1, std::nan(""), 3}, work).report.status,
+            Status::left_domain);
 }
 
 TEST(TypeOne, AStraightLegOfTheRfrIsLostNotUndefined) {
@@ -94,17 +97,20 @@ TEST(TypeOne, AStraightLegOfTheRfrIsLostNotUndefined) {
   EXPECT_FALSE(v.type_2.singular);
 }
 
-TEST(TypeOne, OfAStrutIsWhereTwoSolutionsMergeNotWhereItIsStraight) {  // poses of an independent implementation
+TEST(TypeOne,
+     OfAStrutIsWhereTwoSolutionsMergeNotWhereItIsStraight) {  // poses of an independent implementation
   const AnyRobot robot = load("3-frr").value();
   Workspace work(robot);
-  const std::array<std::array<double, 2>, 2> merging{{{-0.11660045356481855, 6.4429325505368045},
-                                                      {0.0834680089743687, 6.0593172943123985}}};  // y, κ of leg 0
+  const std::array<std::array<double, 2>, 2> merging{
+      {{-0.11660045356481855, 6.4429325505368045},
+       {0.0834680089743687, 6.0593172943123985}}};  // y, κ of leg 0
   for (const auto& [y, curvature] : merging) {
     const auto& leg = std::get<1>(robot.model).legs[0];
     const auto at = leg.blocks<double>(Planar::frame({0, y, 0}), leg.tip(curvature));
     EXPECT_LT(std::abs(at.error), 1e-14);
     EXPECT_LT(std::abs(at.g_q[0]), 1e-10);
-    const Velocity v = velocity(robot, PlanarPose{0, y, 0}, {curvature, 3, 3}, work);  // the other legs need not close
+    const Velocity v =
+        velocity(robot, PlanarPose{0, y, 0}, {curvature, 3, 3}, work);  // the other legs need not close
     ASSERT_GE(v.type_1.size(), 1U);
     EXPECT_EQ(v.type_1[0], 0);
   }

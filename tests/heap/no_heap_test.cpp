@@ -14,12 +14,21 @@ volatile std::size_t volatile_size = 100;  // so that the compiler cannot elide 
 }
 
 #if !defined(__SANITIZE_ADDRESS__)
-extern "C" void* __libc_malloc(std::size_t);                                   // NOLINT: glibc's name
-extern "C" void* __libc_calloc(std::size_t, std::size_t);                      // NOLINT
-extern "C" void* __libc_memalign(std::size_t, std::size_t);                    // NOLINT
-extern "C" void* malloc(std::size_t size) { ++allocations; return __libc_malloc(size); }
-extern "C" void* calloc(std::size_t n, std::size_t size) { ++allocations; return __libc_calloc(n, size); }
-extern "C" void* aligned_alloc(std::size_t a, std::size_t size) { ++allocations; return __libc_memalign(a, size); }
+extern "C" void* __libc_malloc(std::size_t);                 // NOLINT: glibc's name
+extern "C" void* __libc_calloc(std::size_t, std::size_t);    // NOLINT
+extern "C" void* __libc_memalign(std::size_t, std::size_t);  // NOLINT
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+extern "C" void* calloc(std::size_t n, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(n, size);
+}
+extern "C" void* aligned_alloc(std::size_t a, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(a, size);
+}
 #endif
 
 namespace sinew::test {
@@ -38,7 +47,8 @@ class NoHeap : public testing::TestWithParam<std::string_view> {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "AddressSanitizer owns malloc";
 #endif
-    ASSERT_GT(allocations_of([] { std::free(std::malloc(volatile_size)); }), 0) << "the counter does not count";
+    ASSERT_GT(allocations_of([] { std::free(std::malloc(volatile_size)); }), 0)
+        << "the counter does not count";
     ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
     inputs = values(work.inputs);
     coordinates = values(work.coordinates);
@@ -54,7 +64,10 @@ TEST_P(NoHeap, Assembly) {
 }
 TEST_P(NoHeap, Forward) {
   bool ok = false;
-  EXPECT_EQ(allocations_of([&] { ok = forward(robot, inputs, {.start = PlanarPose{0, 0, 0}}, work).ok(); }), 0);
+  EXPECT_EQ(allocations_of([&] {
+              ok = forward(robot, inputs, {.start = PlanarPose{0, 0, 0}}, work).ok();
+            }),
+            0);
   EXPECT_TRUE(ok);
 }
 TEST_P(NoHeap, ForwardThatFails) {

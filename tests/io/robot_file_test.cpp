@@ -8,7 +8,9 @@
 namespace sinew::test {
 namespace {
 
-Expected<AnyRobot> read(const std::string& yaml) { return read_robot(parse_yaml(yaml, "robot.yaml").value()); }
+Expected<AnyRobot> read(const std::string& yaml) {
+  return read_robot(parse_yaml(yaml, "robot.yaml").value());
+}
 
 const std::string head = "sinew: 1\nname: test\n";
 const std::string rfr_parts =
@@ -17,7 +19,8 @@ const std::string rfr_legs =
     "legs:\n"
     "  - {base: {point: {radius: 190 mm, angle: 90 deg}}, platform_point: {radius: 50 mm, angle: 30 deg}}\n"
     "  - {base: {point: {radius: 190 mm, angle: 210 deg}}, platform_point: {radius: 50 mm, angle: 150 deg}}\n"
-    "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, platform_point: {radius: 50 mm, angle: 270 deg}}\n";
+    "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, platform_point: {radius: 50 mm, angle: 270 "
+    "deg}}\n";
 
 void expect_same_motion(const AnyRobot& a, const AnyRobot& b) {
   Workspace wa(a), wb(b);
@@ -29,9 +32,10 @@ void expect_same_motion(const AnyRobot& a, const AnyRobot& b) {
 
 TEST(RobotFile, ListsLegsOrNamesAnArchitectureOrIsBuiltInCodeAllTheSame) {
   const auto listed = read(head + rfr_parts + rfr_legs);
-  const auto named = read(head + "architecture: 3-RFR\nbase: {radius: 190 mm, angle: 90 deg}\n"
-                                 "platform: {radius: 50 mm, angle: 30 deg}\n"
-                                 "defaults: {link: {length: 200 mm, tendon_offset: 5 mm}}\n");
+  const auto named = read(head +
+                          "architecture: 3-RFR\nbase: {radius: 190 mm, angle: 90 deg}\n"
+                          "platform: {radius: 50 mm, angle: 30 deg}\n"
+                          "defaults: {link: {length: 200 mm, tendon_offset: 5 mm}}\n");
   ASSERT_TRUE(listed) << to_string(listed.error());
   ASSERT_TRUE(named) << to_string(named.error());
   expect_same_motion(*listed, *named);
@@ -42,9 +46,11 @@ TEST(RobotFile, ListsLegsOrNamesAnArchitectureOrIsBuiltInCodeAllTheSame) {
 }
 
 TEST(RobotFile, FrrAsAnArchitectureIsTheListedOne) {
-  const auto named = read(head + "architecture: 3-FRR\nbase: {radius: 190 mm, angle: 90 deg, direction: 320 deg}\n"
-                                 "platform: {radius: 50 mm, angle: 30 deg}\n"
-                                 "defaults: {link: {length: 200 mm, tendon_offset: 5 mm}, closure: {length: 100 mm}}\n");
+  const auto named =
+      read(head +
+           "architecture: 3-FRR\nbase: {radius: 190 mm, angle: 90 deg, direction: 320 deg}\n"
+           "platform: {radius: 50 mm, angle: 30 deg}\n"
+           "defaults: {link: {length: 200 mm, tendon_offset: 5 mm}, closure: {length: 100 mm}}\n");
   ASSERT_TRUE(named) << to_string(named.error());
   expect_same_motion(*named, load("3-frr").value());
 }
@@ -53,9 +59,12 @@ TEST(RobotFile, UnlikeLegsMakeAMixedRobotThatMovesAsItsParts) {
   const auto mixed = read(head +
                           "defaults: {link: {type: arc, length: 200 mm, tendon_offset: 5 mm}}\n"
                           "legs:\n"
-                          "  - {base: {point: {radius: 190 mm, angle: 90 deg}}, closure: {type: chord}, platform_point: {radius: 50 mm, angle: 30 deg}}\n"
-                          "  - {base: {point: {radius: 190 mm, angle: 210 deg}, direction: 80 deg}, closure: {type: strut, length: 100 mm}, platform_point: {radius: 50 mm, angle: 150 deg}}\n"
-                          "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, closure: {type: chord}, platform_point: {radius: 50 mm, angle: 270 deg}}\n");
+                          "  - {base: {point: {radius: 190 mm, angle: 90 deg}}, closure: {type: chord}, "
+                          "platform_point: {radius: 50 mm, angle: 30 deg}}\n"
+                          "  - {base: {point: {radius: 190 mm, angle: 210 deg}, direction: 80 deg}, closure: "
+                          "{type: strut, length: 100 mm}, platform_point: {radius: 50 mm, angle: 150 deg}}\n"
+                          "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, closure: {type: chord}, "
+                          "platform_point: {radius: 50 mm, angle: 270 deg}}\n");
   ASSERT_TRUE(mixed) << to_string(mixed.error());
   const AnyRobot rfr = load("3-rfr").value(), frr = load("3-frr").value();
   Workspace work(*mixed), rfr_work(rfr), frr_work(frr);
@@ -88,11 +97,14 @@ TEST(RobotFile, PointsArePolarOrCartesianAndHomeIsRead) {
 }
 
 TEST(RobotFile, TiedLegsShareAnActuator) {
-  const auto robot = read(head + rfr_parts +
-                          "legs:\n"
-                          "  - {base: {point: {radius: 190 mm, angle: 90 deg}}, platform_point: {radius: 50 mm, angle: 30 deg}}\n"
-                          "  - {base: {point: {radius: 190 mm, angle: 210 deg}}, platform_point: {radius: 50 mm, angle: 150 deg}}\n"
-                          "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, platform_point: {radius: 50 mm, angle: 270 deg}, tied: 1}\n");
+  const auto robot = read(
+      head + rfr_parts +
+      "legs:\n"
+      "  - {base: {point: {radius: 190 mm, angle: 90 deg}}, platform_point: {radius: 50 mm, angle: 30 deg}}\n"
+      "  - {base: {point: {radius: 190 mm, angle: 210 deg}}, platform_point: {radius: 50 mm, angle: 150 "
+      "deg}}\n"
+      "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, platform_point: {radius: 50 mm, angle: 270 "
+      "deg}, tied: 1}\n");
   ASSERT_TRUE(robot) << to_string(robot.error());
   Workspace work(*robot);
   EXPECT_EQ(input_count(*robot), 2);
@@ -114,8 +126,8 @@ TEST(RobotFile, TiedLegsShareAnActuator) {
 }
 
 TEST(RobotFile, FourLegsAreARedundantRobot) {
-  const auto robot = read(head + rfr_parts + rfr_legs +
-                          "  - {base: {point: [0, -0.2]}, platform_point: [0, -0.04]}\n");
+  const auto robot =
+      read(head + rfr_parts + rfr_legs + "  - {base: {point: [0, -0.2]}, platform_point: [0, -0.04]}\n");
   ASSERT_TRUE(robot) << to_string(robot.error());
   Workspace work(*robot);
   const PlanarPose pose{0.005, 0.004, 0.05};
@@ -139,8 +151,10 @@ TEST(RobotFile, ASettingReplacesOneValue) {
 }
 
 TEST(RobotFile, ErrorsOfSharedDefaultsAreToldOnce) {
-  const auto robot = read(head + "defaults:\n  link: {type: arc, length: -200 mm, tendon_offset: 5 mm}\n"
-                                 "  closure: {type: chord}\n" + rfr_legs);
+  const auto robot = read(head +
+                          "defaults:\n  link: {type: arc, length: -200 mm, tendon_offset: 5 mm}\n"
+                          "  closure: {type: chord}\n" +
+                          rfr_legs);
   ASSERT_FALSE(robot);
   ASSERT_EQ(robot.error().size(), 1U) << to_string(robot.error());
   EXPECT_EQ(robot.error()[0].where, "robot.yaml:4:29");

@@ -18,7 +18,8 @@ class EveryRobot : public testing::TestWithParam<std::string_view> {
   /// A pose near home that every leg reaches.
   PlanarPose reachable() {
     for (;;) {
-      const PlanarPose pose{uniform(random, -0.04, 0.04), uniform(random, -0.04, 0.04), uniform(random, -0.6, 0.6)};
+      const PlanarPose pose{uniform(random, -0.04, 0.04), uniform(random, -0.04, 0.04),
+                            uniform(random, -0.6, 0.6)};
       if (inverse(robot, pose, {}, work).ok()) return pose;
     }
   }

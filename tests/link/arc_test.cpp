@@ -50,7 +50,9 @@ RC_GTEST_PROP(Arc, RateIsTheDerivative, ()) {
 
 RC_GTEST_PROP(Arc, ChordIsTheDistanceOfTheTip, ()) {  // @verifies TDPCR (7)-(9)
   const double k = any_curvature();
-  RC_ASSERT(std::abs(link.chord(k) - link.tip(k).position.norm() * (std::abs(k * link.length) <= 2 * std::numbers::pi ? 1 : -1)) < 1e-15);
+  RC_ASSERT(std::abs(link.chord(k) - link.tip(k).position.norm() *
+                                         (std::abs(k * link.length) <= 2 * std::numbers::pi ? 1 : -1)) <
+            1e-15);
   const auto chord = [](const auto& q) { return Vec<std::decay_t<decltype(q[0])>, 1>(link.chord(q[0])); };
   const Mat<double, 1, 1> rate(link.chord_rate(k));
   RC_ASSERT(test::jacobian_error(rate, test::complex_step_jacobian(chord, Vec<double, 1>(k)), 1e-12) < 1e-13);
@@ -67,7 +69,7 @@ RC_GTEST_PROP(Arc, CurvatureIsFoundFromTheChord, ()) {
   RC_PRE(k * link.length < 2 * std::numbers::pi);
   const double found = link.curvature_from_chord(link.chord(k));
   RC_ASSERT(std::abs(link.chord(found) - link.chord(k)) <= 4e-16 * link.length);  // backward
-  if (k * link.length > 1e-3) RC_ASSERT(std::abs(found - k) < 1e-8 * k);           // forward: a square root
+  if (k * link.length > 1e-3) RC_ASSERT(std::abs(found - k) < 1e-8 * k);          // forward: a square root
 }
 
 TEST(Arc, NoCurvatureHasAChordBeyondTheLength) { EXPECT_TRUE(std::isnan(link.curvature_from_chord(0.2001))); }

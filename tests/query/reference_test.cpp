@@ -20,7 +20,8 @@ Json diagonal(const Json& values) {
   return matrix;
 }
 
-/// J, K, U, indices, tendons of one robot of poses.json (constant curvature), by velocity and inverse queries.
+/// J, K, U, indices, tendons of one robot of poses.json (constant curvature), by velocity and inverse
+/// queries.
 void expect_poses(const std::string& robot, const std::string& key, const std::string& branch,
                   const std::string& branch_data) {
   const Json reference = read_json("data/tdpcr/poses.json")[key];
@@ -61,10 +62,12 @@ TEST(Reference, PosesOf3Frr) {  // @verifies TDPCR (21)-(24), (28)-(30)
   expect_poses("3-frr", "3-FRR", "curvature", "kappa");
 }
 
-TEST(Reference, EveryWorkingModeOf3Frr) {  // all roots of each leg within a full turn: none missing, none invented
+TEST(Reference,
+     EveryWorkingModeOf3Frr) {  // all roots of each leg within a full turn: none missing, none invented
   const Json reference = read_json("data/tdpcr/poses.json")["3-FRR"]["poses"];
   std::vector<Json> queries;
-  for (const Json& p : reference) queries.push_back({{"query", "inverse"}, {"pose", pose_of(p["pose"])}, {"all", true}});
+  for (const Json& p : reference)
+    queries.push_back({{"query", "inverse"}, {"pose", pose_of(p["pose"])}, {"all", true}});
   const auto answers = ask("3-frr", queries);
   for (std::size_t i = 0; i < reference.size(); ++i) {
     std::size_t modes = 1;
@@ -74,7 +77,8 @@ TEST(Reference, EveryWorkingModeOf3Frr) {  // all roots of each leg within a ful
       for (std::size_t leg = 0; leg < 3; ++leg) {
         double nearest = 1;
         for (const Json& root : reference[i]["all_ik_kappa"][leg])
-          nearest = std::min(nearest, std::abs(root.get<double>() - solution["legs"][leg]["curvature"].get<double>()));
+          nearest = std::min(nearest,
+                             std::abs(root.get<double>() - solution["legs"][leg]["curvature"].get<double>()));
         EXPECT_LT(nearest, 1e-11);
       }
   }
@@ -86,12 +90,14 @@ TEST(Reference, MapsOfBothRobots) {  // singularities over a grid: det J, condit
   const auto over = [](const Json& map, std::vector<Json>& queries) {
     for (const Json& phi : map["phi"])
       for (const Json& y : map["y"])
-        for (const Json& x : map["x"]) queries.push_back({{"query", "velocity"}, {"pose", pose_of({x, y, phi})}});
+        for (const Json& x : map["x"])
+          queries.push_back({{"query", "velocity"}, {"pose", pose_of({x, y, phi})}});
   };
   over(all["3-RFR_map"], rfr);
   over(all["3-FRR_map"], frr);
   for (std::size_t i = 0; i < frr.size(); ++i)  // the reference takes the smallest signed root of each leg
-    if (const Json& expected = all["3-FRR_map"]["data"][i]; !expected.is_null()) frr[i]["curvature"] = expected[0];
+    if (const Json& expected = all["3-FRR_map"]["data"][i]; !expected.is_null())
+      frr[i]["curvature"] = expected[0];
   const auto rfr_answers = ask("3-rfr", rfr), frr_answers = ask("3-frr", frr);
   for (std::size_t i = 0; i < rfr.size(); ++i) {
     const Json &expected = all["3-RFR_map"]["data"][i], &found = rfr_answers[i];
@@ -99,7 +105,8 @@ TEST(Reference, MapsOfBothRobots) {  // singularities over a grid: det J, condit
     if (found["status"] != "converged") continue;
     EXPECT_NEAR(found["determinant"].get<double>(), expected[0].get<double>(), 1e-16);
     EXPECT_NEAR(1 / found["indices"]["condition"].get<double>(), expected[1].get<double>(), 1e-13);
-    EXPECT_NEAR(1 / found["indices"]["condition_homogenised"].get<double>(), expected[2].get<double>(), 1e-13);
+    EXPECT_NEAR(1 / found["indices"]["condition_homogenised"].get<double>(), expected[2].get<double>(),
+                1e-13);
   }
   for (std::size_t i = 0; i < frr.size(); ++i) {
     const Json &expected = all["3-FRR_map"]["data"][i], &found = frr_answers[i];
@@ -115,7 +122,8 @@ TEST(Reference, MapsOfBothRobots) {  // singularities over a grid: det J, condit
 TEST(Reference, AStraightFrrLegIsRegular) {
   const Json all = read_json("data/tdpcr/singular_planar.json");
   const Json& straight = all["3-FRR_kappa0_regular"];
-  std::vector<Json> queries{{{"query", "velocity"}, {"pose", pose_of(straight["pose"])}, {"curvature", straight["kappa"]}}};
+  std::vector<Json> queries{
+      {{"query", "velocity"}, {"pose", pose_of(straight["pose"])}, {"curvature", straight["kappa"]}}};
   const auto answers = ask("3-frr", queries);
   EXPECT_EQ(answers[0]["status"], "converged");
   EXPECT_EQ(answers[0]["type_1"], Json::array());
@@ -150,12 +158,14 @@ TEST(Reference, CurvesOfExample51) {  // TDPCR 5.1, Fig. 9: 1e-10 for k ≤ 55, 
     EXPECT_NEAR(found["position"].get<double>() / reference[i]["Up"].get<double>(), 1, tolerance);
     EXPECT_NEAR(found["rotation"].get<double>() / reference[i]["Ur"].get<double>(), 1, tolerance);
     for (std::size_t leg = 0; leg < 3; ++leg)
-      EXPECT_NEAR(answers[i]["legs"][leg]["curvature"].get<double>(), reference[i]["kappa"][leg].get<double>(), 1e-10);
+      EXPECT_NEAR(answers[i]["legs"][leg]["curvature"].get<double>(),
+                  reference[i]["kappa"][leg].get<double>(), 1e-10);
   }
 }
 
 TEST(Reference, LastPoseOfExample51IsConcurrent) {
-  const auto answers = ask("3-rfr", {{{"query", "velocity"}, {"pose", pose_of({0.03, 0, std::acos(-1.0) / 3})}}});
+  const auto answers =
+      ask("3-rfr", {{{"query", "velocity"}, {"pose", pose_of({0.03, 0, std::acos(-1.0) / 3})}}});
   EXPECT_EQ(answers[0]["status"], "singular");
   EXPECT_EQ(answers[0]["type_2"]["class"], "concurrent");
   EXPECT_NEAR(answers[0]["type_2"]["point"][0].get<double>(), 0.0407142857142857, 1e-13);
@@ -164,10 +174,11 @@ TEST(Reference, LastPoseOfExample51IsConcurrent) {
 }
 
 TEST(Query, AnswersHoldNoNullAndRepeatTheirId) {
-  const auto answers = ask("3-rfr", {{{"id", "a7"}, {"query", "velocity"}, {"pose", pose_of({0.03, 0, std::acos(-1.0) / 3})}},
-                                     {{"id", 12}, {"query", "inverse"}, {"pose", pose_of({0.5, 0, 0})}},
-                                     {{"id", 13}, {"query", "shape"}, {"pose", pose_of({0.01, 0, 0})}, {"samples", 5}},
-                                     {{"id", 14}, {"query", "describe"}}});
+  const auto answers =
+      ask("3-rfr", {{{"id", "a7"}, {"query", "velocity"}, {"pose", pose_of({0.03, 0, std::acos(-1.0) / 3})}},
+                    {{"id", 12}, {"query", "inverse"}, {"pose", pose_of({0.5, 0, 0})}},
+                    {{"id", 13}, {"query", "shape"}, {"pose", pose_of({0.01, 0, 0})}, {"samples", 5}},
+                    {{"id", 14}, {"query", "describe"}}});
   EXPECT_EQ(answers[0]["id"], "a7");
   EXPECT_EQ(answers[1]["id"], 12);
   EXPECT_EQ(answers[1]["status"], "unreachable");

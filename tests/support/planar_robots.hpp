@@ -14,7 +14,8 @@ inline AnyRobot rfr_in_code() {
   using RfrLeg = Leg<Planar, Arc, TendonPair, Chord>;
   ParallelRobot<RfrLeg> robot{{}, {0, 1, 2}, {}, 0.05};
   for (int i = 0; i < 3; ++i) {
-    const double foot = (90 + 120 * i) * std::numbers::pi / 180, head = (30 + 120 * i) * std::numbers::pi / 180;
+    const double foot = (90 + 120 * i) * std::numbers::pi / 180,
+                 head = (30 + 120 * i) * std::numbers::pi / 180;
     RfrLeg leg{};
     leg.base = SE2<double>::from(0.19 * std::cos(foot), 0.19 * std::sin(foot), 0.0);
     leg.link = {.length = 0.2};

@@ -29,7 +29,8 @@ LegT random_leg(std::mt19937& random) {
   LegT::Drive::fields(leg.drive, fill);
   LegT::Closure::fields(leg.closure, fill);
   leg.drive.offset /= 20;
-  leg.base = SE2<double>::from(uniform(random, -0.2, 0.2), uniform(random, -0.2, 0.2), uniform(random, -3, 3));
+  leg.base =
+      SE2<double>::from(uniform(random, -0.2, 0.2), uniform(random, -0.2, 0.2), uniform(random, -3, 3));
   leg.platform_point = Vec2<double>(uniform(random, -0.1, 0.1), uniform(random, -0.1, 0.1));
   return leg;
 }
@@ -38,11 +39,16 @@ LegT random_leg(std::mt19937& random) {
 inline double random_curvature(std::mt19937& random, double length) {
   const double turn = 2 * std::numbers::pi / length;
   switch (std::uniform_int_distribution(0, 6)(random)) {
-    case 0: return 0;
-    case 1: return uniform(random, -1e-8, 1e-8);
-    case 2: return uniform(random, -1e-3, 1e-3);
-    case 3: return uniform(random, 0.999, 1) * turn;
-    default: return uniform(random, -turn, turn);
+    case 0:
+      return 0;
+    case 1:
+      return uniform(random, -1e-8, 1e-8);
+    case 2:
+      return uniform(random, -1e-3, 1e-3);
+    case 3:
+      return uniform(random, 0.999, 1) * turn;
+    default:
+      return uniform(random, -turn, turn);
   }
 }
 

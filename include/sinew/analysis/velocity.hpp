@@ -6,8 +6,8 @@
 
 namespace sinew::inline v0 {
 
-/// Performance indices. `position` and `rotation` are the 2-norms of the blocks of U: the largest platform speed
-/// [m/s] and turning rate [rad/s] that inputs of unit norm can cause. Absent (NaN) where J is singular.
+/// Performance indices. `position` and `rotation` are the 2-norms of the blocks of U: the largest platform
+/// speed [m/s] and turning rate [rad/s] that inputs of unit norm can cause. Absent (NaN) where J is singular.
 struct Indices {
   double condition;              ///< σmax/σmin of J as the paper has it: mixes m and m²
   double condition_homogenised;  ///< rows scaled to unit lines, moments divided by the platform radius
@@ -24,21 +24,22 @@ SINEW_API std::string_view to_string(LineClass kind) noexcept;
 struct TypeTwo {
   bool singular = false;  ///< σmin/σmax of the homogenised J below 1e-10
   LineClass kind = LineClass::regular;
-  int rank = 0;           ///< of the homogenised J
+  int rank = 0;                             ///< of the homogenised J
   Vec2<double> point = Vec2<double>(0, 0);  ///< where concurrent lines meet, base frame [m]
 };
 
 struct Velocity {
-  Report report;            ///< singular where J is; residual: closure error of the configuration [m]
-  MatrixView J, K, U;       ///< J·t = K·ȧ, t = U·ȧ; U has no rows where J is singular
-  double determinant;       ///< of J where it is square, else NaN
+  Report report;       ///< singular where J is; residual: closure error of the configuration [m]
+  MatrixView J, K, U;  ///< J·t = K·ȧ, t = U·ȧ; U has no rows where J is singular
+  double determinant;  ///< of J where it is square, else NaN
   Indices indices;
   std::span<const int> type_1;  ///< legs whose input moves nothing (row of K is zero): the workspace boundary
   TypeTwo type_2;
 };
 
 /// Where one leg's tip velocity has a component along its line below this fraction, the leg is at a type I
-/// singularity. Inverse kinematics is a square root there: a pose exact to 1e-16 gives curvatures exact to 1e-8.
+/// singularity. Inverse kinematics is a square root there: a pose exact to 1e-16 gives curvatures exact to
+/// 1e-8.
 inline constexpr double type_1_tolerance = 1e-6;
 inline constexpr double type_2_tolerance = 1e-10;
 
@@ -46,8 +47,9 @@ inline constexpr double type_2_tolerance = 1e-10;
 /// @implements TDPCR (39)
 SINEW_API Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
 
-/// Input rates for a platform twist at the configuration last put to `velocity` with this workspace; the shortest
-/// where there are many. False where a leg at a type I singularity cannot follow.  @implements TDPCR (41)
+/// Input rates for a platform twist at the configuration last put to `velocity` with this workspace; the
+/// shortest where there are many. False where a leg at a type I singularity cannot follow.  @implements TDPCR
+/// (41)
 SINEW_API bool rates(const Velocity& velocity, Numbers twist, Workspace& work);
 
 }  // namespace sinew::inline v0

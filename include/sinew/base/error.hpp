@@ -25,7 +25,8 @@ template <class T>
 using Expected = tl::expected<T, Errors>;
 
 /// `Errors` of one, as the failed value of an `Expected`.
-inline tl::unexpected<Errors> failure(std::string_view code, std::string_view where, std::string_view message) {
+inline tl::unexpected<Errors> failure(std::string_view code, std::string_view where,
+                                      std::string_view message) {
   return tl::unexpected<Errors>(Errors{{std::string(code), std::string(where), std::string(message)}});
 }
 

@@ -1,6 +1,7 @@
 /// @file units.hpp
-/// Dimensions and ranges of quantities. Inside the library every number is SI and radians (DESIGN: a bare number
-/// is SI, a string may carry a unit whose dimension is checked). The spelling of units is in io/quantity.hpp.
+/// Dimensions and ranges of quantities. Inside the library every number is SI and radians (DESIGN: a bare
+/// number is SI, a string may carry a unit whose dimension is checked). The spelling of units is in
+/// io/quantity.hpp.
 #pragma once
 #include <limits>
 

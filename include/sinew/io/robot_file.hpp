@@ -1,6 +1,7 @@
 /// @file robot_file.hpp
-/// Robot files. A file lists legs (base, link, closure, platform point, what is actuated, what is tied); a named
-/// architecture is a short form that expands to such a list before anything is read. Format: docs/robot-files.md
+/// Robot files. A file lists legs (base, link, closure, platform point, what is actuated, what is tied); a
+/// named architecture is a short form that expands to such a list before anything is read. Format:
+/// docs/robot-files.md
 #pragma once
 #include <string>
 #include <string_view>
@@ -12,13 +13,15 @@
 
 namespace sinew::inline v0 {
 
-/// The document of a robot file, or of a robot that is part of the library (`3-rfr`; see `builtin_robot_names`).
+/// The document of a robot file, or of a robot that is part of the library (`3-rfr`; see
+/// `builtin_robot_names`).
 SINEW_API Expected<Document> read_robot_file(const std::string& path_or_name);
 
 /// Names of the robots that are part of the library: those of robots/*.yaml.
 SINEW_API std::vector<std::string_view> builtin_robot_names();
 
-/// The robot in a file, or the one of that name; or every error of the file at once, each with its line and column.
+/// The robot in a file, or the one of that name; or every error of the file at once, each with its line and
+/// column.
 ///
 ///     auto robot = sinew::load("robots/3-rfr.yaml").value();
 SINEW_API Expected<AnyRobot> load(const std::string& path_or_name);

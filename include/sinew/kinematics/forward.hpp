@@ -11,7 +11,7 @@ namespace sinew::inline v0 {
 struct ForwardOptions {
   std::optional<AnyPose> start = {};  ///< default: the robot's home. Newton answers with the mode it leads to
   int max_iterations = 100;
-  std::span<TraceStep> trace = {};    ///< every iterate's residual, as far as the span reaches
+  std::span<TraceStep> trace = {};  ///< every iterate's residual, as far as the span reaches
 };
 
 /// `pose` is the best iterate, also where the report says that it does not close the legs.
@@ -23,9 +23,10 @@ struct Forward {
   bool ok() const noexcept { return report.ok(); }
 };
 
-/// Pose at which every leg closes on the link that `inputs` commands (for tendon-driven legs: lengths of tendon 1
-/// [m] in leg order). Residual: largest closure error [m]; converged below 1e-14 of a metre times the robot's size.
-/// No heap, no throw, bounded work.  @implements TDPCR (42)
-SINEW_API Forward forward(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work);
+/// Pose at which every leg closes on the link that `inputs` commands (for tendon-driven legs: lengths of
+/// tendon 1 [m] in leg order). Residual: largest closure error [m]; converged below 1e-14 of a metre times
+/// the robot's size. No heap, no throw, bounded work.  @implements TDPCR (42)
+SINEW_API Forward forward(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options,
+                          Workspace& work);
 
 }  // namespace sinew::inline v0

@@ -1,6 +1,6 @@
 /// @file inverse.hpp
-/// Inverse kinematics: the inputs that hold the platform at a pose. The legs decouple, so each is solved alone and
-/// completely: every solution within the link's domain is found. Theory: docs/theory/kinematics.md
+/// Inverse kinematics: the inputs that hold the platform at a pose. The legs decouple, so each is solved
+/// alone and completely: every solution within the link's domain is found. Theory: docs/theory/kinematics.md
 #pragma once
 #include "sinew/robot/assembly.hpp"
 
@@ -8,8 +8,9 @@ namespace sinew::inline v0 {
 
 /// Which of a leg's solutions is wanted; default the smallest |κ|, positive where both signs do.
 struct InverseOptions {
-  std::span<const int> bending = {};  ///< +1 or −1 a leg: only curvatures of this sign (a straight link has both)
-  Numbers curvature = {};             ///< κ a leg [1/m]: the nearest solution is taken
+  std::span<const int> bending =
+      {};                  ///< +1 or −1 a leg: only curvatures of this sign (a straight link has both)
+  Numbers curvature = {};  ///< κ a leg [1/m]: the nearest solution is taken
 };
 
 struct Inverse {
@@ -21,14 +22,15 @@ struct Inverse {
 };
 
 /// Inputs at `pose`. Residual: largest closure error [m]. No heap, no throw, bounded work.
-SINEW_API Inverse inverse(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options, Workspace& work);
+SINEW_API Inverse inverse(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options,
+                          Workspace& work);
 
 /// Every solution of every leg at a pose. The working modes of the robot are their combinations.
 struct WorkingModes {
-  Report report;                       ///< unreachable where a leg has no solution
-  std::span<const double> solutions;   ///< leg-major, Workspace::max_solutions a leg, ascending
-  std::span<const int> solution_count; ///< a leg
-  std::size_t count;                   ///< product of the counts
+  Report report;                        ///< unreachable where a leg has no solution
+  std::span<const double> solutions;    ///< leg-major, Workspace::max_solutions a leg, ascending
+  std::span<const int> solution_count;  ///< a leg
+  std::size_t count;                    ///< product of the counts
 
   /// Link coordinates of mode k < count, the first leg turning slowest.
   SINEW_API void mode(std::size_t k, std::span<double> coordinates) const;

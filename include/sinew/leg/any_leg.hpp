@@ -44,8 +44,10 @@ struct AnyLeg {
 /// Calls `use` with the concrete leg behind `leg`.
 template <class LegT, class Use>
 decltype(auto) with_leg(const LegT& leg, Use&& use) {
-  if constexpr (requires { leg.kind; }) return std::visit(use, leg.kind);
-  else return use(leg);
+  if constexpr (requires { leg.kind; })
+    return std::visit(use, leg.kind);
+  else
+    return use(leg);
 }
 
 }  // namespace sinew::inline v0

@@ -1,6 +1,6 @@
 /// @file chord.hpp
-/// Chord closure: both ends of the link turn freely (R or U at the base, R or S at the platform), so all that the
-/// leg fixes is the distance between them, the link's chord.  |r| = |u(q)|
+/// Chord closure: both ends of the link turn freely (R or U at the base, R or S at the platform), so all that
+/// the leg fixes is the distance between them, the link's chord.  |r| = |u(q)|
 #pragma once
 #include <span>
 #include <string_view>
@@ -29,9 +29,10 @@ struct Chord {
     return link.rate * link.rate + link.reach * link.rate_rate;
   }
 
-  /// Closed form where the link has one: the two curvatures ±κ, once where the link is straight; none beyond it.
+  /// Closed form where the link has one: the two curvatures ±κ, once where the link is straight; none beyond
+  /// it.
   template <class Link, int D>
-    requires requires(const Link& link) { link.curvature_from_chord(1.0); }
+  requires requires(const Link& link) { link.curvature_from_chord(1.0); }
   int coordinates_at(const Link& link, const Vec<double, D>& r, std::span<double> roots) const {
     const double curvature = link.curvature_from_chord(r.norm());
     if (!(curvature < link.bounds().domain)) return 0;  // NaN: too far; a full turn: folded

@@ -2,9 +2,10 @@
 /// What every closure is made of: one scalar row that ties a platform point to a link tip by a distance.
 /// Theory: docs/theory/leg.md
 ///
-/// A closure says where its anchor A(q) is and how far, D(q), the platform point r keeps from it. All of it is in
-/// the link's base frame:   g = ½ (|r − A|² − D²) = 0,   ∂g/∂r = r − A = n,   ∂g/∂q = −n·A′ − (½D²)′.
-/// The squares keep the papers' raw form of J and K (rows multiplied by the distance) and are smooth at D = 0.
+/// A closure says where its anchor A(q) is and how far, D(q), the platform point r keeps from it. All of it
+/// is in the link's base frame:   g = ½ (|r − A|² − D²) = 0,   ∂g/∂r = r − A = n,   ∂g/∂q = −n·A′ − (½D²)′.
+/// The squares keep the papers' raw form of J and K (rows multiplied by the distance) and are smooth at D =
+/// 0.
 #pragma once
 #include "sinew/link/tip.hpp"
 
@@ -13,18 +14,18 @@ namespace sinew::inline v0 {
 /// The anchor of a distance and the distance, with their rates by the link coordinates.
 template <Scalar S, int D, int Q>
 struct Anchor {
-  Vec<S, D> position;        ///< A [m]
-  Mat<S, D, Q> rate;         ///< ∂A/∂q
-  S half_square;             ///< ½D² [m²]
+  Vec<S, D> position;             ///< A [m]
+  Mat<S, D, Q> rate;              ///< ∂A/∂q
+  S half_square;                  ///< ½D² [m²]
   Mat<S, 1, Q> half_square_rate;  ///< ∂(½D²)/∂q
 };
 
 /// One row of constraint.
 template <Scalar S, int D, int Q>
 struct DistanceRow {
-  S g;                 ///< residual [m²]
-  Vec<S, D> normal;    ///< ∂g/∂r [m], along the line on which the closure pulls
-  Mat<S, 1, Q> g_q;    ///< ∂g/∂q
+  S g;               ///< residual [m²]
+  Vec<S, D> normal;  ///< ∂g/∂r [m], along the line on which the closure pulls
+  Mat<S, 1, Q> g_q;  ///< ∂g/∂q
 };
 
 /// The row of a distance closure.

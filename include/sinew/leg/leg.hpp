@@ -1,7 +1,7 @@
 /// @file leg.hpp
-/// A leg: base frame + link + drive + closure + platform point. It hands over residual rows with their Jacobian
-/// blocks, all a robot or a solver ever learns of it. One call returns values and Jacobians together: no cache, no
-/// call order. Theory: docs/theory/leg.md
+/// A leg: base frame + link + drive + closure + platform point. It hands over residual rows with their
+/// Jacobian blocks, all a robot or a solver ever learns of it. One call returns values and Jacobians
+/// together: no cache, no call order. Theory: docs/theory/leg.md
 #pragma once
 #include <array>
 #include <optional>
@@ -18,10 +18,10 @@ namespace sinew::inline v0 {
 /// What a leg hands over at platform pose x and link coordinates q.
 template <Scalar S, int Dof, int Q>
 struct LegBlocks {
-  S g;                ///< residual [m²]
-  Mat<S, 1, Dof> g_x; ///< ∂g/∂x by the platform's twist: a Plücker line times the distance; a row of J
-  Mat<S, 1, Q> g_q;   ///< ∂g/∂q by the link coordinates
-  S error;            ///< the residual as a distance [m]
+  S g;                 ///< residual [m²]
+  Mat<S, 1, Dof> g_x;  ///< ∂g/∂x by the platform's twist: a Plücker line times the distance; a row of J
+  Mat<S, 1, Q> g_q;    ///< ∂g/∂q by the link coordinates
+  S error;             ///< the residual as a distance [m]
 };
 
 /// What is known of a backbone beside its length. Constant-curvature answers do not depend on it.
@@ -73,7 +73,8 @@ struct Leg {
   /// Base point to platform point, in the base frame [m].
   template <Scalar S>
   Vec<S, Space::dimension> reach(const typename Space::template Frame<S>& platform) const {
-    const Vec<S, Space::dimension> world = platform.point(platform_point.template cast<S>()) - base.p.template cast<S>();
+    const Vec<S, Space::dimension> world =
+        platform.point(platform_point.template cast<S>()) - base.p.template cast<S>();
     return in_base<S>(world);
   }
 
@@ -89,8 +90,8 @@ struct Leg {
     return {row.g, Space::line(to_world<S>(row.normal), b), row.g_q, error};
   }
 
-  /// All link coordinates in ascending order that close the leg at this platform pose; returns their number, -1
-  /// where they cannot be told apart.
+  /// All link coordinates in ascending order that close the leg at this platform pose; returns their number,
+  /// -1 where they cannot be told apart.
   int coordinates_at(const typename Space::template Frame<double>& platform, std::span<double> roots) const {
     const Point r = reach<double>(platform);
     if constexpr (requires { closure.coordinates_at(link, r, roots); }) {
@@ -101,7 +102,8 @@ struct Leg {
   }
 
   /// The one of them that is nearest to a target; `sign` ±1 asks for coordinates of that sign (0 has both).
-  NearestRoot coordinate_near(const typename Space::template Frame<double>& platform, double target, int sign) const {
+  NearestRoot coordinate_near(const typename Space::template Frame<double>& platform, double target,
+                              int sign) const {
     const Point r = reach<double>(platform);
     if constexpr (requires(std::span<double> roots) { closure.coordinates_at(link, r, roots); }) {
       std::array<double, 8> roots;
@@ -109,7 +111,8 @@ struct Leg {
       NearestRoot nearest{std::min(count, 0), 0};
       for (int i = 0; i < count; ++i) {
         const double q = roots[static_cast<std::size_t>(i)];
-        if (q * sign < 0 || (nearest.count > 0 && std::abs(q - target) > std::abs(nearest.root - target))) continue;
+        if (q * sign < 0 || (nearest.count > 0 && std::abs(q - target) > std::abs(nearest.root - target)))
+          continue;
         nearest = {1, q};
       }
       return nearest;
@@ -119,11 +122,13 @@ struct Leg {
   }
 
   /// Why `coordinates_at` found none.
-  void explain_unreachable(const typename Space::template Frame<double>& platform, FixedText<240>& text) const {
+  void explain_unreachable(const typename Space::template Frame<double>& platform,
+                           FixedText<240>& text) const {
     closure.explain_unreachable(reach<double>(platform).norm(), link.bounds().reach, text);
   }
 
-  /// The link's base frame: as given, or, where the base turns, such that the tip lies towards the platform point.
+  /// The link's base frame: as given, or, where the base turns, such that the tip lies towards the platform
+  /// point.
   typename Space::template Frame<double> base_frame(const typename Space::template Frame<double>& platform,
                                                     const LinkTip<double>& tip) const {
     if constexpr (!Closure::base_turns) {
@@ -168,13 +173,17 @@ struct Leg {
   // Distances do not care how a free base is turned: its frame stays that of the robot.
   template <Scalar S>
   Vector<S> in_base(const Vector<S>& world) const {
-    if constexpr (Closure::base_turns) return world;
-    else return Space::template cast<S>(base).rotate_back(world);
+    if constexpr (Closure::base_turns)
+      return world;
+    else
+      return Space::template cast<S>(base).rotate_back(world);
   }
   template <Scalar S>
   Vector<S> to_world(const Vector<S>& local) const {
-    if constexpr (Closure::base_turns) return local;
-    else return Space::template cast<S>(base).rotate(local);
+    if constexpr (Closure::base_turns)
+      return local;
+    else
+      return Space::template cast<S>(base).rotate(local);
   }
 };
 

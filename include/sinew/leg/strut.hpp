@@ -1,6 +1,6 @@
 /// @file strut.hpp
-/// Strut closure: a rigid link of constant length between the link's tip and the platform point, turning freely at
-/// both ends; the base of the link is clamped.  |r − u(q)| = v
+/// Strut closure: a rigid link of constant length between the link's tip and the platform point, turning
+/// freely at both ends; the base of the link is clamped.  |r − u(q)| = v
 #pragma once
 #include <string_view>
 
@@ -21,14 +21,16 @@ struct Strut {
     visit("length", self.length, Dimension::length, Range::positive(), "length of the rigid link");
   }
 
-  /// The row of J that follows is vᵀ, vᵀ E Q c: TDPCR (29) prints vᵀ Eᵢ Qᵢ c, but (22) gives E Q. See docs/errata.md.
+  /// The row of J that follows is vᵀ, vᵀ E Q c: TDPCR (29) prints vᵀ Eᵢ Qᵢ c, but (22) gives E Q. See
+  /// docs/errata.md.
   /// @implements TDPCR (21)-(24), (28)-(30)
   template <Scalar S, int D, int Q>
   Anchor<S, D, Q> anchor(const Tip<S, D, Q>& tip) const {
     return {tip.position, tip.rate, S(0.5 * length * length), Mat<S, 1, Q>::Zero()};
   }
 
-  /// Bound on |∂²g/∂q²| for a link with one coordinate while |r − u| ≤ pull: (½|r − u|²)″ = |u′|² − (r − u)·u″.
+  /// Bound on |∂²g/∂q²| for a link with one coordinate while |r − u| ≤ pull: (½|r − u|²)″ = |u′|² − (r −
+  /// u)·u″.
   double rate_rate_bound(double pull, const TipBounds& link) const {
     return link.rate * link.rate + pull * link.rate_rate;
   }

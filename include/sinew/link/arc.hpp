@@ -1,9 +1,10 @@
 /// @file arc.hpp
-/// Constant-curvature link in its bending plane. Base at the origin, base tangent along +y, positive curvature
-/// bends towards +x (the tangent turns clockwise). Theory: docs/theory/arc.md
+/// Constant-curvature link in its bending plane. Base at the origin, base tangent along +y, positive
+/// curvature bends towards +x (the tangent turns clockwise). Theory: docs/theory/arc.md
 ///
-/// With half the bend angle x = κℓ/2, TDPCR (7), (9), (25)-(27) have removable singularities at κ = 0 and cancel
-/// near it ((9) as printed is 8 % off at κ = 1e-6); written on sinc they are entire and one sin/cos call serves all:
+/// With half the bend angle x = κℓ/2, TDPCR (7), (9), (25)-(27) have removable singularities at κ = 0 and
+/// cancel near it ((9) as printed is 8 % off at κ = 1e-6); written on sinc they are entire and one sin/cos
+/// call serves all:
 ///   ρ = ℓ sinc x       α = ∂ρ/∂κ = (ℓ²/2) sinc′x
 ///   u = ρ (sin x, cos x)      ∂u/∂κ = (ℓ²/2) (sinc′x (sin x, cos x) + sinc x (cos x, −sin x))
 #pragma once
@@ -60,9 +61,12 @@ struct Arc {
   Vec2<double> point(double curvature, double s) const { return Arc{s}.tip(curvature).position; }
 
   /// Unit normal of the backbone at arc length s, on the side of tendon 1.
-  Vec2<double> side(double curvature, double s) const { return {std::cos(curvature * s), -std::sin(curvature * s)}; }
+  Vec2<double> side(double curvature, double s) const {
+    return {std::cos(curvature * s), -std::sin(curvature * s)};
+  }
 
-  /// From u = ∫₀^ℓ (sin κs, cos κs) ds: |u| ≤ ℓ, |u′| ≤ ℓ²/2, |u″| ≤ ℓ³/3. Beyond a full turn a link is folded.
+  /// From u = ∫₀^ℓ (sin κs, cos κs) ds: |u| ≤ ℓ, |u′| ≤ ℓ²/2, |u″| ≤ ℓ³/3. Beyond a full turn a link is
+  /// folded.
   TipBounds bounds() const {
     return {length, length * length / 2, length * length * length / 3, 2 * std::numbers::pi / length};
   }

@@ -5,7 +5,8 @@
 
 namespace sinew::inline v0 {
 
-/// Tip position and its derivative by the link's own coordinates q. Base at the origin, base tangent along +y.
+/// Tip position and its derivative by the link's own coordinates q. Base at the origin, base tangent along
+/// +y.
 /// @tparam D dimension of the link's frame (2 in a plane, 3 in space), @tparam Q number of coordinates
 template <Scalar S, int D, int Q>
 struct Tip {
@@ -13,7 +14,8 @@ struct Tip {
   Mat<S, D, Q> rate;   ///< ∂u/∂q [m per unit of q]
 };
 
-/// Bounds that hold for every value of the coordinate of a one-coordinate link. They make root isolation a proof.
+/// Bounds that hold for every value of the coordinate of a one-coordinate link. They make root isolation a
+/// proof.
 struct TipBounds {
   double reach;      ///< |u| ≤ reach [m]
   double rate;       ///< |∂u/∂q| ≤ rate

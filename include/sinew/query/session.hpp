@@ -18,8 +18,8 @@ class SINEW_API Session {
   static Expected<Session> open(const std::string& path);
   static Expected<Session> open(Document document);
 
-  /// One query `{"query": "forward", ...}` in, one answer out, without a line break. Never throws on bad input:
-  /// the answer then is `{"error": {"code", "where", "message"}}`.
+  /// One query `{"query": "forward", ...}` in, one answer out, without a line break. Never throws on bad
+  /// input: the answer then is `{"error": {"code", "where", "message"}}`.
   std::string answer(std::string_view query);
 
   Session(Session&&) noexcept;

@@ -30,17 +30,19 @@ using AnyPose = std::variant<PlanarPose, SpatialPose>;
 /// Any robot: what files load to and what every query is put to.
 struct AnyRobot {
   std::string name;
-  bool geometry_inferred = false;  ///< the source does not print the geometry; it was inferred from its results
+  bool geometry_inferred =
+      false;  ///< the source does not print the geometry; it was inferred from its results
   RobotModel model;
 
   AnyRobot() = default;
   template <class LegT>
   AnyRobot(std::string robot_name, ParallelRobot<LegT> robot)
-      : name(std::move(robot_name)), model(std::move(robot)) {}
+      : name(std::move(robot_name)),
+        model(std::move(robot)) {}
 };
 
 /// Legs that are all alike take the static path, unlike legs go through one variant of legs.
-SINEW_API RobotModel make_robot(std::vector<AnyPlanarLeg> legs, std::vector<int> input_of_leg, PlanarPose home,
-                                double platform_radius);
+SINEW_API RobotModel make_robot(std::vector<AnyPlanarLeg> legs, std::vector<int> input_of_leg,
+                                PlanarPose home, double platform_radius);
 
 }  // namespace sinew::inline v0

@@ -1,6 +1,6 @@
 /// @file assembly.hpp
-/// What assembly makes of the legs: `J·δx = K·δa + s` (x platform, a inputs). Forward, inverse and differential
-/// kinematics, singularities and sensitivities all read it. Theory: docs/theory/leg.md
+/// What assembly makes of the legs: `J·δx = K·δa + s` (x platform, a inputs). Forward, inverse and
+/// differential kinematics, singularities and sensitivities all read it. Theory: docs/theory/leg.md
 #pragma once
 #include "sinew/base/numbers.hpp"
 #include "sinew/math/linalg.hpp"
@@ -14,8 +14,9 @@ struct Reduced {
   MatrixView J;               ///< rows × dof: stack of g_x, each row a Plücker line
   MatrixView K;               ///< rows × inputs: −∂g/∂a, block diagonal where no legs are tied
   std::span<const double> s;  ///< rows: −g [m²]
-  double closure_error = 0;   ///< largest distance by which a leg fails to close [m]; infinite where not finite
-  int worst_leg = 0;          ///< the leg that does
+  double closure_error =
+      0;              ///< largest distance by which a leg fails to close [m]; infinite where not finite
+  int worst_leg = 0;  ///< the leg that does
 };
 
 /// J, K and s at a platform pose and link coordinates (for arcs: curvatures [1/m], one a leg).
@@ -26,13 +27,13 @@ SINEW_API Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers c
 /// The report says which input is missing, not finite or outside the link's domain.
 SINEW_API Report command(const AnyRobot& robot, Numbers inputs, Workspace& work);
 
-/// Inputs that command these link coordinates, in `work.inputs`. Legs that are tied must agree: the report says
-/// which do not.
+/// Inputs that command these link coordinates, in `work.inputs`. Legs that are tied must agree: the report
+/// says which do not.
 SINEW_API Report inputs_of(const AnyRobot& robot, Numbers coordinates, Workspace& work);
 
 /// What people want to know of each leg. View of `work.legs`.
-SINEW_API std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates,
-                                               Workspace& work);
+SINEW_API std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose,
+                                               Numbers coordinates, Workspace& work);
 
 SINEW_API AnyPose home(const AnyRobot& robot);
 SINEW_API int leg_count(const AnyRobot& robot);

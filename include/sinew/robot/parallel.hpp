@@ -1,6 +1,6 @@
 /// @file parallel.hpp
-/// A parallel robot: legs and a platform, never a class of its own. Constant once built and shared between threads;
-/// all memory that changes is in a Workspace. Theory: docs/theory/leg.md
+/// A parallel robot: legs and a platform, never a class of its own. Constant once built and shared between
+/// threads; all memory that changes is in a Workspace. Theory: docs/theory/leg.md
 #pragma once
 #include <vector>
 

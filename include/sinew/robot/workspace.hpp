@@ -16,12 +16,12 @@ struct Workspace {
 
   std::vector<double> coordinates;  ///< link coordinates, leg by leg
   std::vector<double> inputs;
-  std::vector<double> J, K, U, s;            ///< row-major: rows × dof, rows × inputs, dof × inputs, rows
-  std::vector<double> scratch;               ///< rows × dof
-  std::vector<double> rates;                 ///< inputs
-  std::vector<double> solutions;             ///< legs × max_solutions
-  std::vector<int> solution_count;           ///< legs
-  std::vector<int> type_1;                   ///< legs
+  std::vector<double> J, K, U, s;   ///< row-major: rows × dof, rows × inputs, dof × inputs, rows
+  std::vector<double> scratch;      ///< rows × dof
+  std::vector<double> rates;        ///< inputs
+  std::vector<double> solutions;    ///< legs × max_solutions
+  std::vector<int> solution_count;  ///< legs
+  std::vector<int> type_1;          ///< legs
   std::vector<LegState> legs;
 };
 

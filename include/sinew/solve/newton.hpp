@@ -1,7 +1,7 @@
 /// @file newton.hpp
-/// Newton's method with a line search, on any problem that gives residuals and a Jacobian. It has never heard of
-/// a robot. Where the Newton step is too long or gives no descent (near a singular Jacobian) a Levenberg-Marquardt
-/// step takes its place: halving a Newton step there creeps along the singular surface.
+/// Newton's method with a line search, on any problem that gives residuals and a Jacobian. It has never heard
+/// of a robot. Where the Newton step is too long or gives no descent (near a singular Jacobian) a
+/// Levenberg-Marquardt step takes its place: halving a Newton step there creeps along the singular surface.
 /// Theory: docs/theory/newton.md
 #pragma once
 #include <Eigen/Cholesky>
@@ -32,8 +32,8 @@ struct Linearised {
 
 /// What the solver needs of a problem: `linearise` returns false where the point is outside the domain.
 template <class P>
-concept NewtonProblem = requires(const P& problem, const typename P::Point& point, Linearised<P::unknowns>& system,
-                                 const Vec<double, P::unknowns>& step) {
+concept NewtonProblem = requires(const P& problem, const typename P::Point& point,
+                                 Linearised<P::unknowns>& system, const Vec<double, P::unknowns>& step) {
   { problem.linearise(point, system) } -> std::same_as<bool>;
   { problem.moved(point, step) } -> std::same_as<typename P::Point>;
   { problem.shortened(step) } -> std::same_as<double>;  // factor ≤ 1 that keeps a step sensible
@@ -129,9 +129,9 @@ Report newton(const P& problem, typename P::Point& point, const NewtonOptions& o
   report.residual = here.error;
   // The last digits: where they do not come, 100 times the tolerance is still an answer.
   const bool solved = here.error <= 100 * options.tolerance;
-  report.status = solved ? Status::converged
+  report.status = solved                                        ? Status::converged
                   : report.iterations >= options.max_iterations ? Status::iteration_limit
-                                                                 : Status::stalled;
+                                                                : Status::stalled;
   return report;
 }
 

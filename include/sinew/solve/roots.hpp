@@ -1,6 +1,6 @@
 /// @file roots.hpp
-/// Roots of a smooth function of one variable, with proof that none is skipped: from every point the search steps as
-/// far as a bound on |f″| promises no root. The same step converges quadratically on a simple root.
+/// Roots of a smooth function of one variable, with proof that none is skipped: from every point the search
+/// steps as far as a bound on |f″| promises no root. The same step converges quadratically on a simple root.
 /// Theory: docs/theory/roots.md
 #pragma once
 #include <algorithm>
@@ -26,8 +26,8 @@ struct RootsOptions {
 
 namespace detail {
 
-/// How far |f| surely stays positive from `here` onwards: it does while |f| + slope·h − ½·rate_rate·h² > 0, slope taken
-/// along |f| in the direction of the step. Written so that nothing cancels.
+/// How far |f| surely stays positive from `here` onwards: it does while |f| + slope·h − ½·rate_rate·h² > 0,
+/// slope taken along |f| in the direction of the step. Written so that nothing cancels.
 inline double free_distance(const RootSample& here, double direction) {
   const double slope = (here.value < 0 ? -direction : direction) * here.rate;
   const double root_term = std::sqrt(slope * slope + 2 * here.rate_rate * std::abs(here.value));
@@ -40,7 +40,10 @@ class RootWalk {
  public:
   /// @param direction +1 or −1
   RootWalk(const F& f, const RootsOptions& options, double start, double direction)
-      : f_(f), options_(options), x_(start), direction_(direction) {}
+      : f_(f),
+        options_(options),
+        x_(start),
+        direction_(direction) {}
 
   double position() const { return x_; }
   bool at_end() const { return direction_ > 0 ? x_ >= options_.high : x_ <= options_.low; }
@@ -50,12 +53,14 @@ class RootWalk {
   bool step() {
     const RootSample here = f_(x_);
     if (!std::isfinite(here.value) || ++steps_ > 20000) return !(failed_ = true);
-    if (std::abs(here.value) <= options_.value_noise) {  // leave it by half of what surely holds no other root
+    if (std::abs(here.value) <=
+        options_.value_noise) {  // leave it by half of what surely holds no other root
       root_ = polished(here);
       x_ += direction_ * std::max(std::abs(here.rate) / here.rate_rate, smallest());
       return true;
     }
-    x_ += direction_ * std::max(std::min(free_distance(here, direction_), options_.stride), 1e-16 * std::abs(x_));
+    x_ += direction_ *
+          std::max(std::min(free_distance(here, direction_), options_.stride), 1e-16 * std::abs(x_));
     return false;
   }
   double root() const { return root_; }
@@ -78,9 +83,9 @@ class RootWalk {
 
 }  // namespace detail
 
-/// Writes the roots in ascending order and returns how many there are (at most roots.size(), the lowest ones);
-/// -1 where f is not finite or the walk does not end within 20 000 steps (a few dozen are usual).
-/// A double root, where two solutions merge, is written once.
+/// Writes the roots in ascending order and returns how many there are (at most roots.size(), the lowest
+/// ones); -1 where f is not finite or the walk does not end within 20 000 steps (a few dozen are usual). A
+/// double root, where two solutions merge, is written once.
 template <class F>
 int all_roots(const F& f, const RootsOptions& options, std::span<double> roots) {
   detail::RootWalk walk(f, options, options.low, 1);
@@ -106,8 +111,9 @@ struct NearestRoot {
 
 namespace detail {
 
-/// Plain Newton from `target`, then the proof that no other root is as near: f is monotone within |f′|/rate_rate of
-/// either end of the path, and free of roots as far on the other side. Not a number where the proof fails.
+/// Plain Newton from `target`, then the proof that no other root is as near: f is monotone within
+/// |f′|/rate_rate of either end of the path, and free of roots as far on the other side. Not a number where
+/// the proof fails.
 template <class F>
 double proven_newton(const F& f, const RootsOptions& options, double target, const RootSample& at_target) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -124,17 +130,20 @@ double proven_newton(const F& f, const RootsOptions& options, double target, con
       continue;
     }
     const double distance = std::abs(x - target), away = x > target ? -1 : 1;
-    const bool monotone = at_target.rate * here.rate > 0 &&
-                          distance * at_target.rate_rate < 0.99 * (std::abs(at_target.rate) + std::abs(here.rate));
-    return monotone && distance < options.stride && distance < 0.99 * free_distance(at_target, away) ? x : nothing;
+    const bool monotone =
+        at_target.rate * here.rate > 0 &&
+        distance * at_target.rate_rate < 0.99 * (std::abs(at_target.rate) + std::abs(here.rate));
+    return monotone && distance < options.stride && distance < 0.99 * free_distance(at_target, away)
+               ? x
+               : nothing;
   }
   return nothing;
 }
 
 }  // namespace detail
 
-/// Newton's answer where it is proven nearest; else walks outwards from `target` both ways, always on the side that is
-/// behind, so that what lies beyond the answer costs nothing.
+/// Newton's answer where it is proven nearest; else walks outwards from `target` both ways, always on the
+/// side that is behind, so that what lies beyond the answer costs nothing.
 template <class F>
 NearestRoot nearest_root(const F& f, const RootsOptions& options, double target) {
   const double start = std::clamp(target, options.low, options.high);
@@ -145,7 +154,8 @@ NearestRoot nearest_root(const F& f, const RootsOptions& options, double target)
   const auto distance = [&](double x) { return std::abs(x - target); };
   for (;;) {
     const bool can_up = !up.at_end() && !(nearest.count && distance(up.position()) > distance(nearest.root));
-    const bool can_down = !down.at_end() && !(nearest.count && distance(down.position()) > distance(nearest.root));
+    const bool can_down =
+        !down.at_end() && !(nearest.count && distance(down.position()) > distance(nearest.root));
     if (!can_up && !can_down) return nearest;
     const bool go_up = can_up && (!can_down || distance(up.position()) <= distance(down.position()));
     detail::RootWalk<F>& walk = go_up ? up : down;

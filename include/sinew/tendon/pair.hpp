@@ -22,7 +22,8 @@ struct TendonPair {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("tendon_offset", self.offset, Dimension::length, Range::positive(), "distance of a tendon from the backbone");
+    visit("tendon_offset", self.offset, Dimension::length, Range::positive(),
+          "distance of a tendon from the backbone");
   }
 
   kernel::TendonPair<double> pair(double backbone_length) const { return {backbone_length, offset}; }

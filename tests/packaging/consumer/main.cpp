@@ -12,7 +12,8 @@ int main() {
     std::cerr << "headers " SINEW_VERSION_STRING " with library " << sinew::version() << '\n';
     return 1;
   }
-  const sinew::Expected<double> length = sinew::failure("out_of_range", "robot.yaml:14:11", "length must be positive");
+  const sinew::Expected<double> length =
+      sinew::failure("out_of_range", "robot.yaml:14:11", "length must be positive");
   if (length || sinew::to_string(length.error()).find("robot.yaml:14:11") == std::string::npos) return 1;
   if (sinew::Range::positive().contains(0.0)) return 1;
 
