@@ -25,9 +25,7 @@ std::string show(const Answer& answer, Session& session, const Arguments& argume
 
 /// Why there is no solution.
 void explain(const Answer& answer, std::string_view verb) {
-  std::string said = answer.text("message");
-  if (said.empty() && answer.text("status") == "singular")
-    said = "the inputs do not hold the platform here, so there is no U";
+  const std::string said = answer.text("message");
   message(fmt::format("{} {}: {}{}", verb, answer.text("robot"), answer.text("status"),
                       said.empty() ? "" : ": " + said));
 }

@@ -131,7 +131,12 @@ Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinate
   if (reduced.J.rows() == freedoms) answer.determinant = determinant(reduced.J);
   const bool square = reduced.J.rows() == freedoms;
   if (answer.type_2.singular || !square || !solve(reduced.J, reduced.K, work.U)) {
-    if (answer.type_2.singular) answer.report.status = Status::singular;
+    if (answer.type_2.singular) {
+      answer.report.status = Status::singular;
+      answer.report.message.append(
+          "type II: the platform can move with all inputs held; the lines of the legs are ");
+      answer.report.message.append(to_string(answer.type_2.kind));
+    }
     return answer;
   }
   // A Map is seated anew by placement, as Eigen documents.

@@ -252,7 +252,7 @@ Expected<Document> read_file(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found)
-    return failure("file_missing", path, "there is no such file.");
+    return failure("file_missing", path, "there is no such file; check the path.");
   if (fs::is_directory(status)) return failure("file_unreadable", path, "this is a folder; give a file.");
   if (!fs::is_regular_file(status))
     return failure("file_unreadable", path, "this is not a file that can be read.");

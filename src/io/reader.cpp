@@ -71,7 +71,8 @@ std::string found(const Node& node, bool is_quoted) {
 }  // namespace
 
 std::string Reader::place() const {
-  return node_ ? where(node_->line, node_->column, path_) : where(0, 0, path_);
+  if (!node_) return where(0, 0, path_);
+  return where(node_->line, node_->column, node_->line > 0 ? path_ : name(*node_, path_));
 }
 
 Reader Reader::required(std::string_view key, std::string_view meaning) {
@@ -183,7 +184,7 @@ void Reader::refuse(std::string_view code, std::string_view rule_text) const {
   if (!node_) return;
   const std::string here = name(*node_, path_);
   report(code, place(),
-         fmt::format("{} {}; {}", here.empty() ? "the document" : here, found(*node_, false), rule_text));
+         fmt::format("{} {}; {}", here.empty() ? root_name() : here, found(*node_, false), rule_text));
 }
 
 /// The number here; nothing after an error.
@@ -221,9 +222,8 @@ bool Reader::expect(Node::Kind kind, std::string_view advice_text) const {
 
 void Reader::unsuitable(std::string_view advice_text) const {
   const std::string here = name(*node_, path_);
-  report(
-      "wrong_type", place(),
-      fmt::format("{} {}; give {}.", here.empty() ? "the document" : here, found(*node_, true), advice_text));
+  report("wrong_type", place(),
+         fmt::format("{} {}; give {}.", here.empty() ? root_name() : here, found(*node_, true), advice_text));
 }
 
 void Reader::unknown(const Member& member) const {
@@ -249,6 +249,10 @@ std::string Reader::name(const Node& node, const std::string& path) const {
   const Node* here = at(document_->root, path);
   const bool is_at_path = here && here->line == node.line && here->column == node.column;
   return is_at_path ? path : path_of(document_->root, node).value_or(path);
+}
+
+std::string Reader::root_name() const {  // a file says where it stands, a query has no lines
+  return document_->root.line > 0 ? "the document" : document_->source;
 }
 
 std::string Reader::where(int line, int column, const std::string& path) const {

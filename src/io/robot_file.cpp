@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "io/architecture.hpp"
@@ -244,7 +246,8 @@ Expected<AnyRobot> read_robot(const Document& document) {
   Reader robot =
       Reader(*longer, errors).over(whole.root);  // a shared default is named as such, and told once
   check_head(robot);
-  if (!errors.empty() && !robot.is(Node::Kind::map)) return tl::unexpected(errors);
+  const auto is_final = [](const Error& error) { return error.code == "not_available"; };
+  if (!robot.is(Node::Kind::map) || std::ranges::any_of(errors, is_final)) return tl::unexpected(errors);
   AnyRobot result = read_listed(robot);
   if (!errors.empty()) return tl::unexpected(errors);
   return result;
@@ -279,6 +282,9 @@ Expected<Document> with(const Document& document, const std::string& path, Node 
     if (!longer) return longer;
     changed = std::move(*longer);
   }
+  // A place of its own, in no file: an error about the value is then named by its path, and told once.
+  value.line = -1;
+  value.column = static_cast<int>(std::hash<std::string>{}(path)&0x7fffffffU);
   if (const auto done = set(changed.root, path, std::move(value)); !done) return tl::unexpected(done.error());
   return changed;
 }

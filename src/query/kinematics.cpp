@@ -33,8 +33,10 @@ void put_number(Json& object, const char* key, double value) {  // NaN and infin
 
 Json indices_json(const Indices& indices) {
   Json object = Json::object();
-  put_number(object, "condition", indices.condition);
-  put_number(object, "condition_homogenised", indices.condition_homogenised);
+  // Beyond 1e15 a condition number says how J was rounded, not what it is.
+  if (indices.condition < 1e15) put_number(object, "condition", indices.condition);
+  if (indices.condition_homogenised < 1e15)
+    put_number(object, "condition_homogenised", indices.condition_homogenised);
   put_number(object, "position", indices.position);
   put_number(object, "rotation", indices.rotation);
   return object;

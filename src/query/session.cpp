@@ -36,6 +36,10 @@ const Kind& read_kind(Reader& query) {
 Json read_id(Reader& query) {
   const auto id = query.optional("id");
   if (!id) return {};
+  if (!id->is(Node::Kind::number) && !id->is(Node::Kind::string)) {
+    id->refuse("wrong_type", "give text or a number");
+    return {};
+  }
   if (id->is(Node::Kind::number)) return Json::parse(id->node()->text, nullptr, false);
   return id->text();
 }

@@ -1,7 +1,6 @@
 /// @file fixed_text.hpp
 /// A short text of fixed capacity: a solver in a hot loop can say why it failed without touching the heap.
 #pragma once
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
@@ -22,9 +21,7 @@ class FixedText {
 
   /// Appends what fits; the rest is cut off.
   void append(std::string_view text) {
-    const std::size_t count = std::min(text.size(), Capacity - size_);
-    std::copy_n(text.begin(), count, text_.begin() + static_cast<std::ptrdiff_t>(size_));
-    size_ += count;
+    for (const char c : text) push_back(c);
   }
   void push_back(char c) {  // so that fmt can write through a back inserter
     if (size_ < Capacity) text_[size_++] = c;

@@ -119,6 +119,7 @@ class SINEW_API Reader {
   void unsuitable(std::string_view advice) const;
   void unknown(const Member& member) const;
   std::string name(const Node& node, const std::string& path) const;
+  std::string root_name() const;
   std::string where(int line, int column, const std::string& path) const;
   void report(std::string_view code, std::string where, std::string message) const;
 
