@@ -14,6 +14,5 @@ int main() {
   auto back = sinew::forward(robot, {0.193, 0.189, 0.187}, {}, work);  // no heap, no throw, bounded steps
   if (!back.ok()) return 3;
   auto pose = std::get<sinew::PlanarPose>(back.pose);
-  std::printf("pose %.3f mm, %.3f mm, %.4f rad: %s\n", 1e3 * pose.x, 1e3 * pose.y, pose.phi,
-              to_string(back.report).c_str());
+  std::printf("pose %.3f mm, %.3f mm, %.4f rad\n", 1e3 * pose.x, 1e3 * pose.y, pose.phi);
 }

@@ -8,6 +8,13 @@ add_test(NAME tools.equations COMMAND Python3::Interpreter ${tools_dir}/equation
 add_test(NAME tools.selftest COMMAND Python3::Interpreter ${packaging_dir}/tools_test.py)
 set_tests_properties(tools.layers tools.equations tools.selftest PROPERTIES LABELS tools TIMEOUT 60)
 
+# The README shows what happens.
+if(TARGET sinew_command AND TARGET example_first)
+  add_test(NAME readme COMMAND Python3::Interpreter ${tools_dir}/readme.py ${PROJECT_SOURCE_DIR}/README.md
+    $<TARGET_FILE_DIR:sinew_command> ${PROJECT_SOURCE_DIR}/examples/first.cpp $<TARGET_FILE:example_first>)
+  set_tests_properties(readme PROPERTIES LABELS tools TIMEOUT 120)
+endif()
+
 # The kernel's headers need no standard library.
 find_program(CLANGXX NAMES clang++)
 set(kernel_compilers ${CMAKE_CXX_COMPILER})
