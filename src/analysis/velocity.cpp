@@ -9,24 +9,31 @@ namespace {
 
 constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
-/// σmax/σmin; infinite where the smaller is zero.
-double condition(std::span<const double> sigma) { return sigma.front() / sigma.back(); }
+/// σmax/σmin; absent beyond 1e15, where it says how the matrix was rounded and not what it is.
+double condition(std::span<const double> sigma) {
+  const double ratio = sigma.front() / sigma.back();
+  return ratio < 1e15 ? ratio : absent;
+}
 
-/// J with rows scaled to unit direction and moments divided by the platform radius, into `out` (row-major).
-template <int Dimension>
-MatrixView homogenised(const MatrixView& J, double radius, std::span<double> out) {
-  for (Eigen::Index i = 0; i < J.rows(); ++i) {
-    const double length = J.row(i).head<Dimension>().norm();
+/// J and K with their rows scaled to unit lines and the moments of J divided by the platform radius, in the
+/// workspace: numbers of one size, whatever the robot's.
+template <class Space>
+MatrixView homogenise(const Reduced& reduced, double radius, Workspace& work) {
+  for (Eigen::Index i = 0; i < reduced.J.rows(); ++i) {
+    const double length = reduced.J.row(i).template head<Space::dimension>().norm();
     const double scale = length > 0 ? 1 / length : 0;
-    for (Eigen::Index j = 0; j < J.cols(); ++j)
-      out[static_cast<std::size_t>(i * J.cols() + j)] = J(i, j) * (j < Dimension ? scale : scale / radius);
+    for (Eigen::Index j = 0; j < Space::dof; ++j)
+      work.unit_J[static_cast<std::size_t>(i * Space::dof + j)] =
+          reduced.J(i, j) * (j < Space::dimension ? scale : scale / radius);
+    for (Eigen::Index j = 0; j < reduced.K.cols(); ++j)
+      work.unit_K[static_cast<std::size_t>(i * reduced.K.cols() + j)] = reduced.K(i, j) * scale;
   }
-  return {out.data(), J.rows(), J.cols()};
+  return {work.unit_J.data(), reduced.J.rows(), Space::dof};
 }
 
 /// 2-norm of a block of rows of U.
 double block_norm(const MatrixView& U, Eigen::Index first, Eigen::Index count) {
-  std::array<double, max_matrix_size> sigma;
+  std::array<double, max_rows> sigma;
   const MatrixView block(U.data() + first * U.cols(), count, U.cols());
   singular_values(block, sigma);
   return sigma[0];
@@ -50,12 +57,12 @@ void classify(TypeTwo& type, const Svd& decomposition, const PlanarPose& pose, d
 }
 
 template <class LegT>
-TypeTwo type_two(const ParallelRobot<LegT>& robot, const AnyPose& pose, const MatrixView& J,
-                 double& homogeneous, Workspace& work) {
+TypeTwo type_two(const ParallelRobot<LegT>& robot, const AnyPose& pose, const MatrixView& lines,
+                 double& homogeneous) {
   using Space = typename LegT::Space;
-  const MatrixView lines = homogenised<Space::dimension>(J, robot.platform_radius, work.scratch);
-  std::array<double, max_matrix_size> sigma;
-  const std::span<double> values(sigma.data(), static_cast<std::size_t>(std::min(J.rows(), J.cols())));
+  std::array<double, max_rows> sigma;
+  const std::span<double> values(sigma.data(),
+                                 static_cast<std::size_t>(std::min(lines.rows(), lines.cols())));
   singular_values(lines, values);
   homogeneous = condition(values);
   TypeTwo type;
@@ -101,9 +108,9 @@ std::string_view to_string(LineClass kind) noexcept {
   return "unknown";
 }
 
-Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
-  const Reduced reduced = assemble(robot, pose, coordinates, work);
-  const Eigen::Index freedoms = reduced.J.cols();
+namespace {
+
+Velocity nothing_yet(const Reduced& reduced, Workspace& work) {
   Velocity answer{.report = {},
                   .J = reduced.J,
                   .K = reduced.K,
@@ -113,47 +120,92 @@ Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinate
                   .type_1 = {},
                   .type_2 = {}};
   answer.report.residual = reduced.closure_error;
-  if (std::isinf(reduced.closure_error)) {
-    answer.report.status = Status::left_domain;
-    answer.report.message.append("the configuration is not a finite number in every coordinate");
-    return answer;
-  }
-  answer.type_1 = std::span(work.type_1)
-                      .first(std::visit([&](const auto& r) { return type_one(r, pose, coordinates, work); },
-                                        robot.model));
-  answer.type_2 = std::visit(
-      [&](const auto& r) { return type_two(r, pose, reduced.J, answer.indices.condition_homogenised, work); },
-      robot.model);
-
-  std::array<double, max_matrix_size> sigma;
-  singular_values(reduced.J, sigma);
-  answer.indices.condition = sigma[0] / sigma[static_cast<std::size_t>(freedoms - 1)];
-  if (reduced.J.rows() == freedoms) answer.determinant = determinant(reduced.J);
-  const bool square = reduced.J.rows() == freedoms;
-  if (answer.type_2.singular || !square || !solve(reduced.J, reduced.K, work.U)) {
-    if (answer.type_2.singular) {
-      answer.report.status = Status::singular;
-      answer.report.message.append(
-          "type II: the platform can move with all inputs held; the lines of the legs are ");
-      answer.report.message.append(to_string(answer.type_2.kind));
-    }
-    return answer;
-  }
-  // A Map is seated anew by placement, as Eigen documents.
-  new (&answer.U) MatrixView(work.U.data(), freedoms, reduced.K.cols());
-  const Eigen::Index linear = freedoms == 3 ? 2 : 3;
-  answer.indices.position = block_norm(answer.U, 0, linear);
-  answer.indices.rotation = block_norm(answer.U, linear, freedoms - linear);
   return answer;
 }
 
-bool rates(const Velocity& velocity, Numbers twist, Workspace& work) {
-  if (!velocity.type_1.empty()) return false;
+void refuse(Velocity& answer, Status status, std::string_view why, std::string_view more = {}) {
+  answer.report.status = status;
+  answer.report.message.append(why);
+  answer.report.message.append(more);
+}
+
+/// U = J⁻¹K by way of the homogenised matrices; its norms. @implements TDPCR (39)
+template <class Space>
+void sensitivities(Velocity& answer, const MatrixView& lines, double radius, Workspace& work) {
+  const Eigen::Index inputs = answer.K.cols();
+  if (!solve(lines, MatrixView(work.unit_K.data(), answer.K.rows(), inputs), work.U))
+    return refuse(answer, Status::singular, "J cannot be inverted in double precision");
+  for (Eigen::Index k = Space::dimension * inputs; k < Space::dof * inputs; ++k)
+    work.U[static_cast<std::size_t>(k)] /= radius;
+  // A Map is seated anew by placement, as Eigen documents.
+  new (&answer.U) MatrixView(work.U.data(), Space::dof, inputs);
+  answer.indices.position = block_norm(answer.U, 0, Space::dimension);
+  answer.indices.rotation = block_norm(answer.U, Space::dimension, Space::dof - Space::dimension);
+}
+
+template <class LegT>
+Velocity velocity_of(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates,
+                     const Reduced& reduced, Workspace& work) {
+  using Space = typename LegT::Space;
+  Velocity answer = nothing_yet(reduced, work);
+  if (std::isinf(reduced.closure_error)) {
+    refuse(answer, Status::left_domain, "the configuration is not a finite number in every coordinate");
+    return answer;
+  }
+  answer.type_1 = std::span(work.type_1).first(type_one(robot, pose, coordinates, work));
+  const MatrixView lines = homogenise<Space>(reduced, robot.platform_radius, work);
+  answer.type_2 = type_two(robot, pose, lines, answer.indices.condition_homogenised);
+
+  std::array<double, max_rows> sigma;
+  singular_values(reduced.J, sigma);
+  answer.indices.condition = condition(std::span(sigma).first(Space::dof));
+  if (reduced.J.rows() == Space::dof) answer.determinant = determinant(reduced.J);
+  if (answer.type_2.singular)
+    refuse(answer, Status::singular,
+           "type II: the platform can move with all inputs held; the lines of the legs are ",
+           to_string(answer.type_2.kind));
+  else if (reduced.J.rows() > Space::dof)
+    answer.report.message.append(
+        "there is no U: more legs than freedoms, so the inputs depend on each other");
+  else
+    sensitivities<Space>(answer, lines, robot.platform_radius, work);
+  return answer;
+}
+
+}  // namespace
+
+Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
+  const Reduced reduced = assemble(robot, pose, coordinates, work);
+  return std::visit([&](const auto& r) { return velocity_of(r, pose, coordinates, reduced, work); },
+                    robot.model);
+}
+
+Report rates(const Velocity& velocity, Numbers twist, Workspace& work) {
+  Report report;
+  const auto refuse_with = [&](std::string_view why) {
+    report.status = Status::singular;
+    report.message.append(why);
+    return report;
+  };
+  if (!velocity.type_1.empty())
+    return refuse_with("a leg at a type I singularity cannot follow a twist; see type_1");
+  const Eigen::Index inputs = velocity.K.cols();
   const Eigen::Map<const Eigen::VectorXd> t(twist.data(), static_cast<Eigen::Index>(twist.size()));
-  for (Eigen::Index i = 0; i < velocity.J.rows(); ++i)
-    work.s[static_cast<std::size_t>(i)] = velocity.J.row(i).dot(t);
-  least_norm(velocity.K, work.s, work.rates);
-  return true;
+  for (Eigen::Index i = 0; i < velocity.J.rows();
+       ++i) {  // rows of K scaled to one: legs may be of unlike size
+    const double scale = 1 / velocity.K.row(i).cwiseAbs().maxCoeff();
+    work.s[static_cast<std::size_t>(i)] = velocity.J.row(i).dot(t) * scale;
+    for (Eigen::Index j = 0; j < inputs; ++j)
+      work.unit_K[static_cast<std::size_t>(i * inputs + j)] = velocity.K(i, j) * scale;
+  }
+  const MatrixView unit_K(work.unit_K.data(), velocity.K.rows(), inputs);
+  least_norm(unit_K, work.s, work.rates);
+  const Eigen::Map<const Eigen::VectorXd> needed(work.s.data(), unit_K.rows()),
+      found(work.rates.data(), inputs);
+  for (Eigen::Index i = 0; i < unit_K.rows(); ++i)
+    if (std::abs(unit_K.row(i).dot(found) - needed[i]) > 1e-9 * needed.cwiseAbs().maxCoeff())
+      return refuse_with("legs that share an input would need different rates for this twist");
+  return report;
 }
 
 }  // namespace sinew::inline v0

@@ -27,7 +27,7 @@ struct Ring {
 };
 
 Ring read_ring(Reader& map, int count) {
-  Ring ring{map.required("radius").quantity(Dimension::length, Range::positive()), {}};
+  Ring ring{map.required("radius").quantity(Dimension::length, Range::size()), {}};
   if (const auto all = map.optional("angles")) {
     ring.angles = all->quantities(Dimension::angle, {}, static_cast<std::size_t>(count));
     if (map.has("angle")) map.fail("ambiguous", "gives both angle and angles; keep one");

@@ -15,7 +15,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What a value outside the range must do: `it must be positive`.
-std::string rule(const Range& range, Dimension dimension) {
+std::string rule(const Range& range, Dimension dimension, double value) {
+  if (range.low > 0 && value <= 0) return "it must be positive";  // the bound itself is the lesser news
   const auto low = [&] { return human(range.low, dimension); };
   const auto high = [&] { return human(range.high, dimension); };
   if (range.high == infinity) {
@@ -137,7 +138,7 @@ int Reader::integer(Range range) const {
   const auto whole = value(Dimension::count, range);
   if (!whole) return harmless_integer(range);
   if (*whole >= lowest && *whole <= highest) return static_cast<int>(*whole);
-  refuse("out_of_range", rule(Range::between(lowest, highest), Dimension::count) + ".");
+  refuse("out_of_range", rule(Range::between(lowest, highest), Dimension::count, lowest) + ".");
   return harmless_integer(range);
 }
 
@@ -208,7 +209,7 @@ std::optional<double> Reader::value(Dimension dimension, const Range& range) con
     return {};
   }
   if (range.contains(result)) return result;
-  refuse("out_of_range", rule(range, dimension) + ".");
+  refuse("out_of_range", rule(range, dimension, result) + ".");
   return {};
 }
 

@@ -9,9 +9,9 @@
 
 #include "io/architecture.hpp"
 #include "io/builtin.hpp"
+#include "sinew/base/limits.hpp"
 #include "sinew/io/parse.hpp"
 #include "sinew/io/reader.hpp"
-#include "sinew/solve/newton.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -19,12 +19,13 @@ namespace {
 /// `[x, y]` or `{radius, angle}`.
 Vec2<double> read_point(Reader point) {
   if (point.is(Node::Kind::map)) {
-    const double radius = point.required("radius").quantity(Dimension::length, Range::not_negative());
+    const double radius =
+        point.required("radius").quantity(Dimension::length, {.low = 0, .high = Range::place().high});
     const double angle = point.required("angle").quantity(Dimension::angle);
     point.close();
     return {radius * std::cos(angle), radius * std::sin(angle)};
   }
-  const auto [x, y] = point.array<2>(Dimension::length);
+  const auto [x, y] = point.array<2>(Dimension::length, Range::place());
   return {x, y};
 }
 
@@ -143,7 +144,8 @@ PlanarPose read_home(Reader& platform) {
   if (!home) return {};
   const auto coordinate = [&](std::string_view key, Dimension dimension) {
     const auto value = home->optional(key);
-    return value ? value->quantity(dimension) : 0.0;
+    return value ? value->quantity(dimension, dimension == Dimension::length ? Range::place() : Range::any())
+                 : 0.0;
   };
   const PlanarPose pose{coordinate("x", Dimension::length), coordinate("y", Dimension::length),
                         coordinate("phi", Dimension::angle)};
@@ -174,12 +176,12 @@ AnyRobot read_listed(Reader& robot) {
   if (auto platform = robot.optional("platform")) {
     home = read_home(*platform);
     if (const auto given = platform->optional("radius"))
-      radius = given->quantity(Dimension::length, Range::positive());
+      radius = given->quantity(Dimension::length, Range::size());
     platform->close();
   }
   robot.close();
   if (read.legs.empty()) return result;
-  if (!(radius > 0))
+  if (!(radius >= Range::size().low))
     robot.fail("collapsed_platform", "all platform points coincide with the reference point; spread them");
   result.model = make_robot(read.legs, read.inputs, home, radius);
   return result;

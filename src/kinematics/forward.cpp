@@ -1,6 +1,7 @@
 #include "sinew/kinematics/forward.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "robot/pose.hpp"
 #include "sinew/solve/newton.hpp"
@@ -21,8 +22,11 @@ class Closing {
   Closing(const ParallelRobot<LegT>& robot, Numbers coordinates) : robot_(robot), coordinates_(coordinates) {
     for (std::size_t i = 0; i < robot.legs.size(); ++i) {
       tips_[i] = robot.legs[i].tip(coordinates[i]);
-      size_ =
-          std::max(size_, with_leg(robot.legs[i], [](const auto& leg) { return leg.link.bounds().reach; }));
+      const double extent = with_leg(robot.legs[i], [&](const auto& leg) {
+        return leg.base.p.norm() + leg.platform_point.norm() + tips_[i].position.norm() +
+               std::sqrt(2 * leg.closure.anchor(tips_[i]).half_square);
+      });
+      size_ = std::max(size_, extent);
     }
   }
 
@@ -63,7 +67,7 @@ class Closing {
 void explain(Report& report, const Reduced& at_end) {
   if (report.ok()) return;
   if (report.status == Status::left_domain) {
-    report.message.append("the start is not a finite number in every coordinate");
+    report.message.append("the start is not a number, or too far away to be squared");
     return;
   }
   report.message.append("the legs do not close from this start; legs[");

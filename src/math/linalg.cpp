@@ -11,7 +11,7 @@
 namespace sinew::inline v0 {
 namespace {
 
-constexpr int most = max_matrix_size;
+constexpr int most = max_rows;
 // Maxima known at compile time: Eigen then keeps the elements, and every workspace, inside the object.
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most, most>;
 using Small3 = Eigen::Matrix<double, 3, 3>;

@@ -8,8 +8,8 @@ namespace sinew::inline v0 {
 
 PlanarPose read_pose(Reader pose) {
   PlanarPose result;
-  result.x = pose.required("x").quantity(Dimension::length);
-  result.y = pose.required("y").quantity(Dimension::length);
+  result.x = pose.required("x").quantity(Dimension::length, Range::place());
+  result.y = pose.required("y").quantity(Dimension::length, Range::place());
   result.phi = pose.required("phi").quantity(Dimension::angle);
   pose.close();
   return result;
@@ -47,6 +47,9 @@ Configuration read_configuration(Context& context) {
   if (auto start = context.query.optional("start")) configuration.start = read_pose(std::move(*start));
   if (!configuration.pose && !configuration.inputs)
     context.query.fail("missing_key", "give a pose, or inputs, or both");
+  if (configuration.inputs && !configuration.branch.is_default())
+    context.query.fail("ambiguous",
+                       "bending or curvature choose among solutions; the inputs are given, remove them");
   if (configuration.pose && configuration.start)
     context.query.fail("ambiguous",
                        "start is where a search for the pose begins; the pose is given, remove it");

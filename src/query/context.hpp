@@ -37,6 +37,7 @@ struct Context {
 struct Branch {
   std::vector<int> bending;
   std::vector<double> curvature;
+  bool is_default() const { return bending.empty() && curvature.empty(); }
   InverseOptions options() const { return {.bending = bending, .curvature = curvature}; }
 };
 

@@ -38,8 +38,8 @@ Json leg_json(const LegT& leg) {
 
 template <class LegT>
 Json input_json(const LegT& leg, std::size_t index) {
-  const double end = leg.link.bounds().domain;
-  const double a = leg.drive.input(leg.link, -end), b = leg.drive.input(leg.link, end);
+  const double end = leg.domain();
+  const double a = leg.input(-end), b = leg.input(end);
   return {{"name", joined(joined("legs", index), LegT::Drive::input_name)},
           {"unit", unit(LegT::Drive::input_dimension)},
           {"limits", {std::min(a, b), std::max(a, b)}}};

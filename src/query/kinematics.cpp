@@ -1,4 +1,6 @@
 /// Handlers of the queries that solve: forward, inverse, velocity, shape.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "query/context.hpp"
@@ -8,7 +10,8 @@
 namespace sinew::inline v0 {
 namespace {
 
-constexpr std::size_t most_solutions = 4096;
+constexpr double most_solutions = 1024;
+constexpr std::size_t most_trace = 1000;
 
 void refuse_if_asked(Context& context, std::string_view key, std::string_view why) {
   if (const auto asked = context.query.optional(key)) asked->fail("not_available", why);
@@ -17,14 +20,25 @@ void refuse_if_asked(Context& context, std::string_view key, std::string_view wh
 Json all_working_modes(Context& context, const AnyPose& pose) {
   const WorkingModes modes = working_modes(context.robot, pose, context.work);
   Json solutions = Json::array();
-  std::vector<double> coordinates(static_cast<std::size_t>(leg_count(context.robot)));
-  for (std::size_t k = 0; k < std::min(modes.count, most_solutions); ++k) {
-    modes.mode(k, coordinates);
-    if (!inputs_of(context.robot, coordinates, context.work).ok()) continue;  // tied legs that do not agree
-    solutions.push_back({{"inputs", to_json(context.work.inputs)},
-                         {"legs", legs_json(context.robot, pose, coordinates, context.work)}});
+  std::vector<double> inputs(context.work.inputs.size());
+  for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, most_solutions); ++k) {
+    modes.mode(k, inputs);
+    command(context.robot, inputs, context.work);
+    const std::vector<double> coordinates = context.work.coordinates;
+    solutions.push_back(
+        {{"inputs", to_json(inputs)}, {"legs", legs_json(context.robot, pose, coordinates, context.work)}});
   }
+  if (modes.count > most_solutions)
+    context.answer["message"] =
+        fmt::format("{:.0f} working modes exist; the first {:.0f} are listed", modes.count, most_solutions);
   return solutions;
+}
+
+Json trace_json(std::span<const TraceStep> trace, int iterations) {
+  Json list = Json::array();
+  for (const TraceStep& step : trace.first(std::min(trace.size(), static_cast<std::size_t>(iterations) + 1)))
+    list.push_back({{"iteration", step.iteration}, {"residual", step.residual}, {"step", step.step}});
+  return list;
 }
 
 void put_number(Json& object, const char* key, double value) {  // NaN and infinity never appear in an answer
@@ -33,10 +47,8 @@ void put_number(Json& object, const char* key, double value) {  // NaN and infin
 
 Json indices_json(const Indices& indices) {
   Json object = Json::object();
-  // Beyond 1e15 a condition number says how J was rounded, not what it is.
-  if (indices.condition < 1e15) put_number(object, "condition", indices.condition);
-  if (indices.condition_homogenised < 1e15)
-    put_number(object, "condition_homogenised", indices.condition_homogenised);
+  put_number(object, "condition", indices.condition);
+  put_number(object, "condition_homogenised", indices.condition_homogenised);
   put_number(object, "position", indices.position);
   put_number(object, "rotation", indices.rotation);
   return object;
@@ -49,12 +61,11 @@ Json type_two_json(const TypeTwo& type) {
 }
 
 void put_rates(Context& context, const Velocity& result, std::span<const double> twist) {
-  if (rates(result, twist, context.work)) {
+  const Report found = rates(result, twist, context.work);
+  if (found.ok())
     context.answer["rates"] = to_json(context.work.rates);
-    return;
-  }
-  context.answer["status"] = to_string(Status::singular);
-  context.answer["message"] = "a leg at a type I singularity cannot follow a twist; see type_1";
+  else
+    context.report(found);
 }
 
 Json polylines(const std::vector<Polyline>& lines) {
@@ -73,6 +84,10 @@ void answer_forward(Context& context) {
   const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
   ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
   if (auto start = context.query.optional("start")) options.start = read_pose(std::move(*start));
+  std::vector<TraceStep> trace;
+  if (const auto wanted = context.query.optional("trace"))
+    if (wanted->boolean()) trace.resize(most_trace);
+  options.trace = trace;
   if (const auto all = context.query.optional("all"))
     if (all->boolean())
       all->fail("not_available",
@@ -87,8 +102,10 @@ void answer_forward(Context& context) {
     context.answer["pose"] = to_json(result.pose);
     context.answer["legs"] = legs_json(context.robot, result.pose, result.coordinates, context.work);
   }
+  if (result.report.status == Status::left_domain) return;  // nothing was solved
   context.answer["residual"] = result.report.residual;
   context.answer["iterations"] = result.report.iterations;
+  if (!trace.empty()) context.answer["trace"] = trace_json(trace, result.report.iterations);
 }
 
 void answer_inverse(Context& context) {
@@ -143,7 +160,7 @@ void answer_velocity(Context& context) {
 void answer_shape(Context& context) {
   const Configuration given = read_configuration(context);
   const auto samples = context.query.optional("samples");
-  const int count = samples ? samples->integer(Range::between(2, 10000)) : 33;
+  const int count = samples ? samples->integer(Range::between(2, 2000)) : 33;
   if (!context.ready()) return;
   const Solved at = solve_configuration(context, given);
   if (!context.errors.empty()) return;

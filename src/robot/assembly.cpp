@@ -25,7 +25,7 @@ Reduced assemble_robot(const ParallelRobot<LegT>& robot, const AnyPose& pose, Nu
       const double q = coordinates[index];
       const auto blocks = leg.template blocks<double>(platform, leg.tip(q));
       for (int j = 0; j < Space::dof; ++j) work.J[at(i, j, Space::dof)] = blocks.g_x[j];
-      work.K[at(i, robot.input_of_leg[index], inputs)] = -blocks.g_q[0] * leg.drive.rate(leg.link);
+      work.K[at(i, robot.input_of_leg[index], inputs)] = -blocks.g_q[0] * leg.input_rate();
       work.s[index] = -blocks.g;
       const double error =
           std::isfinite(blocks.error) ? std::abs(blocks.error) : std::numeric_limits<double>::infinity();
@@ -66,32 +66,13 @@ Report command_robot(const ParallelRobot<LegT>& robot, Numbers inputs, Workspace
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     const int source = robot.input_of_leg[i];
     const double a = inputs[static_cast<std::size_t>(source)];
-    const bool inside = with_leg(robot.legs[i], [&](const auto& leg) {
-      work.coordinates[i] = leg.drive.coordinate(leg.link, a);
-      return std::abs(work.coordinates[i]) < leg.link.bounds().domain;  // false for NaN too
-    });
-    if (!inside)
+    work.coordinates[i] = robot.legs[i].coordinate(a);
+    if (!robot.legs[i].in_domain(work.coordinates[i]))
       return refusal(Status::left_domain, "inputs", source,
-                     " bends the link by a full turn or more; give a length nearer to the backbone's");
+                     " bends the link to a full turn, or a tendon to its centre of curvature; give a length "
+                     "nearer to the backbone's");
   }
   std::copy(inputs.begin(), inputs.end(), work.inputs.begin());
-  return {};
-}
-
-template <class LegT>
-Report inputs_of_robot(const ParallelRobot<LegT>& robot, Numbers coordinates, Workspace& work) {
-  SINEW_EXPECTS(coordinates.size() == robot.legs.size());
-  std::fill(work.inputs.begin(), work.inputs.end(), std::nan(""));
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    const double a =
-        with_leg(robot.legs[i], [&](const auto& leg) { return leg.drive.input(leg.link, coordinates[i]); });
-    double& input = work.inputs[static_cast<std::size_t>(robot.input_of_leg[i])];
-    if (std::isnan(input))
-      input = a;
-    else if (std::abs(input - a) > 1e-12 * (1 + std::abs(a)))
-      return refusal(Status::unreachable, "legs", static_cast<int>(i),
-                     " is tied to another leg but needs a different input at this pose");
-  }
   return {};
 }
 
@@ -112,10 +93,6 @@ Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates
 
 Report command(const AnyRobot& robot, Numbers inputs, Workspace& work) {
   return std::visit([&](const auto& r) { return command_robot(r, inputs, work); }, robot.model);
-}
-
-Report inputs_of(const AnyRobot& robot, Numbers coordinates, Workspace& work) {
-  return std::visit([&](const auto& r) { return inputs_of_robot(r, coordinates, work); }, robot.model);
 }
 
 std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates,
@@ -147,10 +124,11 @@ Workspace::Workspace(const AnyRobot& robot) {
   K.resize(legs_ * inputs_);
   U.resize(dof_ * inputs_);
   s.resize(legs_);
-  scratch.resize(legs_ * dof_);
+  unit_J.resize(legs_ * dof_);
+  unit_K.resize(legs_ * inputs_);
   rates.resize(inputs_);
-  solutions.resize(legs_ * max_solutions);
-  solution_count.resize(legs_);
+  solutions.resize(inputs_ * max_solutions);
+  solution_count.resize(inputs_);
   type_1.resize(legs_);
   legs.resize(legs_);
 }

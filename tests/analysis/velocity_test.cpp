@@ -51,7 +51,7 @@ TEST_P(EveryRobotMoves, WithTheRatesThatATwistNeeds) {  // @verifies TDPCR (41)
   const std::vector<double> coordinates = values(work.coordinates);
   const Velocity v = velocity(robot, pose, coordinates, work);
   const std::array twist{0.1, -0.2, 0.3};
-  ASSERT_TRUE(rates(v, twist, work));
+  ASSERT_TRUE(rates(v, twist, work).ok());
   const Eigen::Vector3d back = Eigen::MatrixXd(v.U) * Eigen::Map<const Eigen::Vector3d>(work.rates.data());
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(back[i], twist[static_cast<std::size_t>(i)], 1e-13);
 }
@@ -93,7 +93,7 @@ TEST(TypeOne, AStraightLegOfTheRfrIsLostNotUndefined) {
   ASSERT_EQ(v.type_1.size(), 1U);
   EXPECT_EQ(v.type_1[0], 1);
   EXPECT_EQ(v.K(1, 1), 0);
-  EXPECT_FALSE(rates(v, {1, 0, 0}, work));
+  EXPECT_EQ(rates(v, {1, 0, 0}, work).status, Status::singular);
   EXPECT_FALSE(v.type_2.singular);
 }
 
@@ -119,6 +119,35 @@ TEST(TypeOne,
   EXPECT_TRUE(straight.type_1.empty());
   EXPECT_NEAR(straight.K(0, 0), -1.9484100091436105, 1e-11);
   EXPECT_LT(straight.report.residual, 1e-14);
+}
+
+TEST(Rates, OfTiedLegsAreRefusedWhereTheyWouldDiffer) {
+  AnyRobot robot = rfr_in_code();
+  std::get<0>(robot.model).input_of_leg = {0, 1, 0};
+  Workspace work(robot);
+  const Forward at = forward(robot, {0.19, 0.19}, {}, work);
+  ASSERT_TRUE(at.ok());
+  const Velocity v = velocity(robot, at.pose, values(at.coordinates), work);
+  EXPECT_EQ(rates(v, {1, 2, 3}, work).status, Status::singular);
+  const Eigen::VectorXd possible = Eigen::MatrixXd(v.U) * Eigen::Vector2d(0.3, -0.2);
+  ASSERT_TRUE(rates(v, {possible[0], possible[1], possible[2]}, work).ok());
+  EXPECT_NEAR(work.rates[0], 0.3, 1e-12);
+  EXPECT_NEAR(work.rates[1], -0.2, 1e-12);
+}
+
+TEST(Rates, OfLegsOfUnlikeSizeAreAllFollowed) {
+  AnyRobot robot = rfr_in_code();
+  auto& legs = std::get<0>(robot.model).legs;
+  legs[2].link.length = 700;  // beside legs of 0.2 m
+  legs[2].base.p = Vec2<double>(650, -100);
+  Workspace work(robot);
+  const PlanarPose pose{0.01, 0, 0.1};
+  ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
+  const Velocity v = velocity(robot, pose, values(work.coordinates), work);
+  const Eigen::Vector3d twist(0.1, 0.2, 0.3);
+  ASSERT_TRUE(rates(v, {0.1, 0.2, 0.3}, work).ok());
+  for (Eigen::Index i = 0; i < 3; ++i)
+    EXPECT_NEAR(v.K(i, i) * work.rates[static_cast<std::size_t>(i)] / v.J.row(i).dot(twist), 1, 1e-12);
 }
 
 TEST(Shape, LegsRunFromTheirBaseToTheirPlatformPoint) {

@@ -30,11 +30,9 @@ TEST_P(EveryRobot, ForwardUndoesInverseOnEveryWorkingMode) {  // @verifies TDPCR
     const PlanarPose pose = reachable();
     const WorkingModes modes = working_modes(robot, pose, work);
     ASSERT_TRUE(modes.report.ok());
-    std::vector<double> coordinates(3);
-    for (std::size_t k = 0; k < modes.count; ++k) {
-      modes.mode(k, coordinates);
-      ASSERT_TRUE(inputs_of(robot, coordinates, work).ok());
-      const std::vector<double> inputs = values(work.inputs);
+    std::vector<double> inputs(3);
+    for (std::size_t k = 0; static_cast<double>(k) < modes.count; ++k) {
+      modes.mode(k, inputs);
       const Forward there = forward(robot, inputs, {.start = pose}, work);
       ASSERT_TRUE(there.ok()) << to_string(there.report);
       EXPECT_LE(there.report.residual, 1e-14);
@@ -67,8 +65,10 @@ TEST_P(EveryRobot, BranchIsChosenAsAsked) {
   for (int sample = 0; sample < 200; ++sample) {
     const PlanarPose pose = reachable();
     const WorkingModes modes = working_modes(robot, pose, work);
-    std::vector<double> wanted(3);
-    modes.mode(modes.count / 2, wanted);
+    std::vector<double> inputs(3);
+    modes.mode(static_cast<std::size_t>(modes.count) / 2, inputs);
+    ASSERT_TRUE(command(robot, inputs, work).ok());
+    const std::vector<double> wanted = work.coordinates;
     const Inverse nearest = inverse(robot, pose, {.curvature = wanted}, work);
     ASSERT_TRUE(nearest.ok());
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(nearest.coordinates[i], wanted[i], 1e-12);
@@ -98,6 +98,82 @@ TEST_P(EveryRobot, UnreachablePosesNameTheLegAndInputsOutsideTheDomainTheInput) 
 
 INSTANTIATE_TEST_SUITE_P(Builtin, EveryRobot, testing::ValuesIn(builtin_robot_names()),
                          [](const auto& robot) { return "robot_" + std::to_string(robot.index); });
+
+/// Legs 0 and 1 on one motor: a random robot, its pose for a known common curvature.
+TEST(Inverse, TiedLegsAreSolvedTogether) {  // by whichever value closes them all, not leg by leg
+  std::mt19937 random{5};
+  using FrrLeg = Leg<Planar, Arc, TendonPair, Strut>;
+  for (int sample = 0; sample < 300; ++sample) {
+    ParallelRobot<FrrLeg> model{{}, {0, 0, 1}, {}, 0.05};
+    const PlanarPose pose = random_pose(random);
+    const auto platform = Planar::frame(pose);
+    const double common = uniform(random, -20, 20), third = uniform(random, -20, 20);
+    for (int i = 0; i < 3; ++i) {  // whatever the leg, its strut is made to fit
+      FrrLeg leg = random_leg<FrrLeg>(random);
+      leg.link.length = 0.2;
+      leg.drive.offset = 0.005;
+      const Vec2<double> tip = leg.base.point(leg.tip(i < 2 ? common : third).position);
+      leg.closure.length = (platform.point(leg.platform_point) - tip).norm();
+      model.legs.push_back(leg);
+    }
+    const AnyRobot robot("tied", model);
+    Workspace work(robot);
+    const Inverse answer = inverse(robot, pose, {}, work);
+    ASSERT_TRUE(answer.ok()) << sample << " " << to_string(answer.report);
+    EXPECT_LT(answer.report.residual, 1e-12);
+    const std::array near{common, common, third};
+    const Inverse known = inverse(robot, pose, {.curvature = near}, work);
+    ASSERT_TRUE(known.ok());
+    EXPECT_NEAR(known.coordinates[0], common, 1e-6);
+    EXPECT_EQ(known.coordinates[0], known.coordinates[1]);
+    const WorkingModes modes = working_modes(robot, pose, work);
+    EXPECT_GE(modes.count, 1);
+  }
+}
+
+TEST(Inverse, TiedLegsNearStraightAgree) {  // κ is a square root there
+  std::mt19937 random{6};
+  for (int sample = 0; sample < 200; ++sample) {
+    AnyRobot robot = rfr_in_code();
+    auto& model = std::get<0>(robot.model);
+    model.input_of_leg = {0, 0, 1};
+    const double curvature = std::pow(10.0, uniform(random, -8, -2)),
+                 chord = model.legs[0].link.chord(curvature);
+    const PlanarPose pose{uniform(random, -0.01, 0.01), 0, uniform(random, -0.3, 0.3)};
+    for (std::size_t i = 0; i < 2; ++i) {  // move the base points so that both legs have this chord
+      auto& leg = model.legs[i];
+      const Vec2<double> head = Planar::frame(pose).point(leg.platform_point);
+      leg.base.p = head + chord * (leg.base.p - head).normalized();
+    }
+    Workspace work(robot);
+    const Inverse answer = inverse(robot, pose, {}, work);
+    ASSERT_TRUE(answer.ok()) << curvature << " " << to_string(answer.report);
+    EXPECT_LT(answer.report.residual, 1e-12);
+  }
+}
+
+TEST(Inverse, OptionsOfTheWrongSizeAreNamed) {
+  const AnyRobot robot = rfr_in_code();
+  Workspace work(robot);
+  const std::array<int, 2> two{1, 1};
+  EXPECT_EQ(inverse(robot, PlanarPose{}, {.bending = two}, work).report.status, Status::left_domain);
+  EXPECT_EQ(inverse(robot, PlanarPose{}, {.curvature = {1, 2, 3, 4}}, work).report.status,
+            Status::left_domain);
+}
+
+TEST(Inverse, AFoldedLegAndATendonBeyondTheCentreAreNoSolutions) {
+  Leg<Planar, Arc, TendonPair, Chord> leg{};
+  leg.drive.offset = 0.005;
+  std::array<double, 8> roots;
+  for (const double length : {0.13, 0.2, 0.3, 0.41}) {
+    leg.link.length = length;
+    EXPECT_EQ(leg.coordinates_at(Planar::frame({0, 0, 0}), roots), 0) << length;
+  }
+  leg.link.length = 0.2;
+  leg.drive.offset = 0.1;  // 1/d = 10 1/m
+  EXPECT_EQ(leg.coordinates_at(Planar::frame({0, leg.link.chord(9.9), 0}), roots), 2);
+  EXPECT_EQ(leg.coordinates_at(Planar::frame({0, leg.link.chord(10.1), 0}), roots), 0);
+}
 
 TEST(Inverse, DefaultIsTheSmallestCurvatureAndPositiveOfTwo) {
   const AnyRobot robot = rfr_in_code();

@@ -67,7 +67,7 @@ TYPED_TEST(EveryLeg, SolutionsCloseTheLegAndNoneIsMissed) {
       }
     }
     // An independent count: sign changes of g on a fine grid over the whole domain.
-    const double end = leg.link.bounds().domain;
+    const double end = leg.domain();
     int changes = 0;
     double before = 0;
     for (int k = 0; k <= 4000; ++k) {

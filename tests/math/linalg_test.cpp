@@ -35,9 +35,7 @@ Dense random_matrix(std::uint32_t seed, int rows, int columns) {
   return Dense::NullaryExpr(rows, columns, [&] { return normal(engine); });
 }
 
-int size_from(std::uint32_t seed, int shift) {
-  return 1 + static_cast<int>((seed >> shift) % max_matrix_size);
-}
+int size_from(std::uint32_t seed, int shift) { return 1 + static_cast<int>((seed >> shift) % max_rows); }
 
 RC_GTEST_PROP(Linalg, SvdComposesTheMatrixFromOrthogonalParts, (std::uint32_t seed)) {
   const Dense a = random_matrix(seed, size_from(seed, 3), size_from(seed, 13));
@@ -169,10 +167,10 @@ TEST(Linalg, LargerThanTheLargestSizeIsRefusedNotWrittenPastTheEnd) {
 
 #ifdef COUNTS_ALLOCATIONS
 TEST(Linalg, NothingAllocatesUpToTheLargestSize) {
-  for (int n : {1, 3, 6, 17, max_matrix_size}) {
-    for (int m : {2, max_matrix_size}) {
+  for (int n : {1, 3, 6, 17, max_rows}) {
+    for (int m : {2, max_rows}) {
       const Dense square = random_matrix(3, n, n), wide = random_matrix(4, n, m);
-      Dense out(max_matrix_size, max_matrix_size);
+      Dense out(max_rows, max_rows);
       const std::span<double> room(out.data(), static_cast<std::size_t>(out.size()));
       const std::span<const double> b(square.data(), static_cast<std::size_t>(n));
       const MatrixView a = view(square), w = view(wide);

@@ -76,43 +76,49 @@ TEST(Roots, FindsEveryRootOfAPolynomial) {
     return RootSample{(x + 2) * (x + 1.999) * x * (x - 3),
                       (x + 1.999) * x * (x - 3) + (x + 2) * x * (x - 3) + (x + 2) * (x + 1.999) * (x - 3) +
                           (x + 2) * (x + 1.999) * x,
-                      500};
+                      500, 1e-14};
   };
+  const RootsOptions all{.low = -5, .high = 5, .stride = 1};
   std::array<double, 8> roots;
-  ASSERT_EQ(all_roots(f, {.low = -5, .high = 5, .stride = 1, .value_noise = 1e-14}, roots), 4);
+  ASSERT_EQ(all_roots(f, all, roots), 4);
   EXPECT_NEAR(roots[0], -2, 1e-12);
   EXPECT_NEAR(roots[1], -1.999, 1e-12);
   EXPECT_NEAR(roots[2], 0, 1e-14);
   EXPECT_NEAR(roots[3], 3, 1e-14);
-  EXPECT_NEAR(nearest_root(f, {.low = -5, .high = 5, .stride = 1, .value_noise = 1e-14}, 1.6).root, 3, 1e-14);
-  EXPECT_NEAR(nearest_root(f, {.low = -5, .high = 5, .stride = 1, .value_noise = 1e-14}, 1.4).root, 0, 1e-14);
-  EXPECT_NEAR(nearest_root(f, {.low = -5, .high = 5, .stride = 1, .value_noise = 1e-14}, 40).root, 3, 1e-14);
-  EXPECT_EQ(nearest_root(f, {.low = 1, .high = 2, .stride = 1, .value_noise = 1e-14}, 1.4).count, 0);
+  EXPECT_NEAR(nearest_root(f, all, 1.6).root, 3, 1e-14);
+  EXPECT_NEAR(nearest_root(f, all, 1.4).root, 0, 1e-14);
+  EXPECT_NEAR(nearest_root(f, all, 40).root, 3, 1e-14);
+  EXPECT_EQ(nearest_root(f, {.low = 1, .high = 2, .stride = 1}, 1.4).count, 0);
 }
 
-TEST(Roots, ADoubleRootIsWrittenOnceAndAMissIsNone) {
-  const auto square = [](double shift) {
-    return [shift](double x) { return RootSample{(x - 0.3) * (x - 0.3) + shift, 2 * (x - 0.3), 2}; };
+TEST(Roots, ARootIsToldOnceHoweverFlatAndAMissIsNone) {
+  const auto power = [](int n, double shift, double noise) {
+    return [=](double x) {
+      return RootSample{std::pow(x - 0.3, n) + shift, n * std::pow(x - 0.3, n - 1), 8, noise};
+    };
   };
-  const RootsOptions options{.low = -1, .high = 1, .stride = 1, .value_noise = 1e-16};
+  const RootsOptions options{.low = -1, .high = 1, .stride = 1};
   std::array<double, 8> roots;
-  ASSERT_EQ(all_roots(square(0), options, roots), 1);
-  EXPECT_NEAR(roots[0], 0.3, 1e-7);
-  EXPECT_EQ(all_roots(square(1e-9), options, roots), 0);
-  EXPECT_EQ(all_roots(square(-1e-9), options, roots), 2);
+  for (const int n : {2, 3}) {
+    ASSERT_EQ(all_roots(power(n, 0, 1e-16), options, roots), 1) << n;
+    EXPECT_NEAR(roots[0], 0.3, 1.1 * std::pow(1e-16, 1.0 / n)) << n;
+  }
+  EXPECT_EQ(all_roots(power(2, 1e-9, 1e-16), options, roots), 0);
+  EXPECT_EQ(all_roots(power(2, -1e-9, 1e-16), options, roots), 2);
+  EXPECT_EQ(all_roots(power(1, 0, 0), options, roots), 1);  // a change of sign tells a root too
+  EXPECT_NEAR(roots[0], 0.3, 1e-16);
 }
 
 TEST(Roots, NearestPrefersTheLargerOfTwoEquallyNear) {
-  const auto f = [](double x) { return RootSample{x * x - 0.25, 2 * x, 2}; };
-  const NearestRoot nearest = nearest_root(f, {.low = -1, .high = 1, .stride = 1, .value_noise = 1e-16}, 0);
-  EXPECT_EQ(nearest.root, 0.5);
+  const auto f = [](double x) { return RootSample{x * x - 0.25, 2 * x, 2, 1e-16}; };
+  EXPECT_EQ(nearest_root(f, {.low = -1, .high = 1, .stride = 1}, 0).root, 0.5);
 }
 
 TEST(Roots, NotANumberEndsAtOnce) {
-  const auto f = [](double) { return RootSample{std::nan(""), 0, 1}; };
+  const auto f = [](double) { return RootSample{std::nan(""), 0, 1, 1e-16}; };
   std::array<double, 8> roots;
-  EXPECT_EQ(all_roots(f, {.low = -1, .high = 1, .stride = 1, .value_noise = 1e-16}, roots), -1);
-  EXPECT_EQ(nearest_root(f, {.low = -1, .high = 1, .stride = 1, .value_noise = 1e-16}, 0).count, -1);
+  EXPECT_EQ(all_roots(f, {.low = -1, .high = 1, .stride = 1}, roots), -1);
+  EXPECT_EQ(nearest_root(f, {.low = -1, .high = 1, .stride = 1}, 0).count, -1);
 }
 
 TEST(Report, IsOneLine) {

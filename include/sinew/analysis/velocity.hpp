@@ -44,12 +44,11 @@ inline constexpr double type_1_tolerance = 1e-6;
 inline constexpr double type_2_tolerance = 1e-10;
 
 /// Velocity analysis at a pose and link coordinates that close the legs. No heap.
-/// @implements TDPCR (39)
 SINEW_API Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
 
-/// Input rates for a platform twist at the configuration last put to `velocity` with this workspace; the
-/// shortest where there are many. False where a leg at a type I singularity cannot follow.  @implements TDPCR
-/// (41)
-SINEW_API bool rates(const Velocity& velocity, Numbers twist, Workspace& work);
+/// Input rates for a platform twist, into `work.rates`, at the configuration last put to `velocity` with this
+/// workspace; the shortest where there are many. `singular` where a leg at a type I singularity cannot
+/// follow, or legs that are tied would need different rates.  @implements TDPCR (41)
+SINEW_API Report rates(const Velocity& velocity, Numbers twist, Workspace& work);
 
 }  // namespace sinew::inline v0

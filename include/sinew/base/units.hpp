@@ -39,6 +39,10 @@ struct Range {
   static constexpr Range any() { return {}; }
   static constexpr Range positive() { return {.low = 0, .low_excluded = true}; }
   static constexpr Range not_negative() { return {.low = 0}; }
+  /// Sizes of parts [m]: a nanometre to a million kilometres, so that no square over- or underflows.
+  static constexpr Range size() { return {.low = 1e-9, .high = 1e9}; }
+  /// Coordinates of points [m].
+  static constexpr Range place() { return {.low = -1e9, .high = 1e9}; }
   static constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
 };
 

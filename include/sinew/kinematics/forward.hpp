@@ -24,8 +24,10 @@ struct Forward {
 };
 
 /// Pose at which every leg closes on the link that `inputs` commands (for tendon-driven legs: lengths of
-/// tendon 1 [m] in leg order). Residual: largest closure error [m]; converged below 1e-14 of a metre times
-/// the robot's size. No heap, no throw, bounded work.  @implements TDPCR (42)
+/// tendon 1 [m] in leg order). Residual: largest closure error [m]. The aim is 1e-14 of the robot's size;
+/// where rounding ends the descent earlier, up to 1e-12 of it counts as converged. No heap, no throw, bounded
+/// work.
+/// @implements TDPCR (42)
 SINEW_API Forward forward(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options,
                           Workspace& work);
 

@@ -1,12 +1,13 @@
 /// @file inverse.hpp
-/// Inverse kinematics: the inputs that hold the platform at a pose. The legs decouple, so each is solved
-/// alone and completely: every solution within the link's domain is found. Theory: docs/theory/kinematics.md
+/// Inverse kinematics: the inputs that hold the platform at a pose. The legs of different inputs decouple, so
+/// each input is solved alone and completely: every solution within its legs' domain is found. Theory:
+/// docs/theory/kinematics.md
 #pragma once
 #include "sinew/robot/assembly.hpp"
 
 namespace sinew::inline v0 {
 
-/// Which of a leg's solutions is wanted; default the smallest |κ|, positive where both signs do.
+/// Which of the solutions is wanted; default the smallest |κ|, positive where both signs do.
 struct InverseOptions {
   std::span<const int> bending =
       {};                  ///< +1 or −1 a leg: only curvatures of this sign (a straight link has both)
@@ -25,15 +26,15 @@ struct Inverse {
 SINEW_API Inverse inverse(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options,
                           Workspace& work);
 
-/// Every solution of every leg at a pose. The working modes of the robot are their combinations.
+/// Every solution of every input at a pose. The working modes of the robot are their combinations.
 struct WorkingModes {
-  Report report;                        ///< unreachable where a leg has no solution
-  std::span<const double> solutions;    ///< leg-major, Workspace::max_solutions a leg, ascending
-  std::span<const int> solution_count;  ///< a leg
-  std::size_t count;                    ///< product of the counts
+  Report report;                        ///< unreachable where an input has no solution
+  std::span<const double> solutions;    ///< values of the inputs, Workspace::max_solutions an input
+  std::span<const int> solution_count;  ///< an input
+  double count;                         ///< product of the counts; exact up to 2^53
 
-  /// Link coordinates of mode k < count, the first leg turning slowest.
-  SINEW_API void mode(std::size_t k, std::span<double> coordinates) const;
+  /// Inputs of mode k < count, the first input turning slowest. `command` gives their link coordinates.
+  SINEW_API void mode(std::size_t k, std::span<double> inputs) const;
 };
 
 SINEW_API WorkingModes working_modes(const AnyRobot& robot, const AnyPose& pose, Workspace& work);

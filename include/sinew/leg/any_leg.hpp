@@ -27,6 +27,15 @@ struct AnyLeg {
   int coordinates_at(const Frame& platform, std::span<double> roots) const {
     return std::visit([&](const auto& leg) { return leg.coordinates_at(platform, roots); }, kind);
   }
+  double coordinate(double input) const {
+    return std::visit([&](const auto& leg) { return leg.coordinate(input); }, kind);
+  }
+  double input(double q) const {
+    return std::visit([&](const auto& leg) { return leg.input(q); }, kind);
+  }
+  bool in_domain(double q) const {
+    return std::visit([&](const auto& leg) { return leg.in_domain(q); }, kind);
+  }
   NearestRoot coordinate_near(const Frame& platform, double target, int sign) const {
     return std::visit([&](const auto& leg) { return leg.coordinate_near(platform, target, sign); }, kind);
   }

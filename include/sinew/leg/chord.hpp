@@ -35,7 +35,7 @@ struct Chord {
   requires requires(const Link& link) { link.curvature_from_chord(1.0); }
   int coordinates_at(const Link& link, const Vec<double, D>& r, std::span<double> roots) const {
     const double curvature = link.curvature_from_chord(r.norm());
-    if (!(curvature < link.bounds().domain)) return 0;  // NaN: too far; a full turn: folded
+    if (std::isnan(curvature)) return 0;  // too far
     if (curvature == 0) {
       roots[0] = 0;
       return 1;
@@ -46,11 +46,24 @@ struct Chord {
   }
 
   void explain_unreachable(double distance, double reach, FixedText<240>& text) const {
-    text.append("needs a chord of ");
-    append_mm(text, distance);
-    text.append(", its backbone is ");
-    append_mm(text, reach);
-    text.append(" long");
+    if (distance <= reach) {
+      text.append("has its platform point ");
+      append_mm(text, distance);
+      text.append(" from its base point: its backbone of ");
+      append_mm(text, reach);
+      text.append(" would be folded");
+    } else if (distance < reach * (1 + 1e-5)) {
+      text.append("needs a chord ");
+      append_mm(text, distance - reach);
+      text.append(" longer than its backbone of ");
+      append_mm(text, reach);
+    } else {
+      text.append("needs a chord of ");
+      append_mm(text, distance);
+      text.append(", its backbone is ");
+      append_mm(text, reach);
+      text.append(" long");
+    }
   }
 };
 

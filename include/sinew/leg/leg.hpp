@@ -90,24 +90,38 @@ struct Leg {
     return {row.g, Space::line(to_world<S>(row.normal), b), row.g_q, error};
   }
 
+  /// @name Inputs a (what a motor commands) and link coordinates q
+  /// @{
+  double coordinate(double input) const { return drive.coordinate(link, input); }
+  double input(double q) const { return drive.input(link, q); }
+  double input_rate() const { return drive.rate(link); }  ///< ∂q/∂a
+  /// The coordinate lies in (−domain, domain): short of a full turn, and no tendon at its centre of
+  /// curvature.
+  double domain() const { return std::min(link.bounds().domain, drive.domain()); }
+  bool in_domain(double q) const { return std::abs(q) < domain(); }  // false for NaN
+  /// @}
+
   /// All link coordinates in ascending order that close the leg at this platform pose; returns their number,
   /// -1 where they cannot be told apart.
   int coordinates_at(const typename Space::template Frame<double>& platform, std::span<double> roots) const {
     const Point r = reach<double>(platform);
+    int count = 0;
     if constexpr (requires { closure.coordinates_at(link, r, roots); }) {
-      return closure.coordinates_at(link, r, roots);
+      count = closure.coordinates_at(link, r, roots);
     } else {
-      return all_roots(closing_at(r), search_for(r, 0), roots);
+      count = all_roots(closing_at(r), search_for(0), roots);
     }
+    const auto end = std::remove_if(roots.begin(), roots.begin() + std::max(count, 0),
+                                    [this](double q) { return !in_domain(q); });  // its ends are not in it
+    return count < 0 ? count : static_cast<int>(end - roots.begin());
   }
 
   /// The one of them that is nearest to a target; `sign` ±1 asks for coordinates of that sign (0 has both).
   NearestRoot coordinate_near(const typename Space::template Frame<double>& platform, double target,
                               int sign) const {
-    const Point r = reach<double>(platform);
-    if constexpr (requires(std::span<double> roots) { closure.coordinates_at(link, r, roots); }) {
+    if constexpr (requires(std::span<double> roots) { closure.coordinates_at(link, Point(), roots); }) {
       std::array<double, 8> roots;
-      const int count = closure.coordinates_at(link, r, roots);
+      const int count = coordinates_at(platform, roots);
       NearestRoot nearest{std::min(count, 0), 0};
       for (int i = 0; i < count; ++i) {
         const double q = roots[static_cast<std::size_t>(i)];
@@ -117,7 +131,8 @@ struct Leg {
       }
       return nearest;
     } else {
-      return nearest_root(closing_at(r), search_for(r, sign), target);
+      const NearestRoot nearest = nearest_root(closing_at(reach<double>(platform)), search_for(sign), target);
+      return nearest.count > 0 && !in_domain(nearest.root) ? NearestRoot{0, 0} : nearest;
     }
   }
 
@@ -151,20 +166,18 @@ struct Leg {
   /// The residual as a function of the one link coordinate, the platform point held.
   auto closing_at(const Point& r) const {
     const TipBounds bounds = link.bounds();
-    return [this, r, bounds](double q) {
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * (r.norm() + bounds.reach);
+    return [this, r, bounds, rounding](double q) {
       const auto row = distance_row(r, closure.anchor(link.tip(q)));
-      const double pull = row.normal.norm() + bounds.rate * stride(bounds);  // at most, within a stride
-      return RootSample{row.g, row.g_q[0], closure.rate_rate_bound(pull, bounds)};
+      const double pull = row.normal.norm();  // g = ½(pull² − D²), and pull is known to `rounding`
+      const double largest_pull = pull + bounds.rate * stride();
+      return RootSample{row.g, row.g_q[0], closure.rate_rate_bound(largest_pull, bounds),
+                        rounding * std::max(pull, rounding)};
     };
   }
-  static double stride(const TipBounds& bounds) { return bounds.domain / 8; }
-  RootsOptions search_for(const Point& r, int sign) const {
-    const TipBounds bounds = link.bounds();
-    const double size = r.norm() + bounds.reach;
-    return {.low = sign > 0 ? 0 : -bounds.domain,
-            .high = sign < 0 ? 0 : bounds.domain,
-            .stride = stride(bounds),
-            .value_noise = 2 * std::numeric_limits<double>::epsilon() * size * size};
+  double stride() const { return domain() / 8; }
+  RootsOptions search_for(int sign) const {
+    return {.low = sign > 0 ? 0 : -domain(), .high = sign < 0 ? 0 : domain(), .stride = stride()};
   }
 
   template <Scalar S>

@@ -18,7 +18,7 @@ struct Strut {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("length", self.length, Dimension::length, Range::positive(), "length of the rigid link");
+    visit("length", self.length, Dimension::length, Range::size(), "length of the rigid link");
   }
 
   /// The row of J that follows is vᵀ, vᵀ E Q c: TDPCR (29) prints vᵀ Eᵢ Qᵢ c, but (22) gives E Q. See

@@ -27,7 +27,7 @@ struct Arc {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("length", self.length, Dimension::length, Range::positive(), "backbone length");
+    visit("length", self.length, Dimension::length, Range::size(), "backbone length");
   }
 
   /// Distance ρ from base to tip [m].  @implements TDPCR (7)
@@ -68,7 +68,9 @@ struct Arc {
   /// From u = ∫₀^ℓ (sin κs, cos κs) ds: |u| ≤ ℓ, |u′| ≤ ℓ²/2, |u″| ≤ ℓ³/3. Beyond a full turn a link is
   /// folded.
   TipBounds bounds() const {
-    return {length, length * length / 2, length * length * length / 3, 2 * std::numbers::pi / length};
+    constexpr double turn =
+        2 * std::numbers::pi * (1 - 1e-15);  // a full turn is beyond, however it is rounded
+    return {length, length * length / 2, length * length * length / 3, turn / length};
   }
 
  private:

@@ -8,11 +8,10 @@
 #include <cstddef>
 #include <span>
 
+#include "sinew/base/limits.hpp"
 #include "sinew/math/vec.hpp"
 
 namespace sinew::inline v0 {
-
-inline constexpr int max_matrix_size = 24;
 
 /// Somebody's row-major numbers as a matrix: `MatrixView(data, rows, columns)`.
 using MatrixView = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
@@ -21,8 +20,8 @@ using MatrixView = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen:
 /// on span the null space of A, those of U that of Aᵀ.
 struct Svd {
   int rows = 0, columns = 0;
-  std::array<double, max_matrix_size> sigma_data;
-  std::array<double, max_matrix_size * max_matrix_size> u_data, v_data;
+  std::array<double, max_rows> sigma_data;
+  std::array<double, max_rows * max_rows> u_data, v_data;
 
   int count() const { return rows < columns ? rows : columns; }
   std::span<const double> sigma() const { return {sigma_data.data(), static_cast<std::size_t>(count())}; }

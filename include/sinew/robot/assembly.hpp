@@ -27,10 +27,6 @@ SINEW_API Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers c
 /// The report says which input is missing, not finite or outside the link's domain.
 SINEW_API Report command(const AnyRobot& robot, Numbers inputs, Workspace& work);
 
-/// Inputs that command these link coordinates, in `work.inputs`. Legs that are tied must agree: the report
-/// says which do not.
-SINEW_API Report inputs_of(const AnyRobot& robot, Numbers coordinates, Workspace& work);
-
 /// What people want to know of each leg. View of `work.legs`.
 SINEW_API std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose,
                                                Numbers coordinates, Workspace& work);

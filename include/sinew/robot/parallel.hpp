@@ -19,6 +19,8 @@ struct ParallelRobot {
   Pose home = {};                 ///< where solvers start when told nothing else
   double platform_radius = 0;     ///< homogenises moments in the indices [m], > 0
 
+  /// Every leg has an input of its own.
+  bool has_ties() const { return input_count() < leg_count(); }
   int leg_count() const { return static_cast<int>(legs.size()); }
   int row_count() const { return leg_count(); }  // each closure here gives one row
   int input_count() const {

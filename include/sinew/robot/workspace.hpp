@@ -16,12 +16,12 @@ struct Workspace {
 
   std::vector<double> coordinates;  ///< link coordinates, leg by leg
   std::vector<double> inputs;
-  std::vector<double> J, K, U, s;   ///< row-major: rows × dof, rows × inputs, dof × inputs, rows
-  std::vector<double> scratch;      ///< rows × dof
-  std::vector<double> rates;        ///< inputs
-  std::vector<double> solutions;    ///< legs × max_solutions
-  std::vector<int> solution_count;  ///< legs
-  std::vector<int> type_1;          ///< legs
+  std::vector<double> J, K, U, s;      ///< row-major: rows × dof, rows × inputs, dof × inputs, rows
+  std::vector<double> unit_J, unit_K;  ///< J and K with rows scaled to unit lines
+  std::vector<double> rates;           ///< inputs
+  std::vector<double> solutions;       ///< inputs × max_solutions
+  std::vector<int> solution_count;     ///< inputs
+  std::vector<int> type_1;             ///< legs
   std::vector<LegState> legs;
 };
 

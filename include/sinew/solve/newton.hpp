@@ -10,13 +10,11 @@
 #include <concepts>
 #include <span>
 
+#include "sinew/base/limits.hpp"
 #include "sinew/math/vec.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v0 {
-
-/// Most residual rows a problem may have; with it nothing here touches the heap.
-inline constexpr int max_rows = 24;
 
 /// Residual, Jacobian and error of a problem with N unknowns at one point; rows ≥ N.
 template <int N>
@@ -69,69 +67,85 @@ Vec<double, N> damped_step(const Linearised<N>& system, double damping) {
   return -normal.ldlt().solve(Vec<double, N>(system.jacobian.transpose() * system.residual));
 }
 
+/// One run of the solver: the best iterate and what is known there.
+template <class P>
+class Newton {
+ public:
+  static constexpr int N = P::unknowns;
+  Newton(const P& problem, typename P::Point& point) : problem_(problem), point_(point) {}
+
+  /// False where the start is outside the domain. (A maximum of errors hides a NaN, the sum of squares does
+  /// not.)
+  bool begin() { return problem_.linearise(point_, here_) && std::isfinite(here_.merit()); }
+  double error() const { return here_.error; }
+
+  /// The Newton step where it is trusted whole, or halved once or twice: then convergence is quadratic.
+  /// Returns the fraction taken, 0 if none.
+  double newton_search() {
+    Vec<double, N> step;
+    if (!newton_step(here_, step) || problem_.shortened(step) < 1) return 0;
+    for (double fraction = 1; fraction > 0.2; fraction /= 2)
+      if (accept(step, fraction)) return fraction;
+    return 0;
+  }
+
+  /// Elsewhere, near a singular Jacobian above all, Levenberg-Marquardt; its damping is remembered.
+  bool damped_search() {
+    for (int tries = 0; tries < 16; ++tries, damping_ *= 5) {
+      const Vec<double, N> step = damped_step(here_, damping_);
+      if (!step.allFinite()) continue;
+      const double fraction = problem_.shortened(step);
+      if (!accept(step, fraction)) continue;
+      if (fraction == 1) damping_ = std::max(damping_ / 10, 1e-10);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  /// Tries point ⊕ fraction·step; keeps it if the merit falls.
+  bool accept(const Vec<double, N>& step, double fraction) {
+    const typename P::Point ahead = problem_.moved(point_, fraction * step);
+    if (!problem_.linearise(ahead, there_)) return false;
+    if (!(there_.merit() < (1 - 1e-4 * fraction) * here_.merit())) return false;
+    point_ = ahead;
+    std::swap(here_, there_);
+    return true;
+  }
+
+  const P& problem_;
+  typename P::Point& point_;
+  Linearised<N> here_, there_;
+  double damping_ = 1e-3;
+};
+
 }  // namespace detail
 
 /// Solves `problem` from `point`, which holds the best iterate afterwards. Bounded work: at most
 /// `max_iterations` steps of at most 19 evaluations each.
 template <NewtonProblem P>
 Report newton(const P& problem, typename P::Point& point, const NewtonOptions& options) {
-  constexpr int N = P::unknowns;
-  Linearised<N> here, there;
+  detail::Newton<P> search(problem, point);
   Report report;
-  // A maximum of errors hides a NaN, the sum of squares does not.
-  if (!problem.linearise(point, here) || !std::isfinite(here.merit())) {
+  if (!search.begin()) {
     report.status = Status::left_domain;
     return report;
   }
   const auto record = [&](double fraction) {
     const auto i = static_cast<std::size_t>(report.iterations);
-    if (i < options.trace.size()) options.trace[i] = {report.iterations, here.error, fraction};
+    if (i < options.trace.size()) options.trace[i] = {report.iterations, search.error(), fraction};
   };
   record(0);
-
-  // Tries point ⊕ fraction·step; keeps it if the merit falls.
-  const auto accept = [&](const Vec<double, N>& step, double fraction) {
-    const typename P::Point ahead = problem.moved(point, fraction * step);
-    if (!problem.linearise(ahead, there)) return false;
-    if (!(there.merit() < (1 - 1e-4 * fraction) * here.merit())) return false;
-    point = ahead;
-    std::swap(here, there);
-    return true;
-  };
-  // The Newton step where it is trusted whole, or halved once or twice: then convergence is quadratic.
-  const auto newton_search = [&] {
-    Vec<double, N> step;
-    if (!detail::newton_step(here, step) || problem.shortened(step) < 1) return 0.0;
-    for (double fraction = 1; fraction > 0.2; fraction /= 2)
-      if (accept(step, fraction)) return fraction;
-    return 0.0;
-  };
-  // Elsewhere, near a singular Jacobian above all, Levenberg-Marquardt; its damping is remembered.
-  double damping = 1e-3;
-  const auto damped_search = [&] {
-    for (int tries = 0; tries < 16; ++tries, damping *= 5) {
-      const Vec<double, N> step = detail::damped_step(here, damping);
-      if (!step.allFinite()) continue;
-      const double fraction = problem.shortened(step);
-      if (!accept(step, fraction)) continue;
-      if (fraction == 1) damping = std::max(damping / 10, 1e-10);
-      return true;
-    }
-    return false;
-  };
-
-  while (here.error > options.tolerance && report.iterations < options.max_iterations) {
-    const double fraction = newton_search();
-    if (fraction == 0 && !damped_search()) break;  // rounding level reached, or a local minimum
+  while (search.error() > options.tolerance && report.iterations < options.max_iterations) {
+    const double fraction = search.newton_search();
+    if (fraction == 0 && !search.damped_search()) break;  // rounding level reached, or a local minimum
     ++report.iterations;
     record(fraction);
   }
-  report.residual = here.error;
+  report.residual = search.error();
   // The last digits: where they do not come, 100 times the tolerance is still an answer.
-  const bool solved = here.error <= 100 * options.tolerance;
-  report.status = solved                                        ? Status::converged
-                  : report.iterations >= options.max_iterations ? Status::iteration_limit
-                                                                : Status::stalled;
+  if (report.residual > 100 * options.tolerance)
+    report.status = report.iterations >= options.max_iterations ? Status::iteration_limit : Status::stalled;
   return report;
 }
 

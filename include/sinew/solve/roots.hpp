@@ -16,12 +16,12 @@ namespace sinew::inline v0 {
 struct RootSample {
   double value, rate;
   double rate_rate;  ///< bound on |f″| within RootsOptions::stride of the point
+  double noise;      ///< rounding error of `value`: where |f| stays below it, there is a root
 };
 
 struct RootsOptions {
-  double low, high;    ///< the interval searched
-  double stride;       ///< longest step
-  double value_noise;  ///< rounding error of a value of f: where |f| stays below it, there is a root
+  double low, high;  ///< the interval searched
+  double stride;     ///< longest step
 };
 
 namespace detail {
@@ -49,36 +49,37 @@ class RootWalk {
   bool at_end() const { return direction_ > 0 ? x_ >= options_.high : x_ <= options_.low; }
   bool failed() const { return failed_; }
 
-  /// One step; true where it came upon a root, which is then at `root()`.
+  /// One step; true where it came upon a root, which is then at `root()`. A root is told once: on entering
+  /// the points where f is zero within rounding (a double or flatter root has many), or by its change of
+  /// sign.
   bool step() {
     const RootSample here = f_(x_);
     if (!std::isfinite(here.value) || ++steps_ > 20000) return !(failed_ = true);
-    if (std::abs(here.value) <=
-        options_.value_noise) {  // leave it by half of what surely holds no other root
-      root_ = polished(here);
+    const bool was_inside = inside_, crossed = here.value * before_ < 0;
+    before_ = here.value;
+    inside_ = std::abs(here.value) <= (was_inside ? 4 : 1) * here.noise;
+    if (inside_ || (crossed && !was_inside)) {
+      root_ = std::abs(polished(here) - x_) < smallest() ? polished(here) : x_;
+      // Leave it by half of what surely holds no other root.
       x_ += direction_ * std::max(std::abs(here.rate) / here.rate_rate, smallest());
-      return true;
+      return !was_inside;
     }
     x_ += direction_ *
           std::max(std::min(free_distance(here, direction_), options_.stride), 1e-16 * std::abs(x_));
     return false;
   }
   double root() const { return root_; }
-  /// Two roots nearer than this are one double root.
-  double smallest() const { return 4e-8 * (options_.high - options_.low); }
 
  private:
-  /// The last digits of a simple root; a double one stays as it is.
-  double polished(const RootSample& here) const {
-    const double correction = here.rate == 0 ? 0 : here.value / here.rate;
-    return std::abs(correction) < 1e-9 * (options_.high - options_.low) ? x_ - correction : x_;
-  }
+  double smallest() const { return 1e-8 * (options_.high - options_.low); }
+  /// The last digits of a simple root.
+  double polished(const RootSample& here) const { return here.rate == 0 ? x_ : x_ - here.value / here.rate; }
 
   const F& f_;
   const RootsOptions& options_;
-  double x_, direction_, root_ = 0;
+  double x_, direction_, root_ = 0, before_ = 0;
   int steps_ = 0;
-  bool failed_ = false;
+  bool failed_ = false, inside_ = false;
 };
 
 }  // namespace detail
@@ -90,15 +91,11 @@ template <class F>
 int all_roots(const F& f, const RootsOptions& options, std::span<double> roots) {
   detail::RootWalk walk(f, options, options.low, 1);
   std::size_t count = 0;
-  double last = -std::numeric_limits<double>::infinity();
   while (!walk.at_end() && count < roots.size()) {
-    if (!walk.step()) {
-      if (walk.failed()) return -1;
-      continue;
-    }
-    const bool same = walk.root() - last <= walk.smallest();
-    last = walk.root();
-    if (!same) roots[count++] = last;
+    if (walk.step())
+      roots[count++] = walk.root();
+    else if (walk.failed())
+      return -1;
   }
   return static_cast<int>(count);
 }

@@ -22,7 +22,7 @@ struct TendonPair {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("tendon_offset", self.offset, Dimension::length, Range::positive(),
+    visit("tendon_offset", self.offset, Dimension::length, Range::size(),
           "distance of a tendon from the backbone");
   }
 
@@ -45,6 +45,9 @@ struct TendonPair {
   double rate(const Link& link) const {
     return pair(link.length).curvature_rate();
   }
+
+  /// Curvatures lie in (−domain, domain) [1/m]: at 1/d the inner tendon would sit on the centre of curvature.
+  double domain() const { return 1 / offset; }
 
   /// Lengths of tendon 1 and tendon 2 [m].
   template <class Link>

@@ -1,0 +1,11 @@
+/// @file limits.hpp
+/// Static maxima: with them nothing in a hot path touches the heap.
+#pragma once
+#include "sinew/base/export.hpp"
+
+namespace sinew::inline v0 {
+
+/// Most constraint rows of a robot, and most rows or columns of a matrix that is decomposed.
+inline constexpr int max_rows = 24;
+
+}  // namespace sinew::inline v0
