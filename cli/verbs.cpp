@@ -16,7 +16,7 @@ constexpr std::array options{
     Option{"twist", "\"VX, VY, W\"",
            "velocity of the platform and its turning rate; answers the rates of the inputs"},
     Option{"all", "", "every solution, not only the one wanted"},
-    Option{"max-iterations", "N", "most iterations of the solver; default 50"},
+    Option{"max-iterations", "N", "most iterations of the solver; default 100"},
     Option{"model", "NAME", "model of the links: cc (constant curvature)"},
     Option{"set", "PATH=VALUE", "change the robot, e.g. \"legs[0].link.length=180 mm\"; may be repeated", 0,
            true},

@@ -258,7 +258,7 @@ std::string_view advice(Dimension dimension) { return words_of(dimension).advice
 std::string human(double si, Dimension dimension) {
   double value = si + 0.0;  // no "-0"
   std::string_view symbol = unit(dimension);
-  if (dimension == Dimension::length) {
+  if (dimension == Dimension::length && std::abs(value) < 1000) {
     value *= 1000;
     symbol = "mm";
   } else if (dimension == Dimension::angle) {

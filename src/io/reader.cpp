@@ -125,8 +125,10 @@ std::vector<Reader> Reader::items(std::optional<std::size_t> size) const {
 
 void Reader::close() {
   if (!expect(Node::Kind::map, "a map of keys")) return;
-  for (const Member& member : node_->members)
-    if (!is_full() && std::ranges::find(known_, member.key) == known_.end()) unknown(member);
+  for (const Member& member : node_->members) {
+    const bool takes_away = member.value.kind == Node::Kind::null;  // a default that does not fit here
+    if (!takes_away && !is_full() && std::ranges::find(known_, member.key) == known_.end()) unknown(member);
+  }
 }
 
 double Reader::quantity(Dimension dimension, Range range) const {

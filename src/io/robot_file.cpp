@@ -166,7 +166,8 @@ AnyRobot read_listed(Reader& robot) {
   result.name = robot.required("name").text();
   if (const auto geometry = robot.optional("geometry"))
     result.geometry_inferred = geometry->choice({"given", "inferred"}) == "inferred";
-  robot.has("defaults");  // already merged into the legs
+  if (const auto defaults = robot.optional("defaults"))  // already merged into the legs
+    if (!defaults->is(Node::Kind::map)) defaults->refuse("wrong_type", "give a map of what the legs share.");
   const Legs read = read_legs(robot);
   if (const auto legs = robot.optional("legs"))
     if (legs->is(Node::Kind::list)) check_legs(*legs, read);

@@ -10,7 +10,7 @@
 namespace sinew::inline v0 {
 namespace {
 
-constexpr double most_solutions = 1024;
+constexpr double most_solutions = 256;
 constexpr std::size_t most_trace = 1000;
 
 void refuse_if_asked(Context& context, std::string_view key, std::string_view why) {

@@ -158,6 +158,14 @@ TEST(Reader, NodesOfTheWrongKindAreErrorsNotCrashes) {
       << "a missing key is said once";
 }
 
+TEST(Reader, ANullTakesAwayADefaultThatDoesNotFit) {
+  Input in("type: chord\nlength: null\n");
+  Reader root = in.root();
+  root.required("type").text();
+  root.close();
+  EXPECT_EQ(in.text(), "");
+}
+
 TEST(Reader, ARootThatIsNoMapIsSaidOnce) {
   Input in("- 1\n");
   Reader root = in.root();
