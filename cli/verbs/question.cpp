@@ -23,7 +23,7 @@ std::string show(const Answer& answer, Session& session, const Arguments& argume
   return text;
 }
 
-/// Why there is no solution.
+/// Why there is no solution, or what the solution leaves out.
 void explain(const Answer& answer, std::string_view verb) {
   const std::string said = answer.text("message");
   message(fmt::format("{} {}: {}{}", verb, answer.text("robot"), answer.text("status"),
@@ -48,7 +48,7 @@ int run_question(const Arguments& arguments) {
   else if (can_show)
     print(show(answer, *session, arguments) +
           (answer.converged() && !arguments.has("quiet") ? show_report(answer) : ""));
-  if (!answer.converged()) explain(answer, arguments.verb);
+  if (!answer.converged() || !answer.text("message").empty()) explain(answer, arguments.verb);
   return exit_code(answer);
 }
 

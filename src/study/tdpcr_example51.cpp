@@ -45,10 +45,6 @@ Expected<Sample> sample(const AnyRobot& robot, double eta, Workspace& work) {
 
   const Velocity at = velocity(robot, answer.pose, answer.curvatures, work);
   answer.indices = at.indices;
-  if (at.type_2.singular) {  // what is left of them there is rounding
-    constexpr double absent = std::numeric_limits<double>::quiet_NaN();
-    answer.indices = {absent, absent, absent, absent};
-  }
   answer.determinant = at.determinant;
   answer.closure_error = at.report.residual;
   answer.type_2 = at.type_2;

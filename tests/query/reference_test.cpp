@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "command.hpp"
+#include "sinew_query.hpp"
 
 namespace sinew::test {
 namespace {

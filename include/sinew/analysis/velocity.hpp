@@ -7,7 +7,8 @@
 namespace sinew::inline v0 {
 
 /// Performance indices. `position` and `rotation` are the 2-norms of the blocks of U: the largest platform
-/// speed [m/s] and turning rate [rad/s] that inputs of unit norm can cause. Absent (NaN) where J is singular.
+/// speed [m/s] and turning rate [rad/s] that inputs of unit norm can cause. Absent (NaN) where J is singular;
+/// the condition numbers, where they exceed 1e15 and say how J was rounded.
 struct Indices {
   double condition;              ///< σmax/σmin of J as the paper has it: mixes m and m²
   double condition_homogenised;  ///< rows scaled to unit lines, moments divided by the platform radius

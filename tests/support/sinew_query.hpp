@@ -1,4 +1,4 @@
-/// @file command.hpp
+/// @file sinew_query.hpp
 /// Runs the real `sinew query`: what the tests of reference numbers go through.
 #pragma once
 #include <unistd.h>
