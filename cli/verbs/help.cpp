@@ -37,7 +37,7 @@ std::string help() {
   std::string list;
   for (const Verb& verb : verbs()) list += fmt::format("  {:<10}  {}\n", verb.name, verb.summary);
   return fmt::format(
-      "sinew {}: kinematics and statics of continuum robots\n\n"
+      "sinew {}: kinematics and singularities of continuum robots\n\n"
       "Usage: sinew VERB ROBOT [OPTIONS]\n"
       "ROBOT is a robot file or the name of a built-in robot: {}.\n\n{}\n"
       "Numbers are SI and radians; with a unit they may be anything else: \"10 mm\", \"5 deg\" (sinew help "

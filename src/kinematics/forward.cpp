@@ -64,8 +64,49 @@ class Closing {
   double size_ = 0;
 };
 
+/// Anchor A, distance D and platform point of each leg: what the inputs leave of it.
+struct Reach {
+  Vec2<double> anchor;
+  double distance;
+  Vec2<double> platform_point;
+};
+
+template <class LegT>
+Reach reach_of(const LegT& any, double q) {
+  return with_leg(any, [&](const auto& leg) {
+    const auto anchor = leg.closure.anchor(leg.tip(q));
+    return Reach{leg.base.point(anchor.position), std::sqrt(2 * anchor.half_square), leg.platform_point};
+  });
+}
+
+/// Two legs and the platform between them are a chain of four bars from anchor to anchor: it closes only if
+/// no bar is longer than the other three together. True, with the reason, where two legs prove that no pose
+/// exists.
+template <class LegT>
+bool is_unreachable(const ParallelRobot<LegT>& robot, Numbers coordinates, Report& report) {
+  for (std::size_t j = 1; j < robot.legs.size(); ++j) {
+    const Reach b = reach_of(robot.legs[j], coordinates[j]);
+    for (std::size_t i = 0; i < j; ++i) {
+      const Reach a = reach_of(robot.legs[i], coordinates[i]);
+      const double base = (b.anchor - a.anchor).norm(), bar = (b.platform_point - a.platform_point).norm();
+      const double longest = std::max({base, bar, a.distance, b.distance});
+      const double excess = 2 * longest - (base + bar + a.distance + b.distance);
+      if (excess <= 1e-12 * longest) continue;
+      report.status = Status::unreachable;
+      report.message.append("no pose closes legs[");
+      append_number(report.message, static_cast<int>(i));
+      report.message.append("] and legs[");
+      append_number(report.message, static_cast<int>(j));
+      report.message.append("] together: with these inputs a gap of ");
+      append_mm(report.message, excess);
+      report.message.append(" always remains");
+      return true;
+    }
+  }
+  return false;
+}
+
 void explain(Report& report, const Reduced& at_end) {
-  if (report.ok()) return;
   if (report.status == Status::left_domain) {
     report.message.append("the start is not a number, or too far away to be squared");
     return;
@@ -90,7 +131,8 @@ Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, con
                          .max_iterations = options.max_iterations,
                          .trace = options.trace}),
                  Space::tidy(pose), work.coordinates};
-  if (!answer.ok()) explain(answer.report, assemble(any, answer.pose, work.coordinates, work));
+  if (!answer.ok() && !is_unreachable(robot, work.coordinates, answer.report))
+    explain(answer.report, assemble(any, answer.pose, work.coordinates, work));
   return answer;
 }
 

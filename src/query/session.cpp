@@ -77,7 +77,8 @@ std::optional<AnyRobot> altered(const Document& document, Reader& query, Errors&
   Document changed = document;
   auto settings = set->members();
   // What legs share comes first: a setting of one leg then wins, whatever the order of the query.
-  std::ranges::stable_partition(settings, [](const auto& s) { return !s.first.starts_with("legs"); });
+  std::stable_partition(settings.begin(), settings.end(),
+                        [](const auto& s) { return !s.first.starts_with("legs"); });
   for (const auto& [path, value] : settings) {
     auto next = with(changed, path, *value.node());
     if (!next) {

@@ -194,6 +194,28 @@ TEST(Inverse, AStraightLegIsOneSolutionAtTheEdgeOfTheWorkspace) {
   EXPECT_EQ(leg.coordinates_at(Planar::frame({0, 0.2 - 1e-15, 1}), roots), 2);
 }
 
+TEST(Forward,
+     InputsThatNoPoseClosesAreUnreachable) {  // proven by the four bars of two legs, whatever the start
+  std::mt19937 random{3};
+  for (const char* name : {"3-rfr", "3-frr"}) {
+    const AnyRobot robot = load(name).value();
+    Workspace work(robot);
+    int proven = 0, stalled = 0;
+    for (int sample = 0; sample < 500; ++sample) {
+      const std::array inputs{uniform(random, 0.17, 0.23), uniform(random, 0.17, 0.23),
+                              uniform(random, 0.17, 0.23)};
+      const Forward answer = forward(robot, inputs, {}, work);
+      proven += answer.report.status == Status::unreachable;
+      stalled += answer.report.status == Status::stalled || answer.report.status == Status::iteration_limit;
+      if (answer.report.status != Status::unreachable) continue;
+      EXPECT_GT(answer.report.residual, 0);
+      for (int start = 0; start < 10; ++start)  // no other start may contradict the proof
+        EXPECT_FALSE(forward(robot, inputs, {.start = random_pose(random)}, work).ok());
+    }
+    EXPECT_GT(proven, 0) << name << " stalled " << stalled;
+  }
+}
+
 TEST(Forward, TraceTellsEveryIterate) {
   const AnyRobot robot = rfr_in_code();
   Workspace work(robot);

@@ -163,7 +163,7 @@ TEST(Entire, FloatIsAsExactForItsSize) {
     for (float x : {1e-30F, 1e-8F, 1e-3F, 0.3F, 0.9999F, 1.0F, 1.7F, 2.9999F, 3.0F, 3.1F, 5.0F, 12.0F})
       EXPECT_NEAR(static_cast<double>(narrow(x)) / wide(static_cast<double>(x)), 1.0, tolerance) << x;
   };
-  constexpr double eps = std::numeric_limits<float>::epsilon();
+  constexpr double eps = static_cast<double>(std::numeric_limits<float>::epsilon());
   compare(sinc<float>, sinc<double>, 2 * eps);
   compare(dsinc<float>, dsinc<double>, 6 * eps);
   compare(cosc<float>, cosc<double>, 4 * eps);

@@ -12,14 +12,14 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// |sinc x − y| with sinc in 64 bit mantissas.
 double residual(double x, double y) {
-  const long double wide = x;
+  const auto wide = static_cast<long double>(x);
   return static_cast<double>(std::abs((x == 0 ? 1.0L : std::sin(wide) / wide) - static_cast<long double>(y)));
 }
 
 /// Newton in 64 bit mantissas on x²·sinc3 x = 1 − y, which does not cancel.
 double exact(double y) {
   const long double w = 1 - static_cast<long double>(y);
-  long double x = inverse_sinc(y);
+  auto x = static_cast<long double>(inverse_sinc(y));
   for (int i = 0; i < 3 && x > 0; ++i) {
     long double tail = 0, slope = 0, term = x * x / 6;
     for (int k = 0; k < 30; ++k) {

@@ -4,6 +4,7 @@
 /// together: no cache, no call order. Theory: docs/theory/leg.md
 #pragma once
 #include <array>
+#include <concepts>
 #include <optional>
 #include <span>
 
@@ -45,15 +46,22 @@ struct LegState {
   double base_tangent;                   ///< absolute angle of the backbone at its base [rad], in (−π, π]
 };
 
+/// A closure that gives the coordinates of this link in closed form; others are searched.
+template <class Closure, class Link, class Point>
+concept SolvesInClosedForm = requires(const Closure& closure, const Link& link, const Point& r,
+                                      std::span<double> roots) {
+  { closure.coordinates_at(link, r, roots) } -> std::same_as<int>;
+};
+
 template <class SpaceT, class LinkT, class DriveT, class ClosureT>
 struct Leg {
   using Space = SpaceT;
   using Link = LinkT;
   using Drive = DriveT;
   using Closure = ClosureT;
-  template <Scalar S>
+  template <class S>
   using LinkTip = Tip<S, Link::dimension, Link::coordinates>;
-  template <Scalar S>
+  template <class S>
   using Blocks = LegBlocks<S, Space::dof, Link::coordinates>;
   using Point = Vec<double, Space::dimension>;
   static constexpr int coordinates = Link::coordinates;
@@ -62,7 +70,7 @@ struct Leg {
   Link link;
   Drive drive;
   Closure closure;
-  Point platform_point;  ///< in the platform's frame [m]
+  Point platform_point = Point::Zero();  ///< in the platform's frame [m]
   Backbone backbone;
 
   template <Scalar S>
@@ -106,7 +114,7 @@ struct Leg {
   int coordinates_at(const typename Space::template Frame<double>& platform, std::span<double> roots) const {
     const Point r = reach<double>(platform);
     int count = 0;
-    if constexpr (requires { closure.coordinates_at(link, r, roots); }) {
+    if constexpr (SolvesInClosedForm<Closure, Link, Point>) {
       count = closure.coordinates_at(link, r, roots);
     } else {
       count = all_roots(closing_at(r), search_for(0), roots);
@@ -119,7 +127,7 @@ struct Leg {
   /// The one of them that is nearest to a target; `sign` ±1 asks for coordinates of that sign (0 has both).
   NearestRoot coordinate_near(const typename Space::template Frame<double>& platform, double target,
                               int sign) const {
-    if constexpr (requires(std::span<double> roots) { closure.coordinates_at(link, Point(), roots); }) {
+    if constexpr (SolvesInClosedForm<Closure, Link, Point>) {
       std::array<double, 8> roots;
       const int count = coordinates_at(platform, roots);
       NearestRoot nearest{std::min(count, 0), 0};
@@ -180,7 +188,7 @@ struct Leg {
     return {.low = sign > 0 ? 0 : -domain(), .high = sign < 0 ? 0 : domain(), .stride = stride()};
   }
 
-  template <Scalar S>
+  template <class S>
   using Vector = Vec<S, Space::dimension>;
 
   // Distances do not care how a free base is turned: its frame stays that of the robot.

@@ -11,7 +11,7 @@ struct Planar {
   static constexpr int dimension = 2;
   static constexpr int dof = 3;
   using Pose = PlanarPose;
-  template <Scalar S>
+  template <class S>
   using Frame = SE2<S>;
 
   /// Plücker line of a force f through the point b: (f, b × f); a row of J.
