@@ -19,7 +19,7 @@ class Closing {
   using Tip = decltype(std::declval<const LegT&>().tip(0.0));
   static constexpr int unknowns = Space::dof;
 
-  Closing(const ParallelRobot<LegT>& robot, Numbers coordinates) : robot_(robot), coordinates_(coordinates) {
+  Closing(const ParallelRobot<LegT>& robot, Numbers coordinates) : robot_(robot) {
     for (std::size_t i = 0; i < robot.legs.size(); ++i) {
       tips_[i] = robot.legs[i].tip(coordinates[i]);
       const double extent = with_leg(robot.legs[i], [&](const auto& leg) {
@@ -59,7 +59,6 @@ class Closing {
 
  private:
   const ParallelRobot<LegT>& robot_;
-  Numbers coordinates_;
   std::array<Tip, max_rows> tips_;
   double size_ = 0;
 };
