@@ -61,7 +61,7 @@ Eigen::Vector3d residuals_as_printed(const AnyRobot& any, const Unknowns& z) {
   return std::visit(
       [&]<class LegT>(const ParallelRobot<LegT>& robot) {
         Eigen::Vector3d g = Eigen::Vector3d::Zero();
-        if constexpr (!requires(const LegT& leg) { leg.kind; }) {
+        if constexpr (requires(const LegT& leg) { residual_as_printed(leg, Eigen::Vector2d(), 0.0); }) {
           const double c = std::cos(z[2]), s = std::sin(z[2]);
           for (int i = 0; i < 3; ++i) {
             const LegT& leg = robot.legs[static_cast<std::size_t>(i)];

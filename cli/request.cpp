@@ -6,7 +6,7 @@
 
 #include "sinew/io/parse.hpp"
 #include "sinew/io/quantity.hpp"
-#include "terminal.hpp"
+#include "sinew/math/so3.hpp"
 
 namespace sinew::cli {
 namespace {
@@ -27,115 +27,39 @@ std::vector<std::string_view> split(std::string_view list) {
   }
 }
 
-/// Members of a JSON object being written, and what was wrong with the options.
-class Request {
- public:
-  explicit Request(const Arguments& arguments) : arguments_(arguments) {}
-
-  void member(std::string_view key, std::string_view json) {
-    text_ += fmt::format("{}{}: {}", text_.empty() ? "" : ", ", json_text(key), json);
-  }
-  void fail(std::string_view code, std::string_view option, std::string_view message) {
-    errors_.push_back({std::string(code), fmt::format("--{}", option), std::string(message)});
-  }
-
-  void pose(std::string_view key);
-  void quantities(std::string_view key, Dimension dimension);
-  void inputs();
-  void bending();
-  void twist();
-  void whole_number(std::string_view option, std::string_view key);
-  void set();
-
-  Expected<std::string> done() const {
-    return errors_.empty() ? Expected<std::string>("{" + text_ + "}") : tl::unexpected(errors_);
-  }
-
- private:
-  std::string number(std::string_view option, std::string_view text, std::size_t index, Dimension dimension,
-                     std::string_view per = {});
-
-  const Arguments& arguments_;
-  std::string text_;
-  Errors errors_;
-};
-
-/// One value of an option as an SI number in JSON; `per` may end its unit: "5 mm/s".
-std::string Request::number(std::string_view option, std::string_view text, std::size_t index,
-                            Dimension dimension, std::string_view per) {
-  std::string_view bare = text;
-  if (!per.empty() && bare.ends_with(per)) bare.remove_suffix(per.size());
-  const Expected<double> value = parse_quantity(bare, dimension);
-  if (value) return si_text(*value);
-  const Error& error = value.error().front();
-  errors_.push_back({error.code, fmt::format("--{}, value {}", option, index + 1), error.message});
-  return "0";
+/// `"1, 2" has 2 values`.
+std::string counted(std::string_view list, std::size_t count) {
+  return fmt::format("{} has {} value{}", in_quotes(list), count, count == 1 ? "" : "s");
 }
 
-void Request::pose(std::string_view key) {
-  const std::string* given = arguments_.text(key);
-  if (!given) return;
-  const auto parts = split(*given);
-  if (parts.size() != 3)
-    return fail(
-        "wrong_length", key,
-        fmt::format("{} has {} value{}; a planar pose has three, x, y, phi: --{} \"10 mm, -5 mm, 10 deg\".",
-                    in_quotes(*given), parts.size(), parts.size() == 1 ? "" : "s", key));
-  const std::string x = number(key, parts[0], 0, Dimension::length),
-                    y = number(key, parts[1], 1, Dimension::length),
-                    phi = number(key, parts[2], 2, Dimension::angle);
-  member(key, fmt::format(R"({{"x": {}, "y": {}, "phi": {}}})", x, y, phi));
+Dimension dimension_of(std::string_view unit) {
+  return unit == "m" ? Dimension::length : unit == "rad" ? Dimension::angle : Dimension::number;
 }
 
-void Request::quantities(std::string_view key, Dimension dimension) {
-  const std::string* given = arguments_.text(key);
-  if (!given) return;
+/// Some lengths, then some of another dimension: poses and twists.
+std::vector<Dimension> lengths_then(std::size_t lengths, Dimension other, std::size_t count) {
+  std::vector<Dimension> dimensions(lengths, Dimension::length);
+  dimensions.resize(lengths + count, other);
+  return dimensions;
+}
+
+std::string json_list(std::span<const double> values) {
   std::string list;
-  const auto parts = split(*given);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    list += fmt::format("{}{}", i ? ", " : "", number(key, parts[i], i, dimension));
-  member(key, "[" + list + "]");
+  for (const double value : values) list += (list.empty() ? "" : ", ") + si_text(value);
+  return "[" + list + "]";
 }
 
-void Request::bending() {
-  const std::string* given = arguments_.text("bending");
-  if (!given) return;
-  std::string list;
-  for (const std::string_view sign : split(*given)) {
-    const bool plus = sign == "+" || sign == "+1" || sign == "1", minus = sign == "-" || sign == "-1";
-    if (!plus && !minus)
-      return fail(
-          "not_a_sign", "bending",
-          fmt::format("{} is no sign; give + or - for each leg: --bending \"+,-,+\".", in_quotes(sign)));
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", plus ? 1 : -1);
+std::string json_pose(std::span<const double> values) {
+  if (values.size() == 3)
+    return fmt::format(R"({{"x": {}, "y": {}, "phi": {}}})", si_text(values[0]), si_text(values[1]),
+                       si_text(values[2]));
+  std::vector<double> quaternion(values.begin() + 3, values.end());
+  if (values.size() == 6) {
+    const auto turn = SO3<double>::exp(Vec3<double>(values[3], values[4], values[5]));
+    quaternion = {turn.w, turn.v[0], turn.v[1], turn.v[2]};
   }
-  member("bending", "[" + list + "]");
-}
-
-void Request::twist() {
-  const std::string* given = arguments_.text("twist");
-  if (!given) return;
-  const auto parts = split(*given);
-  if (parts.size() != 3)
-    return fail(
-        "wrong_length", "twist",
-        fmt::format(
-            "{} has {} value{}; a planar twist has three, the velocity of the platform and its turning "
-            "rate: --twist \"5 mm/s, 0, 2 deg/s\".",
-            in_quotes(*given), parts.size(), parts.size() == 1 ? "" : "s"));
-  std::string list;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    list += fmt::format("{}{}", i ? ", " : "",
-                        number("twist", parts[i], i, i < 2 ? Dimension::length : Dimension::angle, "/s"));
-  member("twist", "[" + list + "]");
-}
-
-void Request::whole_number(std::string_view option, std::string_view key) {
-  if (const std::string* given = arguments_.text(option)) {
-    const Expected<double> value = parse_quantity(*given, Dimension::count);
-    if (value) return member(key, si_text(*value));
-    fail(value.error().front().code, option, value.error().front().message);
-  }
+  return fmt::format(R"({{"position": {}, "quaternion": {}}})", json_list(values.first(3)),
+                     json_list(quaternion));
 }
 
 /// A value of `--set` as YAML reads it.
@@ -146,28 +70,151 @@ Expected<Node> value_of(std::string_view text) {
   return std::move(document->root);
 }
 
-std::string as_json(const Node& node) {
-  const auto list = [](const auto& parts, const auto& write) {
-    std::string text;
-    for (const auto& part : parts) text += (text.empty() ? "" : ", ") + write(part);
-    return text;
-  };
-  switch (node.kind) {
-    case Node::Kind::null:
-      return "null";
-    case Node::Kind::boolean:
-      return node.boolean ? "true" : "false";
-    case Node::Kind::number:
-      return si_text(node.number);
-    case Node::Kind::string:
-      return json_text(node.text);
-    case Node::Kind::list:
-      return "[" + list(node.items, as_json) + "]";
-    case Node::Kind::map:
-      break;
+/// Members of a JSON object being written, and what was wrong with the options.
+class Request {
+ public:
+  Request(std::string_view query, const Arguments& arguments) : arguments_(arguments) {
+    member("query", json_text(query));
   }
-  return "{" +
-         list(node.members, [](const Member& m) { return json_text(m.key) + ": " + as_json(m.value); }) + "}";
+
+  void member(std::string_view key, std::string_view json) {
+    text_ += fmt::format("{}{}: {}", text_.empty() ? "" : ", ", json_text(key), json);
+  }
+  void fail(std::string_view code, std::string_view option, std::string_view message) {
+    errors_.push_back({std::string(code), fmt::format("--{}", option), std::string(message)});
+  }
+
+  void pose(std::string_view key, const Robot& robot);
+  void inputs(std::string_view key, const Robot& robot);
+  void twist(const Robot& robot);
+  void signs(std::string_view key);
+  void curvature();
+  void word(std::string_view option, std::string_view key);
+  void whole_number(std::string_view option, std::string_view key);
+  void set();
+
+  Expected<std::string> done() const {
+    return errors_.empty() ? Expected<std::string>("{" + text_ + "}") : tl::unexpected(errors_);
+  }
+
+ private:
+  std::vector<double> values(std::string_view option, std::span<const std::string_view> parts,
+                             std::span<const Dimension> dimensions, std::string_view per = {},
+                             std::span<const std::string_view> names = {});
+
+  const Arguments& arguments_;
+  std::string text_;
+  Errors errors_;
+};
+
+/// The values of an option in SI; `per` may end a unit: "5 mm/s". What cannot be read is 0, and an error,
+/// which tells the value's name where it has one.
+std::vector<double> Request::values(std::string_view option, std::span<const std::string_view> parts,
+                                    std::span<const Dimension> dimensions, std::string_view per,
+                                    std::span<const std::string_view> names) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::string_view bare = parts[i];
+    if (!per.empty() && bare.ends_with(per)) bare.remove_suffix(per.size());
+    const Expected<double> value = parse_quantity(bare, dimensions[i]);
+    result.push_back(value.value_or(0.0));
+    if (value) continue;
+    const Error& error = value.error().front();
+    const std::string name = names.empty() ? "" : fmt::format(" ({})", names[i]);
+    errors_.push_back({error.code, fmt::format("--{}, value {}{}", option, i + 1, name), error.message});
+  }
+  return result;
+}
+
+void Request::pose(std::string_view key, const Robot& robot) {
+  const std::string* given = arguments_.text(key);
+  if (!given) return;
+  const auto parts = split(*given);
+  const std::size_t count = parts.size();
+  if (robot.is_spatial ? count != 6 && count != 7 : count != 3)
+    return fail("wrong_length", key,
+                fmt::format("{}; {}.", counted(*given, count),
+                            robot.is_spatial
+                                ? fmt::format("a spatial pose has six, x, y, z and its rotation vector, or "
+                                              "seven, x, y, z and its quaternion w, x, y, z: --{} \"0, 0, "
+                                              "180 mm, 0, 10 deg, 0\"",
+                                              key)
+                                : fmt::format("a planar pose has three, x, y, phi: --{} \"10 mm, -5 mm, 10 "
+                                              "deg\"",
+                                              key)));
+  const auto dimensions = count == 3   ? lengths_then(2, Dimension::angle, 1)
+                          : count == 6 ? lengths_then(3, Dimension::angle, 3)
+                                       : lengths_then(3, Dimension::number, 4);
+  member(key, json_pose(values(key, parts, dimensions)));
+}
+
+void Request::inputs(std::string_view key, const Robot& robot) {
+  const std::string* given = arguments_.text(key);
+  if (!given) return;
+  const auto parts = split(*given);
+  std::vector<std::string_view> names;
+  std::vector<Dimension> dimensions;
+  for (const Input& input : robot.inputs) {
+    names.push_back(input.name);
+    dimensions.push_back(dimension_of(input.unit));
+  }
+  if (parts.size() != names.size())
+    return fail("wrong_length", key,
+                fmt::format("{}; this robot has {} input{}: {}.", counted(*given, parts.size()), names.size(),
+                            names.size() == 1 ? "" : "s", fmt::join(names, ", ")));
+  member(key, json_list(values(key, parts, dimensions, {}, names)));
+}
+
+void Request::twist(const Robot& robot) {
+  const std::string* given = arguments_.text("twist");
+  if (!given) return;
+  const auto parts = split(*given);
+  const std::size_t half = robot.is_spatial ? 3 : 2, count = robot.is_spatial ? 6 : 3;
+  if (parts.size() != count)
+    return fail("wrong_length", "twist",
+                fmt::format("{}; {}.", counted(*given, parts.size()),
+                            robot.is_spatial
+                                ? "a spatial twist has six, the velocity of the platform and its angular "
+                                  "velocity: --twist \"5 mm/s, 0, 0, 0, 0, 2 deg/s\""
+                                : "a planar twist has three, the velocity of the platform and its turning "
+                                  "rate: --twist \"5 mm/s, 0, 2 deg/s\""));
+  member("twist",
+         json_list(values("twist", parts, lengths_then(half, Dimension::angle, count - half), "/s")));
+}
+
+void Request::signs(std::string_view key) {
+  const std::string* given = arguments_.text(key);
+  if (!given) return;
+  std::string list;
+  for (const std::string_view sign : split(*given)) {
+    const bool plus = sign == "+" || sign == "+1" || sign == "1", minus = sign == "-" || sign == "-1";
+    if (!plus && !minus)
+      return fail(
+          "not_a_sign", key,
+          fmt::format("{} is no sign; give + or - for each leg: --{} \"+,-,+\".", in_quotes(sign), key));
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", plus ? 1 : -1);
+  }
+  member(key, "[" + list + "]");
+}
+
+void Request::curvature() {
+  const std::string* given = arguments_.text("curvature");
+  if (!given) return;
+  const auto parts = split(*given);
+  const std::vector<Dimension> dimensions(parts.size(), Dimension::curvature);
+  member("curvature", json_list(values("curvature", parts, dimensions)));
+}
+
+void Request::word(std::string_view option, std::string_view key) {
+  if (const std::string* given = arguments_.text(option)) member(key, json_text(*given));
+}
+
+void Request::whole_number(std::string_view option, std::string_view key) {
+  if (const std::string* given = arguments_.text(option)) {
+    const Expected<double> value = parse_quantity(*given, Dimension::count);
+    if (value) return member(key, si_text(*value));
+    fail(value.error().front().code, option, value.error().front().message);
+  }
 }
 
 void Request::set() {
@@ -188,101 +235,50 @@ void Request::set() {
   member("set", "{" + members + "}");
 }
 
-/// A text that begins with a field of the query, with the option of that field instead: `--pose.x` for
-/// `pose.x`.
-std::string as_option(std::string where) {
-  const std::string field = where.substr(0, where.find_first_of(".[ :"));
-  std::string name = field;
-  std::ranges::replace(name, '_', '-');
-  const bool is_option = std::ranges::any_of(verbs(), [&](const Verb& verb) {
-    return std::ranges::find(verb.options, std::string_view(name)) != verb.options.end();
-  });
-  return is_option ? "--" + name + where.substr(field.size()) : where;
-}
-
 }  // namespace
 
-Expected<std::string> request(std::string_view query, const Arguments& arguments) {
-  Request request(arguments);
-  request.member("query", json_text(query));
-  request.pose("pose");
-  request.quantities("inputs", Dimension::length);
-  request.pose("start");
-  request.bending();
-  request.quantities("curvature", Dimension::curvature);
-  request.twist();
+std::string Robot::input_unit() const {
+  const auto is_first = [&](const Input& input) { return input.unit == inputs.front().unit; };
+  return !inputs.empty() && std::ranges::all_of(inputs, is_first) ? inputs.front().unit : std::string();
+}
+
+Expected<Robot> open(const Arguments& arguments) {
+  auto session = Session::open(arguments.operand());
+  if (!session) return tl::unexpected(session.error());
+  Request about("describe", arguments);
+  about.set();
+  about.word("theta-is", "theta_is");
+  const auto query = about.done();
+  if (!query) return tl::unexpected(query.error());
+  Answer description = ask(*session, *query);
+  if (const Errors errors = description.errors(); !errors.empty()) return tl::unexpected(errors);
+  std::vector<Input> inputs;
+  for (const Node& input : description.find("inputs")->items)
+    inputs.push_back({input.find("name")->text, input.find("unit")->text});
+  const bool is_spatial = description.text("space") == "spatial";
+  return Robot{std::move(*session), std::move(description), std::move(inputs), is_spatial};
+}
+
+Expected<std::string> request(std::string_view query, const Arguments& arguments, const Robot& robot) {
+  Request request(query, arguments);
+  for (const std::string_view key : {"pose", "from", "to"}) request.pose(key, robot);
+  request.inputs("inputs", robot);
+  if (query == "inverse" || query == "track")
+    request.inputs("start", robot);
+  else
+    request.pose("start", robot);
+  request.signs("bending");
+  request.signs("elbow");
+  request.curvature();
+  request.twist(robot);
+  request.word("objective", "objective");
+  request.word("model", "model");
+  request.word("theta-is", "theta_is");
+  request.whole_number("samples", "samples");
   request.whole_number("max-iterations", "max_iterations");
-  if (const std::string* model = arguments.text("model")) request.member("model", json_text(*model));
   if (arguments.has("all")) request.member("all", "true");
   request.set();
   return request.done();
-}
-
-std::string json_text(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      quoted += c;
-  }
-  return quoted + '"';
-}
-
-std::string json_error(const Errors& errors) {
-  std::string message = errors.front().message;
-  for (std::size_t i = 1; i < errors.size(); ++i)
-    message +=
-        fmt::format("{} {}: {}", message.ends_with('.') ? "" : ";", errors[i].where, errors[i].message);
-  return fmt::format(R"({{"error":{{"code":{},"where":{},"message":{}}}}})", json_text(errors.front().code),
-                     json_text(errors.front().where), json_text(message));
-}
-
-Answer ask(Session& session, const std::string& query) {
-  Answer answer{session.answer(query), {}};
-  auto tree = parse_json(answer.line, "answer");
-  if (!tree) throw std::runtime_error("an answer cannot be read: " + to_string(tree.error()));
-  answer.tree = std::move(*tree);
-  return answer;
-}
-
-Answer describe(Session& session, const Arguments& arguments) {
-  Arguments about{arguments.verb, {}, {}};
-  if (const auto set = arguments.options.find("set"); set != arguments.options.end())
-    about.options.insert(*set);
-  return ask(session, request("describe", about).value());
-}
-
-std::string Answer::text(std::string_view path) const {
-  const Node* node = find(path);
-  return node ? node->text : std::string();
-}
-
-std::optional<double> Answer::number(std::string_view path) const {
-  const Node* node = find(path);
-  return node && node->kind == Node::Kind::number ? std::optional(node->number) : std::nullopt;
-}
-
-Errors Answer::errors() const {
-  if (!find("error")) return {};
-  const std::string where = text("error.where"), said = text("error.message");
-  if (where == "query") return {{text("error.code"), "", said}};  // the command line as a whole
-  return {{text("error.code"), as_option(where), said.starts_with(where) ? as_option(said) : said}};
-}
-
-int exit_code(const Answer& answer) {
-  if (answer.find("error")) return bad_input;
-  const std::string status = answer.text("status");
-  if (status == "converged" || status == "unstable") return solved;
-  return status == "iteration_limit" ? stopped : no_solution;
-}
-
-std::vector<double> numbers(const Node* list) {
-  std::vector<double> values;
-  if (list)
-    for (const Node& item : list->items) values.push_back(item.number);
-  return values;
 }
 
 }  // namespace sinew::cli

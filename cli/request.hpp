@@ -1,47 +1,34 @@
 /// @file request.hpp
-/// Options of a command line into the query that asks the same, and an answer back into a tree.
+/// The robot of a command line, and its options as the query that asks the same.
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "sinew/base/error.hpp"
-#include "sinew/io/node.hpp"
-#include "sinew/query/session.hpp"
+#include "answer.hpp"
 #include "verbs.hpp"
 
 namespace sinew::cli {
 
+struct Input {
+  std::string name, unit;  ///< `legs[0].tendon_1`; SI
+};
+
+/// A robot and what the spelling of options and the headings of tables depend on.
+struct Robot {
+  Session session;
+  Answer description;  ///< answer to `describe`
+  std::vector<Input> inputs;
+  bool is_spatial;
+
+  /// The SI unit of all inputs; empty where they differ.
+  std::string input_unit() const;
+};
+/// The robot that the command line names, as `--set` and `--theta-is` change it.
+Expected<Robot> open(const Arguments& arguments);
+
 /// The query that the options of a verb stand for (`--pose "10 mm, 0, 5 deg"`, `--set path=value`, ...), as
 /// JSON.
-Expected<std::string> request(std::string_view query, const Arguments& arguments);
-
-/// A text in quotes, as JSON has it.
-std::string json_text(std::string_view text);
-/// `{"error": ...}` in one line, as `Session::answer` would put it.
-std::string json_error(const Errors& errors);
-
-/// An answer, read.
-struct Answer {
-  std::string line;  ///< as it came
-  Document tree;
-
-  const Node& root() const { return tree.root; }
-  const Node* find(std::string_view path) const { return at(tree.root, path); }
-  std::string text(std::string_view path) const;
-  std::optional<double> number(std::string_view path) const;
-  bool converged() const { return text("status") == "converged"; }
-  /// The answer's error, if it is one, in words of the command line: `--pose` for `pose`.
-  Errors errors() const;
-};
-Answer ask(Session& session, const std::string& query);
-/// What the robot has, with what `--set` changed.
-Answer describe(Session& session, const Arguments& arguments);
-
-/// Exit code of an answer's status.
-int exit_code(const Answer& answer);
-
-/// Numbers of a list.
-std::vector<double> numbers(const Node* list);
+Expected<std::string> request(std::string_view query, const Arguments& arguments, const Robot& robot);
 
 }  // namespace sinew::cli

@@ -8,22 +8,43 @@ namespace sinew::cli {
 namespace {
 
 constexpr std::array options{
-    Option{"inputs", "\"A, B, ...\"", "the inputs in leg order: lengths of tendon 1"},
-    Option{"pose", "\"X, Y, PHI\"", "pose of the platform"},
-    Option{"start", "\"X, Y, PHI\"", "pose where the search begins; default the robot's home"},
+    Option{"inputs", "\"A, B, ...\"",
+           "in leg order: tendon_1 of each leg, a length; where the leg has a motor, theta, an angle, before "
+           "it"},
+    Option{
+        "pose", "\"X, Y, PHI\"",
+        "pose of the platform; in space X, Y, Z and rotation vector, or X, Y, Z and quaternion W, X, Y, Z"},
+    Option{"from", "\"X, Y, PHI\"", "first pose of a path, written like --pose"},
+    Option{"to", "\"X, Y, PHI\"", "last pose of a path"},
+    Option{"samples", "N", "poses on a path; default 60"},
+    Option{"objective", "NAME",
+           "what redundant legs do with their freedom: limits, singularity, smooth or none"},
+    Option{"start", "\"A, B, ...\"",
+           "where the search begins: a pose, of inverse and track inputs; default the robot's home"},
     Option{"bending", "\"+,-,+\"", "sign of each leg's curvature"},
+    Option{"elbow", "\"+,-,+\"", "side to which the strut of each leg turns, where the leg has a motor"},
     Option{"curvature", "\"A, B, ...\"", "a curvature for each leg; the nearest solution is taken"},
+    Option{"theta-is", "NAME", "what an input theta is the angle of: tangent (default) or chord"},
     Option{"twist", "\"VX, VY, W\"",
-           "velocity of the platform and its turning rate; answers the rates of the inputs"},
+           "velocity and turning rate of the platform, in space three each; answers the rates of the inputs"},
     Option{"all", "", "every solution, not only the one wanted"},
     Option{"max-iterations", "N", "most iterations of the solver; default 100"},
     Option{"model", "NAME", "model of the links: cc (constant curvature)"},
     Option{"set", "PATH=VALUE", "change the robot, e.g. \"legs[0].link.length=180 mm\"; may be repeated", 0,
            true},
-    Option{"output", "FILE", "where to write: a folder for reproduce (default: out), a figure for plot", 'o'},
+    Option{"output", "FILE",
+           "where to write: a folder for reproduce (default: out), a figure for plot, a .csv for track", 'o'},
     Option{"list", "", "only list what there is"},
-    Option{"x", "COLUMN", "column along x; default the first"},
-    Option{"y", "COLUMN,COLUMN", "columns to draw; default all the others"},
+    Option{"x", "COLUMN|AXIS",
+           "of plot the column along x, default the first; of map a value, or FROM : TO : COUNT, default the "
+           "home's"},
+    Option{"y", "COLUMNS|AXIS", "of plot the columns to draw, default all the others; of map as --x"},
+    Option{"z", "AXIS", "a value, or FROM : TO : COUNT; default the home's"},
+    Option{"phi", "AXIS", "angle of the platform: a value, or FROM : TO : COUNT; default the home's"},
+    Option{"rx", "AXIS",
+           "x of the platform's rotation vector: a value, or FROM : TO : COUNT; default the home's"},
+    Option{"ry", "AXIS", "y of it"},
+    Option{"rz", "AXIS", "z of it"},
     Option{"log-y", "", "logarithmic y axis"},
     Option{"title", "TEXT", "title of the figure"},
     Option{"json", "", "the answer as one line of JSON, SI and radians"},
@@ -35,31 +56,62 @@ const std::array table{
     Verb{"forward",
          "ROBOT",
          "pose of the platform from the inputs",
-         {"inputs", "start", "max-iterations", "model", "set", "json", "quiet", "help"},
+         {"inputs", "start", "all", "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
          {"inputs"},
-         "Newton's method from the start. Exit code 3 where the legs do not close, 4 where the iterations "
-         "ran out.",
+         "Newton's method from the start; --all finds the other assembly modes too. Exit code 3 where the\n"
+         "legs do not close, 4 where the iterations ran out.",
          "sinew forward 3-rfr --inputs \"0.19 m, 190 mm, 0.188\"",
          run_question},
     Verb{"inverse",
          "ROBOT",
          "inputs from the pose of the platform",
-         {"pose", "bending", "curvature", "all", "model", "set", "json", "quiet", "help"},
+         {"pose", "bending", "elbow", "curvature", "start", "all", "theta-is", "model", "set", "json",
+          "quiet", "help"},
          {"pose"},
-         "Of several solutions the one that bends least is taken, positive where both signs do.",
+         "Of several solutions the one that bends least is taken, positive where both signs do; with --start "
+         "the "
+         "one\n"
+         "nearest to those inputs. In space: sinew inverse 6-ufs --pose \"0, 0, 180 mm, 0, 10 deg, 0\"",
          "sinew inverse 3-rfr --pose \"10 mm, -5 mm, 10 deg\" --bending \"+,-,+\"",
          run_question},
     Verb{"analyse",
          "ROBOT",
          "velocity equations, sensitivities and singularities at a configuration",
-         {"pose", "bending", "curvature", "inputs", "start", "twist", "max-iterations", "model", "set",
-          "json", "quiet", "help"},
+         {"pose", "bending", "elbow", "curvature", "inputs", "start", "twist", "theta-is", "max-iterations",
+          "model", "set", "json", "quiet", "help"},
          {"pose", "inputs"},
          "Give a pose, or inputs, or both. J·(platform velocity) = K·(input rates) is printed in SI as in "
          "the paper,\n"
          "U = J⁻¹K in mm and degrees. A singular configuration is shown, and the exit code is 3.",
          "sinew analyse 3-rfr --pose \"10 mm, -5 mm, 10 deg\" --twist \"5 mm/s, 0, 2 deg/s\"",
          run_question},
+    Verb{"track",
+         "ROBOT",
+         "inputs along a path of the platform",
+         {"from", "to", "samples", "objective", "bending", "elbow", "curvature", "start", "theta-is",
+          "output", "model", "set", "json", "quiet", "help"},
+         {"from"},
+         "The path is straight; the legs keep the branch they begin on. Where the path cannot be followed to "
+         "its end\n"
+         "the poses reached are shown, and the exit code is 3. A .csv holds SI and radians.",
+         "sinew track 3-rfr --from \"0, 0, 0\" --to \"10 mm, 5 mm, 20 deg\" --samples 11",
+         run_track},
+    Verb{
+        "map",
+        "ROBOT",
+        "singularities over a grid of poses: a table, or a heat map",
+        {"x", "y", "z", "phi", "rx", "ry", "rz", "bending", "elbow", "curvature", "output", "set", "quiet",
+         "help"},
+        {"x", "y", "z", "phi", "rx", "ry", "rz"},
+        "An axis is one value or FROM : TO : COUNT. For each pose, the first axis running fastest, the table "
+        "tells\n"
+        "whether it is reachable, det J, 1/condition as it stands and homogenised, how many legs are at a "
+        "type I,\n"
+        "and whether it is a type II: CSV in SI and radians, on stdout or in -o FILE.csv. An .svg, .png or "
+        ".pdf is\n"
+        "a heat map of the homogenised one over two axes; a third one has a panel for each value.",
+        "sinew map 3-rfr --x \"-60 mm : 60 mm : 13\" --y \"-60 mm : 60 mm : 13\" --phi \"30 deg\" -o map.csv",
+        run_map},
     Verb{"query",
          "ROBOT",
          "many queries in one process: JSON lines from stdin, JSON lines to stdout",
@@ -79,6 +131,14 @@ const std::array table{
          "Values that are allowed but unlikely are warned of on stderr. --json gives the answer to describe.",
          "sinew check 3-rfr",
          run_check},
+    Verb{"new",
+         "[KIND]",
+         "a commented robot file to start from, on stdout",
+         {"help"},
+         {},
+         "Without a kind the kinds are listed. Every file works as it is; change it and check it.",
+         "sinew new 3-RFR > mine.yaml",
+         run_new},
     Verb{"reproduce",
          "[PAPER[/ITEM]]",
          "figures and tables of the papers: ours beside theirs",
@@ -90,11 +150,12 @@ const std::array table{
     Verb{"plot",
          "RESULT|ROBOT",
          "a figure of a table of results, or of a robot",
-         {"output", "x", "y", "log-y", "title", "pose", "bending", "curvature", "inputs", "start", "model",
-          "set", "quiet", "help"},
+         {"output", "x", "y", "log-y", "title", "pose", "bending", "elbow", "curvature", "inputs", "start",
+          "theta-is", "model", "set", "quiet", "help"},
          {"output"},
          "RESULT is a .csv file with headings like x[m]. A robot is drawn at a pose or at inputs, default "
-         "its home.\n"
+         "its home;\n"
+         "a spatial one from the front and from above.\n"
          "The figure is an .svg, .png or .pdf; the gnuplot script beside it draws it again.",
          "sinew plot 3-rfr --pose \"10 mm, -5 mm, 10 deg\" -o fig.svg",
          run_plot},

@@ -60,8 +60,11 @@ std::string help_units();
 /// @name What the verbs do; the answer is the exit code
 /// @{
 int run_question(const Arguments& arguments);  ///< forward, inverse, analyse
+int run_track(const Arguments& arguments);
+int run_map(const Arguments& arguments);
 int run_query(const Arguments& arguments);
 int run_check(const Arguments& arguments);
+int run_new(const Arguments& arguments);
 int run_reproduce(const Arguments& arguments);
 int run_plot(const Arguments& arguments);
 int run_completion(const Arguments& arguments);

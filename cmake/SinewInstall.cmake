@@ -1,4 +1,5 @@
-# Install rules: library, headers, command, robot and study files, and a CMake package for find_package(sinew).
+# Install rules: library, headers, command, robot files, schemas and study files, and a CMake package for
+# find_package(sinew).
 include(CMakePackageConfigHelpers)
 set(sinew_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/sinew)
 set(sinew_data_dir ${CMAKE_INSTALL_DATADIR}/sinew)
@@ -13,7 +14,7 @@ if(TARGET sinew_command)
   endif()
   install(TARGETS sinew_command)
 endif()
-foreach(folder robots studies)
+foreach(folder robots schema studies)
   if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${folder})
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${sinew_data_dir})
   endif()

@@ -1,14 +1,21 @@
-# robots/*.yaml go into the library as text, so that `sinew forward 3-rfr` works from any folder.
-file(GLOB robot_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/robots/*.yaml)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${robot_files})
-set(robot_rows "")
-foreach(file IN LISTS robot_files)
-  get_filename_component(robot ${file} NAME_WE)
-  file(READ ${file} text)
-  string(APPEND robot_rows "    {\"${robot}\", R\"sinew(${text})sinew\"},\n")
-endforeach()
+# Robot files go into the library as text: robots/*.yaml, so that `sinew forward 3-rfr` works from any folder, and
+# examples/robots/*.yaml, which `sinew new` prints.
+function(sinew_robot_rows folder result)
+  file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.yaml)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
+  set(rows "")
+  foreach(file IN LISTS files)
+    get_filename_component(robot ${file} NAME_WE)
+    file(READ ${file} text)
+    string(APPEND rows "    {\"${robot}\", R\"sinew(${text})sinew\"},\n")
+  endforeach()
+  set(${result} "${rows}" PARENT_SCOPE)
+endfunction()
+
+sinew_robot_rows(robots robot_rows)
+sinew_robot_rows(examples/robots template_rows)
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/builtin_robots.cpp @ONLY CONTENT
-[[// Generated from robots/*.yaml.
+[[// Generated from robots/*.yaml and examples/robots/*.yaml.
 #include "io/builtin.hpp"
 
 namespace sinew::inline v0 {
@@ -16,6 +23,12 @@ namespace sinew::inline v0 {
 std::span<const BuiltinRobot> builtin_robots() {
   static constexpr BuiltinRobot robots[] = {
 @robot_rows@  };
+  return robots;
+}
+
+std::span<const BuiltinRobot> robot_templates() {
+  static constexpr BuiltinRobot robots[] = {
+@template_rows@  };
   return robots;
 }
 

@@ -26,9 +26,16 @@ add_test(NAME headers.kernel COMMAND ${CMAKE_COMMAND}
   -D WORK=${CMAKE_CURRENT_BINARY_DIR}/kernel_headers -P ${packaging_dir}/kernel_headers.cmake)
 set_tests_properties(headers.kernel PROPERTIES LABELS tools TIMEOUT 120)
 
-# The rest builds a good deal, and what it finds does not depend on sanitizers.
+# The rest takes its time, and what it finds does not depend on sanitizers.
 if(SINEW_SANITIZE)
   return()
+endif()
+
+# The schema of robot files and the reader judge alike.
+if(TARGET sinew_command)
+  add_test(NAME schema.robot COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/schema/schema_test.py
+    $<TARGET_FILE:sinew_command>)
+  set_tests_properties(schema.robot PROPERTIES LABELS tools TIMEOUT 300 PROCESSORS 2)
 endif()
 
 # Every public header compiles alone.

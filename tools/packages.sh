@@ -8,7 +8,8 @@ build_packages=(build-essential cmake pkgconf libeigen3-dev libyaml-cpp-dev nloh
                 libfmt-dev libexpected-dev gnuplot-nox)
 # ... and what the tests and benchmarks need beside it.
 # shellcheck disable=SC2034
-test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3)
+test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
+               python3-yaml)
 
 say() { printf '%s\n' "$*" >&2; }
 

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "show.hpp"
@@ -13,23 +15,17 @@
 namespace sinew::cli {
 namespace {
 
-/// A robot put to three questions: what it has, what it needs at home, how it moves there.
+/// A robot, what it needs at home, and how it moves there.
 struct Checked {
-  Answer description, home, velocity;
+  Robot robot;
+  Answer home, velocity;
 };
 
-Checked put_questions(Session& session) {
-  Answer description = ask(session, R"({"query": "describe"})");
-  const Node& pose = *description.find("home");
-  const std::string at = fmt::format(R"("pose": {{"x": {}, "y": {}, "phi": {}}})", pose.find("x")->text,
-                                     pose.find("y")->text, pose.find("phi")->text);
-  return {std::move(description), ask(session, R"({"query": "inverse", )" + at + "}"),
-          ask(session, R"({"query": "velocity", )" + at + "}")};
-}
-
-double number(const Node& map, std::string_view path) {
-  const Node* node = at(map, path);
-  return node ? node->number : 0.0;
+Checked put_questions(Robot robot) {
+  const std::string at = fmt::format(R"("pose": {})", as_json(*robot.description.find("home")));
+  Answer home = ask(robot.session, R"({"query": "inverse", )" + at + "}"),
+         velocity = ask(robot.session, R"({"query": "velocity", )" + at + "}");
+  return {std::move(robot), std::move(home), std::move(velocity)};
 }
 
 /// `legs[0]`, `legs[0] and legs[2]`, `all legs`: who shares something.
@@ -84,20 +80,46 @@ std::string show_part(const Node& part) {
   return text;
 }
 
+struct PointColumn {
+  std::string_view name, unit, path;
+};
+
+/// Where legs begin and end: what at least one of them has.
+constexpr std::array point_columns{
+    PointColumn{"base_x", "m", "base.point[0]"},
+    PointColumn{"base_y", "m", "base.point[1]"},
+    PointColumn{"base_z", "m", "base.point[2]"},
+    PointColumn{"first_axis_x", "", "base.first_axis[0]"},
+    PointColumn{"first_axis_y", "", "base.first_axis[1]"},
+    PointColumn{"first_axis_z", "", "base.first_axis[2]"},
+    PointColumn{"direction_x", "", "base.direction[0]"},
+    PointColumn{"direction_y", "", "base.direction[1]"},
+    PointColumn{"direction_z", "", "base.direction[2]"},
+    PointColumn{"platform_x", "m", "platform_point[0]"},
+    PointColumn{"platform_y", "m", "platform_point[1]"},
+    PointColumn{"platform_z", "m", "platform_point[2]"},
+    PointColumn{"direction", "rad", "base.direction"},
+};
+
+const Node* number_at(const Node& leg, std::string_view path) {
+  const Node* node = at(leg, path);
+  return node && node->kind == Node::Kind::number ? node : nullptr;
+}
+
 std::string show_points(const Node& legs) {
-  const bool has_direction =
-      std::ranges::any_of(legs.items, [](const Node& leg) { return at(leg, "base.direction"); });
-  std::vector<std::string> header{"leg", "base_x[mm]", "base_y[mm]", "platform_x[mm]", "platform_y[mm]"};
-  if (has_direction) header.emplace_back("direction[deg]");
+  std::vector<PointColumn> columns;
+  std::ranges::copy_if(point_columns, std::back_inserter(columns), [&](const PointColumn& column) {
+    return std::ranges::any_of(legs.items, [&](const Node& leg) { return number_at(leg, column.path); });
+  });
+  std::vector<std::string> header{"leg"};
+  for (const PointColumn& column : columns) header.push_back(heading(column.name, column.unit));
   TextTable table(std::move(header));
   for (std::size_t i = 0; i < legs.items.size(); ++i) {
-    const Node& leg = legs.items[i];
     std::vector<std::string> row{fmt::format("legs[{}]", i)};
-    for (const std::string_view path :
-         {"base.point[0]", "base.point[1]", "platform_point[0]", "platform_point[1]"})
-      row.push_back(cell(number(leg, path), "m"));
-    if (has_direction)
-      row.push_back(at(leg, "base.direction") ? cell(number(leg, "base.direction"), "rad") : "-");
+    for (const PointColumn& column : columns) {
+      const Node* value = number_at(legs.items[i], column.path);
+      row.push_back(value ? cell(value->number, column.unit) : "-");
+    }
     table.add(std::move(row));
   }
   return table.text();
@@ -107,29 +129,39 @@ std::string show_limits(const Node& inputs) {
   TextTable table({"input", "unit", "least", "most"});
   for (const Node& input : inputs.items) {
     const std::string& unit = input.find("unit")->text;
-    table.add({input.find("name")->text, std::string(shown(unit).unit),
-               cell(number(input, "limits[0]"), unit), cell(number(input, "limits[1]"), unit)});
+    const auto limit = [&](std::string_view path) {
+      const Node* value = at(input, path);
+      return value ? cell(value->number, unit) : "-";
+    };
+    table.add(
+        {input.find("name")->text, std::string(shown(unit).unit), limit("limits[0]"), limit("limits[1]")});
   }
   return table.text();
 }
 
-std::string show_home(const Checked& robot) {
-  std::string text = "home\n" + show_pose(*robot.description.find("home"));
-  if (!robot.home.converged())
-    return text + "\n" + robot.home.text("status") + ": " + robot.home.text("message") + "\n";
-  text += '\n' + show_legs(*robot.home.find("legs"));
-  if (!robot.velocity.find("J")) return text;
-  return text + '\n' + show_indices(robot.velocity, input_names(robot.description)) + '\n' +
-         show_singularities(robot.velocity);
+std::string show_home(const Checked& checked) {
+  std::string text = "home\n" + show_pose(*checked.robot.description.find("home"));
+  if (!checked.home.converged())
+    return text + "\n" + checked.home.text("status") + ": " + checked.home.text("message") + "\n";
+  text += '\n' + show_legs(*checked.home.find("legs"));
+  if (!checked.velocity.find("J")) return text;
+  return text + '\n' + show_indices(checked.velocity, checked.robot) + '\n' +
+         show_singularities(checked.velocity);
 }
 
-std::string show(const Checked& robot) {
-  const Answer& about = robot.description;
+std::string show(const Checked& checked) {
+  const Answer& about = checked.robot.description;
   const Node &legs = *about.find("legs"), &inputs = *about.find("inputs");
+  const auto counted = [](std::size_t count, std::string_view noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+  };
   std::string text =
-      fmt::format("{}: {} {} robot, {} legs, {} inputs, model {}, geometry: {}\n", about.text("robot"),
-                  about.text("space"), about.text("kind"), legs.items.size(), inputs.items.size(),
-                  about.text("model"), about.text("geometry"));
+      fmt::format("{}: {} {} robot, {}, {}, model {}, geometry: {}\n", about.text("robot"),
+                  about.text("space"), about.text("kind"), counted(legs.items.size(), "leg"),
+                  counted(inputs.items.size(), "input"), about.text("model"), about.text("geometry"));
+  text += fmt::format("freedoms: {} of the platform, {} held by the legs, {} driven by actuators\n",
+                      about.text("freedoms.platform"), about.text("freedoms.constraints"),
+                      about.text("freedoms.actuators"));
   PerLeg parts(legs.items.size());
   for (std::size_t i = 0; i < legs.items.size(); ++i) {
     parts.add(i, "link " + show_part(*legs.items[i].find("link")));
@@ -138,7 +170,7 @@ std::string show(const Checked& robot) {
   parts.each([&](const std::string& who, const std::string& what) { text += who + ": " + what + '\n'; });
   if (const auto radius = about.number("platform.radius"))
     text += fmt::format("platform: radius {} m = {}\n", si_text(*radius), human(*radius, Dimension::length));
-  return text + '\n' + show_limits(inputs) + '\n' + show_points(legs) + '\n' + show_home(robot);
+  return text + '\n' + show_limits(inputs) + '\n' + show_points(legs) + '\n' + show_home(checked);
 }
 
 /// What is allowed but unlikely: more often a slip than a robot.
@@ -164,7 +196,8 @@ void suspect(const Node& leg, std::size_t i, PerLeg& warnings) {
 void suspect_at_home(const Node& leg, const Node& state, std::size_t i, PerLeg& warnings) {
   const double length = number(leg, "link.length"), chord = number(state, "chord");
   const double turns = std::abs(number(state, "curvature")) * length / (2 * std::numbers::pi);
-  if (chord > 0.999 * length)
+  const bool is_stretched = at(leg, "closure.type")->text != "strut" && chord > 0.999 * length;
+  if (is_stretched)
     warnings.add(
         i, fmt::format("at home it is stretched almost straight, chord {} of length {}: nearly out of reach",
                        human(chord, Dimension::length), human(length, Dimension::length)));
@@ -172,9 +205,31 @@ void suspect_at_home(const Node& leg, const Node& state, std::size_t i, PerLeg& 
     warnings.add(i, fmt::format("at home it bends by {:.0f} deg, more than a full turn", turns * 360));
 }
 
-void warn(const Checked& robot) {
-  const Node& legs = *robot.description.find("legs");
-  const Node* at_home = robot.home.find("legs");
+/// Where platform, legs and actuators do not match one to one.
+void warn_of_freedoms(const Answer& about) {
+  const int platform = static_cast<int>(about.number("freedoms.platform").value_or(0)),
+            held = static_cast<int>(about.number("freedoms.constraints").value_or(0)),
+            driven = static_cast<int>(about.number("freedoms.actuators").value_or(0));
+  if (held < platform)
+    message(
+        fmt::format("warning: the legs hold {} of the platform's {} freedoms; it moves with the inputs "
+                    "held",
+                    held, platform));
+  if (held > platform)
+    message(
+        fmt::format("warning: the legs hold {} freedoms, the platform has {}; only inputs that fit "
+                    "together can be reached",
+                    held, platform));
+  if (driven > held)
+    message(
+        fmt::format("warning: the robot is redundant: {} actuators move {} freedoms, so the links can "
+                    "move while the platform stands still",
+                    driven, held));
+}
+
+void warn(const Checked& checked) {
+  const Node& legs = *checked.robot.description.find("legs");
+  const Node* at_home = checked.home.find("legs");
   PerLeg warnings(legs.items.size());
   for (std::size_t i = 0; i < legs.items.size(); ++i) {
     suspect(legs.items[i], i, warnings);
@@ -182,21 +237,22 @@ void warn(const Checked& robot) {
   }
   warnings.each(
       [](const std::string& who, const std::string& what) { message("warning: " + who + ": " + what); });
-  if (!robot.home.converged())
-    message("warning: the home pose cannot be reached: " + robot.home.text("message"));
+  warn_of_freedoms(checked.robot.description);
+  if (!checked.home.converged())
+    message("warning: the home pose cannot be reached: " + checked.home.text("message"));
 }
 
 }  // namespace
 
 int run_check(const Arguments& arguments) {
-  auto session = Session::open(arguments.operand());
-  if (!session) {
-    if (arguments.has("json")) print(json_error(session.error()) + '\n');
-    return refuse(arguments.verb, session.error());
+  auto robot = open(arguments);
+  if (!robot) {
+    if (arguments.has("json")) print(json_error(robot.error()) + '\n');
+    return refuse(arguments.verb, robot.error());
   }
-  const Checked robot = put_questions(*session);
-  print(arguments.has("json") ? robot.description.line + '\n' : show(robot));
-  if (!arguments.has("quiet")) warn(robot);
+  const Checked checked = put_questions(std::move(*robot));
+  print(arguments.has("json") ? checked.robot.description.line + '\n' : show(checked));
+  if (!arguments.has("quiet")) warn(checked);
   return solved;
 }
 

@@ -22,21 +22,28 @@ const FigureFormat* format_of(const std::filesystem::path& file) {
   return found == formats.end() ? nullptr : &*found;
 }
 
+/// The two coordinates that a panel shows.
+struct View {
+  std::size_t x, y;
+  std::string_view x_name, y_name;
+};
+
 /// The curve of a list of points in metres, in mm.
-Series curve(const Node& points, Mark mark, Colour colour, double width, std::string label = {}) {
+Series curve(const Node& points, const View& view, Mark mark, Colour colour, double width,
+             std::string label = {}) {
   Series series{.label = std::move(label), .x = {}, .y = {}, .mark = mark, .colour = colour, .width = width};
   for (const Node& point : points.items) {
-    series.x.push_back(1e3 * point.items.at(0).number);
-    series.y.push_back(1e3 * point.items.at(1).number);
+    series.x.push_back(1e3 * point.items.at(view.x).number);
+    series.y.push_back(1e3 * point.items.at(view.y).number);
   }
   return series;
 }
 
 /// As Fig. 10 of [TDPCR]: backbones, tendons, platform, joints, and the lines along which the closures pull.
-Figure picture(const Answer& shape) {
+Panel picture(const Answer& shape, const View& view) {
   Panel panel{.title = {},
-              .x = {.label = "x", .unit = "mm"},
-              .y = {.label = "y", .unit = "mm"},
+              .x = {.label = std::string(view.x_name), .unit = "mm"},
+              .y = {.label = std::string(view.y_name), .unit = "mm"},
               .series = {},
               .notes = {},
               .legend = Legend::below,
@@ -44,53 +51,61 @@ Figure picture(const Answer& shape) {
   const auto once = [](std::size_t i, const char* label) {
     return i == 0 ? std::string(label) : std::string();
   };
-  const auto add = [&](Series series) { panel.series.push_back(std::move(series)); };
-  add(curve(*shape.find("platform"), Mark::polygon, Colour::green, 1.5, "platform"));
+  const auto add = [&](const Node& points, Mark mark, Colour colour, double width, std::string label = {}) {
+    panel.series.push_back(curve(points, view, mark, colour, width, std::move(label)));
+  };
+  const Node& platform = *shape.find("platform");
+  add(platform, platform.items.size() > 2 ? Mark::polygon : Mark::line, Colour::green, 1.5, "platform");
   const auto& lines = shape.find("lines")->items;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    add(curve(lines[i], Mark::dashed, Colour::vermillion, 1.5, once(i, "line of the leg")));
+    add(lines[i], Mark::dashed, Colour::vermillion, 1.5, once(i, "line of the leg"));
   const auto& tendons = shape.find("tendons")->items;
   for (std::size_t i = 0; i < tendons.size(); ++i)
     for (std::size_t k = 0; k < tendons[i].items.size(); ++k)
-      add(curve(tendons[i].items[k], Mark::dashed, Colour::grey, 1, once(i + k, "tendon")));
+      add(tendons[i].items[k], Mark::dashed, Colour::grey, 1, once(i + k, "tendon"));
   const auto& backbones = shape.find("backbones")->items;
   for (std::size_t i = 0; i < backbones.size(); ++i)
-    add(curve(backbones[i], Mark::line, Colour::blue, 3, once(i, "backbone")));
-  add(curve(*shape.find("base"), Mark::circles, Colour::black, 1.5));
-  add(curve(*shape.find("platform"), Mark::circles, Colour::black, 1.5));
+    add(backbones[i], Mark::line, Colour::blue, 3, once(i, "backbone"));
+  add(*shape.find("base"), Mark::circles, Colour::black, 1.5);
+  add(platform, Mark::circles, Colour::black, 1.5);
+  return panel;
+}
+
+/// A spatial robot from the front and from above.
+Figure picture(const Answer& shape, bool is_spatial) {
   Figure figure;
   figure.title = shape.text("robot");
-  figure.panels = {std::move(panel)};
   figure.width = figure.height = 700;
+  if (is_spatial) {
+    figure.panels = {picture(shape, {0, 2, "x", "z"}), picture(shape, {0, 1, "x", "y"})};
+    figure.columns = 2;
+    figure.width = 1400;
+  } else {
+    figure.panels = {picture(shape, {0, 1, "x", "y"})};
+  }
   return figure;
 }
 
 /// The robot's shape at the asked configuration, default its home. Nothing where it has none; `exit` then
 /// says why.
 std::optional<Figure> robot_figure(const Arguments& arguments, int& exit) {
-  auto session = Session::open(arguments.operand());
-  auto query = request("shape", arguments);
-  if (!session || !query) {
-    exit = refuse("plot", session ? query.error() : session.error());
+  auto robot = open(arguments);
+  auto query = robot ? request("shape", arguments, *robot) : tl::unexpected(robot.error());
+  if (!query) {
+    exit = refuse("plot", query.error());
     return {};
   }
   if (!arguments.has("pose") && !arguments.has("inputs")) {
-    const Answer about = describe(*session, arguments);
-    if (const Errors errors = about.errors(); !errors.empty()) {
-      exit = refuse("plot", errors);
-      return {};
-    }
     query->pop_back();  // its closing brace
-    *query += fmt::format(R"(, "pose": {{"x": {}, "y": {}, "phi": {}}}}})", about.text("home.x"),
-                          about.text("home.y"), about.text("home.phi"));
+    *query += fmt::format(R"(, "pose": {}}})", as_json(*robot->description.find("home")));
   }
-  const Answer shape = ask(*session, *query);
+  const Answer shape = ask(robot->session, *query);
   exit = exit_code(shape);
   if (const Errors errors = shape.errors(); !errors.empty())
     refuse("plot", errors);
   else if (!shape.converged())
     message(fmt::format("plot {}: {}: {}", shape.text("robot"), shape.text("status"), shape.text("message")));
-  return exit == solved ? std::optional(picture(shape)) : std::nullopt;
+  return exit == solved ? std::optional(picture(shape, robot->is_spatial)) : std::nullopt;
 }
 
 const Column* column(const Table& table, std::string_view name, std::string_view option, Errors& errors) {

@@ -1,25 +1,22 @@
 /// forward, inverse, analyse: one query, a table for people or the answer as it is.
+#include "question.hpp"
+
 #include <fmt/format.h>
 
-#include "show.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {
 namespace {
 
-int refuse_question(const Arguments& arguments, const Errors& errors) {
-  if (arguments.has("json")) print(json_error(errors) + '\n');
-  return refuse(arguments.verb, errors);
-}
-
-std::string show(const Answer& answer, Session& session, const Arguments& arguments) {
-  const InputNames names = input_names(describe(session, arguments));
-  if (answer.text("query") == "velocity") return show_velocity(answer, names);
-  std::string text = answer.text("query") == "forward"
-                         ? show_pose(*answer.find("pose"))
-                         : show_inputs("value", numbers(answer.find("inputs")), names);
+std::string show(const Answer& answer, const Robot& robot) {
+  const std::string query = answer.text("query");
+  if (query == "velocity") return show_velocity(answer, robot);
+  const bool is_forward = query == "forward";
+  std::string text = is_forward ? show_pose(*answer.find("pose"))
+                                : show_inputs("value", numbers(answer.find("inputs")), robot);
   text += '\n' + show_legs(*answer.find("legs"));
-  if (const Node* solutions = answer.find("solutions")) text += '\n' + show_modes(*solutions, names);
+  if (const Node* solutions = answer.find("solutions"))
+    text += '\n' + (is_forward ? show_assembly_modes(answer) : show_working_modes(*solutions, robot));
   return text;
 }
 
@@ -32,24 +29,33 @@ void explain(const Answer& answer, std::string_view verb) {
 
 }  // namespace
 
-int run_question(const Arguments& arguments) {
-  const auto query = request(arguments.verb == "analyse" ? "velocity" : arguments.verb, arguments);
-  if (!query) return refuse_question(arguments, query.error());
-  auto session = Session::open(arguments.operand());
-  if (!session) return refuse_question(arguments, session.error());
-  const Answer answer = ask(*session, *query);
-  if (const Errors errors = answer.errors(); !errors.empty()) {
-    if (arguments.has("json")) print(answer.line + '\n');
-    return refuse(arguments.verb, errors);
-  }
-  const bool can_show = answer.converged() || answer.find("J");
-  if (arguments.has("json"))
-    print(answer.line + '\n');
-  else if (can_show)
-    print(show(answer, *session, arguments) +
-          (answer.converged() && !arguments.has("quiet") ? show_report(answer) : ""));
+int refuse_question(const Arguments& arguments, const Errors& errors) {
+  if (arguments.has("json")) print(json_error(errors) + '\n');
+  return refuse(arguments.verb, errors);
+}
+
+int conclude(const Answer& answer, const Arguments& arguments, const std::string& shown) {
+  if (arguments.has("json")) print(answer.line + '\n');
+  if (const Errors errors = answer.errors(); !errors.empty()) return refuse(arguments.verb, errors);
+  if (!arguments.has("json") && !shown.empty())
+    print(shown + (answer.converged() && !arguments.has("quiet") ? show_report(answer) : ""));
   if (!answer.converged() || !answer.text("message").empty()) explain(answer, arguments.verb);
   return exit_code(answer);
+}
+
+Expected<Answer> put(std::string_view query, const Arguments& arguments, Robot& robot) {
+  const auto text = request(query, arguments, robot);
+  if (!text) return tl::unexpected(text.error());
+  return ask(robot.session, *text);
+}
+
+int run_question(const Arguments& arguments) {
+  auto robot = open(arguments);
+  if (!robot) return refuse_question(arguments, robot.error());
+  const auto answer = put(arguments.verb == "analyse" ? "velocity" : arguments.verb, arguments, *robot);
+  if (!answer) return refuse_question(arguments, answer.error());
+  const bool can_show = answer->converged() || answer->find("J");
+  return conclude(*answer, arguments, can_show ? show(*answer, *robot) : "");
 }
 
 }  // namespace sinew::cli

@@ -5,43 +5,51 @@
 namespace sinew::inline v0 {
 namespace {
 
-template <class LegT>
-void add_leg(PlanarShape& shape, const LegT& leg, const SE2<double>& platform, double q, int samples) {
-  const auto tip = leg.tip(q);
-  const auto frame = leg.base_frame(platform, tip);
-  Polyline backbone;
-  std::array<Polyline, 2> tendons;
+/// A point of the bending plane in a frame of the robot's space.
+Vec2<double> placed(const SE2<double>& frame, const Vec2<double>& point) { return frame.point(point); }
+Vec3<double> placed(const SE3<double>& frame, const Vec2<double>& point) {
+  return frame.point(Vec3<double>(point.x(), point.y(), 0));
+}
+
+template <int D, class LegT, class Frame>
+void add_leg(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const typename LegT::Coordinates& q,
+             int samples) {
+  const auto frame = leg.link_frame(platform, q);
+  const double curvature = leg.link.curvature(q), length = leg.link.arc().length;
+  const double offset = leg.drive.tendon_offset();
+  PolylineOf<D> backbone;
+  std::array<PolylineOf<D>, 2> tendons;
   for (int k = 0; k < samples; ++k) {
-    const double s = leg.link.length * k / (samples - 1);
-    const Vec2<double> point = leg.link.point(q, s), side = leg.drive.offset * leg.link.side(q, s);
-    backbone.push_back(frame.point(point));
-    tendons[0].push_back(frame.point(Vec2<double>(point + side)));
-    tendons[1].push_back(frame.point(Vec2<double>(point - side)));
+    const double s = length * k / (samples - 1);
+    const Vec2<double> point = leg.link.arc().point(curvature, s),
+                       side = offset * leg.link.arc().side(curvature, s);
+    backbone.push_back(placed(frame, point));
+    tendons[0].push_back(placed(frame, Vec2<double>(point + side)));
+    tendons[1].push_back(placed(frame, Vec2<double>(point - side)));
   }
-  const Vec2<double> head = platform.point(leg.platform_point);
-  const auto anchor = leg.closure.anchor(tip);
+  const Vec<double, D> head = platform.point(leg.platform_point);
   shape.backbones.push_back(std::move(backbone));
   shape.tendons.push_back(std::move(tendons));
-  shape.lines.push_back({frame.point(anchor.position), head});
+  shape.lines.push_back({leg.reach(q).anchor, head});
   shape.platform.push_back(head);
   shape.base.push_back(leg.base.p);
 }
 
-template <class LegT>
-PlanarShape shape_of(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates,
-                     int samples) {
-  PlanarShape shape;
-  const auto platform = Planar::frame(in_space<Planar>(pose));
-  for (std::size_t i = 0; i < robot.legs.size(); ++i)
-    with_leg(robot.legs[i], [&](const auto& leg) { add_leg(shape, leg, platform, coordinates[i], samples); });
-  return shape;
-}
-
 }  // namespace
 
-PlanarShape shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
+AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
   SINEW_EXPECTS(samples >= 2);
-  return std::visit([&](const auto& r) { return shape_of(r, pose, coordinates, samples); }, robot.model);
+  return std::visit(
+      [&]<class LegT>(const ParallelRobot<LegT>& r) -> AnyShape {
+        using Space = typename LegT::Space;
+        ShapeOf<Space::dimension> shape;
+        const auto platform = Space::frame(in_space<Space>(pose));
+        r.for_each_leg([&](const auto& leg, const LegPlace& place, int) {
+          add_leg(shape, leg, platform, own_coordinates(leg, place, coordinates), samples);
+        });
+        return shape;
+      },
+      robot.model);
 }
 
 }  // namespace sinew::inline v0

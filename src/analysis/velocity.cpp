@@ -15,22 +15,6 @@ double condition(std::span<const double> sigma) {
   return ratio < 1e15 ? ratio : absent;
 }
 
-/// J and K with their rows scaled to unit lines and the moments of J divided by the platform radius, in the
-/// workspace: numbers of one size, whatever the robot's.
-template <class Space>
-MatrixView homogenise(const Reduced& reduced, double radius, Workspace& work) {
-  for (Eigen::Index i = 0; i < reduced.J.rows(); ++i) {
-    const double length = reduced.J.row(i).template head<Space::dimension>().norm();
-    const double scale = length > 0 ? 1 / length : 0;
-    for (Eigen::Index j = 0; j < Space::dof; ++j)
-      work.unit_J[static_cast<std::size_t>(i * Space::dof + j)] =
-          reduced.J(i, j) * (j < Space::dimension ? scale : scale / radius);
-    for (Eigen::Index j = 0; j < reduced.K.cols(); ++j)
-      work.unit_K[static_cast<std::size_t>(i * reduced.K.cols() + j)] = reduced.K(i, j) * scale;
-  }
-  return {work.unit_J.data(), reduced.J.rows(), Space::dof};
-}
-
 /// 2-norm of a block of rows of U.
 double block_norm(const MatrixView& U, Eigen::Index first, Eigen::Index count) {
   std::array<double, max_rows> sigma;
@@ -39,76 +23,40 @@ double block_norm(const MatrixView& U, Eigen::Index first, Eigen::Index count) {
   return sigma[0];
 }
 
-/// Dependent lines of the plane, told by the twists they leave free: a rotation about a point all of them
-/// meet, a translation all of them are perpendicular to, or both where they are one line.
-void classify(TypeTwo& type, const Svd& decomposition, const PlanarPose& pose, double radius) {
-  if (type.rank < 2) {
-    type.kind = LineClass::coincident;
-    return;
+/// The leg's inputs move its rows in no direction, or in fewer than they have: the largest (of a pin: the
+/// smaller) singular value of g_q, its columns scaled by the speed they give the tip, rows by the pull.
+template <class LegT, class Frame>
+bool is_type_one(const LegT& leg, const Frame& platform, const typename LegT::Coordinates& q) {
+  const auto tip = leg.template tip<double>(q);
+  const auto blocks = leg.template blocks<double>(platform, tip);
+  Mat<double, LegT::rows, LegT::coordinates> slope = blocks.g_q;
+  for (int i = 0; i < LegT::rows; ++i) {
+    const double pull = blocks.g_x.row(i).template head<LegT::Space::dimension>().norm();
+    for (int j = 0; j < LegT::coordinates; ++j) slope(i, j) /= pull * tip.rate.col(j).norm();
   }
-  const auto free = decomposition.v().col(2);  // (v, ω·radius)
-  const double turn = free[2];
-  if (std::abs(turn) < type_2_tolerance) {
-    type.kind = LineClass::parallel;
-    return;
+  if (!slope.allFinite()) return true;  // folded on the spot: no line, or a tip that no input moves
+  if constexpr (LegT::rows == 1) {
+    return slope.cwiseAbs().maxCoeff() <= type_1_tolerance;
+  } else {
+    std::array<double, max_rows> sigma;
+    const Eigen::Matrix<double, LegT::rows, LegT::coordinates, Eigen::RowMajor> rows = slope;
+    singular_values(MatrixView(rows.data(), rows.rows(), rows.cols()), sigma);
+    return sigma[LegT::rows - 1] <= type_1_tolerance;
   }
-  type.kind = LineClass::concurrent;
-  type.point = Vec2<double>(pose.x, pose.y) + perp(Vec2<double>(free[0], free[1])) * (radius / turn);
 }
 
-template <class LegT>
-TypeTwo type_two(const ParallelRobot<LegT>& robot, const AnyPose& pose, const MatrixView& lines,
-                 double& homogeneous) {
-  using Space = typename LegT::Space;
-  std::array<double, max_rows> sigma;
-  const std::span<double> values(sigma.data(),
-                                 static_cast<std::size_t>(std::min(lines.rows(), lines.cols())));
-  singular_values(lines, values);
-  homogeneous = condition(values);
-  TypeTwo type;
-  type.rank = rank(values, type_2_tolerance);
-  type.singular = type.rank < Space::dof;
-  if (type.singular) classify(type, svd(lines), in_space<Space>(pose), robot.platform_radius);
-  return type;
-}
-
-/// Legs whose tip velocity is perpendicular to the line they pull along, or that have no line (folded on the
-/// spot).
+/// Legs that cannot follow every motion of the platform at once.
 template <class LegT>
 std::size_t type_one(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates,
                      Workspace& work) {
   using Space = typename LegT::Space;
   const auto platform = Space::frame(in_space<Space>(pose));
   std::size_t count = 0;
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    const bool lost = with_leg(robot.legs[i], [&](const auto& leg) {
-      const auto tip = leg.tip(coordinates[i]);
-      const auto blocks = leg.template blocks<double>(platform, tip);
-      const double line = blocks.g_x.template head<Space::dimension>().norm();
-      return std::abs(blocks.g_q[0]) <= type_1_tolerance * line * tip.rate.norm();
-    });
-    if (lost) work.type_1[count++] = static_cast<int>(i);
-  }
+  robot.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
+    if (is_type_one(leg, platform, own_coordinates(leg, place, coordinates))) work.type_1[count++] = i;
+  });
   return count;
 }
-
-}  // namespace
-
-std::string_view to_string(LineClass kind) noexcept {
-  switch (kind) {
-    case LineClass::regular:
-      return "regular";
-    case LineClass::concurrent:
-      return "concurrent";
-    case LineClass::parallel:
-      return "parallel";
-    case LineClass::coincident:
-      return "coincident";
-  }
-  return "unknown";
-}
-
-namespace {
 
 Velocity nothing_yet(const Reduced& reduced, Workspace& work) {
   Velocity answer{.report = {},
@@ -144,8 +92,8 @@ void sensitivities(Velocity& answer, const MatrixView& lines, double radius, Wor
 }
 
 template <class LegT>
-Velocity velocity_of(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numbers coordinates,
-                     const Reduced& reduced, Workspace& work) {
+Velocity velocity_of(const ParallelRobot<LegT>& robot, const AnyRobot& any, const AnyPose& pose,
+                     Numbers coordinates, const Reduced& reduced, Workspace& work) {
   using Space = typename LegT::Space;
   Velocity answer = nothing_yet(reduced, work);
   if (std::isinf(reduced.closure_error)) {
@@ -153,20 +101,25 @@ Velocity velocity_of(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numb
     return answer;
   }
   answer.type_1 = std::span(work.type_1).first(type_one(robot, pose, coordinates, work));
-  const MatrixView lines = homogenise<Space>(reduced, robot.platform_radius, work);
-  answer.type_2 = type_two(robot, pose, lines, answer.indices.condition_homogenised);
+  const MatrixView lines = homogenise(any, reduced, work);
+  answer.type_2 = classify(lines, Space::position(in_space<Space>(pose)), robot.platform_radius);
+  answer.indices.condition_homogenised = answer.type_2.condition;
 
   std::array<double, max_rows> sigma;
   singular_values(reduced.J, sigma);
-  answer.indices.condition = condition(std::span(sigma).first(Space::dof));
+  if (reduced.J.rows() >= Space::dof)
+    answer.indices.condition = condition(std::span(sigma).first(Space::dof));
   if (reduced.J.rows() == Space::dof) answer.determinant = determinant(reduced.J);
-  if (answer.type_2.singular)
+  if (reduced.J.rows() < Space::dof)
     refuse(answer, Status::singular,
-           "type II: the platform can move with all inputs held; the lines of the legs are ",
+           "the legs hold fewer freedoms than the platform has: it can move with all inputs held");
+  else if (answer.type_2.singular)
+    refuse(answer, Status::singular,
+           "type II: the platform can move with all inputs held; class of the legs' lines: ",
            to_string(answer.type_2.kind));
   else if (reduced.J.rows() > Space::dof)
     answer.report.message.append(
-        "there is no U: more legs than freedoms, so the inputs depend on each other");
+        "there is no U: more constraints than freedoms, so the inputs depend on each other");
   else
     sensitivities<Space>(answer, lines, robot.platform_radius, work);
   return answer;
@@ -176,7 +129,7 @@ Velocity velocity_of(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numb
 
 Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
   const Reduced reduced = assemble(robot, pose, coordinates, work);
-  return std::visit([&](const auto& r) { return velocity_of(r, pose, coordinates, reduced, work); },
+  return std::visit([&](const auto& r) { return velocity_of(r, robot, pose, coordinates, reduced, work); },
                     robot.model);
 }
 

@@ -13,6 +13,7 @@ struct BuiltinRobot {
   std::string_view text;  ///< the file
 };
 
-std::span<const BuiltinRobot> builtin_robots();
+std::span<const BuiltinRobot> builtin_robots();   ///< robots/*.yaml
+std::span<const BuiltinRobot> robot_templates();  ///< examples/robots/*.yaml
 
 }  // namespace sinew::inline v0

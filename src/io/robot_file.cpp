@@ -7,45 +7,94 @@
 #include <functional>
 #include <numbers>
 
-#include "io/architecture.hpp"
 #include "io/builtin.hpp"
 #include "sinew/base/limits.hpp"
 #include "sinew/io/parse.hpp"
+#include "sinew/io/read_pose.hpp"
 #include "sinew/io/reader.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-/// `[x, y]` or `{radius, angle}`.
-Vec2<double> read_point(Reader point) {
+/// `[x, y]` or `{radius, angle}`; in space `[x, y, z]` or `{radius, angle, height}`.
+template <class Space>
+Vec<double, Space::dimension> read_point(Reader point) {
+  Vec<double, Space::dimension> result;
   if (point.is(Node::Kind::map)) {
     const double radius =
         point.required("radius").quantity(Dimension::length, {.low = 0, .high = Range::place().high});
     const double angle = point.required("angle").quantity(Dimension::angle);
+    result.template head<2>() = Vec2<double>(radius * std::cos(angle), radius * std::sin(angle));
+    if constexpr (Space::dimension == 3) {
+      const auto height = point.optional("height");
+      result[2] = height ? height->quantity(Dimension::length, Range::place()) : 0;
+    }
     point.close();
-    return {radius * std::cos(angle), radius * std::sin(angle)};
+  } else {
+    const auto values = point.array<Space::dimension>(Dimension::length, Range::place());
+    std::copy(values.begin(), values.end(), result.begin());
   }
-  const auto [x, y] = point.array<2>(Dimension::length, Range::place());
-  return {x, y};
+  return result;
 }
 
-template <class Closure>
-SE2<double> read_base(Reader base) {
-  const Vec2<double> point = read_point(base.required("point", "where the leg starts"));
+/// Unit vector along a list of three numbers, or at an angle in the plane of the base's x and y.
+Vec3<double> read_direction(const Reader& direction) {
+  if (!direction.is(Node::Kind::list) && direction.node()) {
+    const double angle = direction.quantity(Dimension::angle);
+    return {std::cos(angle), std::sin(angle), 0};
+  }
+  const auto [x, y, z] = direction.array<3>(Dimension::number, Range::place());
+  const Vec3<double> vector(x, y, z);
+  if (vector.norm() >= 1e-9) return vector.normalized();
+  direction.fail("no_direction", "a direction needs a component that is not 0");
+  return {0, 0, 1};
+}
+
+/// Axes at the foot of a planar leg: the clamped tangent is +y.
+template <class LegT>
+SE2<double> read_foot(Reader& base, const Vec2<double>& point) {
   double direction = std::numbers::pi / 2;
-  if constexpr (Closure::base_turns) {
-    if (base.has("direction"))
-      base.fail("no_effect",
-                fmt::format("direction has no effect: a {} closure leaves the base joint free to turn; "
-                            "remove it",
-                            Closure::name));
-  } else {
+  if constexpr (LegT::is_clamped) {
     direction =
         base.required("direction", "absolute angle of the backbone at its base").quantity(Dimension::angle);
+  } else if (base.has("direction")) {
+    const auto why = LegT::Closure::base_turns
+                         ? fmt::format("a {} closure leaves the base joint free to turn", LegT::Closure::name)
+                         : fmt::format("a {} link turns at its base by its input theta", LegT::Link::name);
+    base.fail("no_effect", fmt::format("direction has no effect: {}; remove it", why));
   }
+  return SE2<double>::from(point.x(), point.y(), direction - std::numbers::pi / 2);
+}
+
+/// Axes of the universal joint at the foot of a spatial leg, see Spatial.
+template <class LegT>
+SE3<double> read_foot(Reader& base, const Vec3<double>& point) {
+  const Reader axis = base.required(
+      "first_axis", "first axis of the universal joint: [1, 0, 0], or an angle in the base plane");
+  const Vec3<double> first = read_direction(axis);
+  const auto given = base.optional("direction");
+  const Vec3<double> ahead = given ? read_direction(*given) : Vec3<double>(0, 0, 1);
+  const Vec3<double> side = cross(first, ahead);
+  if (side.norm() < 1e-6) {
+    axis.fail(
+        "no_direction",
+        "lies along the leg's direction when the joint is straight (base.direction, default [0, 0, 1]); "
+        "turn one of them");
+    return {point, SO3<double>::identity()};
+  }
+  const Vec3<double> second = side.normalized();
+  Mat<double, 3, 3> axes;
+  axes << first, cross(second, first), second;
+  return {point, SO3<double>::from(axes)};
+}
+
+template <class LegT>
+typename LegT::Frame read_base(Reader base) {
+  const auto point = read_point<typename LegT::Space>(base.required("point", "where the leg starts"));
+  auto frame = read_foot<LegT>(base, point);
+  if (const auto shared = base.optional("shared")) shared->boolean();  // asked again by check_base_points
   base.close();
-  return SE2<double>::from(point.x(), point.y(),
-                           direction - std::numbers::pi / 2);  // the tangent is the frame's +y
+  return frame;
 }
 
 Backbone read_backbone(Reader& link) {
@@ -58,25 +107,46 @@ Backbone read_backbone(Reader& link) {
   return backbone;
 }
 
+/// The names of the inputs, as the file repeats them.
 template <class LegT>
-AnyPlanarLeg read_leg_of(Reader& leg, Reader& link, Reader& closure) {
-  LegT result{};
-  result.base = read_base<typename LegT::Closure>(leg.required("base", "{point, ...}"));
-  LegT::Link::fields(result.link, FieldReader(link));
-  LegT::Drive::fields(result.drive, FieldReader(link));
-  result.backbone = read_backbone(link);
-  LegT::Closure::fields(result.closure, FieldReader(closure));
-  result.platform_point = read_point(leg.required("platform_point", "where the leg meets the platform"));
-  if (const auto actuated = leg.optional("actuated")) {
-    const auto items = actuated->items(1);
-    if (!items.empty()) items[0].choice({LegT::Drive::input_name});
-  }
-  return {result};
+void read_actuated(Reader& leg) {
+  const auto actuated = leg.optional("actuated");
+  if (!actuated) return;
+  std::vector<std::string_view> names;
+  for (const InputKind& kind : LegT::Drive::input_kinds) names.push_back(kind.name);
+  const Node& list = *actuated->node();
+  if (list.kind == Node::Kind::list &&
+      std::ranges::equal(list.items, names, {}, [](const Node& item) { return std::string_view(item.text); }))
+    return;
+  actuated->fail(
+      "wrong_actuators",
+      fmt::format("a leg with link {} and closure {} has the actuators [{}]; write these, or leave "
+                  "the list out",
+                  LegT::Link::name, LegT::Closure::name, fmt::join(names, ", ")));
 }
 
-/// The kind of leg that link and closure name, out of all kinds of this build.
+template <class LegT>
+LegT read_leg_of(Reader& leg, Reader& link, Reader& closure) {
+  LegT result{};
+  result.base = read_base<LegT>(leg.required("base", "{point, ...}"));
+  LegT::Link::fields(result.link, FieldReader(link));
+  LegT::Drive::fields(result.drive, FieldReader(link));
+  if constexpr (requires { result.drive.theta_is; })
+    if (const auto theta = link.optional("theta_is"))
+      result.drive.theta_is =
+          theta->choice_of<ThetaIs>({{"tangent", ThetaIs::tangent}, {"chord", ThetaIs::chord}});
+  result.backbone = read_backbone(link);
+  LegT::Closure::fields(result.closure, FieldReader(closure));
+  result.platform_point =
+      read_point<typename LegT::Space>(leg.required("platform_point", "where the leg meets the platform"));
+  read_actuated<LegT>(leg);
+  return result;
+}
+
+/// The kind of leg that link and closure name, out of all kinds of one space; none where there is no such
+/// kind.
 template <class... Legs>
-AnyPlanarLeg read_leg(Reader& leg, TypeList<Legs...>) {
+std::optional<AnyLeg<Legs...>> read_leg(Reader& leg, TypeList<Legs...>) {
   Reader link = leg.required("link", "{type, length, ...}"), closure = leg.required("closure", "{type, ...}");
   const auto kind = [](Reader& part, std::vector<std::string_view> names) {
     std::ranges::sort(names);
@@ -85,79 +155,176 @@ AnyPlanarLeg read_leg(Reader& leg, TypeList<Legs...>) {
   };
   const std::string_view link_name = kind(link, {Legs::Link::name...});
   const std::string_view closure_name = kind(closure, {Legs::Closure::name...});
-  AnyPlanarLeg result{};
+  AnyLeg<Legs...> result{};
   const auto read_if = [&]<class LegT>(std::type_identity<LegT>) {
     if (LegT::Link::name != link_name || LegT::Closure::name != closure_name) return false;
-    result = read_leg_of<LegT>(leg, link, closure);
+    result.kind = read_leg_of<LegT>(leg, link, closure);
     return true;
   };
-  if (!(read_if(std::type_identity<Legs>{}) || ...))
-    leg.fail("no_such_leg", fmt::format("no leg joins a {} link to a {} closure", link_name, closure_name));
+  const auto pairs = std::array{fmt::format("{} with {}", Legs::Link::name, Legs::Closure::name)...};
+  if (!(read_if(std::type_identity<Legs>{}) || ...)) {
+    leg.fail("no_such_leg", fmt::format("no leg joins a {} link to a {} closure; there are {}", link_name,
+                                        closure_name, fmt::join(pairs, ", ")));
+    return {};
+  }
   link.close();
   closure.close();
   return result;
 }
 
+/// The legs of a file, and what is tied.
+template <class Any>
 struct Legs {
-  std::vector<AnyPlanarLeg> legs;
-  std::vector<int> inputs;
+  std::vector<Any> legs;
+  std::vector<int> tied;
+  bool is_whole = true;  ///< every leg is of a kind that exists
 };
 
-Legs read_legs(Reader& robot) {
-  Legs result;
+/// The earlier leg whose actuator leg i shares; −1 where it has its own.
+template <class Any>
+int read_tie(Reader& leg, const std::vector<Any>& legs, std::size_t i) {
+  const auto tied = leg.optional("tied");
+  if (!tied) return -1;
+  const int other = tied->integer({.low = 0});
+  if (other < 0 || static_cast<std::size_t>(other) >= i) {
+    tied->refuse("out_of_range", "give the index of an earlier leg, whose actuator this one shares");
+    return -1;
+  }
+  const auto input_count = [](const Any& any) {
+    return with_leg(any, []<class L>(const L&) { return L::inputs; });
+  };
+  if (input_count(legs[i]) != 1 || input_count(legs[static_cast<std::size_t>(other)]) != 1)
+    tied->refuse("not_available", "only legs with one actuator each can share it");
+  return other;
+}
+
+template <class Any, class Kinds>
+Legs<Any> read_legs(Reader& robot, Kinds kinds) {
+  Legs<Any> result;
   auto items = robot.required("legs", "a list, one entry a leg").items();
-  int next_input = 0;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    Reader& leg = items[i];
-    result.legs.push_back(read_leg(leg, PlanarLegs{}));
-    if (const auto tied = leg.optional("tied")) {
-      const int other = tied->integer({.low = 0});
-      if (other < 0 || static_cast<std::size_t>(other) >= i)
-        tied->refuse("out_of_range", "give the index of an earlier leg, whose actuator this one shares");
-      result.inputs.push_back(other >= 0 && static_cast<std::size_t>(other) < i
-                                  ? result.inputs[static_cast<std::size_t>(other)]
-                                  : 0);
-    } else {
-      result.inputs.push_back(next_input++);
-    }
-    leg.close();
+    const auto leg = read_leg(items[i], kinds);
+    result.is_whole = result.is_whole && leg;
+    result.legs.push_back(leg.value_or(Any{}));
+    result.tied.push_back(read_tie(items[i], result.legs, i));
+    if (leg) items[i].close();
   }
   return result;
 }
 
-void check_legs(const Reader& legs, const Legs& read) {
-  const std::size_t count = read.legs.size();
-  if (count < Planar::dof)
-    legs.fail("too_few_legs",
-              fmt::format("a planar platform has 3 freedoms and each leg holds one, but {}; list at "
-                          "least 3.",
-                          count == 0   ? "there is none"
-                          : count == 1 ? "there is 1 leg"
-                                       : "there are 2 legs"));
-  if (count > static_cast<std::size_t>(max_rows))
-    legs.fail("too_many_legs",
-              fmt::format("there are {} legs; this build carries at most {}.", count, max_rows));
+template <class Any>
+void check_count(const Reader& legs, const std::vector<Any>& read) {
+  int rows = 0, inputs = 0;
+  for (const Any& any : read)
+    with_leg(any, [&]<class L>(const L&) {
+      rows += L::rows;
+      inputs += L::inputs;
+    });
+  if (read.empty()) legs.fail("too_few_legs", "there is none; list at least one leg.");
+  if (rows > max_rows || inputs > max_rows)
+    legs.fail("too_many_legs", fmt::format("there are {} legs with {} constraints and {} actuators; this "
+                                           "build carries at most {} of either.",
+                                           read.size(), rows, inputs, max_rows));
 }
 
-PlanarPose read_home(Reader& platform) {
-  auto home = platform.optional("home");
-  if (!home) return {};
-  const auto coordinate = [&](std::string_view key, Dimension dimension) {
-    const auto value = home->optional(key);
-    return value ? value->quantity(dimension, dimension == Dimension::length ? Range::place() : Range::any())
-                 : 0.0;
+/// Two legs from one point of the base are a slip, unless the file says that they share it.
+template <class Any>
+void check_base_points(const Reader& legs, const std::vector<Any>& read, double size) {
+  const auto point = [&](std::size_t i) {
+    return with_leg(read[i],
+                    [](const auto& leg) -> Vec<double, Any::Space::dimension> { return leg.base.p; });
   };
-  const PlanarPose pose{coordinate("x", Dimension::length), coordinate("y", Dimension::length),
-                        coordinate("phi", Dimension::angle)};
-  home->close();
-  return Planar::tidy(pose);
+  auto items = legs.items();
+  for (std::size_t j = 1; j < read.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      if ((point(i) - point(j)).norm() > 1e-9 * size) continue;
+      Reader base = items[j].required("base");
+      const auto shared = base.optional("shared");
+      if (shared && shared->boolean()) continue;
+      base.fail("coincident_base_points",
+                fmt::format("its point is that of legs[{}]; move one of them, or add shared: true if both "
+                            "joints sit on one axis",
+                            i));
+      return;
+    }
 }
 
-double largest_platform_point(const std::vector<AnyPlanarLeg>& legs) {
+/// Platform points must span what turns: two of them in the plane, three off a line in space.
+template <class Any>
+bool is_collapsed(const std::vector<Any>& read, double size) {
+  std::vector<Vec3<double>> points;
+  for (const Any& any : read) {
+    Vec3<double> point = Vec3<double>::Zero();
+    with_leg(any,
+             [&](const auto& leg) { point.template head<Any::Space::dimension>() = leg.platform_point; });
+    points.push_back(point);
+  }
+  double spread = 0;
+  for (const auto& p : points)
+    for (const auto& q : points) {
+      if constexpr (Any::Space::dimension == 2)
+        spread = std::max(spread, (q - p).norm());
+      else
+        for (const auto& r : points) spread = std::max(spread, cross(q - p, r - p).norm() / size);
+    }
+  return points.size() > 1 && spread <= 1e-9 * size;
+}
+
+template <class Space>
+typename Space::Pose read_home(Reader& platform) {
+  auto home = platform.optional("home");
+  if constexpr (Space::dimension == 3) {
+    if (!home) platform.required("home", "{position, quaternion}: where the search for a pose starts");
+    return home ? read_spatial_pose(std::move(*home)) : SpatialPose{};
+  } else {
+    if (!home) return {};
+    const auto coordinate = [&](std::string_view key, Dimension dimension) {
+      const auto value = home->optional(key);
+      return value
+                 ? value->quantity(dimension, dimension == Dimension::length ? Range::place() : Range::any())
+                 : 0.0;
+    };
+    const PlanarPose pose{coordinate("x", Dimension::length), coordinate("y", Dimension::length),
+                          coordinate("phi", Dimension::angle)};
+    home->close();
+    return Space::tidy(pose);
+  }
+}
+
+template <class Any>
+double largest_platform_point(const std::vector<Any>& legs) {
   double radius = 0;
-  for (const AnyPlanarLeg& any : legs)
+  for (const Any& any : legs)
     radius = std::max(radius, with_leg(any, [](const auto& leg) { return leg.platform_point.norm(); }));
   return radius;
+}
+
+/// Legs, platform and home of one space.
+template <class Any, class Kinds>
+std::optional<RobotModel> read_model(Reader& robot, Kinds kinds) {
+  const Legs<Any> read = read_legs<Any>(robot, kinds);
+  double radius = largest_platform_point(read.legs);
+  typename Any::Space::Pose home;
+  if (auto platform = robot.optional("platform")) {
+    home = read_home<typename Any::Space>(*platform);
+    if (const auto given = platform->optional("radius"))
+      radius = given->quantity(Dimension::length, Range::size());
+    platform->close();
+  } else if (Any::Space::dimension == 3) {
+    robot.required("platform", "{home: {position, quaternion}}");
+  }
+  if (const auto legs = robot.optional("legs"); legs && legs->is(Node::Kind::list)) {
+    check_count(*legs, read.legs);
+    if (read.is_whole) check_base_points(*legs, read.legs, radius);
+  }
+  if (read.legs.empty()) return {};
+  if (read.is_whole && (!(radius >= Range::size().low) || is_collapsed(read.legs, radius)))
+    robot.fail(
+        "collapsed_platform",
+        Any::Space::dimension == 2
+            ? "all platform points coincide, so nothing holds the platform's rotation; spread them"
+            : "all platform points lie on a line, so nothing holds the rotation about it; spread them");
+  return make_robot(read.legs, read.tied, home, radius);
 }
 
 /// Reads a document that lists its legs.
@@ -168,23 +335,12 @@ AnyRobot read_listed(Reader& robot) {
     result.geometry_inferred = geometry->choice({"given", "inferred"}) == "inferred";
   if (const auto defaults = robot.optional("defaults"))  // already merged into the legs
     if (!defaults->is(Node::Kind::map)) defaults->refuse("wrong_type", "give a map of what the legs share.");
-  const Legs read = read_legs(robot);
-  if (const auto legs = robot.optional("legs"))
-    if (legs->is(Node::Kind::list)) check_legs(*legs, read);
-
-  double radius = largest_platform_point(read.legs);
-  PlanarPose home;
-  if (auto platform = robot.optional("platform")) {
-    home = read_home(*platform);
-    if (const auto given = platform->optional("radius"))
-      radius = given->quantity(Dimension::length, Range::size());
-    platform->close();
-  }
+  const auto space = robot.optional("space");
+  const bool is_spatial = space && space->choice({"planar", "spatial"}) == "spatial";
+  auto model = is_spatial ? read_model<AnySpatialLeg>(robot, SpatialLegs{})
+                          : read_model<AnyPlanarLeg>(robot, PlanarLegs{});
   robot.close();
-  if (read.legs.empty()) return result;
-  if (!(radius >= Range::size().low))
-    robot.fail("collapsed_platform", "all platform points coincide with the reference point; spread them");
-  result.model = make_robot(read.legs, read.inputs, home, radius);
+  if (model) result.model = std::move(*model);
   return result;
 }
 
@@ -195,38 +351,7 @@ void check_head(Reader& robot) {
   if (const auto kind = robot.optional("kind"))
     if (kind->choice({"parallel", "serial"}) == "serial")
       kind->refuse("not_available", "serial robots are not available in this version");
-  if (const auto space = robot.optional("space"))
-    if (space->choice({"planar", "spatial"}) == "spatial")
-      space->refuse("not_available", "spatial robots are not available in this version");
 }
-
-bool is_short_form(const Document& document) { return document.root.find("architecture") != nullptr; }
-
-void erase(Node& map, std::string_view key) {
-  std::erase_if(map.members, [&](const Member& member) { return member.key == key; });
-}
-
-}  // namespace
-
-Expected<Document> expanded(const Document& document) {
-  if (!is_short_form(document)) return document;
-  Errors errors;
-  Reader robot(document, errors);
-  const Architecture* architecture = architecture_of(robot);
-  if (!errors.empty()) return tl::unexpected(errors);
-  if (const auto legs = robot.optional("legs"))
-    legs->fail("ambiguous", "the file gives an architecture and legs; keep one.");
-  Node legs = legs_of(*architecture, robot);
-  if (!errors.empty()) return tl::unexpected(errors);
-  Document longer = document;
-  for (const std::string_view key : {"architecture", "base", "legs"}) erase(longer.root, key);
-  if (Node* platform = longer.root.find("platform"))
-    for (const std::string_view key : {"angle", "angles"}) erase(*platform, key);
-  longer.root.members.push_back({"legs", legs.line, legs.column, std::move(legs)});
-  return longer;
-}
-
-namespace {
 
 /// Every leg written out in full: architecture expanded, defaults merged in.
 Expected<Document> listed(const Document& document) {
@@ -259,6 +384,17 @@ Expected<AnyRobot> read_robot(const Document& document) {
 std::vector<std::string_view> builtin_robot_names() {
   std::vector<std::string_view> names;
   for (const BuiltinRobot& robot : builtin_robots()) names.push_back(robot.name);
+  return names;
+}
+
+std::string_view robot_template(std::string_view name) {
+  const auto found = std::ranges::find(robot_templates(), name, &BuiltinRobot::name);
+  return found == robot_templates().end() ? std::string_view() : found->text;
+}
+
+std::vector<std::string_view> robot_template_names() {
+  std::vector<std::string_view> names;
+  for (const BuiltinRobot& robot : robot_templates()) names.push_back(robot.name);
   return names;
 }
 

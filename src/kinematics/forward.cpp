@@ -3,45 +3,50 @@
 #include <array>
 #include <cmath>
 
+#include "kinematics/reaches.hpp"
 #include "robot/pose.hpp"
+#include "sinew/kinematics/planar_modes.hpp"
 #include "sinew/solve/newton.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-/// The closures as a function of the platform pose. The links are shaped by the inputs alone, so their tips
-/// are computed once.
-template <class LegT>
+/// The closures as a function of the platform pose. The links are shaped by the inputs alone: of each leg a
+/// reach is left.
+template <class Space>
 class Closing {
  public:
-  using Space = typename LegT::Space;
   using Point = typename Space::Pose;
-  using Tip = decltype(std::declval<const LegT&>().tip(0.0));
   static constexpr int unknowns = Space::dof;
+  static constexpr int D = Space::dimension;
 
-  Closing(const ParallelRobot<LegT>& robot, Numbers coordinates) : robot_(robot) {
-    for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-      tips_[i] = robot.legs[i].tip(coordinates[i]);
-      const double extent = with_leg(robot.legs[i], [&](const auto& leg) {
-        return leg.base.p.norm() + leg.platform_point.norm() + tips_[i].position.norm() +
-               std::sqrt(2 * leg.closure.anchor(tips_[i]).half_square);
-      });
-      size_ = std::max(size_, extent);
+  explicit Closing(std::span<const Reach<D>> reaches) : reaches_(reaches) {
+    for (const Reach<D>& leg : reaches) {
+      size_ = std::max(size_, leg.anchor.norm() + leg.platform_point.norm() + 2 * leg.distance);
+      rows_ += leg.distance > 0 ? 1 : D;
     }
   }
 
   bool linearise(const Point& pose, Linearised<unknowns>& system) const {
     const auto platform = Space::frame(pose);
-    system.residual.resize(robot_.row_count());
-    system.jacobian.resize(robot_.row_count(), unknowns);
+    system.residual.resize(rows_);
+    system.jacobian.resize(rows_, unknowns);
     system.error = 0;
-    for (std::size_t i = 0; i < robot_.legs.size(); ++i) {
-      const auto blocks = with_leg(
-          robot_.legs[i], [&](const auto& leg) { return leg.template blocks<double>(platform, tips_[i]); });
-      const auto row = static_cast<Eigen::Index>(i);
-      system.residual[row] = blocks.g;
-      system.jacobian.row(row) = blocks.g_x;
-      system.error = std::max(system.error, std::abs(blocks.error));
+    Eigen::Index row = 0;
+    for (const Reach<D>& leg : reaches_) {
+      const Vec<double, D> b = platform.rotate(leg.platform_point);
+      const Vec<double, D> n = platform.p + b - leg.anchor;
+      const double length = n.norm();
+      system.error = std::max(system.error, std::abs(length - leg.distance));
+      if (leg.distance > 0) {
+        system.residual[row] = 0.5 * (length - leg.distance) * (length + leg.distance);
+        system.jacobian.row(row++) = Space::line(n, b);
+      } else {
+        for (int k = 0; k < D; ++k) {
+          system.residual[row] = n[k];
+          system.jacobian.row(row++) = Space::line(Vec<double, D>(Vec<double, D>::Unit(k)), b);
+        }
+      }
     }
     return true;
   }
@@ -50,43 +55,28 @@ class Closing {
 
   /// At most half a radian and half the robot a step: Newton's model of the closures holds no further.
   double shortened(const Vec<double, unknowns>& step) const {
-    const double shift = step.template head<Space::dimension>().norm();
-    const double turn = step.template tail<unknowns - Space::dimension>().norm();
+    const double shift = step.template head<D>().norm();
+    const double turn = step.template tail<unknowns - D>().norm();
     return 1 / std::max({1.0, 2 * turn, 2 * shift / size_});
   }
 
   double size() const { return size_; }
+  Eigen::Index rows() const { return rows_; }
 
  private:
-  const ParallelRobot<LegT>& robot_;
-  std::array<Tip, max_rows> tips_;
+  std::span<const Reach<D>> reaches_;
+  Eigen::Index rows_ = 0;
   double size_ = 0;
 };
-
-/// Anchor A, distance D and platform point of each leg: what the inputs leave of it.
-struct Reach {
-  Vec2<double> anchor;
-  double distance;
-  Vec2<double> platform_point;
-};
-
-template <class LegT>
-Reach reach_of(const LegT& any, double q) {
-  return with_leg(any, [&](const auto& leg) {
-    const auto anchor = leg.closure.anchor(leg.tip(q));
-    return Reach{leg.base.point(anchor.position), std::sqrt(2 * anchor.half_square), leg.platform_point};
-  });
-}
 
 /// Two legs and the platform between them are a chain of four bars from anchor to anchor: it closes only if
 /// no bar is longer than the other three together. True, with the reason, where two legs prove that no pose
 /// exists.
-template <class LegT>
-bool is_unreachable(const ParallelRobot<LegT>& robot, Numbers coordinates, Report& report) {
-  for (std::size_t j = 1; j < robot.legs.size(); ++j) {
-    const Reach b = reach_of(robot.legs[j], coordinates[j]);
+template <int D>
+bool is_unreachable(std::span<const Reach<D>> legs, Report& report) {
+  for (std::size_t j = 1; j < legs.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
-      const Reach a = reach_of(robot.legs[i], coordinates[i]);
+      const Reach<D>&a = legs[i], &b = legs[j];
       const double base = (b.anchor - a.anchor).norm(), bar = (b.platform_point - a.platform_point).norm();
       const double longest = std::max({base, bar, a.distance, b.distance});
       const double excess = 2 * longest - (base + bar + a.distance + b.distance);
@@ -101,13 +91,19 @@ bool is_unreachable(const ParallelRobot<LegT>& robot, Numbers coordinates, Repor
       report.message.append(" always remains");
       return true;
     }
-  }
   return false;
 }
 
 void explain(Report& report, const Reduced& at_end) {
   if (report.status == Status::left_domain) {
     report.message.append("the start is not a number, or too far away to be squared");
+    return;
+  }
+  if (report.status == Status::unreachable) {
+    report.message.append("no pose closes the legs with these inputs; at the nearest one found legs[");
+    append_number(report.message, at_end.worst_leg);
+    report.message.append("] misses by ");
+    append_mm(report.message, at_end.closure_error);
     return;
   }
   report.message.append("the legs do not close from this start; legs[");
@@ -119,18 +115,54 @@ void explain(Report& report, const Reduced& at_end) {
                             : "; these inputs may have no pose, or another start finds it");
 }
 
+void warn_of_freedom(Report& report, Eigen::Index rows, int dof) {
+  report.message.append("the legs hold ");
+  append_number(report.message, static_cast<int>(rows));
+  report.message.append(" of the platform's ");
+  append_number(report.message, dof);
+  report.message.append(" freedoms: this is one pose of a continuum, the one the start leads to");
+}
+
+/// Where Newton's method fails in the plane the sextic knows better: every pose there is, or that there is
+/// none. The nearest to the start is then the answer.
+void ask_all_modes(std::span<const Reach<2>> reaches, const PlanarPose& start, double size, PlanarPose& pose,
+                   Report& report) {
+  if (report.status != Status::stalled && report.status != Status::iteration_limit) return;
+  const PlanarModes modes = planar_modes(reaches);
+  if (modes.report.status == Status::unreachable) report.status = Status::unreachable;
+  if (!modes.ok() || modes.count == 0) return;
+  std::size_t best = 0;
+  const auto gap = [&](std::size_t k) {
+    const PlanarPose& mode = modes.poses[k];
+    return std::hypot(mode.x - start.x, mode.y - start.y, size * wrap_angle(mode.phi - start.phi));
+  };
+  for (std::size_t k = 1; k < static_cast<std::size_t>(modes.count); ++k)
+    if (gap(k) < gap(best)) best = k;
+  pose = modes.poses[best];
+  report.status = Status::converged;
+  report.residual = modes.residual[best];
+}
+// In space assembly_modes can, but takes memory and its time.
+void ask_all_modes(std::span<const Reach<3>>, const SpatialPose&, double, SpatialPose&, Report&) {}
+
 template <class LegT>
 Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, const ForwardOptions& options,
                       Workspace& work) {
   using Space = typename LegT::Space;
-  const Closing<LegT> closing(robot, work.coordinates);
-  typename Space::Pose pose = options.start ? in_space<Space>(*options.start) : robot.home;
-  Forward answer{newton(closing, pose,
-                        {.tolerance = 1e-14 * closing.size(),
-                         .max_iterations = options.max_iterations,
-                         .trace = options.trace}),
-                 Space::tidy(pose), work.coordinates};
-  if (!answer.ok() && !is_unreachable(robot, work.coordinates, answer.report))
+  const auto reaches = reaches_of(robot, work.coordinates);
+  const Closing<Space> closing(reaches.view());
+  const typename Space::Pose start = options.start ? in_space<Space>(*options.start) : robot.home;
+  typename Space::Pose pose = start;
+  Report report = newton(closing, pose,
+                         {.tolerance = 1e-14 * closing.size(),
+                          .max_iterations = options.max_iterations,
+                          .trace = options.trace});
+  if (options.max_iterations >=
+      ForwardOptions{}.max_iterations)  // fewer are asked for to see Newton's method
+    ask_all_modes(reaches.view(), start, robot.platform_radius, pose, report);
+  Forward answer{report, Space::tidy(pose), work.coordinates};
+  if (answer.ok() && closing.rows() < Space::dof) warn_of_freedom(answer.report, closing.rows(), Space::dof);
+  if (!answer.ok() && !is_unreachable(reaches.view(), answer.report))
     explain(answer.report, assemble(any, answer.pose, work.coordinates, work));
   return answer;
 }

@@ -3,11 +3,12 @@
 #include <cmath>
 
 #include "robot/pose.hpp"
+#include "sinew/leg/project.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-constexpr auto per_input = static_cast<std::size_t>(Workspace::max_solutions);
+constexpr auto per_leg = static_cast<std::size_t>(Workspace::max_solutions);
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Of the robot's size: within it a leg counts as closed by an input that another leg asked for.
@@ -39,157 +40,222 @@ Report without_solution(const LegT& leg, const Frame& platform, std::size_t i, i
   return report;
 }
 
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
 /// The inverse problem of one robot at one pose.
-template <class LegT>
+template <class Robot>
 class Problem {
  public:
-  using Space = typename LegT::Space;
+  using Space = typename Robot::Space;
+  using Frame = typename Space::template Frame<double>;
 
-  Problem(const ParallelRobot<LegT>& robot, const AnyPose& pose, Workspace& work)
+  Problem(const Robot& robot, const AnyPose& pose, const InverseOptions& options, Workspace& work)
       : robot_(robot),
         platform_(Space::frame(in_space<Space>(pose))),
+        options_(options),
         work_(work) {}
 
   bool is_finite() const { return Space::is_finite(platform_); }
 
-  /// All solutions of every input into the workspace.
+  /// All solutions of every leg into the workspace.
   Report solve_all() {
-    for (std::size_t j = 0; j < work_.inputs.size(); ++j)
-      if (Report report = solve_input(j); !report.ok()) return report;
-    return {};
+    return each_owner(
+        [&](const auto& leg, const LegPlace& place, std::size_t i) { return solve_leg(leg, place, i); });
   }
 
-  /// The wanted solution of every input into the workspace.
-  Report solve_wanted(const InverseOptions& options) {
-    for (std::size_t j = 0; robot_.has_ties() && j < work_.inputs.size(); ++j)
-      if (Report report = choose(j, options); !report.ok()) return report;
-    for (std::size_t i = 0; !robot_.has_ties() && i < robot_.legs.size(); ++i)
-      if (Report report = nearest(i, options); !report.ok()) return report;
-    return {};
+  /// The wanted solution of every leg into the workspace.
+  Report solve_wanted() {
+    return each_owner([&](const auto& leg, const LegPlace& place, std::size_t i) {
+      return robot_.has_ties() ? choose(leg, place, i) : nearest(leg, place, i);
+    });
   }
 
  private:
-  bool moves(std::size_t input, std::size_t leg) const {
-    return robot_.input_of_leg[leg] == static_cast<int>(input);
+  /// Calls `use` with every leg that has inputs of its own, until one reports a failure.
+  template <class Use>
+  Report each_owner(const Use& use) {
+    Report report;
+    robot_.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
+      if (place.is_tied)
+        work_.solution_count[index(i)] = 1;
+      else if (report.ok())
+        report = use(leg, place, index(i));
+    });
+    return report;
   }
 
-  /// Largest closure error of the legs that input j moves, at its value a.
-  double misfit(std::size_t j, double a) const {
+  /// Calls `use` with the legs that the same inputs move.
+  template <class Use>
+  void each_sharing(const LegPlace& owner, const Use& use) const {
+    robot_.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
+      if (place.input == owner.input) use(leg, place, index(i));
+    });
+  }
+
+  template <class LegT>
+  Wish wish_of(const LegT& leg, const LegPlace& place, std::size_t i) const {
+    Wish wish;
+    if (!options_.bending.empty()) wish.bending = options_.bending[i];
+    if (!options_.elbow.empty()) wish.elbow = options_.elbow[i];
+    if (!options_.curvature.empty())
+      wish.curvature = options_.curvature[i];
+    else if (!options_.start.empty())
+      wish.curvature = leg.link.curvature(start_of(leg, place));
+    return wish;
+  }
+  template <class LegT>
+  typename LegT::Coordinates start_of(const LegT& leg, const LegPlace& place) const {
+    return leg.coordinates_of(options_.start.subspan(index(place.input), LegT::inputs));
+  }
+
+  /// Largest closure error of the legs that the owner's inputs move, over their size.
+  double misfit(const LegPlace& owner, std::span<const double> inputs) const {
     double worst = 0;
-    for (std::size_t i = 0; i < robot_.legs.size(); ++i) {
-      if (!moves(j, i)) continue;
-      const double q = robot_.legs[i].coordinate(a);
-      if (!robot_.legs[i].in_domain(q)) return infinity;
-      worst = std::max(worst, with_leg(robot_.legs[i], [&](const auto& leg) {
-                         const double size =
-                             leg.base.p.norm() + leg.platform_point.norm() + leg.link.bounds().reach;
-                         return std::abs(leg.template blocks<double>(platform_, leg.tip(q)).error) / size;
-                       }));
-    }
+    each_sharing(owner, [&]<class L>(const L& leg, const LegPlace&, std::size_t) {
+      const auto q = leg.coordinates_of(inputs);
+      const double error = leg.template blocks<double>(platform_, leg.template tip<double>(q)).error;
+      worst = std::max(worst, leg.in_domain(q) ? std::abs(error) / leg.size() : infinity);
+    });
     return worst;
   }
 
-  /// Puts a among the solutions of input j, unless it is there: two legs may ask for the same input.
-  void add(std::size_t j, double a, double scale) {
-    int& count = work_.solution_count[j];
-    const auto begin = work_.solutions.begin() + static_cast<std::ptrdiff_t>(j * per_input),
-               end = begin + count;
-    const auto is_same = [&](double other) { return std::abs(other - a) <= 1e-7 * scale; };
-    if (count == Workspace::max_solutions || std::any_of(begin, end, is_same)) return;
-    *end = a;
+  std::span<double> solution(const LegPlace& place, int count, int inputs) {
+    return std::span(work_.solutions)
+        .subspan(index(place.input) * per_leg + index(count * inputs), index(inputs));
+  }
+
+  /// Puts inputs among the solutions of their owner, unless they are there: two legs may ask for the same.
+  void add(const LegPlace& place, std::size_t owner, std::span<const double> inputs, double scale) {
+    int& count = work_.solution_count[owner];
+    const int width = static_cast<int>(inputs.size());
+    for (int k = 0; k < count && scale > 0; ++k)
+      if (std::abs(solution(place, k, width)[0] - inputs[0]) <= 1e-7 * scale) return;
+    if (count == Workspace::max_solutions) return;
+    std::copy(inputs.begin(), inputs.end(), solution(place, count, width).begin());
     ++count;
   }
 
-  /// All values of input j that close every leg it moves.
-  Report solve_input(std::size_t j) {
-    std::array<double, per_input> roots;
-    std::size_t legs = 0;
-    work_.solution_count[j] = 0;
-    for (std::size_t i = 0; i < robot_.legs.size(); ++i) {
-      if (!moves(j, i)) continue;
-      ++legs;
-      const auto& leg = robot_.legs[i];
-      const int count = leg.coordinates_at(platform_, roots);
-      if (count <= 0) return without_solution(leg, platform_, i, count);
+  /// All inputs of the owner that close every leg they move.
+  template <class LegT>
+  Report solve_leg(const LegT& owner, const LegPlace& place, std::size_t i) {
+    work_.solution_count[i] = 0;
+    Report report;
+    std::size_t sharing = 0;
+    each_sharing(place, [&]<class L>(const L& leg, const LegPlace& at, std::size_t j) {
+      if (!report.ok()) return;
+      ++sharing;
+      std::array<typename L::Coordinates, per_leg> roots;
+      const int count = leg.solutions_at(platform_, wish_of(leg, at, j), roots);
+      if (count <= 0) report = without_solution(leg, platform_, j, count);
       for (int k = 0; k < count; ++k) {
-        const double a = leg.input(roots[static_cast<std::size_t>(k)]);
-        const bool is_common = !robot_.has_ties() || misfit(j, a) <= common_tolerance;
-        if (is_common) add(j, a, robot_.has_ties() ? std::abs(leg.input(0)) : 0);
+        const auto a = leg.inputs_of(roots[index(k)]);
+        const std::span<const double> inputs(a.data(), L::inputs);
+        if (!robot_.has_ties() || misfit(place, inputs) <= common_tolerance)
+          add(place, i, inputs, robot_.has_ties() ? owner.link.arc().length : 0);
       }
-    }
-    if (work_.solution_count[j] > 0) return {};
-    Report report = name(Status::unreachable, "inputs", j);
+    });
+    if (!report.ok() || work_.solution_count[i] > 0) return report;
+    report = name(Status::unreachable, "inputs", index(place.input));
     report.message.append("moves several legs together, and no value of it closes them all at this pose");
     return report;
   }
 
-  /// How little a value of input j is wanted; infinite where it is ruled out.
-  double cost(std::size_t j, double a, const InverseOptions& options) const {
+  /// How little inputs are wanted; infinite where they are ruled out.
+  double cost(const LegPlace& owner, std::span<const double> inputs) const {
     double worst = 0;
-    for (std::size_t i = 0; i < robot_.legs.size(); ++i) {
-      if (!moves(j, i)) continue;
-      const double q = robot_.legs[i].coordinate(a);
-      if (!options.bending.empty() && q * options.bending[i] < 0) return infinity;
-      worst = std::max(worst, std::abs(q - (options.curvature.empty() ? 0 : options.curvature[i])));
-    }
+    each_sharing(owner, [&](const auto& leg, const LegPlace& place, std::size_t i) {
+      const Wish wish = wish_of(leg, place, i);
+      const double curvature = leg.link.curvature(leg.coordinates_of(inputs));
+      worst = std::max(worst, curvature * wish.bending < 0 ? infinity : std::abs(curvature - wish.curvature));
+    });
     return worst;
   }
 
-  /// The wanted one of all values of an input that moves several legs.
-  Report choose(std::size_t j, const InverseOptions& options) {
-    if (Report report = solve_input(j); !report.ok()) return report;
+  /// The wanted one of all inputs that move several legs.
+  template <class LegT>
+  Report choose(const LegT& owner, const LegPlace& place, std::size_t i) {
+    if (Report report = solve_leg(owner, place, i); !report.ok()) return report;
     double best = infinity;
-    for (std::size_t k = static_cast<std::size_t>(work_.solution_count[j]); k-- > 0;) {
-      const double a = work_.solutions[j * per_input + k], c = cost(j, a, options);
+    std::span<const double> chosen;
+    for (int k = work_.solution_count[i]; k-- > 0;) {
+      const auto inputs = solution(place, k, LegT::inputs);
+      const double c = cost(place, inputs);
       if (!(c < best)) continue;
       best = c;
-      work_.inputs[j] = a;
+      chosen = inputs;
     }
     if (std::isinf(best)) {
-      Report report = name(Status::unreachable, "inputs", j);
+      Report report = name(Status::unreachable, "inputs", index(place.input));
       report.message.append("has no value at this pose that bends its legs as asked");
       return report;
     }
-    for (std::size_t i = 0; i < robot_.legs.size(); ++i)
-      if (moves(j, i)) work_.coordinates[i] = robot_.legs[i].coordinate(work_.inputs[j]);
+    each_sharing(place, [&](const auto& leg, const LegPlace& at, std::size_t) {
+      keep(leg, at, leg.coordinates_of(chosen));
+    });
     return {};
   }
 
-  /// The wanted solution of a leg that has its input for itself.
-  Report nearest(std::size_t i, const InverseOptions& options) {
-    const auto& leg = robot_.legs[i];
-    const double target = options.curvature.empty() ? 0 : options.curvature[i];
-    const int sign = options.bending.empty() ? 0 : options.bending[i];
-    const NearestRoot found = leg.coordinate_near(platform_, target, sign);
-    work_.coordinates[i] = found.root;
-    work_.inputs[static_cast<std::size_t>(robot_.input_of_leg[i])] = leg.input(found.root);
+  /// The wanted solution of a leg that has its inputs for itself.
+  template <class LegT>
+  Report nearest(const LegT& leg, const LegPlace& place, std::size_t i) {
+    if (LegT::is_redundant && is_from_start()) {
+      auto q = start_of(leg, place);
+      if (leg.in_domain(q) && project(leg, platform_, 1e-15 * leg.size(), q).ok) {
+        keep(leg, place, q);
+        return {};
+      }
+    }
+    Wish wish = wish_of(leg, place, i);
+    if (LegT::is_redundant && wish.elbow == 0) wish.elbow = 1;
+    const auto found = leg.nearest_solution(platform_, wish);
+    keep(leg, place, found.q);
     if (found.count > 0) return {};
-    if (sign == 0 || leg.coordinate_near(platform_, target, 0).count <= 0)
+    const Wish anything{.curvature = wish.curvature};
+    if (wish.bending == 0 || leg.nearest_solution(platform_, anything).count <= 0)
       return without_solution(leg, platform_, i, found.count);
     Report report = name(Status::unreachable, "legs", i);
-    report.message.append(sign > 0 ? "has no solution of positive curvature at this pose"
-                                   : "has no solution of negative curvature at this pose");
+    report.message.append(wish.bending > 0 ? "has no solution of positive curvature at this pose"
+                                           : "has no solution of negative curvature at this pose");
     return report;
   }
 
-  const ParallelRobot<LegT>& robot_;
-  typename Space::template Frame<double> platform_;
+  bool is_from_start() const {
+    return !options_.start.empty() && options_.curvature.empty() && options_.bending.empty() &&
+           options_.elbow.empty();
+  }
+
+  template <class LegT>
+  void keep(const LegT& leg, const LegPlace& place, const typename LegT::Coordinates& q) {
+    const auto a = leg.inputs_of(q);
+    std::copy(q.begin(), q.end(), work_.coordinates.begin() + place.coordinate);
+    std::copy(a.begin(), a.end(), work_.inputs.begin() + place.input);
+  }
+
+  const Robot& robot_;
+  Frame platform_;
+  const InverseOptions& options_;
   Workspace& work_;
 };
 
 Report check(const AnyRobot& robot, const InverseOptions& options) {
   const auto legs = static_cast<std::size_t>(leg_count(robot));
-  const auto fits = [&](std::size_t size) { return size == 0 || size == legs; };
-  if (fits(options.bending.size()) && fits(options.curvature.size())) return {};
-  return refused(Status::left_domain, "bending and curvature need one value a leg");
+  const auto fits = [](std::size_t size, std::size_t needed) { return size == 0 || size == needed; };
+  if (fits(options.bending.size(), legs) && fits(options.curvature.size(), legs) &&
+      fits(options.elbow.size(), legs) &&
+      fits(options.start.size(), static_cast<std::size_t>(input_count(robot))))
+    return {};
+  return refused(Status::left_domain,
+                 "bending, curvature and elbow need one value a leg, start one value an input");
 }
 
 /// Calls `solve` with the problem, if the pose is one.
 template <class Solve>
-Report with_problem(const AnyRobot& robot, const AnyPose& pose, Workspace& work, const Solve& solve) {
+Report with_problem(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options,
+                    Workspace& work, const Solve& solve) {
+  if (const Report report = check(robot, options); !report.ok()) return report;
   return std::visit(
       [&](const auto& r) {
-        Problem problem(r, pose, work);
+        Problem problem(r, pose, options, work);
         return problem.is_finite()
                    ? solve(problem)
                    : refused(Status::left_domain, "the pose is not a finite number in every coordinate");
@@ -200,28 +266,39 @@ Report with_problem(const AnyRobot& robot, const AnyPose& pose, Workspace& work,
 }  // namespace
 
 Inverse inverse(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options, Workspace& work) {
-  Report report = check(robot, options);
-  if (report.ok())
-    report = with_problem(robot, pose, work, [&](auto& problem) { return problem.solve_wanted(options); });
+  Report report =
+      with_problem(robot, pose, options, work, [](auto& problem) { return problem.solve_wanted(); });
   if (report.ok()) report.residual = assemble(robot, pose, work.coordinates, work).closure_error;
   return {report, work.inputs, work.coordinates};
 }
 
-WorkingModes working_modes(const AnyRobot& robot, const AnyPose& pose, Workspace& work) {
-  WorkingModes modes{with_problem(robot, pose, work, [](auto& problem) { return problem.solve_all(); }),
-                     work.solutions, work.solution_count, 0};
+WorkingModes working_modes(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options,
+                           Workspace& work) {
+  WorkingModes modes{
+      with_problem(robot, pose, options, work, [](auto& problem) { return problem.solve_all(); }),
+      work.solutions, work.solution_count, 0, has_redundant_leg(robot)};
   if (!modes.report.ok()) return modes;
   modes.count = 1;
   for (const int n : work.solution_count) modes.count *= n;
   return modes;
 }
 
-void WorkingModes::mode(std::size_t k, std::span<double> inputs) const {
-  for (std::size_t j = inputs.size(); j-- > 0;) {
-    const auto n = static_cast<std::size_t>(solution_count[j]);
-    inputs[j] = solutions[j * per_input + k % n];
-    k /= n;
-  }
+void WorkingModes::mode(const AnyRobot& robot, std::size_t k, std::span<double> inputs) const {
+  std::visit(
+      [&](const auto& r) {
+        for (std::size_t i = r.legs.size(); i-- > 0;) {
+          const LegPlace& place = r.places[i];
+          if (place.is_tied) continue;
+          const auto n = static_cast<std::size_t>(solution_count[i]);
+          with_leg(r.legs[i], [&]<class L>(const L&) {
+            const auto from = solutions.begin() + place.input * Workspace::max_solutions +
+                              static_cast<std::ptrdiff_t>(k % n) * L::inputs;
+            std::copy(from, from + L::inputs, inputs.begin() + place.input);
+          });
+          k /= n;
+        }
+      },
+      robot.model);
 }
 
 }  // namespace sinew::inline v0

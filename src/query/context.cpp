@@ -2,29 +2,43 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "sinew/io/read_pose.hpp"
 #include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v0 {
 
-PlanarPose read_pose(Reader pose) {
-  PlanarPose result;
-  result.x = pose.required("x").quantity(Dimension::length, Range::place());
-  result.y = pose.required("y").quantity(Dimension::length, Range::place());
-  result.phi = pose.required("phi").quantity(Dimension::angle);
-  pose.close();
-  return result;
+AnyPose read_pose(const Context& context, Reader pose) {
+  if (std::holds_alternative<PlanarPose>(home(context.robot))) return read_planar_pose(std::move(pose));
+  return read_spatial_pose(std::move(pose));
 }
+
+namespace {
+
+/// One sign a leg.
+std::vector<int> read_signs(const Reader& list, std::size_t legs, std::string_view rule) {
+  std::vector<int> signs;
+  for (const Reader& sign : list.items(legs)) {
+    const int value = sign.integer();
+    if (value != 1 && value != -1) sign.refuse("out_of_range", rule);
+    signs.push_back(value);
+  }
+  signs.resize(legs, 1);
+  return signs;
+}
+
+}  // namespace
 
 Branch read_branch(Context& context) {
   Branch branch;
   const auto legs = static_cast<std::size_t>(leg_count(context.robot));
-  if (const auto bending = context.query.optional("bending")) {
-    for (const Reader& sign : bending->items(legs)) {
-      const int value = sign.integer();
-      if (value != 1 && value != -1) sign.refuse("out_of_range", "give 1 or -1, the sign of the curvature");
-      branch.bending.push_back(value);
-    }
-    branch.bending.resize(legs, 1);
+  if (const auto bending = context.query.optional("bending"))
+    branch.bending = read_signs(*bending, legs, "give 1 or -1, the sign of the curvature");
+  if (const auto elbow = context.query.optional("elbow")) {
+    branch.elbow = read_signs(*elbow, legs, "give 1 or -1, the side to which the strut turns");
+    if (!has_redundant_leg(context.robot))
+      elbow->fail("no_effect", "has no effect: no leg of this robot has an elbow; remove it");
   }
   if (const auto curvature = context.query.optional("curvature")) {
     branch.curvature = curvature->quantities(Dimension::curvature, {}, legs);
@@ -35,21 +49,29 @@ Branch read_branch(Context& context) {
 }
 
 std::vector<double> read_inputs(Context& context, const Reader& inputs) {
-  return inputs.quantities(Dimension::length, {}, static_cast<std::size_t>(input_count(context.robot)));
+  const auto kinds = inputs_of(context.robot);
+  const auto items = inputs.items(kinds.size());
+  std::vector<double> values;
+  for (std::size_t k = 0; k < items.size() && k < kinds.size(); ++k)
+    values.push_back(items[k].quantity(kinds[k].kind.dimension));
+  values.resize(kinds.size());
+  return values;
 }
 
 Configuration read_configuration(Context& context) {
   Configuration configuration;
   configuration.branch = read_branch(context);
-  if (auto pose = context.query.optional("pose")) configuration.pose = read_pose(std::move(*pose));
+  if (auto pose = context.query.optional("pose")) configuration.pose = read_pose(context, std::move(*pose));
   if (const auto inputs = context.query.optional("inputs"))
     configuration.inputs = read_inputs(context, *inputs);
-  if (auto start = context.query.optional("start")) configuration.start = read_pose(std::move(*start));
+  if (auto start = context.query.optional("start"))
+    configuration.start = read_pose(context, std::move(*start));
   if (!configuration.pose && !configuration.inputs)
     context.query.fail("missing_key", "give a pose, or inputs, or both");
   if (configuration.inputs && !configuration.branch.is_default())
-    context.query.fail("ambiguous",
-                       "bending or curvature choose among solutions; the inputs are given, remove them");
+    context.query.fail(
+        "ambiguous",
+        "bending, curvature and elbow choose among solutions; the inputs are given, remove them");
   if (configuration.pose && configuration.start)
     context.query.fail("ambiguous",
                        "start is where a search for the pose begins; the pose is given, remove it");
@@ -104,16 +126,33 @@ Json to_json(const MatrixView& matrix) {
   return rows;
 }
 
-Json to_json(const Vec2<double>& point) { return {point.x(), point.y()}; }
+void put_number(Json& object, const char* key, double value) {
+  if (std::isfinite(value)) object[key] = value;
+}
+
+Json to_json(const Indices& indices) {
+  Json object = Json::object();
+  put_number(object, "condition", indices.condition);
+  put_number(object, "condition_homogenised", indices.condition_homogenised);
+  put_number(object, "position", indices.position);
+  put_number(object, "rotation", indices.rotation);
+  return object;
+}
 
 Json legs_json(const AnyRobot& robot, const AnyPose& pose, std::span<const double> coordinates,
                Workspace& work) {
+  const bool is_planar = std::holds_alternative<PlanarPose>(pose);
   Json legs = Json::array();
-  for (const LegState& leg : leg_states(robot, pose, coordinates, work))
-    legs.push_back({{"curvature", leg.curvature},
-                    {"chord", leg.chord},
-                    {"tendon_lengths", leg.tendon_lengths},
-                    {"base_tangent", leg.base_tangent}});
+  for (const LegState& leg : leg_states(robot, pose, coordinates, work)) {
+    Json object{{"curvature", leg.curvature}, {"chord", leg.chord}, {"tendon_lengths", leg.tendon_lengths}};
+    if (is_planar)
+      object["base_tangent"] = wrap_angle(std::atan2(leg.base_tangent.y(), leg.base_tangent.x()));
+    else
+      object["base_tangent"] = to_json(leg.base_tangent);
+    if (!is_planar) object["joint_angles"] = leg.joint_angles;
+    if (leg.elbow != 0) object["elbow"] = leg.elbow;
+    legs.push_back(std::move(object));
+  }
   return legs;
 }
 

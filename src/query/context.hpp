@@ -1,6 +1,7 @@
 /// @file context.hpp
 /// What the handlers of queries share: the robot, the reader of the query and the answer being written.
 #pragma once
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -37,11 +38,13 @@ struct Context {
 struct Branch {
   std::vector<int> bending;
   std::vector<double> curvature;
-  bool is_default() const { return bending.empty() && curvature.empty(); }
-  InverseOptions options() const { return {.bending = bending, .curvature = curvature}; }
+  std::vector<int> elbow;
+  bool is_default() const { return bending.empty() && curvature.empty() && elbow.empty(); }
+  InverseOptions options() const { return {.bending = bending, .curvature = curvature, .elbow = elbow}; }
 };
 
-PlanarPose read_pose(Reader pose);
+/// A pose of the robot's space.
+AnyPose read_pose(const Context& context, Reader pose);
 Branch read_branch(Context& context);
 std::vector<double> read_inputs(Context& context, const Reader& inputs);
 
@@ -67,14 +70,30 @@ Solved solve_configuration(Context& context, const Configuration& configuration)
 Json to_json(const AnyPose& pose);
 Json to_json(std::span<const double> values);
 Json to_json(const MatrixView& matrix);
-Json to_json(const Vec2<double>& point);
+Json to_json(const Indices& indices);
+template <int D>
+Json to_json(const Vec<double, D>& point) {
+  return to_json(std::span<const double>(point.data(), D));
+}
+void put_number(Json& object, const char* key, double value);  ///< leaves out NaN and infinity
 Json legs_json(const AnyRobot& robot, const AnyPose& pose, std::span<const double> coordinates,
                Workspace& work);
+
+/// The field `along` of a velocity query, with its `limit`: a direction to look for type II in.
+struct Along {
+  std::vector<double> direction;
+  double limit = std::numeric_limits<double>::quiet_NaN();
+};
+std::optional<Along> read_along(Context& context);
+/// Writes `type_2_distance`. Uses the workspace.
+void put_type_2_distance(Context& context, const Along& along, const Configuration& given,
+                         const AnyPose& pose);
 
 void answer_forward(Context& context);
 void answer_inverse(Context& context);
 void answer_velocity(Context& context);
 void answer_shape(Context& context);
+void answer_track(Context& context);
 void answer_describe(Context& context);
 
 }  // namespace sinew::inline v0

@@ -20,29 +20,55 @@ struct FieldWriter {
 };
 
 template <class LegT>
-Json leg_json(const LegT& leg) {
-  Json link{{"type", LegT::Link::name}}, closure{{"type", LegT::Closure::name}};
-  LegT::Link::fields(leg.link, FieldWriter{link});
-  LegT::Drive::fields(leg.drive, FieldWriter{link});
-  Backbone::fields(leg.backbone, FieldWriter{link});
-  if (leg.backbone.youngs_modulus) link["material"] = {{"E", *leg.backbone.youngs_modulus}};
-  LegT::Closure::fields(leg.closure, FieldWriter{closure});
+Json base_json(const LegT& leg) {
   Json base{{"point", to_json(leg.base.p)}};
-  if (!LegT::Closure::base_turns) base["direction"] = wrap_angle(leg.base.angle() + std::numbers::pi / 2);
-  return {{"base", base},
-          {"link", link},
-          {"closure", closure},
-          {"platform_point", to_json(leg.platform_point)},
-          {"actuated", {LegT::Drive::input_name}}};
+  if constexpr (LegT::dimension == 3) {
+    base["first_axis"] = to_json(leg.base.rotate(Vec3<double>(1, 0, 0)));
+    base["direction"] = to_json(leg.base.rotate(Vec3<double>(0, 1, 0)));
+  } else if constexpr (LegT::is_clamped) {
+    base["direction"] = wrap_angle(leg.base.angle() + std::numbers::pi / 2);
+  }
+  return base;
 }
 
 template <class LegT>
-Json input_json(const LegT& leg, std::size_t index) {
+Json leg_json(const LegT& leg, const LegPlace& place) {
+  Json link{{"type", LegT::Link::name}}, closure{{"type", LegT::Closure::name}}, actuated = Json::array();
+  LegT::Link::fields(leg.link, FieldWriter{link});
+  LegT::Drive::fields(leg.drive, FieldWriter{link});
+  if constexpr (requires { leg.drive.theta_is; })
+    link["theta_is"] = leg.drive.theta_is == ThetaIs::chord ? "chord" : "tangent";
+  Backbone::fields(leg.backbone, FieldWriter{link});
+  if (leg.backbone.youngs_modulus) link["material"] = {{"E", *leg.backbone.youngs_modulus}};
+  LegT::Closure::fields(leg.closure, FieldWriter{closure});
+  for (const InputKind& kind : LegT::Drive::input_kinds) actuated.push_back(kind.name);
+  return {{"base", base_json(leg)}, {"link", link},
+          {"closure", closure},     {"platform_point", to_json(leg.platform_point)},
+          {"actuated", actuated},   {"input", place.input}};
+}
+
+/// Name, unit and, of tendons, limits: the ends of the curvature's domain.
+template <class LegT>
+void add_inputs(Json& inputs, const LegT& leg, std::size_t index) {
   const double end = leg.domain();
-  const double a = leg.input(-end), b = leg.input(end);
-  return {{"name", joined(joined("legs", index), LegT::Drive::input_name)},
-          {"unit", unit(LegT::Drive::input_dimension)},
-          {"limits", {std::min(a, b), std::max(a, b)}}};
+  auto q = LegT::Coordinates::Zero().eval();
+  q[LegT::coordinates - 1] = -end;
+  const double a = leg.inputs_of(q)[LegT::inputs - 1];
+  q[LegT::coordinates - 1] = end;
+  const double b = leg.inputs_of(q)[LegT::inputs - 1];
+  for (const InputKind& kind : LegT::Drive::input_kinds) {
+    Json input{{"name", joined(joined("legs", index), kind.name)}, {"unit", unit(kind.dimension)}};
+    if (kind.dimension == Dimension::length) input["limits"] = {std::min(a, b), std::max(a, b)};
+    inputs.push_back(std::move(input));
+  }
+}
+
+Json pose_json(bool is_planar) {
+  if (is_planar)
+    return {
+        {{"name", "x"}, {"unit", "m"}}, {{"name", "y"}, {"unit", "m"}}, {{"name", "phi"}, {"unit", "rad"}}};
+  return {{{"name", "position"}, {"unit", "m"}, {"size", 3}},
+          {{"name", "quaternion"}, {"unit", ""}, {"size", 4}}};
 }
 
 }  // namespace
@@ -54,25 +80,24 @@ void answer_describe(Context& context) {
   std::visit(
       [&](const auto& robot) {
         radius = robot.platform_radius;
-        for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-          with_leg(robot.legs[i], [&](const auto& leg) {
-            if (robot.input_of_leg[i] == static_cast<int>(inputs.size()))
-              inputs.push_back(input_json(leg, i));
-            legs.push_back(leg_json(leg));
-            legs.back()["input"] = robot.input_of_leg[i];
-          });
-        }
+        robot.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
+          if (!place.is_tied) add_inputs(inputs, leg, static_cast<std::size_t>(i));
+          legs.push_back(leg_json(leg, place));
+        });
       },
       context.robot.model);
   Json& answer = context.answer;
+  const bool is_planar = std::holds_alternative<PlanarPose>(home(context.robot));
   answer["status"] = "converged";
   answer["kind"] = "parallel";
-  answer["space"] = "planar";
+  answer["space"] = is_planar ? "planar" : "spatial";
   answer["inputs"] = inputs;
-  answer["pose"] = Json::array(
-      {{{"name", "x"}, {"unit", "m"}}, {{"name", "y"}, {"unit", "m"}}, {{"name", "phi"}, {"unit", "rad"}}});
+  answer["pose"] = pose_json(is_planar);
   answer["home"] = to_json(home(context.robot));
   answer["platform"] = {{"radius", radius}};
+  answer["freedoms"] = {{"platform", dof(context.robot)},
+                        {"constraints", row_count(context.robot)},
+                        {"actuators", input_count(context.robot)}};
   answer["legs"] = legs;
   answer["models"] = {"cc"};
   answer["model"] = "cc";

@@ -5,6 +5,7 @@
 
 #include "query/context.hpp"
 #include "sinew/analysis/shape.hpp"
+#include "sinew/kinematics/assembly_modes.hpp"
 #include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v0 {
@@ -17,12 +18,12 @@ void refuse_if_asked(Context& context, std::string_view key, std::string_view wh
   if (const auto asked = context.query.optional(key)) asked->fail("not_available", why);
 }
 
-Json all_working_modes(Context& context, const AnyPose& pose) {
-  const WorkingModes modes = working_modes(context.robot, pose, context.work);
+Json all_working_modes(Context& context, const AnyPose& pose, const Branch& branch) {
+  const WorkingModes modes = working_modes(context.robot, pose, branch.options(), context.work);
   Json solutions = Json::array();
   std::vector<double> inputs(context.work.inputs.size());
   for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, most_solutions); ++k) {
-    modes.mode(k, inputs);
+    modes.mode(context.robot, k, inputs);
     command(context.robot, inputs, context.work);
     const std::vector<double> coordinates = context.work.coordinates;
     solutions.push_back(
@@ -31,6 +32,10 @@ Json all_working_modes(Context& context, const AnyPose& pose) {
   if (modes.count > most_solutions)
     context.answer["message"] =
         fmt::format("{:.0f} working modes exist; the first {:.0f} are listed", modes.count, most_solutions);
+  else if (modes.is_continuum)
+    context.answer["message"] =
+        "the robot is redundant: at this pose its legs can move; listed are the modes of the curvature asked "
+        "for";
   return solutions;
 }
 
@@ -41,22 +46,14 @@ Json trace_json(std::span<const TraceStep> trace, int iterations) {
   return list;
 }
 
-void put_number(Json& object, const char* key, double value) {  // NaN and infinity never appear in an answer
-  if (std::isfinite(value)) object[key] = value;
-}
-
-Json indices_json(const Indices& indices) {
-  Json object = Json::object();
-  put_number(object, "condition", indices.condition);
-  put_number(object, "condition_homogenised", indices.condition_homogenised);
-  put_number(object, "position", indices.position);
-  put_number(object, "rotation", indices.rotation);
-  return object;
-}
-
-Json type_two_json(const TypeTwo& type) {
+Json type_two_json(const TypeTwo& type, bool is_planar) {
   Json object{{"singular", type.singular}, {"class", to_string(type.kind)}, {"rank", type.rank}};
-  if (type.kind == LineClass::concurrent) object["point"] = to_json(type.point);
+  if (type.point)
+    object["point"] = is_planar ? to_json(Vec2<double>(type.point->head<2>())) : to_json(*type.point);
+  if (type.screw) {
+    put_number(object, "pitch", type.screw->pitch);
+    object["axis"] = {{"point", to_json(type.screw->point)}, {"direction", to_json(type.screw->direction)}};
+  }
   return object;
 }
 
@@ -68,14 +65,43 @@ void put_rates(Context& context, const Velocity& result, std::span<const double>
     context.report(found);
 }
 
-Json polylines(const std::vector<Polyline>& lines) {
-  Json list = Json::array();
-  for (const Polyline& line : lines) {
-    Json points = Json::array();
-    for (const Vec2<double>& point : line) points.push_back(to_json(point));
-    list.push_back(points);
+template <int D>
+Json polyline(const PolylineOf<D>& line) {
+  Json points = Json::array();
+  for (const auto& point : line) points.push_back(to_json(point));
+  return points;
+}
+
+template <int D>
+void put_shape(Json& answer, const ShapeOf<D>& picture) {
+  Json backbones = Json::array(), tendons = Json::array(), lines = Json::array();
+  for (const auto& line : picture.backbones) backbones.push_back(polyline<D>(line));
+  for (const auto& pair : picture.tendons) tendons.push_back({polyline<D>(pair[0]), polyline<D>(pair[1])});
+  for (const auto& line : picture.lines) lines.push_back({to_json(line[0]), to_json(line[1])});
+  answer["backbones"] = backbones;
+  answer["tendons"] = tendons;
+  answer["lines"] = lines;
+  answer["platform"] = polyline<D>(picture.platform);
+  answer["base"] = polyline<D>(picture.base);
+}
+
+/// Every assembly mode of the inputs; the one nearest to the start stands for the answer.
+void answer_all_modes(Context& context, const std::vector<double>& inputs, const AnyPose& start) {
+  const AssemblyModes modes = assembly_modes(context.robot, inputs, context.work);
+  context.report(modes.report);
+  if (modes.report.status == Status::left_domain) return;
+  Json solutions = Json::array();
+  for (std::size_t k = 0; k < modes.poses.size(); ++k)
+    solutions.push_back({{"pose", to_json(modes.poses[k])},
+                         {"legs", legs_json(context.robot, modes.poses[k], modes.coordinates, context.work)},
+                         {"residual", modes.residual[k]}});
+  if (!modes.poses.empty()) {
+    const Json& nearest = solutions[nearest_pose(context.robot, modes.poses, start)];
+    for (const char* key : {"pose", "legs", "residual"}) context.answer[key] = nearest[key];
   }
-  return list;
+  context.answer["count"] = modes.poses.size();
+  context.answer["complete"] = modes.is_complete;
+  context.answer["solutions"] = std::move(solutions);
 }
 
 }  // namespace
@@ -83,19 +109,18 @@ Json polylines(const std::vector<Polyline>& lines) {
 void answer_forward(Context& context) {
   const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
   ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
-  if (auto start = context.query.optional("start")) options.start = read_pose(std::move(*start));
+  if (auto start = context.query.optional("start")) options.start = read_pose(context, std::move(*start));
   std::vector<TraceStep> trace;
   if (const auto wanted = context.query.optional("trace"))
     if (wanted->boolean()) trace.resize(most_trace);
   options.trace = trace;
-  if (const auto all = context.query.optional("all"))
-    if (all->boolean())
-      all->fail("not_available",
-                "all assembly modes are not available in this version; give a start for each mode");
+  const auto all = context.query.optional("all");
+  const bool want_all = all && all->boolean();
   refuse_if_asked(context, "wrench", "a constant-curvature model bears no load; leave the wrench out");
   refuse_if_asked(context, "until", "a constant-curvature model bears no load; leave until out");
   if (!context.ready()) return;
 
+  if (want_all) return answer_all_modes(context, inputs, options.start.value_or(home(context.robot)));
   const Forward result = forward(context.robot, inputs, options, context.work);
   context.report(result.report);
   if (result.ok()) {
@@ -109,16 +134,18 @@ void answer_forward(Context& context) {
 }
 
 void answer_inverse(Context& context) {
-  const AnyPose pose = read_pose(context.query.required("pose", "{x, y, phi}"));
+  const AnyPose pose = read_pose(context, context.query.required("pose", "pose of the platform"));
   const Branch branch = read_branch(context);
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
   refuse_if_asked(context, "wrench", "a constant-curvature model bears no load; leave the wrench out");
-  if (const auto start = context.query.optional("start"))  // closed form needs none, but it is no mistake
-    read_inputs(context, *start);
+  std::vector<double> start;
+  if (const auto given = context.query.optional("start")) start = read_inputs(context, *given);
   if (!context.ready()) return;
 
-  const Inverse result = inverse(context.robot, pose, branch.options(), context.work);
+  InverseOptions options = branch.options();
+  options.start = start;
+  const Inverse result = inverse(context.robot, pose, options, context.work);
   context.report(result.report);
   if (!result.ok()) return;
   context.answer["inputs"] = to_json(result.inputs);
@@ -126,7 +153,7 @@ void answer_inverse(Context& context) {
   context.answer["legs"] = legs_json(context.robot, pose, coordinates, context.work);
   context.answer["pose"] = to_json(pose);
   context.answer["residual"] = result.report.residual;
-  if (want_all) context.answer["solutions"] = all_working_modes(context, pose);
+  if (want_all) context.answer["solutions"] = all_working_modes(context, pose, branch);
 }
 
 void answer_velocity(Context& context) {
@@ -134,6 +161,7 @@ void answer_velocity(Context& context) {
   std::vector<double> twist;
   if (const auto asked = context.query.optional("twist"))
     twist = asked->quantities(Dimension::number, {}, static_cast<std::size_t>(dof(context.robot)));
+  const std::optional<Along> along = read_along(context);
   refuse_if_asked(context, "angles",
                   "a constant-curvature model has no joint angles; give inputs or a branch");
   if (!context.ready()) return;
@@ -149,12 +177,13 @@ void answer_velocity(Context& context) {
   context.answer["K"] = to_json(result.K);
   if (result.U.rows() > 0) context.answer["U"] = to_json(result.U);
   put_number(context.answer, "determinant", result.determinant);
-  context.answer["indices"] = indices_json(result.indices);
+  context.answer["indices"] = to_json(result.indices);
   context.answer["type_1"] = std::vector<int>(result.type_1.begin(), result.type_1.end());
-  context.answer["type_2"] = type_two_json(result.type_2);
+  context.answer["type_2"] = type_two_json(result.type_2, std::holds_alternative<PlanarPose>(at.pose));
   context.answer["residual"] = result.report.residual;
   if (!twist.empty()) put_rates(context, result, twist);
   context.answer["legs"] = legs_json(context.robot, at.pose, at.coordinates, context.work);
+  if (along) put_type_2_distance(context, *along, given, at.pose);
 }
 
 void answer_shape(Context& context) {
@@ -167,16 +196,9 @@ void answer_shape(Context& context) {
   context.report(at.report);
   if (!at.report.ok()) return;
 
-  const PlanarShape picture = shape(context.robot, at.pose, at.coordinates, count);
   context.answer["pose"] = to_json(at.pose);
-  context.answer["backbones"] = polylines(picture.backbones);
-  Json tendons = Json::array(), lines = Json::array();
-  for (const auto& pair : picture.tendons) tendons.push_back(polylines({pair[0], pair[1]}));
-  for (const auto& line : picture.lines) lines.push_back({to_json(line[0]), to_json(line[1])});
-  context.answer["tendons"] = tendons;
-  context.answer["lines"] = lines;
-  context.answer["platform"] = polylines({picture.platform})[0];
-  context.answer["base"] = polylines({picture.base})[0];
+  std::visit([&](const auto& picture) { put_shape(context.answer, picture); },
+             any_shape(context.robot, at.pose, at.coordinates, count));
   context.answer["frames"] = Json::array({to_json(at.pose)});
 }
 

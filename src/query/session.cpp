@@ -20,13 +20,14 @@ struct Kind {
 constexpr std::array kinds{
     Kind{"forward", answer_forward}, Kind{"inverse", answer_inverse},   Kind{"velocity", answer_velocity},
     Kind{"shape", answer_shape},     Kind{"describe", answer_describe}, Kind{"statics", nullptr},
-    Kind{"track", nullptr},          Kind{"diagram", nullptr},
+    Kind{"track", answer_track},     Kind{"diagram", nullptr},
 };
 
 const Kind& read_kind(Reader& query) {
   std::vector<std::string_view> names;
   for (const Kind& kind : kinds) names.push_back(kind.name);
-  const Reader word = query.required("query", "what is asked: forward, inverse, velocity, shape or describe");
+  const Reader word =
+      query.required("query", "what is asked: forward, inverse, velocity, track, shape or describe");
   const Kind& kind = kinds[word.choice_index(names)];
   if (!kind.handler) word.fail("not_available", std::string(kind.name) + " is not available in this version");
   return kind;
@@ -70,12 +71,31 @@ struct Session::State {
 
 namespace {
 
-/// The robot with the query's `set` applied; null (with errors noted) if that gives no robot.
+/// The reading of θ that a query asks for, into every drive that has one.
+void choose_theta(AnyRobot& robot, const Reader& asked, ThetaIs theta_is) {
+  bool found = false;
+  std::visit(
+      [&](auto& r) {
+        for (auto& any : r.legs)
+          with_leg(any, [&](auto& leg) {
+            if constexpr (requires { leg.drive.theta_is; }) {
+              leg.drive.theta_is = theta_is;
+              found = true;
+            }
+          });
+      },
+      robot.model);
+  if (!found) asked.fail("no_effect", "has no effect: no leg of this robot has an input theta; remove it");
+}
+
+/// The robot with the query's `set` and `theta_is` applied; null if it has neither, or if (with errors noted)
+/// that gives no robot.
 std::optional<AnyRobot> altered(const Document& document, Reader& query, Errors& errors) {
   const auto set = query.optional("set");
-  if (!set) return {};
+  const auto theta_is = query.optional("theta_is");
+  if (!set && !theta_is) return {};
   Document changed = document;
-  auto settings = set->members();
+  auto settings = set ? set->members() : decltype(set->members()){};
   // What legs share comes first: a setting of one leg then wins, whatever the order of the query.
   std::stable_partition(settings.begin(), settings.end(),
                         [](const auto& s) { return !s.first.starts_with("legs"); });
@@ -88,7 +108,12 @@ std::optional<AnyRobot> altered(const Document& document, Reader& query, Errors&
     changed = std::move(*next);
   }
   auto robot = read_robot(changed);
-  if (robot) return std::move(*robot);
+  if (robot) {
+    if (theta_is)
+      choose_theta(*robot, *theta_is,
+                   theta_is->choice_of<ThetaIs>({{"tangent", ThetaIs::tangent}, {"chord", ThetaIs::chord}}));
+    return std::move(*robot);
+  }
   errors.insert(errors.end(), robot.error().begin(), robot.error().end());
   return {};
 }

@@ -11,6 +11,8 @@ namespace sinew::inline v0 {
 /// Makes the files of an item in `folder` and compares.
 using StudyFunction = Expected<Reproduction> (*)(const StudyItem& item, const std::filesystem::path& folder);
 
+Expected<Reproduction> tdpcr_fig8(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tdpcr_fig9(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> tdpcr_fig10(const StudyItem& item, const std::filesystem::path& folder);
 
 }  // namespace sinew::inline v0

@@ -9,10 +9,13 @@ namespace sinew::inline v0 {
 namespace {
 
 constexpr std::array items{
+    StudyItem{"tdpcr/fig8", "Initial configuration of the 3-RFR of section 5.1, constant curvature"},
     StudyItem{"tdpcr/fig9",
               "Performance indices of the 3-RFR along the trajectory of section 5.1, constant curvature"},
+    StudyItem{"tdpcr/fig10",
+              "Last pose of the trajectory of section 5.1: the lines of the 3-RFR meet in one point"},
 };
-constexpr std::array<StudyFunction, items.size()> functions{tdpcr_fig9};
+constexpr std::array<StudyFunction, items.size()> functions{tdpcr_fig8, tdpcr_fig9, tdpcr_fig10};
 
 /// A bar would end the cell, and a line break the table.
 std::string cell(const std::string& text) {

@@ -149,12 +149,13 @@ void add_singularity(std::vector<Finding>& findings, const Samples& samples) {
        fmt::format("{}, rank {}, {}", type.singular ? "type II" : "regular", type.rank, to_string(type.kind)),
        "", as_claimed ? "holds" : "fails"});
   const Vec2<double> derived = example51::meeting_point();
-  const double off = (type.point - derived).norm();
+  const Vec2<double> point = type.point.value_or(Vec3<double>::Zero()).head<2>();
+  const double off = (point - derived).norm();
   // Not −0: the sign of what rounding leaves of y means nothing.
-  const double y = std::abs(type.point.y()) < 1e-12 ? 0.0 : type.point.y();
+  const double y = std::abs(point.y()) < 1e-12 ? 0.0 : point.y();
   findings.push_back({fmt::format("meeting point, derived p/(1 − R_p/R_b) = ({:.7f}, 0) m", derived.x()),
-                      "drawn, not printed", fmt::format("({:.7f}, {:g}) m", type.point.x(), y),
-                      small(off) + " m", off < 1e-12 ? "holds" : "fails"});
+                      "drawn, not printed", fmt::format("({:.7f}, {:g}) m", point.x(), y), small(off) + " m",
+                      off < 1e-12 ? "holds" : "fails"});
   double worst = 0;
   for (const Sample& s : samples)
     worst = std::max(worst, std::abs(s.determinant - example51::determinant(s.pose)));
@@ -287,7 +288,7 @@ Figure poses_figure(const AnyRobot& robot, const Samples& samples) {
                 .comments = provenance("the first pose and the last, Fig. 10")};
   figure.panels.push_back(pose_panel(robot, samples.front(), "k = 0: x = 0, φ = 0", 1.9));
   Panel last = pose_panel(robot, samples.back(), "k = 59: x = 30 mm, φ = 60°, type II singular", 1.45);
-  const Polyline meeting{samples.back().type_2.point};
+  const Polyline meeting{samples.back().type_2.point.value_or(Vec3<double>::Zero()).head<2>()};
   last.series.push_back(outline("lines meet", meeting, Mark::points, Colour::vermillion, 5));
   figure.panels.push_back(std::move(last));
   return figure;

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "planar_robots.hpp"
-#include "random_leg.hpp"
+#include <Eigen/Dense>
+
+#include "every_robot.hpp"
 #include "sinew/analysis/shape.hpp"
 
 namespace sinew::test {
@@ -16,44 +17,49 @@ class EveryRobotMoves : public testing::TestWithParam<std::string_view> {
   std::mt19937 random{7};
 };
 
-TEST_P(EveryRobotMoves, TheWayJAndKSay) {  // @verifies TDPCR (17), (19), (39)
+TEST_P(EveryRobotMoves, TheWayJAndKSay) {  // @verifies TDPCR (17), (19), (39), (59), (67)
   int samples = 0;
-  while (samples < 300) {
-    const PlanarPose pose{uniform(random, -0.04, 0.04), uniform(random, -0.04, 0.04),
-                          uniform(random, -0.6, 0.6)};
-    const Inverse solved = inverse(robot, pose, {}, work);
-    if (!solved.ok()) continue;
-    const std::vector<double> inputs = values(solved.inputs), coordinates = values(solved.coordinates);
+  while (samples < 100) {
+    const AnyPose pose = reachable_pose(robot, random, work);
+    ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
+    const std::vector<double> inputs = values(work.inputs), coordinates = values(work.coordinates);
     const Velocity v = velocity(robot, pose, coordinates, work);
     if (v.indices.condition_homogenised > 20 || !v.type_1.empty()) continue;
     ++samples;
     const Eigen::MatrixXd U = v.U;
     // Independent: forward kinematics at moved inputs.
-    for (int j = 0; j < 3; ++j) {
+    for (std::size_t j = 0; j < inputs.size(); ++j) {
       const double h = 1e-5 / (1 + U.norm());  // the pose moves by 1e-5
       const auto at = [&](double step) {
-        std::vector<double> moved = inputs;
-        moved[static_cast<std::size_t>(j)] += step;
-        const Forward there = forward(robot, moved, {.start = pose}, work);
+        std::vector<double> stepped = inputs;
+        stepped[j] += step;
+        const Forward there = forward(robot, stepped, {.start = pose}, work);
         EXPECT_TRUE(there.ok());
-        const auto& p = std::get<PlanarPose>(there.pose);
-        return Eigen::Vector3d(p.x, p.y, p.phi);
+        return motion(pose, there.pose);
       };
-      const Eigen::Vector3d slope = (at(h) - at(-h)) / (2 * h);
-      EXPECT_LT((slope - U.col(j)).norm(), 1e-7 * (1 + U.norm()));
+      const Eigen::VectorXd slope = (at(h) - at(-h)) / (2 * h);
+      EXPECT_LT((slope - U.col(static_cast<Eigen::Index>(j))).norm(), 1e-7 * (1 + U.norm()));
     }
   }
 }
 
 TEST_P(EveryRobotMoves, WithTheRatesThatATwistNeeds) {  // @verifies TDPCR (41)
-  const PlanarPose pose{0.01, -0.01, 0.1};
+  const AnyPose pose = reachable_pose(robot, random, work);
   ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
   const std::vector<double> coordinates = values(work.coordinates);
   const Velocity v = velocity(robot, pose, coordinates, work);
-  const std::array twist{0.1, -0.2, 0.3};
+  std::vector<double> twist;
+  for (int i = 0; i < dof(robot); ++i) twist.push_back(0.1 * (i % 2 ? -i : i + 1));
   ASSERT_TRUE(rates(v, twist, work).ok());
-  const Eigen::Vector3d back = Eigen::MatrixXd(v.U) * Eigen::Map<const Eigen::Vector3d>(work.rates.data());
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(back[i], twist[static_cast<std::size_t>(i)], 1e-13);
+  const Eigen::Map<const Eigen::VectorXd> found(work.rates.data(), v.K.cols());
+  const Eigen::VectorXd back = Eigen::MatrixXd(v.U) * found;
+  for (std::size_t i = 0; i < twist.size(); ++i)
+    EXPECT_NEAR(back[static_cast<Eigen::Index>(i)], twist[i], 1e-12);
+  // none that does the same is shorter: what is left has no part in the null space of K
+  const Eigen::MatrixXd K = v.K;
+  const Eigen::VectorXd rest =
+      found - K.transpose() * (K * K.transpose()).ldlt().solve(Eigen::VectorXd(K * found));
+  EXPECT_LT(rest.norm(), 1e-9 * found.norm());
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, EveryRobotMoves, testing::ValuesIn(builtin_robot_names()),
@@ -69,8 +75,9 @@ TEST(TypeTwo, LastPoseOfTheExampleIsConcurrentAtItsKnownPoint) {  // TDPCR 5.1
   EXPECT_TRUE(v.type_2.singular);
   EXPECT_EQ(v.type_2.rank, 2);
   EXPECT_EQ(v.type_2.kind, LineClass::concurrent);
-  EXPECT_NEAR(v.type_2.point.x(), 0.03 / (1 - 0.05 / 0.19), 1e-14);  // p/(1 − Rp/Rb)
-  EXPECT_NEAR(v.type_2.point.y(), 0, 1e-14);
+  ASSERT_TRUE(v.type_2.point.has_value());
+  EXPECT_NEAR(v.type_2.point->x(), 0.03 / (1 - 0.05 / 0.19), 1e-14);  // p/(1 − Rp/Rb)
+  EXPECT_NEAR(v.type_2.point->y(), 0, 1e-14);
   EXPECT_EQ(v.U.rows(), 0);
 }
 
@@ -106,7 +113,7 @@ TEST(TypeOne,
        {0.0834680089743687, 6.0593172943123985}}};  // y, κ of leg 0
   for (const auto& [y, curvature] : merging) {
     const auto& leg = std::get<1>(robot.model).legs[0];
-    const auto at = leg.blocks<double>(Planar::frame({0, y, 0}), leg.tip(curvature));
+    const auto at = leg.blocks<double>(Planar::frame({0, y, 0}), leg.link.tip(curvature));
     EXPECT_LT(std::abs(at.error), 1e-14);
     EXPECT_LT(std::abs(at.g_q[0]), 1e-10);
     const Velocity v =
@@ -122,8 +129,7 @@ TEST(TypeOne,
 }
 
 TEST(Rates, OfTiedLegsAreRefusedWhereTheyWouldDiffer) {
-  AnyRobot robot = rfr_in_code();
-  std::get<0>(robot.model).input_of_leg = {0, 1, 0};
+  const AnyRobot robot = rfr_in_code(std::array{-1, -1, 0});
   Workspace work(robot);
   const Forward at = forward(robot, {0.19, 0.19}, {}, work);
   ASSERT_TRUE(at.ok());
@@ -148,6 +154,42 @@ TEST(Rates, OfLegsOfUnlikeSizeAreAllFollowed) {
   ASSERT_TRUE(rates(v, {0.1, 0.2, 0.3}, work).ok());
   for (Eigen::Index i = 0; i < 3; ++i)
     EXPECT_NEAR(v.K(i, i) * work.rates[static_cast<std::size_t>(i)] / v.J.row(i).dot(twist), 1, 1e-12);
+}
+
+TEST(TypeOne, OfASwivelledLegIsWhereItAndItsStrutAreStraight) {  // whichever angle its motor commands
+  const AnyRobot robot = load("3-rfrr").value();
+  Workspace work(robot);
+  const auto& leg = std::get<2>(robot.model).legs[0];
+  const Vec2<double> head = leg.base.p + Vec2<double>(0, -0.23);  // link 150 mm and strut 80 mm in line
+  const PlanarPose pose{head.x() - leg.platform_point.x(), head.y() - leg.platform_point.y(), 0};
+  const double down = -std::numbers::pi / 2;
+  const Velocity v = velocity(robot, pose, {down, 0, 0, 5, 0, 5}, work);  // the other legs need not close
+  ASSERT_FALSE(v.type_1.empty());
+  EXPECT_EQ(v.type_1[0], 0);
+  EXPECT_LT(std::abs(v.K(0, 0)) + std::abs(v.K(0, 1)), 1e-15);
+  const Velocity bent = velocity(robot, pose, {down, 1, 0, 5, 0, 5}, work);
+  for (const int i : bent.type_1) EXPECT_NE(i, 0);
+}
+
+TEST(Velocity, OfTooFewLegsLeavesTheirFreedomOpen) {
+  std::vector<RfrLeg> legs = rfr_legs();
+  legs.pop_back();
+  const AnyRobot robot("2-RFR", ParallelRobot<RfrLeg>(legs, {}, 0.05));
+  Workspace work(robot);
+  const PlanarPose pose{0.01, 0, 0.1};
+  ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
+  const std::vector<double> inputs = values(work.inputs), coordinates = values(work.coordinates);
+  const Velocity v = velocity(robot, pose, coordinates, work);
+  EXPECT_EQ(v.report.status, Status::singular);
+  EXPECT_TRUE(v.type_2.singular);
+  EXPECT_EQ(v.type_2.rank, 2);
+  EXPECT_EQ(v.type_2.kind, LineClass::concurrent);
+  EXPECT_EQ(v.J.rows(), 2);
+  EXPECT_EQ(v.U.rows(), 0);
+  const Forward there = forward(robot, inputs, {.start = PlanarPose{0.02, 0, 0}}, work);
+  EXPECT_TRUE(there.ok());
+  EXPECT_LT(there.report.residual, 1e-14);
+  EXPECT_NE(there.report.message.view().find("2 of the platform's 3"), std::string_view::npos);
 }
 
 TEST(Shape, LegsRunFromTheirBaseToTheirPlatformPoint) {

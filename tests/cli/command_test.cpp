@@ -190,6 +190,42 @@ TEST(Plot, DrawsColumnsOfATable) {
   EXPECT_TRUE(std::filesystem::exists(here.path() / "out" / "fig.svg"));
 }
 
+TEST(Plot, DrawsASpatialRobotFromTwoSides) {
+  const Scratch here;
+  const Outcome outcome =
+      run_command({"plot", "6-ufs", "--pose", "0, 0, 190 mm, 0, 10 deg, 0", "-o", "fig.svg"}, here.path());
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const std::string script = read_text(here.path() / "fig.gp");
+  for (const char* word : {"x [mm]", "y [mm]", "z [mm]", "backbone"})
+    EXPECT_NE(script.find(word), std::string::npos) << word;
+}
+
+TEST(Track, WritesAFileThatPlotDraws) {
+  const Scratch here;
+  const std::vector<std::string> path{
+      "track",     "3-rfrr", "--from", "0, 0, 0",     "--to", "10 mm, 5 mm, 20 deg",
+      "--samples", "5",      "-o",     "out/path.csv"};
+  const Outcome outcome = run_command(path, here.path());
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  const auto lines = lines_of(read_text(here.path() / "out" / "path.csv"));
+  ASSERT_EQ(lines.size(), 7U);
+  EXPECT_TRUE(lines[1].starts_with("sample,x[m],y[m],phi[rad],legs[0].theta[rad],legs[0].tendon_1[m],"));
+  const Outcome drawn = run_command(
+      {"plot", "out/path.csv", "-o", "fig.svg", "--y", "legs[0].tendon_1,legs[1].tendon_1"}, here.path());
+  EXPECT_EQ(drawn.exit, 0) << drawn.err;
+}
+
+TEST(Track, KeepsWhatItReached) {
+  const Scratch here;
+  const Outcome outcome = run_command({"track", "3-rfr", "--from", "0, 0, 0", "--to", "80 mm, 5 mm, 20 deg",
+                                       "--samples", "11", "-o", "path.csv", "-q"},
+                                      here.path());
+  EXPECT_EQ(outcome.exit, 3);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("between poses 6 and 7 of 11"), std::string::npos) << outcome.err;
+  EXPECT_EQ(lines_of(read_text(here.path() / "path.csv")).size(), 8U);
+}
+
 TEST(Plot, DrawsNothingWhereTheRobotCannotBe) {
   const Scratch here;
   const Outcome outcome =
@@ -226,7 +262,8 @@ TEST(Completion, CompletesVerbsOptionsAndRobots) {
   };
   EXPECT_EQ(completed("inv", 1).out, "inverse\n");
   EXPECT_EQ(completed("inverse 3-rfr --be", 3).out, "--bending\n");
-  EXPECT_EQ(completed("check 3-rf", 2).out, "3-rfr\n");
+  EXPECT_EQ(completed("track 3-rfr --obj", 3).out, "--objective\n");
+  EXPECT_EQ(completed("check 6-", 2).out, "6-ufs\n");
   EXPECT_EQ(completed("check m", 2).out, "mine.yaml\n");
   EXPECT_EQ(completed("reproduce tdpcr/fig9", 2).out, "tdpcr/fig9\n");
 }

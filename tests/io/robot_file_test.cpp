@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planar_robots.hpp"
+#include "every_robot.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/io/parse.hpp"
 
@@ -54,6 +54,145 @@ TEST(RobotFile, FrrAsAnArchitectureIsTheListedOne) {
            "defaults: {link: {length: 200 mm, tendon_offset: 5 mm}, closure: {length: 100 mm}}\n");
   ASSERT_TRUE(named) << to_string(named.error());
   expect_same_motion(*named, load("3-frr").value());
+}
+
+/// Legs, home and size of two robots, which must be of one kind.
+void expect_same_robot(const AnyRobot& a, const AnyRobot& b) {
+  ASSERT_EQ(a.model.index(), b.model.index());
+  EXPECT_LT(motion(home(a), home(b)).norm(), 1e-15);
+  const auto expect_same_legs = [](const auto& leg, const auto& other) {
+    EXPECT_LT((leg.base.p - other.base.p).norm(), 1e-15);
+    for (int k = 0; k < leg.base.p.size(); ++k) {
+      using Point = typename std::decay_t<decltype(leg)>::Point;
+      const Point axis = Point::Unit(k);
+      EXPECT_LT((leg.base.rotate(axis) - other.base.rotate(axis)).norm(), 1e-14);
+    }
+    EXPECT_LT((leg.platform_point - other.platform_point).norm(), 1e-15);
+    EXPECT_EQ(leg.link.arc().length, other.link.arc().length);
+    EXPECT_EQ(leg.drive.tendon_offset(), other.drive.tendon_offset());
+    if constexpr (requires { leg.closure.length; }) {
+      EXPECT_EQ(leg.closure.length, other.closure.length);
+    }
+    EXPECT_EQ(leg.backbone.diameter, other.backbone.diameter);
+    EXPECT_EQ(leg.backbone.joints, other.backbone.joints);
+    EXPECT_EQ(leg.backbone.youngs_modulus, other.backbone.youngs_modulus);
+  };
+  std::visit(
+      [&]<class Robot>(const Robot& robot) {
+        const auto& other = std::get<Robot>(b.model);
+        ASSERT_EQ(robot.legs.size(), other.legs.size());
+        EXPECT_EQ(robot.platform_radius, other.platform_radius);
+        for (std::size_t i = 0; i < robot.legs.size(); ++i)
+          if constexpr (requires { robot.legs[i].closure; }) expect_same_legs(robot.legs[i], other.legs[i]);
+      },
+      a.model);
+}
+
+TEST(RobotFile, AShortFormIsTheListedRobot) {
+  for (const char* name : {"3-rfr", "3-frr", "3-rfrr", "6-ufs"}) {
+    SCOPED_TRACE(name);
+    const Document short_form = parse_yaml(robot_template(name), name).value();
+    const auto longer = expanded(short_form);
+    ASSERT_TRUE(longer) << to_string(longer.error());
+    EXPECT_NE(short_form.root.find("architecture"), nullptr);
+    for (const char* gone : {"architecture", "base"}) EXPECT_EQ(longer->root.find(gone), nullptr);
+    const Document listed = read_robot_file(name).value();
+    EXPECT_EQ(longer->root.find("space")->text, listed.root.find("space")->text);
+    const auto robot = read_robot(*longer);
+    ASSERT_TRUE(robot) << to_string(robot.error());
+    expect_same_robot(*robot, read_robot(listed).value());
+  }
+}
+
+TEST(RobotFile, PointsAndListedAnglesStandForACircle) {
+  const std::string link =
+      "defaults: {link: {length: 200 mm, tendon_offset: 5 mm}, closure: {length: 100 mm}}\n";
+  const std::string platform = "platform: {radius: 50 mm, angle: 30 deg}\n";
+  const std::string frr = head + "architecture: 3-FRR\n" + link;
+  const auto circle = read(frr + platform + "base: {radius: 190 mm, angle: 90 deg, direction: 320 deg}\n");
+  ASSERT_TRUE(circle) << to_string(circle.error());
+  for (const char* base :
+       {"base: {radius: 190 mm, angles: [90 deg, 210 deg, 330 deg], directions: [320 deg, 80 deg, 200 "
+        "deg]}\n",
+        "base: {points: [[0, 190 mm], {radius: 190 mm, angle: 210 deg}, {radius: 190 mm, angle: 330 deg}], "
+        "direction: 320 deg}\n"}) {
+    const auto robot = read(frr + platform + base);
+    ASSERT_TRUE(robot) << to_string(robot.error());
+    expect_same_robot(*circle, *robot);
+  }
+}
+
+TEST(RobotFile, AShortFormNamesWhatIsMissingOrTooMuch) {
+  const std::string link = "defaults: {link: {length: 200 mm, tendon_offset: 5 mm}}\n";
+  const std::string base = "base: {radius: 190 mm, angle: 90 deg}\n",
+                    platform = "platform: {radius: 50 mm, angle: 30 deg}\n";
+  const auto says = [&](const std::string& rest, std::string_view message) {
+    const auto robot = read(head + link + rest);
+    ASSERT_FALSE(robot) << message;
+    EXPECT_EQ(robot.error()[0].message, message);
+  };
+  const std::string rfr = "architecture: 3-RFR\n", ufs = "architecture: 6-UFS\n";
+  says(rfr + base + "platform: {points: [[50 mm, 0], [0, 50 mm]]}\n",
+       "platform.points: 3-RFR needs 3 platform points, found 2; give one for each leg.");
+  says(ufs + "base: {radius: 1, angles: [0, 1, 2]}\n" + platform,
+       "base.angles: 6-UFS needs 6 base angles, found 3; give one for each leg.");
+  says(rfr + base + platform + rfr_legs + "  - {}\n",
+       "legs: the file gives an architecture and legs; keep one. A 3-RFR has 3 legs, these are 4.");
+  says(rfr + base + platform + rfr_legs, "legs: the file gives an architecture and legs; keep one.");
+  says(rfr + base + platform + "space: spatial\n",
+       "space = spatial; a 3-RFR is planar; remove space, or choose another architecture.");
+  says(rfr + platform + "base: {radius: 190 mm, angle: 90 deg, direction: 0}\n",
+       "base: direction has no effect: the legs of a 3-RFR turn at their base; remove it");
+  says(rfr + platform + "base: {points: [[0, 1], [1, 0], [1, 1]], angle: 0}\n",
+       "base: gives both points and angle; keep one");
+}
+
+TEST(RobotFile, ATemplateIsReachedRegularlyAtHomeAndBack) {
+  for (const std::string_view name : robot_template_names()) {
+    SCOPED_TRACE(name);
+    const auto robot = read(std::string(robot_template(name)));
+    ASSERT_TRUE(robot) << to_string(robot.error());
+    Workspace work(*robot);
+    const AnyPose at_home = home(*robot);
+    const Inverse there = inverse(*robot, at_home, {}, work);
+    ASSERT_TRUE(there.ok()) << to_string(there.report);
+    const auto inputs = values(there.inputs), coordinates = values(there.coordinates);
+    const Velocity moving = velocity(*robot, at_home, coordinates, work);
+    EXPECT_TRUE(moving.report.ok()) << to_string(moving.report);
+    EXPECT_LT(moving.indices.condition_homogenised, 20);
+    std::mt19937 random(1);
+    const ForwardOptions from_beside{.start = pose_near_home(*robot, random, 0.005, 0.05)};
+    const Forward back = forward(*robot, inputs, from_beside, work);
+    ASSERT_TRUE(back.ok()) << to_string(back.report);
+    EXPECT_LT(motion(back.pose, at_home).norm(), 1e-10);
+  }
+  EXPECT_TRUE(robot_template("no-legged").empty());
+}
+
+TEST(RobotFile, TwoChordsAreARobotThatMovesWithItsInputsHeld) {
+  const auto robot = read(head + rfr_parts +
+                          "legs:\n"
+                          "  - {base: {point: [-120 mm, -120 mm]}, platform_point: [-40 mm, 0]}\n"
+                          "  - {base: {point: [120 mm, -120 mm]}, platform_point: [40 mm, 0]}\n");
+  ASSERT_TRUE(robot) << to_string(robot.error());
+  EXPECT_EQ(input_count(*robot), 2);
+  Workspace work(*robot);
+  EXPECT_TRUE(inverse(*robot, PlanarPose{}, {}, work).ok());
+}
+
+TEST(RobotFile, LegsFromOnePointSayThatTheyShareIt) {
+  const auto legs = [](const char* shared) {
+    return head + rfr_parts +
+           "legs:\n  - {base: {point: [0, 190 mm]}, platform_point: [40 mm, 0]}\n"
+           "  - {base: {point: [0, 190 mm]" +
+           shared + "}, platform_point: [-40 mm, 0]}\n";
+  };
+  EXPECT_TRUE(read(legs(", shared: true")));
+  for (const char* shared : {"", ", shared: false"}) {
+    const auto robot = read(legs(shared));
+    ASSERT_FALSE(robot);
+    EXPECT_EQ(robot.error()[0].code, "coincident_base_points");
+  }
 }
 
 TEST(RobotFile, UnlikeLegsMakeAMixedRobotThatMovesAsItsParts) {

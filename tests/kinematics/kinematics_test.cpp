@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "planar_robots.hpp"
-#include "random_leg.hpp"
+#include "every_robot.hpp"
+#include "sinew/kinematics/assembly_modes.hpp"
 
 namespace sinew::test {
 namespace {
@@ -14,32 +14,24 @@ class EveryRobot : public testing::TestWithParam<std::string_view> {
   AnyRobot robot = load(std::string(GetParam())).value();
   Workspace work{robot};
   std::mt19937 random{20261121};
+  std::size_t legs = static_cast<std::size_t>(leg_count(robot));
 
-  /// A pose near home that every leg reaches.
-  PlanarPose reachable() {
-    for (;;) {
-      const PlanarPose pose{uniform(random, -0.04, 0.04), uniform(random, -0.04, 0.04),
-                            uniform(random, -0.6, 0.6)};
-      if (inverse(robot, pose, {}, work).ok()) return pose;
-    }
-  }
+  AnyPose reachable() { return reachable_pose(robot, random, work); }
 };
 
-TEST_P(EveryRobot, ForwardUndoesInverseOnEveryWorkingMode) {  // @verifies TDPCR (1), (4), (42)
-  for (int sample = 0; sample < 300; ++sample) {
-    const PlanarPose pose = reachable();
-    const WorkingModes modes = working_modes(robot, pose, work);
+TEST_P(EveryRobot, ForwardUndoesInverseOnEveryWorkingMode) {  // @verifies TDPCR (1), (4), (42), (57)
+  for (int sample = 0; sample < 100; ++sample) {
+    const AnyPose pose = reachable();
+    const WorkingModes modes = working_modes(robot, pose, {}, work);
     ASSERT_TRUE(modes.report.ok());
-    std::vector<double> inputs(3);
-    for (std::size_t k = 0; static_cast<double>(k) < modes.count; ++k) {
-      modes.mode(k, inputs);
+    std::vector<double> inputs(work.inputs.size());
+    for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, 30.0); ++k) {
+      modes.mode(robot, k, inputs);
       const Forward there = forward(robot, inputs, {.start = pose}, work);
       ASSERT_TRUE(there.ok()) << to_string(there.report);
       EXPECT_LE(there.report.residual, 1e-14);
-      EXPECT_NEAR(planar(there.pose).x, pose.x, 1e-11);
-      EXPECT_NEAR(planar(there.pose).y, pose.y, 1e-11);
-      EXPECT_NEAR(planar(there.pose).phi, pose.phi, 1e-11);
-      working_modes(robot, pose, work);  // the views of `modes` are of this workspace
+      EXPECT_LT(motion(pose, there.pose).norm(), 1e-10);
+      working_modes(robot, pose, {}, work);  // the views of `modes` are of this workspace
     }
   }
 }
@@ -50,50 +42,87 @@ TEST_P(EveryRobot, ForwardFromAFarStartConvergesOrSaysWhyNot) {
   for (int sample = 0; sample < samples; ++sample) {
     inverse(robot, reachable(), {}, work);
     const std::vector<double> inputs = values(work.inputs);
-    const PlanarPose start{uniform(random, -0.3, 0.3), uniform(random, -0.3, 0.3), uniform(random, -3, 3)};
+    const AnyPose start = pose_near_home(robot, random, 0.3, dof(robot) == 3 ? 3 : 1);
     const Forward answer = forward(robot, inputs, {.start = start}, work);
     converged += answer.ok();
     const Reduced at = assemble(robot, answer.pose, values(answer.coordinates), work);
-    EXPECT_NEAR(at.closure_error, answer.report.residual, 1e-15);
+    EXPECT_NEAR(at.closure_error, answer.report.residual, 2e-15);
     EXPECT_EQ(answer.ok(), at.closure_error < 1e-12) << to_string(answer.report);
     EXPECT_EQ(answer.ok(), answer.report.message.empty());
   }
-  EXPECT_GT(converged, samples * 9 / 10);
+  if (dof(robot) == 3)
+    EXPECT_EQ(converged, samples);  // where Newton's method stalls the sextic answers
+  else
+    EXPECT_GT(converged, samples * 8 / 10);
 }
 
 TEST_P(EveryRobot, BranchIsChosenAsAsked) {
   for (int sample = 0; sample < 200; ++sample) {
-    const PlanarPose pose = reachable();
-    const WorkingModes modes = working_modes(robot, pose, work);
-    std::vector<double> inputs(3);
-    modes.mode(static_cast<std::size_t>(modes.count) / 2, inputs);
+    const AnyPose pose = reachable();
+    const WorkingModes modes = working_modes(robot, pose, {}, work);
+    std::vector<double> inputs(work.inputs.size());
+    modes.mode(robot, static_cast<std::size_t>(modes.count) / 2, inputs);
     ASSERT_TRUE(command(robot, inputs, work).ok());
-    const std::vector<double> wanted = work.coordinates;
-    const Inverse nearest = inverse(robot, pose, {.curvature = wanted}, work);
-    ASSERT_TRUE(nearest.ok());
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(nearest.coordinates[i], wanted[i], 1e-12);
-    const std::array<int, 3> signs{wanted[0] < 0 ? -1 : 1, wanted[1] < 0 ? -1 : 1, wanted[2] < 0 ? -1 : 1};
-    const Inverse signed_ = inverse(robot, pose, {.bending = signs}, work);
-    ASSERT_TRUE(signed_.ok());
-    for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_GE(signed_.coordinates[i] * signs[i], 0);
-      EXPECT_LE(std::abs(signed_.coordinates[i]), std::abs(wanted[i]) + 1e-12);
+    const std::vector<double> coordinates = work.coordinates;
+    std::vector<double> wanted;
+    std::vector<int> signs;
+    for (const LegState& leg : leg_states(robot, pose, coordinates, work)) {
+      wanted.push_back(leg.curvature);
+      signs.push_back(leg.curvature < 0 ? -1 : 1);
     }
+    ASSERT_TRUE(inverse(robot, pose, {.curvature = wanted}, work).ok());
+    const std::vector<double> nearest = work.coordinates;
+    const auto states = leg_states(robot, pose, nearest, work);
+    for (std::size_t i = 0; i < legs; ++i) EXPECT_NEAR(states[i].curvature, wanted[i], 1e-12);
+    ASSERT_TRUE(inverse(robot, pose, {.bending = signs}, work).ok());
+    const std::vector<double> bent = work.coordinates;
+    const auto bent_states = leg_states(robot, pose, bent, work);
+    for (std::size_t i = 0; i < legs; ++i) {
+      EXPECT_GE(bent_states[i].curvature * signs[i], 0);
+      EXPECT_LE(std::abs(bent_states[i].curvature), std::abs(wanted[i]) + 1e-12);
+    }
+    // inputs as a start lead back to themselves
+    const Inverse again = inverse(robot, pose, {.start = inputs}, work);
+    ASSERT_TRUE(again.ok());
+    for (std::size_t k = 0; k < inputs.size(); ++k) EXPECT_NEAR(again.inputs[k], inputs[k], 1e-12);
+  }
+}
+
+TEST_P(EveryRobot, AllAssemblyModesCloseAndHoldTheOneKnown) {
+  for (int sample = 0; sample < (dof(robot) == 3 ? 300 : 3); ++sample) {
+    const AnyPose pose = reachable();
+    ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
+    const std::vector<double> inputs = values(work.inputs);
+    const AssemblyModes modes = assembly_modes(robot, inputs, work);
+    ASSERT_TRUE(modes.report.ok()) << to_string(modes.report);
+    EXPECT_LT(motion(modes.poses[nearest_pose(robot, modes.poses, pose)], pose).norm(), 1e-8);
+    for (const AnyPose& mode : modes.poses)
+      EXPECT_LT(assemble(robot, mode, work.coordinates, work).closure_error, 1e-12);
   }
 }
 
 TEST_P(EveryRobot, UnreachablePosesNameTheLegAndInputsOutsideTheDomainTheInput) {
-  const Inverse far = inverse(robot, PlanarPose{1, 0, 0}, {}, work);
+  const Eigen::VectorXd away = Eigen::VectorXd::Unit(dof(robot), 0);
+  const Inverse far = inverse(robot, moved(home(robot), away), {}, work);
   EXPECT_EQ(far.report.status, Status::unreachable);
   EXPECT_NE(far.report.message.view().find("legs[0]"), std::string_view::npos);
-  const Forward folded = forward(robot, {0.19, 0.4, 0.19}, {}, work);
+  ASSERT_TRUE(inverse(robot, reachable(), {}, work).ok());
+  const std::vector<double> good = values(work.inputs);
+  std::vector<double> bad = good;
+  bad.back() = 0.9;
+  const Forward folded = forward(robot, bad, {}, work);
   EXPECT_EQ(folded.report.status, Status::left_domain);
-  EXPECT_NE(folded.report.message.view().find("inputs[1]"), std::string_view::npos);
-  EXPECT_EQ(forward(robot, {0.19, std::nan(""), 0.19}, {}, work).report.status, Status::left_domain);
-  EXPECT_EQ(forward(robot, {0.19, 0.19}, {}, work).report.status, Status::left_domain);
-  EXPECT_EQ(inverse(robot, PlanarPose{std::nan(""), 0, 0}, {}, work).report.status, Status::left_domain);
-  const Forward nowhere = forward(robot, {0.19, 0.19, 0.19}, {.start = PlanarPose{0, std::nan(""), 0}}, work);
-  EXPECT_EQ(nowhere.report.status, Status::left_domain);
+  EXPECT_NE(folded.report.message.view().find("inputs[" + std::to_string(bad.size() - 1) + "]"),
+            std::string_view::npos);
+  for (double& value : bad) {
+    bad = good;
+    value = std::nan("");
+    EXPECT_EQ(forward(robot, bad, {}, work).report.status, Status::left_domain);
+  }
+  EXPECT_EQ(forward(robot, {0.19}, {}, work).report.status, Status::left_domain);
+  const AnyPose nowhere = moved(home(robot), std::nan("") * away);
+  EXPECT_EQ(inverse(robot, nowhere, {}, work).report.status, Status::left_domain);
+  EXPECT_EQ(forward(robot, good, {.start = nowhere}, work).report.status, Status::left_domain);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, EveryRobot, testing::ValuesIn(builtin_robot_names()),
@@ -104,7 +133,7 @@ TEST(Inverse, TiedLegsAreSolvedTogether) {  // by whichever value closes them al
   std::mt19937 random{5};
   using FrrLeg = Leg<Planar, Arc, TendonPair, Strut>;
   for (int sample = 0; sample < 300; ++sample) {
-    ParallelRobot<FrrLeg> model{{}, {0, 0, 1}, {}, 0.05};
+    std::vector<FrrLeg> legs;
     const PlanarPose pose = random_pose(random);
     const auto platform = Planar::frame(pose);
     const double common = uniform(random, -20, 20), third = uniform(random, -20, 20);
@@ -112,11 +141,11 @@ TEST(Inverse, TiedLegsAreSolvedTogether) {  // by whichever value closes them al
       FrrLeg leg = random_leg<FrrLeg>(random);
       leg.link.length = 0.2;
       leg.drive.offset = 0.005;
-      const Vec2<double> tip = leg.base.point(leg.tip(i < 2 ? common : third).position);
+      const Vec2<double> tip = leg.base.point(leg.link.tip(i < 2 ? common : third).position);
       leg.closure.length = (platform.point(leg.platform_point) - tip).norm();
-      model.legs.push_back(leg);
+      legs.push_back(leg);
     }
-    const AnyRobot robot("tied", model);
+    const AnyRobot robot("tied", ParallelRobot<FrrLeg>(legs, {}, 0.05, std::array{-1, 0, -1}));
     Workspace work(robot);
     const Inverse answer = inverse(robot, pose, {}, work);
     ASSERT_TRUE(answer.ok()) << sample << " " << to_string(answer.report);
@@ -126,7 +155,7 @@ TEST(Inverse, TiedLegsAreSolvedTogether) {  // by whichever value closes them al
     ASSERT_TRUE(known.ok());
     EXPECT_NEAR(known.coordinates[0], common, 1e-6);
     EXPECT_EQ(known.coordinates[0], known.coordinates[1]);
-    const WorkingModes modes = working_modes(robot, pose, work);
+    const WorkingModes modes = working_modes(robot, pose, {}, work);
     EXPECT_GE(modes.count, 1);
   }
 }
@@ -134,9 +163,8 @@ TEST(Inverse, TiedLegsAreSolvedTogether) {  // by whichever value closes them al
 TEST(Inverse, TiedLegsNearStraightAgree) {  // κ is a square root there
   std::mt19937 random{6};
   for (int sample = 0; sample < 200; ++sample) {
-    AnyRobot robot = rfr_in_code();
+    AnyRobot robot = rfr_in_code(std::array{-1, 0, -1});
     auto& model = std::get<0>(robot.model);
-    model.input_of_leg = {0, 0, 1};
     const double curvature = std::pow(10.0, uniform(random, -8, -2)),
                  chord = model.legs[0].link.chord(curvature);
     const PlanarPose pose{uniform(random, -0.01, 0.01), 0, uniform(random, -0.3, 0.3)};
@@ -164,15 +192,15 @@ TEST(Inverse, OptionsOfTheWrongSizeAreNamed) {
 TEST(Inverse, AFoldedLegAndATendonBeyondTheCentreAreNoSolutions) {
   Leg<Planar, Arc, TendonPair, Chord> leg{};
   leg.drive.offset = 0.005;
-  std::array<double, 8> roots;
+  std::array<Vec<double, 1>, 8> roots;
   for (const double length : {0.13, 0.2, 0.3, 0.41}) {
     leg.link.length = length;
-    EXPECT_EQ(leg.coordinates_at(Planar::frame({0, 0, 0}), roots), 0) << length;
+    EXPECT_EQ(leg.solutions_at(Planar::frame({0, 0, 0}), {}, roots), 0) << length;
   }
   leg.link.length = 0.2;
   leg.drive.offset = 0.1;  // 1/d = 10 1/m
-  EXPECT_EQ(leg.coordinates_at(Planar::frame({0, leg.link.chord(9.9), 0}), roots), 2);
-  EXPECT_EQ(leg.coordinates_at(Planar::frame({0, leg.link.chord(10.1), 0}), roots), 0);
+  EXPECT_EQ(leg.solutions_at(Planar::frame({0, leg.link.chord(9.9), 0}), {}, roots), 2);
+  EXPECT_EQ(leg.solutions_at(Planar::frame({0, leg.link.chord(10.1), 0}), {}, roots), 0);
 }
 
 TEST(Inverse, DefaultIsTheSmallestCurvatureAndPositiveOfTwo) {
@@ -187,11 +215,11 @@ TEST(Inverse, AStraightLegIsOneSolutionAtTheEdgeOfTheWorkspace) {
   Leg<Planar, Arc, TendonPair, Chord> leg{};
   leg.link.length = 0.2;
   leg.drive.offset = 0.005;
-  std::array<double, 8> roots;
-  ASSERT_EQ(leg.coordinates_at(Planar::frame({0, 0.2, 1}), roots), 1);
-  EXPECT_EQ(roots[0], 0);
-  EXPECT_EQ(leg.coordinates_at(Planar::frame({0, 0.2 + 1e-15, 1}), roots), 0);
-  EXPECT_EQ(leg.coordinates_at(Planar::frame({0, 0.2 - 1e-15, 1}), roots), 2);
+  std::array<Vec<double, 1>, 8> roots;
+  ASSERT_EQ(leg.solutions_at(Planar::frame({0, 0.2, 1}), {}, roots), 1);
+  EXPECT_EQ(roots[0][0], 0);
+  EXPECT_EQ(leg.solutions_at(Planar::frame({0, 0.2 + 1e-15, 1}), {}, roots), 0);
+  EXPECT_EQ(leg.solutions_at(Planar::frame({0, 0.2 - 1e-15, 1}), {}, roots), 2);
 }
 
 TEST(Forward,

@@ -1,47 +1,67 @@
-/// One suite for every kind of leg of this build: a new link or closure is tested by being in `PlanarLegs`.
+/// One suite for every kind of leg of this build: a new link or closure is tested by being in `PlanarLegs` or
+/// `SpatialLegs`.
 #include <gtest/gtest.h>
 
 #include "check_jacobian.hpp"
 #include "random_leg.hpp"
+#include "sinew/leg/project.hpp"
+#include "sinew/robot/catalog.hpp"
 
 namespace sinew::test {
 namespace {
 
-template <class List>
+template <class First, class Second>
 struct AsTypes;
-template <class... Legs>
-struct AsTypes<TypeList<Legs...>> {
-  using type = testing::Types<Legs...>;
+template <class... P, class... S>
+struct AsTypes<TypeList<P...>, TypeList<S...>> {
+  using type = testing::Types<P..., S...>;
 };
 
 template <class LegT>
 struct EveryLeg : testing::Test {
-  std::mt19937 random{20261121};
-};
-TYPED_TEST_SUITE(EveryLeg, AsTypes<PlanarLegs>::type);
+  using Space = typename LegT::Space;
+  using Frame = typename LegT::Frame;
+  using Coordinates = typename LegT::Coordinates;
+  static constexpr int dof = Space::dof, Q = LegT::coordinates, R = LegT::rows;
 
-/// (x, y, φ, q) → (g, closure error).
+  std::mt19937 random{20261121};
+
+  Frame platform() { return random_frame<Space>(random, 0.1); }
+  static auto at(const LegT& leg, const Frame& platform, const Coordinates& q) {
+    return leg.template blocks<double>(platform, leg.template tip<double>(q));
+  }
+};
+using AllLegs = AsTypes<PlanarLegs, SpatialLegs>::type;
+TYPED_TEST_SUITE(EveryLeg, AllLegs);
+
+/// (small motion of the platform, q) → g.
 template <class LegT>
 struct Residual {
+  static constexpr int dof = LegT::Space::dof, Q = LegT::coordinates;
   const LegT& leg;
+  typename LegT::Frame platform;
   template <class S>
-  Vec<S, 1> operator()(const Vec<S, 4>& z) const {
-    const auto platform = SE2<S>::from(z[0], z[1], z[2]);
-    return Vec<S, 1>(leg.template blocks<S>(platform, leg.tip(z[3])).g);
+  Vec<S, LegT::rows> operator()(const Vec<S, dof + Q>& z) const {
+    const Vec<S, dof> motion = z.template head<dof>();
+    const Vec<S, Q> q = z.template tail<Q>();
+    const auto moved = LegT::Space::template cast<S>(platform).displaced(motion);
+    return leg.template blocks<S>(moved, leg.template tip<S>(q)).g;
   }
 };
 
-TYPED_TEST(EveryLeg, BlocksAreTheDerivativesOfTheResidual) {  // @verifies TDPCR (3), (5)-(6), (18)-(20)
+TYPED_TEST(EveryLeg, BlocksAreTheDerivativesOfTheResidual) {
+  // @verifies TDPCR (3), (5)-(6), (18)-(20), (56)-(58), (64)
   double worst_exact = 0, worst_differences = 0;
   for (int sample = 0; sample < 2000; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
-    const PlanarPose pose = random_pose(this->random);
-    const double q = random_curvature(this->random, leg.link.length);
-    const auto blocks = leg.template blocks<double>(Planar::frame(pose), leg.tip(q));
-    Mat<double, 1, 4> jacobian;
+    const auto platform = this->platform();
+    const auto q = random_coordinates(this->random, leg);
+    const auto blocks = this->at(leg, platform, q);
+    Mat<double, TypeParam::rows, Residual<TypeParam>::dof + Residual<TypeParam>::Q> jacobian;
     jacobian << blocks.g_x, blocks.g_q;
-    const Vec<double, 4> z(pose.x, pose.y, pose.phi, q);
-    const Residual<TypeParam> residual{leg};
+    Vec<double, Residual<TypeParam>::dof + Residual<TypeParam>::Q> z;
+    z << Vec<double, Residual<TypeParam>::dof>::Zero(), q;
+    const Residual<TypeParam> residual{leg, platform};
     worst_exact = std::max(worst_exact, jacobian_error(jacobian, complex_step_jacobian(residual, z)));
     worst_differences = std::max(worst_differences, jacobian_error(jacobian, central_jacobian(residual, z)));
   }
@@ -49,89 +69,159 @@ TYPED_TEST(EveryLeg, BlocksAreTheDerivativesOfTheResidual) {  // @verifies TDPCR
   EXPECT_LT(worst_differences, 1e-8);
 }
 
-TYPED_TEST(EveryLeg, SolutionsCloseTheLegAndNoneIsMissed) {
+TYPED_TEST(EveryLeg, InputsAndCoordinatesUndoEachOther) {  // @verifies TDPCR (65)-(66)
+  for (int sample = 0; sample < 500; ++sample) {
+    const auto leg = random_leg<TypeParam>(this->random);
+    const auto q = random_coordinates(this->random, leg);
+    const auto a = leg.inputs_of(q);
+    const auto back = leg.coordinates_of(std::span<const double>(a.data(), TypeParam::inputs));
+    EXPECT_LT((back - q).norm(), 1e-11 * (1 + q.norm()));
+    const auto of_inputs = [&](const Vec<double, TypeParam::inputs>& input) {
+      return leg.coordinates_of(std::span<const double>(input.data(), TypeParam::inputs));
+    };
+    EXPECT_LT(check_jacobian_real(of_inputs, a, leg.input_rate()), 1e-7);
+  }
+}
+
+TYPED_TEST(EveryLeg, SolutionsCloseTheLeg) {
   int solved = 0;
   for (int sample = 0; sample < 2000; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
-    const PlanarPose pose = random_pose(this->random);
-    const auto platform = Planar::frame(pose);
-    std::array<double, 8> roots;
-    const int count = leg.coordinates_at(platform, roots);
+    const auto platform = this->platform();
+    const Wish wish{.curvature = random_curvature(this->random, leg.link.arc().length)};
+    std::array<typename TypeParam::Coordinates, 8> roots;
+    const int count = leg.solutions_at(platform, wish, roots);
     ASSERT_LE(count, 8);
     solved += count > 0;
-    for (int i = 0; i < count; ++i) {
-      const auto blocks = leg.template blocks<double>(platform, leg.tip(roots[static_cast<std::size_t>(i)]));
-      EXPECT_LT(std::abs(blocks.error), 1e-13) << sample;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
+      EXPECT_LT(std::abs(this->at(leg, platform, roots[i]).error), 1e-13) << sample;
+      EXPECT_TRUE(leg.in_domain(roots[i]));
       if (i > 0) {
-        EXPECT_GT(roots[static_cast<std::size_t>(i)], roots[static_cast<std::size_t>(i - 1)]);
+        EXPECT_GE(leg.link.curvature(roots[i]), leg.link.curvature(roots[i - 1]));
       }
     }
-    // An independent count: sign changes of g on a fine grid over the whole domain.
-    const double end = leg.domain();
-    int changes = 0;
-    double before = 0;
-    for (int k = 0; k <= 4000; ++k) {
-      const double q = end * (-1 + 2 * (k + 0.37) / 4001);
-      const double g = leg.template blocks<double>(platform, leg.tip(q)).g;
-      changes += k > 0 && (g < 0) != (before < 0);
-      before = g;
-    }
-    EXPECT_GE(count, changes) << sample;
-    EXPECT_LE(count - changes, 2) << sample;  // a pair may hide between two grid points
   }
   EXPECT_GT(solved, 200);
 }
 
-TYPED_TEST(EveryLeg, TheNearestSolutionIsTheNearestOfAll) {
-  for (int sample = 0; sample < 5000; ++sample) {
+TYPED_TEST(EveryLeg, NoSolutionIsMissed) {
+  for (int sample = 0; sample < 500; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
-    const auto platform = Planar::frame(random_pose(this->random));
-    const double target = sample % 2 ? 0 : random_curvature(this->random, leg.link.length);
-    const int sign = sample % 3 - 1;
-    std::array<double, 8> roots;
-    const int count = leg.coordinates_at(platform, roots);
-    double best = 1e9;
-    for (int i = 0; i < count; ++i) {
-      const double q = roots[static_cast<std::size_t>(i)];
-      if (q * sign >= 0) best = std::min(best, std::abs(q - target));
-    }
-    const NearestRoot found = leg.coordinate_near(platform, target, sign);
-    ASSERT_EQ(found.count, best < 1e9) << sample;
-    if (found.count) {
-      EXPECT_NEAR(std::abs(found.root - target), best, 1e-6) << sample;  // double roots are known to 1e-8
+    const auto platform = this->platform();
+    std::array<typename TypeParam::Coordinates, 8> roots;
+    const int count = leg.solutions_at(platform, {}, roots);
+    if constexpr (TypeParam::coordinates == 1) {  // sign changes of g on a fine grid over the whole domain
+      int changes = 0;
+      double before = 0;
+      for (int k = 0; k <= 4000; ++k) {
+        const double q = leg.domain() * (-1 + 2 * (k + 0.37) / 4001);
+        const double g = this->at(leg, platform, typename TypeParam::Coordinates(q)).g[0];
+        changes += k > 0 && (g < 0) != (before < 0);
+        before = g;
+      }
+      EXPECT_GE(count, changes) << sample;
+      EXPECT_LE(count - changes, 2) << sample;  // a pair may hide between two grid points
+    } else {  // Newton from anywhere ends on none where none is told, and a pin's on those that are
+      for (int start = 0; start < 20; ++start) {
+        auto q = random_coordinates(this->random, leg);
+        if (!project(leg, platform, 1e-14, q).ok) continue;
+        EXPECT_GT(count, 0) << sample;
+        if (TypeParam::is_redundant) continue;
+        double nearest = 1;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+          nearest = std::min(nearest, std::abs(leg.link.curvature(q) - leg.link.curvature(roots[i])));
+        EXPECT_LT(nearest, 1e-4) << sample;
+      }
     }
   }
 }
 
-TYPED_TEST(EveryLeg, BaseFrameCarriesTheTipToTheAnchor) {
+TYPED_TEST(EveryLeg, TheNearestSolutionIsTheNearestOfAll) {
+  for (int sample = 0; sample < 3000; ++sample) {
+    const auto leg = random_leg<TypeParam>(this->random);
+    const auto platform = this->platform();
+    const double target = sample % 2 ? 0 : random_curvature(this->random, leg.link.arc().length);
+    const Wish wish{.curvature = target, .bending = sample % 3 - 1};
+    std::array<typename TypeParam::Coordinates, 8> roots;
+    const int count = leg.solutions_at(platform, wish, roots);
+    double best = 1e9;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
+      const double curvature = leg.link.curvature(roots[i]);
+      if (curvature * wish.bending >= 0) best = std::min(best, std::abs(curvature - target));
+    }
+    const auto found = leg.nearest_solution(platform, wish);
+    ASSERT_EQ(found.count > 0, best < 1e9) << sample;
+    if (found.count > 0) {
+      EXPECT_NEAR(std::abs(leg.link.curvature(found.q) - target), best, 1e-6) << sample;
+    }
+  }
+}
+
+TYPED_TEST(EveryLeg, LinkFrameCarriesTheBackboneToTheAnchor) {
+  using Vector = Vec<double, TypeParam::dimension>;
   for (int sample = 0; sample < 500; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
-    const auto platform = Planar::frame(random_pose(this->random));
-    std::array<double, 8> roots;
-    const int count = leg.coordinates_at(platform, roots);
-    for (int i = 0; i < count; ++i) {
-      const auto tip = leg.tip(roots[static_cast<std::size_t>(i)]);
-      const auto frame = leg.base_frame(platform, tip);
-      const auto anchor = leg.closure.anchor(tip);
-      const double distance = (platform.point(leg.platform_point) - frame.point(anchor.position)).norm();
-      EXPECT_NEAR(distance, std::sqrt(2 * anchor.half_square), 1e-12);
-      if constexpr (TypeParam::Closure::base_turns) {  // then the tip itself is the platform point
-        EXPECT_LT((platform.point(leg.platform_point) - frame.point(tip.position)).norm(), 1e-12);
+    const auto platform = this->platform();
+    std::array<typename TypeParam::Coordinates, 8> roots;
+    const int count = leg.solutions_at(platform, {}, roots);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
+      const auto& arc = leg.link.arc();
+      Vector end = Vector::Zero();
+      end.template head<2>() = arc.point(leg.link.curvature(roots[i]), arc.length);
+      const Vector tip = leg.link_frame(platform, roots[i]).point(end);
+      const Vector head = platform.point(leg.platform_point);
+      const auto reach = leg.reach(roots[i]);
+      EXPECT_NEAR((head - reach.anchor).norm(), reach.distance, 1e-12);
+      if (TypeParam::Closure::base_turns || reach.distance == 0) {  // then the tip is the platform point
+        EXPECT_LT((head - tip).norm(), 1e-12);
+      } else {
+        EXPECT_LT((reach.anchor - tip).norm(), 1e-12);
       }
+      const LegState state = leg.state(platform, roots[i]);
+      EXPECT_NEAR(state.base_tangent.norm(), 1, 1e-14);
     }
   }
 }
 
 TYPED_TEST(EveryLeg, RateRateBoundHolds) {
-  for (int sample = 0; sample < 2000; ++sample) {
-    const auto leg = random_leg<TypeParam>(this->random);
-    const auto platform = Planar::frame(random_pose(this->random));
-    const double q = 0.99 * random_curvature(this->random, leg.link.length), h = 1e-3;
-    const auto blocks_at = [&](double at) { return leg.template blocks<double>(platform, leg.tip(at)); };
-    const auto g_q = [&](double at) { return blocks_at(at).g_q[0]; };
-    const double pull = blocks_at(q).g_x.template head<2>().norm() + h * leg.link.bounds().rate;
-    const double bound = leg.closure.rate_rate_bound(pull, leg.link.bounds());
-    EXPECT_LE(std::abs(g_q(q + h) - g_q(q - h)) / (2 * h), bound * (1 + 1e-6));
+  if constexpr (TypeParam::coordinates == 1) {
+    for (int sample = 0; sample < 2000; ++sample) {
+      const auto leg = random_leg<TypeParam>(this->random);
+      const auto platform = this->platform();
+      const double q = 0.99 * random_curvature(this->random, leg.link.length), h = 1e-3;
+      const auto g_q = [&](double x) {
+        return this->at(leg, platform, typename TypeParam::Coordinates(x)).g_q[0];
+      };
+      const double pull = this->at(leg, platform, typename TypeParam::Coordinates(q))
+                              .g_x.template head<TypeParam::dimension>()
+                              .norm() +
+                          h * leg.link.bounds().rate;
+      const double bound = leg.closure.rate_rate_bound(pull, leg.link.bounds());
+      EXPECT_LE(std::abs(g_q(q + h) - g_q(q - h)) / (2 * h), bound * (1 + 1e-6));
+    }
+  }
+}
+
+TEST(UniversalJoint, ItsSecondAxisIsTheNormalOfTheBendingPlane) {  // e = unit(g × r), TDPCR 4.1
+  std::mt19937 random{3};
+  using UfsLeg = Leg<Spatial, Arc, TendonPair, Chord>;
+  for (int sample = 0; sample < 300; ++sample) {
+    const auto leg = random_leg<UfsLeg>(random);
+    const auto platform = random_frame<Spatial>(random, 0.1);
+    const UfsLeg::Coordinates q(random_curvature(random, leg.link.length));
+    const Vec3<double> r = leg.offset<double>(platform), g = leg.base.rotate(Vec3<double>(1, 0, 0));
+    const Vec3<double> e = cross(g, r).normalized();
+    const auto frame = leg.link_frame(platform, q);
+    EXPECT_LT((frame.rotate(Vec3<double>(0, 0, 1)) - e).norm(), 1e-12);
+    // turned by both angles one after the other, the axes are those of the link
+    const auto [first, second] = leg.state(platform, q).joint_angles;
+    const auto turned = leg.base.R.compose(SO3<double>::exp(Vec3<double>(first, 0, 0)))
+                            .compose(SO3<double>::exp(Vec3<double>(0, 0, second)));
+    EXPECT_LT((turned.rotate(Vec3<double>(0, 1, 0)) - leg.state(platform, q).base_tangent).norm(), 1e-13);
+    // κ > 0 bends clockwise about e: the tangent leads the chord by half the bend, counter-clockwise
+    const Vec3<double> tangent = leg.state(platform, q).base_tangent, chord = r.normalized();
+    const double lead = std::atan2(dot(cross(chord, tangent), e), dot(chord, tangent));
+    EXPECT_NEAR(std::remainder(lead - q[0] * leg.link.length / 2, 2 * std::numbers::pi), 0, 1e-9);
   }
 }
 

@@ -85,7 +85,7 @@ TEST(Reference,
 }
 
 TEST(Reference, MapsOfBothRobots) {  // singularities over a grid: det J, condition numbers, reachable or not
-  const Json all = read_json("data/tdpcr/singular_planar.json");
+  const Json all = read_json("data/tdpcr/singular.json");
   std::vector<Json> rfr, frr;
   const auto over = [](const Json& map, std::vector<Json>& queries) {
     for (const Json& phi : map["phi"])
@@ -120,7 +120,7 @@ TEST(Reference, MapsOfBothRobots) {  // singularities over a grid: det J, condit
 }
 
 TEST(Reference, AStraightFrrLegIsRegular) {
-  const Json all = read_json("data/tdpcr/singular_planar.json");
+  const Json all = read_json("data/tdpcr/singular.json");
   const Json& straight = all["3-FRR_kappa0_regular"];
   std::vector<Json> queries{
       {{"query", "velocity"}, {"pose", pose_of(straight["pose"])}, {"curvature", straight["kappa"]}}};

@@ -9,10 +9,11 @@ namespace sinew::test {
 
 inline std::vector<double> values(std::span<const double> view) { return {view.begin(), view.end()}; }
 
-/// A 3-RFR of the paper's sizes, without a file.
-inline AnyRobot rfr_in_code() {
-  using RfrLeg = Leg<Planar, Arc, TendonPair, Chord>;
-  ParallelRobot<RfrLeg> robot{{}, {0, 1, 2}, {}, 0.05};
+using RfrLeg = Leg<Planar, Arc, TendonPair, Chord>;
+
+/// Legs of a 3-RFR of the paper's sizes, without a file.
+inline std::vector<RfrLeg> rfr_legs() {
+  std::vector<RfrLeg> legs;
   for (int i = 0; i < 3; ++i) {
     const double foot = (90 + 120 * i) * std::numbers::pi / 180,
                  head = (30 + 120 * i) * std::numbers::pi / 180;
@@ -21,9 +22,13 @@ inline AnyRobot rfr_in_code() {
     leg.link = {.length = 0.2};
     leg.drive = {.offset = 0.005};
     leg.platform_point = Vec2<double>(0.05 * std::cos(head), 0.05 * std::sin(head));
-    robot.legs.push_back(leg);
+    legs.push_back(leg);
   }
-  return {"3-RFR in code", robot};
+  return legs;
+}
+
+inline AnyRobot rfr_in_code(std::span<const int> tied = {}) {
+  return {"3-RFR in code", ParallelRobot<RfrLeg>(rfr_legs(), {}, 0.05, tied)};
 }
 
 }  // namespace sinew::test

@@ -21,6 +21,20 @@ inline double uniform(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution(low, high)(random);
 }
 
+/// Anywhere about the origin, turned anyhow.
+template <class Space>
+typename Space::template Frame<double> random_frame(std::mt19937& random, double reach) {
+  const auto any = [&](double size) { return uniform(random, -size, size); };
+  if constexpr (Space::dimension == 2)
+    return SE2<double>::from(any(reach), any(reach), any(3.14));
+  else
+    return {Vec3<double>(any(reach), any(reach), any(reach)),
+            SO3<double>::exp(Vec3<double>(any(1.8), any(1.8), any(1.8)))};
+}
+
+inline double& tendon_offset(TendonPair& drive) { return drive.offset; }
+inline double& tendon_offset(SwivelDrive& drive) { return drive.tendons.offset; }
+
 template <class LegT>
 LegT random_leg(std::mt19937& random) {
   LegT leg{};
@@ -28,10 +42,11 @@ LegT random_leg(std::mt19937& random) {
   LegT::Link::fields(leg.link, fill);
   LegT::Drive::fields(leg.drive, fill);
   LegT::Closure::fields(leg.closure, fill);
-  leg.drive.offset /= 20;
-  leg.base =
-      SE2<double>::from(uniform(random, -0.2, 0.2), uniform(random, -0.2, 0.2), uniform(random, -3, 3));
-  leg.platform_point = Vec2<double>(uniform(random, -0.1, 0.1), uniform(random, -0.1, 0.1));
+  tendon_offset(leg.drive) /= 20;
+  if constexpr (requires { leg.drive.theta_is; })
+    if (uniform(random, 0, 1) < 0.5) leg.drive.theta_is = ThetaIs::chord;
+  leg.base = random_frame<typename LegT::Space>(random, 0.2);
+  leg.platform_point = random_frame<typename LegT::Space>(random, 0.1).p;
   return leg;
 }
 
@@ -50,6 +65,14 @@ inline double random_curvature(std::mt19937& random, double length) {
     default:
       return uniform(random, -turn, turn);
   }
+}
+
+template <class LegT>
+typename LegT::Coordinates random_coordinates(std::mt19937& random, const LegT& leg) {
+  typename LegT::Coordinates q;
+  for (int j = 0; j + 1 < LegT::coordinates; ++j) q[j] = uniform(random, -3.14, 3.14);
+  q[LegT::coordinates - 1] = random_curvature(random, leg.link.arc().length);
+  return q;
 }
 
 inline PlanarPose random_pose(std::mt19937& random) {

@@ -5,17 +5,31 @@
 
 namespace sinew::inline v0 {
 
-using Polyline = std::vector<Vec2<double>>;  ///< base frame [m]
+template <int D>
+using PolylineOf = std::vector<Vec<double, D>>;  ///< base frame [m]
 
-struct PlanarShape {
-  std::vector<Polyline> backbones;                 ///< a leg
-  std::vector<std::array<Polyline, 2>> tendons;    ///< a leg: tendon 1, tendon 2
-  std::vector<std::array<Vec2<double>, 2>> lines;  ///< a leg: the segment along which its closure pulls
-  Polyline platform;                               ///< its points, in leg order
-  Polyline base;                                   ///< base points, in leg order
+/// @tparam D dimension of the robot's space
+template <int D>
+struct ShapeOf {
+  std::vector<PolylineOf<D>> backbones;               ///< a leg
+  std::vector<std::array<PolylineOf<D>, 2>> tendons;  ///< a leg: tendon 1, tendon 2
+  std::vector<std::array<Vec<double, D>, 2>> lines;   ///< a leg: the segment along which its closure pulls
+  PolylineOf<D> platform;                             ///< its points, in leg order
+  PolylineOf<D> base;                                 ///< base points, in leg order
 };
 
+using Polyline = PolylineOf<2>;
+using PlanarShape = ShapeOf<2>;
+using SpatialShape = ShapeOf<3>;
+using AnyShape = std::variant<PlanarShape, SpatialShape>;
+
+/// Of a robot of either space.
 /// @param samples points of each backbone, at least 2
-SINEW_API PlanarShape shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples);
+SINEW_API AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples);
+
+/// Of a planar robot.
+inline PlanarShape shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
+  return std::get<PlanarShape>(any_shape(robot, pose, coordinates, samples));
+}
 
 }  // namespace sinew::inline v0

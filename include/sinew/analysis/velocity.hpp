@@ -2,6 +2,7 @@
 /// Velocity equations, kinematic sensitivities and both kinds of singularity at one configuration.
 /// Theory: docs/theory/velocity.md
 #pragma once
+#include "sinew/analysis/lines.hpp"
 #include "sinew/robot/assembly.hpp"
 
 namespace sinew::inline v0 {
@@ -16,25 +17,13 @@ struct Indices {
   double rotation;               ///< [rad per unit of input]
 };
 
-/// What the lines of J have in common where they are dependent.
-enum class LineClass { regular, concurrent, parallel, coincident };
-
-SINEW_API std::string_view to_string(LineClass kind) noexcept;
-
-/// Type II: J loses rank, the platform moves with the inputs held.
-struct TypeTwo {
-  bool singular = false;  ///< σmin/σmax of the homogenised J below 1e-10
-  LineClass kind = LineClass::regular;
-  int rank = 0;                             ///< of the homogenised J
-  Vec2<double> point = Vec2<double>(0, 0);  ///< where concurrent lines meet, base frame [m]
-};
-
 struct Velocity {
   Report report;       ///< singular where J is; residual: closure error of the configuration [m]
   MatrixView J, K, U;  ///< J·t = K·ȧ, t = U·ȧ; U has no rows where J is singular
   double determinant;  ///< of J where it is square, else NaN
   Indices indices;
-  std::span<const int> type_1;  ///< legs whose input moves nothing (row of K is zero): the workspace boundary
+  std::span<const int>
+      type_1;  ///< legs whose inputs cannot follow every motion (a row of K is zero): the workspace boundary
   TypeTwo type_2;
 };
 
@@ -42,7 +31,6 @@ struct Velocity {
 /// singularity. Inverse kinematics is a square root there: a pose exact to 1e-16 gives curvatures exact to
 /// 1e-8.
 inline constexpr double type_1_tolerance = 1e-6;
-inline constexpr double type_2_tolerance = 1e-10;
 
 /// Velocity analysis at a pose and link coordinates that close the legs. No heap.
 SINEW_API Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);

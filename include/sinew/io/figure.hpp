@@ -1,6 +1,7 @@
 /// @file figure.hpp
-/// Figures: a description of curves in panels, written as a gnuplot script that holds its data, and drawn by
-/// gnuplot. The script is there to be edited: `gnuplot fig9.gp` in its folder draws the same files again.
+/// Figures: a description of curves and maps in panels, written as a gnuplot script that holds its data, and
+/// drawn by gnuplot. The script is there to be edited: `gnuplot fig9.gp` in its folder draws the same files
+/// again.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -35,6 +36,16 @@ struct Series {
   double width = 2;  ///< of the line, or of the dots [points of the page]
 };
 
+/// Values at the points of a regular grid, each a cell of one colour of cividis (dark blue to yellow; even
+/// steps for every colour vision). It lies below the curves. A value that is not finite leaves its cell
+/// empty.
+struct HeatMap {
+  std::vector<double> x, y;                   ///< where the columns and rows are, a regular distance apart
+  std::vector<double> values;                 ///< x fastest
+  std::string label;                          ///< of the colour bar
+  std::optional<double> low = {}, high = {};  ///< ends of the colours; default: what the values need
+};
+
 /// A text at a point of the panel, in its coordinates.
 struct Note {
   std::string text;
@@ -60,6 +71,7 @@ struct Panel {
   std::vector<Note> notes = {};
   Legend legend = Legend::top_left;
   bool equal_aspect = false;  ///< a metre is as long in y as in x
+  std::optional<HeatMap> map = {};
 };
 
 /// Panels in a grid, row by row. Text is taken literally: no markup.

@@ -20,6 +20,11 @@ SINEW_API Expected<Document> read_robot_file(const std::string& path_or_name);
 /// Names of the robots that are part of the library: those of robots/*.yaml.
 SINEW_API std::vector<std::string_view> builtin_robot_names();
 
+/// Text of a commented robot file to start from, `four-legged`: one of examples/robots/*.yaml, without
+/// `.yaml`. Empty if there is none of that name.
+SINEW_API std::string_view robot_template(std::string_view name);
+SINEW_API std::vector<std::string_view> robot_template_names();
+
 /// The robot in a file, or the one of that name; or every error of the file at once, each with its line and
 /// column.
 ///

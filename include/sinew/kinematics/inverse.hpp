@@ -1,6 +1,7 @@
 /// @file inverse.hpp
 /// Inverse kinematics: the inputs that hold the platform at a pose. The legs of different inputs decouple, so
-/// each input is solved alone and completely: every solution within its legs' domain is found. Theory:
+/// each is solved alone and completely: every solution within its domain is found. A leg that can still move
+/// at the pose (3-RFRR) has a continuum of them; a wish or a start singles one out. Theory:
 /// docs/theory/kinematics.md
 #pragma once
 #include "sinew/robot/assembly.hpp"
@@ -12,6 +13,9 @@ struct InverseOptions {
   std::span<const int> bending =
       {};                  ///< +1 or −1 a leg: only curvatures of this sign (a straight link has both)
   Numbers curvature = {};  ///< κ a leg [1/m]: the nearest solution is taken
+  std::span<const int> elbow =
+      {};              ///< +1 or −1 a leg: to which side the strut of a swivelled link turns; default +1
+  Numbers start = {};  ///< inputs: the solution nearest to them is taken, of a redundant leg too
 };
 
 struct Inverse {
@@ -26,17 +30,20 @@ struct Inverse {
 SINEW_API Inverse inverse(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options,
                           Workspace& work);
 
-/// Every solution of every input at a pose. The working modes of the robot are their combinations.
+/// Every solution of every leg at a pose; of a leg with a continuum of them those of the curvature wished
+/// for. The working modes of the robot are their combinations.
 struct WorkingModes {
-  Report report;                        ///< unreachable where an input has no solution
-  std::span<const double> solutions;    ///< values of the inputs, Workspace::max_solutions an input
-  std::span<const int> solution_count;  ///< an input
+  Report report;                        ///< unreachable where a leg has no solution
+  std::span<const double> solutions;    ///< view into the workspace
+  std::span<const int> solution_count;  ///< a leg
   double count;                         ///< product of the counts; exact up to 2^53
+  bool is_continuum = false;            ///< a leg is redundant: these are some of infinitely many
 
-  /// Inputs of mode k < count, the first input turning slowest. `command` gives their link coordinates.
-  SINEW_API void mode(std::size_t k, std::span<double> inputs) const;
+  /// Inputs of mode k < count, the first leg turning slowest. `command` gives their link coordinates.
+  SINEW_API void mode(const AnyRobot& robot, std::size_t k, std::span<double> inputs) const;
 };
 
-SINEW_API WorkingModes working_modes(const AnyRobot& robot, const AnyPose& pose, Workspace& work);
+SINEW_API WorkingModes working_modes(const AnyRobot& robot, const AnyPose& pose,
+                                     const InverseOptions& options, Workspace& work);
 
 }  // namespace sinew::inline v0

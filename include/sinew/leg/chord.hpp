@@ -7,19 +7,23 @@
 
 #include "sinew/base/fixed_text.hpp"
 #include "sinew/leg/closure.hpp"
+#include "sinew/link/arc.hpp"
 
 namespace sinew::inline v0 {
 
 struct Chord {
   static constexpr std::string_view name = "chord";
   static constexpr bool base_turns = true;  ///< the base tangent is free: a base direction means nothing
+  template <int D>
+  static constexpr int rows = 1;
 
   template <class Self, class Visit>
   static void fields(Self&, Visit&&) {}
 
   /// @implements TDPCR (1), (3)-(4)
-  template <Scalar S, int D, int Q>
-  Anchor<S, D, Q> anchor(const Tip<S, D, Q>& tip) const {
+  /// The anchor is the base point; of the link only |u| matters, so a planar link serves in space.
+  template <int D, Scalar S, int L, int Q>
+  Anchor<S, D, Q> anchor(const Tip<S, L, Q>& tip) const {
     return {Vec<S, D>::Zero(), Mat<S, D, Q>::Zero(), S(0.5) * squared_norm(tip.position),
             tip.position.transpose() * tip.rate};
   }
@@ -31,27 +35,31 @@ struct Chord {
 
   /// Closed form where the link has one: the two curvatures ±κ, once where the link is straight; none beyond
   /// it.
-  template <class Link, int D>
-  requires requires(const Link& link) { link.curvature_from_chord(1.0); }
-  int coordinates_at(const Link& link, const Vec<double, D>& r, std::span<double> roots) const {
+  template <int D>
+  int coordinates_at(const Arc& link, const Vec<double, D>& r, const Wish&,
+                     std::span<Vec<double, 1>> roots) const {
     const double curvature = link.curvature_from_chord(r.norm());
     if (std::isnan(curvature)) return 0;  // too far
-    if (curvature == 0) {
-      roots[0] = 0;
-      return 1;
-    }
-    roots[0] = -curvature;
-    roots[1] = curvature;
-    return 2;
+    roots[0][0] = -curvature;
+    roots[1][0] = curvature;
+    return curvature == 0 ? 1 : 2;
   }
 
   void explain_unreachable(double distance, double reach, FixedText<240>& text) const {
+    explain_chord(distance, reach, text);
+  }
+
+  static void explain_chord(double distance, double reach, FixedText<240>& text) {
     if (distance <= reach) {
       text.append("has its platform point ");
       append_mm(text, distance);
       text.append(" from its base point: its backbone of ");
       append_mm(text, reach);
       text.append(" would be folded");
+    } else if (distance < reach * (1 + 1e-8)) {
+      text.append("is stretched straight here: its backbone of ");
+      append_mm(text, reach);
+      text.append(" reaches no further");
     } else if (distance < reach * (1 + 1e-5)) {
       text.append("needs a chord ");
       append_mm(text, distance - reach);

@@ -1,11 +1,11 @@
 /// @file closure.hpp
-/// What every closure is made of: one scalar row that ties a platform point to a link tip by a distance.
-/// Theory: docs/theory/leg.md
+/// What every closure is made of: an anchor that moves with the link, and how far the platform point keeps
+/// from it. Theory: docs/theory/leg.md
 ///
 /// A closure says where its anchor A(q) is and how far, D(q), the platform point r keeps from it. All of it
 /// is in the link's base frame:   g = ½ (|r − A|² − D²) = 0,   ∂g/∂r = r − A = n,   ∂g/∂q = −n·A′ − (½D²)′.
 /// The squares keep the papers' raw form of J and K (rows multiplied by the distance) and are smooth at D =
-/// 0.
+/// 0. A closure that pins the point to the anchor holds it in every direction:   g = r − A = 0.
 #pragma once
 #include "sinew/link/tip.hpp"
 
@@ -35,5 +35,13 @@ DistanceRow<S, D, Q> distance_row(const Vec<S, D>& r, const Anchor<S, D, Q>& anc
   const Mat<S, 1, Q> g_q = -(n.transpose() * anchor.rate) - anchor.half_square_rate;
   return {S(0.5) * squared_norm(n) - anchor.half_square, n, g_q};
 }
+
+/// Which of a leg's solutions is wanted: the one of this sign of curvature and this elbow (0: any) whose
+/// curvature is nearest to `curvature`.
+struct Wish {
+  double curvature = 0;  ///< [1/m]
+  int bending = 0;       ///< +1, −1 or 0
+  int elbow = 0;  ///< +1: the strut is turned counter-clockwise from the link's chord; −1: clockwise; 0: any
+};
 
 }  // namespace sinew::inline v0

@@ -5,37 +5,24 @@
 #pragma once
 #include <array>
 #include <concepts>
-#include <optional>
 #include <span>
 
 #include "sinew/base/fixed_text.hpp"
-#include "sinew/base/units.hpp"
 #include "sinew/leg/closure.hpp"
+#include "sinew/leg/reach.hpp"
 #include "sinew/leg/space.hpp"
+#include "sinew/link/backbone.hpp"
 #include "sinew/solve/roots.hpp"
 
 namespace sinew::inline v0 {
 
 /// What a leg hands over at platform pose x and link coordinates q.
-template <Scalar S, int Dof, int Q>
+template <Scalar S, int R, int Dof, int Q>
 struct LegBlocks {
-  S g;                 ///< residual [m²]
-  Mat<S, 1, Dof> g_x;  ///< ∂g/∂x by the platform's twist: a Plücker line times the distance; a row of J
-  Mat<S, 1, Q> g_q;    ///< ∂g/∂q by the link coordinates
+  Vec<S, R> g;         ///< residual [m²]; of a pin [m]
+  Mat<S, R, Dof> g_x;  ///< ∂g/∂x by the platform's twist: Plücker lines (times the distance); rows of J
+  Mat<S, R, Q> g_q;    ///< ∂g/∂q by the link coordinates
   S error;             ///< the residual as a distance [m]
-};
-
-/// What is known of a backbone beside its length. Constant-curvature answers do not depend on it.
-struct Backbone {
-  std::optional<double> youngs_modulus;  ///< E [Pa]; in a file under `material`
-  std::optional<double> diameter;        ///< of a round solid section [m]
-  std::optional<int> joints;             ///< n of a pseudo-rigid model
-
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit&& visit) {
-    visit("diameter", self.diameter, Dimension::length, Range::positive(), "diameter of the round backbone");
-    visit("joints", self.joints, Dimension::count, Range::between(1, 32), "joints of the pseudo-rigid model");
-  }
 };
 
 /// What a person wants to know of a leg in an answer.
@@ -43,14 +30,16 @@ struct LegState {
   double curvature;                      ///< κ [1/m], signed
   double chord;                          ///< ρ [m]
   std::array<double, 2> tendon_lengths;  ///< tendon 1, tendon 2 [m]
-  double base_tangent;                   ///< absolute angle of the backbone at its base [rad], in (−π, π]
+  Vec3<double> base_tangent;             ///< unit vector along the backbone at its base, base axes
+  std::array<double, 2> joint_angles;    ///< of the universal joint at the base [rad]; 0 in the plane
+  int elbow;  ///< to which side of the chord the strut of a redundant leg turns, ±1; 0 of other legs
 };
 
 /// A closure that gives the coordinates of this link in closed form; others are searched.
 template <class Closure, class Link, class Point>
 concept SolvesInClosedForm = requires(const Closure& closure, const Link& link, const Point& r,
-                                      std::span<double> roots) {
-  { closure.coordinates_at(link, r, roots) } -> std::same_as<int>;
+                                      const Wish& wish, std::span<Vec<double, Link::coordinates>> roots) {
+  { closure.coordinates_at(link, r, wish, roots) } -> std::same_as<int>;
 };
 
 template <class SpaceT, class LinkT, class DriveT, class ClosureT>
@@ -59,124 +48,178 @@ struct Leg {
   using Link = LinkT;
   using Drive = DriveT;
   using Closure = ClosureT;
-  template <class S>
-  using LinkTip = Tip<S, Link::dimension, Link::coordinates>;
-  template <class S>
-  using Blocks = LegBlocks<S, Space::dof, Link::coordinates>;
-  using Point = Vec<double, Space::dimension>;
+  static constexpr int dimension = Space::dimension;
+  static constexpr int rows = Closure::template rows<dimension>;
   static constexpr int coordinates = Link::coordinates;
+  static constexpr int inputs = Drive::inputs;
+  /// The base tangent has a direction of its own, which a file must give.
+  static constexpr bool is_clamped = !Closure::base_turns && !Link::has_own_turn;
+  /// At a pose the leg can still move: it has a continuum of solutions.
+  static constexpr bool is_redundant = coordinates > rows;
 
-  typename Space::template Frame<double> base;  ///< base point; +y along the base tangent where that is fixed
+  template <class S>
+  using LinkTip = Tip<S, Link::dimension, coordinates>;
+  template <class S>
+  using Blocks = LegBlocks<S, rows, Space::dof, coordinates>;
+  using Frame = typename Space::template Frame<double>;
+  using Point = Vec<double, dimension>;
+  using Coordinates = Vec<double, coordinates>;
+
+  Frame
+      base;  ///< base point; axes: +y along the base tangent where that is clamped, see Space where it is not
   Link link;
   Drive drive;
   Closure closure;
   Point platform_point = Point::Zero();  ///< in the platform's frame [m]
   Backbone backbone;
 
+  /// A length to compare errors with [m].
+  double size() const { return base.p.norm() + platform_point.norm() + link.arc().length; }
+
   template <Scalar S>
-  LinkTip<S> tip(const S& q) const {
+  LinkTip<S> tip(const Vec<S, coordinates>& q) const {
     return link.tip(q);
   }
 
-  /// Base point to platform point, in the base frame [m].
+  /// Base point to platform point, in the axes the link's tip is given in [m].  @implements TDPCR (57)
   template <Scalar S>
-  Vec<S, Space::dimension> reach(const typename Space::template Frame<S>& platform) const {
-    const Vec<S, Space::dimension> world =
-        platform.point(platform_point.template cast<S>()) - base.p.template cast<S>();
-    return in_base<S>(world);
+  Vec<S, dimension> offset(const typename Space::template Frame<S>& platform) const {
+    return in_base<S>(platform.point(platform_point.template cast<S>()) - base.p.template cast<S>());
   }
 
   /// @implements TDPCR (18)
   template <Scalar S>
   Blocks<S> blocks(const typename Space::template Frame<S>& platform, const LinkTip<S>& tip) const {
-    const Vec<S, Space::dimension> b = platform.rotate(platform_point.template cast<S>());
-    const Vec<S, Space::dimension> r = in_base<S>(platform.p + b - base.p.template cast<S>());
-    const Anchor<S, Link::dimension, Link::coordinates> anchor = closure.anchor(tip);
-    const DistanceRow<S, Link::dimension, Link::coordinates> row = distance_row(r, anchor);
+    const Vec<S, dimension> b = platform.rotate(platform_point.template cast<S>());
+    const Vec<S, dimension> r = in_base<S>(platform.p + b - base.p.template cast<S>());
+    const auto anchor = closure.template anchor<dimension>(tip);
     using std::sqrt;
-    const S error = sqrt(squared_norm(row.normal)) - sqrt(S(2) * anchor.half_square);
-    return {row.g, Space::line(to_world<S>(row.normal), b), row.g_q, error};
+    Blocks<S> blocks;
+    if constexpr (rows == 1) {
+      const DistanceRow<S, dimension, coordinates> row = distance_row(r, anchor);
+      blocks.g[0] = row.g;
+      blocks.g_x = Space::line(to_world<S>(row.normal), b);
+      blocks.g_q = row.g_q;
+      blocks.error = sqrt(squared_norm(row.normal)) - sqrt(S(2) * anchor.half_square);
+    } else {
+      blocks.g = to_world<S>(r - anchor.position);
+      for (int k = 0; k < dimension; ++k) {
+        blocks.g_x.row(k) = Space::line(Vec<S, dimension>(Vec<S, dimension>::Unit(k)), b);
+        for (int j = 0; j < coordinates; ++j)
+          blocks.g_q(k, j) = -to_world<S>(Vec<S, dimension>(anchor.rate.col(j)))[k];
+      }
+      blocks.error = sqrt(squared_norm(blocks.g));
+    }
+    return blocks;
   }
 
-  /// @name Inputs a (what a motor commands) and link coordinates q
+  /// What is left of the leg once its link is shaped.
+  Reach<dimension> reach(const Coordinates& q) const {
+    const auto anchor = closure.template anchor<dimension>(link.tip(q));
+    return {base.p + to_world<double>(anchor.position), std::sqrt(2 * anchor.half_square), platform_point};
+  }
+
+  /// @name Inputs a (what motors command) and link coordinates q
   /// @{
-  double coordinate(double input) const { return drive.coordinate(link, input); }
-  double input(double q) const { return drive.input(link, q); }
-  double input_rate() const { return drive.rate(link); }  ///< ∂q/∂a
-  /// The coordinate lies in (−domain, domain): short of a full turn, and no tendon at its centre of
-  /// curvature.
-  double domain() const { return std::min(link.bounds().domain, drive.domain()); }
-  bool in_domain(double q) const { return std::abs(q) < domain(); }  // false for NaN
+  Coordinates coordinates_of(std::span<const double> input) const { return drive.coordinates(link, input); }
+  Vec<double, inputs> inputs_of(const Coordinates& q) const { return drive.commands(link, q); }
+  Mat<double, coordinates, inputs> input_rate() const { return drive.rate(link); }  ///< ∂q/∂a
+  /// The curvature lies in (−domain, domain): short of a full turn, and no tendon at its centre of curvature.
+  double domain() const { return std::min(link.arc().bounds().domain, drive.domain()); }
+  bool in_domain(const Coordinates& q) const {
+    return std::abs(link.curvature(q)) < domain() && q.allFinite();
+  }
   /// @}
 
-  /// All link coordinates in ascending order that close the leg at this platform pose; returns their number,
-  /// -1 where they cannot be told apart.
-  int coordinates_at(const typename Space::template Frame<double>& platform, std::span<double> roots) const {
-    const Point r = reach<double>(platform);
+  /// Link coordinates in ascending order of curvature that close the leg at this platform pose: all of them,
+  /// or of a leg that can still move there those the wish singles out. Returns their number, -1 where they
+  /// cannot be told apart.
+  int solutions_at(const Frame& platform, const Wish& wish, std::span<Coordinates> roots) const {
+    const Point r = offset<double>(platform);
     int count = 0;
     if constexpr (SolvesInClosedForm<Closure, Link, Point>) {
-      count = closure.coordinates_at(link, r, roots);
+      count = closure.coordinates_at(link, r, wish, roots);
     } else {
-      count = all_roots(closing_at(r), search_for(0), roots);
+      static_assert(coordinates == 1);
+      std::array<double, 8> found;
+      count = all_roots(closing_at(r), search_for(0), found);
+      for (int k = 0; k < count; ++k) roots[at(k)][0] = found[at(k)];
     }
     const auto end = std::remove_if(roots.begin(), roots.begin() + std::max(count, 0),
-                                    [this](double q) { return !in_domain(q); });  // its ends are not in it
+                                    [this](const Coordinates& q) { return !in_domain(q); });
     return count < 0 ? count : static_cast<int>(end - roots.begin());
   }
 
-  /// The one of them that is nearest to a target; `sign` ±1 asks for coordinates of that sign (0 has both).
-  NearestRoot coordinate_near(const typename Space::template Frame<double>& platform, double target,
-                              int sign) const {
+  /// A solution, or how the search for it ended: `count` as `solutions_at`.
+  struct Nearest {
+    int count;
+    Coordinates q;
+  };
+
+  /// The one of them that is wished for.
+  Nearest nearest_solution(const Frame& platform, const Wish& wish) const {
     if constexpr (SolvesInClosedForm<Closure, Link, Point>) {
-      std::array<double, 8> roots;
-      const int count = coordinates_at(platform, roots);
-      NearestRoot nearest{std::min(count, 0), 0};
-      for (int i = 0; i < count; ++i) {
-        const double q = roots[static_cast<std::size_t>(i)];
-        if (q * sign < 0 || (nearest.count > 0 && std::abs(q - target) > std::abs(nearest.root - target)))
-          continue;
+      std::array<Coordinates, 8> roots;
+      const int count = solutions_at(platform, wish, roots);
+      Nearest nearest{std::min(count, 0), Coordinates::Zero()};
+      for (int k = 0; k < count; ++k) {
+        const Coordinates& q = roots[at(k)];
+        if (link.curvature(q) * wish.bending < 0) continue;
+        if (nearest.count > 0 && distance(q, wish) > distance(nearest.q, wish)) continue;
         nearest = {1, q};
       }
       return nearest;
     } else {
-      const NearestRoot nearest = nearest_root(closing_at(reach<double>(platform)), search_for(sign), target);
-      return nearest.count > 0 && !in_domain(nearest.root) ? NearestRoot{0, 0} : nearest;
+      const NearestRoot found =
+          nearest_root(closing_at(offset<double>(platform)), search_for(wish.bending), wish.curvature);
+      const Coordinates q(found.root);
+      return found.count > 0 && !in_domain(q) ? Nearest{0, q} : Nearest{found.count, q};
     }
   }
 
-  /// Why `coordinates_at` found none.
-  void explain_unreachable(const typename Space::template Frame<double>& platform,
-                           FixedText<240>& text) const {
-    closure.explain_unreachable(reach<double>(platform).norm(), link.bounds().reach, text);
+  /// Why `solutions_at` found none.
+  void explain_unreachable(const Frame& platform, FixedText<240>& text) const {
+    closure.explain_unreachable(offset<double>(platform).norm(), link.arc().length, text);
   }
 
-  /// The link's base frame: as given, or, where the base turns, such that the tip lies towards the platform
-  /// point.
-  typename Space::template Frame<double> base_frame(const typename Space::template Frame<double>& platform,
-                                                    const LinkTip<double>& tip) const {
-    if constexpr (!Closure::base_turns) {
+  /// The backbone's base frame (in space: x to the side of tendon 1, y ahead): as given, as its own joint
+  /// turns it, or, where the base is free, such that the tip lies towards the platform point.
+  Frame link_frame(const Frame& platform, const Coordinates& q) const {
+    if constexpr (Closure::base_turns)
+      return Space::aimed(base, offset<double>(platform), link.tip(q).position);
+    else if constexpr (Link::has_own_turn)
+      return Frame::from(base.p.x(), base.p.y(), link.base_tangent(q) - std::numbers::pi / 2);
+    else
       return base;
-    } else {
-      const Point r = reach<double>(platform);
-      const double turn = std::atan2(r.y(), r.x()) - std::atan2(tip.position.y(), tip.position.x());
-      return Space::template Frame<double>::from(base.p.x(), base.p.y(), turn);
-    }
   }
 
-  LegState state(const typename Space::template Frame<double>& platform, double q) const {
-    const LinkTip<double> at = tip(q);
-    constexpr double quarter_turn = std::numbers::pi / 2;  // +y from +x
-    return {q, at.position.norm(), drive.lengths(link, q),
-            wrap_angle(base_frame(platform, at).angle() + quarter_turn)};
+  LegState state(const Frame& platform, const Coordinates& q) const {
+    const double curvature = link.curvature(q);
+    LegState state{curvature,
+                   link.arc().chord(curvature),
+                   drive.lengths(link.arc().length, curvature),
+                   Space::base_tangent(link_frame(platform, q)),
+                   {0, 0},
+                   0};
+    if constexpr (Closure::base_turns && dimension == 3)
+      state.joint_angles = Space::joint_angles(base, offset<double>(platform), link.tip(q).position);
+    if constexpr (is_redundant)
+      state.elbow = cross(link.tip(q).position, offset<double>(platform)) < 0 ? -1 : 1;
+    return state;
   }
 
  private:
+  static std::size_t at(int k) { return static_cast<std::size_t>(k); }
+  double distance(const Coordinates& q, const Wish& wish) const {
+    return std::abs(link.curvature(q) - wish.curvature);
+  }
+
   /// The residual as a function of the one link coordinate, the platform point held.
   auto closing_at(const Point& r) const {
     const TipBounds bounds = link.bounds();
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * (r.norm() + bounds.reach);
     return [this, r, bounds, rounding](double q) {
-      const auto row = distance_row(r, closure.anchor(link.tip(q)));
+      const auto row = distance_row(r, closure.template anchor<dimension>(link.tip(q)));
       const double pull = row.normal.norm();  // g = ½(pull² − D²), and pull is known to `rounding`
       const double largest_pull = pull + bounds.rate * stride();
       return RootSample{row.g, row.g_q[0], closure.rate_rate_bound(largest_pull, bounds),
@@ -189,22 +232,23 @@ struct Leg {
   }
 
   template <class S>
-  using Vector = Vec<S, Space::dimension>;
+  using Vector = Vec<S, dimension>;
 
-  // Distances do not care how a free base is turned: its frame stays that of the robot.
+  // Only the tip of a clamped link has axes of its own; a free base leaves distances alone, and a link with a
+  // joint of its own has the base's.
   template <Scalar S>
   Vector<S> in_base(const Vector<S>& world) const {
-    if constexpr (Closure::base_turns)
-      return world;
-    else
+    if constexpr (is_clamped)
       return Space::template cast<S>(base).rotate_back(world);
+    else
+      return world;
   }
   template <Scalar S>
   Vector<S> to_world(const Vector<S>& local) const {
-    if constexpr (Closure::base_turns)
-      return local;
-    else
+    if constexpr (is_clamped)
       return Space::template cast<S>(base).rotate(local);
+    else
+      return local;
   }
 };
 

@@ -2,17 +2,22 @@
 /// Strut closure: a rigid link of constant length between the link's tip and the platform point, turning
 /// freely at both ends; the base of the link is clamped.  |r − u(q)| = v
 #pragma once
+#include <algorithm>
+#include <span>
 #include <string_view>
 
 #include "sinew/base/fixed_text.hpp"
 #include "sinew/base/units.hpp"
 #include "sinew/leg/closure.hpp"
+#include "sinew/link/swivel.hpp"
 
 namespace sinew::inline v0 {
 
 struct Strut {
   static constexpr std::string_view name = "strut";
   static constexpr bool base_turns = false;  ///< the base tangent has a direction of its own
+  template <int D>
+  static constexpr int rows = 1;
 
   double length = 0;  ///< v [m], > 0
 
@@ -24,7 +29,7 @@ struct Strut {
   /// The row of J that follows is vᵀ, vᵀ E Q c: TDPCR (29) prints vᵀ Eᵢ Qᵢ c, but (22) gives E Q. See
   /// docs/errata.md.
   /// @implements TDPCR (21)-(24), (28)-(30)
-  template <Scalar S, int D, int Q>
+  template <int D, Scalar S, int Q>
   Anchor<S, D, Q> anchor(const Tip<S, D, Q>& tip) const {
     return {tip.position, tip.rate, S(0.5 * length * length), Mat<S, 1, Q>::Zero()};
   }
@@ -33,6 +38,28 @@ struct Strut {
   /// u)·u″.
   double rate_rate_bound(double pull, const TipBounds& link) const {
     return link.rate * link.rate + pull * link.rate_rate;
+  }
+
+  /// A link that turns at its base and the strut are two sides of a triangle on r: one curvature is free.
+  /// The feasible one nearest to the wish is taken, with both elbows.
+  int coordinates_at(const Swivel<Arc>& link, const Vec2<double>& r, const Wish& wish,
+                     std::span<Vec<double, 2>> roots) const {
+    const double distance = r.norm(), reach = link.arc().length;
+    const double shortest = std::abs(distance - length), longest = std::min(distance + length, reach);
+    if (!(shortest <= reach)) return 0;
+    const double least = link.arc().curvature_from_chord(longest);
+    const double most = link.arc().curvature_from_chord(shortest);
+    const bool is_negative = wish.bending < 0 || (wish.bending == 0 && wish.curvature < 0);
+    const double size = std::clamp(is_negative ? -wish.curvature : wish.curvature, least, most);
+    const double curvature = is_negative ? -size : size, chord = link.arc().chord(curvature);
+    // law of cosines; where the triangle is flat, or has no side to speak of, the elbow is straight
+    const double cosine = (chord * chord + distance * distance - length * length) / (2 * chord * distance);
+    const double corner = std::isfinite(cosine) ? std::acos(std::clamp(cosine, -1.0, 1.0)) : 0;
+    const double towards = std::atan2(r.y(), r.x()), bend = 0.5 * curvature * reach;
+    for (const int elbow : {-1, 1})
+      roots[elbow < 0 ? 0 : 1] = Vec<double, 2>(wrap_angle(towards - elbow * corner + bend), curvature);
+    if (wish.elbow != 0) roots[0] = roots[wish.elbow < 0 ? 0 : 1];
+    return corner == 0 || wish.elbow != 0 ? 1 : 2;
   }
 
   void explain_unreachable(double distance, double reach, FixedText<240>& text) const {

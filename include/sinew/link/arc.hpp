@@ -22,6 +22,7 @@ struct Arc {
   static constexpr std::string_view name = "arc";
   static constexpr int dimension = 2;
   static constexpr int coordinates = 1;  ///< the signed curvature κ [1/m]
+  static constexpr bool has_own_turn = false;
 
   double length = 0;  ///< backbone length ℓ [m], > 0
 
@@ -51,6 +52,17 @@ struct Arc {
     return {Vec2<S>(ahead * x.sin, ahead * x.cos),
             Vec2<S>(gain * (x.rate * x.sin + x.value * x.cos), gain * (x.rate * x.cos - x.value * x.sin))};
   }
+
+  template <Scalar S>
+  Tip<S, 2, 1> tip(const Vec<S, 1>& q) const {
+    return tip(S(q[0]));
+  }
+
+  /// @name Of the backbone, as any link has them
+  /// @{
+  const Arc& arc() const { return *this; }
+  double curvature(const Vec<double, 1>& q) const { return q[0]; }
+  /// @}
 
   /// The two curvatures ±κ [1/m] whose chord is ρ have this magnitude; NaN where ρ exceeds the length.
   double curvature_from_chord(double chord_length) const {

@@ -12,17 +12,19 @@
 namespace sinew::inline v0 {
 
 namespace detail {
-template <class List>
+template <class Planars, class Spatials>
 struct RobotsOf;
-template <class... Legs>
-struct RobotsOf<TypeList<Legs...>> {
-  using Leg = AnyLeg<Legs...>;
-  using Model = std::variant<ParallelRobot<Legs>..., ParallelRobot<AnyLeg<Legs...>>>;
+template <class... P, class... S>
+struct RobotsOf<TypeList<P...>, TypeList<S...>> {
+  using PlanarLeg = AnyLeg<P...>;
+  using SpatialLeg = AnyLeg<S...>;
+  using Model = std::variant<ParallelRobot<P>..., ParallelRobot<PlanarLeg>, ParallelRobot<S>...>;
 };
 }  // namespace detail
 
-using AnyPlanarLeg = detail::RobotsOf<PlanarLegs>::Leg;
-using RobotModel = detail::RobotsOf<PlanarLegs>::Model;
+using AnyPlanarLeg = detail::RobotsOf<PlanarLegs, SpatialLegs>::PlanarLeg;
+using AnySpatialLeg = detail::RobotsOf<PlanarLegs, SpatialLegs>::SpatialLeg;
+using RobotModel = detail::RobotsOf<PlanarLegs, SpatialLegs>::Model;
 
 /// A pose of the robot's space.
 using AnyPose = std::variant<PlanarPose, SpatialPose>;
@@ -42,7 +44,10 @@ struct AnyRobot {
 };
 
 /// Legs that are all alike take the static path, unlike legs go through one variant of legs.
-SINEW_API RobotModel make_robot(std::vector<AnyPlanarLeg> legs, std::vector<int> input_of_leg,
+/// @param tied for each leg the earlier leg whose actuators it shares, or −1
+SINEW_API RobotModel make_robot(const std::vector<AnyPlanarLeg>& legs, std::span<const int> tied,
                                 PlanarPose home, double platform_radius);
+SINEW_API RobotModel make_robot(const std::vector<AnySpatialLeg>& legs, std::span<const int> tied,
+                                SpatialPose home, double platform_radius);
 
 }  // namespace sinew::inline v0

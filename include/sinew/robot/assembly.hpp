@@ -19,9 +19,15 @@ struct Reduced {
   int worst_leg = 0;  ///< the leg that does
 };
 
-/// J, K and s at a platform pose and link coordinates (for arcs: curvatures [1/m], one a leg).
-/// @implements TDPCR (5)-(6), (17), (19)-(20)
+/// J, K and s at a platform pose and link coordinates (of an arc its curvature κ [1/m], of a swivelled one θ
+/// [rad] and κ), leg by leg.
+/// @implements TDPCR (5)-(6), (17), (19)-(20), (59), (67)
 SINEW_API Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
+
+/// J with its rows scaled to unit lines and their moments divided by the platform radius, and K scaled alike,
+/// in `work.unit_J` and `work.unit_K`: numbers of one size, whatever the robot's. A row without direction
+/// becomes 0. View of `work.unit_J`.
+SINEW_API MatrixView homogenise(const AnyRobot& robot, const Reduced& reduced, Workspace& work);
 
 /// Link coordinates that the inputs command, in `work.coordinates`; the view returned is of them.
 /// The report says which input is missing, not finite or outside the link's domain.
@@ -34,6 +40,17 @@ SINEW_API std::span<const LegState> leg_states(const AnyRobot& robot, const AnyP
 SINEW_API AnyPose home(const AnyRobot& robot);
 SINEW_API int leg_count(const AnyRobot& robot);
 SINEW_API int input_count(const AnyRobot& robot);
+SINEW_API int coordinate_count(const AnyRobot& robot);
+SINEW_API int row_count(const AnyRobot& robot);
 SINEW_API int dof(const AnyRobot& robot);
+/// A leg can move while the platform stands still.
+SINEW_API bool has_redundant_leg(const AnyRobot& robot);
+
+/// An input of the robot, as messages and tables name it: `legs[0].tendon_1`.
+struct InputOfLeg {
+  int leg;
+  InputKind kind;
+};
+SINEW_API std::vector<InputOfLeg> inputs_of(const AnyRobot& robot);
 
 }  // namespace sinew::inline v0

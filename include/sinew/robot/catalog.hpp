@@ -8,30 +8,45 @@
 
 #include "sinew/leg/chord.hpp"
 #include "sinew/leg/leg.hpp"
+#include "sinew/leg/pin.hpp"
 #include "sinew/leg/strut.hpp"
 #include "sinew/link/arc.hpp"
+#include "sinew/link/swivel.hpp"
 #include "sinew/tendon/pair.hpp"
+#include "sinew/tendon/swivel_drive.hpp"
 
 namespace sinew::inline v0 {
 
 template <class... Ts>
 struct TypeList {};
 
-/// Every kind of planar leg.
-using PlanarLegs = TypeList<Leg<Planar, Arc, TendonPair, Chord>, Leg<Planar, Arc, TendonPair, Strut>>;
+/// Every kind of planar leg ...
+using PlanarLegs =
+    TypeList<Leg<Planar, Arc, TendonPair, Chord>, Leg<Planar, Arc, TendonPair, Strut>,
+             Leg<Planar, Swivel<Arc>, SwivelDrive, Strut>, Leg<Planar, Swivel<Arc>, SwivelDrive, Pin>>;
 
-/// A named architecture: legs all alike, evenly around the base and the platform.
+/// ... and of spatial leg.
+using SpatialLegs = TypeList<Leg<Spatial, Arc, TendonPair, Chord>>;
+
+/// A named architecture: legs all alike around the base and the platform.
 struct Architecture {
   std::string_view name;  ///< as the paper writes it
   std::string_view space;
   int legs;
   std::string_view link, closure;  ///< names of the parts of each leg
   std::string_view source;
+  std::string_view summary;
 };
 
 inline constexpr std::array architectures{
-    Architecture{"3-RFR", "planar", 3, "arc", "chord", "TDPCR 2.1.1"},
-    Architecture{"3-FRR", "planar", 3, "arc", "strut", "TDPCR 2.1.2"},
+    Architecture{"3-RFR", "planar", 3, "arc", "chord", "TDPCR 2.1.1",
+                 "planar, three tendon-driven links between free revolute joints"},
+    Architecture{"3-FRR", "planar", 3, "arc", "strut", "TDPCR 2.1.2",
+                 "planar, three tendon-driven links clamped to the base, each with a rigid strut"},
+    Architecture{"3-RFRR", "planar", 3, "swivel", "strut", "TDPCR 4.2",
+                 "planar, redundant: three tendon-driven links on motors, each with a rigid strut"},
+    Architecture{"6-UFS", "spatial", 6, "arc", "chord", "TDPCR 4.1",
+                 "spatial, six tendon-driven links between universal and spherical joints"},
 };
 
 }  // namespace sinew::inline v0

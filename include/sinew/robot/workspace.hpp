@@ -19,8 +19,8 @@ struct Workspace {
   std::vector<double> J, K, U, s;      ///< row-major: rows × dof, rows × inputs, dof × inputs, rows
   std::vector<double> unit_J, unit_K;  ///< J and K with rows scaled to unit lines
   std::vector<double> rates;           ///< inputs
-  std::vector<double> solutions;       ///< inputs × max_solutions
-  std::vector<int> solution_count;     ///< inputs
+  std::vector<double> solutions;       ///< of each leg max_solutions times its inputs
+  std::vector<int> solution_count;     ///< a leg; 1 for a leg whose inputs are another's
   std::vector<int> type_1;             ///< legs
   std::vector<LegState> legs;
 };

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "sinew/base/limits.hpp"
+#include "sinew/math/linalg.hpp"
 #include "sinew/math/vec.hpp"
 #include "sinew/solve/report.hpp"
 
@@ -45,15 +46,19 @@ struct NewtonOptions {
 
 namespace detail {
 
-/// Newton step of a square system, Gauss-Newton step of a tall one; false where the matrix is singular.
+/// Newton step of a square system, Gauss-Newton step of a tall one, the shortest step of a wide one; false
+/// where the matrix is singular.
 template <int N>
 bool newton_step(const Linearised<N>& system, Vec<double, N>& step) {
   if (system.residual.rows() == N) {
     const Mat<double, N, N> square = system.jacobian;
     step = -square.partialPivLu().solve(Vec<double, N>(system.residual));
   } else {
-    const Mat<double, N, N> normal = system.jacobian.transpose() * system.jacobian;
-    step = -normal.ldlt().solve(Vec<double, N>(system.jacobian.transpose() * system.residual));
+    const Eigen::Matrix<double, Eigen::Dynamic, N, Eigen::RowMajor | Eigen::DontAlign, max_rows, N> rows =
+        system.jacobian;
+    const typename Linearised<N>::Residual wanted = -system.residual;
+    least_norm(MatrixView(rows.data(), rows.rows(), N),
+               {wanted.data(), static_cast<std::size_t>(wanted.size())}, {step.data(), N});
   }
   return step.allFinite();
 }

@@ -3,6 +3,7 @@
 /// Theory: docs/theory/tendon.md
 #pragma once
 #include <array>
+#include <span>
 #include <string_view>
 
 #include "sinew/base/units.hpp"
@@ -11,12 +12,17 @@
 
 namespace sinew::inline v0 {
 
+/// What a motor commands, and in which unit.
+struct InputKind {
+  std::string_view name;
+  Dimension dimension;
+};
+
 /// A drive turns inputs a (what motors command) into link coordinates q. Here a is the length of tendon 1,
 /// q the signed curvature; tendon 2 follows so that the backbone keeps its length.
 struct TendonPair {
-  static constexpr std::string_view input_name = "tendon_1";
-  static constexpr Dimension input_dimension = Dimension::length;
   static constexpr int inputs = 1;
+  static constexpr std::array input_kinds{InputKind{"tendon_1", Dimension::length}};
 
   double offset = 0;  ///< distance d of either tendon from the backbone [m]
 
@@ -30,29 +36,30 @@ struct TendonPair {
 
   /// Curvature [1/m] that tendon 1 of this length [m] commands.
   template <class Link>
-  double coordinate(const Link& link, double tendon_1_length) const {
-    return pair(link.length).curvature(tendon_1_length);
+  Vec<double, 1> coordinates(const Link& link, std::span<const double> tendon_1_length) const {
+    return Vec<double, 1>(pair(link.arc().length).curvature(tendon_1_length[0]));
   }
 
   /// Length of tendon 1 [m] that commands this curvature [1/m].
   template <class Link>
-  double input(const Link& link, double curvature) const {
-    return pair(link.length).tendon_1(curvature);
+  Vec<double, 1> commands(const Link& link, const Vec<double, 1>& curvature) const {
+    return Vec<double, 1>(pair(link.arc().length).tendon_1(curvature[0]));
   }
 
   /// ∂q/∂a = λ, constant.
   template <class Link>
-  double rate(const Link& link) const {
-    return pair(link.length).curvature_rate();
+  Mat<double, 1, 1> rate(const Link& link) const {
+    return Mat<double, 1, 1>(pair(link.arc().length).curvature_rate());
   }
+
+  double tendon_offset() const { return offset; }
 
   /// Curvatures lie in (−domain, domain) [1/m]: at 1/d the inner tendon would sit on the centre of curvature.
   double domain() const { return 1 / offset; }
 
   /// Lengths of tendon 1 and tendon 2 [m].
-  template <class Link>
-  std::array<double, 2> lengths(const Link& link, double curvature) const {
-    const auto tendons = pair(link.length);
+  std::array<double, 2> lengths(double backbone_length, double curvature) const {
+    const auto tendons = pair(backbone_length);
     return {tendons.tendon_1(curvature), tendons.tendon_2(curvature)};
   }
 };

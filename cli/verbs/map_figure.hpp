@@ -1,0 +1,18 @@
+/// @file map_figure.hpp
+/// Heat maps of a singularity map.
+#pragma once
+#include "request.hpp"
+#include "sinew/analysis/singularity_map.hpp"
+#include "sinew/io/figure.hpp"
+
+namespace sinew::cli {
+
+/// Why a map of these axes cannot be drawn; empty where it can: two axes vary, or three, of which the last
+/// has few values.
+Errors refuse_to_draw(const PoseGrid& grid, const std::vector<Input>& axes);
+
+/// Homogenised inverse condition, a panel for each value of the third axis, with the curve on which the
+/// determinant changes its sign.
+Figure map_figure(const SingularityMap& map, const std::vector<Input>& axes, std::string_view robot);
+
+}  // namespace sinew::cli

@@ -1,0 +1,73 @@
+/// track: the inputs along a path of the platform, as a table for people or a file of numbers.
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "question.hpp"
+#include "sinew/io/table.hpp"
+#include "terminal.hpp"
+
+namespace sinew::cli {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<Input> columns_of(const Robot& robot) {
+  std::vector<Input> columns{{"sample", ""}};
+  const auto add = [&](const std::vector<Input>& more) {
+    columns.insert(columns.end(), more.begin(), more.end());
+  };
+  add(pose_columns(robot.is_spatial));
+  add(robot.inputs);
+  for (std::size_t i = 0; i < robot.description.find("legs")->items.size(); ++i)
+    add({{fmt::format("legs[{}].curvature", i), "1/m"}});
+  add({{"condition", ""}, {"condition_homogenised", ""}, {"closure_error", "m"}});
+  return columns;
+}
+
+/// The path in SI.
+Table table_of(const Answer& answer, const Robot& robot) {
+  Table table;
+  table.comments = {fmt::format("sinew {}: track {}", version(), answer.text("robot"))};
+  for (const Input& column : columns_of(robot)) table.columns.push_back({column.name, column.unit, {}});
+  const auto& rows = answer.find("rows")->items;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    std::vector<double> row{static_cast<double>(k + 1)};
+    const auto add = [&](const std::vector<double>& more) {
+      row.insert(row.end(), more.begin(), more.end());
+    };
+    add(pose_values(*rows[k].find("pose")));
+    add(numbers(rows[k].find("inputs")));
+    add(numbers(rows[k].find("curvature")));
+    for (const char* path : {"indices.condition", "indices.condition_homogenised", "closure_error"}) {
+      const Node* value = at(rows[k], path);
+      row.push_back(value ? value->number : missing);
+    }
+    table.add_row(row);
+  }
+  return table;
+}
+
+}  // namespace
+
+int run_track(const Arguments& arguments) {
+  if (!arguments.has("to"))
+    return refuse_question(arguments,
+                           {{"missing_option", "--to",
+                             fmt::format("--to is missing. Example: {}", find_verb("track")->example)}});
+  auto robot = open(arguments);
+  if (!robot) return refuse_question(arguments, robot.error());
+  const auto answer = put("track", arguments, *robot);
+  if (!answer) return refuse_question(arguments, answer.error());
+  const Node* rows = answer->find("rows");
+  std::string shown = rows && !rows->items.empty() ? show_path(*rows, *robot) : "";
+  const std::string* file = arguments.text("output");
+  if (rows && file) {
+    const auto written = write_csv(table_of(*answer, *robot), *file);
+    if (!written) return refuse_question(arguments, written.error());
+    shown = arguments.has("quiet") ? "" : *file + '\n';
+  }
+  return conclude(*answer, arguments, shown);
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,38 @@
+/// @file type_2_distance.hpp
+/// How far the platform can move in a direction before it meets a type II singularity.
+/// Theory: docs/theory/singularity.md
+#pragma once
+#include <limits>
+
+#include "sinew/analysis/lines.hpp"
+#include "sinew/kinematics/inverse.hpp"
+
+namespace sinew::inline v0 {
+
+struct TypeTwoSearch {
+  InverseOptions branch = {};  ///< of the first pose; it is followed from there
+  /// Largest distance s looked at. Default: a full turn; for a direction without rotation there is none, as
+  /// the legs end it.
+  double limit = std::numeric_limits<double>::quiet_NaN();
+  bool both_ways = false;  ///< also against the direction; the nearer one is answered
+};
+
+struct TypeTwoDistance {
+  bool found = false;
+  /// s of the type II, negative where it lies against the direction; not found: how far the search came.
+  double distance = 0;
+  AnyPose pose;    ///< there
+  TypeTwo type_2;  ///< there
+  /// Where nothing was found: converged if the limit was reached; unreachable if the branch ends, with the
+  /// leg that ends it.
+  Report report;
+};
+
+/// The nearest type II along a straight motion: in the plane (x, y, φ) + s·direction; in space p + s·v,
+/// exp(s·ω)·R. The distance is the multiple of the direction given, exact to 1e-10 for directions of a length
+/// near one. A pose that is itself singular has the distance 0.
+/// @param direction a twist (v, ω) in base axes
+SINEW_API TypeTwoDistance type_2_distance(const AnyRobot& robot, const AnyPose& pose, Numbers direction,
+                                          const TypeTwoSearch& search, Workspace& work);
+
+}  // namespace sinew::inline v0

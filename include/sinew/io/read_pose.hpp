@@ -1,0 +1,16 @@
+/// @file read_pose.hpp
+/// Poses as robot files and queries write them.
+#pragma once
+#include "sinew/io/reader.hpp"
+#include "sinew/math/se3.hpp"
+
+namespace sinew::inline v0 {
+
+/// `{x, y, phi}`, all required.
+SINEW_API PlanarPose read_planar_pose(Reader pose);
+
+/// `{position: [x, y, z], quaternion: [w, x, y, z]}`; the quaternion need not be normalised; no turn
+/// where it is left out.
+SINEW_API SpatialPose read_spatial_pose(Reader pose);
+
+}  // namespace sinew::inline v0

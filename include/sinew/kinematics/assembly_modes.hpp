@@ -1,0 +1,27 @@
+/// @file assembly_modes.hpp
+/// Every platform pose that given inputs allow, for any robot. Planar: planar_modes.hpp, all of them.
+/// Spatial: spatial_modes.hpp, all of them or a lower bound that says so. Theory:
+/// docs/theory/assembly_modes.md
+#pragma once
+#include <vector>
+
+#include "sinew/robot/assembly.hpp"
+
+namespace sinew::inline v0 {
+
+struct AssemblyModes {
+  Report report;  ///< unreachable where there is none; singular where there is a continuum
+  std::vector<AnyPose> poses;
+  std::vector<double> residual;         ///< largest closure error of each pose [m]
+  bool is_complete = true;              ///< otherwise their number is a lower bound
+  std::span<const double> coordinates;  ///< of the links, the same in every mode; view into the workspace
+};
+
+/// All solutions of TDPCR (42); `forward` finds the one a start leads to.
+SINEW_API AssemblyModes assembly_modes(const AnyRobot& robot, Numbers inputs, Workspace& work);
+
+/// Index of the pose nearest to `start`, turns counted by what they move a point at the platform's radius.
+SINEW_API std::size_t nearest_pose(const AnyRobot& robot, std::span<const AnyPose> poses,
+                                   const AnyPose& start);
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,59 @@
+/// @file track.hpp
+/// Following a path of the platform: inputs that change continuously, step by step by the differential
+/// inverse kinematics and back onto the closures. Theory: docs/theory/track.md
+#pragma once
+#include "sinew/kinematics/inverse.hpp"
+
+namespace sinew::inline v0 {
+
+/// What a redundant robot does with the freedom a pose leaves it. Other robots have none: the objective is
+/// then without effect.
+enum class Objective {
+  none,         ///< the shortest motion of the links
+  limits,       ///< away from the ends of the curvatures' domain
+  singularity,  ///< away from type II: larger |det J| of unit lines
+  smooth,       ///< changes the velocities of the links as little as the path allows, pose by pose
+};
+
+struct TrackOptions {
+  InverseOptions branch = {};  ///< of the first pose
+  Objective objective = Objective::none;
+  double null_step = 0.05;  ///< longest null-space motion a pose, all angles (θ, bends κℓ) together [rad]
+};
+
+/// A robot on its way along a path. The branch it began on is never left: where that ends the path is
+/// `unreachable` and the message says which leg stopped it; `progress` says how far it got.
+class SINEW_API Track {
+ public:
+  /// Robot and workspace must outlive the track.
+  Track(const AnyRobot& robot, TrackOptions options, Workspace& work);
+
+  /// To the first pose by inverse kinematics, to every further one by continuation.
+  Report advance(const AnyPose& next);
+
+  const AnyPose& pose() const { return pose_; }
+  Numbers inputs() const { return inputs_; }               ///< at the last pose reached
+  Numbers coordinates() const { return coordinates_; }     ///< of the links there
+  double closure_error() const { return closure_error_; }  ///< largest of all legs there [m]
+  /// Of the way from the last pose to the next that was made, 1 after a success.
+  double progress() const { return progress_; }
+
+ private:
+  Report begin(const AnyPose& first);
+  void settle();
+
+  const AnyRobot* robot_;
+  TrackOptions options_;
+  Workspace* work_;
+  bool has_begun_ = false;
+  AnyPose pose_;
+  std::vector<double> coordinates_, inputs_, motion_;  // motion_: the last change of coordinates
+  double closure_error_ = 0, progress_ = 0;
+};
+
+/// A pose part of the way from one to another: positions on the straight line, rotations the shortest way.
+SINEW_API AnyPose between(const AnyPose& from, const AnyPose& to, double part);
+
+SINEW_API std::string_view to_string(Objective objective) noexcept;
+
+}  // namespace sinew::inline v0

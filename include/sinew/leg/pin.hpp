@@ -1,0 +1,43 @@
+/// @file pin.hpp
+/// Pin closure: the link's tip is the platform point, and turns freely there. It holds the point in every
+/// direction, so the leg has as many rows as space has dimensions.  r = u(q)
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "sinew/leg/chord.hpp"
+#include "sinew/link/swivel.hpp"
+
+namespace sinew::inline v0 {
+
+struct Pin {
+  static constexpr std::string_view name = "pin";
+  static constexpr bool base_turns = false;
+  template <int D>
+  static constexpr int rows = D;
+
+  template <class Self, class Visit>
+  static void fields(Self&, Visit&&) {}
+
+  template <int D, Scalar S, int Q>
+  Anchor<S, D, Q> anchor(const Tip<S, D, Q>& tip) const {
+    return {tip.position, tip.rate, S(0), Mat<S, 1, Q>::Zero()};
+  }
+
+  /// The chord ends at the platform point: ±κ, and the base turned half a bend beside it.
+  int coordinates_at(const Swivel<Arc>& link, const Vec2<double>& r, const Wish&,
+                     std::span<Vec<double, 2>> roots) const {
+    const double curvature = link.arc().curvature_from_chord(r.norm());
+    if (std::isnan(curvature)) return 0;
+    const double towards = std::atan2(r.y(), r.x()), bend = 0.5 * curvature * link.arc().length;
+    roots[0] = Vec<double, 2>(wrap_angle(towards - bend), -curvature);
+    roots[1] = Vec<double, 2>(wrap_angle(towards + bend), curvature);
+    return curvature == 0 ? 1 : 2;
+  }
+
+  void explain_unreachable(double distance, double reach, FixedText<240>& text) const {
+    Chord::explain_chord(distance, reach, text);
+  }
+};
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,56 @@
+/// @file project.hpp
+/// Puts link coordinates back on a leg's closure by the shortest way: Newton's method, of least norm where
+/// the leg is redundant. Theory: docs/theory/track.md
+#pragma once
+#include <Eigen/LU>
+
+#include "sinew/leg/leg.hpp"
+
+namespace sinew::inline v0 {
+
+/// Lengths of the unit steps of link coordinates, so that they compare: all in radians. A curvature counts by
+/// the bend angle κℓ it makes.
+template <class LegT>
+typename LegT::Coordinates coordinate_scale(const LegT& leg) {
+  auto scale = LegT::Coordinates::Ones().eval();
+  scale[LegT::coordinates - 1] = 1 / leg.link.arc().length;
+  return scale;
+}
+
+/// How a projection went.
+struct Projection {
+  bool ok = false;
+  double error = 0;        ///< closure error left [m]
+  double contraction = 0;  ///< second Newton step over the first: small where the branch is near
+};
+
+/// Moves q onto the closure at `platform`. Bounded work, no heap.
+/// @param tolerance closure error that counts as closed [m]
+template <class LegT>
+Projection project(const LegT& leg, const typename LegT::Frame& platform, double tolerance,
+                   typename LegT::Coordinates& q) {
+  constexpr int R = LegT::rows;
+  const auto scale = coordinate_scale(leg);
+  Projection result;
+  double first = 0;
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    const auto blocks = leg.template blocks<double>(platform, leg.template tip<double>(q));
+    result.error = std::abs(blocks.error);
+    if (!(result.error > tolerance)) {
+      result.ok = std::isfinite(result.error) && leg.in_domain(q);
+      return result;
+    }
+    const Mat<double, R, LegT::coordinates> slope = blocks.g_q * scale.asDiagonal();
+    const Mat<double, R, R> normal = slope * slope.transpose();
+    const Vec<double, LegT::coordinates> step = slope.transpose() * (normal.inverse() * -blocks.g);
+    const double length = step.norm();
+    if (!std::isfinite(length) || length > 1) return result;
+    if (iteration == 0) first = length;
+    if (iteration == 1) result.contraction = length / first;
+    q += scale.cwiseProduct(step);
+  }
+  result.ok = result.error <= 1e3 * tolerance && leg.in_domain(q);  // the last digits need not come
+  return result;
+}
+
+}  // namespace sinew::inline v0

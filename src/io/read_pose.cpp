@@ -1,0 +1,31 @@
+#include "sinew/io/read_pose.hpp"
+
+namespace sinew::inline v0 {
+
+PlanarPose read_planar_pose(Reader pose) {
+  PlanarPose result;
+  result.x = pose.required("x").quantity(Dimension::length, Range::place());
+  result.y = pose.required("y").quantity(Dimension::length, Range::place());
+  result.phi = pose.required("phi").quantity(Dimension::angle);
+  pose.close();
+  return result;
+}
+
+SpatialPose read_spatial_pose(Reader pose) {
+  SpatialPose result;
+  const auto position = pose.required("position", "[x, y, z]").array<3>(Dimension::length, Range::place());
+  result.position = Vec3<double>(position[0], position[1], position[2]);
+  if (const auto quaternion = pose.optional("quaternion")) {
+    result.quaternion = quaternion->array<4>(Dimension::number, Range::place());
+    double square = 0;
+    for (const double q : result.quaternion) square += q * q;
+    if (square < 1e-12) {
+      quaternion->fail("no_rotation", "a quaternion [w, x, y, z] needs a component that is not 0");
+      result.quaternion = {1, 0, 0, 0};
+    }
+  }
+  pose.close();
+  return spatial_pose(SE3<double>::from(result));
+}
+
+}  // namespace sinew::inline v0

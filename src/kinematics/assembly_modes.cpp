@@ -1,0 +1,68 @@
+#include "sinew/kinematics/assembly_modes.hpp"
+
+#include <cmath>
+
+#include "kinematics/reaches.hpp"
+#include "robot/pose.hpp"
+#include "sinew/kinematics/planar_modes.hpp"
+#include "sinew/kinematics/spatial_modes.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+void put(AssemblyModes& modes, const PlanarModes& found) {
+  modes.report = found.report;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(found.count); ++k) {
+    modes.poses.emplace_back(found.poses[k]);
+    modes.residual.push_back(found.residual[k]);
+  }
+}
+
+void put(AssemblyModes& modes, const SpatialModes& found) {
+  modes.report = found.report;
+  modes.poses.assign(found.poses.begin(), found.poses.end());
+  modes.residual = found.residual;
+  modes.is_complete = found.is_complete();
+}
+
+PlanarModes modes_of(std::span<const Reach<2>> reaches) { return planar_modes(reaches); }
+SpatialModes modes_of(std::span<const Reach<3>> reaches) { return spatial_modes(reaches); }
+
+double gap(const PlanarPose& a, const PlanarPose& b, double radius) {
+  return std::hypot(a.x - b.x, a.y - b.y, radius * wrap_angle(a.phi - b.phi));
+}
+double gap(const SpatialPose& a, const SpatialPose& b, double radius) {
+  const Vec3<double> turn = SE3<double>::from(a).R.inverse().compose(SE3<double>::from(b).R).log();
+  return std::hypot((a.position - b.position).norm(), radius * turn.norm());
+}
+
+}  // namespace
+
+AssemblyModes assembly_modes(const AnyRobot& robot, Numbers inputs, Workspace& work) {
+  AssemblyModes modes{.report = command(robot, inputs, work),
+                      .poses = {},
+                      .residual = {},
+                      .is_complete = true,
+                      .coordinates = work.coordinates};
+  if (modes.report.ok())
+    std::visit([&](const auto& r) { put(modes, modes_of(reaches_of(r, work.coordinates).view())); },
+               robot.model);
+  return modes;
+}
+
+std::size_t nearest_pose(const AnyRobot& robot, std::span<const AnyPose> poses, const AnyPose& start) {
+  return std::visit(
+      [&]<class LegT>(const ParallelRobot<LegT>& r) {
+        using Space = typename LegT::Space;
+        std::size_t best = 0;
+        const auto gap_of = [&](std::size_t k) {
+          return gap(in_space<Space>(poses[k]), in_space<Space>(start), r.platform_radius);
+        };
+        for (std::size_t k = 1; k < poses.size(); ++k)
+          if (gap_of(k) < gap_of(best)) best = k;
+        return best;
+      },
+      robot.model);
+}
+
+}  // namespace sinew::inline v0

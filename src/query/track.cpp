@@ -1,0 +1,125 @@
+/// Handler of `track`: a path of poses into rows of inputs.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "query/context.hpp"
+#include "sinew/io/quantity.hpp"
+#include "sinew/kinematics/track.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+constexpr int most_samples = 100000;
+
+/// From, to and how many: angles of the plane as the numbers say, rotations the shortest way.
+std::vector<AnyPose> straight_path(const AnyPose& from, const AnyPose& to, int samples) {
+  std::vector<AnyPose> poses;
+  const auto *a = std::get_if<PlanarPose>(&from), *b = std::get_if<PlanarPose>(&to);
+  for (int k = 0; k < samples; ++k) {
+    const double part = static_cast<double>(k) / (samples - 1);
+    if (a && b)
+      poses.emplace_back(PlanarPose{std::lerp(a->x, b->x, part), std::lerp(a->y, b->y, part),
+                                    std::lerp(a->phi, b->phi, part)});
+    else
+      poses.push_back(k + 1 < samples ? between(from, to, part) : to);
+  }
+  return poses;
+}
+
+std::vector<AnyPose> read_path(Context& context) {
+  Reader& query = context.query;
+  if (const auto list = query.optional("poses")) {
+    std::vector<AnyPose> poses;
+    for (Reader& item : list->items()) poses.push_back(read_pose(context, std::move(item)));
+    if (poses.empty()) list->fail("empty_list", "a path needs at least one pose");
+    for (const char* key : {"from", "to", "samples"})
+      if (query.has(key)) query.fail("ambiguous", fmt::format("gives both poses and {}; keep one", key));
+    return poses;
+  }
+  const AnyPose from = read_pose(context, query.required("from", "first pose of the path, or poses: a list"));
+  const AnyPose to = read_pose(context, query.required("to", "last pose of the path"));
+  const auto samples = query.optional("samples");
+  const int count = samples ? samples->integer(Range::between(2, most_samples)) : 60;
+  return context.errors.empty() ? straight_path(from, to, std::max(count, 2)) : std::vector<AnyPose>{};
+}
+
+Objective read_objective(Reader& query) {
+  const auto objective = query.optional("objective");
+  if (!objective) return Objective::none;
+  return objective->choice_of<Objective>({{"limits", Objective::limits},
+                                          {"singularity", Objective::singularity},
+                                          {"smooth", Objective::smooth},
+                                          {"none", Objective::none}});
+}
+
+Json row_json(Context& context, const Track& track) {
+  Json row{{"pose", to_json(track.pose())},
+           {"inputs", to_json(track.inputs())},
+           {"curvature", Json::array()},
+           {"closure_error", track.closure_error()}};
+  const std::vector<double> coordinates(track.coordinates().begin(), track.coordinates().end());
+  for (const LegState& leg : leg_states(context.robot, track.pose(), coordinates, context.work))
+    row["curvature"].push_back(leg.curvature);
+  const Velocity at = velocity(context.robot, track.pose(), coordinates, context.work);
+  row["indices"] = to_json(at.indices);
+  if (!at.type_1.empty()) row["type_1"] = std::vector<int>(at.type_1.begin(), at.type_1.end());
+  if (at.type_2.singular) row["singular"] = true;
+  return row;
+}
+
+std::string in_words(const AnyPose& pose) {
+  if (const auto* planar = std::get_if<PlanarPose>(&pose))
+    return fmt::format("x = {}, y = {}, phi = {}", human(planar->x, Dimension::length),
+                       human(planar->y, Dimension::length), human(planar->phi, Dimension::angle));
+  const auto& spatial = std::get<SpatialPose>(pose);
+  const Vec3<double>& p = spatial.position;
+  const Vec3<double> turn = SE3<double>::from(spatial).R.log() * (180 / std::numbers::pi);
+  return fmt::format("position ({:.6g}, {:.6g}, {:.6g}) mm, rotation vector ({:.4g}, {:.4g}, {:.4g}) deg",
+                     1e3 * p[0], 1e3 * p[1], 1e3 * p[2], turn[0], turn[1], turn[2]);
+}
+
+/// Where along the path it ended, and why.
+void put_end(Context& context, const Track& track, std::size_t rows, std::size_t samples,
+             const Report& report) {
+  context.answer["status"] = to_string(report.status);
+  if (rows == 0) {
+    context.answer["message"] = fmt::format("the first pose: {}", report.message.view());
+    context.answer["reached"] = {{"rows", 0}, {"part", 0.0}};
+    return;
+  }
+  const double part = (static_cast<double>(rows - 1) + track.progress()) / static_cast<double>(samples - 1);
+  context.answer["message"] =
+      fmt::format("the path ends between poses {} and {} of {}, {:.4g} % along it, at {}: {}", rows, rows + 1,
+                  samples, 100 * part, in_words(track.pose()), report.message.view());
+  context.answer["reached"] = {{"rows", rows}, {"part", part}, {"pose", to_json(track.pose())}};
+}
+
+}  // namespace
+
+void answer_track(Context& context) {
+  const std::vector<AnyPose> poses = read_path(context);
+  const Branch branch = read_branch(context);
+  TrackOptions options{.branch = branch.options(), .objective = read_objective(context.query)};
+  std::vector<double> start;
+  if (const auto given = context.query.optional("start")) start = read_inputs(context, *given);
+  options.branch.start = start;
+  if (!context.ready()) return;
+
+  Track track(context.robot, options, context.work);
+  Json rows = Json::array();
+  Report report;
+  double worst = 0;
+  for (const AnyPose& pose : poses) {
+    report = track.advance(pose);
+    if (!report.ok()) break;
+    worst = std::max(worst, track.closure_error());
+    rows.push_back(row_json(context, track));
+  }
+  context.report(report);
+  if (!report.ok()) put_end(context, track, rows.size(), poses.size(), report);
+  context.answer["residual"] = worst;
+  context.answer["rows"] = std::move(rows);
+}
+
+}  // namespace sinew::inline v0

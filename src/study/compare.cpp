@@ -1,0 +1,51 @@
+#include "study/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sinew/io/table.hpp"
+
+namespace sinew::inline v0::compare {
+
+std::string number(double value) { return fmt::format("{:.6g}", value); }
+
+std::string small(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
+
+Finding printed(std::string quantity, double paper, double ours, const char* unit) {
+  const double difference = ours - paper;
+  const bool same = std::abs(difference) <= 4 * std::numeric_limits<double>::epsilon() * std::abs(paper);
+  return {std::move(quantity), fmt::format("{} {}", paper, unit), fmt::format("{} {}", number(ours), unit),
+          small(difference), same ? "agrees" : "differs"};
+}
+
+Finding given(std::string quantity, std::string paper, std::string ours, double off, double bound,
+              const char* unit) {
+  return {std::move(quantity), std::move(paper), std::move(ours),
+          fmt::format("{}{}{} at most", small(off), *unit ? " " : "", unit),
+          off <= bound ? "agrees" : "differs"};
+}
+
+Finding claimed(std::string quantity, std::string paper, std::string ours, double off, double bound,
+                const char* unit) {
+  Finding finding = given(std::move(quantity), std::move(paper), std::move(ours), off, bound, unit);
+  finding.verdict = off <= bound ? "holds" : "fails";
+  return finding;
+}
+
+Expected<void> write_findings(Reproduction& result, const std::filesystem::path& path) {
+  result.files.push_back(path);
+  return write_text(to_markdown(result), path);
+}
+
+void add_figure(Reproduction& result, Errors& errors, const Figure& figure,
+                const std::filesystem::path& stem) {
+  if (const auto files = write_figure(figure, stem)) {
+    result.files.insert(result.files.end(), files->begin(), files->end());
+  } else {
+    errors.insert(errors.end(), files.error().begin(), files.error().end());
+  }
+}
+
+}  // namespace sinew::inline v0::compare

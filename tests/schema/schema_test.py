@@ -1,0 +1,275 @@
+"""schema/robot.schema.json and the reader must judge robot files alike.
+
+usage: schema_test.py SINEW_COMMAND
+
+Every robot file of the tree is good for both. Each is then broken in every way that a schema can see: a key left out,
+an unknown key, a value of another kind, sign or unit, a list of another length. Both must judge the broken file alike.
+"""
+import concurrent.futures
+import copy
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+import yaml
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    import jsonschema
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COMMAND = ""
+SCHEMA = json.loads((ROOT / "schema/robot.schema.json").read_text(encoding="utf-8"))
+
+# What a schema cannot say: relations between values. The reader alone refuses these.
+READER_ALONE = {"coincident_base_points", "collapsed_platform", "no_direction", "no_rotation"}
+
+VALUES = ["nonsense", "-1 mm", "0 mm", "1 kg", -1, [1]]
+
+
+def files():
+    found = sorted([*ROOT.glob("robots/*.yaml"), *ROOT.glob("examples/robots/*.yaml")])
+    assert len(found) >= 12, found
+    return found
+
+
+def places(node, path=()):
+    """Paths of all values below a node. Of a list the ends are enough: what is between is alike."""
+    if isinstance(node, dict):
+        for key, value in node.items():
+            yield (*path, key)
+            yield from places(value, (*path, key))
+    elif isinstance(node, list):
+        for i in sorted({0, len(node) - 1}):
+            yield (*path, i)
+            yield from places(node[i], (*path, i))
+
+
+def at(root, path):
+    for key in path:
+        root = root[key]
+    return root
+
+
+def changed(root, path, change):
+    """A copy in which `change(parent, key)` was made."""
+    root = copy.deepcopy(root)
+    change(at(root, path[:-1]), path[-1])
+    return root
+
+
+def put(value):
+    def change(parent, key):
+        parent[key] = value
+    return change
+
+
+def leave_out(parent, key):
+    del parent[key]
+
+
+def is_replaced(root, path):
+    """A default that every leg replaces, so that the reader never comes by it."""
+    return path[0] == "defaults" and len(path) == 2 and "legs" in root and all(path[1] in leg for leg in root["legs"])
+
+
+def mutations(root):
+    """(what was done, the broken file), each file once."""
+    yield "unknown key", {**root, "surprise": 1}
+    for path in places(root):
+        name = ".".join(map(str, path))
+        value = at(root, path)
+        yield f"without {name}", changed(root, path, leave_out)
+        for other in VALUES if not is_replaced(root, path) else []:
+            yield f"{name}: {other!r}", changed(root, path, put(other))
+        if isinstance(value, dict):
+            yield f"{name}: unknown key", changed(root, path, put({**value, "surprise": 1}))
+        if isinstance(value, list):
+            yield f"{name}: one more", changed(root, path, put([*value, value[-1]]))
+
+
+def judge_by_reader(text):
+    """The codes of what is wrong; none of a good file."""
+    with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        done = subprocess.run([COMMAND, "check", "--quiet", file.name], capture_output=True, text=True, check=False,
+                              timeout=60)
+    if done.returncode == 0:
+        return set()
+    if done.returncode != 2:
+        return {f"exit code {done.returncode}: {done.stderr}"}
+    return set(re.findall(r" \[(\w+)\]$", done.stderr, flags=re.M)) or {done.stderr}
+
+
+class Schema(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        jsonschema.Draft7Validator.check_schema(SCHEMA)
+        cls.schema = jsonschema.Draft7Validator(SCHEMA)
+
+    def complaint(self, root):
+        error = jsonschema.exceptions.best_match(self.schema.iter_errors(root))
+        return error and f"{error.json_path}: {error.message}"
+
+    def agree(self, cases):
+        """Both judge every (what, file) alike."""
+        texts = [json.dumps(root) for _, root in cases]  # JSON is YAML
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            codes = list(pool.map(judge_by_reader, texts))
+        differences = []
+        for (what, root), found in zip(cases, codes):
+            complaint = self.complaint(root)
+            if bool(found) != bool(complaint) and not (found and found <= READER_ALONE):
+                differences.append(f"{what}: schema: {complaint or 'good'}; reader: {found or 'good'}")
+        self.assertEqual(differences, [], "\n" + "\n".join(differences))
+
+    def test_every_robot_file_is_good(self):
+        for file in files():
+            with self.subTest(file=file.name):
+                text = file.read_text(encoding="utf-8")
+                self.assertIsNone(self.complaint(yaml.safe_load(text)))
+                self.assertEqual(judge_by_reader(text), set())
+
+    def test_broken_files_are_judged_alike(self):
+        cases = {}
+        for file in files():
+            root = yaml.safe_load(file.read_text(encoding="utf-8"))
+            for what, broken in mutations(root):
+                cases.setdefault(json.dumps(broken), (f"{file.parent.name}/{file.name}: {what}", broken))
+        self.agree(list(cases.values()))
+
+    def test_other_ways_to_write_are_judged_alike(self):
+        head = {"sinew": 1, "name": "mine"}
+        link = {"length": "200 mm", "tendon_offset": "5 mm"}
+        circle = {"radius": "190 mm", "angle": "90 deg"}
+        triangle = [["190 mm", 0], [0, "190 mm"], ["-190 mm", 0]]
+        rfr = {**head, "architecture": "3-RFR", "base": circle, "platform": {"radius": "50 mm", "angle": "30 deg"},
+               "defaults": {"link": link}}
+        frr = {**rfr, "architecture": "3-FRR", "base": {**circle, "direction": "320 deg"},
+               "defaults": {"link": link, "closure": {"length": "100 mm"}}}
+        ufs = {**rfr, "architecture": "6-UFS", "base": {**circle, "spread": "12 deg"},
+               "platform": {"radius": "70 mm", "angle": 0, "spread": "48 deg", "home": {"position": [0, 0, "180 mm"]}}}
+        hexagon = [{"radius": "100 mm", "angle": f"{60 * i + 10 * (i % 2)} deg"} for i in range(6)]
+        self.agree([
+            ("points", {**rfr, "base": {"points": triangle}}),
+            ("two points", {**rfr, "base": {"points": triangle[:2]}}),
+            ("points and a circle", {**rfr, "base": {**circle, "points": triangle}}),
+            ("points of the platform and a size", {**rfr, "platform": {"points": triangle, "radius": "50 mm"}}),
+            ("points and an angle", {**rfr, "platform": {"points": triangle, "angle": "50 deg"}}),
+            ("points in space", {**ufs, "base": {"points": hexagon}}),
+            ("five points in space", {**ufs, "base": {"points": hexagon[:5]}}),
+            ("points and a height", {**ufs, "base": {"points": hexagon, "height": 0}}),
+            ("points in the plane for a robot in space", {**ufs, "base": {"points": triangle * 2}}),
+            ("angles", {**rfr, "base": {"radius": "190 mm", "angles": [0, 2, 4]}}),
+            ("two angles", {**rfr, "base": {"radius": "190 mm", "angles": [0, 2]}}),
+            ("six angles", {**ufs, "base": {"radius": "120 mm", "angles": [0, 0.4, 2, 2.4, 4, 4.4]}}),
+            ("angle and angles", {**rfr, "base": {**circle, "angles": [0, 2, 4]}}),
+            ("angles and a spread", {**ufs, "base": {"radius": 1, "angles": [0, 1, 2, 3, 4, 5], "spread": 1}}),
+            ("no spread", {**ufs, "base": circle}),
+            ("a spread in the plane", {**rfr, "base": {**circle, "spread": "12 deg"}}),
+            ("a height", {**ufs, "base": {**circle, "spread": "12 deg", "height": "-10 mm"}}),
+            ("a height in the plane", {**rfr, "base": {**circle, "height": "10 mm"}}),
+            ("a direction that nothing holds", {**rfr, "base": {**circle, "direction": "320 deg"}}),
+            ("a direction in space", {**ufs, "base": {**ufs["base"], "direction": "320 deg"}}),
+            ("directions", {**frr, "base": {**circle, "directions": [1, 2, 3]}}),
+            ("direction and directions", {**frr, "base": {**circle, "direction": 1, "directions": [1, 2, 3]}}),
+            ("four directions", {**frr, "base": {**circle, "directions": [1, 2, 3, 4]}}),
+            ("first axis", {**ufs, "base": {**ufs["base"], "first_axis": "90 deg"}}),
+            ("first axes", {**ufs, "base": {**ufs["base"], "first_axes": [0, 1, 2, 3, 4, 5]}}),
+            ("five first axes", {**ufs, "base": {**ufs["base"], "first_axes": [0, 1, 2, 3, 4]}}),
+            ("first axis and axes", {**ufs, "base": {**ufs["base"], "first_axis": 0, "first_axes": [0] * 6}}),
+            ("first axis in the plane", {**rfr, "base": {**circle, "first_axis": "90 deg"}}),
+            ("planar", {**rfr, "space": "planar"}),
+            ("a planar 6-UFS", {**ufs, "space": "planar"}),
+            ("a spatial 6-UFS", {**ufs, "space": "spatial"}),
+            ("a spatial 3-RFR", {**rfr, "space": "spatial"}),
+            ("legs, too", {**rfr, "legs": [{}]}),
+            ("theta_is of no motor", {**rfr, "defaults": {"link": {**link, "theta_is": "chord"}}}),
+            ("theta_is", {**frr, "architecture": "3-RFRR", "base": circle,
+                          "defaults": {"link": {**link, "theta_is": "chord"}, "closure": {"length": "80 mm"}}}),
+        ])
+
+    link = {"type": "arc", "length": "200 mm", "tendon_offset": "5 mm"}
+    feet = [["-120 mm", 0], ["120 mm", 0], [0, "-120 mm"], [0, "120 mm"]]
+    heads = [["-40 mm", 0], ["40 mm", 0], [0, "-40 mm"], [0, "40 mm"]]
+
+    def listed(self, defaults, *legs, **more):
+        """A robot whose leg i stands at feet[i] unless it says otherwise."""
+        whole = []
+        for i, leg in enumerate(legs):
+            base = {"point": self.feet[i % 4], **leg.get("base", {})}
+            whole.append({"platform_point": self.heads[i % 4], **leg, "base": base})
+        return {"sinew": 1, "name": "mine", "defaults": defaults, "legs": whole, **more}
+
+    def test_defaults_and_legs_together_are_judged_alike(self):
+        link, listed = self.link, self.listed
+        chord, strut, pin = {"type": "chord"}, {"type": "strut", "length": "100 mm"}, {"type": "pin"}
+        swivel = {**link, "type": "swivel"}
+        clamped = {"base": {"direction": "90 deg"}}
+        self.agree([
+            ("one leg", listed({"link": link, "closure": chord}, {})),
+            ("no leg", listed({"link": link, "closure": chord})),
+            ("types in the legs", listed({}, {"link": link, "closure": chord}, {"link": swivel, "closure": pin})),
+            ("a type is missing", listed({}, {"link": link, "closure": chord}, {"link": link})),
+            ("a chord among struts with a length", listed({"link": link, "closure": strut},
+                                                          clamped, {"closure": chord})),
+            ("a chord among struts", listed({"link": link, "closure": {"type": "strut"}},
+                                            {**clamped, "closure": {"length": 1}}, {"closure": chord})),
+            ("a strut without a length", listed({"link": link, "closure": {"type": "strut"}},
+                                                clamped, {"closure": chord})),
+            ("a strut among chords", listed({"link": link, "closure": chord}, {}, {**clamped, "closure": strut})),
+            ("a strut without a direction", listed({"link": link, "closure": chord}, {}, {"closure": strut})),
+            ("a chord with a direction", listed({"link": link, "closure": chord}, {}, clamped)),
+            ("a swivel with a direction", listed({"link": swivel, "closure": strut}, {}, clamped)),
+            ("an arc among swivels", listed({"link": swivel, "closure": strut},
+                                            {}, {**clamped, "link": {"type": "arc"}})),
+            ("a swivel with a chord", listed({"link": swivel}, {"closure": chord})),
+            ("an arc with a pin", listed({"link": link}, {"closure": pin})),
+            ("inputs of a swivel", listed({"link": swivel, "closure": pin}, {"actuated": ["theta", "tendon_1"]})),
+            ("inputs in another order", listed({"link": swivel, "closure": pin}, {"actuated": ["tendon_1", "theta"]})),
+            ("inputs of an arc", listed({"link": link, "closure": chord}, {"actuated": ["theta", "tendon_1"]})),
+            ("tied", listed({"link": link, "closure": chord}, {}, {"tied": 0})),
+            ("tied to -1", listed({"link": link, "closure": chord}, {}, {"tied": -1})),
+            ("a default taken away", listed({"link": {**link, "joints": 6}, "closure": chord},
+                                            {"link": {"joints": None}})),
+            ("33 joints", listed({"link": {**link, "joints": 33}, "closure": chord}, {})),
+            ("no modulus", listed({"link": {**link, "material": {}}, "closure": chord}, {})),
+            ("serial", listed({"link": link, "closure": chord}, {}, kind="serial")),
+            ("version 2", listed({"link": link, "closure": chord}, {}, sinew=2)),
+            ("a planar robot in space", listed({"link": link, "closure": chord}, {}, space="spatial")),
+            ("an unknown default", listed({"link": link, "closure": chord, "colour": "red"}, {})),
+        ])
+
+    def test_relations_between_values_are_told_by_the_reader_alone(self):
+        link, listed, chord = self.link, self.listed, {"type": "chord"}
+        swivel = {**link, "type": "swivel"}
+        axis = {"point": [0, 0, 0], "first_axis": [0, 0, 1]}
+        for code, root in [
+                ("coincident_base_points", listed({"link": link, "closure": chord},
+                                                  {}, {"base": {"point": self.feet[0]}})),
+                ("collapsed_platform", listed({"link": link, "closure": chord, "platform_point": [0, 0]},
+                                              {"platform_point": [0, 0]})),
+                ("out_of_range", listed({"link": link, "closure": chord}, {"tied": 1}, {})),
+                ("too_many_legs", listed({"link": swivel, "closure": {"type": "pin"}},
+                                         *({"base": {"point": [i, 0]}} for i in range(13)))),
+                ("no_such_leg", listed({"link": swivel, "closure": chord}, {})),
+                ("no_effect", listed({"link": link, "closure": chord, "base": {"direction": 1}}, {})),
+                ("wrong_actuators", listed({"link": link, "closure": chord, "actuated": ["theta", "tendon_1"]}, {})),
+                ("no_direction", listed({"link": link, "closure": chord}, {"base": axis, "platform_point": [1, 0, 0]},
+                                        space="spatial", platform={"home": {"position": [0, 0, 1]}})),
+        ]:
+            with self.subTest(code=code):
+                self.assertIsNone(self.complaint(root))
+                self.assertIn(code, judge_by_reader(json.dumps(root)))
+
+
+if __name__ == "__main__":
+    COMMAND = sys.argv.pop(1)
+    unittest.main()

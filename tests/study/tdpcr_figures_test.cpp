@@ -1,0 +1,179 @@
+/// Figs. 8 and 10 of the example of section 5.1: the findings, the tables and the files.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "sinew/io/table.hpp"
+#include "sinew/study/reproduce.hpp"
+#include "study/compare.hpp"
+#include "study/tdpcr_example51.hpp"
+
+namespace {
+
+using namespace sinew;
+namespace fs = std::filesystem;
+
+/// A folder of this process that goes with it.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("sinew_figures_" + std::to_string(getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+/// PATH with nothing on it, until the end of the scope.
+struct EmptyPath {
+  std::string before = std::getenv("PATH");
+  EmptyPath() { setenv("PATH", "/nothing-here", 1); }
+  ~EmptyPath() { setenv("PATH", before.c_str(), 1); }
+};
+
+std::string bytes(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// One item, made once for all tests that only read.
+struct Made {
+  Reproduction reproduction;
+  Table table;
+};
+
+Made make(const std::string& name) {
+  const Folder folder;
+  auto made = reproduce("tdpcr/" + name, folder.path);
+  EXPECT_TRUE(made) << to_string(made.error());
+  return {made.value(), read_csv(folder.path / "tdpcr" / (name + ".csv")).value()};
+}
+
+const Made& fig8() {
+  static const Made made = make("fig8");
+  return made;
+}
+
+const Made& fig10() {
+  static const Made made = make("fig10");
+  return made;
+}
+
+double value(const Made& made, const char* column, std::size_t leg) {
+  return made.table.find(column)->values.at(leg);
+}
+
+nlohmann::json reference(std::size_t k) {
+  std::ifstream file(fs::path(SINEW_SOURCE_DIR) / "tests/data/tdpcr/example51.json");
+  const nlohmann::json example = nlohmann::json::parse(file);
+  for (const auto& row : example["CC"])
+    if (row["k"] == k) return row;
+  return {};
+}
+
+void expect_good(const Reproduction& made, std::size_t findings) {
+  EXPECT_EQ(made.findings.size(), findings);
+  for (const Finding& finding : made.findings)
+    EXPECT_TRUE(finding.verdict == "agrees" || finding.verdict == "holds" ||
+                finding.verdict == "for information")
+        << finding.quantity << ": " << finding.ours << ", " << finding.difference << ": " << finding.verdict;
+}
+
+TEST(Fig8, EveryClaimThatCanBeCheckedHolds) { expect_good(fig8().reproduction, 15); }
+
+TEST(Fig8, LegsEqualTheReference) {
+  const auto start = reference(0);
+  ASSERT_EQ(fig8().table.row_count(), 3U);
+  for (std::size_t leg = 0; leg < 3; ++leg) {
+    EXPECT_NEAR(value(fig8(), "curvature", leg), start["kappa"][leg].get<double>(), 1e-11) << leg;
+    EXPECT_NEAR(value(fig8(), "tendon_1", leg), start["l1"][leg].get<double>(), 1e-14) << leg;
+  }
+}
+
+TEST(Fig8, TheTwoTendonsOfALegAreTogetherTwiceItsBackbone) {
+  for (std::size_t leg = 0; leg < 3; ++leg)
+    EXPECT_NEAR(value(fig8(), "tendon_1", leg) + value(fig8(), "tendon_2", leg), 0.4, 1e-15) << leg;
+}
+
+TEST(Fig10, EveryClaimThatCanBeCheckedHolds) { expect_good(fig10().reproduction, 11); }
+
+TEST(Fig10, EveryLinePassesThroughTheMeetingPoint) {
+  const Vec2<double> met = example51::meeting_point();
+  ASSERT_EQ(fig10().table.row_count(), 3U);
+  for (std::size_t leg = 0; leg < 3; ++leg) {
+    const double x = value(fig10(), "direction_x", leg), y = value(fig10(), "direction_y", leg);
+    EXPECT_NEAR(std::hypot(x, y), 1, 1e-15) << leg;
+    EXPECT_NEAR(met.x() * y - met.y() * x, value(fig10(), "moment", leg), 1e-15) << leg;
+  }
+}
+
+TEST(Fig10, LegsHaveTheLengthsOfTheLastPose) {  // ρ = (2/κ) sin(κℓ/2), TDPCR (9) before its derivative
+  for (std::size_t leg = 0; leg < 3; ++leg) {
+    const double curvature = value(fig10(), "curvature", leg);
+    EXPECT_NEAR(2 / curvature * std::sin(curvature * 0.1), value(fig10(), "chord", leg), 1e-14) << leg;
+  }
+}
+
+class TdpcrFigure : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Both, TdpcrFigure, testing::Values("fig8", "fig10"),
+                         [](const auto& given) { return std::string(given.param); });
+
+TEST_P(TdpcrFigure, FilesAreValidAndTheSameBytesTheSecondTime) {
+  const Folder folder;
+  const std::string name = GetParam();
+  const fs::path at = folder.path / "tdpcr";
+  const auto made = reproduce("tdpcr/" + name, folder.path);
+  ASSERT_TRUE(made) << to_string(made.error());
+  EXPECT_EQ(made->id, "tdpcr/" + name);
+  EXPECT_EQ(made->files,
+            (std::vector<fs::path>{at / (name + ".csv"), at / (name + ".md"), at / (name + ".gp"),
+                                   at / (name + ".svg"), at / (name + ".png")}));
+  const std::string png = bytes(at / (name + ".png")), svg = bytes(at / (name + ".svg"));
+  ASSERT_GT(png.size(), 50000U);
+  EXPECT_TRUE(png.starts_with("\x89PNG\r\n\x1a\n"));
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  std::vector<std::string> first;
+  for (const fs::path& file : made->files) first.push_back(bytes(file));
+  ASSERT_TRUE(reproduce("tdpcr/" + name, folder.path));
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(bytes(made->files[i]), first[i]) << made->files[i];
+}
+
+TEST_P(TdpcrFigure, WithoutGnuplotTheTableTheFindingsAndTheScriptStay) {
+  const Folder folder;
+  const EmptyPath nothing;
+  const std::string name = GetParam();
+  const auto made = reproduce("tdpcr/" + name, folder.path);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().front().code, "gnuplot_missing");
+  for (const char* ending : {".csv", ".md", ".gp"})
+    EXPECT_GT(fs::file_size(folder.path / "tdpcr" / (name + ending)), 500U) << ending;
+  EXPECT_FALSE(fs::exists(folder.path / "tdpcr" / (name + ".png")));
+}
+
+TEST_P(TdpcrFigure, AFolderThatCannotBeWrittenIsAnError) {
+  const Folder folder;
+  std::ofstream(folder.path / "file") << "no folder";
+  const auto made = reproduce(std::string("tdpcr/") + GetParam(), folder.path / "file");
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().front().code, "file_unwritable");
+}
+
+TEST(Compare, AVerdictFollowsFromTheDistance) {
+  EXPECT_EQ(compare::printed("q", 0.19, 0.19, "m").verdict, "agrees");
+  EXPECT_EQ(compare::printed("q", 0.19, 0.19 + 1e-15, "m").verdict, "differs");
+  EXPECT_EQ(compare::given("q", "a", "b", 1e-16, 1e-15, "m").verdict, "agrees");
+  EXPECT_EQ(compare::given("q", "a", "b", 1e-14, 1e-15, "m").verdict, "differs");
+  EXPECT_EQ(compare::claimed("q", "a", "b", 1e-16, 1e-15, "m").verdict, "holds");
+  EXPECT_EQ(compare::claimed("q", "a", "b", 1e-14, 1e-15, "m").verdict, "fails");
+}
+
+TEST(Compare, WhatIsNotANumberFails) {
+  EXPECT_EQ(compare::claimed("q", "a", "b", std::nan(""), 1, "").verdict, "fails");
+  EXPECT_EQ(compare::given("q", "a", "b", std::nan(""), 1, "").verdict, "differs");
+  EXPECT_EQ(compare::printed("q", 1, std::nan(""), "m").verdict, "differs");
+}
+
+}  // namespace

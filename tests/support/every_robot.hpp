@@ -1,0 +1,48 @@
+/// @file every_robot.hpp
+/// What tests that run on every robot of the library need of it, planar or spatial.
+#pragma once
+#include "planar_robots.hpp"
+#include "random_leg.hpp"
+#include "sinew/kinematics/track.hpp"
+
+namespace sinew::test {
+
+/// A pose near home.
+inline AnyPose pose_near_home(const AnyRobot& robot, std::mt19937& random, double shift = 0.04,
+                              double turn = 0.6) {
+  const auto any = [&](double size) { return uniform(random, -size, size); };
+  if (const AnyPose start = home(robot); const auto* planar = std::get_if<PlanarPose>(&start))
+    return PlanarPose{planar->x + any(shift), planar->y + any(shift), planar->phi + any(turn)};
+  else
+    return Spatial::moved(std::get<SpatialPose>(start), Vec<double, 6>(any(shift), any(shift), any(shift),
+                                                                       any(turn), any(turn), any(turn)));
+}
+
+/// A pose near home that every leg reaches.
+inline AnyPose reachable_pose(const AnyRobot& robot, std::mt19937& random, Workspace& work) {
+  for (;;) {
+    const AnyPose pose = pose_near_home(robot, random);
+    if (inverse(robot, pose, {}, work).ok()) return pose;
+  }
+}
+
+/// The pose after a small motion in base axes.
+inline AnyPose moved(const AnyPose& pose, const Eigen::VectorXd& step) {
+  if (const auto* planar = std::get_if<PlanarPose>(&pose)) return Planar::moved(*planar, step);
+  return Spatial::moved(std::get<SpatialPose>(pose), step);
+}
+
+/// The small motion from one pose to the other, in base axes.
+inline Eigen::VectorXd motion(const AnyPose& from, const AnyPose& to) {
+  if (const auto* a = std::get_if<PlanarPose>(&from)) {
+    const auto& b = std::get<PlanarPose>(to);
+    return Eigen::Vector3d(b.x - a->x, b.y - a->y, wrap_angle(b.phi - a->phi));
+  }
+  const auto a = SE3<double>::from(std::get<SpatialPose>(from)),
+             b = SE3<double>::from(std::get<SpatialPose>(to));
+  Eigen::VectorXd step(6);
+  step << b.p - a.p, b.R.compose(a.R.inverse()).log();
+  return step;
+}
+
+}  // namespace sinew::test
