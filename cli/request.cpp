@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sinew/io/parse.hpp"
+#include "show.hpp"
 #include "sinew/io/quantity.hpp"
+#include "sinew/io/table.hpp"
 #include "sinew/math/so3.hpp"
 
 namespace sinew::cli {
@@ -85,6 +88,7 @@ class Request {
   }
 
   void pose(std::string_view key, const Robot& robot);
+  void poses(const Robot& robot);
   void inputs(std::string_view key, const Robot& robot);
   void twist(const Robot& robot);
   void signs(std::string_view key);
@@ -124,6 +128,36 @@ std::vector<double> Request::values(std::string_view option, std::span<const std
     errors_.push_back({error.code, fmt::format("--{}, value {}{}", option, i + 1, name), error.message});
   }
   return result;
+}
+
+/// A path out of a .csv file: the columns that `track -o` writes, any others are left alone.
+void Request::poses(const Robot& robot) {
+  const std::string* file = arguments_.text("poses");
+  if (!file) return;
+  const Expected<Table> table = read_csv(*file);
+  if (!table) {
+    errors_.insert(errors_.end(), table.error().begin(), table.error().end());
+    return;
+  }
+  std::vector<const Column*> columns;
+  for (const Input& column : pose_columns(robot.is_spatial)) {
+    const Column* found = table->find(column.name);
+    if (!found || found->unit != column.unit)
+      return fail("missing_column", "poses",
+                  fmt::format("{} has no column {}[{}]; a path needs a heading like x[m],y[m],phi[rad] (in space "
+                              "x[m],y[m],z[m],rx[rad],ry[rad],rz[rad]).",
+                              *file, column.name, column.unit));
+    columns.push_back(found);
+  }
+  std::string list;
+  for (std::size_t k = 0; k < table->row_count(); ++k) {
+    std::vector<double> row;
+    for (const Column* column : columns) row.push_back(column->values[k]);
+    if (!std::ranges::all_of(row, [](double value) { return std::isfinite(value); }))
+      return fail("not_a_number", "poses", fmt::format("{}: pose {} has an empty cell.", *file, k + 1));
+    list += (list.empty() ? "" : ", ") + json_pose(row);
+  }
+  member("poses", "[" + list + "]");
 }
 
 void Request::pose(std::string_view key, const Robot& robot) {
@@ -262,6 +296,7 @@ Expected<Robot> open(const Arguments& arguments) {
 Expected<std::string> request(std::string_view query, const Arguments& arguments, const Robot& robot) {
   Request request(query, arguments);
   for (const std::string_view key : {"pose", "from", "to"}) request.pose(key, robot);
+  request.poses(robot);
   request.inputs("inputs", robot);
   if (query == "inverse" || query == "track")
     request.inputs("start", robot);

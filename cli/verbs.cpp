@@ -16,6 +16,7 @@ constexpr std::array options{
         "pose of the platform; in space X, Y, Z and rotation vector, or X, Y, Z and quaternion W, X, Y, Z"},
     Option{"from", "\"X, Y, PHI\"", "first pose of a path, written like --pose"},
     Option{"to", "\"X, Y, PHI\"", "last pose of a path"},
+    Option{"poses", "FILE", "the path as a table: a .csv file of poses"},
     Option{"samples", "N", "poses on a path; default 60"},
     Option{"objective", "NAME",
            "what redundant legs do with their freedom: limits, singularity, smooth or none"},
@@ -88,12 +89,12 @@ const std::array table{
     Verb{"track",
          "ROBOT",
          "inputs along a path of the platform",
-         {"from", "to", "samples", "objective", "bending", "elbow", "curvature", "start", "theta-is",
+         {"from", "to", "samples", "poses", "objective", "bending", "elbow", "curvature", "start", "theta-is",
           "output", "model", "set", "json", "quiet", "help"},
-         {"from"},
-         "The path is straight; the legs keep the branch they begin on. Where the path cannot be followed to "
-         "its end\n"
-         "the poses reached are shown, and the exit code is 3. A .csv holds SI and radians.",
+         {"from", "poses"},
+         "The path is straight, or that of a .csv file with the columns x[m], y[m], phi[rad] (in space x[m], y[m], "
+         "z[m],\nrx[rad], ry[rad], rz[rad]), as --output writes them. The legs keep the branch they begin on. "
+         "Where the path\ncannot be followed to its end the poses reached are shown, and the exit code is 3.",
          "sinew track 3-rfr --from \"0, 0, 0\" --to \"10 mm, 5 mm, 20 deg\" --samples 11",
          run_track},
     Verb{
@@ -102,7 +103,7 @@ const std::array table{
         "singularities over a grid of poses: a table, or a heat map",
         {"x", "y", "z", "phi", "rx", "ry", "rz", "bending", "elbow", "curvature", "output", "set", "quiet",
          "help"},
-        {"x", "y", "z", "phi", "rx", "ry", "rz"},
+        {},
         "An axis is one value or FROM : TO : COUNT. For each pose, the first axis running fastest, the table "
         "tells\n"
         "whether it is reachable, det J, 1/condition as it stands and homogenised, how many legs are at a "

@@ -178,14 +178,19 @@ std::optional<FigureFormat> figure_format(const std::filesystem::path& file) {
 }
 
 /// Writes what the name of the file asks for; the names of the files written, a line each.
-Expected<std::string> write(const SingularityMap& map, const std::vector<Input>& axes, std::string_view robot,
+Expected<std::string> write(const SingularityMap& map, const Subject& subject, const std::vector<Input>& axes,
                             const std::filesystem::path& file) {
+  const std::string& robot = subject.robot.name;
   const auto format = figure_format(file);
   if (!format) {
     const auto written = write_csv(table_of(map, axes, robot), file);
     return written ? Expected<std::string>(file.string() + '\n') : tl::unexpected(written.error());
   }
-  const auto written = write_figure(map_figure(map, axes, robot),
+  Workspace work(subject.robot);
+  const Probe probe = [&](const AnyPose& pose) {
+    return map_sample(subject.robot, pose, subject.branch(), work);
+  };
+  const auto written = write_figure(map_figure(map, probe, axes, robot),
                                     std::filesystem::path(file).replace_extension(), {.formats = {*format}});
   if (!written) return tl::unexpected(written.error());
   std::string names;
@@ -225,7 +230,7 @@ int run_map(const Arguments& arguments) {
   if (!file) {
     print(to_csv(table_of(map, axes, asked->robot.name)));
   } else {
-    const auto written = write(map, axes, asked->robot.name, *file);
+    const auto written = write(map, *asked, axes, *file);
     if (!written) return refuse("map", written.error());
     if (!arguments.has("quiet")) print(*written + summary(map));
   }

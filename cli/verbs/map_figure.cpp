@@ -37,55 +37,78 @@ double tic_step(const std::vector<double>& values, double most) {
   return 10 * power;
 }
 
-/// The samples of a plane of the grid, by column and row.
-class Slice {
- public:
-  Slice(const SingularityMap& map, std::size_t x, std::size_t y, std::size_t offset)
-      : map_(map),
-        x_step_(stride(map.grid, x)),
-        y_step_(stride(map.grid, y)),
-        offset_(offset) {}
+std::size_t stride(const PoseGrid& grid, std::size_t axis) {
+  std::size_t product = 1;
+  for (std::size_t a = 0; a < axis; ++a) product *= static_cast<std::size_t>(grid.axes[a].count);
+  return product;
+}
 
-  static std::size_t stride(const PoseGrid& grid, std::size_t axis) {
-    std::size_t product = 1;
-    for (std::size_t a = 0; a < axis; ++a) product *= static_cast<std::size_t>(grid.axes[a].count);
-    return product;
-  }
-  const MapSample& at(std::size_t i, std::size_t j) const {
-    return map_.samples[offset_ + i * x_step_ + j * y_step_];
-  }
+/// A plane of the map: two of its axes, and where on the others.
+struct Slice {
+  const SingularityMap& map;
+  const Probe& probe;
+  std::size_t x, y, offset;
 
- private:
-  const SingularityMap& map_;
-  std::size_t x_step_, y_step_, offset_;
+  std::size_t columns() const { return static_cast<std::size_t>(map.grid.axes[x].count); }
+  std::size_t rows() const { return static_cast<std::size_t>(map.grid.axes[y].count); }
+  std::size_t index(std::size_t i, std::size_t j) const {
+    return offset + i * stride(map.grid, x) + j * stride(map.grid, y);
+  }
+  const MapSample& at(std::size_t i, std::size_t j) const { return map.samples[index(i, j)]; }
 };
 
-/// Where the determinant vanishes: 0 at a type II, whatever rounding left of it.
+/// What vanishes at a type II: 0 there, whatever rounding left of it.
 double signed_volume(const MapSample& sample) { return sample.is_type_2 ? 0 : sample.determinant; }
 
-/// The curves of zero determinant in a slice, cell by cell, between reachable poses.
-Series zero_curve(const Slice& slice, const std::vector<double>& x, const std::vector<double>& y) {
-  Series curve{.label = {}, .x = {}, .y = {}, .colour = Colour::vermillion, .width = 3};
-  const auto add = [&](double px, double py) {
-    curve.x.push_back(px);
-    curve.y.push_back(py);
-  };
+/// How far from pose a to pose b of the map the determinant goes through zero; missing where it only jumps,
+/// because the legs' branch does.
+double zero_between(const Slice& slice, std::size_t a, std::size_t b) {
+  const PoseGrid& grid = slice.map.grid;
+  const double start = signed_volume(slice.map.samples[a]), end = signed_volume(slice.map.samples[b]);
+  if (start == 0 || end == 0) return start == 0 ? 0 : 1;
+  const auto from = grid.coordinates(a), to = grid.coordinates(b);
+  double low = 0, high = 1, condition = 1;
+  for (int k = 0; k < 30; ++k) {
+    const double middle = (low + high) / 2;
+    std::array<double, 6> place;
+    for (std::size_t c = 0; c < place.size(); ++c) place[c] = std::lerp(from[c], to[c], middle);
+    const MapSample sample = slice.probe(grid.pose(place));
+    condition = sample.inverse_condition_homogenised;
+    ((signed_volume(sample) < 0) == (start < 0) ? low : high) = middle;
+  }
+  return condition < 1e-6 ? high : missing;
+}
+
+/// The pieces of the curve of zero determinant in the cell from column i and row j.
+void add_zeros(const Slice& slice, std::size_t i, std::size_t j, Series& curve) {
   constexpr std::array<std::array<std::size_t, 2>, 5> ring{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}};
-  for (std::size_t j = 0; j + 1 < y.size(); ++j)
-    for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-      std::array<double, 5> f;
-      for (std::size_t c = 0; c < 5; ++c) f[c] = signed_volume(slice.at(i + ring[c][0], j + ring[c][1]));
-      if (std::ranges::any_of(f, [](double value) { return std::isnan(value); })) continue;
-      int ends = 0;
-      for (std::size_t c = 0; c + 1 < 5; ++c) {
-        if ((f[c] < 0) == (f[c + 1] < 0)) continue;
-        const double part = f[c] / (f[c] - f[c + 1]);
-        const auto [di, dj] = ring[c];
-        const auto [ei, ej] = ring[c + 1];
-        add(std::lerp(x[i + di], x[i + ei], part), std::lerp(y[j + dj], y[j + ej], part));
-        if (++ends % 2 == 0) add(missing, missing);
-      }
-    }
+  const auto corner = [&](std::size_t c) { return slice.index(i + ring[c][0], j + ring[c][1]); };
+  for (std::size_t c = 0; c < 4; ++c)
+    if (std::isnan(signed_volume(slice.map.samples[corner(c)]))) return;
+  std::vector<std::array<double, 2>> ends;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const std::size_t a = corner(c), b = corner(c + 1);
+    if ((signed_volume(slice.map.samples[a]) < 0) == (signed_volume(slice.map.samples[b]) < 0)) continue;
+    const double part = zero_between(slice, a, b);
+    if (std::isnan(part)) return;
+    const auto from = slice.map.grid.coordinates(a), to = slice.map.grid.coordinates(b);
+    ends.push_back(
+        {std::lerp(from[slice.x], to[slice.x], part), std::lerp(from[slice.y], to[slice.y], part)});
+  }
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    curve.x.push_back(ends[k][0]);
+    curve.y.push_back(ends[k][1]);
+    if (k % 2 == 0) continue;
+    curve.x.push_back(missing);
+    curve.y.push_back(missing);
+  }
+}
+
+/// The curves of zero determinant in a slice, between reachable poses; in SI.
+Series zero_curve(const Slice& slice) {
+  Series curve{.label = {}, .x = {}, .y = {}, .colour = Colour::vermillion, .width = 3};
+  for (std::size_t j = 0; j + 1 < slice.rows(); ++j)
+    for (std::size_t i = 0; i + 1 < slice.columns(); ++i) add_zeros(slice, i, j, curve);
   return curve;
 }
 
@@ -104,38 +127,48 @@ std::string fixed_axes(const PoseGrid& grid, const std::vector<Input>& axes) {
 }
 
 /// `type II throughout`, where there is no curve because all of the slice is one.
-std::string_view remark(const SingularityMap& map, const Slice& slice, std::size_t x, std::size_t y) {
-  const auto columns = static_cast<std::size_t>(map.grid.axes[x].count);
-  const auto rows = static_cast<std::size_t>(map.grid.axes[y].count);
+std::string remark(const Slice& slice) {
   std::size_t reachable = 0, singular = 0;
-  for (std::size_t k = 0; k < columns * rows; ++k) {
-    const MapSample& sample = slice.at(k % columns, k / columns);
-    reachable += sample.is_reachable;
-    singular += sample.is_type_2;
-  }
+  for (std::size_t j = 0; j < slice.rows(); ++j)
+    for (std::size_t i = 0; i < slice.columns(); ++i) {
+      reachable += slice.at(i, j).is_reachable;
+      singular += slice.at(i, j).is_type_2;
+    }
   return reachable == 0 ? "not reachable" : singular == reachable ? "type II throughout" : "";
 }
 
-Panel panel(const SingularityMap& map, const std::vector<Input>& axes, std::size_t x, std::size_t y,
-            std::size_t offset, double most_tics) {
-  const Slice slice(map, x, y, offset);
-  Panel result{.title = std::string(remark(map, slice, x, y)),
-               .x = {.label = axes[x].name, .unit = std::string(shown(axes[x].unit).unit)},
-               .y = {.label = axes[y].name, .unit = std::string(shown(axes[y].unit).unit)},
+Axis axis_of(const Input& axis, const std::vector<double>& values, double most_tics) {
+  return {
+      .label = axis.name, .unit = std::string(shown(axis.unit).unit), .step = tic_step(values, most_tics)};
+}
+
+/// So wide that with equal axes little of the page would be left to it.
+bool is_wide(const HeatMap& map) {
+  return std::abs(map.x.back() - map.x.front()) > 1.1 * std::abs(map.y.back() - map.y.front());
+}
+
+Panel panel(const Slice& slice, const std::vector<Input>& axes, double most_tics, double highest) {
+  const Input &x = axes[slice.x], &y = axes[slice.y];
+  HeatMap heat{.x = places(slice.map.grid.axes[slice.x], x.unit),
+               .y = places(slice.map.grid.axes[slice.y], y.unit),
+               .values = {},
+               .label = "1 / condition number (homogenised)",
+               .low = 0,
+               .high = highest};
+  for (std::size_t j = 0; j < slice.rows(); ++j)
+    for (std::size_t i = 0; i < slice.columns(); ++i)
+      heat.values.push_back(slice.at(i, j).inverse_condition_homogenised);
+  Panel result{.title = remark(slice),
+               .x = axis_of(x, heat.x, most_tics),
+               .y = axis_of(y, heat.y, most_tics),
                .series = {},
                .legend = Legend::none,
-               .equal_aspect = axes[x].unit == axes[y].unit};
-  HeatMap& heat = result.map.emplace();
-  heat.x = places(map.grid.axes[x], axes[x].unit);
-  heat.y = places(map.grid.axes[y], axes[y].unit);
-  result.x.step = tic_step(heat.x, most_tics);
-  result.y.step = tic_step(heat.y, most_tics);
-  heat.label = "1 / condition number (homogenised)";
-  for (std::size_t j = 0; j < heat.y.size(); ++j)
-    for (std::size_t i = 0; i < heat.x.size(); ++i)
-      heat.values.push_back(slice.at(i, j).inverse_condition_homogenised);
-  result.series.push_back(zero_curve(slice, heat.x, heat.y));
-  if (result.series[0].x.empty()) result.series.clear();
+               .equal_aspect = x.unit == y.unit && !is_wide(heat),
+               .map = std::move(heat)};
+  Series curve = zero_curve(slice);
+  for (double& value : curve.x) value *= shown(x.unit).factor;
+  for (double& value : curve.y) value *= shown(y.unit).factor;
+  if (!curve.x.empty()) result.series.push_back(std::move(curve));
   return result;
 }
 
@@ -157,7 +190,8 @@ Errors refuse_to_draw(const PoseGrid& grid, const std::vector<Input>& axes) {
   return {};
 }
 
-Figure map_figure(const SingularityMap& map, const std::vector<Input>& axes, std::string_view robot) {
+Figure map_figure(const SingularityMap& map, const Probe& probe, const std::vector<Input>& axes,
+                  std::string_view robot) {
   const auto free = varying(map.grid);
   const bool has_slices = free.size() == 3;
   const MapAxis third = has_slices ? map.grid.axes[free[2]] : MapAxis{};
@@ -166,13 +200,11 @@ Figure map_figure(const SingularityMap& map, const std::vector<Input>& axes, std
     if (sample.is_reachable) highest = std::max(highest, sample.inverse_condition_homogenised);
   Figure figure;
   for (int k = 0; k < third.count; ++k) {
-    const std::size_t offset =
-        has_slices ? static_cast<std::size_t>(k) * Slice::stride(map.grid, free[2]) : 0;
-    Panel next = panel(map, axes, free[0], free[1], offset, has_slices ? 5 : 9);
+    const std::size_t offset = has_slices ? static_cast<std::size_t>(k) * stride(map.grid, free[2]) : 0;
+    Panel next =
+        panel({map, probe, free[0], free[1], offset}, axes, has_slices ? 5 : 9, highest > 0 ? highest : 1);
     if (has_slices)
       next.title = named(axes[free[2]], third.at(k)) + (next.title.empty() ? "" : ": ") + next.title;
-    next.map->low = 0;
-    next.map->high = highest > 0 ? highest : 1;
     figure.panels.push_back(std::move(next));
   }
   const bool has_curve = std::ranges::any_of(figure.panels, [](const Panel& p) { return !p.series.empty(); });

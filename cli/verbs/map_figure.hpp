@@ -1,6 +1,8 @@
 /// @file map_figure.hpp
 /// Heat maps of a singularity map.
 #pragma once
+#include <functional>
+
 #include "request.hpp"
 #include "sinew/analysis/singularity_map.hpp"
 #include "sinew/io/figure.hpp"
@@ -11,8 +13,12 @@ namespace sinew::cli {
 /// has few values.
 Errors refuse_to_draw(const PoseGrid& grid, const std::vector<Input>& axes);
 
+/// The sample at a pose that need not be one of the map.
+using Probe = std::function<MapSample(const AnyPose& pose)>;
+
 /// Homogenised inverse condition, a panel for each value of the third axis, with the curve on which the
-/// determinant changes its sign.
-Figure map_figure(const SingularityMap& map, const std::vector<Input>& axes, std::string_view robot);
+/// determinant goes through zero.
+Figure map_figure(const SingularityMap& map, const Probe& probe, const std::vector<Input>& axes,
+                  std::string_view robot);
 
 }  // namespace sinew::cli

@@ -51,7 +51,7 @@ Table table_of(const Answer& answer, const Robot& robot) {
 }  // namespace
 
 int run_track(const Arguments& arguments) {
-  if (!arguments.has("to"))
+  if (arguments.has("from") && !arguments.has("to"))
     return refuse_question(arguments,
                            {{"missing_option", "--to",
                              fmt::format("--to is missing. Example: {}", find_verb("track")->example)}});
