@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "sinew/link/arc.hpp"
-#include "sinew/tendon/pair.hpp"
+#include "sinew/link/swivel.hpp"
+#include "sinew/tendon/swivel_drive.hpp"
 
 namespace sinew {
 namespace {
@@ -35,10 +35,25 @@ TEST(TendonPair, RateIsThePapersOnBothSidesAndAtStraight) {  // @verifies TDPCR 
 TEST(TendonPair, DriveUsesTheKernel) {
   const Arc arc{0.2};
   const TendonPair drive{0.005};
-  EXPECT_EQ(drive.input(arc, 7.0), pair.tendon_1(7.0));
-  EXPECT_EQ(drive.coordinate(arc, 0.193), pair.curvature(0.193));
-  EXPECT_EQ(drive.rate(arc), -1000.0);
-  EXPECT_EQ(drive.lengths(arc, 7.0)[1], pair.tendon_2(7.0));
+  const std::array length{0.193};
+  EXPECT_EQ(drive.commands(arc, Vec<double, 1>(7.0))[0], pair.tendon_1(7.0));
+  EXPECT_EQ(drive.coordinates(arc, length)[0], pair.curvature(0.193));
+  EXPECT_EQ(drive.rate(arc)(0, 0), -1000.0);
+  EXPECT_EQ(drive.lengths(0.2, 7.0)[1], pair.tendon_2(7.0));
+}
+
+TEST(SwivelDrive, TheChordLiesHalfABendBesideTheTangent) {  // @verifies TDPCR (63), (65)
+  const Swivel<Arc> link{{0.2}};
+  const SwivelDrive tangent{{0.005}, ThetaIs::tangent}, chord{{0.005}, ThetaIs::chord};
+  for (const double k : {-20.0, -1e-9, 0.0, 3.0, 15.0}) {
+    const Vec<double, 2> q(0.7, k);
+    EXPECT_EQ(tangent.commands(link, q)[0], 0.7);
+    EXPECT_EQ(tangent.commands(link, q)[1], chord.commands(link, q)[1]);
+    const Vec2<double> tip = link.tip(q).position;
+    EXPECT_NEAR(chord.commands(link, q)[0], std::atan2(tip.y(), tip.x()), 1e-15);
+    const Vec<double, 2> a = chord.commands(link, q);
+    EXPECT_LT((chord.coordinates(link, {a.data(), 2}) - q).norm(), 1e-12);
+  }
 }
 
 }  // namespace
