@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs what the README shows and compares: every `$ command` of a console block, and the C++ program.
 
-usage: readme.py README.md COMMAND_FOLDER EXAMPLE_SOURCE EXAMPLE_PROGRAM
+usage: readme.py [--update] README.md COMMAND_FOLDER EXAMPLE_SOURCE EXAMPLE_PROGRAM
 With --update the outputs in the console blocks are rewritten.
 """
 import os

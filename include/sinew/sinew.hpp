@@ -1,9 +1,13 @@
 /// @file sinew.hpp
 /// Everything one needs to load a robot and put questions to it.
 #pragma once
-#include "sinew/analysis/shape.hpp"      // IWYU pragma: export
-#include "sinew/analysis/velocity.hpp"   // IWYU pragma: export
-#include "sinew/io/robot_file.hpp"       // IWYU pragma: export
-#include "sinew/kinematics/forward.hpp"  // IWYU pragma: export
-#include "sinew/kinematics/inverse.hpp"  // IWYU pragma: export
-#include "sinew/query/session.hpp"       // IWYU pragma: export
+#include "sinew/analysis/shape.hpp"             // IWYU pragma: export
+#include "sinew/analysis/singularity_map.hpp"   // IWYU pragma: export
+#include "sinew/analysis/type_2_distance.hpp"   // IWYU pragma: export
+#include "sinew/analysis/velocity.hpp"          // IWYU pragma: export
+#include "sinew/io/robot_file.hpp"              // IWYU pragma: export
+#include "sinew/kinematics/assembly_modes.hpp"  // IWYU pragma: export
+#include "sinew/kinematics/forward.hpp"         // IWYU pragma: export
+#include "sinew/kinematics/inverse.hpp"         // IWYU pragma: export
+#include "sinew/kinematics/track.hpp"           // IWYU pragma: export
+#include "sinew/query/session.hpp"              // IWYU pragma: export

@@ -47,8 +47,8 @@ std::array<double, 6> PoseGrid::coordinates(std::size_t k) const {
   return values;
 }
 
-AnyPose PoseGrid::pose(std::size_t k) const {
-  const auto [x, y, third, rx, ry, rz] = coordinates(k);
+AnyPose PoseGrid::pose(const std::array<double, 6>& coordinates) const {
+  const auto [x, y, third, rx, ry, rz] = coordinates;
   if (!is_spatial) return PlanarPose{x, y, third};
   return spatial_pose(SE3<double>{Vec3<double>(x, y, third), SO3<double>::exp(Vec3<double>(rx, ry, rz))});
 }

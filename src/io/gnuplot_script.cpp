@@ -90,7 +90,7 @@ std::string data_block(const std::string& name, const HeatMap& map) {
   return text + "EOD\n";
 }
 
-/// The colours and their bar, and the frame just around the cells.
+/// The colours and their bar, for which gnuplot leaves too little room, and the frame just around the cells.
 std::string map_lines(const HeatMap& map) {
   const auto range = [](char axis, const std::vector<double>& places) {
     const double half = std::abs(spacing(places)) / 2;
@@ -99,7 +99,7 @@ std::string map_lines(const HeatMap& map) {
   };
   // Cividis (Nuñez, Anderton, Renslow 2018), at equal steps.
   return fmt::format(
-      "{}{}  set cbrange [{}:{}]\n  set cblabel {}\n  unset grid\n"
+      "{}{}  set cbrange [{}:{}]\n  set cblabel {}\n  unset grid\n  set rmargin 9\n"
       "  set palette defined (0 '#00224e', 1 '#123570', 2 '#3b496c', 3 '#575d6d', 4 '#707173', 5 '#8a8678', "
       "6 '#a59c74', 7 '#c3b369', 8 '#e1cc55', 9 '#fee838')\n",
       range('x', map.x), range('y', map.y), bound(map.low), bound(map.high), literal(map.label));
@@ -202,7 +202,7 @@ std::string panel_lines(const Panel& panel, std::size_t index) {
   }
   if (panel.series.empty() && !panel.map)
     text += "  plot NaN notitle";  // an empty frame, and the grid stays in step
-  return text + "\n" + (panel.map ? std::string(grid) : "");
+  return text + "\n" + (panel.map ? std::string(grid) + "  set rmargin -1\n" : "");
 }
 
 std::string terminal_line(FigureFormat format, double width, double height) {

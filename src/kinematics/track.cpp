@@ -12,6 +12,7 @@ namespace {
 constexpr double contraction_limit = 0.25;
 constexpr double shortest_part = 1e-7;  // of the way between two poses
 constexpr int most_steps = 20000;       // between two poses
+constexpr int null_steps = 4;           // at a pose
 
 Vec<double, 3> twist_between(const PlanarPose& from, const PlanarPose& to) {
   return {to.x - from.x, to.y - from.y, wrap_angle(to.phi - from.phi)};
@@ -115,7 +116,7 @@ class Follower {
     const double length = gradient(pose, q, uphill);
     if (!(length > 1e-9)) return;
     const double here = merit(pose, q);
-    for (double step = options_.null_step; step > options_.null_step / 100; step /= 2) {
+    for (double step = options_.null_step / null_steps; step > options_.null_step / 100; step /= 2) {
       for (std::size_t k = 0; k < q.size(); ++k) tried[k] = q[k] + step / length * uphill[k];
       if (close(pose, {}, 0, tried) >= 0 || !(merit(pose, tried) > here)) continue;
       std::ranges::copy(tried, q.begin());
@@ -211,7 +212,7 @@ Report Track::begin(const AnyPose& first) {
 void Track::settle() {
   const bool seeks = options_.objective == Objective::limits || options_.objective == Objective::singularity;
   follow(*robot_, options_, *work_, [&](const auto& follower) {
-    if (seeks) follower.better(pose_, coordinates_);
+    for (int step = 0; seeks && step < null_steps; ++step) follower.better(pose_, coordinates_);
     follower.inputs_of(coordinates_, inputs_);
   });
   closure_error_ = assemble(*robot_, pose_, coordinates_, *work_).closure_error;

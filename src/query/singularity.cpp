@@ -10,12 +10,12 @@ std::optional<Along> read_along(Context& context) {
   const auto direction = context.query.optional("along");
   const auto limit = context.query.optional("limit");
   if (!direction) {
-    if (limit) limit->fail("no_effect", "limit ends the search along a direction; give along, or remove it");
+    if (limit) limit->fail("no_effect", "ends the search along a direction; give along, or remove it");
     return {};
   }
   Along along{direction->quantities(Dimension::number, {}, static_cast<std::size_t>(dof(context.robot)))};
   if (context.errors.empty() && std::ranges::all_of(along.direction, [](double part) { return part == 0; }))
-    direction->fail("out_of_range", "along is a direction; not all of its numbers may be zero");
+    direction->fail("out_of_range", "is a direction; not all of its numbers may be zero");
   if (limit) along.limit = limit->number(Range::positive());
   return along;
 }

@@ -48,9 +48,17 @@ Figure one_of_each() {
                .notes = {},
                .legend = Legend::none,
                .equal_aspect = true};
-  return {.title = "two panels",
-          .panels = {panel, square},
-          .columns = 2,
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  Panel map{
+      .title = "map",
+      .x = {.label = "x", .unit = "mm"},
+      .y = {.label = "phi", .unit = "deg"},
+      .series = {{.label = "", .x = {-1, 1}, .y = {5, 15}}},
+      .legend = Legend::none,
+      .map = HeatMap{.x = {-1, 0, 1}, .y = {5, 15}, .values = {1, 2, missing, 4, 5, 6}, .label = "it's κ"}};
+  return {.title = "three panels",
+          .panels = {panel, square, map},
+          .columns = 3,
           .width = 900,
           .height = 450,
           .comments = {"a test\nset output 'elsewhere'"}};
@@ -70,6 +78,9 @@ TEST(Figure, TheScriptHoldsItsDataAndNoDate) {
   EXPECT_NE(script.find("$panel1_1 << EOD\n0 1\n\n2 3\n3 4\nEOD\n"), std::string::npos)
       << "a gap is an empty line";
   EXPECT_NE(script.find("$panel2_1 << EOD\n0 0\n1 0\n1 1\n0 1\n0 0\nEOD\n"), std::string::npos) << "closed";
+  EXPECT_NE(script.find("$panel3_map << EOD\n-1 5 1\n0 5 2\n-1 15 4\n0 15 5\n1 15 6\nEOD\n"),
+            std::string::npos)
+      << "a cell without a value is left out";
   EXPECT_NE(script.find("set xlabel 'x_1 [m]'"), std::string::npos);
   EXPECT_NE(script.find("it''s `date`"), std::string::npos);
   EXPECT_EQ(script.find("/tmp"), std::string::npos);
@@ -107,6 +118,30 @@ TEST(Figure, AnEmptyPanelIsAnEmptyFrame) {
                     .series = {}};
   const auto files = write_figure({.title = "", .panels = {empty}, .comments = {}}, folder.path / "f");
   EXPECT_TRUE(files) << to_string(files.error());
+}
+
+TEST(Figure, TheFrameOfAMapIsAroundItsCellsAndItsColoursAreLabelled) {
+  const std::string script = gnuplot_script(one_of_each(), "f");
+  EXPECT_NE(script.find("set xrange [-1.5:1.5]"), std::string::npos);
+  EXPECT_NE(script.find("set yrange [0:20]"), std::string::npos);
+  EXPECT_NE(script.find("set cbrange [*:*]"), std::string::npos);
+  EXPECT_NE(script.find("set cblabel 'it''s κ'"), std::string::npos);
+}
+
+TEST(Figure, AMapWithoutAnyValueIsAnEmptyFrame) {
+  const Folder folder;
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  for (const bool has_range : {true, false}) {
+    HeatMap map{.x = {0, 1}, .y = {0, 1}, .values = std::vector<double>(4, missing), .label = "v"};
+    if (has_range) map.low = 0, map.high = 1;
+    const Panel empty{.title = "",
+                      .x = {.label = "x", .unit = ""},
+                      .y = {.label = "y", .unit = ""},
+                      .series = {},
+                      .map = map};
+    const auto files = write_figure({.title = "", .panels = {empty}, .comments = {}}, folder.path / "f");
+    EXPECT_TRUE(files) << to_string(files.error());
+  }
 }
 
 TEST(Figure, WithoutGnuplotTheScriptStaysAndTheMessageSaysWhatToInstall) {

@@ -40,7 +40,9 @@ struct PoseGrid {
   SINEW_API std::size_t size() const;
   /// Coordinates of pose k < size(), as the axes say.
   SINEW_API std::array<double, 6> coordinates(std::size_t k) const;
-  SINEW_API AnyPose pose(std::size_t k) const;
+  AnyPose pose(std::size_t k) const { return pose(coordinates(k)); }
+  /// The pose of any coordinates.
+  SINEW_API AnyPose pose(const std::array<double, 6>& coordinates) const;
 };
 
 /// One pose of a map. Numbers are absent (NaN) where the pose is not reachable.

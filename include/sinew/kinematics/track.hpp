@@ -18,7 +18,7 @@ enum class Objective {
 struct TrackOptions {
   InverseOptions branch = {};  ///< of the first pose
   Objective objective = Objective::none;
-  double null_step = 0.05;  ///< longest null-space motion a pose, all angles (θ, bends κℓ) together [rad]
+  double null_step = 0.2;   ///< longest null-space motion a pose, all angles (θ, bends κℓ) together [rad]
 };
 
 /// A robot on its way along a path. The branch it began on is never left: where that ends the path is

@@ -1,6 +1,6 @@
 /// @file space.hpp
 /// What a robot's space fixes: size of a point, of a twist, the frame of a platform, the moment of a line and
-/// the joint at the foot of a leg that turns freely.
+/// the joint at the foot of a leg that turns freely. Theory: docs/theory/space.md
 #pragma once
 #include "sinew/math/se2.hpp"
 #include "sinew/math/se3.hpp"

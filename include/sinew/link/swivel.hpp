@@ -1,6 +1,6 @@
 /// @file swivel.hpp
 /// A planar link on an actuated revolute joint at its base: one more coordinate, the absolute angle θ of the
-/// base tangent, in front of the link's own.  u = R(θ − 90°) u_link(q)
+/// base tangent, in front of the link's own.  u = R(θ − 90°) u_link(q).  Theory: docs/theory/tendon.md
 #pragma once
 #include <string_view>
 

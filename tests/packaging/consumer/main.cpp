@@ -12,7 +12,7 @@ static_assert(alignof(PlanarLeg) == alignof(double), "a public type is over-alig
 static_assert(alignof(sinew::Velocity) == alignof(double) && alignof(sinew::Forward) == alignof(double));
 
 sinew::AnyRobot in_code() {
-  sinew::ParallelRobot<PlanarLeg> robot{{}, {0, 1, 2}, {}, 0.05};
+  std::vector<PlanarLeg> legs;
   for (int i = 0; i < 3; ++i) {
     const double foot = (90 + 120 * i) * std::numbers::pi / 180,
                  head = (30 + 120 * i) * std::numbers::pi / 180;
@@ -21,9 +21,9 @@ sinew::AnyRobot in_code() {
     leg.link.length = 0.2;
     leg.drive.offset = 0.005;
     leg.platform_point = {0.05 * std::cos(head), 0.05 * std::sin(head)};
-    robot.legs.push_back(leg);
+    legs.push_back(leg);
   }
-  return {"in code", robot};
+  return {"in code", sinew::ParallelRobot<PlanarLeg>(legs, {}, 0.05)};
 }
 
 int main() {
