@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/io/parse.hpp"
 #include "show.hpp"
+#include "sinew/io/parse.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/math/so3.hpp"
@@ -143,10 +143,11 @@ void Request::poses(const Robot& robot) {
   for (const Input& column : pose_columns(robot.is_spatial)) {
     const Column* found = table->find(column.name);
     if (!found || found->unit != column.unit)
-      return fail("missing_column", "poses",
-                  fmt::format("{} has no column {}[{}]; a path needs a heading like x[m],y[m],phi[rad] (in space "
-                              "x[m],y[m],z[m],rx[rad],ry[rad],rz[rad]).",
-                              *file, column.name, column.unit));
+      return fail(
+          "missing_column", "poses",
+          fmt::format("{} has no column {}[{}]; a path needs a heading like x[m],y[m],phi[rad] (in space "
+                      "x[m],y[m],z[m],rx[rad],ry[rad],rz[rad]).",
+                      *file, column.name, column.unit));
     columns.push_back(found);
   }
   std::string list;

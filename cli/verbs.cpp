@@ -86,17 +86,19 @@ const std::array table{
          "U = J⁻¹K in mm and degrees. A singular configuration is shown, and the exit code is 3.",
          "sinew analyse 3-rfr --pose \"10 mm, -5 mm, 10 deg\" --twist \"5 mm/s, 0, 2 deg/s\"",
          run_question},
-    Verb{"track",
-         "ROBOT",
-         "inputs along a path of the platform",
-         {"from", "to", "samples", "poses", "objective", "bending", "elbow", "curvature", "start", "theta-is",
-          "output", "model", "set", "json", "quiet", "help"},
-         {"from", "poses"},
-         "The path is straight, or that of a .csv file with the columns x[m], y[m], phi[rad] (in space x[m], y[m], "
-         "z[m],\nrx[rad], ry[rad], rz[rad]), as --output writes them. The legs keep the branch they begin on. "
-         "Where the path\ncannot be followed to its end the poses reached are shown, and the exit code is 3.",
-         "sinew track 3-rfr --from \"0, 0, 0\" --to \"10 mm, 5 mm, 20 deg\" --samples 11",
-         run_track},
+    Verb{
+        "track",
+        "ROBOT",
+        "inputs along a path of the platform",
+        {"from", "to", "samples", "poses", "objective", "bending", "elbow", "curvature", "start", "theta-is",
+         "output", "model", "set", "json", "quiet", "help"},
+        {"from", "poses"},
+        "The path is straight, or that of a .csv file with the columns x[m], y[m], phi[rad] (in space x[m], "
+        "y[m], "
+        "z[m],\nrx[rad], ry[rad], rz[rad]), as --output writes them. The legs keep the branch they begin on. "
+        "Where the path\ncannot be followed to its end the poses reached are shown, and the exit code is 3.",
+        "sinew track 3-rfr --from \"0, 0, 0\" --to \"10 mm, 5 mm, 20 deg\" --samples 11",
+        run_track},
     Verb{
         "map",
         "ROBOT",

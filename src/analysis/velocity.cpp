@@ -155,8 +155,9 @@ Report rates(const Velocity& velocity, Numbers twist, Workspace& work) {
   least_norm(unit_K, work.s, work.rates);
   const Eigen::Map<const Eigen::VectorXd> needed(work.s.data(), unit_K.rows()),
       found(work.rates.data(), inputs);
+  if (!found.allFinite()) return refuse_with("the rates that this twist needs are too large to be written");
   for (Eigen::Index i = 0; i < unit_K.rows(); ++i)
-    if (std::abs(unit_K.row(i).dot(found) - needed[i]) > 1e-9 * needed.cwiseAbs().maxCoeff())
+    if (!(std::abs(unit_K.row(i).dot(found) - needed[i]) <= 1e-9 * needed.cwiseAbs().maxCoeff()))
       return refuse_with("legs that share an input would need different rates for this twist");
   return report;
 }

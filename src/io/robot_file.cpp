@@ -163,7 +163,7 @@ std::optional<AnyLeg<Legs...>> read_leg(Reader& leg, TypeList<Legs...>) {
   };
   const auto pairs = std::array{fmt::format("{} with {}", Legs::Link::name, Legs::Closure::name)...};
   if (!(read_if(std::type_identity<Legs>{}) || ...)) {
-    leg.fail("no_such_leg", fmt::format("no leg joins a {} link to a {} closure; there are {}", link_name,
+    leg.fail("no_such_leg", fmt::format("no leg joins link {} to closure {}; there are {}", link_name,
                                         closure_name, fmt::join(pairs, ", ")));
     return {};
   }
@@ -267,7 +267,7 @@ bool is_collapsed(const std::vector<Any>& read, double size) {
       else
         for (const auto& r : points) spread = std::max(spread, cross(q - p, r - p).norm() / size);
     }
-  return points.size() > 1 && spread <= 1e-9 * size;
+  return points.size() >= Any::Space::dimension && spread <= 1e-9 * size;
 }
 
 template <class Space>

@@ -15,6 +15,7 @@ void put(AssemblyModes& modes, const PlanarModes& found) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(found.count); ++k) {
     modes.poses.emplace_back(found.poses[k]);
     modes.residual.push_back(found.residual[k]);
+    modes.is_double.push_back(found.is_double[k]);
   }
 }
 
@@ -22,6 +23,7 @@ void put(AssemblyModes& modes, const SpatialModes& found) {
   modes.report = found.report;
   modes.poses.assign(found.poses.begin(), found.poses.end());
   modes.residual = found.residual;
+  modes.is_double.assign(found.poses.size(), false);
   modes.is_complete = found.is_complete();
 }
 
@@ -42,6 +44,7 @@ AssemblyModes assembly_modes(const AnyRobot& robot, Numbers inputs, Workspace& w
   AssemblyModes modes{.report = command(robot, inputs, work),
                       .poses = {},
                       .residual = {},
+                      .is_double = {},
                       .is_complete = true,
                       .coordinates = work.coordinates};
   if (modes.report.ok())

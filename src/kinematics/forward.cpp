@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "kinematics/four_bars.hpp"
 #include "kinematics/reaches.hpp"
 #include "robot/pose.hpp"
 #include "sinew/kinematics/planar_modes.hpp"
@@ -12,7 +13,8 @@ namespace sinew::inline v0 {
 namespace {
 
 /// The closures as a function of the platform pose. The links are shaped by the inputs alone: of each leg a
-/// reach is left.
+/// reach is left. The unknowns are lengths, turns times the robot's size: so the answer does not depend on
+/// the unit of length, also where the shortest of many steps is taken.
 template <class Space>
 class Closing {
  public:
@@ -37,26 +39,30 @@ class Closing {
       const Vec<double, D> b = platform.rotate(leg.platform_point);
       const Vec<double, D> n = platform.p + b - leg.anchor;
       const double length = n.norm();
+      const auto put = [&](double residual, const Vec<double, D>& direction) {
+        system.residual[row] = residual;
+        system.jacobian.row(row) = Space::line(direction, b);
+        system.jacobian.row(row++).template tail<unknowns - D>() /= size_;
+      };
       system.error = std::max(system.error, std::abs(length - leg.distance));
       if (leg.distance > 0) {
-        system.residual[row] = 0.5 * (length - leg.distance) * (length + leg.distance);
-        system.jacobian.row(row++) = Space::line(n, b);
+        put(0.5 * (length - leg.distance) * (length + leg.distance), n);
       } else {
-        for (int k = 0; k < D; ++k) {
-          system.residual[row] = n[k];
-          system.jacobian.row(row++) = Space::line(Vec<double, D>(Vec<double, D>::Unit(k)), b);
-        }
+        for (int k = 0; k < D; ++k) put(n[k], Vec<double, D>(Vec<double, D>::Unit(k)));
       }
     }
     return true;
   }
 
-  Point moved(const Point& pose, const Vec<double, unknowns>& step) const { return Space::moved(pose, step); }
+  Point moved(const Point& pose, Vec<double, unknowns> step) const {
+    step.template tail<unknowns - D>() /= size_;
+    return Space::moved(pose, step);
+  }
 
   /// At most half a radian and half the robot a step: Newton's model of the closures holds no further.
   double shortened(const Vec<double, unknowns>& step) const {
     const double shift = step.template head<D>().norm();
-    const double turn = step.template tail<unknowns - D>().norm();
+    const double turn = step.template tail<unknowns - D>().norm() / size_;
     return 1 / std::max({1.0, 2 * turn, 2 * shift / size_});
   }
 
@@ -68,31 +74,6 @@ class Closing {
   Eigen::Index rows_ = 0;
   double size_ = 0;
 };
-
-/// Two legs and the platform between them are a chain of four bars from anchor to anchor: it closes only if
-/// no bar is longer than the other three together. True, with the reason, where two legs prove that no pose
-/// exists.
-template <int D>
-bool is_unreachable(std::span<const Reach<D>> legs, Report& report) {
-  for (std::size_t j = 1; j < legs.size(); ++j)
-    for (std::size_t i = 0; i < j; ++i) {
-      const Reach<D>&a = legs[i], &b = legs[j];
-      const double base = (b.anchor - a.anchor).norm(), bar = (b.platform_point - a.platform_point).norm();
-      const double longest = std::max({base, bar, a.distance, b.distance});
-      const double excess = 2 * longest - (base + bar + a.distance + b.distance);
-      if (excess <= 1e-12 * longest) continue;
-      report.status = Status::unreachable;
-      report.message.append("no pose closes legs[");
-      append_number(report.message, static_cast<int>(i));
-      report.message.append("] and legs[");
-      append_number(report.message, static_cast<int>(j));
-      report.message.append("] together: with these inputs a gap of ");
-      append_mm(report.message, excess);
-      report.message.append(" always remains");
-      return true;
-    }
-  return false;
-}
 
 void explain(Report& report, const Reduced& at_end) {
   if (report.status == Status::left_domain) {
@@ -157,12 +138,15 @@ Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, con
                          {.tolerance = 1e-14 * closing.size(),
                           .max_iterations = options.max_iterations,
                           .trace = options.trace});
-  if (options.max_iterations >=
-      ForwardOptions{}.max_iterations)  // fewer are asked for to see Newton's method
+  // constraints beyond the freedoms need not fit to rounding
+  if (closing.rows() > Space::dof && report.residual <= 1e-9 * closing.size())
+    report.status = Status::converged;
+  // fewer iterations than usual are asked for to see Newton's method
+  if (options.max_iterations >= ForwardOptions{}.max_iterations)
     ask_all_modes(reaches.view(), start, robot.platform_radius, pose, report);
   Forward answer{report, Space::tidy(pose), work.coordinates};
   if (answer.ok() && closing.rows() < Space::dof) warn_of_freedom(answer.report, closing.rows(), Space::dof);
-  if (!answer.ok() && !is_unreachable(reaches.view(), answer.report))
+  if (!answer.ok() && !are_torn(reaches.view(), answer.report))
     explain(answer.report, assemble(any, answer.pose, work.coordinates, work));
   return answer;
 }

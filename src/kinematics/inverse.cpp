@@ -148,7 +148,7 @@ class Problem {
       const int count = leg.solutions_at(platform_, wish_of(leg, at, j), roots);
       if (count <= 0) report = without_solution(leg, platform_, j, count);
       for (int k = 0; k < count; ++k) {
-        const auto a = leg.inputs_of(roots[index(k)]);
+        const auto a = tidy_inputs(leg, roots[index(k)]);
         const std::span<const double> inputs(a.data(), L::inputs);
         if (!robot_.has_ties() || misfit(place, inputs) <= common_tolerance)
           add(place, i, inputs, robot_.has_ties() ? owner.link.arc().length : 0);
@@ -224,9 +224,19 @@ class Problem {
            options_.elbow.empty();
   }
 
+  /// Inputs whose angles lie in (−π, π].
+  template <class LegT>
+  static Vec<double, LegT::inputs> tidy_inputs(const LegT& leg, const typename LegT::Coordinates& q) {
+    auto a = leg.inputs_of(q);
+    for (int j = 0; j < LegT::inputs; ++j)
+      if (LegT::Drive::input_kinds[static_cast<std::size_t>(j)].dimension == Dimension::angle)
+        a[j] = wrap_angle(a[j]);
+    return a;
+  }
+
   template <class LegT>
   void keep(const LegT& leg, const LegPlace& place, const typename LegT::Coordinates& q) {
-    const auto a = leg.inputs_of(q);
+    const auto a = is_from_start() ? leg.inputs_of(q) : tidy_inputs(leg, q);
     std::copy(q.begin(), q.end(), work_.coordinates.begin() + place.coordinate);
     std::copy(a.begin(), a.end(), work_.inputs.begin() + place.input);
   }

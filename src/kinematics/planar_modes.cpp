@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "kinematics/four_bars.hpp"
 #include "kinematics/planar_legs.hpp"
 #include "kinematics/planar_sextic.hpp"
 
@@ -151,33 +152,11 @@ bool turn_about_pin(const PlanarLegs& legs, Found& found) {
   return true;
 }
 
-/// Two legs and the platform between them are a chain of four bars from anchor to anchor: it closes only if
-/// no bar is longer than the other three together.
-bool is_torn(const PlanarLegs& legs, Report& report) {
-  for (std::size_t j = 1; j < legs.count(); ++j) {
-    for (std::size_t i = 0; i < j; ++i) {
-      const Reach<2> a = legs[i], b = legs[j];
-      const double base = (b.anchor - a.anchor).norm(), bar = (b.platform_point - a.platform_point).norm();
-      const double excess =
-          2 * std::max({base, bar, a.distance, b.distance}) - (base + bar + a.distance + b.distance);
-      if (excess <= 1e-12) continue;
-      report.message.append("no pose closes legs[");
-      append_number(report.message, static_cast<int>(i));
-      report.message.append("] and legs[");
-      append_number(report.message, static_cast<int>(j));
-      report.message.append("] together: with these distances a gap of ");
-      append_mm(report.message, excess * legs.size());
-      report.message.append(" always remains");
-      return true;
-    }
-  }
-  return false;
-}
-
 /// How the search ended, and in words.
-void judge(const PlanarLegs& legs, const Found& found, bool binds, Report& report) {
+void judge(std::span<const Reach<2>> given, const PlanarLegs& legs, const Found& found, bool binds,
+           Report& report) {
   if (!found.overfull() && binds && !found.empty()) return;
-  const bool torn = found.empty() && is_torn(legs, report);
+  const bool torn = found.empty() && are_torn(given, report);
   if (torn || (found.empty() && binds)) {
     report.status = Status::unreachable;
     if (!torn) report.message.append("no pose closes all legs, though any two of them can be closed");
@@ -240,7 +219,7 @@ PlanarModes planar_modes(std::span<const Reach<2>> legs) {
     sextic.each_pose([&](const Motion& pose) { found.add(pose); });
   }
   found.write(modes, legs);
-  judge(scaled, found, binds, modes.report);
+  judge(legs, scaled, found, binds, modes.report);
   return modes;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "kinematics/distance_closing.hpp"
+#include "kinematics/four_bars.hpp"
 #include "kinematics/normal_legs.hpp"
 
 namespace sinew::inline v0 {
@@ -74,7 +75,9 @@ class Poses {
 
   /// Takes the pose that Newton finds from here, if any and new.
   void add(SE3<double> pose) {
-    if (!newton(closing_, pose, {.tolerance = 1e-15}).ok()) return;
+    const Report found = newton(closing_, pose, {.tolerance = 1e-15});
+    // legs beyond the sixth need not fit to rounding
+    if (!found.ok() && (normal_.legs.size() <= 6 || !(found.residual <= 1e-9))) return;
     const auto is_same = [&](const SE3<double>& other) { return gap(pose, other) < same_pose; };
     if (std::ranges::none_of(all_, is_same)) all_.push_back(pose);
   }
@@ -193,33 +196,18 @@ void explain(const Poses& poses, SpatialModes& modes) {
   }
 }
 
-/// Two legs and the bodies they join are four bars, and no bar may be longer than the others together.
-bool is_torn(const NormalLegs& normal, Report& report) {
-  for (const Reach<3>& a : normal.legs)
-    for (const Reach<3>& b : normal.legs) {
-      const double base = (a.anchor - b.anchor).norm(), bar = (a.platform_point - b.platform_point).norm();
-      const double excess =
-          2 * std::max({base, bar, a.distance, b.distance}) - (base + bar + a.distance + b.distance);
-      if (excess <= 1e-12 || &a == &b) continue;
-      report.status = Status::unreachable;
-      report.message.append("no pose closes legs[");
-      append_number(report.message, static_cast<int>(&a - normal.legs.data()));
-      report.message.append("] and legs[");
-      append_number(report.message, static_cast<int>(&b - normal.legs.data()));
-      report.message.append("] together: a gap of ");
-      append_mm(report.message, excess * normal.size);
-      report.message.append(" always remains");
-      return true;
-    }
-  return false;
-}
-
 }  // namespace
 
 SpatialModes spatial_modes(std::span<const Reach<3>> legs, const SpatialModesOptions& options) {
   SpatialModes modes;
   const std::optional<NormalLegs> normal = normal_legs(legs, modes.report);
-  if (!normal || is_torn(*normal, modes.report)) return modes;
+  if (Report torn;
+      (normal || legs.size() < 6) && modes.report.status != Status::left_domain && are_torn(legs, torn)) {
+    modes.report = torn;
+    modes.lost_paths = 0;  // proven without a path
+    return modes;
+  }
+  if (!normal) return modes;
   ComplexNumbers random(options.seed);
   Poses poses(*normal);
   for (int attempt = 0; attempt < options.attempts && modes.lost_paths > 0; ++attempt) {

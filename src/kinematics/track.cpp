@@ -15,7 +15,7 @@ constexpr int most_steps = 20000;       // between two poses
 constexpr int null_steps = 4;           // at a pose
 
 Vec<double, 3> twist_between(const PlanarPose& from, const PlanarPose& to) {
-  return {to.x - from.x, to.y - from.y, wrap_angle(to.phi - from.phi)};
+  return {to.x - from.x, to.y - from.y, to.phi - from.phi};  // as the numbers say: turns count
 }
 Vec<double, 6> twist_between(const SpatialPose& from, const SpatialPose& to) {
   const SE3<double> a = SE3<double>::from(from), b = SE3<double>::from(to);
@@ -84,13 +84,17 @@ class Follower {
     return closed;
   }
 
-  /// Why leg i ends the path at this pose.
-  void explain(int i, const AnyPose& pose, FixedText<240>& text) const {
+  /// Why leg i ends the path at this pose, coming from coordinates q.
+  void explain(int i, const AnyPose& pose, Numbers q, FixedText<240>& text) const {
     const Frame platform = Space::frame(in_space<Space>(pose));
-    with_leg(robot_.legs[static_cast<std::size_t>(i)], [&]<class L>(const L& leg) {
+    const auto index = static_cast<std::size_t>(i);
+    with_leg(robot_.legs[index], [&]<class L>(const L& leg) {
       std::array<typename L::Coordinates, Workspace::max_solutions> roots;
+      const double curvature = leg.link.curvature(own_coordinates(leg, robot_.places[index], q));
       if (leg.solutions_at(platform, {}, roots) <= 0)
         leg.explain_unreachable(platform, text);
+      else if (std::abs(curvature) > 0.999 * leg.domain())
+        text.append("can bend no further: to a full turn, or its inner tendon to the centre of curvature");
       else
         text.append("has no solution on the branch it is on: two of its solutions meet here (type I)");
     });
@@ -218,14 +222,42 @@ void Track::settle() {
   closure_error_ = assemble(*robot_, pose_, coordinates_, *work_).closure_error;
 }
 
+/// One part of the way: `coordinates` go from where the track is to `pose`, or the leg that cannot is told.
+int Track::step(const AnyPose& pose, double part, std::vector<double>& coordinates, Report& report) {
+  return follow(*robot_, options_, *work_, [&](const auto& follower) {
+    const bool is_last_try = part < shortest_part;
+    coordinates = coordinates_;
+    int leg = follower.close(pose, motion_, options_.objective == Objective::smooth ? part : 0, coordinates);
+    if (leg >= 0 && is_last_try) {  // a fold: perhaps the next pose is just there
+      std::vector<double> tried = coordinates_;
+      if (follower.close_at_fold(pose, tried)) {
+        coordinates = tried;
+        leg = -1;
+      }
+    }
+    std::vector<double> inputs(inputs_.size());
+    if (leg >= 0 && is_last_try) {
+      report.status = Status::unreachable;
+      report.message.append("legs[");
+      append_number(report.message, leg);
+      report.message.append("] ");
+      follower.explain(leg, pose, coordinates_, report.message);
+    } else if (leg < 0 && !follower.inputs_of(coordinates, inputs)) {
+      report.status = Status::unreachable;
+      report.message.append("legs that share an actuator would need different inputs");
+    }
+    return leg;
+  });
+}
+
 Report Track::advance(const AnyPose& next) {
   if (!has_begun_) return begin(next);
   const AnyPose from = pose_;
   const std::vector<double> before = coordinates_;
-  std::vector<double> tried(coordinates_.size()), inputs(inputs_.size());
-  double part = 1;
+  std::vector<double> tried;
   Report report;
   progress_ = 0;
+  double part = 1;
   for (int steps = 0; progress_ < 1; ++steps) {
     if (steps == most_steps) {
       report.status = Status::iteration_limit;
@@ -234,26 +266,7 @@ Report Track::advance(const AnyPose& next) {
     }
     const double to = std::min(1.0, progress_ + part);
     const AnyPose pose = to == 1 ? next : between(from, next, to);
-    const double lead = options_.objective == Objective::smooth ? to - progress_ : 0;
-    tried = coordinates_;
-    const int stuck = follow(*robot_, options_, *work_, [&](const auto& follower) {
-      int leg = follower.close(pose, motion_, lead, tried);
-      if (leg >= 0 && part < shortest_part) {  // a fold: perhaps the next pose is just there
-        tried = coordinates_;
-        if (follower.close_at_fold(pose, tried)) leg = -1;
-      }
-      if (leg >= 0 && part < shortest_part) {
-        report.status = Status::unreachable;
-        report.message.append("legs[");
-        append_number(report.message, leg);
-        report.message.append("] ");
-        follower.explain(leg, pose, report.message);
-      } else if (leg < 0 && !follower.inputs_of(tried, inputs)) {
-        report.status = Status::unreachable;
-        report.message.append("legs that share an actuator would need different inputs");
-      }
-      return leg;
-    });
+    const int stuck = step(pose, part, tried, report);
     if (!report.ok()) return report;
     if (stuck >= 0) {
       part /= 2;
@@ -275,7 +288,7 @@ AnyPose between(const AnyPose& from, const AnyPose& to, double part) {
       [&]<class Pose>(const Pose& start) -> AnyPose {
         using Space = std::conditional_t<std::is_same_v<Pose, PlanarPose>, Planar, Spatial>;
         const auto twist = twist_between(start, in_space<Space>(to));
-        return Space::tidy(Space::moved(start, part * twist));
+        return Space::moved(start, part * twist);
       },
       from);
 }

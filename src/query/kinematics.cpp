@@ -95,6 +95,8 @@ void answer_all_modes(Context& context, const std::vector<double>& inputs, const
     solutions.push_back({{"pose", to_json(modes.poses[k])},
                          {"legs", legs_json(context.robot, modes.poses[k], modes.coordinates, context.work)},
                          {"residual", modes.residual[k]}});
+  for (std::size_t k = 0; k < modes.poses.size(); ++k)
+    if (modes.is_double[k]) solutions[k]["double"] = true;  // two modes merge: a type II singularity
   if (!modes.poses.empty()) {
     const Json& nearest = solutions[nearest_pose(context.robot, modes.poses, start)];
     for (const char* key : {"pose", "legs", "residual"}) context.answer[key] = nearest[key];

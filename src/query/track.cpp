@@ -32,6 +32,12 @@ std::vector<AnyPose> read_path(Context& context) {
   if (const auto list = query.optional("poses")) {
     std::vector<AnyPose> poses;
     for (Reader& item : list->items()) poses.push_back(read_pose(context, std::move(item)));
+    for (std::size_t k = 1; k < poses.size();
+         ++k)  // a list holds angles of answers, in (−π, π]: the short way
+      if (auto* to = std::get_if<PlanarPose>(&poses[k])) {
+        const double before = std::get<PlanarPose>(poses[k - 1]).phi;
+        to->phi = before + wrap_angle(to->phi - before);
+      }
     if (poses.empty()) list->fail("empty_list", "a path needs at least one pose");
     for (const char* key : {"from", "to", "samples"})
       if (query.has(key)) query.fail("ambiguous", fmt::format("gives both poses and {}; keep one", key));

@@ -244,6 +244,55 @@ TEST(Forward,
   }
 }
 
+TEST(Inverse, ACurvatureBeyondTheDomainIsAnsweredByTheNearestWithin) {
+  AnyRobot robot = load("3-rfrr").value();
+  for (auto& leg : std::get<2>(robot.model).legs) leg.drive.tendons.offset = 0.05;  // 1/d = 20 1/m
+  Workspace work(robot);
+  const std::array<double, 3> wild{1000, -1000, 1000};
+  const Inverse answer = inverse(robot, PlanarPose{}, {.curvature = wild}, work);
+  ASSERT_TRUE(answer.ok()) << to_string(answer.report);
+  EXPECT_NEAR(answer.coordinates[1], 20, 1e-9);
+  EXPECT_NEAR(answer.coordinates[3], -20, 1e-9);
+}
+
+TEST(Forward, DoesNotDependOnTheUnitOfLength) {  // also where the legs leave a freedom
+  std::mt19937 random{8};
+  for (int sample = 0; sample < 300; ++sample) {
+    std::vector<RfrLeg> legs = rfr_legs();
+    legs.pop_back();
+    const PlanarPose start = random_pose(random);
+    std::vector<Status> statuses;
+    for (const double unit : {1.0, 1e3}) {
+      std::vector<RfrLeg> scaled = legs;
+      for (RfrLeg& leg : scaled) {
+        leg.base.p *= unit;
+        leg.link.length *= unit;
+        leg.drive.offset *= unit;
+        leg.platform_point *= unit;
+      }
+      const AnyRobot robot("2-RFR", ParallelRobot<RfrLeg>(scaled, {}, 0.05 * unit));
+      Workspace work(robot);
+      const Forward there = forward(robot, {0.19 * unit, 0.188 * unit},
+                                    {.start = PlanarPose{start.x * unit, start.y * unit, start.phi}}, work);
+      statuses.push_back(there.report.status);
+    }
+    EXPECT_EQ(statuses[0], statuses[1]) << sample;
+  }
+}
+
+TEST(Forward, ConstraintsBeyondTheFreedomsNeedNotFitToRounding) {
+  const AnyRobot robot = load(std::string(SINEW_SOURCE_DIR) + "/examples/robots/four-legged.yaml").value();
+  Workspace work(robot);
+  ASSERT_TRUE(inverse(robot, PlanarPose{0.003, 0.001, 0.02}, {}, work).ok());
+  std::vector<double> inputs = values(work.inputs);
+  inputs[3] += 1e-11;
+  const Forward near = forward(robot, inputs, {.max_iterations = 50}, work);
+  EXPECT_TRUE(near.ok());
+  EXPECT_GT(near.report.residual, 1e-13);
+  inputs[3] += 1e-4;
+  EXPECT_FALSE(forward(robot, inputs, {}, work).ok());
+}
+
 TEST(Forward, TraceTellsEveryIterate) {
   const AnyRobot robot = rfr_in_code();
   Workspace work(robot);

@@ -140,11 +140,31 @@ TEST(Track, OfTheStraightWayOverABranchThatEndsStops) {  // the other solution f
   EXPECT_NEAR(std::get<PlanarPose>(track.pose()).y, -0.11660045356481855, 1e-6);  // reference type I
 }
 
+TEST(Track, TurnsAsTheNumbersSayNotTheShortWay) {
+  const AnyRobot robot = rfr_in_code();
+  Workspace work(robot);
+  Track track(robot, {}, work);
+  ASSERT_TRUE(track.advance(PlanarPose{0, 0, -0.5}).ok());
+  EXPECT_EQ(track.advance(PlanarPose{0, 0, 5.7}).status, Status::unreachable);  // −0.583 is next door
+  EXPECT_NEAR(std::get<PlanarPose>(track.pose()).phi, 2.6917, 1e-3);
+}
+
 class Redundant : public testing::Test {
  protected:
   AnyRobot robot = load("3-rfrr").value();
   Workspace work{robot};
 };
+
+TEST_F(Redundant, GoesOnByItsMotorsWhereALinkCanBendNoFurther) {
+  for (auto& leg : std::get<2>(robot.model).legs) leg.drive.tendons.offset = 0.1;  // 1/d = 10 1/m
+  const std::array<double, 3> bent{9, 9, 9};
+  Track track(robot, {.branch = {.curvature = bent}}, work);
+  for (int k = 0; k <= 39; ++k) {
+    const double eta = k / 39.0;
+    ASSERT_TRUE(track.advance(PlanarPose{-0.05 * eta, 0.02 * eta, 0.1 * eta}).ok()) << k;
+    for (const std::size_t j : {1U, 3U, 5U}) EXPECT_LT(std::abs(track.coordinates()[j]), 10);
+  }
+}
 
 /// Inputs at a pose about the origin whose struts are turned by `beside` from the platform's radii. At 0 all
 /// three meet in its centre: a type II singularity.

@@ -1,5 +1,5 @@
-/// The one Jacobian suite that every robot passes, built-in or from a file: J and K against differences of the
-/// residuals, at random configurations, straight links and type II poses.
+/// The one Jacobian suite that every robot passes, built-in or from a file: J and K against differences of
+/// the residuals, at random configurations, straight links and type II poses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,8 @@ class EveryRobotsJacobians : public testing::TestWithParam<std::string> {
   std::mt19937 random{20261121};
 
   /// Residuals g at a pose moved by a small motion, with these inputs.
-  Eigen::VectorXd residual(const AnyPose& pose, const Eigen::VectorXd& step, const std::vector<double>& inputs) {
+  Eigen::VectorXd residual(const AnyPose& pose, const Eigen::VectorXd& step,
+                           const std::vector<double>& inputs) {
     EXPECT_TRUE(command(robot, inputs, work).ok());
     const std::vector<double> coordinates = work.coordinates;
     const Reduced at = assemble(robot, moved(pose, step), coordinates, work);
@@ -79,13 +80,15 @@ TEST_P(EveryRobotsJacobians, AreTheDerivativesAnywhere) {
 TEST_P(EveryRobotsJacobians, AreTheDerivativesOfStraightLinks) {
   double worst = 0;
   for (int sample = 0; sample < 50; ++sample)
-    worst = std::max(worst, worst_error(pose_near_home(robot, random, 0.1, 1.5), bent(sample % 2 ? 0 : 1e-6)));
+    worst =
+        std::max(worst, worst_error(pose_near_home(robot, random, 0.1, 1.5), bent(sample % 2 ? 0 : 1e-6)));
   EXPECT_LT(worst, 1e-7);
 }
 
 TEST_P(EveryRobotsJacobians, AreTheDerivativesWhereThePlatformIsTurnedIntoASingularity) {
   double worst = 0;
-  for (const double turn : {std::numbers::pi / 3, std::numbers::pi / 2, -std::numbers::pi / 2, std::numbers::pi})
+  for (const double turn :
+       {std::numbers::pi / 3, std::numbers::pi / 2, -std::numbers::pi / 2, std::numbers::pi})
     for (int sample = 0; sample < 10; ++sample) {
       const AnyPose pose = moved(home(robot), turn * Eigen::VectorXd::Unit(dof(robot), dof(robot) - 1));
       worst = std::max(worst, worst_error(pose, bent(15)));

@@ -13,6 +13,7 @@ struct AssemblyModes {
   Report report;  ///< unreachable where there is none; singular where there is a continuum
   std::vector<AnyPose> poses;
   std::vector<double> residual;         ///< largest closure error of each pose [m]
+  std::vector<bool> is_double;          ///< in the plane: two modes merge in this pose, see PlanarModes
   bool is_complete = true;              ///< otherwise their number is a lower bound
   std::span<const double> coordinates;  ///< of the links, the same in every mode; view into the workspace
 };

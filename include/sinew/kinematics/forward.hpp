@@ -27,8 +27,9 @@ struct Forward {
 /// before them the angles of base motors [rad]). Residual: largest closure error [m]. The aim is 1e-14 of the
 /// robot's size; where rounding ends the descent earlier, up to 1e-12 of it counts as converged. A planar
 /// robot on which Newton's method fails is answered by all of its assembly modes: the one nearest to the
-/// start, or proof that there is none; with more constraints than freedoms they count as closed up to 1e-9 of the size. Where the legs hold fewer freedoms than the platform has, the pose is
-/// one of a continuum, and the message says so. No heap, no throw, bounded work.
+/// start, or proof that there is none; with more constraints than freedoms they count as closed up to 1e-9 of
+/// the size. Where the legs hold fewer freedoms than the platform has, the pose is one of a continuum, and
+/// the message says so. No heap, no throw, bounded work.
 /// @implements TDPCR (42)
 SINEW_API Forward forward(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options,
                           Workspace& work);

@@ -18,7 +18,7 @@ enum class Objective {
 struct TrackOptions {
   InverseOptions branch = {};  ///< of the first pose
   Objective objective = Objective::none;
-  double null_step = 0.2;   ///< longest null-space motion a pose, all angles (θ, bends κℓ) together [rad]
+  double null_step = 0.2;  ///< longest null-space motion a pose, all angles (θ, bends κℓ) together [rad]
 };
 
 /// A robot on its way along a path. The branch it began on is never left: where that ends the path is
@@ -40,6 +40,7 @@ class SINEW_API Track {
 
  private:
   Report begin(const AnyPose& first);
+  int step(const AnyPose& pose, double part, std::vector<double>& coordinates, Report& report);
   void settle();
 
   const AnyRobot* robot_;
@@ -51,7 +52,8 @@ class SINEW_API Track {
   double closure_error_ = 0, progress_ = 0;
 };
 
-/// A pose part of the way from one to another: positions on the straight line, rotations the shortest way.
+/// A pose part of the way from one to another: positions on the straight line, rotations in space the
+/// shortest way, φ in the plane as the numbers say (so that a path may turn by more than half a turn).
 SINEW_API AnyPose between(const AnyPose& from, const AnyPose& to, double part);
 
 SINEW_API std::string_view to_string(Objective objective) noexcept;

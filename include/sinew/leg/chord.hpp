@@ -14,6 +14,7 @@ namespace sinew::inline v0 {
 struct Chord {
   static constexpr std::string_view name = "chord";
   static constexpr bool base_turns = true;  ///< the base tangent is free: a base direction means nothing
+  static constexpr bool tip_is_platform_point = true;
   template <int D>
   static constexpr int rows = 1;
 
@@ -36,11 +37,11 @@ struct Chord {
   /// Closed form where the link has one: the two curvatures ±κ, once where the link is straight; none beyond
   /// it.
   template <int D>
-  int coordinates_at(const Arc& link, const Vec<double, D>& r, const Wish&,
+  int coordinates_at(const Arc& link, const Vec<double, D>& r, const Wish&, double,
                      std::span<Vec<double, 1>> roots) const {
     const double curvature = link.curvature_from_chord(r.norm());
     if (std::isnan(curvature)) return 0;  // too far
-    roots[0][0] = -curvature;
+    roots[0][0] = curvature == 0 ? 0 : -curvature;
     roots[1][0] = curvature;
     return curvature == 0 ? 1 : 2;
   }

@@ -3,9 +3,10 @@
 /// from it. Theory: docs/theory/leg.md
 ///
 /// A closure says where its anchor A(q) is and how far, D(q), the platform point r keeps from it. All of it
-/// is in the link's base frame:   g = ½ (|r − A|² − D²) = 0,   ∂g/∂r = r − A = n,   ∂g/∂q = −n·A′ − (½D²)′.
-/// The squares keep the papers' raw form of J and K (rows multiplied by the distance) and are smooth at D =
-/// 0. A closure that pins the point to the anchor holds it in every direction:   g = r − A = 0.
+/// is in the axes of the link's tip (of a clamped link its base frame, of others the robot's base):   g = ½
+/// (|r − A|² − D²) = 0,   ∂g/∂r = r − A = n,   ∂g/∂q = −n·A′ − (½D²)′. The squares keep the papers' raw form
+/// of J and K (rows multiplied by the distance) and are smooth at D = 0. A closure that pins the point to the
+/// anchor holds it in every direction:   g = r − A = 0.
 #pragma once
 #include "sinew/link/tip.hpp"
 

@@ -39,7 +39,7 @@ struct LegState {
 template <class Closure, class Link, class Point>
 concept SolvesInClosedForm = requires(const Closure& closure, const Link& link, const Point& r,
                                       const Wish& wish, std::span<Vec<double, Link::coordinates>> roots) {
-  { closure.coordinates_at(link, r, wish, roots) } -> std::same_as<int>;
+  { closure.coordinates_at(link, r, wish, 1.0, roots) } -> std::same_as<int>;
 };
 
 template <class SpaceT, class LinkT, class DriveT, class ClosureT>
@@ -138,7 +138,7 @@ struct Leg {
     const Point r = offset<double>(platform);
     int count = 0;
     if constexpr (SolvesInClosedForm<Closure, Link, Point>) {
-      count = closure.coordinates_at(link, r, wish, roots);
+      count = closure.coordinates_at(link, r, wish, domain(), roots);
     } else {
       static_assert(coordinates == 1);
       std::array<double, 8> found;
@@ -179,7 +179,18 @@ struct Leg {
 
   /// Why `solutions_at` found none.
   void explain_unreachable(const Frame& platform, FixedText<240>& text) const {
-    closure.explain_unreachable(offset<double>(platform).norm(), link.arc().length, text);
+    const double distance = offset<double>(platform).norm();
+    if constexpr (Closure::tip_is_platform_point)
+      if (const double needed = link.arc().curvature_from_chord(distance);
+          needed >= drive.domain() && needed < link.arc().bounds().domain) {
+        text.append("would have to bend to a radius of ");
+        append_mm(text, 1 / needed);
+        text.append(", and its inner tendon is ");
+        append_mm(text, drive.tendon_offset());
+        text.append(" from the backbone");
+        return;
+      }
+    closure.explain_unreachable(distance, link.arc().length, text);
   }
 
   /// The backbone's base frame (in space: x to the side of tendon 1, y ahead): as given, as its own joint

@@ -13,6 +13,7 @@ namespace sinew::inline v0 {
 struct Pin {
   static constexpr std::string_view name = "pin";
   static constexpr bool base_turns = false;
+  static constexpr bool tip_is_platform_point = true;
   template <int D>
   static constexpr int rows = D;
 
@@ -25,13 +26,13 @@ struct Pin {
   }
 
   /// The chord ends at the platform point: ±κ, and the base turned half a bend beside it.
-  int coordinates_at(const Swivel<Arc>& link, const Vec2<double>& r, const Wish&,
+  int coordinates_at(const Swivel<Arc>& link, const Vec2<double>& r, const Wish&, double,
                      std::span<Vec<double, 2>> roots) const {
     const double curvature = link.arc().curvature_from_chord(r.norm());
     if (std::isnan(curvature)) return 0;
     const double towards = std::atan2(r.y(), r.x()), bend = 0.5 * curvature * link.arc().length;
-    roots[0] = Vec<double, 2>(wrap_angle(towards - bend), -curvature);
     roots[1] = Vec<double, 2>(wrap_angle(towards + bend), curvature);
+    roots[0] = curvature == 0 ? roots[1] : Vec<double, 2>(wrap_angle(towards - bend), -curvature);
     return curvature == 0 ? 1 : 2;
   }
 

@@ -33,6 +33,7 @@ Projection project(const LegT& leg, const typename LegT::Frame& platform, double
   const auto scale = coordinate_scale(leg);
   Projection result;
   double first = 0;
+  bool is_held = false;  // a redundant leg that bends as far as it may goes on by its other coordinates
   for (int iteration = 0; iteration < 12; ++iteration) {
     const auto blocks = leg.template blocks<double>(platform, leg.template tip<double>(q));
     result.error = std::abs(blocks.error);
@@ -40,7 +41,8 @@ Projection project(const LegT& leg, const typename LegT::Frame& platform, double
       result.ok = std::isfinite(result.error) && leg.in_domain(q);
       return result;
     }
-    const Mat<double, R, LegT::coordinates> slope = blocks.g_q * scale.asDiagonal();
+    Mat<double, R, LegT::coordinates> slope = blocks.g_q * scale.asDiagonal();
+    if (is_held) slope.col(LegT::coordinates - 1).setZero();
     const Mat<double, R, R> normal = slope * slope.transpose();
     const Vec<double, LegT::coordinates> step = slope.transpose() * (normal.inverse() * -blocks.g);
     const double length = step.norm();
@@ -48,6 +50,11 @@ Projection project(const LegT& leg, const typename LegT::Frame& platform, double
     if (iteration == 0) first = length;
     if (iteration == 1) result.contraction = length / first;
     q += scale.cwiseProduct(step);
+    if constexpr (LegT::is_redundant)
+      if (double& curvature = q[LegT::coordinates - 1]; !(std::abs(curvature) < leg.domain())) {
+        curvature = std::copysign(leg.domain() * (1 - 1e-9), curvature);
+        is_held = true;
+      }
   }
   result.ok = result.error <= 1e3 * tolerance && leg.in_domain(q);  // the last digits need not come
   return result;

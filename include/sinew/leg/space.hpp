@@ -95,7 +95,8 @@ struct Spatial {
     const Vec3<double> local = base.rotate_back(r);
     const double out = std::hypot(local.y(), local.z());  // from the first axis
     // in the plane of x (the first axis) and the leg, as the link's own frame has it: y ahead, x beside
-    return {std::atan2(local.z(), local.y()), std::atan2(u.x(), u.y()) - std::atan2(local.x(), out)};
+    return {std::atan2(local.z(), local.y()),
+            wrap_angle(std::atan2(u.x(), u.y()) - std::atan2(local.x(), out))};
   }
   static SE3<double> aimed(const SE3<double>& base, const Vec3<double>& r, const Vec2<double>& u) {
     const auto [first, second] = joint_angles(base, r, u);

@@ -16,6 +16,7 @@ namespace sinew::inline v0 {
 struct Strut {
   static constexpr std::string_view name = "strut";
   static constexpr bool base_turns = false;  ///< the base tangent has a direction of its own
+  static constexpr bool tip_is_platform_point = false;
   template <int D>
   static constexpr int rows = 1;
 
@@ -42,13 +43,15 @@ struct Strut {
 
   /// A link that turns at its base and the strut are two sides of a triangle on r: one curvature is free.
   /// The feasible one nearest to the wish is taken, with both elbows.
-  int coordinates_at(const Swivel<Arc>& link, const Vec2<double>& r, const Wish& wish,
+  /// @param end of the curvature's domain [1/m]
+  int coordinates_at(const Swivel<Arc>& link, const Vec2<double>& r, const Wish& wish, double end,
                      std::span<Vec<double, 2>> roots) const {
     const double distance = r.norm(), reach = link.arc().length;
     const double shortest = std::abs(distance - length), longest = std::min(distance + length, reach);
     if (!(shortest <= reach)) return 0;
     const double least = link.arc().curvature_from_chord(longest);
-    const double most = link.arc().curvature_from_chord(shortest);
+    const double most = std::min(link.arc().curvature_from_chord(shortest), end * (1 - 1e-12));
+    if (least > most) return 0;
     const bool is_negative = wish.bending < 0 || (wish.bending == 0 && wish.curvature < 0);
     const double size = std::clamp(is_negative ? -wish.curvature : wish.curvature, least, most);
     const double curvature = is_negative ? -size : size, chord = link.arc().chord(curvature);
