@@ -1,15 +1,14 @@
 #include "kinematics/normal_legs.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 
 #include "sinew/base/limits.hpp"
+#include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v0::detail {
 namespace {
 
-using Points = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+using Points = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
 constexpr double rank_tolerance = 1e-9;
 
 bool refuse(Report& report, Status status, std::string_view why) {
@@ -47,27 +46,26 @@ Points middled(Points points, Vec3<double>& middle) {
 }
 
 /// How many dimensions the points span about their middle, and the direction in which they span least.
-Eigen::Index spanned(const Points& points, Vec3<double>& normal) {
-  Eigen::JacobiSVD<Points> svd(points, Eigen::ComputeFullU);
-  normal = svd.matrixU().col(2);
-  return svd.setThreshold(rank_tolerance).rank();
+int spanned(const Points& points, Vec3<double>& normal) {
+  const Svd axes = svd(MatrixView(points.data(), 3, points.cols()));
+  normal = axes.u().col(2);
+  return rank(axes.sigma(), rank_tolerance);
 }
 
-/// The six equations that are most independent, orthonormal; false where there are not six.
+/// Six orthonormal combinations of the legs' equations, the most independent; false where there are not six.
 bool six_sections(NormalLegs& normal, Report& report) {
   const auto count = static_cast<Eigen::Index>(normal.legs.size());
-  Eigen::MatrixXd columns(leg_coordinates, count);
+  Eigen::Matrix<double, Eigen::Dynamic, leg_coordinates, Eigen::RowMajor> rows(count, leg_coordinates);
   for (Eigen::Index i = 0; i < count; ++i)
-    columns.col(i) = leg_equation(normal.legs[static_cast<std::size_t>(i)]).normalized();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(rank_tolerance);
-  if (qr.rank() < 6) {
+    rows.row(i) = leg_equation(normal.legs[static_cast<std::size_t>(i)]).normalized().transpose();
+  const Svd equations = svd(MatrixView(rows.data(), count, leg_coordinates));
+  const int held = rank(equations.sigma(), rank_tolerance);
+  if (held < 6) {
     report.message.append("the legs hold only ");
-    append_number(report.message, static_cast<int>(qr.rank()));
+    append_number(report.message, held);
     return refuse(report, Status::singular, " of the platform's six freedoms: its poses are a continuum");
   }
-  const Eigen::MatrixXd unit = qr.householderQ() * Eigen::MatrixXd::Identity(leg_coordinates, 6);
-  normal.sections = unit.transpose().cast<Complex>();
+  normal.sections = equations.v().leftCols<6>().transpose().cast<Complex>();
   return true;
 }
 
@@ -87,8 +85,8 @@ bool normalise(std::span<const Reach<3>> legs, NormalLegs& normal, Report& repor
     normal.legs.push_back({anchors.col(i) / normal.size,
                            legs[static_cast<std::size_t>(i)].distance / normal.size,
                            ends.col(i) / normal.size});
-  const Eigen::Index base_span = spanned(anchors, normal.base_normal),
-                     platform_span = spanned(ends, normal.platform_normal);
+  const int base_span = spanned(anchors, normal.base_normal),
+            platform_span = spanned(ends, normal.platform_normal);
   normal.base_is_flat = base_span == 2;
   normal.platform_is_flat = platform_span == 2;
   return (base_span >= 2 && platform_span >= 2) ||

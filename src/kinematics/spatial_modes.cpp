@@ -1,6 +1,5 @@
 #include "sinew/kinematics/spatial_modes.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -143,9 +142,9 @@ class Poses {
   Eigen::MatrixXd free_motions(const SE3<double>& pose) const {
     Linearised<6> system;
     closing_.linearise(pose, system);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(system.jacobian, Eigen::ComputeFullV);
-    const auto held = (svd.singularValues().array() > 1e-6 * svd.singularValues()[0]).count();
-    return svd.matrixV().rightCols(6 - held);
+    const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> rows = system.jacobian;
+    const Svd twists = svd(MatrixView(rows.data(), rows.rows(), 6));
+    return twists.v().rightCols(6 - rank(twists.sigma(), 1e-6));
   }
 
   const NormalLegs& normal_;
