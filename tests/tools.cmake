@@ -31,9 +31,14 @@ if(SINEW_SANITIZE)
   return()
 endif()
 
-# The schema of robot files and the reader judge alike.
+# The schema of robot files and the reader judge alike. The test needs Debian's own Python: python3-jsonschema and
+# python3-yaml are installed for that one, and another may come first on the path.
+find_program(SYSTEM_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(NOT SYSTEM_PYTHON)
+  set(SYSTEM_PYTHON ${Python3_EXECUTABLE} CACHE FILEPATH "Python with jsonschema and yaml" FORCE)
+endif()
 if(TARGET sinew_command)
-  add_test(NAME schema.robot COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/schema/schema_test.py
+  add_test(NAME schema.robot COMMAND ${SYSTEM_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/schema/schema_test.py
     $<TARGET_FILE:sinew_command>)
   set_tests_properties(schema.robot PROPERTIES LABELS tools TIMEOUT 300 PROCESSORS 2)
 endif()
