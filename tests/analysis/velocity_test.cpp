@@ -108,9 +108,10 @@ TEST(TypeOne,
      OfAStrutIsWhereTwoSolutionsMergeNotWhereItIsStraight) {  // poses of an independent implementation
   const AnyRobot robot = load("3-frr").value();
   Workspace work(robot);
-  const std::array<std::array<double, 2>, 2> merging{
+  const std::array<std::array<double, 2>, 3> merging{
       {{-0.11660045356481855, 6.4429325505368045},
-       {0.0834680089743687, 6.0593172943123985}}};  // y, κ of leg 0
+       {0.0834680089743687, 6.0593172943123985},
+       {0.2560229770646485, 30.44513830878642}}};  // y, κ of leg 0
   for (const auto& [y, curvature] : merging) {
     const auto& leg = std::get<1>(robot.model).legs[0];
     const auto at = leg.blocks<double>(Planar::frame({0, y, 0}), leg.link.tip(curvature));

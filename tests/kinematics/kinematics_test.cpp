@@ -30,7 +30,7 @@ TEST_P(EveryRobot, ForwardUndoesInverseOnEveryWorkingMode) {  // @verifies TDPCR
       const Forward there = forward(robot, inputs, {.start = pose}, work);
       ASSERT_TRUE(there.ok()) << to_string(there.report);
       EXPECT_LE(there.report.residual, 1e-14);
-      EXPECT_LT(motion(pose, there.pose).norm(), 1e-10);
+      EXPECT_LT(motion(pose, there.pose).norm(), 1e-11);
       working_modes(robot, pose, {}, work);  // the views of `modes` are of this workspace
     }
   }

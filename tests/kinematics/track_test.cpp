@@ -39,7 +39,8 @@ TEST_P(EveryRobotTracks, AClosedLoopAndComesBackToItsInputs) {  // @verifies TDP
     if (!gets_there) continue;  // the straight way there need not be within reach
     EXPECT_LT(motion(home_pose, track.pose()).norm(), 1e-15);
     // one answer a pose; of a redundant leg up to what steps of this size leave of its null-space motion
-    for (std::size_t k = 0; k < before.size(); ++k) EXPECT_NEAR(track.inputs()[k], before[k], 5e-3);
+    const double tolerance = has_redundant_leg(robot) ? 5e-3 : 1e-12;
+    for (std::size_t k = 0; k < before.size(); ++k) EXPECT_NEAR(track.inputs()[k], before[k], tolerance);
   }
 }
 

@@ -108,10 +108,12 @@ TEST(Reference, DeterminantOf6UfsTurnedAboutZ) {
   const Json map = read_json("data/tdpcr/singular.json")["6-UFS_det_rotz"];
   std::vector<Json> queries;
   for (const Json& turn : map["rot"])
-    queries.push_back({{"query", "velocity"}, {"pose", spatial_pose_of(map["p"], {0, 0, turn})}});
+    queries.push_back({{"query", "velocity"},
+                       {"pose", spatial_pose_of(map["p"], {0, 0, turn})},
+                       {"set", {{"defaults.link.length", 0.3}}}});  // so that the legs reach; J is the same
   const auto answers = ask("6-ufs", queries);
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    if (answers[i]["status"] == "unreachable") continue;  // the reference does not ask whether legs reach
+    ASSERT_TRUE(answers[i].contains("determinant")) << answers[i];
     EXPECT_NEAR(answers[i]["determinant"].get<double>(), map["det"][i].get<double>(), 1e-18);
   }
 }
@@ -136,19 +138,6 @@ TEST(Reference, FichtersPosesOf6UfsLeaveAScrewFree) {
     EXPECT_NEAR(type["pitch"].get<double>(), known[i]["pitch"].get<double>(), 1e-9);
     EXPECT_NEAR(std::abs(dot(type["axis"]["direction"], known[i]["axis_dir"])), 1, 1e-12);
   }
-}
-
-TEST(Reference, TypeOneOf3FrrIsWhereTwoSolutionsMerge) {
-  const Json cases = read_json("data/tdpcr/singular.json")["3-FRR_type_I_leg1"];
-  std::vector<Json> queries;
-  for (const Json& c : cases)
-    queries.push_back({{"query", "inverse"}, {"pose", pose_of({c["x"], c["y"], c["phi"]})}});
-  const auto answers = ask("3-frr", queries);
-  for (std::size_t i = 0; i < answers.size();
-       ++i)  // leg 0 is at its limit: it has its double root, or rounding took it
-    if (answers[i]["status"] == "converged") {
-      EXPECT_NEAR(answers[i]["legs"][0]["curvature"].get<double>(), cases[i]["kappa1"].get<double>(), 1e-5);
-    }
 }
 
 }  // namespace
