@@ -36,16 +36,6 @@ std::vector<int> signs(const Node* list) {
   return result;
 }
 
-/// The robot as `--set` changes it; what leg shares first, as queries have it.
-Expected<AnyRobot> changed(const std::string& file, const Node* set) {
-  auto document = read_robot_file(file);
-  for (const bool of_legs : {false, true})
-    for (const Member& change : set ? set->members : std::vector<Member>{})
-      if (document && change.key.starts_with("legs") == of_legs)
-        document = with(*document, change.key, change.value);
-  return document ? read_robot(*document) : tl::unexpected(document.error());
-}
-
 /// The options, read as those of an inverse query at home, which tells what is wrong with them.
 Expected<Subject> subject(const Arguments& arguments, Robot& opened) {
   auto query = request("inverse", arguments, opened);
@@ -55,7 +45,11 @@ Expected<Subject> subject(const Arguments& arguments, Robot& opened) {
   if (Errors errors = ask(opened.session, *query).errors(); !errors.empty())
     return tl::unexpected(std::move(errors));
   const Document tree = parse_json(*query, "query").value();
-  auto robot = changed(arguments.operand(), at(tree.root, "set"));
+  const auto file = read_robot_file(arguments.operand());
+  if (!file) return tl::unexpected(file.error());
+  const Node* set = at(tree.root, "set");
+  const auto document = with(*file, set ? std::span<const Member>(set->members) : std::span<const Member>());
+  auto robot = document ? read_robot(*document) : tl::unexpected(document.error());
   if (!robot) return tl::unexpected(robot.error());
   const Node* curvature = at(tree.root, "curvature");
   return Subject{std::move(*robot), signs(at(tree.root, "bending")), signs(at(tree.root, "elbow")),

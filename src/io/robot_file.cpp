@@ -132,9 +132,7 @@ LegT read_leg_of(Reader& leg, Reader& link, Reader& closure) {
   LegT::Link::fields(result.link, FieldReader(link));
   LegT::Drive::fields(result.drive, FieldReader(link));
   if constexpr (requires { result.drive.theta_is; })
-    if (const auto theta = link.optional("theta_is"))
-      result.drive.theta_is =
-          theta->choice_of<ThetaIs>({{"tangent", ThetaIs::tangent}, {"chord", ThetaIs::chord}});
+    if (const auto theta = link.optional("theta_is")) result.drive.theta_is = read_theta_is(*theta);
   result.backbone = read_backbone(link);
   LegT::Closure::fields(result.closure, FieldReader(closure));
   result.platform_point =
@@ -426,6 +424,19 @@ Expected<Document> with(const Document& document, const std::string& path, Node 
   value.column = static_cast<int>(std::hash<std::string>{}(path)&0x7fffffffU);
   if (const auto done = set(changed.root, path, std::move(value)); !done) return tl::unexpected(done.error());
   return changed;
+}
+
+Expected<Document> with(const Document& document, std::span<const Member> settings) {
+  Expected<Document> changed = document;
+  for (const bool of_legs : {false, true})
+    for (const Member& setting : settings)
+      if (changed && setting.key.starts_with("legs") == of_legs)
+        changed = with(*changed, setting.key, setting.value);
+  return changed;
+}
+
+ThetaIs read_theta_is(const Reader& word) {
+  return word.choice_of<ThetaIs>({{"tangent", ThetaIs::tangent}, {"chord", ThetaIs::chord}});
 }
 
 }  // namespace sinew::inline v0

@@ -293,18 +293,4 @@ AnyPose between(const AnyPose& from, const AnyPose& to, double part) {
       from);
 }
 
-std::string_view to_string(Objective objective) noexcept {
-  switch (objective) {
-    case Objective::none:
-      return "none";
-    case Objective::limits:
-      return "limits";
-    case Objective::singularity:
-      return "singularity";
-    case Objective::smooth:
-      return "smooth";
-  }
-  return "unknown";
-}
-
 }  // namespace sinew::inline v0

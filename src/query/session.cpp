@@ -94,28 +94,16 @@ std::optional<AnyRobot> altered(const Document& document, Reader& query, Errors&
   const auto set = query.optional("set");
   const auto theta_is = query.optional("theta_is");
   if (!set && !theta_is) return {};
-  Document changed = document;
-  auto settings = set ? set->members() : decltype(set->members()){};
-  // What legs share comes first: a setting of one leg then wins, whatever the order of the query.
-  std::stable_partition(settings.begin(), settings.end(),
-                        [](const auto& s) { return !s.first.starts_with("legs"); });
-  for (const auto& [path, value] : settings) {
-    auto next = with(changed, path, *value.node());
-    if (!next) {
-      errors.insert(errors.end(), next.error().begin(), next.error().end());
-      return {};
-    }
-    changed = std::move(*next);
+  if (set) set->members();  // notes it where this is no map
+  const auto changed =
+      with(document, set ? std::span<const Member>(set->node()->members) : std::span<const Member>());
+  auto robot = changed ? read_robot(*changed) : tl::unexpected(changed.error());
+  if (!robot) {
+    errors.insert(errors.end(), robot.error().begin(), robot.error().end());
+    return {};
   }
-  auto robot = read_robot(changed);
-  if (robot) {
-    if (theta_is)
-      choose_theta(*robot, *theta_is,
-                   theta_is->choice_of<ThetaIs>({{"tangent", ThetaIs::tangent}, {"chord", ThetaIs::chord}}));
-    return std::move(*robot);
-  }
-  errors.insert(errors.end(), robot.error().begin(), robot.error().end());
-  return {};
+  if (theta_is) choose_theta(*robot, *theta_is, read_theta_is(*theta_is));
+  return std::move(*robot);
 }
 
 }  // namespace

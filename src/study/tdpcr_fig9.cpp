@@ -12,12 +12,14 @@
 #include "sinew/io/figure.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
+#include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/tdpcr_example51.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
+using compare::add_figure, compare::number, compare::printed, compare::small, compare::write_findings;
 using example51::Printed, example51::Sample;
 using std::numbers::pi;
 using Samples = std::vector<Sample>;
@@ -62,17 +64,6 @@ Table table_of(const Samples& samples) {
 }
 
 // ---------------------------------------------------------------- findings
-
-std::string number(double value) { return fmt::format("{:.6g}", value); }
-
-std::string small(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
-
-Finding printed(std::string quantity, double paper, double ours, const char* unit) {
-  const double difference = ours - paper;
-  const bool same = std::abs(difference) <= 4 * std::numeric_limits<double>::epsilon() * std::abs(paper);
-  return {std::move(quantity), fmt::format("{} {}", paper, unit), fmt::format("{} {}", number(ours), unit),
-          small(difference), same ? "agrees" : "differs"};
-}
 
 /// Largest distance between corresponding points.
 template <class Points>
@@ -292,22 +283,6 @@ Figure poses_figure(const AnyRobot& robot, const Samples& samples) {
   last.series.push_back(outline("lines meet", meeting, Mark::points, Colour::vermillion, 5));
   figure.panels.push_back(std::move(last));
   return figure;
-}
-
-/// The findings are kept as a file, so that they are there where the figures cannot be drawn.
-Expected<void> write_findings(Reproduction& result, const std::filesystem::path& path) {
-  result.files.push_back(path);
-  return write_text(to_markdown(result), path);
-}
-
-/// One figure that cannot be drawn does not keep the others from being written.
-void add_figure(Reproduction& result, Errors& errors, const Figure& figure,
-                const std::filesystem::path& stem) {
-  if (const auto files = write_figure(figure, stem)) {
-    result.files.insert(result.files.end(), files->begin(), files->end());
-  } else {
-    errors.insert(errors.end(), files.error().begin(), files.error().end());
-  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "sinew/study/reproduce.hpp"
+#include "study_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -19,24 +20,7 @@ namespace {
 using namespace sinew;
 namespace fs = std::filesystem;
 
-/// A folder of this process that goes with it.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("sinew_study_" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
-
-/// PATH with nothing on it, until the end of the scope.
-struct EmptyPath {
-  std::string before = std::getenv("PATH");
-  EmptyPath() { setenv("PATH", "/nothing-here", 1); }
-  ~EmptyPath() { setenv("PATH", before.c_str(), 1); }
-};
-
-std::string bytes(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using namespace sinew::test;
 
 /// Made once, for all tests that only read.
 const Table& fig9() {

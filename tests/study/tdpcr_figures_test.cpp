@@ -12,30 +12,14 @@
 #include "sinew/study/reproduce.hpp"
 #include "study/compare.hpp"
 #include "study/tdpcr_example51.hpp"
+#include "study_folder.hpp"
 
 namespace {
 
 using namespace sinew;
 namespace fs = std::filesystem;
 
-/// A folder of this process that goes with it.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("sinew_figures_" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
-
-/// PATH with nothing on it, until the end of the scope.
-struct EmptyPath {
-  std::string before = std::getenv("PATH");
-  EmptyPath() { setenv("PATH", "/nothing-here", 1); }
-  ~EmptyPath() { setenv("PATH", before.c_str(), 1); }
-};
-
-std::string bytes(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using namespace sinew::test;
 
 /// One item, made once for all tests that only read.
 struct Made {

@@ -9,6 +9,7 @@
 
 #include "sinew/base/error.hpp"
 #include "sinew/io/node.hpp"
+#include "sinew/io/reader.hpp"
 #include "sinew/robot/any_robot.hpp"
 
 namespace sinew::inline v0 {
@@ -39,5 +40,12 @@ SINEW_API Expected<Document> expanded(const Document& document);
 
 /// The document with the value at `path` (`legs[0].link.length`, `platform.radius`) replaced.
 SINEW_API Expected<Document> with(const Document& document, const std::string& path, Node value);
+
+/// The same with several, `{path: value}`. What legs share comes first: a setting of one leg then wins,
+/// whatever their order.
+SINEW_API Expected<Document> with(const Document& document, std::span<const Member> settings);
+
+/// `tangent` or `chord`.
+SINEW_API ThetaIs read_theta_is(const Reader& word);
 
 }  // namespace sinew::inline v0

@@ -56,6 +56,4 @@ class SINEW_API Track {
 /// shortest way, φ in the plane as the numbers say (so that a path may turn by more than half a turn).
 SINEW_API AnyPose between(const AnyPose& from, const AnyPose& to, double part);
 
-SINEW_API std::string_view to_string(Objective objective) noexcept;
-
 }  // namespace sinew::inline v0
