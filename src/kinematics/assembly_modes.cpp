@@ -30,14 +30,6 @@ void put(AssemblyModes& modes, const SpatialModes& found) {
 PlanarModes modes_of(std::span<const Reach<2>> reaches) { return planar_modes(reaches); }
 SpatialModes modes_of(std::span<const Reach<3>> reaches) { return spatial_modes(reaches); }
 
-double gap(const PlanarPose& a, const PlanarPose& b, double radius) {
-  return std::hypot(a.x - b.x, a.y - b.y, radius * wrap_angle(a.phi - b.phi));
-}
-double gap(const SpatialPose& a, const SpatialPose& b, double radius) {
-  const Vec3<double> turn = SE3<double>::from(a).R.inverse().compose(SE3<double>::from(b).R).log();
-  return std::hypot((a.position - b.position).norm(), radius * turn.norm());
-}
-
 }  // namespace
 
 AssemblyModes assembly_modes(const AnyRobot& robot, Numbers inputs, Workspace& work) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "kinematics/distance_closing.hpp"
+#include "kinematics/closing.hpp"
 #include "kinematics/four_bars.hpp"
 #include "kinematics/normal_legs.hpp"
 
@@ -67,7 +67,7 @@ std::optional<SE3<double>> real_pose(const Study& x) {
 /// The poses of one set of legs, gathered from wherever candidates come.
 class Poses {
  public:
-  explicit Poses(const NormalLegs& normal) : normal_(normal), closing_(normal.legs, 1) {}
+  explicit Poses(const NormalLegs& normal) : normal_(normal), closing_(normal.legs) {}
 
   const std::vector<SE3<double>>& all() const { return all_; }
   bool are_too_many() const { return all_.size() > most_modes; }
@@ -121,7 +121,7 @@ class Poses {
     return std::ranges::any_of(all_, [&](const SE3<double>& pose) {
       const Eigen::MatrixXd motions = free_motions(pose);
       for (Eigen::Index i = 0; i < motions.cols(); ++i) {
-        SE3<double> moved = pose.displaced(shift * motions.col(i));
+        SE3<double> moved = closing_.moved(pose, shift * motions.col(i));
         const bool closes = newton(closing_, moved, {.tolerance = 1e-15}).ok();
         if (closes && gap(pose, moved) > 0.1 * shift && gap(pose, moved) < 2 * shift) return true;
       }
@@ -148,16 +148,9 @@ class Poses {
   }
 
   const NormalLegs& normal_;
-  DistanceClosing closing_;
+  Closing<Spatial> closing_;
   std::vector<SE3<double>> all_;
 };
-
-double closure_error(std::span<const Reach<3>> legs, const SE3<double>& pose) {
-  double error = 0;
-  for (const Reach<3>& leg : legs)
-    error = std::max(error, std::abs((pose.point(leg.platform_point) - leg.anchor).norm() - leg.distance));
-  return error;
-}
 
 /// z descending, then y, then x, then the quaternion; coordinates that differ by rounding count as equal.
 void sort(std::vector<SpatialPose>& poses, double size) {
@@ -175,8 +168,11 @@ void sort(std::vector<SpatialPose>& poses, double size) {
 void tell(const Poses& poses, const NormalLegs& normal, std::span<const Reach<3>> legs, SpatialModes& modes) {
   for (const SE3<double>& pose : poses.all()) modes.poses.push_back(spatial_pose(normal.given(pose)));
   sort(modes.poses, normal.size);
+  const Closing<Spatial> closing(legs);
+  Linearised<6> at;
   for (const SpatialPose& pose : modes.poses) {
-    modes.residual.push_back(closure_error(legs, SE3<double>::from(pose)));
+    closing.linearise(SE3<double>::from(pose), at);
+    modes.residual.push_back(at.error);
     modes.report.residual = std::max(modes.report.residual, modes.residual.back());
   }
 }

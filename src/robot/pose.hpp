@@ -1,6 +1,8 @@
 /// @file pose.hpp
 /// The pose of a robot's own space out of the variant at the edge.
 #pragma once
+#include <cmath>
+
 #include "sinew/base/assert.hpp"
 #include "sinew/robot/any_robot.hpp"
 
@@ -10,6 +12,19 @@ template <class Space>
 const typename Space::Pose& in_space(const AnyPose& pose) {
   SINEW_EXPECTS(std::holds_alternative<typename Space::Pose>(pose));
   return *std::get_if<typename Space::Pose>(&pose);
+}
+
+/// The pose of a frame, its angle or quaternion as answers have it.
+inline PlanarPose pose_of(const SE2<double>& frame) { return planar_pose(frame); }
+inline SpatialPose pose_of(const SE3<double>& frame) { return spatial_pose(frame); }
+
+/// How far two poses are apart [m], turns counted by what they move a point at `radius`.
+inline double gap(const PlanarPose& a, const PlanarPose& b, double radius) {
+  return std::hypot(a.x - b.x, a.y - b.y, radius * wrap_angle(a.phi - b.phi));
+}
+inline double gap(const SpatialPose& a, const SpatialPose& b, double radius) {
+  const Vec3<double> turn = SE3<double>::from(a).R.inverse().compose(SE3<double>::from(b).R).log();
+  return std::hypot((a.position - b.position).norm(), radius * turn.norm());
 }
 
 }  // namespace sinew::inline v0
