@@ -7,7 +7,6 @@
 
 #include "sinew/base/fixed_text.hpp"
 #include "sinew/leg/closure.hpp"
-#include "sinew/link/arc.hpp"
 
 namespace sinew::inline v0 {
 
@@ -36,10 +35,10 @@ struct Chord {
 
   /// Closed form where the link has one: the two curvatures ±κ, once where the link is straight; none beyond
   /// it.
-  template <int D>
-  int coordinates_at(const Arc& link, const Vec<double, D>& r, const Wish&, double,
-                     std::span<Vec<double, 1>> roots) const {
-    const double curvature = link.curvature_from_chord(r.norm());
+  template <HasArc Link, int D>
+  requires(!Link::has_own_turn) int coordinates_at(const Link& link, const Vec<double, D>& r, const Wish&,
+                                                   double, std::span<Vec<double, 1>> roots) const {
+    const double curvature = link.arc().curvature_from_chord(r.norm());
     if (std::isnan(curvature)) return 0;  // too far
     roots[0][0] = curvature == 0 ? 0 : -curvature;
     roots[1][0] = curvature;

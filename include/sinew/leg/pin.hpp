@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "sinew/leg/chord.hpp"
-#include "sinew/link/swivel.hpp"
+#include "sinew/math/se2.hpp"
 
 namespace sinew::inline v0 {
 
@@ -26,11 +26,12 @@ struct Pin {
   }
 
   /// The chord ends at the platform point: ±κ, and the base turned half a bend beside it.
-  int coordinates_at(const Swivel<Arc>& link, const Vec2<double>& r, const Wish&, double,
-                     std::span<Vec<double, 2>> roots) const {
+  template <HasArc Link>
+  requires(Link::has_own_turn) int coordinates_at(const Link& link, const Vec2<double>& r, const Wish&,
+                                                  double, std::span<Vec<double, 2>> roots) const {
     const double curvature = link.arc().curvature_from_chord(r.norm());
     if (std::isnan(curvature)) return 0;
-    const double towards = std::atan2(r.y(), r.x()), bend = 0.5 * curvature * link.arc().length;
+    const double towards = std::atan2(r.y(), r.x()), bend = link.arc().tangent_lead(curvature);
     roots[1] = Vec<double, 2>(wrap_angle(towards + bend), curvature);
     roots[0] = curvature == 0 ? roots[1] : Vec<double, 2>(wrap_angle(towards - bend), -curvature);
     return curvature == 0 ? 1 : 2;

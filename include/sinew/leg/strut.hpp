@@ -9,7 +9,7 @@
 #include "sinew/base/fixed_text.hpp"
 #include "sinew/base/units.hpp"
 #include "sinew/leg/closure.hpp"
-#include "sinew/link/swivel.hpp"
+#include "sinew/math/se2.hpp"
 
 namespace sinew::inline v0 {
 
@@ -44,8 +44,9 @@ struct Strut {
   /// A link that turns at its base and the strut are two sides of a triangle on r: one curvature is free.
   /// The feasible one nearest to the wish is taken, with both elbows.
   /// @param end of the curvature's domain [1/m]
-  int coordinates_at(const Swivel<Arc>& link, const Vec2<double>& r, const Wish& wish, double end,
-                     std::span<Vec<double, 2>> roots) const {
+  template <HasArc Link>
+  requires(Link::has_own_turn) int coordinates_at(const Link& link, const Vec2<double>& r, const Wish& wish,
+                                                  double end, std::span<Vec<double, 2>> roots) const {
     const double distance = r.norm(), reach = link.arc().length;
     const double shortest = std::abs(distance - length), longest = std::min(distance + length, reach);
     if (!(shortest <= reach)) return 0;
@@ -58,7 +59,7 @@ struct Strut {
     // law of cosines; where the triangle is flat, or has no side to speak of, the elbow is straight
     const double cosine = (chord * chord + distance * distance - length * length) / (2 * chord * distance);
     const double corner = std::isfinite(cosine) ? std::acos(std::clamp(cosine, -1.0, 1.0)) : 0;
-    const double towards = std::atan2(r.y(), r.x()), bend = 0.5 * curvature * reach;
+    const double towards = std::atan2(r.y(), r.x()), bend = link.arc().tangent_lead(curvature);
     for (const int elbow : {-1, 1})
       roots[elbow < 0 ? 0 : 1] = Vec<double, 2>(wrap_angle(towards - elbow * corner + bend), curvature);
     if (wish.elbow != 0) roots[0] = roots[wish.elbow < 0 ? 0 : 1];

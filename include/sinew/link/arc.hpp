@@ -69,6 +69,9 @@ struct Arc {
     return (2.0 / length) * inverse_sinc(chord_length / length);
   }
 
+  /// Angle from the chord to the base tangent, κℓ/2 [rad], counter-clockwise.
+  double tangent_lead(double curvature) const { return half_bend(curvature); }
+
   /// Point of the backbone at arc length s [m]: the tip of a shorter arc of the same curvature.
   Vec2<double> point(double curvature, double s) const { return Arc{s}.tip(curvature).position; }
 

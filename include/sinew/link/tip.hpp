@@ -14,6 +14,13 @@ struct Tip {
   Mat<S, D, Q> rate;   ///< ∂u/∂q [m per unit of q]
 };
 
+/// A link whose backbone is an arc: closures may then solve in closed form.
+template <class Link>
+concept HasArc = requires(const Link& link) {
+  link.arc().curvature_from_chord(1.0);
+  link.arc().tangent_lead(1.0);
+};
+
 /// Bounds that hold for every value of the coordinate of a one-coordinate link. They make root isolation a
 /// proof.
 struct TipBounds {

@@ -53,7 +53,7 @@ struct SwivelDrive {
   /// Of the tangent before the commanded angle, per curvature [m].
   template <class Link>
   double lead(const Link& link) const {
-    return theta_is == ThetaIs::chord ? 0.5 * link.arc().length : 0;
+    return theta_is == ThetaIs::chord ? link.arc().tangent_lead(1) : 0;
   }
 };
 
