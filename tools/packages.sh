@@ -5,7 +5,7 @@
 # What building the library and the command and drawing figures needs, ...
 # shellcheck disable=SC2034
 build_packages=(build-essential cmake pkgconf libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
-                libfmt-dev libexpected-dev gnuplot-nox)
+                libfmt-dev libexpected-dev libhwy-dev gnuplot-nox)
 # ... and what the tests and benchmarks need beside it.
 # shellcheck disable=SC2034
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema

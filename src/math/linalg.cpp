@@ -1,5 +1,6 @@
 #include "sinew/math/linalg.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -149,6 +150,22 @@ int least_norm(const MatrixView& a, std::span<const double> b, std::span<double>
     for (int i = 0; i < parts.columns; ++i) out[static_cast<std::size_t>(i)] += along * v(i, k);
   }
   return r;
+}
+
+void symmetric_eigenvalues(const MatrixView& a, std::span<double> values, std::span<double> vectors) {
+  const bool square = fits(a) && a.rows() == a.cols() && values.size() == static_cast<std::size_t>(a.rows());
+  SINEW_EXPECTS(square);
+  std::fill(values.begin(), values.end(), nan);
+  std::fill(vectors.begin(), vectors.end(), nan);
+  if (!square || !a.allFinite()) return;
+  const Small symmetric = 0.5 * (a + a.transpose());
+  const Eigen::SelfAdjointEigenSolver<Small> found(
+      symmetric, vectors.empty() ? Eigen::EigenvaluesOnly : Eigen::ComputeEigenvectors);
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    values[static_cast<std::size_t>(i)] = found.eigenvalues()[i];
+    for (Eigen::Index j = 0; !vectors.empty() && j < a.cols(); ++j)
+      vectors[static_cast<std::size_t>(i * a.cols() + j)] = found.eigenvectors()(j, i);
+  }
 }
 
 double determinant(const MatrixView& a) {

@@ -47,6 +47,11 @@ SINEW_API int rank(std::span<const double> sigma, double tolerance = 1e-12);
 SINEW_API int least_norm(const MatrixView& a, std::span<const double> b, std::span<double> out,
                          double tolerance = 1e-12);
 
+/// Eigenvalues of the symmetric part (A + Aᵀ)/2 of a square matrix, ascending, into `values`; where `vectors`
+/// is not empty the eigenvectors too, one a row.
+SINEW_API void symmetric_eigenvalues(const MatrixView& a, std::span<double> values,
+                                     std::span<double> vectors = {});
+
 SINEW_API double determinant(const MatrixView& a);
 
 }  // namespace sinew::inline v0

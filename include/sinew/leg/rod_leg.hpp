@@ -1,0 +1,57 @@
+/// @file rod_leg.hpp
+/// A leg that bears load: a rod between a guide in the base and a ball joint on the platform. What it hands
+/// over is a force that depends on where the platform is; a robot of such legs is in equilibrium, not merely
+/// closed. Theory: docs/theory/rod_robot.md
+#pragma once
+#include <array>
+
+#include "sinew/leg/space.hpp"
+#include "sinew/link/rod.hpp"
+#include "sinew/tendon/pair.hpp"
+
+namespace sinew::inline v0 {
+
+/// The joint at the tip: no moment, no torque.
+struct Ball {
+  static constexpr std::string_view name = "ball";
+};
+
+/// The input of a rod.
+struct RodFeeder {
+  static constexpr int inputs = 1;
+  static constexpr std::array input_kinds{InputKind{"length", Dimension::length}};
+};
+
+struct RodLeg {
+  using Space = Spatial;
+  using Link = Rod;
+  using Drive = RodFeeder;
+  using Closure = Ball;
+  using Frame = SE3<double>;
+  using Point = Vec3<double>;
+  static constexpr bool bears_load = true;
+  static constexpr bool is_redundant = false;
+  static constexpr int dimension = 3;
+  static constexpr int rows = 0;  ///< it constrains nothing; the platform's six balances are the robot's
+  static constexpr int inputs = 1;
+  /// θ at the nodes [rad], lateral and axial tip force [N], length [m].
+  static constexpr int coordinates = rod_nodes + 3;
+  using Coordinates = Vec<double, coordinates>;
+
+  Frame base;  ///< base point; +y along the base tangent
+  Link link;
+  Point platform_point = Point::Zero();  ///< in the platform's frame [m]
+
+  Vec3<double> tangent() const { return base.rotate(Vec3<double>(0, 1, 0)); }
+};
+
+/// Most rods of a robot.
+inline constexpr int max_rods = 24;
+
+/// A leg whose force depends on where its tip is held.
+template <class LegT>
+concept BearsLoad = requires {
+  requires LegT::bears_load;
+};
+
+}  // namespace sinew::inline v0

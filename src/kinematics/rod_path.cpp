@@ -1,0 +1,227 @@
+#include "kinematics/rod_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/math/linalg.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A step of the platform as one length [m].
+double size_of(const Vec<double, 6>& twist, double radius) {
+  return std::hypot(twist.head<3>().norm(), radius * twist.tail<3>().norm());
+}
+
+void set(RodSystem& system, const RodTarget& from, const RodTarget& to, double part) {
+  for (int k = 0; k < system.rods(); ++k)
+    system.set_length(k, from.lengths[at(k)] + part * (to.lengths[at(k)] - from.lengths[at(k)]));
+  system.set_wrench(from.wrench + part * (to.wrench - from.wrench));
+}
+
+/// Error below which Newton's method can only lose to rounding.
+constexpr double rounding = 2e-13;
+
+}  // namespace
+
+bool correct(RodSystem& system, double tolerance, bool hold_platform, int& iterations, double& residual) {
+  const auto error_now = [&] {
+    const double error = system.evaluate();
+    return hold_platform ? system.rod_error() : error;
+  };
+  double error = error_now();
+  for (int k = 0; k < 12 && !(error <= rounding); ++k) {
+    if (!system.linearise() && !hold_platform) return false;
+    system.move(hold_platform ? Vec<double, 6>(Vec<double, 6>::Zero()) : system.step(true));
+    ++iterations;
+    const double next = error_now();
+    const bool is_done = next <= tolerance;
+    if (!is_done && !(next < 0.5 * error)) return false;
+    const bool gains = next < 0.1 * error;
+    error = next;
+    if (is_done && !gains) break;
+  }
+  residual = error;
+  return error <= tolerance;
+}
+
+RodTarget present(const RodSystem& system) {
+  RodTarget target;
+  for (int k = 0; k < system.rods(); ++k) target.lengths[at(k)] = system.length(k);
+  target.wrench = system.wrench();
+  return target;
+}
+
+int unstable_directions(const RodSystem& system) {
+  int count = 0;
+  for (int k = 0; k < system.rods(); ++k) {
+    const auto [in_plane, aside] = system.unstable_with_tip_held(k);
+    count += in_plane + aside;
+  }
+  std::array<double, 6> values;
+  symmetric_eigenvalues(system.stiffness(), values);
+  for (const double value : values) count += value < 0;
+  return count;
+}
+
+namespace {
+
+/// One path being followed.
+class Follower {
+ public:
+  Follower(RodSystem& system, const RodTarget& target, const RodPathOptions& options,
+           RodSystem::Snapshot& spare)
+      : system_(system),
+        from_(present(system)),
+        to_(target),
+        options_(options),
+        spare_(spare) {}
+
+  RodPathEnd run() {
+    double stride = 1;
+    if (options_.stop_at_instability) unstable_ = unstable_directions(system_);
+    while (end_.progress < 1 && stride > shortest && end_.iterations < options_.max_iterations) {
+      const double next = std::min(1.0, end_.progress + stride);
+      system_.save(spare_);
+      if (!reach(next)) {
+        retreat();
+        stride = (next - end_.progress) / 4;
+        continue;
+      }
+      if (options_.stop_at_instability && unstable_directions(system_) > unstable_) {
+        retreat();
+        end_.became_unstable = true;
+        stride = (next - end_.progress) / 2;
+        if (stride < 1e-9) break;
+        continue;
+      }
+      stride = quick_ ? 2 * (next - end_.progress) : next - end_.progress;
+      end_.progress = next;
+      end_.became_unstable = false;
+    }
+    end_.arrived = end_.progress == 1;
+    return end_;
+  }
+
+ private:
+  static constexpr double shortest = 1e-9;
+
+  /// Predictor with the last factors, Newton's method after it. The corrections must stay small beside the
+  /// prediction: else it may have found another branch.
+  bool reach(double part) {
+    set(system_, from_, to_, part);
+    system_.evaluate();
+    const Vec<double, 6> ahead = system_.step(false);
+    const double length = size_of(ahead, system_.radius());
+    if (!(length <= 0.15 * system_.length(0))) return false;
+    system_.move(ahead);
+    const SE3<double> predicted = system_.platform();
+    const int before = end_.iterations;
+    double residual = 0;
+    if (!correct(system_, options_.tolerance, false, end_.iterations, residual)) return false;
+    Vec<double, 6> correction;
+    correction << system_.platform().p - predicted.p,
+        predicted.R.inverse().compose(system_.platform().R).log();
+    if (size_of(correction, system_.radius()) > 0.5 * length + 1e-9) return false;
+    if (!system_.is_fine() && system_.truncation() > coarse_truncation) {
+      system_.refine();
+      if (!correct(system_, options_.tolerance, false, end_.iterations, residual)) return false;
+    }
+    if (!system_.linearise()) return false;
+    quick_ = end_.iterations - before <= 4;
+    end_.residual = residual;
+    return true;
+  }
+
+  void retreat() {
+    system_.restore(spare_);
+    system_.evaluate();
+    system_.linearise();
+  }
+
+  RodSystem& system_;
+  RodTarget from_;
+  const RodTarget& to_;
+  const RodPathOptions& options_;
+  RodSystem::Snapshot& spare_;
+  RodPathEnd end_;
+  bool quick_ = false;
+  int unstable_ = 0;
+};
+
+}  // namespace
+
+RodPathEnd follow(RodSystem& system, const RodTarget& target, const RodPathOptions& options,
+                  RodSystem::Snapshot& spare) {
+  return Follower(system, target, options, spare).run();
+}
+
+namespace {
+
+constexpr int N = coarse_nodes;
+
+/// The rod that pushes only sideways, unit length: θ and fd for the direction of its tip, tan γ = d/w. One
+/// parameter, from the straight rod on.
+bool rest_shape(double angle, std::array<double, N + 1>& unknowns) {
+  const auto& basis = GalerkinBasis<coarse_nodes>::get();
+  unknowns.fill(0);
+  const int strides = std::max(1, static_cast<int>(std::ceil(angle / 0.2)));
+  for (int k = 1; k <= strides; ++k) {
+    const double d = std::sin(angle * k / strides), w = std::cos(angle * k / strides);
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      std::array<double, (N + 1) * (N + 1)> matrix{};
+      std::array<double, N + 1> gap{}, step{};
+      for (int i = 0; i < N; ++i) {
+        const double s = std::sin(unknowns[at(i)]), c = std::cos(unknowns[at(i)]), weight = basis.weight[i];
+        gap[at(i)] = -weight * unknowns[N] * c;
+        for (int j = 0; j < N; ++j) {
+          gap[at(i)] += basis.bending[i][j] * unknowns[at(j)];
+          matrix[at(i * (N + 1) + j)] = basis.bending[i][j];
+        }
+        matrix[at(i * (N + 2))] += weight * unknowns[N] * s;
+        matrix[at(i * (N + 1) + N)] = -weight * c;
+        matrix[at(N * (N + 1) + i)] = weight * (w * c + d * s);
+        gap[N] += weight * (w * s - d * c);
+      }
+      if (!solve(MatrixView(matrix.data(), N + 1, N + 1), MatrixView(gap.data(), N + 1, 1), step))
+        return false;
+      double largest = 0;
+      for (int i = 0; i <= N; ++i) {
+        unknowns[at(i)] -= step[at(i)];
+        largest = std::max(largest, std::abs(step[at(i)]));
+      }
+      if (!(largest < 1e3)) return false;
+      if (largest < 1e-13) break;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool rest_at(RodSystem& system, const SE3<double>& platform) {
+  const auto& basis = GalerkinBasis<coarse_nodes>::get();
+  system.set_platform(platform);
+  for (int k = 0; k < system.rods(); ++k) {
+    const auto [d, w, lateral, stiffness] = system.aim(k);
+    const double distance = std::hypot(d, w);
+    if (!(d > 1e-9 * distance) || !(w > 0)) return false;
+    std::array<double, N + 1> shape;
+    if (!rest_shape(std::atan2(d, w), shape)) return false;
+    double reach = 0;
+    for (int j = 0; j < N; ++j)
+      reach += basis.weight[j] * (d * std::sin(shape[at(j)]) + w * std::cos(shape[at(j)])) / distance;
+    const double length = distance / reach;
+    system.set_shape(k, length, std::span(shape).first(N), shape[N] * stiffness / (length * length), 0,
+                     lateral);
+  }
+  system.set_wrench(RodSystem::Wrench::Zero());
+  system.evaluate();
+  system.set_wrench(-system.missing());
+  system.evaluate();
+  return system.linearise();
+}
+
+}  // namespace sinew::inline v0

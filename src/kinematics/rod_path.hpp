@@ -1,0 +1,58 @@
+/// @file rod_path.hpp
+/// Following an equilibrium of rods while lengths and wrench change together: from a state that is in
+/// equilibrium under some wrench to the one that is asked for. Theory: docs/theory/rod_robot.md
+#pragma once
+#include <limits>
+
+#include "robot/rod_system.hpp"
+#include "sinew/solve/report.hpp"
+
+namespace sinew::inline v0 {
+
+/// Estimated error of a shape at its tip, over the length, from which a path and a resumed answer take the
+/// fine nodes.
+inline constexpr double coarse_truncation = 1e-12;
+
+/// Where a path leads: a length a rod, and the wrench on the platform.
+struct RodTarget {
+  std::array<double, max_rods> lengths{};
+  RodSystem::Wrench wrench = RodSystem::Wrench::Zero();
+};
+
+struct RodPathOptions {
+  double tolerance = 1e-12;          ///< on RodSystem::evaluate
+  int max_iterations = 4000;         ///< Newton steps of the whole path
+  bool stop_at_instability = false;  ///< ends where the number of unstable directions grows
+};
+
+/// How a path ended.
+struct RodPathEnd {
+  bool arrived = false;
+  bool became_unstable = false;  ///< with stop_at_instability
+  double progress = 0;           ///< 0 at the start, 1 at the target
+  int iterations = 0;            ///< Newton steps
+  double residual = std::numeric_limits<double>::infinity();
+};
+
+/// Newton's method at fixed lengths and wrench, as long as it contracts.
+/// @param hold_platform the rods alone
+bool correct(RodSystem& system, double tolerance, bool hold_platform, int& iterations, double& residual);
+
+/// From the state of `system`, which must be in equilibrium and linearised, to `target`. Afterwards the
+/// system is at the last equilibrium found, linearised there. `spare` is memory.
+RodPathEnd follow(RodSystem& system, const RodTarget& target, const RodPathOptions& options,
+                  RodSystem::Snapshot& spare);
+
+/// What the system is now, as a target.
+RodTarget present(const RodSystem& system);
+
+/// Unstable directions of the whole robot: the second variation with every rod free to move. After
+/// `linearise`.
+int unstable_directions(const RodSystem& system);
+
+/// Every rod as it rests at a pose that nothing but the ball joints' side forces holds: the length at which
+/// it neither pulls nor pushes along its guide. False where a rod's tip lies on its guide's line or behind
+/// it.
+bool rest_at(RodSystem& system, const SE3<double>& platform);
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,564 @@
+// Compiled once for each instruction set; Highway chooses among them at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "robot/rod_kernels.cpp"
+// SSSE3 is what every x86-64 of the last fifteen years has; what lies between is not worth its compile time.
+#define HWY_DISABLED_TARGETS (HWY_SSE4 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "robot/rod_kernels.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace sinew::inline v0 {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<double, rod_lanes>;
+using Pack = hn::Vec<Tag>;
+constexpr Tag tag;
+
+HWY_INLINE Pack all(double x) { return hn::Set(tag, x); }
+HWY_INLINE Pack load(const double* p) { return hn::Load(tag, p); }
+HWY_INLINE void store(Pack v, double* p) { hn::Store(v, tag, p); }
+HWY_INLINE Pack plus(Pack c, Pack a, Pack b) { return hn::MulAdd(a, b, c); }      // c + ab
+HWY_INLINE Pack minus(Pack c, Pack a, Pack b) { return hn::NegMulAdd(a, b, c); }  // c − ab
+HWY_INLINE double sum(Pack v) { return hn::GetLane(hn::SumOfLanes(tag, v)); }
+
+struct Pack3 {
+  Pack x, y, z;
+};
+HWY_INLINE Pack3 load3(const RodLane* p, int i) { return {load(p[0] + i), load(p[1] + i), load(p[2] + i)}; }
+HWY_INLINE void store3(const Pack3& v, RodLane* p, int i) {
+  store(v.x, p[0] + i);
+  store(v.y, p[1] + i);
+  store(v.z, p[2] + i);
+}
+HWY_INLINE Pack dot(const Pack3& a, const Pack3& b) { return plus(plus(a.x * b.x, a.y, b.y), a.z, b.z); }
+HWY_INLINE Pack3 cross(const Pack3& a, const Pack3& b) {
+  return {minus(a.y * b.z, a.z, b.y), minus(a.z * b.x, a.x, b.z), minus(a.x * b.y, a.y, b.x)};
+}
+HWY_INLINE Pack3 scaled(const Pack3& a, Pack s) { return {a.x * s, a.y * s, a.z * s}; }
+HWY_INLINE Pack3 plus(const Pack3& c, const Pack3& a, Pack s) {
+  return {plus(c.x, a.x, s), plus(c.y, a.y, s), plus(c.z, a.z, s)};
+}
+
+/// Horner's rule for several arguments at once, so that a coefficient is loaded once for all.
+template <std::size_t M, std::size_t Terms>
+HWY_INLINE void polynomial(const double (&coefficient)[Terms], const Pack* z, Pack* value) {
+#pragma GCC unroll 8
+  for (std::size_t j = 0; j < M; ++j) value[j] = all(coefficient[Terms - 1]);
+#pragma GCC unroll 16
+  for (int k = static_cast<int>(Terms) - 2; k >= 0; --k) {
+    const Pack c = all(coefficient[k]);
+#pragma GCC unroll 8
+    for (std::size_t j = 0; j < M; ++j) value[j] = plus(c, z[j], value[j]);
+  }
+}
+
+/// Chebyshev interpolation of sin √z/√z and cos √z on |√z| ≤ 2.5, to 5e-16.
+constexpr double sine_terms[] = {1.0,
+                                 -0.16666666666666657,
+                                 0.0083333333333327937,
+                                 -0.00019841269841159288,
+                                 2.7557319212477353e-06,
+                                 -2.5052107697020063e-08,
+                                 1.6059018749487949e-10,
+                                 -7.6465972171246894e-13,
+                                 2.8037077885288197e-15,
+                                 -7.6302175637427495e-18};
+constexpr double cosine_terms[] = {1.0,
+                                   -0.5,
+                                   0.041666666666666609,
+                                   -0.0013888888888887486,
+                                   2.4801587301407663e-05,
+                                   -2.7557319210559188e-07,
+                                   2.0876756361990319e-09,
+                                   -1.1470726849150241e-11,
+                                   4.7791161304792601e-14,
+                                   -1.5575894813577533e-16,
+                                   3.8150718196340372e-19};
+
+template <std::size_t M>
+HWY_INLINE void sine_cosine_near(const Pack* x, Pack* sine, Pack* cosine) {
+  Pack z[M];
+#pragma GCC unroll 8
+  for (std::size_t j = 0; j < M; ++j) z[j] = x[j] * x[j];
+  polynomial<M>(sine_terms, z, sine);
+#pragma GCC unroll 8
+  for (std::size_t j = 0; j < M; ++j) sine[j] = sine[j] * x[j];
+  polynomial<M>(cosine_terms, z, cosine);
+}
+
+/// sin and cos of any x up to 1e5: turned back by multiples of π/2.
+HWY_INLINE void sine_cosine(Pack x, Pack& sine, Pack& cosine) {
+  const hn::RebindToUnsigned<Tag> bits_tag;
+  const Pack magic = all(6755399441055744.0);  // 1.5·2⁵²: the quadrant lands in the lowest bits
+  const Pack turned = plus(magic, x, all(0.63661977236758134308));
+  const auto quadrant = hn::BitCast(bits_tag, turned);
+  const Pack n = turned - magic;
+  const Pack rest = minus(minus(x, n, all(1.57079632673412561417e+00)), n, all(6.07710050650619224932e-11));
+  Pack s, c;
+  sine_cosine_near<1>(&rest, &s, &c);
+  const auto one = hn::Set(bits_tag, 1);
+  const Pack swap = hn::BitCast(tag, hn::Zero(bits_tag) - hn::And(quadrant, one));
+  const Pack sine_sign = hn::BitCast(tag, hn::ShiftLeft<63>(hn::ShiftRight<1>(quadrant)));
+  const Pack cosine_sign = hn::BitCast(tag, hn::ShiftLeft<63>(hn::ShiftRight<1>(quadrant + one)));
+  sine = hn::Xor(hn::Or(hn::And(swap, c), hn::AndNot(swap, s)), sine_sign);
+  cosine = hn::Xor(hn::Or(hn::And(swap, s), hn::AndNot(swap, c)), cosine_sign);
+}
+
+/// Sums over lanes and groups.
+struct Wrench {
+  Pack3 force, moment;
+  HWY_INLINE Wrench() : force{all(0), all(0), all(0)}, moment{all(0), all(0), all(0)} {}
+  HWY_INLINE void add(const Pack3& arm, const Pack3& n, Pack active) {
+    const Pack3 f = scaled(n, active), m = cross(arm, f);
+    force = {force.x + f.x, force.y + f.y, force.z + f.z};
+    moment = {moment.x + m.x, moment.y + m.y, moment.z + m.z};
+  }
+  HWY_INLINE void total(double* out) const {
+    out[0] = sum(force.x);
+    out[1] = sum(force.y);
+    out[2] = sum(force.z);
+    out[3] = sum(moment.x);
+    out[4] = sum(moment.y);
+    out[5] = sum(moment.z);
+  }
+};
+
+/// Where the platform holds the tips: arm, lateral direction (its sign kept), lateral and axial distance.
+template <class Rods>
+HWY_INLINE void place(Rods& rods, int i, const PlatformFrame& platform) {
+  const double* r = platform.rotation;
+  const Pack3 b = load3(rods.platform_point, i), t = load3(rods.tangent, i);
+  const Pack3 arm = {plus(plus(all(r[0]) * b.x, all(r[1]), b.y), all(r[2]), b.z),
+                     plus(plus(all(r[3]) * b.x, all(r[4]), b.y), all(r[5]), b.z),
+                     plus(plus(all(r[6]) * b.x, all(r[7]), b.y), all(r[8]), b.z)};
+  const double* p = platform.position;
+  const Pack3 a = load3(rods.base, i);
+  const Pack3 tip = {all(p[0]) + arm.x - a.x, all(p[1]) + arm.y - a.y, all(p[2]) + arm.z - a.z};
+  const Pack w = dot(t, tip);
+  const Pack3 aside = plus(tip, t, hn::Neg(w));
+  const Pack d = hn::CopySignToAbs(hn::Sqrt(dot(aside, aside)), dot(aside, load3(rods.lateral, i)));
+  store3(arm, rods.arm, i);
+  store3(scaled(aside, all(1) / d), rods.lateral, i);
+  store(d, rods.tip_d + i);
+  store(w, rods.tip_w + i);
+}
+
+/// Weighted sines and cosines at the nodes, and their sums: where the tip of the unit rod is.
+template <class Rods>
+HWY_INLINE void bend(Rods& rods, int i, Pack& d, Pack& w) {
+  constexpr int N = Rods::nodes;
+  const auto& basis = GalerkinBasis<Rods::size>::get();
+  Pack theta[Rods::size], largest = all(0);
+#pragma GCC unroll 10
+  for (int j = 0; j < N; ++j) {
+    theta[j] = load(rods.theta[j] + i);
+    largest = hn::Max(largest, hn::Abs(theta[j]));
+  }
+  const bool is_near = hn::AllTrue(tag, largest < all(2.5));
+  d = all(0);
+  w = all(0);
+  constexpr std::size_t block = N % 5 == 0 ? 5 : 6;
+  static_assert(N % block == 0);
+#pragma GCC unroll 4
+  for (std::size_t j = 0; j < Rods::size; j += block) {
+    Pack s[block], c[block];
+    if (is_near)
+      sine_cosine_near<block>(theta + j, s, c);
+    else
+      for (std::size_t k = 0; k < block; ++k) sine_cosine(theta[j + k], s[k], c[k]);
+#pragma GCC unroll 8
+    for (std::size_t k = 0; k < block; ++k) {
+      const Pack weight = all(basis.weight[j + k]);
+      s[k] = s[k] * weight;
+      c[k] = c[k] * weight;
+      d = d + s[k];
+      w = w + c[k];
+      store(s[k], rods.sine[j + k] + i);
+      store(c[k], rods.cosine[j + k] + i);
+    }
+  }
+}
+
+/// Bθ.
+template <class Rods>
+HWY_INLINE void bent_anew(Rods& rods, int i) {
+  constexpr int N = Rods::nodes;
+  const auto& basis = GalerkinBasis<Rods::size>::get();
+  Pack sum[Rods::size];
+  for (int j = 0; j < N; ++j) sum[j] = all(0);
+  for (int k = 0; k < N; ++k) {
+    const Pack theta = load(rods.theta[k] + i);
+#pragma GCC unroll 10
+    for (int j = 0; j < N; ++j) sum[j] = plus(sum[j], all(basis.bending[k][j]), theta);
+  }
+  for (int j = 0; j < N; ++j) store(sum[j], rods.bent[j] + i);
+}
+
+/// Gaps of the rods' own equations and of their tips; the largest of each lane, with any NaN kept.
+template <class Rods>
+HWY_INLINE Pack measure(Rods& rods, int i, bool anew) {
+  constexpr int N = Rods::nodes;
+  const Pack length = load(rods.length + i), factor = length * length * load(rods.flexibility + i);
+  store(factor, rods.load + i);
+  const Pack fd = factor * load(rods.force_d + i), fw = factor * load(rods.force_w + i);
+  Pack d, w;
+  bend(rods, i, d, w);
+  if (anew) bent_anew(rods, i);
+  Pack largest = all(0), squares = all(0);
+#pragma GCC unroll 10
+  for (int j = 0; j < N; ++j) {
+    const Pack gap =
+        plus(minus(load(rods.bent[j] + i), fd, load(rods.cosine[j] + i)), fw, load(rods.sine[j] + i));
+    store(gap, rods.gap[j] + i);
+    largest = hn::Max(largest, hn::Abs(gap));
+    squares = plus(squares, gap, gap);
+  }
+  const Pack gap_d = plus(hn::Neg(load(rods.tip_d + i)), length, d);
+  const Pack gap_w = plus(hn::Neg(load(rods.tip_w + i)), length, w);
+  store(gap_d, rods.gap_d + i);
+  store(gap_w, rods.gap_w + i);
+  largest = hn::Max(largest, hn::Max(hn::Abs(gap_d), hn::Abs(gap_w)) / length);
+  squares = plus(plus(squares, gap_d, gap_d), gap_w, gap_w);
+  return largest + (squares - squares);  // the maximum may hide a NaN, the sum does not
+}
+
+template <class Rods>
+HWY_INLINE Pack3 force(const Rods& rods, int i) {
+  return plus(scaled(load3(rods.lateral, i), load(rods.force_d + i)), load3(rods.tangent, i),
+              load(rods.force_w + i));
+}
+
+template <class Rods>
+void evaluate(std::span<Rods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
+  Wrench wrench;
+  Pack worst = all(0), all_of_them = all(0);
+  for (Rods& rods : groups)
+    for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
+      place(rods, i, platform);
+      const Pack error = measure(rods, i, anew);
+      worst = hn::Max(worst, error);
+      all_of_them = all_of_them + error;
+      wrench.add(load3(rods.arm, i), force(rods, i), load(rods.active + i));
+    }
+  wrench.total(sums.wrench);
+  const Pack kept = worst + (all_of_them - all_of_them);
+  sums.error = hn::GetLane(hn::MaxOfLanes(tag, worst)) + (sum(kept) - sum(kept));
+}
+
+/// H = B + diag(L²/EI (Fd s + Fw c)) = LDLᵀ without pivoting, and its solutions for c and −s.
+template <class Rods>
+HWY_INLINE void factor(Rods& rods, int i) {
+  constexpr int N = Rods::nodes;
+  const auto& basis = GalerkinBasis<Rods::size>::get();
+  const Pack fd = load(rods.load + i) * load(rods.force_d + i),
+             fw = load(rods.load + i) * load(rods.force_w + i);
+  Pack l[Rods::size][Rods::size], inverse[Rods::size], by_d[Rods::size], by_w[Rods::size];
+  Pack dd = all(0), dw = all(0), ww = all(0);
+#pragma GCC unroll 10
+  for (int j = 0; j < N; ++j) {
+    by_d[j] = load(rods.cosine[j] + i);
+    by_w[j] = hn::Neg(load(rods.sine[j] + i));
+    store(by_d[j], rods.cosine_kept[j] + i);
+    store(hn::Neg(by_w[j]), rods.sine_kept[j] + i);
+    const Pack load_stiffness = minus(fw * by_d[j], fd, by_w[j]);
+    store(load_stiffness, rods.stiffening[j] + i);
+    Pack pivot = all(basis.bending[j][j]) + load_stiffness;
+#pragma GCC unroll 10
+    for (int k = 0; k < j; ++k) {
+      const Pack raw = l[j][k];
+      l[j][k] = raw * inverse[k];
+      pivot = minus(pivot, raw, l[j][k]);
+      by_d[j] = minus(by_d[j], l[j][k], by_d[k]);
+      by_w[j] = minus(by_w[j], l[j][k], by_w[k]);
+      store(l[j][k], rods.lower[j * (j - 1) / 2 + k] + i);
+    }
+    inverse[j] = all(1) / pivot;
+    store(inverse[j], rods.pivot[j] + i);
+#pragma GCC unroll 10
+    for (int m = j + 1; m < N; ++m) {
+      Pack raw = all(basis.bending[m][j]);
+#pragma GCC unroll 10
+      for (int k = 0; k < j; ++k) raw = minus(raw, l[m][k], l[j][k]);
+      l[m][j] = raw;
+    }
+  }
+#pragma GCC unroll 10
+  for (int j = 0; j < N; ++j) {
+    const Pack d = by_d[j] * inverse[j], w = by_w[j] * inverse[j];
+    dd = plus(dd, by_d[j], d);
+    dw = plus(dw, by_d[j], w);
+    ww = plus(ww, by_w[j], w);
+    by_d[j] = d;
+    by_w[j] = w;
+  }
+#pragma GCC unroll 10
+  for (int j = N - 1; j >= 0; --j) {
+#pragma GCC unroll 10
+    for (int k = j + 1; k < N; ++k) {
+      by_d[j] = minus(by_d[j], l[k][j], by_d[k]);
+      by_w[j] = minus(by_w[j], l[k][j], by_w[k]);
+    }
+    store(by_d[j], rods.by_d[j] + i);
+    store(by_w[j], rods.by_w[j] + i);
+  }
+  store(dd, rods.soft_dd + i);
+  store(dw, rods.soft_dw + i);
+  store(ww, rods.soft_ww + i);
+}
+
+/// The tip's stiffness in the plane, and the force per length fed.
+template <class Rods>
+HWY_INLINE void stiffen(Rods& rods, int i) {
+  const Pack dd = load(rods.soft_dd + i), dw = load(rods.soft_dw + i), ww = load(rods.soft_ww + i);
+  const Pack length = load(rods.length + i), loading = load(rods.load + i);
+  const Pack scale = all(1) / (minus(dd * ww, dw, dw) * loading * length);
+  const Pack k_dd = ww * scale, k_dw = hn::Neg(dw * scale), k_ww = dd * scale;
+  store(k_dd, rods.stiff_dd + i);
+  store(k_dw, rods.stiff_dw + i);
+  store(k_ww, rods.stiff_ww + i);
+  // a longer rod: its tip moves by its own scale, and as if its forces grew by 2/L of themselves
+  const Pack fd = all(2) * loading * load(rods.force_d + i), fw = all(2) * loading * load(rods.force_w + i);
+  const Pack ahead_d = plus(plus(load(rods.tip_d + i) / length, fd, dd), fw, dw);
+  const Pack ahead_w = plus(plus(load(rods.tip_w + i) / length, fd, dw), fw, ww);
+  store(hn::Neg(plus(k_dd * ahead_d, k_dw, ahead_w)), rods.feed_d + i);
+  store(hn::Neg(plus(k_dw * ahead_d, k_ww, ahead_w)), rods.feed_w + i);
+}
+
+/// Forces that close the gaps while the platform rests; their sum with the present ones.
+template <class Rods>
+HWY_INLINE void close_gaps(Rods& rods, int i, Wrench& wrench) {
+  constexpr int N = Rods::nodes;
+  Pack by_d = all(0), by_w = all(0);
+#pragma GCC unroll 10
+  for (int j = 0; j < N; ++j) {
+    const Pack gap = load(rods.gap[j] + i);
+    by_d = plus(by_d, gap, load(rods.by_d[j] + i));
+    by_w = plus(by_w, gap, load(rods.by_w[j] + i));
+  }
+  const Pack length = load(rods.length + i);
+  const Pack d = plus(hn::Neg(load(rods.gap_d + i)), length, by_d);
+  const Pack w = plus(hn::Neg(load(rods.gap_w + i)), length, by_w);
+  const Pack k_dw = load(rods.stiff_dw + i);
+  const Pack fix_d = plus(load(rods.stiff_dd + i) * d, k_dw, w);
+  const Pack fix_w = plus(k_dw * d, load(rods.stiff_ww + i), w);
+  store(fix_d, rods.fix_d + i);
+  store(fix_w, rods.fix_w + i);
+  const Pack3 n = plus(scaled(load3(rods.lateral, i), load(rods.force_d + i) + fix_d), load3(rods.tangent, i),
+                       load(rods.force_w + i) + fix_w);
+  wrench.add(load3(rods.arm, i), n, load(rods.active + i));
+}
+
+/// 3×3 stiffness of the tips in base axes, symmetric: xx, xy, xz, yy, yz, zz.
+struct TipStiffness {
+  Pack xx, xy, xz, yy, yz, zz;
+};
+template <class Rods>
+HWY_INLINE TipStiffness tip_stiffness(const Rods& rods, int i) {
+  const Pack3 h = load3(rods.lateral, i), t = load3(rods.tangent, i), out = cross(t, h);
+  const Pack active = load(rods.active + i);
+  const Pack dd = load(rods.stiff_dd + i) * active, dw = load(rods.stiff_dw + i) * active,
+             ww = load(rods.stiff_ww + i) * active;
+  const Pack turn = load(rods.force_d + i) * active / load(rods.tip_d + i);
+  const Pack3 by_h = plus(scaled(h, dd), t, dw), by_t = plus(scaled(h, dw), t, ww),
+              by_out = scaled(out, turn);
+  return {plus(plus(by_h.x * h.x, by_t.x, t.x), by_out.x, out.x),
+          plus(plus(by_h.x * h.y, by_t.x, t.y), by_out.x, out.y),
+          plus(plus(by_h.x * h.z, by_t.x, t.z), by_out.x, out.z),
+          plus(plus(by_h.y * h.y, by_t.y, t.y), by_out.y, out.y),
+          plus(plus(by_h.y * h.z, by_t.y, t.z), by_out.y, out.z),
+          plus(plus(by_h.z * h.z, by_t.z, t.z), by_out.z, out.z)};
+}
+
+/// Sums of the platform's stiffness: δ(Σ n) and δ(Σ b × n) by (δp, δφ), where δr = δp + δφ × b.
+struct Stiffness {
+  Pack force[6];   // ∂n/∂p, symmetric
+  Pack couple[9];  // ∂n/∂φ, rows first; its transpose is ∂(b × n)/∂p
+  Pack moment[9];  // ∂(b × n)/∂φ
+  HWY_INLINE Stiffness() {
+    for (Pack& p : force) p = all(0);
+    for (Pack& p : couple) p = all(0);
+    for (Pack& p : moment) p = all(0);
+  }
+  HWY_INLINE void add(const TipStiffness& s, const Pack3& b, const Pack3& n) {
+    const Pack k[6] = {s.xx, s.xy, s.xz, s.yy, s.yz, s.zz};
+    for (int j = 0; j < 6; ++j) force[j] = force[j] + k[j];
+    // rows of S times −[b]
+    const Pack3 row[3] = {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
+    Pack3 turned[3];
+    for (int j = 0; j < 3; ++j) {
+      turned[j] = cross(b, row[j]);
+      couple[3 * j] = couple[3 * j] + turned[j].x;
+      couple[3 * j + 1] = couple[3 * j + 1] + turned[j].y;
+      couple[3 * j + 2] = couple[3 * j + 2] + turned[j].z;
+    }
+    // b × (S (δφ × b)) + (δφ × b) × n, the last being b (δφ·n) − δφ (b·n)
+    const Pack across = dot(b, n);
+    const Pack3 column[3] = {{turned[0].x, turned[1].x, turned[2].x},
+                             {turned[0].y, turned[1].y, turned[2].y},
+                             {turned[0].z, turned[1].z, turned[2].z}};
+    const Pack own[3] = {n.x, n.y, n.z};
+    for (int j = 0; j < 3; ++j) {
+      const Pack3 m = plus(cross(b, column[j]), b, own[j]);
+      moment[j] = moment[j] + (j == 0 ? m.x - across : m.x);
+      moment[3 + j] = moment[3 + j] + (j == 1 ? m.y - across : m.y);
+      moment[6 + j] = moment[6 + j] + (j == 2 ? m.z - across : m.z);
+    }
+  }
+  HWY_INLINE void total(double* out) const {
+    constexpr int symmetric[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+    double f[6];
+    for (int j = 0; j < 6; ++j) f[j] = sum(force[j]);
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) {
+        out[6 * r + c] = f[symmetric[3 * r + c]];
+        out[6 * r + 3 + c] = out[6 * (3 + c) + r] = sum(couple[3 * r + c]);
+        out[6 * (3 + r) + 3 + c] = sum(moment[3 * r + c]);
+      }
+  }
+};
+
+template <class Rods>
+void linearise(std::span<Rods> groups, RodSums& sums) {
+  Stiffness stiffness;
+  Wrench wrench;
+  for (Rods& rods : groups)
+    for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
+      factor(rods, i);
+      stiffen(rods, i);
+      stiffness.add(tip_stiffness(rods, i), load3(rods.arm, i),
+                    scaled(force(rods, i), load(rods.active + i)));
+      close_gaps(rods, i, wrench);
+    }
+  stiffness.total(sums.stiffness);
+  wrench.total(sums.wrench);
+}
+
+template <class Rods>
+void reduce(std::span<Rods> groups, RodSums& sums) {
+  Wrench wrench;
+  for (Rods& rods : groups)
+    for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) close_gaps(rods, i, wrench);
+  wrench.total(sums.wrench);
+}
+
+/// H⁻¹ gap by the kept factors.
+template <class Rods>
+HWY_INLINE void solve_gap(const Rods& rods, int i, Pack* x) {
+  constexpr int N = Rods::nodes;
+#pragma GCC unroll 10
+  for (int j = 0; j < N; ++j) {
+    x[j] = load(rods.gap[j] + i);
+#pragma GCC unroll 10
+    for (int k = 0; k < j; ++k) x[j] = minus(x[j], load(rods.lower[j * (j - 1) / 2 + k] + i), x[k]);
+  }
+#pragma GCC unroll 10
+  for (int j = N - 1; j >= 0; --j) {
+    x[j] = x[j] * load(rods.pivot[j] + i);
+#pragma GCC unroll 10
+    for (int k = j + 1; k < N; ++k) x[j] = minus(x[j], load(rods.lower[k * (k - 1) / 2 + j] + i), x[k]);
+  }
+}
+
+template <class Rods>
+void apply(std::span<Rods> groups, const double* step, const RodFeed* fed) {
+  constexpr int N = Rods::nodes;
+  const Pack3 shift = {all(step[0]), all(step[1]), all(step[2])},
+              turn = {all(step[3]), all(step[4]), all(step[5])};
+  for (Rods& rods : groups)
+    for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
+      const Pack3 moved = plus(cross(turn, load3(rods.arm, i)), shift, all(1));
+      const Pack d = dot(load3(rods.lateral, i), moved), w = dot(load3(rods.tangent, i), moved);
+      const Pack k_dw = load(rods.stiff_dw + i);
+      Pack fd = plus(plus(load(rods.fix_d + i), load(rods.stiff_dd + i), d), k_dw, w);
+      Pack fw = plus(plus(load(rods.fix_w + i), k_dw, d), load(rods.stiff_ww + i), w);
+      const Pack loading = load(rods.load + i), old_d = load(rods.force_d + i),
+                 old_w = load(rods.force_w + i);
+      Pack by_d = loading * fd, by_w = loading * fw;
+      if (fed != nullptr) {
+        const Pack more = load(fed[&rods - groups.data()].length + i), length = load(rods.length + i);
+        const Pack own_d = more * load(rods.feed_d + i), own_w = more * load(rods.feed_w + i);
+        const Pack growth = all(2) * more / length;
+        fd = fd + own_d;
+        fw = fw + own_w;
+        by_d = plus(by_d, loading, plus(own_d, growth, old_d));
+        by_w = plus(by_w, loading, plus(own_w, growth, old_w));
+        store(length + more, rods.length + i);
+      }
+      store(old_d + fd, rods.force_d + i);
+      store(old_w + fw, rods.force_w + i);
+      Pack back[Rods::size];
+      solve_gap(rods, i, back);
+#pragma GCC unroll 10
+      for (int j = 0; j < N; ++j) {
+        const Pack change = plus(load(rods.by_d[j] + i) * by_d, load(rods.by_w[j] + i), by_w) - back[j];
+        store(load(rods.theta[j] + i) + change, rods.theta[j] + i);
+        // H δθ = c by_d − s by_w − gap, and H is B and a diagonal
+        const Pack driven = minus(load(rods.cosine_kept[j] + i) * by_d, load(rods.sine_kept[j] + i), by_w);
+        const Pack bent = minus(driven - load(rods.gap[j] + i), load(rods.stiffening[j] + i), change);
+        store(load(rods.bent[j] + i) + bent, rods.bent[j] + i);
+      }
+    }
+}
+
+void EvaluateCoarse(std::span<CoarseRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
+  evaluate(groups, platform, anew, sums);
+}
+void EvaluateFine(std::span<FineRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
+  evaluate(groups, platform, anew, sums);
+}
+void LineariseCoarse(std::span<CoarseRods> groups, RodSums& sums) { linearise(groups, sums); }
+void LineariseFine(std::span<FineRods> groups, RodSums& sums) { linearise(groups, sums); }
+void ReduceCoarse(std::span<CoarseRods> groups, RodSums& sums) { reduce(groups, sums); }
+void ReduceFine(std::span<FineRods> groups, RodSums& sums) { reduce(groups, sums); }
+void ApplyCoarse(std::span<CoarseRods> groups, const double* step, const RodFeed* fed) {
+  apply(groups, step, fed);
+}
+void ApplyFine(std::span<FineRods> groups, const double* step, const RodFeed* fed) {
+  apply(groups, step, fed);
+}
+const char* InstructionSet() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sinew::inline v0
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sinew::inline v0::rod_kernels {
+
+HWY_EXPORT(EvaluateCoarse);
+HWY_EXPORT(EvaluateFine);
+HWY_EXPORT(LineariseCoarse);
+HWY_EXPORT(LineariseFine);
+HWY_EXPORT(ReduceCoarse);
+HWY_EXPORT(ReduceFine);
+HWY_EXPORT(ApplyCoarse);
+HWY_EXPORT(ApplyFine);
+HWY_EXPORT(InstructionSet);
+
+void evaluate(std::span<CoarseRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
+  HWY_DYNAMIC_DISPATCH(EvaluateCoarse)(groups, platform, anew, sums);
+}
+void evaluate(std::span<FineRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
+  HWY_DYNAMIC_DISPATCH(EvaluateFine)(groups, platform, anew, sums);
+}
+void linearise(std::span<CoarseRods> groups, RodSums& sums) {
+  HWY_DYNAMIC_DISPATCH(LineariseCoarse)(groups, sums);
+}
+void linearise(std::span<FineRods> groups, RodSums& sums) {
+  HWY_DYNAMIC_DISPATCH(LineariseFine)(groups, sums);
+}
+void reduce(std::span<CoarseRods> groups, RodSums& sums) { HWY_DYNAMIC_DISPATCH(ReduceCoarse)(groups, sums); }
+void reduce(std::span<FineRods> groups, RodSums& sums) { HWY_DYNAMIC_DISPATCH(ReduceFine)(groups, sums); }
+void apply(std::span<CoarseRods> groups, const double* step, const RodFeed* fed) {
+  HWY_DYNAMIC_DISPATCH(ApplyCoarse)(groups, step, fed);
+}
+void apply(std::span<FineRods> groups, const double* step, const RodFeed* fed) {
+  HWY_DYNAMIC_DISPATCH(ApplyFine)(groups, step, fed);
+}
+const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(InstructionSet)(); }
+
+}  // namespace sinew::inline v0::rod_kernels
+#endif

@@ -1,0 +1,432 @@
+#include "robot/rod_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/base/assert.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Vec3<double> vector_of(const RodLane* lanes, int i) { return {lanes[0][i], lanes[1][i], lanes[2][i]}; }
+void put(const Vec3<double>& v, RodLane* lanes, int i) {
+  for (int k = 0; k < 3; ++k) lanes[k][i] = v[k];
+}
+
+template <class Group>
+const auto& basis_of(const Group&) {
+  return GalerkinBasis<Group::nodes>::get();
+}
+
+/// LDLᵀ without pivoting in place, rows first; number of negative pivots.
+template <std::size_t N>
+int factor_symmetric(double (&a)[N][N]) {
+  int negative = 0;
+  for (std::size_t j = 0; j < N; ++j) {
+    for (std::size_t k = 0; k < j; ++k) {
+      const double scaled = a[j][k] / a[k][k];
+      a[j][j] -= scaled * a[j][k];
+      for (std::size_t m = j + 1; m < N; ++m) a[m][j] -= a[m][k] * scaled;
+      a[j][k] = scaled;
+    }
+    negative += a[j][j] < 0;
+  }
+  return negative;
+}
+
+/// Unstable directions out of the rod's plane, see docs/theory/elastica.md.
+template <class Group>
+int unstable_aside(const Group& rods, int i) {
+  constexpr std::size_t N = Group::nodes;
+  const auto& basis = basis_of(rods);
+  const double fd = rods.load[i] * rods.force_d[i], fw = rods.load[i] * rods.force_w[i];
+  double matrix[N][N], x[N];
+  for (std::size_t j = 0; j < N; ++j) {
+    double slope = 0;
+    for (std::size_t k = 0; k < N; ++k) slope += basis.slope[j][k] * rods.theta[k][i];
+    std::copy_n(basis.bending[j], N, matrix[j]);
+    matrix[j][j] += fd * rods.sine[j][i] + fw * rods.cosine[j][i] - basis.weight[j] * slope * slope;
+  }
+  const int negative = factor_symmetric(matrix);
+  double soft = 0;
+  for (std::size_t j = 0; j < N; ++j) {
+    x[j] = basis.weight[j];
+    for (std::size_t k = 0; k < j; ++k) x[j] -= matrix[j][k] * x[k];
+    soft += x[j] * x[j] / matrix[j][j];
+  }
+  return negative - (soft < 0);
+}
+
+}  // namespace
+
+bool Lu6::factor(const double* matrix, double length) {
+  length_ = length;
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j)
+      lu_[6 * i + j] = matrix[6 * i + j] / ((i < 3 ? 1 : length) * (j < 3 ? 1 : length));
+  double largest = 0;
+  smallest_ = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 6; ++k) {
+    std::size_t best = k;
+    for (std::size_t i = k + 1; i < 6; ++i)
+      if (std::abs(lu_[6 * i + k]) > std::abs(lu_[6 * best + k])) best = i;
+    order_[k] = static_cast<int>(best);
+    if (best != k) std::swap_ranges(&lu_[6 * k], &lu_[6 * k] + 6, &lu_[6 * best]);
+    const double pivot = lu_[7 * k];
+    if (!(std::abs(pivot) > 0)) return false;
+    largest = std::max(largest, std::abs(pivot));
+    smallest_ = std::min(smallest_, std::abs(pivot));
+    lu_[7 * k] = 1 / pivot;
+    for (std::size_t i = k + 1; i < 6; ++i) {
+      const double factor = lu_[6 * i + k] *= lu_[7 * k];
+      for (std::size_t j = k + 1; j < 6; ++j) lu_[6 * i + j] -= factor * lu_[6 * k + j];
+    }
+  }
+  smallest_ /= largest;
+  return std::isfinite(smallest_);
+}
+
+void Lu6::solve(const double* rhs, double* x) const {
+  for (std::size_t i = 0; i < 6; ++i) x[i] = i < 3 ? rhs[i] : rhs[i] / length_;
+  for (std::size_t k = 0; k < 6; ++k) std::swap(x[k], x[at(order_[k])]);
+  for (std::size_t i = 1; i < 6; ++i)
+    for (std::size_t k = 0; k < i; ++k) x[i] -= lu_[6 * i + k] * x[k];
+  for (std::size_t i = 6; i-- > 0;) {
+    for (std::size_t k = i + 1; k < 6; ++k) x[i] -= lu_[6 * i + k] * x[k];
+    x[i] *= lu_[7 * i];
+  }
+  for (std::size_t i = 3; i < 6; ++i) x[i] /= length_;
+}
+
+RodSystem::RodSystem(const ParallelRobot<RodLeg>& robot)
+    : coarse_(at((robot.leg_count() + rod_lanes - 1) / rod_lanes)),
+      fine_(coarse_.size()),
+      fed_(coarse_.size()),
+      rods_(robot.leg_count()),
+      inputs_(robot.total.input),
+      platform_(SE3<double>::from(robot.home)),
+      radius_(robot.platform_radius) {
+  for (const LegPlace& place : robot.places) input_of_.push_back(place.input);
+  const auto fill = [&](auto& groups) {
+    for (auto& rods : groups) rods = {};
+    for (int k = 0; k < rods_; ++k) {
+      const RodLeg& leg = robot.legs[at(k)];
+      auto& rods = groups[at(k / rod_lanes)];
+      const int i = k % rod_lanes;
+      put(leg.base.p, rods.base, i);
+      put(leg.tangent(), rods.tangent, i);
+      put(leg.platform_point, rods.platform_point, i);
+      rods.flexibility[i] = 1 / leg.link.bending_stiffness();
+      rods.active[i] = 1;
+      rods.length[i] = 1;
+    }
+    fill_idle_lanes(groups.back());
+  };
+  fill(coarse_);
+  fill(fine_);
+}
+
+/// Lanes without a rod do what the first of their group does, and count for nothing.
+template <class Group>
+void RodSystem::fill_idle_lanes(Group& last) const {
+  const auto fill = [&](RodLane& lane) {
+    for (int i = (rods_ - 1) % rod_lanes + 1; i < rod_lanes; ++i) lane[i] = lane[0];
+  };
+  for (auto* lanes : {last.base, last.tangent, last.platform_point, last.lateral})
+    for (int k = 0; k < 3; ++k) fill(lanes[k]);
+  for (RodLane& lane : last.theta) fill(lane);
+  for (RodLane* lane : {&last.flexibility, &last.length, &last.force_d, &last.force_w}) fill(*lane);
+}
+
+PlatformFrame RodSystem::frame() const {
+  PlatformFrame frame;
+  const Mat<double, 3, 3> turn = platform_.R.matrix();
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) frame.rotation[3 * r + c] = turn(r, c);
+    frame.position[r] = platform_.p[r];
+  }
+  return frame;
+}
+
+RodSystem::Snapshot RodSystem::snapshot() const {
+  Snapshot to;
+  to.coarse.resize(coarse_.size());
+  to.fine.resize(fine_.size());
+  save(to);
+  return to;
+}
+
+void RodSystem::save(Snapshot& to) const {
+  if (is_fine_)
+    std::copy(fine_.begin(), fine_.end(), to.fine.begin());
+  else
+    std::copy(coarse_.begin(), coarse_.end(), to.coarse.begin());
+  to.is_fine = is_fine_;
+  to.platform = platform_;
+  to.wrench = wrench_;
+}
+
+void RodSystem::restore(const Snapshot& from) {
+  is_fine_ = from.is_fine;
+  for (std::size_t g = 0; g < coarse_.size(); ++g)
+    if (is_fine_)
+      static_cast<FineRods::State&>(fine_[g]) = from.fine[g];
+    else
+      static_cast<CoarseRods::State&>(coarse_[g]) = from.coarse[g];
+  platform_ = from.platform;
+  wrench_ = from.wrench;
+}
+
+Vec3<double> RodSystem::base(int rod) const {
+  return with_rod(rod, [](const auto& rods, int i) { return vector_of(rods.base, i); });
+}
+
+Vec3<double> RodSystem::platform_point(int rod) const {
+  return with_rod(rod, [](const auto& rods, int i) { return vector_of(rods.platform_point, i); });
+}
+
+double RodSystem::length(int rod) const {
+  return with_rod(rod, [](const auto& rods, int i) { return rods.length[i]; });
+}
+
+void RodSystem::set_length(int rod, double length) {
+  with([&](auto groups) {
+    groups[at(rod / rod_lanes)].length[rod % rod_lanes] = length;
+    if (rod % rod_lanes == 0) fill_idle_lanes(groups.back());
+  });
+}
+
+namespace {
+
+/// The states of some groups at other nodes; `rows` interpolates.
+template <class From, class To, class Rows>
+void carry(const std::vector<From>& from, std::vector<To>& to, const Rows& rows) {
+  for (std::size_t g = 0; g < to.size(); ++g) {
+    for (std::size_t j = 0; j < To::size; ++j)
+      for (int i = 0; i < rod_lanes; ++i) {
+        to[g].theta[j][i] = 0;
+        for (std::size_t k = 0; k < From::size; ++k) to[g].theta[j][i] += rows[j][k] * from[g].theta[k][i];
+      }
+    std::copy_n(from[g].length, rod_lanes, to[g].length);
+    std::copy_n(from[g].force_d, rod_lanes, to[g].force_d);
+    std::copy_n(from[g].force_w, rod_lanes, to[g].force_w);
+    for (int c = 0; c < 3; ++c) std::copy_n(from[g].lateral[c], rod_lanes, to[g].lateral[c]);
+  }
+}
+
+}  // namespace
+
+void RodSystem::refine() {
+  if (!is_fine_) carry(coarse_, fine_, refinement().fine_from_coarse);
+  is_fine_ = true;
+}
+
+void RodSystem::coarsen() {
+  if (is_fine_) carry(fine_, coarse_, refinement().coarse_from_fine);
+  is_fine_ = false;
+}
+
+double RodSystem::evaluate(bool anew) {
+  const PlatformFrame platform = frame();
+  with([&](auto groups) { rod_kernels::evaluate(groups, platform, anew, sums_); });
+  const double length = this->length(0), stiffness = 1 / coarse_[0].flexibility[0];
+  double error = sums_.error;
+  for (int k = 0; k < 6; ++k) {
+    const double unit = stiffness / (k < 3 ? length * length : length);
+    const double part = std::abs(sums_.wrench[k] - wrench_[k]) / unit;
+    if (!(part <= error)) error = part;  // a NaN is not hidden
+  }
+  return error;
+}
+
+bool RodSystem::linearise() {
+  with([&](auto groups) { rod_kernels::linearise(groups, sums_); });
+  return lu_.factor(sums_.stiffness, radius_);
+}
+
+RodSystem::Wrench RodSystem::missing() const {
+  return wrench_ - Eigen::Map<const Eigen::Matrix<double, 6, 1>>(sums_.wrench);
+}
+
+RodSystem::Twist RodSystem::step(bool fresh) {
+  if (!fresh) with([&](auto groups) { rod_kernels::reduce(groups, sums_); });
+  const Wrench wanted = missing();
+  Twist twist;
+  lu_.solve(wanted.data(), twist.data());
+  return twist;
+}
+
+void RodSystem::move(const Twist& twist, std::span<const double> fed) {
+  if (!fed.empty())
+    for (int k = 0; k < static_cast<int>(fed_.size()) * rod_lanes; ++k) {
+      const int rod = k < rods_ ? k : k / rod_lanes * rod_lanes;  // idle lanes: the first of their group
+      fed_[at(k / rod_lanes)].length[k % rod_lanes] = fed[at(input_of(rod))];
+    }
+  with([&](auto groups) { rod_kernels::apply(groups, twist.data(), fed.empty() ? nullptr : fed_.data()); });
+  // turned by half-angle quaternion: like the exponential to second order, and exactly a rotation
+  const SO3<double> turn{1, Vec3<double>(twist.tail<3>()) / 2};
+  platform_ = {platform_.p + twist.head<3>(), turn.compose(platform_.R).normalised()};
+}
+
+RodSystem::Wrench RodSystem::feed_wrench(int input) const {
+  Wrench sum = Wrench::Zero();
+  for (int k = 0; k < rods_; ++k) {
+    if (input_of(k) != input) continue;
+    with_rod(k, [&](const auto& rods, int i) {
+      const Vec3<double> force =
+          vector_of(rods.lateral, i) * rods.feed_d[i] + vector_of(rods.tangent, i) * rods.feed_w[i];
+      sum.template head<3>() += force;
+      sum.template tail<3>() += cross(vector_of(rods.arm, i), force);
+    });
+  }
+  return sum;
+}
+
+RodSystem::Aim RodSystem::aim(int index) const {
+  return with_rod(index, [&](const auto& rods, int i) -> Aim {
+    const Vec3<double> tangent = vector_of(rods.tangent, i);
+    const Vec3<double> tip = platform_.point(vector_of(rods.platform_point, i)) - vector_of(rods.base, i);
+    const double w = dot(tangent, tip);
+    const Vec3<double> aside = tip - w * tangent;
+    const double d = aside.norm();
+    return {d, w, aside / d, 1 / rods.flexibility[i]};
+  });
+}
+
+void RodSystem::set_shape(int index, double length, std::span<const double> theta, double force_d,
+                          double force_w, const Vec3<double>& lateral) {
+  is_fine_ = false;
+  CoarseRods& rods = coarse_[at(index / rod_lanes)];
+  const int i = index % rod_lanes;
+  rods.length[i] = length;
+  for (std::size_t j = 0; j < coarse_nodes; ++j) rods.theta[j][i] = theta[j];
+  rods.force_d[i] = force_d;
+  rods.force_w[i] = force_w;
+  put(lateral, rods.lateral, i);
+  fill_idle_lanes(coarse_.back());
+}
+
+void RodSystem::get_rod(int index, std::span<double> coordinates) const {
+  with_rod(index, [&]<class Group>(const Group& rods, int i) {
+    // the same shape on the other side where d < 0
+    const double sign = rods.tip_d[i] < 0 ? -1 : 1;
+    for (std::size_t j = 0; j < fine_nodes; ++j) {
+      double theta = 0;
+      if constexpr (Group::nodes == fine_nodes)
+        theta = rods.theta[j][i];
+      else
+        for (std::size_t k = 0; k < coarse_nodes; ++k)
+          theta += refinement().fine_from_coarse[j][k] * rods.theta[k][i];
+      coordinates[j] = sign * theta;
+    }
+    coordinates[fine_nodes] = sign * rods.force_d[i];
+    coordinates[fine_nodes + 1] = rods.force_w[i];
+    coordinates[fine_nodes + 2] = rods.length[i];
+  });
+}
+
+void RodSystem::set_rod(int index, std::span<const double> coordinates, const Vec3<double>& lateral) {
+  is_fine_ = true;
+  FineRods& rods = fine_[at(index / rod_lanes)];
+  const int i = index % rod_lanes;
+  for (std::size_t j = 0; j < fine_nodes; ++j) rods.theta[j][i] = coordinates[j];
+  rods.force_d[i] = coordinates[fine_nodes];
+  rods.force_w[i] = coordinates[fine_nodes + 1];
+  rods.length[i] = coordinates[fine_nodes + 2];
+  put(lateral, rods.lateral, i);
+  fill_idle_lanes(fine_.back());
+}
+
+RodReading RodSystem::rod(int index) const {
+  return with_rod(index, [](const auto& rods, int i) {
+    const double length = rods.length[i], stiffness = 1 / rods.flexibility[i];
+    const Vec3<double> h = vector_of(rods.lateral, i), t = vector_of(rods.tangent, i);
+    const double sign = rods.tip_d[i] < 0 ? -1 : 1;
+    double tip = 0;
+    for (int j = 0; j < rods.nodes; ++j) tip += basis_of(rods).at_tip[j] * rods.theta[j][i];
+    // Moment about the base and the first integral ½EIκ² + n·t: as accurate as the forces are, which the
+    // polynomial's derivative is not.
+    const double moment = rods.force_d[i] * rods.tip_w[i] - rods.force_w[i] * rods.tip_d[i];
+    const double integral = moment * moment / (2 * stiffness) + rods.force_w[i];
+    RodReading reading;
+    reading.length = length;
+    reading.tip_angle = sign * tip;
+    reading.lateral_force = sign * rods.force_d[i];
+    reading.axial_force = rods.force_w[i];
+    reading.force = h * rods.force_d[i] + t * rods.force_w[i];
+    reading.moment_0 = cross(t, h) * moment;
+    reading.curvature_0 = reading.moment_0 / stiffness;
+    reading.tip = vector_of(rods.base, i) + h * rods.tip_d[i] + t * rods.tip_w[i];
+    reading.chord = std::hypot(rods.tip_d[i], rods.tip_w[i]);
+    reading.largest_curvature = std::abs(moment) / stiffness;
+    for (int j = 0; j < rods.nodes; ++j) {
+      const double along =
+          rods.force_d[i] * std::sin(rods.theta[j][i]) + rods.force_w[i] * std::cos(rods.theta[j][i]);
+      reading.largest_curvature =
+          std::max(reading.largest_curvature, std::sqrt(std::max(0.0, 2 * (integral - along) / stiffness)));
+    }
+    reading.energy = integral * length - rods.force_d[i] * rods.tip_d[i] - rods.force_w[i] * rods.tip_w[i];
+    return reading;
+  });
+}
+
+/// By the inertia of bordered matrices: the negative directions of H on the constraint are
+/// neg(H) − neg(AᵀH⁻¹A).
+std::array<int, 2> RodSystem::unstable_with_tip_held(int index) const {
+  return with_rod(index, [](const auto& rods, int i) -> std::array<int, 2> {
+    int in_plane = 0;
+    for (const RodLane& pivot : rods.pivot) in_plane += pivot[i] < 0;
+    const double dd = rods.soft_dd[i], det = dd * rods.soft_ww[i] - rods.soft_dw[i] * rods.soft_dw[i];
+    in_plane -= det < 0 ? 1 : dd < 0 ? 2 : 0;
+    return {in_plane, unstable_aside(rods, i)};
+  });
+}
+
+/// The Galerkin solution is best in energy, so that tips err by the square of the shape's error.
+double RodSystem::truncation() const {
+  double worst = 0;
+  for (int k = 0; k < rods_; ++k)
+    with_rod(k, [&](const auto& rods, int i) {
+      double last = 0, before = 0;
+      for (int j = 0; j < rods.nodes; ++j) {
+        last += basis_of(rods).last[j] * rods.theta[j][i];
+        before += basis_of(rods).before_last[j] * rods.theta[j][i];
+      }
+      worst = std::max(worst, last * last + before * before);
+    });
+  return worst;
+}
+
+std::vector<Vec3<double>> RodSystem::centreline(int index, int samples) const {
+  return with_rod(index, [&](const auto& rods, int i) {
+    const auto& node = basis_of(rods).node;
+    const Vec3<double> h = vector_of(rods.lateral, i), t = vector_of(rods.tangent, i);
+    const auto angle = [&](double s) {
+      double sum = 0;
+      for (int j = 0; j < rods.nodes; ++j) {
+        double l = s / node[j];
+        for (int k = 0; k < rods.nodes; ++k)
+          if (k != j) l *= (s - node[k]) / (node[j] - node[k]);
+        sum += l * rods.theta[j][i];
+      }
+      return sum;
+    };
+    std::vector<Vec3<double>> points{vector_of(rods.base, i)};
+    const double step = 1.0 / (samples - 1), offset = std::sqrt(3.0 / 5) / 2;
+    for (int k = 1; k < samples; ++k) {
+      double d = 0, w = 0;  // three-point Gauss
+      for (const auto& [place, weight] :
+           {std::pair{0.5 - offset, 5.0 / 18}, std::pair{0.5, 8.0 / 18}, std::pair{0.5 + offset, 5.0 / 18}}) {
+        const double theta = angle((k - 1 + place) * step);
+        d += weight * std::sin(theta);
+        w += weight * std::cos(theta);
+      }
+      points.push_back(points.back() + (h * d + t * w) * (step * rods.length[i]));
+    }
+    return points;
+  });
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,154 @@
+/// @file rod_system.hpp
+/// Rods between a base and a platform as one system of equations: what Newton's method needs of a robot whose
+/// legs bear load. The rods' own unknowns are eliminated in the same step, never solved at a fixed platform.
+/// Theory: docs/theory/rod_robot.md
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "robot/rod_kernels.hpp"
+#include "sinew/leg/rod_leg.hpp"
+#include "sinew/math/linalg.hpp"
+#include "sinew/robot/parallel.hpp"
+#include "sinew/robot/rod_reading.hpp"
+
+namespace sinew::inline v0 {
+
+/// LU factors of a 6×6 matrix whose moments are divided by a length first, with partial pivoting.
+class Lu6 {
+ public:
+  /// False where a pivot is 0 or not a number.
+  bool factor(const double* matrix, double length);
+  void solve(const double* rhs, double* x) const;
+  double smallest_pivot() const { return smallest_; }  ///< over the largest, 0 to 1
+
+ private:
+  std::array<double, 36> lu_;
+  std::array<int, 6> order_;
+  double length_ = 1, smallest_ = 0;
+};
+
+/// All numbers of one robot's equilibrium. No function here allocates unless it says so.
+class RodSystem {
+ public:
+  using Wrench = Vec<double, 6>;
+  using Twist = Vec<double, 6>;
+  explicit RodSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
+
+  /// A state to return to.
+  struct Snapshot {
+    std::vector<RodState<coarse_nodes>> coarse;
+    std::vector<RodState<fine_nodes>> fine;
+    bool is_fine = false;
+    SE3<double> platform;
+    Wrench wrench = Wrench::Zero();
+  };
+  Snapshot snapshot() const;  ///< allocates: take it once and `save` into it
+  void save(Snapshot& to) const;
+  void restore(const Snapshot& from);
+
+  /// @name What is held
+  /// @{
+  int rods() const { return rods_; }
+  int inputs() const { return inputs_; }
+  int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
+  double radius() const { return radius_; }  ///< of the platform [m]: makes moments comparable with forces
+  Vec3<double> base(int rod) const;
+  Vec3<double> platform_point(int rod) const;
+  double length(int rod) const;
+  void set_length(int rod, double length);
+  const SE3<double>& platform() const { return platform_; }
+  void set_platform(const SE3<double>& pose) { platform_ = pose; }
+  const Wrench& wrench() const { return wrench_; }  ///< of the world on the platform, base axes
+  void set_wrench(const Wrench& wrench) { wrench_ = wrench; }
+  bool is_fine() const { return is_fine_; }
+  void refine();   ///< to the fine nodes, the same shapes
+  void coarsen();  ///< to the coarse nodes, the shapes interpolated
+  /// @}
+
+  /// @name Newton's method
+  /// @{
+
+  /// Largest of closure error over length, of force error over EI/L² and moment error over EI/L, and of the
+  /// rods' own equations. NaN where anything is.
+  /// Not `anew`, right after a step, it is quicker and rounds once more.
+  double evaluate(bool anew = true);
+  double rod_error() const { return sums_.error; }  ///< of the last evaluation: the rods' own and their tips'
+  /// Factors at the point last evaluated. False where the platform's stiffness is singular.
+  bool linearise();
+  /// Newton's step from the last evaluation with the last factors; `fresh` right after `linearise`.
+  Twist step(bool fresh);
+  /// After `linearise` or `step`: what is missing to balance once the rods' gaps are closed.
+  Wrench missing() const;
+  /// A step of the platform, and lengths fed by each input; the rods follow to first order.
+  void move(const Twist& twist, std::span<const double> fed = {});
+  const Lu6& factors() const { return lu_; }
+  MatrixView stiffness() const { return {sums_.stiffness, 6, 6}; }  ///< ∂(F, M)/∂(p, φ) at fixed lengths
+  /// ∂(F, M)/∂length of one input at a resting platform [N/m, N].
+  Wrench feed_wrench(int input) const;
+  /// @}
+
+  /// @name Single rods, after `evaluate`
+  /// @{
+
+  RodReading rod(int index) const;
+  /// Unstable directions with the tip held, in the rod's plane and out of it; after `linearise`.
+  std::array<int, 2> unstable_with_tip_held(int index) const;
+  /// Estimated error of the shapes' polynomials at the tips, over the length: the worst rod's.
+  double truncation() const;
+  /// Polyline, `samples` ≥ 2 points in base axes [m]. Allocates.
+  std::vector<Vec3<double>> centreline(int index, int samples) const;
+
+  /// State as the coordinates of the leg (see RodLeg), on the side the tip lies.
+  void get_rod(int index, std::span<double> coordinates) const;
+  /// The same back, with the lateral direction it bends to; refines first.
+  void set_rod(int index, std::span<const double> coordinates, const Vec3<double>& lateral);
+
+  /// Where the platform holds the tip: lateral and axial distance, lateral direction, and EI. Needs no
+  /// evaluation.
+  struct Aim {
+    double d, w;
+    Vec3<double> lateral;
+    double stiffness;
+  };
+  Aim aim(int index) const;
+  /// A coarse state from its parts.
+  void set_shape(int index, double length, std::span<const double> theta, double force_d, double force_w,
+                 const Vec3<double>& lateral);
+  /// @}
+
+ private:
+  template <class Use>
+  decltype(auto) with(Use&& use) {
+    return is_fine_ ? use(std::span<FineRods>(fine_)) : use(std::span<CoarseRods>(coarse_));
+  }
+  template <class Use>
+  decltype(auto) with(Use&& use) const {
+    return is_fine_ ? use(std::span<const FineRods>(fine_)) : use(std::span<const CoarseRods>(coarse_));
+  }
+  /// Calls `use(group, lane)` for the one or the other kind of group.
+  template <class Use>
+  decltype(auto) with_rod(int rod, Use&& use) const {
+    return with([&](const auto& groups) -> decltype(auto) {
+      return use(groups[static_cast<std::size_t>(rod / rod_lanes)], rod % rod_lanes);
+    });
+  }
+  template <class Group>
+  void fill_idle_lanes(Group& last) const;
+  PlatformFrame frame() const;
+
+  std::vector<CoarseRods> coarse_;
+  std::vector<FineRods> fine_;
+  std::vector<RodFeed> fed_;
+  std::vector<int> input_of_;
+  int rods_ = 0, inputs_ = 0;
+  bool is_fine_ = false;
+  SE3<double> platform_;
+  Wrench wrench_ = Wrench::Zero();
+  RodSums sums_{};
+  Lu6 lu_;
+  double radius_ = 1;
+};
+
+}  // namespace sinew::inline v0
