@@ -88,6 +88,7 @@ class Request {
   }
 
   void pose(std::string_view key, const Robot& robot);
+  void independent();
   void poses(const Robot& robot);
   void inputs(std::string_view key, const Robot& robot);
   void twist(const Robot& robot);
@@ -181,6 +182,26 @@ void Request::pose(std::string_view key, const Robot& robot) {
                           : count == 6 ? lengths_then(3, Dimension::angle, 3)
                                        : lengths_then(3, Dimension::number, 4);
   member(key, json_pose(values(key, parts, dimensions)));
+}
+
+void Request::independent() {
+  const std::string* given = arguments_.text("independent");
+  if (!given) return;
+  auto parts = split(*given);
+  const std::size_t count = parts.size();
+  std::string mode;
+  if (count == 4) {
+    mode = fmt::format(R"(, "mode": {})", json_text(parts.back()));
+    parts.pop_back();
+  }
+  if (parts.size() != 3)
+    return fail("wrong_length", "independent",
+                fmt::format("{}; it has three, a height and two components of the quaternion, and after them "
+                            "half_turn for that mode: --independent \"0.54 m, 0.1, 0.05\".",
+                            counted(*given, count)));
+  const auto values_of = values("independent", parts, lengths_then(1, Dimension::number, 2));
+  member("independent", fmt::format(R"({{"z": {}, "e1": {}, "e2": {}{}}})", si_text(values_of[0]),
+                                    si_text(values_of[1]), si_text(values_of[2]), mode));
 }
 
 void Request::inputs(std::string_view key, const Robot& robot) {
@@ -297,6 +318,7 @@ Expected<Robot> open(const Arguments& arguments) {
 Expected<std::string> request(std::string_view query, const Arguments& arguments, const Robot& robot) {
   Request request(query, arguments);
   for (const std::string_view key : {"pose", "from", "to"}) request.pose(key, robot);
+  request.independent();
   request.poses(robot);
   request.inputs("inputs", robot);
   if (query == "inverse" || query == "track")

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "sinew/math/so3.hpp"
@@ -38,17 +40,26 @@ struct LegColumn {
   std::string_view name, unit, path;
 };
 
-/// What the legs of a planar robot and of a spatial one tell of themselves.
-std::vector<LegColumn> leg_columns(bool is_spatial) {
-  std::vector<LegColumn> columns{{"tendon_1", "m", "tendon_lengths[0]"},
-                                 {"tendon_2", "m", "tendon_lengths[1]"},
-                                 {"curvature", "1/m", "curvature"},
-                                 {"chord", "m", "chord"}};
-  if (is_spatial)
-    columns.insert(columns.end(),
-                   {{"joint_1", "rad", "joint_angles[0]"}, {"joint_2", "rad", "joint_angles[1]"}});
-  else
-    columns.push_back({"base_tangent", "rad", "base_tangent"});
+/// What legs may tell of themselves: a planar one its base tangent, one on a rail its slide.
+constexpr std::array all_leg_columns{
+    LegColumn{"tendon_1", "m", "tendon_lengths[0]"}, LegColumn{"tendon_2", "m", "tendon_lengths[1]"},
+    LegColumn{"curvature", "1/m", "curvature"},      LegColumn{"chord", "m", "chord"},
+    LegColumn{"joint_1", "rad", "joint_angles[0]"},  LegColumn{"joint_2", "rad", "joint_angles[1]"},
+    LegColumn{"base_tangent", "rad", "base_tangent"}, LegColumn{"slide", "m", "slide"},
+    LegColumn{"hinge_angle", "rad", "hinge_angle"},
+};
+
+const Node* number_of(const Node& leg, const LegColumn& column) {
+  const Node* node = at(leg, column.path);
+  return node && node->kind == Node::Kind::number ? node : nullptr;
+}
+
+/// Those that at least one of the legs has.
+std::vector<LegColumn> leg_columns(const Node& legs) {
+  std::vector<LegColumn> columns;
+  std::ranges::copy_if(all_leg_columns, std::back_inserter(columns), [&](const LegColumn& column) {
+    return std::ranges::any_of(legs.items, [&](const Node& leg) { return number_of(leg, column); });
+  });
   return columns;
 }
 
@@ -78,14 +89,16 @@ std::string show_pose(const Node& pose) {
 }
 
 std::string show_legs(const Node& legs) {
-  const auto columns = leg_columns(!legs.items.empty() && legs.items.front().find("joint_angles"));
+  const auto columns = leg_columns(legs);
   std::vector<std::string> header{"leg"};
   for (const LegColumn& column : columns) header.push_back(heading(column.name, column.unit));
   TextTable table(std::move(header));
   for (std::size_t i = 0; i < legs.items.size(); ++i) {
     std::vector<std::string> row{fmt::format("legs[{}]", i)};
-    for (const LegColumn& column : columns)
-      row.push_back(cell(number(legs.items[i], column.path), column.unit));
+    for (const LegColumn& column : columns) {
+      const Node* value = number_of(legs.items[i], column);
+      row.push_back(value ? cell(value->number, column.unit) : "-");
+    }
     table.add(std::move(row));
   }
   return table.text();
@@ -120,14 +133,19 @@ std::string signs(const Node& solution, std::string_view key) {
 }  // namespace
 
 std::string show_working_modes(const Node& solutions, const Robot& robot) {
-  const bool has_elbows = !solutions.items.empty() && at(solutions.items.front(), "legs[0].elbow");
-  std::vector<std::string> header{"mode", "bending"};
+  const auto first_leg_has = [&](std::string_view path) {
+    return !solutions.items.empty() && at(solutions.items.front(), path);
+  };
+  const bool has_elbows = first_leg_has("legs[0].elbow"), has_bending = first_leg_has("legs[0].curvature");
+  std::vector<std::string> header{"mode"};
+  if (has_bending) header.emplace_back("bending");
   if (has_elbows) header.emplace_back("elbow");
   add_headings(header, robot.inputs);
   TextTable table(std::move(header));
   for (std::size_t k = 0; k < solutions.items.size(); ++k) {
     const Node& solution = solutions.items[k];
-    std::vector<std::string> row{fmt::format("{}", k + 1), signs(solution, "curvature")};
+    std::vector<std::string> row{fmt::format("{}", k + 1)};
+    if (has_bending) row.push_back(signs(solution, "curvature"));
     if (has_elbows) row.push_back(signs(solution, "elbow"));
     add_cells(row, numbers(solution.find("inputs")), robot.inputs);
     table.add(std::move(row));

@@ -34,7 +34,7 @@ std::string show_matrix(const Node& matrix, std::vector<std::string> header,
   return table.text();
 }
 
-/// The rows of J and K: one a leg, of a pinned leg one a coordinate.
+/// The rows of J and K: one a leg, of a pinned leg one a coordinate; those of planes come last.
 struct Rows {
   std::vector<std::string> names;
   int pinned = 0;  ///< rows in [m] instead of [m²]
@@ -43,7 +43,9 @@ struct Rows {
 Rows rows_of(const Robot& robot) {
   Rows rows;
   const auto& legs = robot.description.find("legs")->items;
+  std::vector<std::string> planes;
   for (std::size_t i = 0; i < legs.size(); ++i) {
+    if (at(legs[i], "closure.type")->text == "hinged_strut") planes.push_back(fmt::format("legs[{}].plane", i));
     if (at(legs[i], "closure.type")->text != "pin") {
       rows.names.push_back(fmt::format("legs[{}]", i));
       continue;
@@ -51,6 +53,8 @@ Rows rows_of(const Robot& robot) {
     for (const char* axis : {"x", "y"}) rows.names.push_back(fmt::format("legs[{}].{}", i, axis));
     rows.pinned += 2;
   }
+  rows.names.insert(rows.names.end(), planes.begin(), planes.end());
+  rows.pinned += static_cast<int>(planes.size());
   return rows;
 }
 

@@ -9,11 +9,14 @@ namespace {
 
 constexpr std::array options{
     Option{"inputs", "\"A, B, ...\"",
-           "in leg order: tendon_1 of each leg, a length; where the leg has a motor, theta, an angle, before "
-           "it"},
+           "in leg order: tendon_1 of each leg, of a leg on a rail its slide, a length; where the leg has a "
+           "motor, theta, an angle, before it"},
     Option{
         "pose", "\"X, Y, PHI\"",
         "pose of the platform; in space X, Y, Z and rotation vector, or X, Y, Z and quaternion W, X, Y, Z"},
+    Option{"independent", "\"Z, E1, E2\"",
+           "in place of --pose where hinges hold the platform in planes: height and two components of its "
+           "quaternion; a fourth value, half_turn, is the mode with E0 = 0"},
     Option{"from", "\"X, Y, PHI\"", "first pose of a path, written like --pose"},
     Option{"to", "\"X, Y, PHI\"", "last pose of a path"},
     Option{"poses", "FILE", "the path as a table: a .csv file of poses"},
@@ -23,7 +26,7 @@ constexpr std::array options{
     Option{"start", "\"A, B, ...\"",
            "where the search begins: a pose, of inverse and track inputs; default the robot's home"},
     Option{"bending", "\"+,-,+\"", "sign of each leg's curvature"},
-    Option{"elbow", "\"+,-,+\"", "side to which the strut of each leg turns, where the leg has a motor"},
+    Option{"elbow", "\"+,-,+\"", "side to which the strut of each leg turns, where the leg has a motor or a rail"},
     Option{"curvature", "\"A, B, ...\"", "a curvature for each leg; the nearest solution is taken"},
     Option{"theta-is", "NAME", "what an input theta is the angle of: tangent (default) or chord"},
     Option{"twist", "\"VX, VY, W\"",
@@ -66,21 +69,22 @@ const std::array table{
     Verb{"inverse",
          "ROBOT",
          "inputs from the pose of the platform",
-         {"pose", "bending", "elbow", "curvature", "start", "all", "theta-is", "model", "set", "json",
-          "quiet", "help"},
-         {"pose"},
+         {"pose", "independent", "bending", "elbow", "curvature", "start", "all", "theta-is", "model", "set",
+          "json", "quiet", "help"},
+         {"pose", "independent"},
          "Of several solutions the one that bends least is taken, positive where both signs do; with --start "
          "the "
          "one\n"
-         "nearest to those inputs. In space: sinew inverse 6-ufs --pose \"0, 0, 180 mm, 0, 10 deg, 0\"",
+         "nearest to those inputs. In space: sinew inverse 6-ufs --pose \"0, 0, 180 mm, 0, 10 deg, 0\"\n"
+         "A platform that hinges hold in planes: sinew inverse 3prs --independent \"0.54 m, 0.1, 0.05\"",
          "sinew inverse 3-rfr --pose \"10 mm, -5 mm, 10 deg\" --bending \"+,-,+\"",
          run_question},
     Verb{"analyse",
          "ROBOT",
          "velocity equations, sensitivities and singularities at a configuration",
-         {"pose", "bending", "elbow", "curvature", "inputs", "start", "twist", "theta-is", "max-iterations",
-          "model", "set", "json", "quiet", "help"},
-         {"pose", "inputs"},
+         {"pose", "independent", "bending", "elbow", "curvature", "inputs", "start", "twist", "theta-is",
+          "max-iterations", "model", "set", "json", "quiet", "help"},
+         {"pose", "independent", "inputs"},
          "Give a pose, or inputs, or both. J·(platform velocity) = K·(input rates) is printed in SI as in "
          "the paper,\n"
          "U = J⁻¹K in mm and degrees. A singular configuration is shown, and the exit code is 3.",
@@ -153,8 +157,8 @@ const std::array table{
     Verb{"plot",
          "RESULT|ROBOT",
          "a figure of a table of results, or of a robot",
-         {"output", "x", "y", "log-y", "title", "pose", "bending", "elbow", "curvature", "inputs", "start",
-          "theta-is", "model", "set", "quiet", "help"},
+         {"output", "x", "y", "log-y", "title", "pose", "independent", "bending", "elbow", "curvature",
+          "inputs", "start", "theta-is", "model", "set", "quiet", "help"},
          {"output"},
          "RESULT is a .csv file with headings like x[m]. A robot is drawn at a pose or at inputs, default "
          "its home;\n"

@@ -25,6 +25,7 @@ constexpr std::array kinds{
     Kind{"3-FRR", "3-frr", "planar, short form: clamped links with struts, 3 inputs"},
     Kind{"3-RFRR", "3-rfrr", "planar, short form, redundant: links on motors with struts, 6 inputs"},
     Kind{"6-UFS", "6-ufs", "spatial, short form: six links between free joints, 6 inputs"},
+    Kind{"3-PRS", "3prs", "spatial, short form, rigid: carriages on rails, struts on hinges, 3 inputs"},
     Kind{"planar", "mixed-legs", "legs listed: a chord, a strut, and a strut on a motor, 4 inputs"},
     Kind{"two-legged", "two-legged",
          "planar, legs listed, fully determined: a pinned link on a motor and a chord"},

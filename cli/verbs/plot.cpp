@@ -62,10 +62,12 @@ Panel picture(const Answer& shape, const View& view) {
   const auto& tendons = shape.find("tendons")->items;
   for (std::size_t i = 0; i < tendons.size(); ++i)
     for (std::size_t k = 0; k < tendons[i].items.size(); ++k)
-      add(tendons[i].items[k], Mark::dashed, Colour::grey, 1, once(i + k, "tendon"));
+      if (!tendons[i].items[k].items.empty())  // a rail has none
+        add(tendons[i].items[k], Mark::dashed, Colour::grey, 1, once(i + k, "tendon"));
   const auto& backbones = shape.find("backbones")->items;
+  const auto is_rail = [&](std::size_t i) { return tendons[i].items[0].items.empty(); };
   for (std::size_t i = 0; i < backbones.size(); ++i)
-    add(backbones[i], Mark::line, Colour::blue, 3, once(i, "backbone"));
+    add(backbones[i], Mark::line, Colour::blue, 3, once(i, is_rail(i) ? "rail" : "backbone"));
   add(*shape.find("base"), Mark::circles, Colour::black, 1.5);
   add(platform, Mark::circles, Colour::black, 1.5);
   return panel;
@@ -95,7 +97,7 @@ std::optional<Figure> robot_figure(const Arguments& arguments, int& exit) {
     exit = refuse("plot", query.error());
     return {};
   }
-  if (!arguments.has("pose") && !arguments.has("inputs")) {
+  if (!arguments.has("pose") && !arguments.has("independent") && !arguments.has("inputs")) {
     query->pop_back();  // its closing brace
     *query += fmt::format(R"(, "pose": {}}})", as_json(*robot->description.find("home")));
   }

@@ -1,6 +1,7 @@
 #include "sinew/analysis/shape.hpp"
 
 #include "robot/pose.hpp"
+#include "robot/rod_system.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -12,7 +13,7 @@ Vec3<double> placed(const SE3<double>& frame, const Vec2<double>& point) {
 }
 
 template <int D, class LegT, class Frame>
-void add_leg(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const typename LegT::Coordinates& q,
+void add_arc(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const typename LegT::Coordinates& q,
              int samples) {
   const auto frame = leg.link_frame(platform, q);
   const double curvature = leg.link.curvature(q), length = leg.link.arc().length;
@@ -27,19 +28,62 @@ void add_leg(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const ty
     tendons[0].push_back(placed(frame, Vec2<double>(point + side)));
     tendons[1].push_back(placed(frame, Vec2<double>(point - side)));
   }
-  const Vec<double, D> head = platform.point(leg.platform_point);
   shape.backbones.push_back(std::move(backbone));
   shape.tendons.push_back(std::move(tendons));
+}
+
+/// Backbone and tendons of a leg with an arc, of another its rail from the base point to the carriage.
+template <int D, class LegT, class Frame>
+void add_link(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const typename LegT::Coordinates& q,
+              int samples) {
+  if constexpr (!HasArc<typename LegT::Link>) {
+    PolylineOf<D> rail;
+    for (int k = 0; k < samples; ++k)
+      rail.push_back(leg.base.point(leg.link.tip(q).position * (static_cast<double>(k) / (samples - 1))));
+    shape.backbones.push_back(std::move(rail));
+    shape.tendons.emplace_back();
+  } else {
+    add_arc(shape, leg, platform, q, samples);
+  }
+}
+
+template <int D, class LegT, class Frame>
+void add_leg(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const typename LegT::Coordinates& q,
+             int samples) {
+  add_link(shape, leg, platform, q, samples);
+  const Vec<double, D> head = platform.point(leg.platform_point);
   shape.lines.push_back({leg.reach(q).anchor, head});
   shape.platform.push_back(head);
   shape.base.push_back(leg.base.p);
+}
+
+/// Rods as their coordinates shape them, between the base and the platform.
+AnyShape rods_shape(const ParallelRobot<RodLeg>& robot, const SpatialPose& pose, Numbers coordinates,
+                    int samples) {
+  SpatialShape shape;
+  RodSystem system(robot);
+  system.set_platform(SE3<double>::from(pose));
+  for (int k = 0; k < system.rods(); ++k)
+    system.set_rod(k, coordinates.subspan(static_cast<std::size_t>(k * RodLeg::coordinates), RodLeg::coordinates),
+                   system.aim(k).lateral);
+  system.evaluate();
+  for (int k = 0; k < system.rods(); ++k) {
+    shape.backbones.push_back(system.centreline(k, samples));
+    shape.tendons.emplace_back();
+    const Vec3<double> tip = system.rod(k).tip;
+    shape.lines.push_back({tip, tip});
+    shape.platform.push_back(tip);
+    shape.base.push_back(system.base(k));
+  }
+  return shape;
 }
 
 }  // namespace
 
 AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
   SINEW_EXPECTS(samples >= 2);
-  return std::visit(
+  return visit_closing(
+      robot,
       [&]<class LegT>(const ParallelRobot<LegT>& r) -> AnyShape {
         using Space = typename LegT::Space;
         ShapeOf<Space::dimension> shape;
@@ -49,7 +93,7 @@ AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinat
         });
         return shape;
       },
-      robot.model);
+      [&] { return rods_shape(std::get<ParallelRobot<RodLeg>>(robot.model), std::get<SpatialPose>(pose), coordinates, samples); });
 }
 
 }  // namespace sinew::inline v0

@@ -8,6 +8,7 @@
 
 #include "robot/pose.hpp"
 #include "sinew/analysis/velocity.hpp"
+#include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 
 namespace sinew::inline v0 {
@@ -17,16 +18,26 @@ constexpr double step_size = 0.02;  // of a step [rad, or platform radii]
 constexpr double stencil = 0.2;     // spacing of the points of a derivative, in steps
 constexpr int most_steps = 1000000;
 
-/// A straight motion of the platform, by its distance s.
+/// A straight motion of the platform, by its distance s; put back into the planes that hinges may hold it in.
 struct Line {
+  const AnyRobot& robot;
   AnyPose start;
   Vec<double, 6> direction;  // in the plane the first three
   double step;               // of the search, in s
 
+  /// Whether hinges leave at least half of the motion.
+  bool is_allowed() const {
+    const auto* spatial = std::get_if<SpatialPose>(&start);
+    if (!spatial || plane_count(robot) == 0) return true;
+    const SpatialPose moved = Spatial::moved(*spatial, Vec<double, 6>(step * direction));
+    const double radius = std::visit([](const auto& r) { return r.platform_radius; }, robot.model);
+    return gap(std::get<SpatialPose>(settled(robot, moved)), moved, radius) < 0.5 * gap(moved, *spatial, radius);
+  }
+
   AnyPose at(double s) const {
     if (const auto* planar = std::get_if<PlanarPose>(&start))
       return Planar::moved(*planar, Vec<double, 3>(s * direction.head<3>()));
-    return Spatial::moved(std::get<SpatialPose>(start), Vec<double, 6>(s * direction));
+    return settled(robot, Spatial::moved(std::get<SpatialPose>(start), Vec<double, 6>(s * direction)));
   }
 };
 
@@ -184,11 +195,17 @@ double full_turn(const AnyRobot& robot, const Vec<double, 6>& direction) {
 
 TypeTwoDistance one_way(const AnyRobot& robot, const AnyPose& pose, const Vec<double, 6>& direction,
                         const TypeTwoSearch& search, Workspace& work) {
-  const Line line{pose, direction, step_of(robot, direction)};
+  const Line line{robot, pose, direction, step_of(robot, direction)};
   if (!std::isfinite(line.step) || line.step == 0) {
     TypeTwoDistance answer{.found = false, .distance = 0, .pose = pose, .type_2 = {}, .report = {}};
     answer.report.status = Status::left_domain;
     answer.report.message.append("the direction is zero, or not a finite number");
+    return answer;
+  }
+  if (!line.is_allowed()) {
+    TypeTwoDistance answer{.found = false, .distance = 0, .pose = pose, .type_2 = {}, .report = {}};
+    answer.report.status = Status::unreachable;
+    answer.report.message.append("the platform cannot move that way: hinges hold its points in their planes");
     return answer;
   }
   const double limit = std::isnan(search.limit) ? full_turn(robot, direction) : search.limit;

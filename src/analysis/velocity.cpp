@@ -23,25 +23,27 @@ double block_norm(const MatrixView& U, Eigen::Index first, Eigen::Index count) {
   return sigma[0];
 }
 
-/// The leg's inputs move its rows in no direction, or in fewer than they have: the largest (of a pin: the
-/// smaller) singular value of g_q, its columns scaled by the speed they give the tip, rows by the pull.
+/// The leg's inputs move its rows in no direction, or in fewer than they could: the largest (of a pin: the
+/// smaller) singular value of g_q, its columns scaled by the speed they give the tip, rows by the pull. The
+/// row of a plane is nobody's to move.
 template <class LegT, class Frame>
 bool is_type_one(const LegT& leg, const Frame& platform, const typename LegT::Coordinates& q) {
   const auto tip = leg.template tip<double>(q);
   const auto blocks = leg.template blocks<double>(platform, tip);
-  Mat<double, LegT::rows, LegT::coordinates> slope = blocks.g_q;
-  for (int i = 0; i < LegT::rows; ++i) {
+  constexpr int rows = LegT::driven_rows;
+  Mat<double, rows, LegT::coordinates> slope = blocks.g_q.template topRows<rows>();
+  for (int i = 0; i < rows; ++i) {
     const double pull = blocks.g_x.row(i).template head<LegT::Space::dimension>().norm();
     for (int j = 0; j < LegT::coordinates; ++j) slope(i, j) /= pull * tip.rate.col(j).norm();
   }
   if (!slope.allFinite()) return true;  // folded on the spot: no line, or a tip that no input moves
-  if constexpr (LegT::rows == 1) {
+  if constexpr (rows == 1) {
     return slope.cwiseAbs().maxCoeff() <= type_1_tolerance;
   } else {
     std::array<double, max_rows> sigma;
-    const Eigen::Matrix<double, LegT::rows, LegT::coordinates, Eigen::RowMajor> rows = slope;
-    singular_values(MatrixView(rows.data(), rows.rows(), rows.cols()), sigma);
-    return sigma[LegT::rows - 1] <= type_1_tolerance;
+    const Eigen::Matrix<double, rows, LegT::coordinates, Eigen::RowMajor> by_rows = slope;
+    singular_values(MatrixView(by_rows.data(), rows, LegT::coordinates), sigma);
+    return sigma[rows - 1] <= type_1_tolerance;
   }
 }
 
@@ -129,8 +131,13 @@ Velocity velocity_of(const ParallelRobot<LegT>& robot, const AnyRobot& any, cons
 
 Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
   const Reduced reduced = assemble(robot, pose, coordinates, work);
-  return std::visit([&](const auto& r) { return velocity_of(r, robot, pose, coordinates, reduced, work); },
-                    robot.model);
+  return visit_closing(
+      robot, [&](const auto& r) { return velocity_of(r, robot, pose, coordinates, reduced, work); },
+      [&] {
+        Velocity answer = nothing_yet(reduced, work);
+        refuse(answer, Status::left_domain, "the legs bear load: analyse_equilibrium has their stiffness and sensitivity");
+        return answer;
+      });
 }
 
 Report rates(const Velocity& velocity, Numbers twist, Workspace& work) {
@@ -146,7 +153,16 @@ Report rates(const Velocity& velocity, Numbers twist, Workspace& work) {
   const Eigen::Map<const Eigen::VectorXd> t(twist.data(), static_cast<Eigen::Index>(twist.size()));
   for (Eigen::Index i = 0; i < velocity.J.rows();
        ++i) {  // rows of K scaled to one: legs may be of unlike size
-    const double scale = 1 / velocity.K.row(i).cwiseAbs().maxCoeff();
+    const double drive = velocity.K.row(i).cwiseAbs().maxCoeff();
+    if (drive == 0) {  // a plane: no input moves it, so the twist must keep to it
+      const double along = velocity.J.row(i).dot(t), size = velocity.J.row(i).cwiseAbs().dot(t.cwiseAbs());
+      if (!(std::abs(along) <= 1e-9 * size))
+        return refuse_with("the platform cannot move so: a hinge holds a platform point in its plane");
+      work.s[static_cast<std::size_t>(i)] = 0;
+      std::fill_n(work.unit_K.begin() + i * inputs, inputs, 0.0);
+      continue;
+    }
+    const double scale = 1 / drive;
     work.s[static_cast<std::size_t>(i)] = velocity.J.row(i).dot(t) * scale;
     for (Eigen::Index j = 0; j < inputs; ++j)
       work.unit_K[static_cast<std::size_t>(i * inputs + j)] = velocity.K(i, j) * scale;

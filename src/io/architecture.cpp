@@ -39,13 +39,20 @@ bool is_clamped(const Architecture& architecture, TypeList<Legs...>) {
           ...);
 }
 
+/// Whether these legs run on rails, which have a direction and a hinge.
+template <class... Legs>
+bool are_on_rails(const Architecture& architecture, TypeList<Legs...>) {
+  return ((Legs::Link::name == architecture.link && HasSlide<typename Legs::Link>) || ...);
+}
+
 /// Turns the short form into legs. Every error is noted by the readers of the file.
 class Expansion {
  public:
   Expansion(const Architecture& architecture, Reader& robot)
       : architecture_(&architecture),
         count_(static_cast<std::size_t>(architecture.legs)),
-        robot_(&robot) {}
+        robot_(&robot),
+        is_on_rails_(are_on_rails(architecture, SpatialLegs{})) {}
 
   Node legs() {
     Reader base = robot_->required("base", "where the legs start: {radius, angle}");
@@ -53,8 +60,9 @@ class Expansion {
     platform.has("home");
     const Places feet = places(base, "base"), heads = places(platform, "platform");
     const std::vector<double> directions = base_directions(base, feet);
-    const std::vector<double> first_axes =
-        is_spatial() ? turns(base, "first_axis", "first_axes", feet) : std::vector<double>();
+    const std::vector<double> axes = is_on_rails_   ? hinge_axes(base, feet)
+                                     : is_spatial() ? turns(base, "first_axis", "first_axes", feet)
+                                                    : std::vector<double>();
     base.close();
     platform.close();
 
@@ -67,7 +75,8 @@ class Expansion {
     for (std::size_t i = 0; i < count_; ++i) {
       std::vector<std::pair<std::string, Node>> at{{"point", feet.points[i]}};
       if (!directions.empty()) at.emplace_back("direction", placed(make_node(directions[i]), foot));
-      if (!first_axes.empty()) at.emplace_back("first_axis", placed(make_node(first_axes[i]), foot));
+      if (!axes.empty())
+        at.emplace_back(is_on_rails_ ? "hinge_axis" : "first_axis", placed(make_node(axes[i]), foot));
       list.items.push_back(map_of(name, {{"base", map_of(foot, std::move(at))},
                                          {"link", map_of(name, {{"type", text(architecture_->link)}})},
                                          {"closure", map_of(name, {{"type", text(architecture_->closure)}})},
@@ -84,6 +93,7 @@ class Expansion {
   };
 
   bool is_spatial() const { return architecture_->space == "spatial"; }
+  bool is_in_pairs() const { return is_spatial() && !is_on_rails_; }
 
   std::vector<Reader> one_a_leg(const Reader& list, std::string_view what) const {
     auto items = list.items();
@@ -154,7 +164,7 @@ class Expansion {
   }
 
   std::vector<double> spaced(Reader& map) const {
-    const bool in_pairs = is_spatial();
+    const bool in_pairs = is_in_pairs();
     const double first =
         map.required("angle", in_pairs
                                   ? "of the middle of the first pair of legs; the others are spaced evenly"
@@ -173,6 +183,13 @@ class Expansion {
     return angles;
   }
 
+  /// Of upright rails, hinges along the circle of the base unless the file turns them.
+  std::vector<double> hinge_axes(Reader& base, const Places& feet) const {
+    Places beside = feet;
+    for (double& angle : beside.azimuths) angle -= std::numbers::pi / 2;
+    return turns(base, "hinge_axis", "hinge_axes", beside);
+  }
+
   std::vector<double> base_directions(Reader& base, const Places& feet) const {
     if (is_clamped(*architecture_, PlanarLegs{})) {
       if (!base.has("direction") && !base.has("directions"))
@@ -183,8 +200,12 @@ class Expansion {
     }
     for (const std::string_view key : {"direction", "directions"})
       if (base.has(key))
-        base.fail("no_effect", fmt::format("{} has no effect: the legs of a {} turn at their base; remove it",
-                                           key, architecture_->name));
+        base.fail("no_effect",
+                  is_on_rails_
+                      ? fmt::format("{} has no effect: the rails of a short form stand upright; list the legs",
+                                    key)
+                      : fmt::format("{} has no effect: the legs of a {} turn at their base; remove it", key,
+                                    architecture_->name));
     return {};
   }
 
@@ -207,6 +228,7 @@ class Expansion {
   const Architecture* architecture_;
   std::size_t count_;
   Reader* robot_;
+  bool is_on_rails_;
 };
 
 const Architecture& architecture_of(Reader& robot) {

@@ -66,20 +66,27 @@ SE2<double> read_foot(Reader& base, const Vec2<double>& point) {
   return SE2<double>::from(point.x(), point.y(), direction - std::numbers::pi / 2);
 }
 
-/// Axes of the universal joint at the foot of a spatial leg, see Spatial.
+/// Axes at the foot of a spatial leg: x along the first axis of its universal joint, see Spatial; of a rail x
+/// along the axis of the hinge and y along the rail.
 template <class LegT>
 SE3<double> read_foot(Reader& base, const Vec3<double>& point) {
-  const Reader axis = base.required(
-      "first_axis", "first axis of the universal joint: [1, 0, 0], or an angle in the base plane");
+  constexpr bool is_rail = HasSlide<typename LegT::Link>;
+  const Reader axis =
+      is_rail ? base.required("hinge_axis",
+                              "axis of the strut's hinge, square to the rail: [1, 0, 0], or an angle in the base "
+                              "plane")
+              : base.required("first_axis",
+                              "first axis of the universal joint: [1, 0, 0], or an angle in the base plane");
   const Vec3<double> first = read_direction(axis);
   const auto given = base.optional("direction");
   const Vec3<double> ahead = given ? read_direction(*given) : Vec3<double>(0, 0, 1);
   const Vec3<double> side = cross(first, ahead);
-  if (side.norm() < 1e-6) {
-    axis.fail(
-        "no_direction",
-        "lies along the leg's direction when the joint is straight (base.direction, default [0, 0, 1]); "
-        "turn one of them");
+  const bool is_slanted = is_rail && std::abs(dot(first, ahead)) > 1e-6;
+  if (side.norm() < 1e-6 || is_slanted) {
+    axis.fail("no_direction",
+              is_rail ? "must be square to the rail (base.direction, default [0, 0, 1]); turn one of them"
+                      : "lies along the leg's direction when the joint is straight (base.direction, default [0, "
+                        "0, 1]); turn one of them");
     return {point, SO3<double>::identity()};
   }
   const Vec3<double> second = side.normalized();
@@ -125,20 +132,58 @@ void read_actuated(Reader& leg) {
                   LegT::Link::name, LegT::Closure::name, fmt::join(names, ", ")));
 }
 
+/// Axes at the foot of a rod: +y along its guide.
+Vec3<double> read_guide(Reader& base) {
+  const auto given = base.optional("direction");
+  return given ? read_direction(*given) : Vec3<double>(0, 0, 1);
+}
+SE3<double> guide_frame(const Vec3<double>& point, const Vec3<double>& ahead) {
+  Eigen::Index least;
+  ahead.cwiseAbs().minCoeff(&least);
+  const Vec3<double> aside = cross(ahead, Vec3<double>(Vec3<double>::Unit(least))).normalized();
+  Mat<double, 3, 3> axes;
+  axes << aside, ahead, cross(aside, ahead);
+  return {point, SO3<double>::from(axes)};
+}
+
+RodLeg read_rod(Reader& leg, Reader& link) {
+  RodLeg result;
+  Reader base = leg.required("base", "{point, ...}");
+  const auto point = read_point<Spatial>(base.required("point", "where the rod leaves its guide"));
+  result.base = guide_frame(point, read_guide(base));
+  if (const auto shared = base.optional("shared")) shared->boolean();  // asked again by check_base_points
+  base.close();
+  Rod::fields(result.link, FieldReader(link));
+  Reader material = link.required("material", "{E: Young's modulus}");
+  result.link.youngs_modulus = material.required("E").quantity(Dimension::pressure, Range::positive());
+  material.close();
+  result.platform_point = read_point<Spatial>(leg.required("platform_point", "where the leg meets the platform"));
+  read_actuated<RodLeg>(leg);
+  return result;
+}
+
 template <class LegT>
-LegT read_leg_of(Reader& leg, Reader& link, Reader& closure) {
+LegT read_closing_leg(Reader& leg, Reader& link, Reader& closure) {
   LegT result{};
   result.base = read_base<LegT>(leg.required("base", "{point, ...}"));
   LegT::Link::fields(result.link, FieldReader(link));
   LegT::Drive::fields(result.drive, FieldReader(link));
   if constexpr (requires { result.drive.theta_is; })
     if (const auto theta = link.optional("theta_is")) result.drive.theta_is = read_theta_is(*theta);
-  result.backbone = read_backbone(link);
+  if constexpr (HasArc<typename LegT::Link>) result.backbone = read_backbone(link);
   LegT::Closure::fields(result.closure, FieldReader(closure));
   result.platform_point =
       read_point<typename LegT::Space>(leg.required("platform_point", "where the leg meets the platform"));
   read_actuated<LegT>(leg);
   return result;
+}
+
+template <class LegT>
+LegT read_leg_of(Reader& leg, Reader& link, Reader& closure) {
+  if constexpr (BearsLoad<LegT>)
+    return read_rod(leg, link);
+  else
+    return read_closing_leg<LegT>(leg, link, closure);
 }
 
 /// The kind of leg that link and closure name, out of all kinds of one space; none where there is no such
@@ -325,6 +370,23 @@ std::optional<RobotModel> read_model(Reader& robot, Kinds kinds) {
   return make_robot(read.legs, read.tied, home, radius);
 }
 
+/// Whether a leg of the file is a rod: all of them must then be.
+bool has_rod(const Reader& robot) {
+  const Node* legs = robot.node() ? robot.node()->find("legs") : nullptr;
+  if (!legs || legs->kind != Node::Kind::list) return false;
+  return std::ranges::any_of(legs->items, [](const Node& leg) {
+    const Node* link = leg.kind == Node::Kind::map ? leg.find("link") : nullptr;
+    const Node* type = link && link->kind == Node::Kind::map ? link->find("type") : nullptr;
+    return type && type->text == Rod::name;
+  });
+}
+
+std::optional<RobotModel> read_model_of_space(Reader& robot, bool is_spatial) {
+  if (is_spatial && has_rod(robot)) return read_model<AnyLoadedLeg>(robot, LoadedLegs{});
+  if (is_spatial) return read_model<AnySpatialLeg>(robot, SpatialLegs{});
+  return read_model<AnyPlanarLeg>(robot, PlanarLegs{});
+}
+
 /// Reads a document that lists its legs.
 AnyRobot read_listed(Reader& robot) {
   AnyRobot result;
@@ -335,8 +397,7 @@ AnyRobot read_listed(Reader& robot) {
     if (!defaults->is(Node::Kind::map)) defaults->refuse("wrong_type", "give a map of what the legs share.");
   const auto space = robot.optional("space");
   const bool is_spatial = space && space->choice({"planar", "spatial"}) == "spatial";
-  auto model = is_spatial ? read_model<AnySpatialLeg>(robot, SpatialLegs{})
-                          : read_model<AnyPlanarLeg>(robot, PlanarLegs{});
+  auto model = read_model_of_space(robot, is_spatial);
   robot.close();
   if (model) result.model = std::move(*model);
   return result;

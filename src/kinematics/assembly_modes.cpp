@@ -4,13 +4,15 @@
 
 #include "kinematics/reaches.hpp"
 #include "robot/pose.hpp"
+#include "sinew/kinematics/hinged_modes.hpp"
 #include "sinew/kinematics/planar_modes.hpp"
 #include "sinew/kinematics/spatial_modes.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-void put(AssemblyModes& modes, const PlanarModes& found) {
+template <class Found>
+void put(AssemblyModes& modes, const Found& found) {
   modes.report = found.report;
   for (std::size_t k = 0; k < static_cast<std::size_t>(found.count); ++k) {
     modes.poses.emplace_back(found.poses[k]);
@@ -27,8 +29,13 @@ void put(AssemblyModes& modes, const SpatialModes& found) {
   modes.is_complete = found.is_complete();
 }
 
-PlanarModes modes_of(std::span<const Reach<2>> reaches) { return planar_modes(reaches); }
-SpatialModes modes_of(std::span<const Reach<3>> reaches) { return spatial_modes(reaches); }
+void put_modes(AssemblyModes& modes, std::span<const Reach<2>> reaches) { put(modes, planar_modes(reaches)); }
+void put_modes(AssemblyModes& modes, std::span<const Reach<3>> reaches) {
+  if (!are_hinged(reaches)) return put(modes, spatial_modes(reaches));
+  const HingedModes found = hinged_modes(reaches);
+  put(modes, found);
+  modes.is_complete = found.is_complete;
+}
 
 }  // namespace
 
@@ -40,8 +47,8 @@ AssemblyModes assembly_modes(const AnyRobot& robot, Numbers inputs, Workspace& w
                       .is_complete = true,
                       .coordinates = work.coordinates};
   if (modes.report.ok())
-    std::visit([&](const auto& r) { put(modes, modes_of(reaches_of(r, work.coordinates).view())); },
-               robot.model);
+    visit_closing(
+        robot, [&](const auto& r) { put_modes(modes, reaches_of(r, work.coordinates).view()); }, [] {});
   return modes;
 }
 

@@ -21,7 +21,7 @@ class Closing {
   explicit Closing(std::span<const Reach<D>> reaches) : reaches_(reaches) {
     for (const Reach<D>& leg : reaches) {
       size_ = std::max(size_, leg.anchor.norm() + leg.platform_point.norm() + 2 * leg.distance);
-      rows_ += leg.distance > 0 ? 1 : D;
+      rows_ += leg.rows();
     }
   }
 
@@ -39,14 +39,28 @@ class Closing {
         system.jacobian.row(row) = Space::line(direction, b);
         system.jacobian.row(row++).template tail<unknowns - D>() /= size_;
       };
-      system.error = std::max(system.error, std::abs(length - leg.distance));
+      const double beside = dot(leg.normal, n), miss = std::abs(length - leg.distance);
+      system.error = std::max(system.error, leg.has_plane() ? std::sqrt(miss * miss + beside * beside) : miss);
       if (leg.distance > 0) {
         put(0.5 * (length - leg.distance) * (length + leg.distance), n);
+        if (leg.has_plane()) put(beside * size_, leg.normal * size_);  // of the size of the others
       } else {
         for (int k = 0; k < D; ++k) put(n[k], Vec<double, D>(Vec<double, D>::Unit(k)));
       }
     }
     return true;
+  }
+
+  /// Largest distance by which a leg fails to close [m].
+  double error(const Point& platform) const {
+    double worst = 0;
+    for (const Reach<D>& leg : reaches_) {
+      const Vec<double, D> n = platform.point(leg.platform_point) - leg.anchor;
+      const double miss = std::abs(n.norm() - leg.distance);
+      const double beside = dot(leg.normal, n);  // 0 without a plane
+      worst = std::max(worst, leg.has_plane() ? std::sqrt(miss * miss + beside * beside) : miss);
+    }
+    return worst;
   }
 
   Point moved(const Point& platform, Vec<double, unknowns> step) const {

@@ -3,7 +3,10 @@
 #include "kinematics/closing.hpp"
 #include "kinematics/four_bars.hpp"
 #include "kinematics/reaches.hpp"
+#include "kinematics/three_circles.hpp"
 #include "robot/pose.hpp"
+#include "sinew/kinematics/hinged_modes.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/planar_modes.hpp"
 
 namespace sinew::inline v0 {
@@ -38,12 +41,42 @@ void warn_of_freedom(Report& report, Eigen::Index rows, int dof) {
   report.message.append(" freedoms: this is one pose of a continuum, the one the start leads to");
 }
 
-/// Where Newton's method fails in the plane the sextic knows better: every pose there is, or that there is
-/// none. The nearest to the start is then the answer.
-void ask_all_modes(std::span<const Reach<2>> reaches, const PlanarPose& start, double radius,
-                   PlanarPose& pose, Report& report) {
-  if (report.status != Status::stalled && report.status != Status::iteration_limit) return;
-  const PlanarModes modes = planar_modes(reaches);
+/// Newton's method from `platform`; of three hinged legs in their angles, half as many unknowns.
+Report solve(const Closing<Planar>& closing, std::span<const Reach<2>>, const NewtonOptions& options,
+             SE2<double>& platform) {
+  return newton(closing, platform, options);
+}
+Report solve(const Closing<Spatial>& closing, std::span<const Reach<3>> reaches, const NewtonOptions& options,
+             SE3<double>& platform) {
+  // a start that is no number is Newton's to refuse
+  if (!ThreeCircles::fit(reaches) || !Spatial::is_finite(platform)) return newton(closing, platform, options);
+  const ThreeCircles circles(reaches, closing.size(), platform);
+  CircleAngles angles = ThreeCircles::start();
+  Report report;
+  const bool is_plain = options.trace.empty() && options.max_iterations >= ForwardOptions{}.max_iterations;
+  if (is_plain) report.iterations = circles.close_from_near(angles);
+  if (report.iterations > 0) {
+    const SE3<double> reached = circles.platform(angles);
+    report.residual = closing.error(reached);
+    if (report.residual <= 100 * options.tolerance) {
+      platform = reached;
+      return report;
+    }
+  }
+  angles = ThreeCircles::start();
+  report = newton(circles, angles, options);
+  if (report.status == Status::left_domain) return report;
+  const SE3<double> reached = circles.platform(angles);
+  if (report.iterations > 0 || report.ok()) platform = reached;
+  report.residual = closing.error(platform);
+  return report;
+}
+
+/// Where Newton's method fails there is who knows better, the sextic in the plane, of three hinged legs the
+/// polynomial of their circles: every pose there is, or that there is none. The nearest to the start is then
+/// the answer.
+template <class Modes, class Pose>
+void take_nearest(const Modes& modes, const Pose& start, double radius, Pose& pose, Report& report) {
   if (modes.report.status == Status::unreachable) report.status = Status::unreachable;
   if (!modes.ok() || modes.count == 0) return;
   std::size_t best = 0;
@@ -53,8 +86,18 @@ void ask_all_modes(std::span<const Reach<2>> reaches, const PlanarPose& start, d
   report.status = Status::converged;
   report.residual = modes.residual[best];
 }
-// In space assembly_modes can, but takes memory and its time.
-void ask_all_modes(std::span<const Reach<3>>, const SpatialPose&, double, SpatialPose&, Report&) {}
+
+void ask_all_modes(std::span<const Reach<2>> reaches, const PlanarPose& start, double radius,
+                   PlanarPose& pose, Report& report) {
+  if (report.status != Status::stalled && report.status != Status::iteration_limit) return;
+  take_nearest(planar_modes(reaches), start, radius, pose, report);
+}
+// Of other legs in space assembly_modes can, but takes memory and its time.
+void ask_all_modes(std::span<const Reach<3>> reaches, const SpatialPose& start, double radius,
+                   SpatialPose& pose, Report& report) {
+  if (report.status != Status::stalled && report.status != Status::iteration_limit) return;
+  if (are_hinged(reaches)) take_nearest(hinged_modes(reaches), start, radius, pose, report);
+}
 
 template <class LegT>
 Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, const ForwardOptions& options,
@@ -64,10 +107,11 @@ Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, con
   const Closing<Space> closing(reaches.view());
   const typename Space::Pose start = options.start ? in_space<Space>(*options.start) : robot.home;
   auto platform = Space::frame(start);
-  Report report = newton(closing, platform,
-                         {.tolerance = 1e-14 * closing.size(),
-                          .max_iterations = options.max_iterations,
-                          .trace = options.trace});
+  Report report = solve(closing, reaches.view(),
+                        {.tolerance = 1e-14 * closing.size(),
+                         .max_iterations = options.max_iterations,
+                         .trace = options.trace},
+                        platform);
   typename Space::Pose pose = pose_of(platform);
   // constraints beyond the freedoms need not fit to rounding
   if (closing.rows() > Space::dof && report.residual <= 1e-9 * closing.size())
@@ -82,12 +126,23 @@ Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, con
   return answer;
 }
 
+/// Rods without a load on the platform.
+Forward forward_loaded(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work) {
+  EquilibriumOptions unloaded;
+  if (options.start) unloaded.start = std::get<SpatialPose>(*options.start);
+  const Equilibrium found = equilibrium(robot, inputs, unloaded, work);
+  return {found.report, found.pose, found.coordinates};
+}
+
 }  // namespace
 
 Forward forward(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work) {
+  if (bears_load(robot)) return forward_loaded(robot, inputs, options, work);
   const Report commanded = command(robot, inputs, work);
   if (!commanded.ok()) return {commanded, options.start.value_or(home(robot)), work.coordinates};
-  return std::visit([&](const auto& r) { return forward_robot(r, robot, options, work); }, robot.model);
+  return visit_closing(
+      robot, [&](const auto& r) { return forward_robot(r, robot, options, work); },
+      [] { return Forward{}; });
 }
 
 }  // namespace sinew::inline v0

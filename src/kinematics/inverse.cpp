@@ -55,6 +55,9 @@ class Problem {
         options_(options),
         work_(work) {}
 
+  /// Largest distance by which a leg fails to close with the wanted solutions [m].
+  double closure_error() const { return misfit_; }
+
   bool is_finite() const { return Space::is_finite(platform_); }
 
   /// All solutions of every leg into the workspace.
@@ -97,10 +100,17 @@ class Problem {
     Wish wish;
     if (!options_.bending.empty()) wish.bending = options_.bending[i];
     if (!options_.elbow.empty()) wish.elbow = options_.elbow[i];
-    if (!options_.curvature.empty())
-      wish.curvature = options_.curvature[i];
+    if (HasArc<typename LegT::Link> && !options_.curvature.empty())
+      wish.near = options_.curvature[i];
     else if (!options_.start.empty())
-      wish.curvature = leg.link.curvature(start_of(leg, place));
+      wish.near = leg.link.branch(start_of(leg, place));
+    return wish;
+  }
+  /// Elbow +1 where none is asked for; a start tells on which side of a rail the carriage is.
+  template <class LegT>
+  Wish default_elbow(const LegT&, Wish wish) const {
+    const bool is_told = wish.elbow != 0 || (!LegT::is_redundant && is_from_start());
+    if (LegT::has_elbow && !is_told) wish.elbow = 1;
     return wish;
   }
   template <class LegT>
@@ -113,8 +123,8 @@ class Problem {
     double worst = 0;
     each_sharing(owner, [&]<class L>(const L& leg, const LegPlace&, std::size_t) {
       const auto q = leg.coordinates_of(inputs);
-      const double error = leg.template blocks<double>(platform_, leg.template tip<double>(q)).error;
-      worst = std::max(worst, leg.in_domain(q) ? std::abs(error) / leg.size() : infinity);
+      const double error = L::misfit(leg.template blocks<double>(platform_, leg.template tip<double>(q)));
+      worst = std::max(worst, leg.in_domain(q) ? error / leg.size() : infinity);
     });
     return worst;
   }
@@ -151,7 +161,7 @@ class Problem {
         const auto a = tidy_inputs(leg, roots[index(k)]);
         const std::span<const double> inputs(a.data(), L::inputs);
         if (!robot_.has_ties() || misfit(place, inputs) <= common_tolerance)
-          add(place, i, inputs, robot_.has_ties() ? owner.link.arc().length : 0);
+          add(place, i, inputs, robot_.has_ties() ? owner.size() : 0);
       }
     });
     if (!report.ok() || work_.solution_count[i] > 0) return report;
@@ -163,10 +173,13 @@ class Problem {
   /// How little inputs are wanted; infinite where they are ruled out.
   double cost(const LegPlace& owner, std::span<const double> inputs) const {
     double worst = 0;
-    each_sharing(owner, [&](const auto& leg, const LegPlace& place, std::size_t i) {
-      const Wish wish = wish_of(leg, place, i);
-      const double curvature = leg.link.curvature(leg.coordinates_of(inputs));
-      worst = std::max(worst, curvature * wish.bending < 0 ? infinity : std::abs(curvature - wish.curvature));
+    each_sharing(owner, [&]<class LegT>(const LegT& leg, const LegPlace& place, std::size_t i) {
+      const Wish wish = default_elbow(leg, wish_of(leg, place, i));
+      const auto q = leg.coordinates_of(inputs);
+      const double branch = leg.link.branch(q);
+      const bool is_bent_against = HasArc<typename LegT::Link> && branch * wish.bending < 0;
+      const bool is_turned_against = wish.elbow != 0 && leg.state(platform_, q).elbow * wish.elbow < 0;
+      worst = std::max(worst, is_bent_against || is_turned_against ? infinity : std::abs(branch - wish.near));
     });
     return worst;
   }
@@ -191,6 +204,7 @@ class Problem {
     }
     each_sharing(place, [&](const auto& leg, const LegPlace& at, std::size_t) {
       keep(leg, at, leg.coordinates_of(chosen));
+      misfit_ = std::max(misfit_, leg.misfit(platform_, leg.coordinates_of(chosen)));
     });
     return {};
   }
@@ -202,16 +216,17 @@ class Problem {
       auto q = start_of(leg, place);
       if (leg.in_domain(q) && project(leg, platform_, 1e-15 * leg.size(), q).ok) {
         keep(leg, place, q);
+        misfit_ = std::max(misfit_, leg.misfit(platform_, q));
         return {};
       }
     }
-    Wish wish = wish_of(leg, place, i);
-    if (LegT::is_redundant && wish.elbow == 0) wish.elbow = 1;
+    const Wish wish = default_elbow(leg, wish_of(leg, place, i));
     const auto found = leg.nearest_solution(platform_, wish);
     keep(leg, place, found.q);
+    misfit_ = found.misfit <= misfit_ ? misfit_ : found.misfit;  // NaN is the worst
     if (found.count > 0) return {};
-    const Wish anything{.curvature = wish.curvature};
-    if (wish.bending == 0 || leg.nearest_solution(platform_, anything).count <= 0)
+    const Wish anything{.near = wish.near};
+    if (!HasArc<typename LegT::Link> || wish.bending == 0 || leg.nearest_solution(platform_, anything).count <= 0)
       return without_solution(leg, platform_, i, found.count);
     Report report = name(Status::unreachable, "legs", i);
     report.message.append(wish.bending > 0 ? "has no solution of positive curvature at this pose"
@@ -245,6 +260,7 @@ class Problem {
   Frame platform_;
   const InverseOptions& options_;
   Workspace& work_;
+  double misfit_ = 0;
 };
 
 Report check(const AnyRobot& robot, const InverseOptions& options) {
@@ -263,22 +279,28 @@ template <class Solve>
 Report with_problem(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options,
                     Workspace& work, const Solve& solve) {
   if (const Report report = check(robot, options); !report.ok()) return report;
-  return std::visit(
+  return visit_closing(
+      robot,
       [&](const auto& r) {
         Problem problem(r, pose, options, work);
         return problem.is_finite()
                    ? solve(problem)
                    : refused(Status::left_domain, "the pose is not a finite number in every coordinate");
       },
-      robot.model);
+      [] {
+        return refused(Status::left_domain,
+                       "the legs bear load: their inputs hold an equilibrium; ask for independent coordinates");
+      });
 }
 
 }  // namespace
 
 Inverse inverse(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options, Workspace& work) {
-  Report report =
-      with_problem(robot, pose, options, work, [](auto& problem) { return problem.solve_wanted(); });
-  if (report.ok()) report.residual = assemble(robot, pose, work.coordinates, work).closure_error;
+  const Report report = with_problem(robot, pose, options, work, [](auto& problem) {
+    Report solved = problem.solve_wanted();
+    if (solved.ok()) solved.residual = problem.closure_error();
+    return solved;
+  });
   return {report, work.inputs, work.coordinates};
 }
 

@@ -1,24 +1,36 @@
 /// Forward kinematics knows a robot by its reaches alone: one a leg, once the links are shaped.
 #pragma once
 #include <array>
+#include <cstddef>
+#include <new>
+#include <type_traits>
 
 #include "sinew/robot/workspace.hpp"
 
 namespace sinew::inline v0 {
 
+/// A list of fixed capacity; what is not listed is not initialised.
 template <int D>
-struct Reaches {
-  std::array<Reach<D>, max_rows> data;
-  std::size_t count = 0;
+class Reaches {
+ public:
+  void add(const Reach<D>& reach) { new (place(count_++)) Reach<D>(reach); }
+  std::span<const Reach<D>> view() const {
+    return {std::launder(reinterpret_cast<const Reach<D>*>(bytes_.data())), count_};
+  }
 
-  std::span<const Reach<D>> view() const { return {data.data(), count}; }
+ private:
+  static_assert(std::is_trivially_destructible_v<Reach<D>>);
+  void* place(std::size_t i) { return bytes_.data() + i * sizeof(Reach<D>); }
+
+  alignas(Reach<D>) std::array<std::byte, max_rows * sizeof(Reach<D>)> bytes_;
+  std::size_t count_ = 0;
 };
 
 template <class LegT>
 Reaches<LegT::Space::dimension> reaches_of(const ParallelRobot<LegT>& robot, Numbers coordinates) {
   Reaches<LegT::Space::dimension> reaches;
   robot.for_each_leg([&](const auto& leg, const LegPlace& place, int) {
-    reaches.data[reaches.count++] = leg.reach(own_coordinates(leg, place, coordinates));
+    reaches.add(leg.reach(own_coordinates(leg, place, coordinates)));
   });
   return reaches;
 }

@@ -369,6 +369,13 @@ std::optional<SE3<double>> with(const SE3<double>& pose, const RodCoordinates& w
   return moved;
 }
 
+/// The first rod that shares this rod's input.
+int first_of_input(const RodSystem& system, int rod) {
+  int first = 0;
+  while (system.input_of(first) != system.input_of(rod)) ++first;
+  return first;
+}
+
 /// Newton's method on x, y, e₃ and the three lengths while z, e₁, e₂ are held.
 class Inverse {
  public:
@@ -464,6 +471,10 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
     const RodCoordinates now{begin.z + next * (wanted.z - begin.z), begin.e1 + next * (wanted.e1 - begin.e1),
                              begin.e2 + next * (wanted.e2 - begin.e2)};
     system.set_wrench(from.wrench + next * (question.wrench - from.wrench));
+    for (int k = 0; k < system.rods(); ++k) {
+      const int first = first_of_input(system, k);
+      system.set_length(k, system.length(first) + (1 - next) * (from.lengths[at(k)] - from.lengths[at(first)]));
+    }
     const auto ahead = with(system.platform(), now);
     bool is_reached = false;
     if (ahead && (ahead->p - system.platform().p).norm() < 0.1 * system.length(0)) {

@@ -7,6 +7,7 @@
 #include "kinematics/closing.hpp"
 #include "kinematics/four_bars.hpp"
 #include "kinematics/normal_legs.hpp"
+#include "kinematics/sort_poses.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -152,22 +153,10 @@ class Poses {
   std::vector<SE3<double>> all_;
 };
 
-/// z descending, then y, then x, then the quaternion; coordinates that differ by rounding count as equal.
-void sort(std::vector<SpatialPose>& poses, double size) {
-  const auto key = [size](const SpatialPose& pose) {
-    std::array<double, 7> k;
-    for (int i = 0; i < 3; ++i)
-      k[static_cast<std::size_t>(i)] = -std::round(pose.position[2 - i] / (1e-9 * size));
-    for (std::size_t i = 0; i < 4; ++i) k[3 + i] = -std::round(pose.quaternion[i] / 1e-9);
-    return k;
-  };
-  std::ranges::sort(poses, {}, key);
-}
-
 /// Puts the poses into the answer, in the given legs' units.
 void tell(const Poses& poses, const NormalLegs& normal, std::span<const Reach<3>> legs, SpatialModes& modes) {
   for (const SE3<double>& pose : poses.all()) modes.poses.push_back(spatial_pose(normal.given(pose)));
-  sort(modes.poses, normal.size);
+  sort_poses(modes.poses, normal.size);
   const Closing<Spatial> closing(legs);
   Linearised<6> at;
   for (const SpatialPose& pose : modes.poses) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "robot/pose.hpp"
+#include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/leg/project.hpp"
 
 namespace sinew::inline v0 {
@@ -74,7 +75,7 @@ class Follower {
       auto tried = own;
       const Projection done = project(leg, platform, 1e-15 * leg.size(), tried);
       if (!done.ok || done.contraction > contraction_limit) {
-        const auto found = leg.nearest_solution(platform, {.curvature = leg.link.curvature(own)});
+        const auto found = leg.nearest_solution(platform, {.near = leg.link.branch(own)});
         const double jump = (found.q - own).cwiseQuotient(coordinate_scale(leg)).norm();
         closed = closed && found.count > 0 && jump < 0.05;
         tried = found.q;
@@ -90,10 +91,10 @@ class Follower {
     const auto index = static_cast<std::size_t>(i);
     with_leg(robot_.legs[index], [&]<class L>(const L& leg) {
       std::array<typename L::Coordinates, Workspace::max_solutions> roots;
-      const double curvature = leg.link.curvature(own_coordinates(leg, robot_.places[index], q));
+      const double branch = leg.link.branch(own_coordinates(leg, robot_.places[index], q));
       if (leg.solutions_at(platform, {}, roots) <= 0)
         leg.explain_unreachable(platform, text);
-      else if (std::abs(curvature) > 0.999 * leg.domain())
+      else if (std::abs(branch) > 0.999 * leg.domain())
         text.append("can bend no further: to a full turn, or its inner tendon to the centre of curvature");
       else
         text.append("has no solution on the branch it is on: two of its solutions meet here (type I)");
@@ -107,7 +108,7 @@ class Follower {
       const auto a = leg.inputs_of(own_coordinates(leg, place, q));
       for (int j = 0; j < L::inputs; ++j) {
         double& input = inputs[static_cast<std::size_t>(place.input + j)];
-        if (place.is_tied && std::abs(input - a[j]) > 1e-9 * leg.link.arc().length) agree = false;
+        if (place.is_tied && std::abs(input - a[j]) > 1e-9 * leg.size()) agree = false;
         input = a[j];
       }
     });
@@ -134,7 +135,7 @@ class Follower {
     if (options_.objective == Objective::singularity) return log_volume(pose, q);
     double sum = 0;
     robot_.for_each_leg([&](const auto& leg, const LegPlace& place, int) {
-      const double part = leg.link.curvature(own_coordinates(leg, place, q)) / leg.domain();
+      const double part = leg.link.branch(own_coordinates(leg, place, q)) / leg.domain();
       sum -= part * part;
     });
     return sum;
@@ -185,9 +186,13 @@ class Follower {
   Workspace& work_;
 };
 
+/// Legs that bear load never get here: the first pose already has no inverse.
 template <class Use>
-decltype(auto) follow(const AnyRobot& robot, const TrackOptions& options, Workspace& work, const Use& use) {
-  return std::visit([&](const auto& r) { return use(Follower(r, robot, options, work)); }, robot.model);
+auto follow(const AnyRobot& robot, const TrackOptions& options, Workspace& work, const Use& use) {
+  using Result = decltype(use(Follower(std::get<0>(robot.model), robot, options, work)));
+  return visit_closing(
+      robot, [&](const auto& r) { return use(Follower(r, robot, options, work)); },
+      [] { return Result(); });
 }
 
 }  // namespace
@@ -265,7 +270,7 @@ Report Track::advance(const AnyPose& next) {
       return report;
     }
     const double to = std::min(1.0, progress_ + part);
-    const AnyPose pose = to == 1 ? next : between(from, next, to);
+    const AnyPose pose = to == 1 ? next : settled(*robot_, between(from, next, to));
     const int stuck = step(pose, part, tried, report);
     if (!report.ok()) return report;
     if (stuck >= 0) {

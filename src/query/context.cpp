@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sinew/io/read_pose.hpp"
+#include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v0 {
@@ -12,6 +13,33 @@ namespace sinew::inline v0 {
 AnyPose read_pose(const Context& context, Reader pose) {
   if (std::holds_alternative<PlanarPose>(home(context.robot))) return read_planar_pose(std::move(pose));
   return read_spatial_pose(std::move(pose));
+}
+
+AskedPose read_asked_pose(Context& context) {
+  AskedPose asked;
+  auto pose = context.query.optional("pose");
+  if (pose) asked.pose = read_pose(context, std::move(*pose));
+  auto independent = context.query.optional("independent");
+  if (!independent) return asked;
+  const Independent free{independent->required("z", "height of the platform").quantity(Dimension::length),
+                         independent->required("e1", "a number").number(Range::between(-1, 1)),
+                         independent->required("e2", "a number").number(Range::between(-1, 1))};
+  OperationMode mode = OperationMode::tilt;
+  if (const auto word = independent->optional("mode"))
+    mode = word->choice_of<OperationMode>(
+        {{"tilt", OperationMode::tilt}, {"half_turn", OperationMode::half_turn}});
+  if (independent->is(Node::Kind::map)) independent->close();
+  if (pose) context.query.fail("ambiguous", "pose and independent both say where the platform is; keep one");
+  if (plane_count(context.robot) != 3) {
+    independent->fail("not_available",
+                      "z, e1 and e2 belong to a platform that three hinges hold in planes, such as a 3-PRS; give "
+                      "the pose");
+    return asked;
+  }
+  const ConstrainedPose found = constrained_pose(context.robot, free, mode);
+  asked.pose = found.pose;
+  asked.report = found.report;
+  return asked;
 }
 
 namespace {
@@ -33,15 +61,22 @@ std::vector<int> read_signs(const Reader& list, std::size_t legs, std::string_vi
 Branch read_branch(Context& context) {
   Branch branch;
   const auto legs = static_cast<std::size_t>(leg_count(context.robot));
-  if (const auto bending = context.query.optional("bending"))
+  const auto refuse_without_arc = [&](const Reader& asked) {
+    if (!has_arc(context.robot))
+      asked.fail("no_effect", "has no effect: no leg of this robot has a curvature; remove it");
+  };
+  if (const auto bending = context.query.optional("bending")) {
     branch.bending = read_signs(*bending, legs, "give 1 or -1, the sign of the curvature");
+    refuse_without_arc(*bending);
+  }
   if (const auto elbow = context.query.optional("elbow")) {
     branch.elbow = read_signs(*elbow, legs, "give 1 or -1, the side to which the strut turns");
-    if (!has_redundant_leg(context.robot))
+    if (!has_elbow(context.robot))
       elbow->fail("no_effect", "has no effect: no leg of this robot has an elbow; remove it");
   }
   if (const auto curvature = context.query.optional("curvature")) {
     branch.curvature = curvature->quantities(Dimension::curvature, {}, legs);
+    refuse_without_arc(*curvature);
     if (!branch.bending.empty())
       curvature->fail("ambiguous", "bending and curvature both choose a branch; keep one");
   }
@@ -58,10 +93,20 @@ std::vector<double> read_inputs(Context& context, const Reader& inputs) {
   return values;
 }
 
+std::string_view model_of(const AnyRobot& robot) {
+  return bears_load(robot) ? "rod" : has_arc(robot) ? "cc" : "rigid";
+}
+
+std::string_view meaning_of(std::string_view model) {
+  return model == "cc" ? " (constant curvature)" : model == "rod" ? " (Kirchhoff rods)" : " (rigid links)";
+}
+
 Configuration read_configuration(Context& context) {
   Configuration configuration;
   configuration.branch = read_branch(context);
-  if (auto pose = context.query.optional("pose")) configuration.pose = read_pose(context, std::move(*pose));
+  AskedPose asked = read_asked_pose(context);
+  configuration.pose = asked.pose;
+  configuration.report = asked.report;
   if (const auto inputs = context.query.optional("inputs"))
     configuration.inputs = read_inputs(context, *inputs);
   if (auto start = context.query.optional("start"))
@@ -80,6 +125,7 @@ Configuration read_configuration(Context& context) {
 
 Solved solve_configuration(Context& context, const Configuration& given) {
   Workspace& work = context.work;
+  if (!given.report.ok()) return {given.report, *given.pose, {}};
   if (!given.inputs) {
     const Inverse solved = inverse(context.robot, *given.pose, given.branch.options(), work);
     return {solved.report, *given.pose, {solved.coordinates.begin(), solved.coordinates.end()}};
@@ -144,12 +190,17 @@ Json legs_json(const AnyRobot& robot, const AnyPose& pose, std::span<const doubl
   const bool is_planar = std::holds_alternative<PlanarPose>(pose);
   Json legs = Json::array();
   for (const LegState& leg : leg_states(robot, pose, coordinates, work)) {
-    Json object{{"curvature", leg.curvature}, {"chord", leg.chord}, {"tendon_lengths", leg.tendon_lengths}};
-    if (is_planar)
-      object["base_tangent"] = wrap_angle(std::atan2(leg.base_tangent.y(), leg.base_tangent.x()));
-    else
-      object["base_tangent"] = to_json(leg.base_tangent);
-    if (!is_planar) object["joint_angles"] = leg.joint_angles;
+    Json object = Json::object();
+    if (std::isnan(leg.curvature)) {
+      object = {{"slide", leg.slide}, {"carriage", to_json(leg.carriage)}, {"hinge_angle", leg.hinge_angle}};
+    } else {
+      object = {{"curvature", leg.curvature}, {"chord", leg.chord}, {"tendon_lengths", leg.tendon_lengths}};
+      if (is_planar)
+        object["base_tangent"] = wrap_angle(std::atan2(leg.base_tangent.y(), leg.base_tangent.x()));
+      else
+        object["base_tangent"] = to_json(leg.base_tangent);
+      if (!is_planar) object["joint_angles"] = leg.joint_angles;
+    }
     if (leg.elbow != 0) object["elbow"] = leg.elbow;
     legs.push_back(std::move(object));
   }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/kinematics/inverse.hpp"
@@ -45,12 +46,21 @@ struct Branch {
 
 /// A pose of the robot's space.
 AnyPose read_pose(const Context& context, Reader pose);
+
+/// The pose that a query asks for by `pose` or `independent`, if it does; the report says whether there is
+/// one.
+struct AskedPose {
+  std::optional<AnyPose> pose;
+  Report report;
+};
+AskedPose read_asked_pose(Context& context);
 Branch read_branch(Context& context);
 std::vector<double> read_inputs(Context& context, const Reader& inputs);
 
-/// A configuration as a query gives it: `pose` with a branch, `pose` with `inputs`, or `inputs` with `start`.
+/// A configuration as a query gives it: a pose with a branch, a pose with `inputs`, or `inputs` with `start`.
 struct Configuration {
   std::optional<AnyPose> pose, start;
+  Report report;  ///< of the pose
   std::optional<std::vector<double>> inputs;
   Branch branch;
 };
@@ -61,6 +71,10 @@ struct Solved {
   AnyPose pose;
   std::vector<double> coordinates;
 };
+
+/// The one model this version has for a robot: `cc`, `rigid` or `rod`.
+std::string_view model_of(const AnyRobot& robot);
+std::string_view meaning_of(std::string_view model);  ///< ` (constant curvature)`
 
 Configuration read_configuration(Context& context);
 /// Solves what is missing. An error (with `context.errors` filled) where pose and inputs contradict each
@@ -88,6 +102,8 @@ std::optional<Along> read_along(Context& context);
 /// Writes `type_2_distance`. Uses the workspace.
 void put_type_2_distance(Context& context, const Along& along, const Configuration& given,
                          const AnyPose& pose);
+
+void put_shape(Json& answer, const AnyShape& picture);
 
 void answer_forward(Context& context);
 void answer_inverse(Context& context);

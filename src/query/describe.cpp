@@ -23,7 +23,7 @@ template <class LegT>
 Json base_json(const LegT& leg) {
   Json base{{"point", to_json(leg.base.p)}};
   if constexpr (LegT::dimension == 3) {
-    base["first_axis"] = to_json(leg.base.rotate(Vec3<double>(1, 0, 0)));
+    base[HasSlide<typename LegT::Link> ? "hinge_axis" : "first_axis"] = to_json(leg.base.rotate(Vec3<double>(1, 0, 0)));
     base["direction"] = to_json(leg.base.rotate(Vec3<double>(0, 1, 0)));
   } else if constexpr (LegT::is_clamped) {
     base["direction"] = wrap_angle(leg.base.angle() + std::numbers::pi / 2);
@@ -47,7 +47,19 @@ Json leg_json(const LegT& leg, const LegPlace& place) {
           {"actuated", actuated},   {"input", place.input}};
 }
 
-/// Name, unit and, of tendons, limits: the ends of the curvature's domain.
+Json leg_json(const RodLeg& leg, const LegPlace& place) {
+  Json link{{"type", Rod::name}};
+  Rod::fields(leg.link, FieldWriter{link});
+  link["material"] = {{"E", leg.link.youngs_modulus}};
+  return {{"base", {{"point", to_json(leg.base.p)}, {"direction", to_json(leg.tangent())}}},
+          {"link", link},
+          {"closure", {{"type", Ball::name}}},
+          {"platform_point", to_json(leg.platform_point)},
+          {"actuated", {RodFeeder::input_kinds[0].name}},
+          {"input", place.input}};
+}
+
+/// Name, unit and, of tendons, limits: the ends of the curvature's domain. A rail has none.
 template <class LegT>
 void add_inputs(Json& inputs, const LegT& leg, std::size_t index) {
   const double end = leg.domain();
@@ -58,9 +70,13 @@ void add_inputs(Json& inputs, const LegT& leg, std::size_t index) {
   const double b = leg.inputs_of(q)[LegT::inputs - 1];
   for (const InputKind& kind : LegT::Drive::input_kinds) {
     Json input{{"name", joined(joined("legs", index), kind.name)}, {"unit", unit(kind.dimension)}};
-    if (kind.dimension == Dimension::length) input["limits"] = {std::min(a, b), std::max(a, b)};
+    if (HasArc<typename LegT::Link> && kind.dimension == Dimension::length) input["limits"] = {std::min(a, b), std::max(a, b)};
     inputs.push_back(std::move(input));
   }
+}
+
+void add_inputs(Json& inputs, const RodLeg&, std::size_t index) {
+  inputs.push_back({{"name", joined(joined("legs", index), RodFeeder::input_kinds[0].name)}, {"unit", "m"}});
 }
 
 Json pose_json(bool is_planar) {
@@ -99,8 +115,8 @@ void answer_describe(Context& context) {
                         {"constraints", row_count(context.robot)},
                         {"actuators", input_count(context.robot)}};
   answer["legs"] = legs;
-  answer["models"] = {"cc"};
-  answer["model"] = "cc";
+  answer["models"] = {model_of(context.robot)};
+  answer["model"] = model_of(context.robot);
   answer["geometry"] = context.robot.geometry_inferred ? "inferred" : "given";
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }

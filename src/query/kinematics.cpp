@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "query/context.hpp"
+#include "query/rods.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/kinematics/assembly_modes.hpp"
 #include "sinew/kinematics/forward.hpp"
@@ -73,7 +74,7 @@ Json polyline(const PolylineOf<D>& line) {
 }
 
 template <int D>
-void put_shape(Json& answer, const ShapeOf<D>& picture) {
+void put_shape_of(Json& answer, const ShapeOf<D>& picture) {
   Json backbones = Json::array(), tendons = Json::array(), lines = Json::array();
   for (const auto& line : picture.backbones) backbones.push_back(polyline<D>(line));
   for (const auto& pair : picture.tendons) tendons.push_back({polyline<D>(pair[0]), polyline<D>(pair[1])});
@@ -108,7 +109,12 @@ void answer_all_modes(Context& context, const std::vector<double>& inputs, const
 
 }  // namespace
 
+void put_shape(Json& answer, const AnyShape& picture) {
+  std::visit([&](const auto& one) { put_shape_of(answer, one); }, picture);
+}
+
 void answer_forward(Context& context) {
+  if (bears_load(context.robot)) return answer_rods_forward(context);
   const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
   ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
   if (auto start = context.query.optional("start")) options.start = read_pose(context, std::move(*start));
@@ -136,7 +142,9 @@ void answer_forward(Context& context) {
 }
 
 void answer_inverse(Context& context) {
-  const AnyPose pose = read_pose(context, context.query.required("pose", "pose of the platform"));
+  if (bears_load(context.robot)) return answer_rods_inverse(context);
+  const AskedPose asked = read_asked_pose(context);
+  if (!asked.pose && !context.query.has("independent")) context.query.required("pose", "pose of the platform");
   const Branch branch = read_branch(context);
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
@@ -147,6 +155,8 @@ void answer_inverse(Context& context) {
 
   InverseOptions options = branch.options();
   options.start = start;
+  if (!asked.report.ok()) return context.report(asked.report);
+  const AnyPose& pose = *asked.pose;
   const Inverse result = inverse(context.robot, pose, options, context.work);
   context.report(result.report);
   if (!result.ok()) return;
@@ -159,6 +169,7 @@ void answer_inverse(Context& context) {
 }
 
 void answer_velocity(Context& context) {
+  if (bears_load(context.robot)) return answer_rods_velocity(context);
   const Configuration given = read_configuration(context);
   std::vector<double> twist;
   if (const auto asked = context.query.optional("twist"))
@@ -189,6 +200,7 @@ void answer_velocity(Context& context) {
 }
 
 void answer_shape(Context& context) {
+  if (bears_load(context.robot)) return answer_rods_shape(context);
   const Configuration given = read_configuration(context);
   const auto samples = context.query.optional("samples");
   const int count = samples ? samples->integer(Range::between(2, 2000)) : 33;
@@ -199,8 +211,7 @@ void answer_shape(Context& context) {
   if (!at.report.ok()) return;
 
   context.answer["pose"] = to_json(at.pose);
-  std::visit([&](const auto& picture) { put_shape(context.answer, picture); },
-             any_shape(context.robot, at.pose, at.coordinates, count));
+  put_shape(context.answer, any_shape(context.robot, at.pose, at.coordinates, count));
   context.answer["frames"] = Json::array({to_json(at.pose)});
 }
 

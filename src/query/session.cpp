@@ -45,10 +45,11 @@ Json read_id(Reader& query) {
   return id->text();
 }
 
-void read_model(Reader& query) {
+void read_model(Reader& query, const AnyRobot& robot) {
   const auto model = query.optional("model");
-  if (model && model->choice({"cc", "prb", "rod"}) != "cc")
-    model->refuse("not_available", "this robot's model in this version is cc (constant curvature)");
+  const std::string_view own = model_of(robot);
+  if (model && model->choice({"cc", "prb", "rod", "rigid"}) != own)
+    model->refuse("not_available", "this robot's model in this version is " + std::string(own) + std::string(meaning_of(own)));
 }
 
 std::string error_text(const Json& id, const Errors& errors) {
@@ -133,7 +134,7 @@ std::string Session::answer(std::string_view text) {
   const Json id = read_id(query);
   const Kind& kind = read_kind(query);
   if (!errors.empty()) return error_text(id, errors);
-  read_model(query);
+  read_model(query, state_->robot);
   const std::optional<AnyRobot> other = altered(state_->document, query, errors);
   if (!errors.empty()) return error_text(id, errors);
   std::optional<Workspace> other_work;

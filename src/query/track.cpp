@@ -5,6 +5,7 @@
 
 #include "query/context.hpp"
 #include "sinew/io/quantity.hpp"
+#include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 
 namespace sinew::inline v0 {
@@ -12,8 +13,10 @@ namespace {
 
 constexpr int most_samples = 100000;
 
-/// From, to and how many: angles of the plane as the numbers say, rotations the shortest way.
-std::vector<AnyPose> straight_path(const AnyPose& from, const AnyPose& to, int samples) {
+/// From, to and how many: angles of the plane as the numbers say, rotations the shortest way; in between put
+/// back into the planes that hinges may hold the platform in.
+std::vector<AnyPose> straight_path(const AnyRobot& robot, const AnyPose& from, const AnyPose& to,
+                                   int samples) {
   std::vector<AnyPose> poses;
   const auto *a = std::get_if<PlanarPose>(&from), *b = std::get_if<PlanarPose>(&to);
   for (int k = 0; k < samples; ++k) {
@@ -22,7 +25,7 @@ std::vector<AnyPose> straight_path(const AnyPose& from, const AnyPose& to, int s
       poses.emplace_back(PlanarPose{std::lerp(a->x, b->x, part), std::lerp(a->y, b->y, part),
                                     std::lerp(a->phi, b->phi, part)});
     else
-      poses.push_back(k + 1 < samples ? between(from, to, part) : to);
+      poses.push_back(k == 0 ? from : k + 1 < samples ? settled(robot, between(from, to, part)) : to);
   }
   return poses;
 }
@@ -47,7 +50,7 @@ std::vector<AnyPose> read_path(Context& context) {
   const AnyPose to = read_pose(context, query.required("to", "last pose of the path"));
   const auto samples = query.optional("samples");
   const int count = samples ? samples->integer(Range::between(2, most_samples)) : 60;
-  return context.errors.empty() ? straight_path(from, to, std::max(count, 2)) : std::vector<AnyPose>{};
+  return context.errors.empty() ? straight_path(context.robot, from, to, std::max(count, 2)) : std::vector<AnyPose>{};
 }
 
 Objective read_objective(Reader& query) {
@@ -66,7 +69,7 @@ Json row_json(Context& context, const Track& track) {
            {"closure_error", track.closure_error()}};
   const std::vector<double> coordinates(track.coordinates().begin(), track.coordinates().end());
   for (const LegState& leg : leg_states(context.robot, track.pose(), coordinates, context.work))
-    row["curvature"].push_back(leg.curvature);
+    if (!std::isnan(leg.curvature)) row["curvature"].push_back(leg.curvature);
   const Velocity at = velocity(context.robot, track.pose(), coordinates, context.work);
   row["indices"] = to_json(at.indices);
   if (!at.type_1.empty()) row["type_1"] = std::vector<int>(at.type_1.begin(), at.type_1.end());
@@ -104,6 +107,10 @@ void put_end(Context& context, const Track& track, std::size_t rows, std::size_t
 }  // namespace
 
 void answer_track(Context& context) {
+  if (bears_load(context.robot)) {
+    context.query.fail("not_available", "track follows robots whose legs close on the platform; this one's bear load");
+    return;
+  }
   const std::vector<AnyPose> poses = read_path(context);
   const Branch branch = read_branch(context);
   TrackOptions options{.branch = branch.options(), .objective = read_objective(context.query)};

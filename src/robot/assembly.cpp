@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "robot/pose.hpp"
+#include "robot/rod_work.hpp"
 #include "sinew/base/assert.hpp"
 
 namespace sinew::inline v0 {
@@ -20,11 +21,13 @@ double assemble_leg(const LegT& leg, const LegPlace& place, const Frame& platfor
   const auto blocks = leg.template blocks<double>(platform, leg.template tip<double>(q));
   const Mat<double, LegT::rows, LegT::inputs> g_a = blocks.g_q * leg.input_rate();
   for (int i = 0; i < LegT::rows; ++i) {
-    for (int j = 0; j < dof; ++j) work.J[at(place.row + i, j, dof)] = blocks.g_x(i, j);
-    for (int j = 0; j < LegT::inputs; ++j) work.K[at(place.row + i, place.input + j, inputs)] = -g_a(i, j);
-    work.s[at(place.row, i, 1)] = -blocks.g[i];
+    const int row = i < LegT::driven_rows ? place.row + i : place.plane;
+    for (int j = 0; j < dof; ++j) work.J[at(row, j, dof)] = blocks.g_x(i, j);
+    for (int j = 0; j < LegT::inputs; ++j) work.K[at(row, place.input + j, inputs)] = -g_a(i, j);
+    work.s[at(row, 0, 1)] = -blocks.g[i];
   }
-  return std::isfinite(blocks.error) ? std::abs(blocks.error) : std::numeric_limits<double>::infinity();
+  const double misfit = LegT::misfit(blocks);
+  return std::isfinite(misfit) ? misfit : std::numeric_limits<double>::infinity();
 }
 
 template <class LegT>
@@ -55,14 +58,13 @@ Report wrong_count(std::size_t found, std::size_t needed) {
   return report;
 }
 
-Report beyond_domain(int input) {
+Report beyond_domain(int input, std::string_view what) {
   Report report;
   report.status = Status::left_domain;
   report.message.append("inputs[");
   append_number(report.message, input);
-  report.message.append(
-      "] bends the link to a full turn, or a tendon to its centre of curvature; give a length "
-      "nearer to the backbone's");
+  report.message.append("] ");
+  report.message.append(what);
   return report;
 }
 
@@ -73,16 +75,39 @@ Report command_robot(const ParallelRobot<LegT>& robot, Numbers inputs, Workspace
   robot.for_each_leg([&]<class L>(const L& leg, const LegPlace& place, int) {
     const auto q = leg.coordinates_of(inputs.subspan(static_cast<std::size_t>(place.input), L::inputs));
     std::copy(q.begin(), q.end(), work.coordinates.begin() + place.coordinate);
-    if (report.ok() && !leg.in_domain(q)) report = beyond_domain(place.input + L::inputs - 1);
+    if (report.ok() && !leg.in_domain(q)) report = beyond_domain(place.input + L::inputs - 1, L::Link::beyond_domain);
   });
   if (report.ok()) std::copy(inputs.begin(), inputs.end(), work.inputs.begin());
   return report;
 }
 
+/// Balance of the platform on rods: J its stiffness, K what feeding them does to the wrench, s what is missing.
+Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, Workspace& work) {
+  RodSystem& system = work.rods->system;
+  system.set_platform(SE3<double>::from(pose));
+  for (int k = 0; k < system.rods(); ++k)
+    system.set_rod(k, coordinates.subspan(static_cast<std::size_t>(k * RodLeg::coordinates), RodLeg::coordinates),
+                   system.aim(k).lateral);
+  work.rods->is_solved = false;
+  system.evaluate();
+  system.linearise();
+  const int inputs = system.inputs();
+  std::copy_n(system.stiffness().data(), 36, work.J.begin());
+  const RodSystem::Wrench missing = system.missing();
+  std::copy(missing.begin(), missing.end(), work.s.begin());
+  for (int j = 0; j < inputs; ++j) {
+    const RodSystem::Wrench feed = system.feed_wrench(j);
+    for (int i = 0; i < 6; ++i) work.K[at(i, j, inputs)] = -feed[i];
+  }
+  return {MatrixView(work.J.data(), 6, 6), MatrixView(work.K.data(), 6, inputs), work.s, system.rod_error(), 0};
+}
+
 }  // namespace
 
 Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
-  return std::visit([&](const auto& r) { return assemble_robot(r, pose, coordinates, work); }, robot.model);
+  return visit_closing(
+      robot, [&](const auto& r) { return assemble_robot(r, pose, coordinates, work); },
+      [&] { return assemble_rods(std::get<SpatialPose>(pose), coordinates, work); });
 }
 
 MatrixView homogenise(const AnyRobot& robot, const Reduced& reduced, Workspace& work) {
@@ -104,12 +129,20 @@ MatrixView homogenise(const AnyRobot& robot, const Reduced& reduced, Workspace& 
 }
 
 Report command(const AnyRobot& robot, Numbers inputs, Workspace& work) {
-  return std::visit([&](const auto& r) { return command_robot(r, inputs, work); }, robot.model);
+  return visit_closing(
+      robot, [&](const auto& r) { return command_robot(r, inputs, work); },
+      [&] {
+        Report report;
+        report.status = Status::left_domain;
+        report.message.append("the legs bear load: inputs alone do not shape them, an equilibrium does");
+        return report;
+      });
 }
 
 std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates,
                                      Workspace& work) {
-  std::visit(
+  visit_closing(
+      robot,
       [&]<class LegT>(const ParallelRobot<LegT>& r) {
         using Space = typename LegT::Space;
         const auto platform = Space::frame(in_space<Space>(pose));
@@ -118,7 +151,7 @@ std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose,
               leg.state(platform, own_coordinates(leg, place, coordinates));
         });
       },
-      robot.model);
+      [] {});
   return work.legs;
 }
 
@@ -135,20 +168,39 @@ int coordinate_count(const AnyRobot& robot) {
   return std::visit([](const auto& r) { return r.total.coordinate; }, robot.model);
 }
 int row_count(const AnyRobot& robot) {
-  return std::visit([](const auto& r) { return r.total.row; }, robot.model);
+  return visit_closing(robot, [](const auto& r) { return r.total.row; }, [] { return Spatial::dof; });
 }
 int dof(const AnyRobot& robot) {
   return std::visit([]<class LegT>(const ParallelRobot<LegT>&) { return LegT::Space::dof; }, robot.model);
 }
 
-bool has_redundant_leg(const AnyRobot& robot) {
+namespace {
+
+/// Whether `is` holds of a leg.
+template <class Is>
+bool any_leg(const AnyRobot& robot, const Is& is) {
   bool found = false;
   std::visit(
       [&](const auto& r) {
-        r.for_each_leg([&]<class L>(const L&, const LegPlace&, int) { found = found || L::is_redundant; });
+        r.for_each_leg([&](const auto& leg, const LegPlace&, int) { found = found || is(leg); });
       },
       robot.model);
   return found;
+}
+
+}  // namespace
+
+bool has_redundant_leg(const AnyRobot& robot) {
+  return any_leg(robot, []<class L>(const L&) { return L::is_redundant; });
+}
+bool has_elbow(const AnyRobot& robot) {
+  return any_leg(robot, []<class L>(const L&) { return L::has_elbow; });
+}
+bool has_arc(const AnyRobot& robot) {
+  return any_leg(robot, []<class L>(const L&) { return HasArc<typename L::Link>; });
+}
+int plane_count(const AnyRobot& robot) {
+  return std::visit([](const auto& r) { return r.total.plane; }, robot.model);
 }
 
 std::vector<InputOfLeg> inputs_of(const AnyRobot& robot) {
@@ -164,11 +216,17 @@ std::vector<InputOfLeg> inputs_of(const AnyRobot& robot) {
   return inputs;
 }
 
+Workspace::~Workspace() = default;
+Workspace::Workspace(Workspace&&) noexcept = default;
+Workspace& Workspace::operator=(Workspace&&) noexcept = default;
+
 Workspace::Workspace(const AnyRobot& robot) {
   const auto legs_ = static_cast<std::size_t>(leg_count(robot));
   const auto rows_ = static_cast<std::size_t>(row_count(robot));
   const auto inputs_ = static_cast<std::size_t>(input_count(robot));
   const auto dof_ = static_cast<std::size_t>(sinew::dof(robot));
+  if (const auto* loaded = std::get_if<ParallelRobot<RodLeg>>(&robot.model))
+    rods = std::make_unique<RodWork>(*loaded);
   coordinates.resize(static_cast<std::size_t>(coordinate_count(robot)));
   inputs.resize(inputs_);
   J.resize(rows_ * dof_);

@@ -36,4 +36,9 @@ RobotModel make_robot(const std::vector<AnySpatialLeg>& legs, std::span<const in
   return make(legs, tied, home, radius);
 }
 
+RobotModel make_robot(const std::vector<AnyLoadedLeg>& legs, std::span<const int> tied, SpatialPose home,
+                      double radius) {
+  return make(legs, tied, home, radius);
+}
+
 }  // namespace sinew::inline v0

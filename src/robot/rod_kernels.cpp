@@ -126,17 +126,29 @@ struct Wrench {
   }
 };
 
+/// The platform's frame, the same in all lanes ...
+struct SameFrame {
+  const PlatformFrame& frame;
+  HWY_INLINE Pack rotation(int k) const { return all(frame.rotation[k]); }
+  HWY_INLINE Pack position(int k) const { return all(frame.position[k]); }
+};
+
+/// ... or one a lane.
+struct LaneFrame {
+  Pack turn[9], place[3];
+  HWY_INLINE Pack rotation(int k) const { return turn[k]; }
+  HWY_INLINE Pack position(int k) const { return place[k]; }
+};
+
 /// Where the platform holds the tips: arm, lateral direction (its sign kept), lateral and axial distance.
-template <class Rods>
-HWY_INLINE void place(Rods& rods, int i, const PlatformFrame& platform) {
-  const double* r = platform.rotation;
-  const Pack3 b = load3(rods.platform_point, i), t = load3(rods.tangent, i);
-  const Pack3 arm = {plus(plus(all(r[0]) * b.x, all(r[1]), b.y), all(r[2]), b.z),
-                     plus(plus(all(r[3]) * b.x, all(r[4]), b.y), all(r[5]), b.z),
-                     plus(plus(all(r[6]) * b.x, all(r[7]), b.y), all(r[8]), b.z)};
-  const double* p = platform.position;
-  const Pack3 a = load3(rods.base, i);
-  const Pack3 tip = {all(p[0]) + arm.x - a.x, all(p[1]) + arm.y - a.y, all(p[2]) + arm.z - a.z};
+template <class Rods, class Frame>
+HWY_INLINE void place(Rods& rods, int i, const Frame& at) {
+  const Pack3 b = load3(rods.platform_point, i), t = load3(rods.tangent, i), a = load3(rods.base, i);
+  const Pack3 arm = {plus(plus(at.rotation(0) * b.x, at.rotation(1), b.y), at.rotation(2), b.z),
+                     plus(plus(at.rotation(3) * b.x, at.rotation(4), b.y), at.rotation(5), b.z),
+                     plus(plus(at.rotation(6) * b.x, at.rotation(7), b.y), at.rotation(8), b.z)};
+  const Pack3 tip = {at.position(0) + arm.x - a.x, at.position(1) + arm.y - a.y,
+                     at.position(2) + arm.z - a.z};
   const Pack w = dot(t, tip);
   const Pack3 aside = plus(tip, t, hn::Neg(w));
   const Pack d = hn::CopySignToAbs(hn::Sqrt(dot(aside, aside)), dot(aside, load3(rods.lateral, i)));
@@ -237,7 +249,7 @@ void evaluate(std::span<Rods> groups, const PlatformFrame& platform, bool anew, 
   Pack worst = all(0), all_of_them = all(0);
   for (Rods& rods : groups)
     for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
-      place(rods, i, platform);
+      place(rods, i, SameFrame{platform});
       const Pack error = measure(rods, i, anew);
       worst = hn::Max(worst, error);
       all_of_them = all_of_them + error;
@@ -407,6 +419,15 @@ struct Stiffness {
       moment[6 + j] = moment[6 + j] + (j == 2 ? m.z - across : m.z);
     }
   }
+  HWY_INLINE void matrix(Pack* out) const {
+    constexpr int symmetric[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) {
+        out[6 * r + c] = force[symmetric[3 * r + c]];
+        out[6 * r + 3 + c] = out[6 * (3 + c) + r] = couple[3 * r + c];
+        out[6 * (3 + r) + 3 + c] = moment[3 * r + c];
+      }
+  }
   HWY_INLINE void total(double* out) const {
     constexpr int symmetric[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
     double f[6];
@@ -462,46 +483,156 @@ HWY_INLINE void solve_gap(const Rods& rods, int i, Pack* x) {
   }
 }
 
+/// The state of the rods after the platform's step, with lengths fed or not.
+template <class Rods>
+HWY_INLINE void carry_on(Rods& rods, int i, const Pack3& shift, const Pack3& turn, const double* fed) {
+  constexpr int N = Rods::nodes;
+  const Pack3 moved = plus(cross(turn, load3(rods.arm, i)), shift, all(1));
+  const Pack d = dot(load3(rods.lateral, i), moved), w = dot(load3(rods.tangent, i), moved);
+  const Pack k_dw = load(rods.stiff_dw + i);
+  Pack fd = plus(plus(load(rods.fix_d + i), load(rods.stiff_dd + i), d), k_dw, w);
+  Pack fw = plus(plus(load(rods.fix_w + i), k_dw, d), load(rods.stiff_ww + i), w);
+  const Pack loading = load(rods.load + i), old_d = load(rods.force_d + i), old_w = load(rods.force_w + i);
+  Pack by_d = loading * fd, by_w = loading * fw;
+  if (fed != nullptr) {
+    const Pack more = load(fed + i), length = load(rods.length + i);
+    const Pack own_d = more * load(rods.feed_d + i), own_w = more * load(rods.feed_w + i);
+    const Pack growth = all(2) * more / length;
+    fd = fd + own_d;
+    fw = fw + own_w;
+    by_d = plus(by_d, loading, plus(own_d, growth, old_d));
+    by_w = plus(by_w, loading, plus(own_w, growth, old_w));
+    store(length + more, rods.length + i);
+  }
+  store(old_d + fd, rods.force_d + i);
+  store(old_w + fw, rods.force_w + i);
+  Pack back[Rods::size];
+  solve_gap(rods, i, back);
+#pragma GCC unroll 10
+  for (int j = 0; j < N; ++j) {
+    const Pack change = plus(load(rods.by_d[j] + i) * by_d, load(rods.by_w[j] + i), by_w) - back[j];
+    store(load(rods.theta[j] + i) + change, rods.theta[j] + i);
+    // H δθ = c by_d − s by_w − gap, and H is B and a diagonal
+    const Pack driven = minus(load(rods.cosine_kept[j] + i) * by_d, load(rods.sine_kept[j] + i), by_w);
+    const Pack bent = minus(driven - load(rods.gap[j] + i), load(rods.stiffening[j] + i), change);
+    store(load(rods.bent[j] + i) + bent, rods.bent[j] + i);
+  }
+}
+
 template <class Rods>
 void apply(std::span<Rods> groups, const double* step, const RodFeed* fed) {
-  constexpr int N = Rods::nodes;
   const Pack3 shift = {all(step[0]), all(step[1]), all(step[2])},
               turn = {all(step[3]), all(step[4]), all(step[5])};
   for (Rods& rods : groups)
-    for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
-      const Pack3 moved = plus(cross(turn, load3(rods.arm, i)), shift, all(1));
-      const Pack d = dot(load3(rods.lateral, i), moved), w = dot(load3(rods.tangent, i), moved);
-      const Pack k_dw = load(rods.stiff_dw + i);
-      Pack fd = plus(plus(load(rods.fix_d + i), load(rods.stiff_dd + i), d), k_dw, w);
-      Pack fw = plus(plus(load(rods.fix_w + i), k_dw, d), load(rods.stiff_ww + i), w);
-      const Pack loading = load(rods.load + i), old_d = load(rods.force_d + i),
-                 old_w = load(rods.force_w + i);
-      Pack by_d = loading * fd, by_w = loading * fw;
-      if (fed != nullptr) {
-        const Pack more = load(fed[&rods - groups.data()].length + i), length = load(rods.length + i);
-        const Pack own_d = more * load(rods.feed_d + i), own_w = more * load(rods.feed_w + i);
-        const Pack growth = all(2) * more / length;
-        fd = fd + own_d;
-        fw = fw + own_w;
-        by_d = plus(by_d, loading, plus(own_d, growth, old_d));
-        by_w = plus(by_w, loading, plus(own_w, growth, old_w));
-        store(length + more, rods.length + i);
-      }
-      store(old_d + fd, rods.force_d + i);
-      store(old_w + fw, rods.force_w + i);
-      Pack back[Rods::size];
-      solve_gap(rods, i, back);
-#pragma GCC unroll 10
-      for (int j = 0; j < N; ++j) {
-        const Pack change = plus(load(rods.by_d[j] + i) * by_d, load(rods.by_w[j] + i), by_w) - back[j];
-        store(load(rods.theta[j] + i) + change, rods.theta[j] + i);
-        // H δθ = c by_d − s by_w − gap, and H is B and a diagonal
-        const Pack driven = minus(load(rods.cosine_kept[j] + i) * by_d, load(rods.sine_kept[j] + i), by_w);
-        const Pack bent = minus(driven - load(rods.gap[j] + i), load(rods.stiffening[j] + i), change);
-        store(load(rods.bent[j] + i) + bent, rods.bent[j] + i);
+    for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag)))
+      carry_on(rods, i, shift, turn, fed == nullptr ? nullptr : fed[&rods - groups.data()].length);
+}
+
+/// @name The same with a pose in each lane
+/// @{
+
+HWY_INLINE LaneFrame frame_of(const PoseLanes& poses, int i) {
+  const Pack w = load(poses.quaternion[0] + i), x = load(poses.quaternion[1] + i),
+             y = load(poses.quaternion[2] + i), z = load(poses.quaternion[3] + i), two = all(2), one = all(1);
+  return {{minus(one, two, plus(y * y, z, z)), two * minus(x * y, w, z), two * plus(x * z, w, y),
+           two * plus(x * y, w, z), minus(one, two, plus(x * x, z, z)), two * minus(y * z, w, x),
+           two * minus(x * z, w, y), two * plus(y * z, w, x), minus(one, two, plus(x * x, y, y))},
+          {load(poses.position[0] + i), load(poses.position[1] + i), load(poses.position[2] + i)}};
+}
+
+HWY_INLINE void put_missing(const Wrench& wrench, PoseLanes& poses, int i) {
+  const Pack sums[6] = {wrench.force.x,  wrench.force.y,  wrench.force.z,
+                        wrench.moment.x, wrench.moment.y, wrench.moment.z};
+  for (int k = 0; k < 6; ++k) store(load(poses.wrench[k] + i) - sums[k], poses.missing[k] + i);
+}
+
+void EvaluatePoses(std::span<CoarseRods> rods, bool anew, PoseLanes& poses) {
+  for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
+    const LaneFrame frame = frame_of(poses, i);
+    Wrench wrench;
+    Pack worst = all(0), sums = all(0);
+    for (CoarseRods& rod : rods) {
+      place(rod, i, frame);
+      const Pack error = measure(rod, i, anew);
+      worst = hn::Max(worst, error);
+      sums = sums + error;
+      wrench.add(load3(rod.arm, i), force(rod, i), all(1));
+    }
+    put_missing(wrench, poses, i);
+    const Pack per_length = load(rods[0].load + i), per_moment = per_length / load(rods[0].length + i);
+    for (int k = 0; k < 6; ++k) {
+      const Pack part = hn::Abs(load(poses.missing[k] + i)) * (k < 3 ? per_length : per_moment);
+      worst = hn::Max(worst, part);
+      sums = sums + part;
+    }
+    store(worst + (sums - sums), poses.error + i);
+  }
+}
+
+/// Without pivoting: the platform's stiffness is nearly symmetric and, where it holds by itself, positive.
+void LinearisePoses(std::span<CoarseRods> rods, PoseLanes& poses) {
+  for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
+    Stiffness stiffness;
+    Wrench wrench;
+    for (CoarseRods& rod : rods) {
+      factor(rod, i);
+      stiffen(rod, i);
+      stiffness.add(tip_stiffness(rod, i), load3(rod.arm, i), force(rod, i));
+      close_gaps(rod, i, wrench);
+    }
+    put_missing(wrench, poses, i);
+    Pack a[36];
+    stiffness.matrix(a);
+#pragma GCC unroll 6
+    for (int k = 0; k < 6; ++k) {
+      a[7 * k] = all(1) / a[7 * k];
+#pragma GCC unroll 6
+      for (int r = k + 1; r < 6; ++r) {
+        a[6 * r + k] = a[6 * r + k] * a[7 * k];
+#pragma GCC unroll 6
+        for (int c = k + 1; c < 6; ++c) a[6 * r + c] = minus(a[6 * r + c], a[6 * r + k], a[6 * k + c]);
       }
     }
+    for (int k = 0; k < 36; ++k) store(a[k], poses.factors[k] + i);
+  }
 }
+
+void StepPoses(std::span<CoarseRods> rods, bool fresh, PoseLanes& poses) {
+  for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
+    if (!fresh) {
+      Wrench wrench;
+      for (CoarseRods& rod : rods) close_gaps(rod, i, wrench);
+      put_missing(wrench, poses, i);
+    }
+    Pack x[6];
+#pragma GCC unroll 6
+    for (int k = 0; k < 6; ++k) {
+      x[k] = load(poses.missing[k] + i);
+#pragma GCC unroll 6
+      for (int c = 0; c < k; ++c) x[k] = minus(x[k], load(poses.factors[6 * k + c] + i), x[c]);
+    }
+#pragma GCC unroll 6
+    for (int k = 5; k >= 0; --k) {
+#pragma GCC unroll 6
+      for (int c = k + 1; c < 6; ++c) x[k] = minus(x[k], load(poses.factors[6 * k + c] + i), x[c]);
+      x[k] = x[k] * load(poses.factors[7 * k] + i);
+    }
+    const Pack3 shift = {x[0], x[1], x[2]}, turn = {x[3], x[4], x[5]};
+    for (CoarseRods& rod : rods) carry_on(rod, i, shift, turn, nullptr);
+    for (int k = 0; k < 3; ++k) store(load(poses.position[k] + i) + x[k], poses.position[k] + i);
+    const Pack half = all(0.5), a = half * x[3], b = half * x[4], c = half * x[5];
+    const Pack w = load(poses.quaternion[0] + i), p = load(poses.quaternion[1] + i),
+               q = load(poses.quaternion[2] + i), r = load(poses.quaternion[3] + i);
+    const Pack nw = minus(minus(minus(w, a, p), b, q), c, r), np = plus(minus(plus(p, a, w), c, q), b, r),
+               nq = plus(minus(plus(q, b, w), a, r), c, p), nr = plus(minus(plus(r, c, w), b, p), a, q);
+    const Pack scale = all(1) / hn::Sqrt(plus(plus(plus(nw * nw, np, np), nq, nq), nr, nr));
+    store(nw * scale, poses.quaternion[0] + i);
+    store(np * scale, poses.quaternion[1] + i);
+    store(nq * scale, poses.quaternion[2] + i);
+    store(nr * scale, poses.quaternion[3] + i);
+  }
+}
+/// @}
 
 void EvaluateCoarse(std::span<CoarseRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
   evaluate(groups, platform, anew, sums);
@@ -536,6 +667,9 @@ HWY_EXPORT(ReduceCoarse);
 HWY_EXPORT(ReduceFine);
 HWY_EXPORT(ApplyCoarse);
 HWY_EXPORT(ApplyFine);
+HWY_EXPORT(EvaluatePoses);
+HWY_EXPORT(LinearisePoses);
+HWY_EXPORT(StepPoses);
 HWY_EXPORT(InstructionSet);
 
 void evaluate(std::span<CoarseRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
@@ -557,6 +691,15 @@ void apply(std::span<CoarseRods> groups, const double* step, const RodFeed* fed)
 }
 void apply(std::span<FineRods> groups, const double* step, const RodFeed* fed) {
   HWY_DYNAMIC_DISPATCH(ApplyFine)(groups, step, fed);
+}
+void evaluate(std::span<CoarseRods> rods, bool anew, PoseLanes& poses) {
+  HWY_DYNAMIC_DISPATCH(EvaluatePoses)(rods, anew, poses);
+}
+void linearise(std::span<CoarseRods> rods, PoseLanes& poses) {
+  HWY_DYNAMIC_DISPATCH(LinearisePoses)(rods, poses);
+}
+void step(std::span<CoarseRods> rods, bool fresh, PoseLanes& poses) {
+  HWY_DYNAMIC_DISPATCH(StepPoses)(rods, fresh, poses);
 }
 const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(InstructionSet)(); }
 

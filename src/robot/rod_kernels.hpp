@@ -28,6 +28,15 @@ struct alignas(64) RodFeed {
   RodLane length;
 };
 
+/// Eight poses of one robot, one a lane; its rods are then one RodLanes each.
+struct alignas(64) PoseLanes {
+  RodLane position[3], quaternion[4];
+  RodLane wrench[6];    ///< of the world on the platform
+  RodLane missing[6];   ///< to balance
+  RodLane error;        ///< as RodSystem::evaluate, of each pose
+  RodLane factors[36];  ///< of the platforms' stiffness
+};
+
 namespace rod_kernels {
 
 /// Gaps, forces: `wrench` and `error`. Not `anew` it takes Bθ as the last step left it.
@@ -45,6 +54,13 @@ void reduce(std::span<FineRods> groups, RodSums& sums);
 /// Moves the states by the platform's step (δp, δφ) and, where not null, by the lengths fed to each group.
 void apply(std::span<CoarseRods> groups, const double* step, const RodFeed* fed);
 void apply(std::span<FineRods> groups, const double* step, const RodFeed* fed);
+
+/// @name Eight poses at once: `rods[k]` holds rod k of each
+/// @{
+void evaluate(std::span<CoarseRods> rods, bool anew, PoseLanes& poses);
+void linearise(std::span<CoarseRods> rods, PoseLanes& poses);
+void step(std::span<CoarseRods> rods, bool fresh, PoseLanes& poses);
+/// @}
 
 /// Name of the instruction set in use.
 const char* instruction_set();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sinew/base/assert.hpp"
 
@@ -236,7 +237,7 @@ double RodSystem::evaluate(bool anew) {
   for (int k = 0; k < 6; ++k) {
     const double unit = stiffness / (k < 3 ? length * length : length);
     const double part = std::abs(sums_.wrench[k] - wrench_[k]) / unit;
-    if (!(part <= error)) error = part;  // a NaN is not hidden
+    if (!std::isnan(error) && !(part <= error)) error = part;  // no NaN is hidden, of either
   }
   return error;
 }
@@ -308,6 +309,40 @@ void RodSystem::set_shape(int index, double length, std::span<const double> thet
   fill_idle_lanes(coarse_.back());
 }
 
+namespace {
+
+/// Calls `use(a, b)` with every pair of lanes two states have.
+template <class From, class To, class Use>
+void each_lane(const From& from, To& to, Use&& use) {
+  use(from.length, to.length);
+  for (std::size_t j = 0; j < coarse_nodes; ++j) use(from.theta[j], to.theta[j]);
+  use(from.force_d, to.force_d);
+  use(from.force_w, to.force_w);
+  for (int c = 0; c < 3; ++c) use(from.lateral[c], to.lateral[c]);
+}
+
+}  // namespace
+
+void RodSystem::copy_rod(int index, CoarseRods& to, int lane) const {
+  const CoarseRods& rods = coarse_[at(index / rod_lanes)];
+  const int i = index % rod_lanes;
+  each_lane(rods, to, [&](const RodLane& a, RodLane& b) { b[lane] = a[i]; });
+  for (int c = 0; c < 3; ++c) {
+    to.base[c][lane] = rods.base[c][i];
+    to.tangent[c][lane] = rods.tangent[c][i];
+    to.platform_point[c][lane] = rods.platform_point[c][i];
+  }
+  to.flexibility[lane] = rods.flexibility[i];
+  to.active[lane] = 1;
+}
+
+void RodSystem::take_rod(int index, const CoarseRods::State& from, int lane) {
+  is_fine_ = false;
+  CoarseRods& rods = coarse_[at(index / rod_lanes)];
+  each_lane(from, rods, [&](const RodLane& a, RodLane& b) { b[index % rod_lanes] = a[lane]; });
+  fill_idle_lanes(coarse_.back());
+}
+
 void RodSystem::get_rod(int index, std::span<double> coordinates) const {
   with_rod(index, [&]<class Group>(const Group& rods, int i) {
     // the same shape on the other side where d < 0
@@ -360,13 +395,18 @@ RodReading RodSystem::rod(int index) const {
     reading.curvature_0 = reading.moment_0 / stiffness;
     reading.tip = vector_of(rods.base, i) + h * rods.tip_d[i] + t * rods.tip_w[i];
     reading.chord = std::hypot(rods.tip_d[i], rods.tip_w[i]);
-    reading.largest_curvature = std::abs(moment) / stiffness;
+    // ½EIκ² = H − |n| cos of the tangent's angle from n: largest where it points against n, else at the base
+    double low = std::min(0.0, tip), high = std::max(0.0, tip);
     for (int j = 0; j < rods.nodes; ++j) {
-      const double along =
-          rods.force_d[i] * std::sin(rods.theta[j][i]) + rods.force_w[i] * std::cos(rods.theta[j][i]);
-      reading.largest_curvature =
-          std::max(reading.largest_curvature, std::sqrt(std::max(0.0, 2 * (integral - along) / stiffness)));
+      low = std::min(low, rods.theta[j][i]);
+      high = std::max(high, rods.theta[j][i]);
     }
+    constexpr double turn = 2 * std::numbers::pi;
+    const double against = std::atan2(-rods.force_d[i], -rods.force_w[i]);
+    const bool is_reached = against + turn * std::ceil((low - against) / turn) <= high;
+    const double pull = std::hypot(rods.force_d[i], rods.force_w[i]);
+    reading.largest_curvature =
+        is_reached ? std::sqrt(2 * (integral + pull) / stiffness) : std::abs(moment) / stiffness;
     reading.energy = integral * length - rods.force_d[i] * rods.tip_d[i] - rods.force_w[i] * rods.tip_w[i];
     return reading;
   });

@@ -113,6 +113,9 @@ class RodSystem {
     double stiffness;
   };
   Aim aim(int index) const;
+  /// Geometry and coarse state of a rod to a lane of a group of the same rod, and a state from there.
+  void copy_rod(int index, CoarseRods& to, int lane) const;
+  void take_rod(int index, const CoarseRods::State& from, int lane);
   /// A coarse state from its parts.
   void set_shape(int index, double length, std::span<const double> theta, double force_d, double force_w,
                  const Vec3<double>& lateral);

@@ -129,7 +129,7 @@ TEST(TypeTwoDistance, OfEveryRobotIsTheFirstOneOnItsWay) {
     const AnyRobot robot = load(std::string(name)).value();
     Workspace work(robot);
     std::vector<double> turn(static_cast<std::size_t>(dof(robot)));
-    turn.back() = 1;
+    (plane_count(robot) > 0 ? turn[4] : turn.back()) = 1;
     const TypeTwoDistance there = type_2_distance(robot, home(robot), turn, {}, work);
     EXPECT_EQ(there.found, there.type_2.singular) << name;
     Track track(robot, {}, work);  // regular until there
@@ -137,9 +137,25 @@ TEST(TypeTwoDistance, OfEveryRobotIsTheFirstOneOnItsWay) {
     for (int k = 0; k <= 200; ++k) {
       const Eigen::VectorXd step =
           Eigen::Map<const Eigen::VectorXd>(turn.data(), std::ssize(turn)) * (end * k / 200);
-      ASSERT_TRUE(track.advance(moved(home(robot), step)).ok()) << name << ' ' << k;
+      ASSERT_TRUE(track.advance(settled(robot, moved(home(robot), step))).ok()) << name << ' ' << k;
       EXPECT_FALSE(velocity(robot, track.pose(), track.coordinates(), work).type_2.singular) << name;
     }
+  }
+}
+
+TEST(TypeTwoDistance, OfATripodIsWhereItsTiltIsAndNoneWhereItsHingesDoNotLetIt) {
+  const AnyRobot robot = load("3prs").value();
+  Workspace work(robot);
+  // about y: e = (cos, 0, sin, 0) of half the angle, and det (17) = 0 at e₂ = 0.536485
+  const TypeTwoDistance there = type_2_distance(robot, home(robot), {0, 0, 0, 0, 1, 0}, {}, work);
+  ASSERT_TRUE(there.found) << to_string(there.report);
+  EXPECT_NEAR(std::sin(there.distance / 2), 0.536485, 1e-6);
+  for (const int axis : {0, 1, 5}) {
+    std::vector<double> held(6);
+    held[static_cast<std::size_t>(axis)] = 1;
+    const TypeTwoDistance none = type_2_distance(robot, home(robot), held, {}, work);
+    EXPECT_FALSE(none.found);
+    EXPECT_EQ(none.report.status, Status::unreachable);
   }
 }
 

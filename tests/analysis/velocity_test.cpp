@@ -18,6 +18,7 @@ class EveryRobotMoves : public testing::TestWithParam<std::string_view> {
 };
 
 TEST_P(EveryRobotMoves, TheWayJAndKSay) {  // @verifies TDPCR (17), (19), (39), (59), (67)
+  // @verifies 3PFS (17)-(18)
   int samples = 0;
   while (samples < 100) {
     const AnyPose pose = reachable_pose(robot, random, work);
@@ -50,13 +51,18 @@ TEST_P(EveryRobotMoves, WithTheRatesThatATwistNeeds) {  // @verifies TDPCR (41)
   const Velocity v = velocity(robot, pose, coordinates, work);
   std::vector<double> twist;
   for (int i = 0; i < dof(robot); ++i) twist.push_back(0.1 * (i % 2 ? -i : i + 1));
+  if (plane_count(robot) > 0) {  // which hinges do not allow
+    EXPECT_EQ(rates(v, twist, work).status, Status::singular);
+    const Eigen::VectorXd possible = Eigen::MatrixXd(v.U) * Eigen::Vector3d(0.3, -0.2, 0.1);
+    twist.assign(possible.begin(), possible.end());
+  }
   ASSERT_TRUE(rates(v, twist, work).ok());
   const Eigen::Map<const Eigen::VectorXd> found(work.rates.data(), v.K.cols());
   const Eigen::VectorXd back = Eigen::MatrixXd(v.U) * found;
   for (std::size_t i = 0; i < twist.size(); ++i)
     EXPECT_NEAR(back[static_cast<Eigen::Index>(i)], twist[i], 1e-12);
   // none that does the same is shorter: what is left has no part in the null space of K
-  const Eigen::MatrixXd K = v.K;
+  const Eigen::MatrixXd K = Eigen::MatrixXd(v.K).topRows(v.K.rows() - plane_count(robot));
   const Eigen::VectorXd rest =
       found - K.transpose() * (K * K.transpose()).ldlt().solve(Eigen::VectorXd(K * found));
   EXPECT_LT(rest.norm(), 1e-9 * found.norm());

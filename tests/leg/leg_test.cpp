@@ -27,6 +27,17 @@ struct EveryLeg : testing::Test {
   std::mt19937 random{20261121};
 
   Frame platform() { return random_frame<Space>(random, 0.1); }
+  /// A platform whose point is where a hinge may hold it.
+  Frame platform(const LegT& leg) {
+    Frame any = platform();
+    if constexpr (LegT::has_plane) {
+      const Vec3<double> axis = leg.base.rotate(Vec3<double>(1, 0, 0));
+      any.p -= axis * dot(axis, any.point(leg.platform_point) - leg.base.p);
+    }
+    return any;
+  }
+  /// Wide enough for every solution of such legs and platforms.
+  static double range(const LegT& leg) { return HasSlide<typename LegT::Link> ? 2 : leg.domain(); }
   static auto at(const LegT& leg, const Frame& platform, const Coordinates& q) {
     return leg.template blocks<double>(platform, leg.template tip<double>(q));
   }
@@ -51,6 +62,7 @@ struct Residual {
 
 TYPED_TEST(EveryLeg, BlocksAreTheDerivativesOfTheResidual) {
   // @verifies TDPCR (3), (5)-(6), (18)-(20), (56)-(58), (64)
+  // @verifies 3PFS (1)-(2), (11), (13), (15)-(16)
   double worst_exact = 0, worst_differences = 0;
   for (int sample = 0; sample < 2000; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
@@ -87,8 +99,8 @@ TYPED_TEST(EveryLeg, SolutionsCloseTheLeg) {
   int solved = 0;
   for (int sample = 0; sample < 2000; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
-    const auto platform = this->platform();
-    const Wish wish{.curvature = random_curvature(this->random, leg.link.arc().length)};
+    const auto platform = this->platform(leg);
+    const Wish wish{.near = random_branch(this->random, leg)};
     std::array<typename TypeParam::Coordinates, 8> roots;
     const int count = leg.solutions_at(platform, wish, roots);
     ASSERT_LE(count, 8);
@@ -97,7 +109,7 @@ TYPED_TEST(EveryLeg, SolutionsCloseTheLeg) {
       EXPECT_LT(std::abs(this->at(leg, platform, roots[i]).error), 1e-13) << sample;
       EXPECT_TRUE(leg.in_domain(roots[i]));
       if (i > 0) {
-        EXPECT_GE(leg.link.curvature(roots[i]), leg.link.curvature(roots[i - 1]));
+        EXPECT_GE(leg.link.branch(roots[i]), leg.link.branch(roots[i - 1]));
       }
     }
   }
@@ -107,14 +119,14 @@ TYPED_TEST(EveryLeg, SolutionsCloseTheLeg) {
 TYPED_TEST(EveryLeg, NoSolutionIsMissed) {
   for (int sample = 0; sample < 500; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
-    const auto platform = this->platform();
+    const auto platform = this->platform(leg);
     std::array<typename TypeParam::Coordinates, 8> roots;
     const int count = leg.solutions_at(platform, {}, roots);
     if constexpr (TypeParam::coordinates == 1) {  // sign changes of g on a fine grid over the whole domain
       int changes = 0;
       double before = 0;
       for (int k = 0; k <= 4000; ++k) {
-        const double q = leg.domain() * (-1 + 2 * (k + 0.37) / 4001);
+        const double q = this->range(leg) * (-1 + 2 * (k + 0.37) / 4001);
         const double g = this->at(leg, platform, typename TypeParam::Coordinates(q)).g[0];
         changes += k > 0 && (g < 0) != (before < 0);
         before = g;
@@ -129,7 +141,7 @@ TYPED_TEST(EveryLeg, NoSolutionIsMissed) {
         if (TypeParam::is_redundant) continue;
         double nearest = 1;
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-          nearest = std::min(nearest, std::abs(leg.link.curvature(q) - leg.link.curvature(roots[i])));
+          nearest = std::min(nearest, std::abs(leg.link.branch(q) - leg.link.branch(roots[i])));
         EXPECT_LT(nearest, 1e-4) << sample;
       }
     }
@@ -139,29 +151,33 @@ TYPED_TEST(EveryLeg, NoSolutionIsMissed) {
 TYPED_TEST(EveryLeg, TheNearestSolutionIsTheNearestOfAll) {
   for (int sample = 0; sample < 3000; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
-    const auto platform = this->platform();
-    const double target = sample % 2 ? 0 : random_curvature(this->random, leg.link.arc().length);
-    const Wish wish{.curvature = target, .bending = sample % 3 - 1};
+    const auto platform = this->platform(leg);
+    const double target = sample % 2 ? 0 : random_branch(this->random, leg);
+    const Wish wish{.near = target, .bending = HasArc<typename TypeParam::Link> ? sample % 3 - 1 : 0};
     std::array<typename TypeParam::Coordinates, 8> roots;
     const int count = leg.solutions_at(platform, wish, roots);
     double best = 1e9;
     for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
-      const double curvature = leg.link.curvature(roots[i]);
-      if (curvature * wish.bending >= 0) best = std::min(best, std::abs(curvature - target));
+      const double branch = leg.link.branch(roots[i]);
+      if (branch * wish.bending >= 0) best = std::min(best, std::abs(branch - target));
     }
     const auto found = leg.nearest_solution(platform, wish);
     ASSERT_EQ(found.count > 0, best < 1e9) << sample;
     if (found.count > 0) {
-      EXPECT_NEAR(std::abs(leg.link.curvature(found.q) - target), best, 1e-6) << sample;
+      EXPECT_NEAR(std::abs(leg.link.branch(found.q) - target), best, 1e-6) << sample;
+      EXPECT_LT(found.misfit, 1e-13);
     }
   }
 }
 
 TYPED_TEST(EveryLeg, LinkFrameCarriesTheBackboneToTheAnchor) {
+  if constexpr (!HasArc<typename TypeParam::Link>) {
+    GTEST_SKIP() << "it has no backbone";
+  } else {
   using Vector = Vec<double, TypeParam::dimension>;
   for (int sample = 0; sample < 500; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
-    const auto platform = this->platform();
+    const auto platform = this->platform(leg);
     std::array<typename TypeParam::Coordinates, 8> roots;
     const int count = leg.solutions_at(platform, {}, roots);
     for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
@@ -181,13 +197,14 @@ TYPED_TEST(EveryLeg, LinkFrameCarriesTheBackboneToTheAnchor) {
       EXPECT_NEAR(state.base_tangent.norm(), 1, 1e-14);
     }
   }
+  }
 }
 
 TYPED_TEST(EveryLeg, RateRateBoundHolds) {
-  if constexpr (TypeParam::coordinates == 1) {
+  if constexpr (TypeParam::coordinates == 1 && HasArc<typename TypeParam::Link>) {
     for (int sample = 0; sample < 2000; ++sample) {
       const auto leg = random_leg<TypeParam>(this->random);
-      const auto platform = this->platform();
+      const auto platform = this->platform(leg);
       const double q = 0.99 * random_curvature(this->random, leg.link.length), h = 1e-3;
       const auto g_q = [&](double x) {
         return this->at(leg, platform, typename TypeParam::Coordinates(x)).g_q[0];
@@ -200,6 +217,49 @@ TYPED_TEST(EveryLeg, RateRateBoundHolds) {
       EXPECT_LE(std::abs(g_q(q + h) - g_q(q - h)) / (2 * h), bound * (1 + 1e-6));
     }
   }
+}
+
+using PrsLeg = Leg<Spatial, Rail, SlideDrive, HingedStrut>;
+
+TEST(HingedStrut, ItsAngleTurnsItFromTheRailToThePlatformPoint) {
+  std::mt19937 random{5};
+  for (int sample = 0; sample < 300; ++sample) {
+    const auto leg = random_leg<PrsLeg>(random);
+    auto platform = random_frame<Spatial>(random, 0.1);
+    const Vec3<double> axis = leg.base.rotate(Vec3<double>(1, 0, 0)), rail = leg.base.rotate(Vec3<double>(0, 1, 0));
+    platform.p -= axis * dot(axis, platform.point(leg.platform_point) - leg.base.p);
+    std::array<PrsLeg::Coordinates, 8> roots;
+    const int count = leg.solutions_at(platform, {}, roots);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      const LegState state = leg.state(platform, roots[i]);
+      EXPECT_LT((state.carriage - leg.base.p - rail * roots[i][0]).norm(), 1e-15);
+      const Vec3<double> strut = SO3<double>::exp(axis * state.hinge_angle).rotate(rail) * leg.closure.length;
+      EXPECT_LT((state.carriage + strut - platform.point(leg.platform_point)).norm(), 1e-14);
+      EXPECT_EQ(state.elbow, i == 0 ? 1 : -1);  // the lower slide points ahead
+      const auto only = leg.nearest_solution(platform, {.elbow = state.elbow});
+      EXPECT_EQ(only.q, roots[i]);
+      EXPECT_EQ(leg.reach(roots[i]).rows(), 2);
+      EXPECT_LT((leg.reach(roots[i]).anchor - state.carriage).norm(), 1e-15);
+      EXPECT_LT((leg.reach(roots[i]).normal - axis).norm(), 1e-15);
+    }
+  }
+}
+
+TEST(HingedStrut, APointBesideItsPlaneOrTooFarFromItsRailHasNoSolution) {
+  PrsLeg leg{};
+  leg.closure.length = 0.35;
+  std::array<PrsLeg::Coordinates, 8> roots;
+  const auto at = [&](double beside, double off) {
+    return leg.solutions_at(SE3<double>{Vec3<double>(beside, 0.2, off), {}}, {}, roots);
+  };
+  EXPECT_EQ(at(0, 0.1), 2);
+  EXPECT_EQ(at(0, 0.35), 1);  // square to the rail: both are one
+  EXPECT_NEAR(roots[0][0], 0.2, 1e-15);
+  EXPECT_EQ(at(0, 0.35 + 1e-15), 0);
+  EXPECT_EQ(at(1e-10, 0.1), 2);  // within rounding of people's numbers
+  EXPECT_EQ(at(1e-9, 0.1), 0);
+  EXPECT_EQ(at(std::nan(""), 0.1), 0);
+  EXPECT_EQ(at(0, std::nan("")), 0);
 }
 
 TEST(UniversalJoint, ItsSecondAxisIsTheNormalOfTheBendingPlane) {  // e = unit(g × r), TDPCR 4.1

@@ -3,6 +3,7 @@
 #pragma once
 #include "planar_robots.hpp"
 #include "random_leg.hpp"
+#include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 
 namespace sinew::test {
@@ -18,10 +19,10 @@ inline AnyPose pose_near_home(const AnyRobot& robot, std::mt19937& random, doubl
                                                                        any(turn), any(turn), any(turn)));
 }
 
-/// A pose near home that every leg reaches.
+/// A pose near home that every leg reaches, and that hinges allow.
 inline AnyPose reachable_pose(const AnyRobot& robot, std::mt19937& random, Workspace& work) {
   for (;;) {
-    const AnyPose pose = pose_near_home(robot, random);
+    const AnyPose pose = settled(robot, pose_near_home(robot, random));
     if (inverse(robot, pose, {}, work).ok()) return pose;
   }
 }

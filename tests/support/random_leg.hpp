@@ -42,7 +42,7 @@ LegT random_leg(std::mt19937& random) {
   LegT::Link::fields(leg.link, fill);
   LegT::Drive::fields(leg.drive, fill);
   LegT::Closure::fields(leg.closure, fill);
-  tendon_offset(leg.drive) /= 20;
+  if constexpr (requires { tendon_offset(leg.drive); }) tendon_offset(leg.drive) /= 20;
   if constexpr (requires { leg.drive.theta_is; })
     if (uniform(random, 0, 1) < 0.5) leg.drive.theta_is = ThetaIs::chord;
   leg.base = random_frame<typename LegT::Space>(random, 0.2);
@@ -67,11 +67,20 @@ inline double random_curvature(std::mt19937& random, double length) {
   }
 }
 
+/// A branch coordinate of this leg: a curvature, or a slide.
+template <class LegT>
+double random_branch(std::mt19937& random, const LegT& leg) {
+  if constexpr (HasArc<typename LegT::Link>)
+    return random_curvature(random, leg.link.arc().length);
+  else
+    return uniform(random, -0.5, 0.5);
+}
+
 template <class LegT>
 typename LegT::Coordinates random_coordinates(std::mt19937& random, const LegT& leg) {
   typename LegT::Coordinates q;
   for (int j = 0; j + 1 < LegT::coordinates; ++j) q[j] = uniform(random, -3.14, 3.14);
-  q[LegT::coordinates - 1] = random_curvature(random, leg.link.arc().length);
+  q[LegT::coordinates - 1] = random_branch(random, leg);
   return q;
 }
 

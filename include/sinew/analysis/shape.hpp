@@ -11,8 +11,8 @@ using PolylineOf = std::vector<Vec<double, D>>;  ///< base frame [m]
 /// @tparam D dimension of the robot's space
 template <int D>
 struct ShapeOf {
-  std::vector<PolylineOf<D>> backbones;               ///< a leg
-  std::vector<std::array<PolylineOf<D>, 2>> tendons;  ///< a leg: tendon 1, tendon 2
+  std::vector<PolylineOf<D>> backbones;               ///< a leg; a rail as far as its carriage
+  std::vector<std::array<PolylineOf<D>, 2>> tendons;  ///< a leg: tendon 1, tendon 2; empty of a rail
   std::vector<std::array<Vec<double, D>, 2>> lines;   ///< a leg: the segment along which its closure pulls
   PolylineOf<D> platform;                             ///< its points, in leg order
   PolylineOf<D> base;                                 ///< base points, in leg order

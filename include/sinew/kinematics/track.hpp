@@ -28,7 +28,8 @@ class SINEW_API Track {
   /// Robot and workspace must outlive the track.
   Track(const AnyRobot& robot, TrackOptions options, Workspace& work);
 
-  /// To the first pose by inverse kinematics, to every further one by continuation.
+  /// To the first pose by inverse kinematics, to every further one by continuation. On the way between two
+  /// poses a platform that hinges hold in planes stays in them; the poses themselves must lie in them.
   Report advance(const AnyPose& next);
 
   const AnyPose& pose() const { return pose_; }

@@ -45,8 +45,9 @@ struct Chord {
     return curvature == 0 ? 1 : 2;
   }
 
-  void explain_unreachable(double distance, double reach, FixedText<240>& text) const {
-    explain_chord(distance, reach, text);
+  template <int D>
+  void explain_unreachable(const Vec<double, D>& r, double reach, FixedText<240>& text) const {
+    explain_chord(r.norm(), reach, text);
   }
 
   static void explain_chord(double distance, double reach, FixedText<240>& text) {

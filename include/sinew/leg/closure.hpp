@@ -6,7 +6,8 @@
 /// is in the axes of the link's tip (of a clamped link its base frame, of others the robot's base):   g = ½
 /// (|r − A|² − D²) = 0,   ∂g/∂r = r − A = n,   ∂g/∂q = −n·A′ − (½D²)′. The squares keep the papers' raw form
 /// of J and K (rows multiplied by the distance) and are smooth at D = 0. A closure that pins the point to the
-/// anchor holds it in every direction:   g = r − A = 0.
+/// anchor holds it in every direction:   g = r − A = 0. A hinge at the anchor holds it besides in the plane
+/// through A with the hinge's axis u for a normal:   g = u·(r − A) = 0.
 #pragma once
 #include "sinew/link/tip.hpp"
 
@@ -37,12 +38,18 @@ DistanceRow<S, D, Q> distance_row(const Vec<S, D>& r, const Anchor<S, D, Q>& anc
   return {S(0.5) * squared_norm(n) - anchor.half_square, n, g_q};
 }
 
+/// A closure that also holds the platform point in a plane through the anchor: it gives one more row.
+template <class Closure>
+concept HoldsInPlane = requires { Closure::template plane_normal<double>(); };
+
 /// Which of a leg's solutions is wanted: the one of this sign of curvature and this elbow (0: any) whose
-/// curvature is nearest to `curvature`.
+/// branch coordinate (of an arc the curvature, of a rail the slide) is nearest to `near`.
 struct Wish {
-  double curvature = 0;  ///< [1/m]
-  int bending = 0;       ///< +1, −1 or 0
-  int elbow = 0;  ///< +1: the strut is turned counter-clockwise from the link's chord; −1: clockwise; 0: any
+  double near = 0;  ///< [1/m], of a rail [m]
+  int bending = 0;  ///< +1, −1 or 0; without effect on a rail
+  /// Of a link on a motor +1: the strut is turned counter-clockwise from the link's chord; −1: clockwise. Of a
+  /// rail +1: the strut leads ahead along the rail; −1: back. 0: any.
+  int elbow = 0;
 };
 
 }  // namespace sinew::inline v0

@@ -16,23 +16,31 @@
 
 namespace sinew::inline v0 {
 
-/// What a leg hands over at platform pose x and link coordinates q.
+/// What a leg hands over at platform pose x and link coordinates q. The row of a plane comes last.
 template <Scalar S, int R, int Dof, int Q>
 struct LegBlocks {
-  Vec<S, R> g;         ///< residual [m²]; of a pin [m]
+  Vec<S, R> g;         ///< residual [m²]; of a pin or a plane [m]
   Mat<S, R, Dof> g_x;  ///< ∂g/∂x by the platform's twist: Plücker lines (times the distance); rows of J
   Mat<S, R, Q> g_q;    ///< ∂g/∂q by the link coordinates
-  S error;             ///< the residual as a distance [m]
+  S error;             ///< the residual as a distance [m], without that of a plane
 };
 
-/// What a person wants to know of a leg in an answer.
+/// What a person wants to know of a leg in an answer: first of one with an arc, then of one on a rail; what
+/// the leg has not is NaN or 0.
 struct LegState {
-  double curvature;                      ///< κ [1/m], signed
-  double chord;                          ///< ρ [m]
-  std::array<double, 2> tendon_lengths;  ///< tendon 1, tendon 2 [m]
-  Vec3<double> base_tangent;             ///< unit vector along the backbone at its base, base axes
-  std::array<double, 2> joint_angles;    ///< of the universal joint at the base [rad]; 0 in the plane
-  int elbow;  ///< to which side of the chord the strut of a redundant leg turns, ±1; 0 of other legs
+  static constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+
+  double curvature = absent;                                ///< κ [1/m], signed
+  double chord = absent;                                    ///< ρ [m]
+  std::array<double, 2> tendon_lengths = {absent, absent};  ///< tendon 1, tendon 2 [m]
+  Vec3<double> base_tangent = Vec3<double>::Zero();  ///< unit vector along the backbone at its base, base axes
+  std::array<double, 2> joint_angles = {0, 0};  ///< of the universal joint at the base [rad]; 0 in the plane
+
+  double slide = absent;                         ///< ρ of the carriage along its rail [m]
+  Vec3<double> carriage = Vec3<double>::Zero();  ///< base frame [m]
+  double hinge_angle = absent;                   ///< of the strut about the hinge's axis, from the rail [rad]
+
+  int elbow = 0;  ///< see Wish, ±1; 0 of a leg without
 };
 
 /// A closure that gives the coordinates of this link in closed form; others are searched.
@@ -56,6 +64,10 @@ struct Leg {
   static constexpr bool is_clamped = !Closure::base_turns && !Link::has_own_turn;
   /// At a pose the leg can still move: it has a continuum of solutions.
   static constexpr bool is_redundant = coordinates > rows;
+  /// The strut may lead to either side: solutions come in pairs that a wish tells apart by their elbow.
+  static constexpr bool has_elbow = is_redundant || HasSlide<Link>;
+  static constexpr bool has_plane = HoldsInPlane<Closure>;  ///< the last row is that of a plane
+  static constexpr int driven_rows = rows - (has_plane ? 1 : 0);  ///< rows that the link's coordinates close
 
   template <class S>
   using LinkTip = Tip<S, Link::dimension, coordinates>;
@@ -74,7 +86,11 @@ struct Leg {
   Backbone backbone;
 
   /// A length to compare errors with [m].
-  double size() const { return base.p.norm() + platform_point.norm() + link.arc().length; }
+  double size() const {
+    double size = base.p.norm() + platform_point.norm() + link.size();
+    if constexpr (requires { closure.length; } && !HasArc<Link>) size += closure.length;
+    return size;
+  }
 
   template <Scalar S>
   LinkTip<S> tip(const Vec<S, coordinates>& q) const {
@@ -95,12 +111,18 @@ struct Leg {
     const auto anchor = closure.template anchor<dimension>(tip);
     using std::sqrt;
     Blocks<S> blocks;
-    if constexpr (rows == 1) {
+    if constexpr (driven_rows == 1) {
       const DistanceRow<S, dimension, coordinates> row = distance_row(r, anchor);
       blocks.g[0] = row.g;
-      blocks.g_x = Space::line(to_world<S>(row.normal), b);
-      blocks.g_q = row.g_q;
+      blocks.g_x.row(0) = Space::line(to_world<S>(row.normal), b);
+      blocks.g_q.row(0) = row.g_q;
       blocks.error = sqrt(squared_norm(row.normal)) - sqrt(S(2) * anchor.half_square);
+      if constexpr (has_plane) {  // its rows of K are 0: the plane holds the carriage's path
+        const Vec<S, dimension> normal = Closure::template plane_normal<S>();
+        blocks.g[1] = dot(normal, row.normal);
+        blocks.g_x.row(1) = Space::line(to_world<S>(normal), b);
+        blocks.g_q.row(1) = -(normal.transpose() * anchor.rate);
+      }
     } else {
       blocks.g = to_world<S>(r - anchor.position);
       for (int k = 0; k < dimension; ++k) {
@@ -113,10 +135,28 @@ struct Leg {
     return blocks;
   }
 
+  /// How far the leg is from closed [m].
+  static double misfit(const Blocks<double>& blocks) {
+    if constexpr (has_plane)
+      return std::sqrt(blocks.error * blocks.error + blocks.g[rows - 1] * blocks.g[rows - 1]);
+    else
+      return std::abs(blocks.error);
+  }
+
+  /// The same, without the derivatives.
+  double misfit(const Frame& platform, const Coordinates& q) const {
+    return misfit_at(offset<double>(platform), q);
+  }
+
   /// What is left of the leg once its link is shaped.
   Reach<dimension> reach(const Coordinates& q) const {
     const auto anchor = closure.template anchor<dimension>(link.tip(q));
-    return {base.p + to_world<double>(anchor.position), std::sqrt(2 * anchor.half_square), platform_point};
+    const double distance = std::sqrt(2 * anchor.half_square);
+    if constexpr (HasSlide<Link> && has_plane)
+      return {base.p + link.slide(q) * Space::second_axis(base), distance, platform_point,
+              Space::first_axis(base)};
+    else
+      return {base.p + to_world<double>(anchor.position), distance, platform_point};
   }
 
   /// @name Inputs a (what motors command) and link coordinates q
@@ -124,18 +164,30 @@ struct Leg {
   Coordinates coordinates_of(std::span<const double> input) const { return drive.coordinates(link, input); }
   Vec<double, inputs> inputs_of(const Coordinates& q) const { return drive.commands(link, q); }
   Mat<double, coordinates, inputs> input_rate() const { return drive.rate(link); }  ///< ∂q/∂a
-  /// The curvature lies in (−domain, domain): short of a full turn, and no tendon at its centre of curvature.
-  double domain() const { return std::min(link.arc().bounds().domain, drive.domain()); }
+  /// The branch coordinate lies in (−domain, domain): a curvature short of a full turn, and no tendon at its
+  /// centre of curvature; a slide not beyond any place.
+  double domain() const { return std::min(link.domain(), drive.domain()); }
   bool in_domain(const Coordinates& q) const {
-    return std::abs(link.curvature(q)) < domain() && q.allFinite();
+    return std::abs(link.branch(q)) < domain() && q.allFinite();
+  }
+  /// A change of the branch coordinate that compares with a radian: of a curvature the bend angle κℓ is.
+  double branch_unit() const {
+    if constexpr (HasArc<Link>)
+      return 1 / link.size();
+    else
+      return size();
   }
   /// @}
 
-  /// Link coordinates in ascending order of curvature that close the leg at this platform pose: all of them,
+  /// Link coordinates in ascending order of their branch coordinate that close the leg at this platform pose: all of them,
   /// or of a leg that can still move there those the wish singles out. Returns their number, -1 where they
   /// cannot be told apart.
   int solutions_at(const Frame& platform, const Wish& wish, std::span<Coordinates> roots) const {
-    const Point r = offset<double>(platform);
+    return solutions_of(offset<double>(platform), wish, roots);
+  }
+
+  /// The same for a platform point at r, in the axes the link's tip is given in.
+  int solutions_of(const Point& r, const Wish& wish, std::span<Coordinates> roots) const {
     int count = 0;
     if constexpr (SolvesInClosedForm<Closure, Link, Point>) {
       count = closure.coordinates_at(link, r, wish, domain(), roots);
@@ -154,34 +206,22 @@ struct Leg {
   struct Nearest {
     int count;
     Coordinates q;
+    double misfit = 0;  ///< how far the leg is from closed there [m]
   };
 
   /// The one of them that is wished for.
   Nearest nearest_solution(const Frame& platform, const Wish& wish) const {
-    if constexpr (SolvesInClosedForm<Closure, Link, Point>) {
-      std::array<Coordinates, 8> roots;
-      const int count = solutions_at(platform, wish, roots);
-      Nearest nearest{std::min(count, 0), Coordinates::Zero()};
-      for (int k = 0; k < count; ++k) {
-        const Coordinates& q = roots[at(k)];
-        if (link.curvature(q) * wish.bending < 0) continue;
-        if (nearest.count > 0 && distance(q, wish) > distance(nearest.q, wish)) continue;
-        nearest = {1, q};
-      }
-      return nearest;
-    } else {
-      const NearestRoot found =
-          nearest_root(closing_at(offset<double>(platform)), search_for(wish.bending), wish.curvature);
-      const Coordinates q(found.root);
-      return found.count > 0 && !in_domain(q) ? Nearest{0, q} : Nearest{found.count, q};
-    }
+    const Point r = offset<double>(platform);
+    Nearest nearest = nearest_of(r, wish);
+    if (nearest.count > 0) nearest.misfit = misfit_at(r, nearest.q);
+    return nearest;
   }
 
   /// Why `solutions_at` found none.
   void explain_unreachable(const Frame& platform, FixedText<240>& text) const {
-    const double distance = offset<double>(platform).norm();
+    const Point r = offset<double>(platform);
     if constexpr (Closure::tip_is_platform_point)
-      if (const double needed = link.arc().curvature_from_chord(distance);
+      if (const double needed = link.arc().curvature_from_chord(r.norm());
           needed >= drive.domain() && needed < link.arc().bounds().domain) {
         text.append("would have to bend to a radius of ");
         append_mm(text, 1 / needed);
@@ -190,7 +230,7 @@ struct Leg {
         text.append(" from the backbone");
         return;
       }
-    closure.explain_unreachable(distance, link.arc().length, text);
+    closure.explain_unreachable(r, link.size(), text);
   }
 
   /// The backbone's base frame (in space: x to the side of tendon 1, y ahead): as given, as its own joint
@@ -205,13 +245,19 @@ struct Leg {
   }
 
   LegState state(const Frame& platform, const Coordinates& q) const {
-    const double curvature = link.curvature(q);
-    LegState state{curvature,
-                   link.arc().chord(curvature),
-                   drive.lengths(link.arc().length, curvature),
-                   Space::base_tangent(link_frame(platform, q)),
-                   {0, 0},
-                   0};
+    LegState state;
+    if constexpr (HasArc<Link>) {
+      state.curvature = link.curvature(q);
+      state.chord = link.arc().chord(state.curvature);
+      state.tendon_lengths = drive.lengths(link.size(), state.curvature);
+      state.base_tangent = Space::base_tangent(link_frame(platform, q));
+    } else {
+      const Point strut = offset<double>(platform) - link.tip(q).position;
+      state.slide = link.slide(q);
+      state.carriage = base.point(link.tip(q).position);
+      state.hinge_angle = std::atan2(strut.z(), strut.y());
+      state.elbow = strut.y() < 0 ? -1 : 1;
+    }
     if constexpr (Closure::base_turns && dimension == 3)
       state.joint_angles = Space::joint_angles(base, offset<double>(platform), link.tip(q).position);
     if constexpr (is_redundant)
@@ -220,9 +266,41 @@ struct Leg {
   }
 
  private:
+  Nearest nearest_of(const Point& r, const Wish& wish) const {
+    if constexpr (SolvesInClosedForm<Closure, Link, Point>) {
+      std::array<Coordinates, 8> roots;
+      const int count = solutions_of(r, wish, roots);
+      Nearest nearest{std::min(count, 0), Coordinates::Zero()};
+      for (int k = 0; k < count; ++k) {
+        const Coordinates& q = roots[at(k)];
+        if (HasArc<Link> && link.branch(q) * wish.bending < 0) continue;
+        if (nearest.count > 0 && distance(q, wish) > distance(nearest.q, wish)) continue;
+        nearest = {1, q};
+      }
+      return nearest;
+    } else {
+      const NearestRoot found =
+          nearest_root(closing_at(r), search_for(wish.bending), wish.near);
+      const Coordinates q(found.root);
+      return found.count > 0 && !in_domain(q) ? Nearest{0, q} : Nearest{found.count, q};
+    }
+  }
+
+  double misfit_at(const Point& r, const Coordinates& q) const {
+    const auto anchor = closure.template anchor<dimension>(link.tip(q));
+    const Point n = r - anchor.position;
+    const double miss = std::sqrt(squared_norm(n)) - std::sqrt(2 * anchor.half_square);
+    if constexpr (has_plane) {
+      const double beside = dot(Closure::template plane_normal<double>(), n);
+      return std::sqrt(miss * miss + beside * beside);
+    } else {
+      return std::abs(miss);
+    }
+  }
+
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
   double distance(const Coordinates& q, const Wish& wish) const {
-    return std::abs(link.curvature(q) - wish.curvature);
+    return std::abs(link.branch(q) - wish.near);
   }
 
   /// The residual as a function of the one link coordinate, the platform point held.

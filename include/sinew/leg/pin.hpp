@@ -37,8 +37,9 @@ struct Pin {
     return curvature == 0 ? 1 : 2;
   }
 
-  void explain_unreachable(double distance, double reach, FixedText<240>& text) const {
-    Chord::explain_chord(distance, reach, text);
+  template <int D>
+  void explain_unreachable(const Vec<double, D>& r, double reach, FixedText<240>& text) const {
+    Chord::explain_chord(r.norm(), reach, text);
   }
 };
 

@@ -1,6 +1,7 @@
 /// @file reach.hpp
 /// What the inputs leave of a kinematic leg: a point of the base that a point of the platform keeps a
-/// distance from. Forward kinematics needs no more, whatever the link, its drive and its closure.
+/// distance from, and of a hinged leg the plane it stays in. Forward kinematics needs no more, whatever the
+/// link, its drive and its closure.
 #pragma once
 #include "sinew/math/vec.hpp"
 
@@ -12,6 +13,12 @@ struct Reach {
   Vec<double, D> anchor;  ///< A, base frame [m]
   double distance;        ///< of the platform point from A [m], ≥ 0; 0: pinned to A, which holds D freedoms
   Vec<double, D> platform_point;  ///< b, platform frame [m]
+  /// Unit normal of a plane through A that holds the platform point too, base frame; 0: no such plane.
+  Vec<double, D> normal = Vec<double, D>::Zero();
+
+  bool has_plane() const { return normal.squaredNorm() > 0; }
+  /// How many freedoms it holds.
+  int rows() const { return distance > 0 ? 1 + (has_plane() ? 1 : 0) : D; }
 };
 
 }  // namespace sinew::inline v0

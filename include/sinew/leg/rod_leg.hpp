@@ -30,9 +30,10 @@ struct RodLeg {
   using Frame = SE3<double>;
   using Point = Vec3<double>;
   static constexpr bool bears_load = true;
-  static constexpr bool is_redundant = false;
+  static constexpr bool is_redundant = false, has_elbow = false, has_plane = false;
   static constexpr int dimension = 3;
   static constexpr int rows = 0;  ///< it constrains nothing; the platform's six balances are the robot's
+  static constexpr int driven_rows = 0;
   static constexpr int inputs = 1;
   /// θ at the nodes [rad], lateral and axial tip force [N], length [m].
   static constexpr int coordinates = rod_nodes + 3;

@@ -53,8 +53,8 @@ struct Strut {
     const double least = link.arc().curvature_from_chord(longest);
     const double most = std::min(link.arc().curvature_from_chord(shortest), end * (1 - 1e-12));
     if (least > most) return 0;
-    const bool is_negative = wish.bending < 0 || (wish.bending == 0 && wish.curvature < 0);
-    const double size = std::clamp(is_negative ? -wish.curvature : wish.curvature, least, most);
+    const bool is_negative = wish.bending < 0 || (wish.bending == 0 && wish.near < 0);
+    const double size = std::clamp(is_negative ? -wish.near : wish.near, least, most);
     const double curvature = is_negative ? -size : size, chord = link.arc().chord(curvature);
     // law of cosines; where the triangle is flat, or has no side to speak of, the elbow is straight
     const double cosine = (chord * chord + distance * distance - length * length) / (2 * chord * distance);
@@ -66,11 +66,12 @@ struct Strut {
     return corner == 0 || wish.elbow != 0 ? 1 : 2;
   }
 
-  void explain_unreachable(double distance, double reach, FixedText<240>& text) const {
+  template <int D>
+  void explain_unreachable(const Vec<double, D>& r, double reach, FixedText<240>& text) const {
     text.append("cannot bend its tip to within ");
     append_mm(text, length);
     text.append(" (its strut) of the platform point, which is ");
-    append_mm(text, distance);
+    append_mm(text, r.norm());
     text.append(" from its base; its backbone is ");
     append_mm(text, reach);
     text.append(" long");

@@ -46,6 +46,10 @@ struct Swivel {
   double curvature(const Vec<double, coordinates>& q) const {
     return link.curvature(q.template tail<LinkT::coordinates>());
   }
+  double branch(const Vec<double, coordinates>& q) const { return curvature(q); }
+  double size() const { return link.size(); }
+  double domain() const { return link.domain(); }
+  static constexpr std::string_view beyond_domain = LinkT::beyond_domain;
   /// Absolute angle of the base tangent [rad].
   double base_tangent(const Vec<double, coordinates>& q) const { return q[0]; }
   /// @}

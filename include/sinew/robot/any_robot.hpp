@@ -18,12 +18,14 @@ template <class... P, class... S>
 struct RobotsOf<TypeList<P...>, TypeList<S...>> {
   using PlanarLeg = AnyLeg<P...>;
   using SpatialLeg = AnyLeg<S...>;
-  using Model = std::variant<ParallelRobot<P>..., ParallelRobot<PlanarLeg>, ParallelRobot<S>...>;
+  using Model = std::variant<ParallelRobot<P>..., ParallelRobot<PlanarLeg>, ParallelRobot<S>...,
+                             ParallelRobot<SpatialLeg>, ParallelRobot<RodLeg>>;
 };
 }  // namespace detail
 
 using AnyPlanarLeg = detail::RobotsOf<PlanarLegs, SpatialLegs>::PlanarLeg;
 using AnySpatialLeg = detail::RobotsOf<PlanarLegs, SpatialLegs>::SpatialLeg;
+using AnyLoadedLeg = AnyLeg<RodLeg>;
 using RobotModel = detail::RobotsOf<PlanarLegs, SpatialLegs>::Model;
 
 /// A pose of the robot's space.
@@ -43,11 +45,32 @@ struct AnyRobot {
         model(std::move(robot)) {}
 };
 
+/// Whether the legs of this robot bear load: it then has equilibria (kinematics/equilibrium.hpp) and no closures.
+inline bool bears_load(const AnyRobot& robot) {
+  return std::holds_alternative<ParallelRobot<RodLeg>>(robot.model);
+}
+
+/// Calls `use` with the robot behind `robot` if its legs close on the platform, and `otherwise()` if they bear
+/// load.
+template <class Use, class Otherwise>
+decltype(auto) visit_closing(const AnyRobot& robot, Use&& use, Otherwise&& otherwise) {
+  return std::visit(
+      [&]<class LegT>(const ParallelRobot<LegT>& r) -> decltype(otherwise()) {
+        if constexpr (BearsLoad<LegT>)
+          return otherwise();
+        else
+          return use(r);
+      },
+      robot.model);
+}
+
 /// Legs that are all alike take the static path, unlike legs go through one variant of legs.
 /// @param tied for each leg the earlier leg whose actuators it shares, or −1
 SINEW_API RobotModel make_robot(const std::vector<AnyPlanarLeg>& legs, std::span<const int> tied,
                                 PlanarPose home, double platform_radius);
 SINEW_API RobotModel make_robot(const std::vector<AnySpatialLeg>& legs, std::span<const int> tied,
+                                SpatialPose home, double platform_radius);
+SINEW_API RobotModel make_robot(const std::vector<AnyLoadedLeg>& legs, std::span<const int> tied,
                                 SpatialPose home, double platform_radius);
 
 }  // namespace sinew::inline v0

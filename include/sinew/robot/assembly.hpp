@@ -13,15 +13,16 @@ namespace sinew::inline v0 {
 struct Reduced {
   MatrixView J;               ///< rows × dof: stack of g_x, each row a Plücker line
   MatrixView K;               ///< rows × inputs: −∂g/∂a, block diagonal where no legs are tied
-  std::span<const double> s;  ///< rows: −g [m²]
+  std::span<const double> s;  ///< rows: −g [m²], of pins and planes [m]
   double closure_error =
       0;              ///< largest distance by which a leg fails to close [m]; infinite where not finite
   int worst_leg = 0;  ///< the leg that does
 };
 
 /// J, K and s at a platform pose and link coordinates (of an arc its curvature κ [1/m], of a swivelled one θ
-/// [rad] and κ), leg by leg.
+/// [rad] and κ, of a rail its slide ρ [m]), leg by leg, the rows of planes last.
 /// @implements TDPCR (5)-(6), (17), (19)-(20), (59), (67)
+/// @implements 3PFS (15)-(18)
 SINEW_API Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
 
 /// J with its rows scaled to unit lines and their moments divided by the platform radius, and K scaled alike,
@@ -45,6 +46,9 @@ SINEW_API int row_count(const AnyRobot& robot);
 SINEW_API int dof(const AnyRobot& robot);
 /// A leg can move while the platform stands still.
 SINEW_API bool has_redundant_leg(const AnyRobot& robot);
+SINEW_API bool has_elbow(const AnyRobot& robot);  ///< a leg's strut may lead to either side
+SINEW_API bool has_arc(const AnyRobot& robot);    ///< a leg has a curvature
+SINEW_API int plane_count(const AnyRobot& robot); ///< rows of planes, the last of all
 
 /// An input of the robot, as messages and tables name it: `legs[0].tendon_1`.
 struct InputOfLeg {

@@ -7,12 +7,16 @@
 #include <variant>
 
 #include "sinew/leg/chord.hpp"
+#include "sinew/leg/hinged_strut.hpp"
 #include "sinew/leg/leg.hpp"
 #include "sinew/leg/pin.hpp"
+#include "sinew/leg/rod_leg.hpp"
 #include "sinew/leg/strut.hpp"
 #include "sinew/link/arc.hpp"
+#include "sinew/link/rail.hpp"
 #include "sinew/link/swivel.hpp"
 #include "sinew/tendon/pair.hpp"
+#include "sinew/tendon/slide_drive.hpp"
 #include "sinew/tendon/swivel_drive.hpp"
 
 namespace sinew::inline v0 {
@@ -26,7 +30,11 @@ using PlanarLegs =
              Leg<Planar, Swivel<Arc>, SwivelDrive, Strut>, Leg<Planar, Swivel<Arc>, SwivelDrive, Pin>>;
 
 /// ... and of spatial leg.
-using SpatialLegs = TypeList<Leg<Spatial, Arc, TendonPair, Chord>>;
+using SpatialLegs =
+    TypeList<Leg<Spatial, Arc, TendonPair, Chord>, Leg<Spatial, Rail, SlideDrive, HingedStrut>>;
+
+/// Every kind of leg that bears load. They are not mixed with others.
+using LoadedLegs = TypeList<RodLeg>;
 
 /// A named architecture: legs all alike around the base and the platform.
 struct Architecture {
@@ -47,6 +55,8 @@ inline constexpr std::array architectures{
                  "planar, redundant: three tendon-driven links on motors, each with a rigid strut"},
     Architecture{"6-UFS", "spatial", 6, "arc", "chord", "TDPCR 4.1",
                  "spatial, six tendon-driven links between universal and spherical joints"},
+    Architecture{"3-PRS", "spatial", 3, "rail", "hinged_strut", "3PFS 3.1",
+                 "spatial, rigid: three carriages on rails, each with a strut on a hinge; it tilts and lifts"},
 };
 
 }  // namespace sinew::inline v0

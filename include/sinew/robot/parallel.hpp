@@ -13,6 +13,7 @@ namespace sinew::inline v0 {
 /// Where a leg's rows, link coordinates and inputs begin among the robot's.
 struct LegPlace {
   int row = 0, coordinate = 0, input = 0;
+  int plane = 0;         ///< row of its plane, if it has one: these follow after all others, [3PFS (17)]
   bool is_tied = false;  ///< its inputs are those of an earlier leg
 };
 
@@ -26,7 +27,7 @@ struct ParallelRobot {
   Pose home = {};              ///< where solvers start when told nothing else
   double platform_radius = 0;  ///< homogenises moments in the indices [m], > 0
   std::vector<LegPlace> places;
-  LegPlace total;  ///< number of rows, link coordinates, inputs
+  LegPlace total;  ///< number of rows, planes among them, link coordinates, inputs
 
   ParallelRobot() = default;
 
@@ -41,12 +42,15 @@ struct ParallelRobot {
       if (place.is_tied) place.input = places.at(static_cast<std::size_t>(tied[i])).input;
       places.push_back(place);
       with_leg(legs[i], [&]<class L>(const L&) {
-        total.row += L::rows;
+        total.row += L::driven_rows;
+        if (L::has_plane) ++total.plane;
         total.coordinate += L::coordinates;
         if (!place.is_tied) total.input += L::inputs;
       });
       total.is_tied = total.is_tied || place.is_tied;
     }
+    for (LegPlace& place : places) place.plane += total.row;
+    total.row += total.plane;
   }
 
   int leg_count() const { return static_cast<int>(legs.size()); }

@@ -2,17 +2,23 @@
 /// All memory a solve needs, taken once. Answers are views into it and hold until its next use.
 /// One workspace a thread; the robot itself is shared.
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "sinew/robot/any_robot.hpp"
 
 namespace sinew::inline v0 {
 
+struct RodWork;
+
 struct Workspace {
   /// Most solutions of one leg that are kept; an arc within a full turn either way has fewer.
   static constexpr int max_solutions = 8;
 
   SINEW_API explicit Workspace(const AnyRobot& robot);
+  SINEW_API ~Workspace();
+  SINEW_API Workspace(Workspace&&) noexcept;
+  SINEW_API Workspace& operator=(Workspace&&) noexcept;
 
   std::vector<double> coordinates;  ///< link coordinates, leg by leg
   std::vector<double> inputs;
@@ -23,6 +29,7 @@ struct Workspace {
   std::vector<int> solution_count;     ///< a leg; 1 for a leg whose inputs are another's
   std::vector<int> type_1;             ///< legs
   std::vector<LegState> legs;
+  std::unique_ptr<RodWork> rods;  ///< of a robot whose legs bear load; else null
 };
 
 }  // namespace sinew::inline v0

@@ -1,0 +1,111 @@
+/// @file equilibrium.hpp
+/// Forward and inverse kinematics of robots whose legs bear load: where a platform on rods comes to rest
+/// under a wrench, and which lengths hold it at wanted coordinates. Theory: docs/theory/rod_robot.md
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "sinew/robot/assembly.hpp"
+#include "sinew/robot/rod_reading.hpp"
+
+namespace sinew::inline v0 {
+
+/// A wrench (force [N], moment about the platform's reference point [N m]) in base axes, of the world on the
+/// platform.
+using SpatialWrench = Vec<double, 6>;
+
+struct EquilibriumOptions {
+  SpatialWrench wrench = SpatialWrench::Zero();
+  /// Where the search begins: the rods are laid to this pose, then let go. Default: the robot's home.
+  std::optional<SpatialPose> start = {};
+  /// Begin from the equilibrium the workspace holds, as a controller does whose inputs change a little. What
+  /// is found then depends on what was solved before.
+  bool resume = false;
+  int max_iterations = 4000;  ///< Newton steps of the whole path
+  /// A resumed answer too is asked for stability and resolution, and its coordinates are handed out. Without,
+  /// it is as quick as it can be: shapes to 1e-12 of the length.
+  bool judge = true;
+};
+
+/// Views into the workspace.
+struct Equilibrium {
+  Report report;  ///< `unstable` where the equilibrium does not hold by itself; all fields are then valid
+  SpatialPose pose;
+  std::span<const double> inputs;       ///< rod lengths [m]
+  std::span<const double> coordinates;  ///< of the legs, see RodLeg
+
+  /// Solved, stable or not.
+  bool is_solved() const noexcept { return report.ok() || report.status == Status::unstable; }
+};
+
+/// The platform on rods of these lengths, under a wrench. One Newton iteration on pose and rods together,
+/// along a path from the start: first the lengths, then the load. Residual: the largest of closure error over
+/// leg length, of force error over EI/L², and of the rods' own equations. Where the path ends early the
+/// report says why: rods pulled straight, a fold of the inputs, buckling under the load. No heap, no throw,
+/// bounded work.
+/// @implements 3PFS (25)-(30)
+SINEW_API Equilibrium equilibrium(const AnyRobot& robot, Numbers inputs, const EquilibriumOptions& options,
+                                  Workspace& work);
+
+/// Coordinates of a spatial pose that a robot with three inputs can be asked for; the others are parasitic.
+struct IndependentPose {
+  double z = 0;           ///< [m]
+  double e1 = 0, e2 = 0;  ///< of the platform's quaternion
+};
+
+/// Lengths that hold the platform at z, e₁, e₂, and where the parasitic coordinates x, y, e₃ come to rest.
+SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
+                                          const EquilibriumOptions& options, Workspace& work);
+
+/// What is known of the equilibrium a workspace holds.
+struct RodAnalysis {
+  std::array<double, 36> stiffness;  ///< ∂(F, M)/∂(p, φ) at fixed lengths, rows first, twist order
+  std::vector<double> feed;         ///< −∂(F, M)/∂inputs at a resting platform, 6 × inputs, rows first
+  std::vector<double> sensitivity;  ///< ∂(p, φ)/∂inputs at fixed load, 6 × inputs, rows first
+  int unstable_directions = 0;      ///< of the second variation, all rods free to move
+  std::vector<std::array<double, 6>> unstable;    ///< twists along which the platform's stiffness is negative
+  std::vector<std::array<int, 2>> unstable_rods;  ///< tip held: in the rod's plane, out of it
+  std::vector<RodReading> rods;
+  double energy = 0;          ///< of all rods [J]
+  double potential = 0;       ///< energy − F·p [J]; with a moment on the platform there is none: NaN
+  double smallest_pivot = 0;  ///< of the platform's stiffness, over the largest: 0 at a fold
+};
+
+/// Where the workspace's equilibrium is.
+SINEW_API SpatialPose held_pose(const Workspace& work);
+
+/// Allocates.
+SINEW_API RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work);
+
+/// Why a load path ended.
+enum class LoadEnd {
+  limit,        ///< the limit was reached
+  bifurcation,  ///< the equilibrium goes on, but no longer holds by itself
+  fold,         ///< there is no equilibrium nearby beyond this load
+};
+SINEW_API std::string_view to_string(LoadEnd end) noexcept;
+
+struct LoadPath {
+  double load = 0;  ///< factor of the direction that was reached
+  LoadEnd end = LoadEnd::limit;
+};
+
+/// Adds `direction` times a growing factor to the wrench of the equilibrium the workspace holds, up to
+/// `limit`. Afterwards the workspace holds the last stable equilibrium.
+SINEW_API LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit,
+                               Workspace& work);
+
+/// One of several equilibria at the same inputs and load.
+struct FoundEquilibrium {
+  SpatialPose pose;
+  std::vector<double> coordinates;
+  double residual = 0, potential = 0;
+  int unstable_directions = 0;
+};
+
+/// Equilibria found from many starts around home, in ascending order of energy: a lower bound of their
+/// number, never proven to be all. Allocates; takes tens of milliseconds.
+SINEW_API std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
+                                                   const SpatialWrench& wrench, Workspace& work);
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,207 @@
+#include "sinew/kinematics/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kinematics/rod_solve.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The robot of rods behind any robot; null where its legs bear no load.
+const ParallelRobot<RodLeg>* rods_of(const AnyRobot& robot) {
+  return std::get_if<ParallelRobot<RodLeg>>(&robot.model);
+}
+
+Equilibrium refused() {
+  Equilibrium answer;
+  answer.report.status = Status::left_domain;
+  answer.report.message.append("the legs of this robot bear no load: it has no equilibrium to find");
+  return answer;
+}
+
+RodQuestion question_of(const EquilibriumOptions& options) {
+  RodQuestion question;
+  question.wrench = options.wrench;
+  if (options.start) question.start = SE3<double>::from(*options.start);
+  question.resume = options.resume;
+  question.max_iterations = options.max_iterations;
+  question.judge = options.judge;
+  return question;
+}
+
+/// The state of the system into the workspace, and what is seen of it.
+Equilibrium answer_of(const Report& report, Workspace& work, bool with_coordinates) {
+  const RodSystem& system = work.rods->system;
+  Equilibrium answer;
+  answer.report = report;
+  answer.pose = spatial_pose(system.platform());
+  for (int k = 0; k < system.rods(); ++k) {
+    work.inputs[at(system.input_of(k))] = system.length(k);
+    if (with_coordinates)
+      system.get_rod(k, std::span(work.coordinates).subspan(at(k) * RodLeg::coordinates, RodLeg::coordinates));
+  }
+  answer.inputs = work.inputs;
+  if (with_coordinates) answer.coordinates = work.coordinates;
+  return answer;
+}
+
+double energy_of(const RodSystem& system) {
+  double energy = 0;
+  for (int k = 0; k < system.rods(); ++k) energy += system.rod(k).energy;
+  return energy;
+}
+
+/// A moment that keeps its axes has no potential.
+double potential_of(const RodSystem& system) {
+  if (system.wrench().tail<3>() != Vec3<double>::Zero()) return std::numeric_limits<double>::quiet_NaN();
+  return energy_of(system) - dot(Vec3<double>(system.wrench().head<3>()), system.platform().p);
+}
+
+}  // namespace
+
+Equilibrium equilibrium(const AnyRobot& robot, Numbers inputs, const EquilibriumOptions& options,
+                        Workspace& work) {
+  const auto* rods = rods_of(robot);
+  if (!rods) return refused();
+  const Report report =
+      solve_rods(*work.rods, SE3<double>::from(rods->home), inputs, question_of(options));
+  return answer_of(report, work, options.judge);
+}
+
+Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
+                                const EquilibriumOptions& options, Workspace& work) {
+  const auto* rods = rods_of(robot);
+  if (!rods) return refused();
+  const Report report = solve_rods_at(*work.rods, SE3<double>::from(rods->home),
+                                      {wanted.z, wanted.e1, wanted.e2}, question_of(options));
+  return answer_of(report, work, options.judge);
+}
+
+SpatialPose held_pose(const Workspace& work) {
+  return work.rods ? spatial_pose(work.rods->system.platform()) : SpatialPose{};
+}
+
+RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
+  RodAnalysis analysis;
+  if (!rods_of(robot)) return analysis;
+  RodSystem& system = work.rods->system;
+  system.evaluate();
+  system.linearise();
+  std::copy_n(system.stiffness().data(), 36, analysis.stiffness.begin());
+  const auto inputs = at(system.inputs());
+  analysis.sensitivity.resize(6 * inputs);
+  analysis.feed.resize(6 * inputs);
+  for (std::size_t k = 0; k < inputs; ++k) {
+    const RodSystem::Wrench feed = -system.feed_wrench(static_cast<int>(k));
+    std::array<double, 6> twist;
+    system.factors().solve(feed.data(), twist.data());
+    for (std::size_t r = 0; r < 6; ++r) {
+      analysis.sensitivity[r * inputs + k] = twist[r];
+      analysis.feed[r * inputs + k] = feed[static_cast<Eigen::Index>(r)];
+    }
+  }
+  std::array<double, 6> values;
+  std::array<double, 36> vectors;
+  symmetric_eigenvalues(system.stiffness(), values, vectors);
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (!(values[k] < 0)) continue;
+    analysis.unstable.emplace_back();
+    std::copy_n(vectors.begin() + static_cast<std::ptrdiff_t>(6 * k), 6, analysis.unstable.back().begin());
+  }
+  analysis.unstable_directions = unstable_directions(system);
+  for (int k = 0; k < system.rods(); ++k) {
+    analysis.rods.push_back(system.rod(k));
+    analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
+  }
+  analysis.energy = energy_of(system);
+  analysis.potential = potential_of(system);
+  analysis.smallest_pivot = system.factors().smallest_pivot();
+  return analysis;
+}
+
+std::string_view to_string(LoadEnd end) noexcept {
+  switch (end) {
+    case LoadEnd::limit: return "limit";
+    case LoadEnd::bifurcation: return "bifurcation";
+    case LoadEnd::fold: return "fold";
+  }
+  return "";
+}
+
+LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit, Workspace& work) {
+  if (!rods_of(robot) || !work.rods->is_solved) return {0, LoadEnd::fold};
+  RodSystem& system = work.rods->system;
+  system.evaluate();
+  system.linearise();
+  RodTarget target = present(system);
+  target.wrench += limit * direction;
+  const RodPathEnd end = follow(system, target, {.stop_at_instability = true}, work.rods->spare);
+  return {limit * end.progress, end.arrived           ? LoadEnd::limit
+                                : end.became_unstable ? LoadEnd::bifurcation
+                                                      : LoadEnd::fold};
+}
+
+namespace {
+
+/// The k-th of many starts around home: tilted, turned and moved by low-discrepancy numbers.
+SE3<double> scattered(const SE3<double>& home, double size, int k) {
+  const auto number = [&](int base) {  // van der Corput, in (−1, 1)
+    double value = 0, part = 1;
+    for (int n = k + 1; n > 0; n /= base) {
+      part /= base;
+      value += part * (n % base);
+    }
+    return 2 * value - 1;
+  };
+  const Vec3<double> shift = 0.4 * size * Vec3<double>(number(2), number(3), 0.5 * number(5) - 0.3);
+  const Vec3<double> turn(number(7), number(11), number(13));
+  return {home.p + shift, SO3<double>::exp(turn).compose(home.R)};
+}
+
+bool is_new(const std::vector<FoundEquilibrium>& found, const SE3<double>& pose, double size) {
+  return std::none_of(found.begin(), found.end(), [&](const FoundEquilibrium& other) {
+    const SE3<double> there = SE3<double>::from(other.pose);
+    return (there.p - pose.p).norm() < 1e-7 * size &&
+           there.R.inverse().compose(pose.R).log().norm() < 1e-7;
+  });
+}
+
+}  // namespace
+
+std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs, const SpatialWrench& wrench,
+                                         Workspace& work) {
+  constexpr int starts = 160;
+  std::vector<FoundEquilibrium> found;
+  const auto* rods = rods_of(robot);
+  if (!rods) return found;
+  const SE3<double> home = SE3<double>::from(rods->home);
+  RodSystem& system = work.rods->system;
+  const double size = home.p.norm();
+  for (int k = -1; k < starts; ++k) {
+    RodQuestion question;
+    question.wrench = wrench;
+    if (k >= 0) question.start = scattered(home, size, k);
+    const Report report = solve_rods(*work.rods, home, inputs, question);
+    if (!report.ok() && report.status != Status::unstable) continue;
+    if (!is_new(found, system.platform(), size)) continue;
+    FoundEquilibrium one;
+    one.pose = spatial_pose(system.platform());
+    one.coordinates.resize(at(system.rods()) * RodLeg::coordinates);
+    for (int rod = 0; rod < system.rods(); ++rod)
+      system.get_rod(rod, std::span(one.coordinates).subspan(at(rod) * RodLeg::coordinates, RodLeg::coordinates));
+    one.residual = report.residual;
+    one.potential = potential_of(system);
+    one.unstable_directions = unstable_directions(system);
+    found.push_back(std::move(one));
+  }
+  std::ranges::sort(found, {}, [](const FoundEquilibrium& one) {
+    return std::isfinite(one.potential) ? one.potential : one.pose.position[2];
+  });
+  return found;
+}
+
+}  // namespace sinew::inline v0

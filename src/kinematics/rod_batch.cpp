@@ -1,0 +1,138 @@
+#include "kinematics/rod_batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::inline v0 {
+namespace {
+
+constexpr double tolerance = 1e-12;
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+RodBatch::RodBatch(RodWork& work, const SE3<double>& home)
+    : work_(&work),
+      home_(home),
+      rods_(at(work.system.rods())),
+      before_(rods_.size()) {
+  for (int k = 0; k < work.system.rods(); ++k)
+    for (int lane = 0; lane < rod_lanes; ++lane) work.system.copy_rod(k, rods_[at(k)], lane);
+}
+
+void RodBatch::set_lengths(int lane, Numbers inputs) {
+  for (int k = 0; k < work_->system.rods(); ++k)
+    rods_[at(k)].length[lane] = inputs[at(work_->system.input_of(k))];
+}
+
+void RodBatch::to_lane(int lane) {
+  const RodSystem& system = work_->system;
+  for (int k = 0; k < system.rods(); ++k) system.copy_rod(k, rods_[at(k)], lane);
+  const SE3<double>& pose = system.platform();
+  for (int c = 0; c < 3; ++c) {
+    poses_.position[c][lane] = pose.p[c];
+    poses_.quaternion[c + 1][lane] = pose.R.v[c];
+  }
+  poses_.quaternion[0][lane] = pose.R.w;
+}
+
+void RodBatch::from_lane(int lane) {
+  RodSystem& system = work_->system;
+  for (int k = 0; k < system.rods(); ++k) system.take_rod(k, before_[at(k)], lane);
+  const auto& p = poses_before_.position;
+  const auto& q = poses_before_.quaternion;
+  system.set_platform({Vec3<double>(p[0][lane], p[1][lane], p[2][lane]),
+                       {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}});
+}
+
+/// One pose alone: from where the lane was, else from home.
+bool RodBatch::solve_lane(int lane, Numbers inputs, Status& status) {
+  RodSystem& system = work_->system;
+  RodQuestion question;
+  for (int k = 0; k < 6; ++k) question.wrench[k] = poses_.wrench[k][lane];
+  question.judge = false;
+  if (knows_[at(lane)]) {
+    from_lane(lane);
+    system.set_wrench(question.wrench);
+    system.evaluate();
+    work_->is_solved = system.linearise();
+    question.resume = true;
+  }
+  Report report = solve_rods(*work_, home_, inputs, question);
+  if (!work_->is_solved && question.resume) {
+    question.resume = false;
+    report = solve_rods(*work_, home_, inputs, question);
+  }
+  status = report.status;
+  knows_[at(lane)] = work_->is_solved;
+  if (!work_->is_solved) return false;
+  if (report.status == Status::unstable) status = Status::converged;  // stability is not asked here
+  if (system.is_fine()) system.coarsen();
+  to_lane(lane);
+  return true;
+}
+
+double RodBatch::worst() const {
+  double worst = 0;
+  for (int lane = 0; lane < rod_lanes; ++lane)
+    if (knows_[at(lane)] && !(poses_.error[lane] <= worst)) worst = poses_.error[lane];
+  return worst;
+}
+
+/// All lanes to their new lengths, as solve_rods resumes: kept factors, one renewal, kept again.
+void RodBatch::walk() {
+  rod_kernels::evaluate(rods_, true, poses_);
+  rod_kernels::step(rods_, false, poses_);
+  rod_kernels::evaluate(rods_, false, poses_);
+  double error = worst();
+  int renewals = 0;
+  for (int k = 0; k < 8 && !(error <= tolerance); ++k) {
+    const bool renews = renewals == 0 || (error > 3e-9 && renewals < 3);
+    if (renews) rod_kernels::linearise(rods_, poses_);
+    renewals += renews;
+    rod_kernels::step(rods_, renews, poses_);
+    rod_kernels::evaluate(rods_, false, poses_);
+    const double next = worst();
+    if (!(next < 0.3 * error) && !(next <= tolerance)) break;
+    error = next;
+  }
+}
+
+void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wrench,
+                     std::span<SE3<double>> poses, std::span<Status> statuses) {
+  const std::size_t inputs = at(work_->system.inputs()), count = poses.size();
+  if (count == 0) return;
+  const std::size_t stretch = (count + rod_lanes - 1) / rod_lanes;
+  for (int k = 0; k < 6; ++k) std::fill_n(poses_.wrench[k], rod_lanes, wrench[k]);
+  knows_.fill(false);
+  for (std::size_t step = 0; step < stretch; ++step) {
+    for (std::size_t k = 0; k < rods_.size(); ++k) before_[k] = rods_[k];
+    poses_before_ = poses_;
+    const auto row = [&](int lane) { return std::min(at(lane) * stretch + step, count - 1); };
+    for (int lane = 0; lane < rod_lanes; ++lane)
+      if (knows_[at(lane)]) set_lengths(lane, rows.subspan(row(lane) * inputs, inputs));
+    if (std::ranges::any_of(knows_, std::identity())) walk();
+    bool is_renewed = false;
+    for (int lane = 0; lane < rod_lanes; ++lane) {
+      Status status = Status::converged;
+      if (!knows_[at(lane)] || !(poses_.error[lane] <= tolerance)) {
+        is_renewed = true;
+        if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), status)) {
+          statuses[row(lane)] = status;
+          continue;
+        }
+      }
+      const auto& p = poses_.position;
+      const auto& q = poses_.quaternion;
+      poses[row(lane)] = {Vec3<double>(p[0][lane], p[1][lane], p[2][lane]),
+                          {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}};
+      statuses[row(lane)] = status;
+    }
+    if (is_renewed) {  // factors of the lanes that were solved alone
+      rod_kernels::evaluate(rods_, true, poses_);
+      rod_kernels::linearise(rods_, poses_);
+    }
+  }
+}
+
+}  // namespace sinew::inline v0

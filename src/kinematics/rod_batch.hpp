@@ -1,0 +1,35 @@
+/// @file rod_batch.hpp
+/// Many poses of one robot, eight at once in the lanes. The rows are cut into eight stretches of neighbours;
+/// each lane walks along its own, and a pose that does not come at once is solved alone.
+#pragma once
+#include "kinematics/rod_solve.hpp"
+
+namespace sinew::inline v0 {
+
+class RodBatch {
+ public:
+  /// Robot's system and home, see solve_rods; must outlive the batch. Allocates.
+  RodBatch(RodWork& work, const SE3<double>& home);
+
+  /// @param rows inputs of every pose, one after the other; @param poses, statuses one a row
+  /// Poses are to 1e-12 of the rods' length, as those of a resumed answer; stability is not asked.
+  void solve(std::span<const double> rows, const RodSystem::Wrench& wrench, std::span<SE3<double>> poses,
+             std::span<Status> statuses);
+
+ private:
+  void set_lengths(int lane, Numbers inputs);
+  void to_lane(int lane);
+  void from_lane(int lane);
+  bool solve_lane(int lane, Numbers inputs, Status& status);
+  double worst() const;
+  void walk();
+
+  RodWork* work_;
+  SE3<double> home_;
+  std::vector<CoarseRods> rods_;
+  std::vector<CoarseRods::State> before_;
+  PoseLanes poses_{}, poses_before_{};
+  std::array<bool, rod_lanes> knows_{};  ///< the lane is in equilibrium
+};
+
+}  // namespace sinew::inline v0

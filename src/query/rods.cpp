@@ -1,0 +1,229 @@
+#include "query/rods.hpp"
+
+#include <cmath>
+
+#include "sinew/analysis/shape.hpp"
+#include "sinew/io/read_pose.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+/// What is asked of an equilibrium beside it.
+struct Wanted {
+  bool stiffness = false, stability = false, margins = false, sensitivity = false;
+};
+
+Wanted read_want(Context& context) {
+  Wanted wanted;
+  const auto list = context.query.optional("want");
+  if (!list) return wanted;
+  for (const Reader& word : list->items()) {
+    const std::string name = word.choice({"stiffness", "stability", "margins", "sensitivity", "lines"});
+    if (name == "lines")
+      word.refuse("not_available", "legs that bear load have no lines; ask for stiffness");
+    wanted.stiffness = wanted.stiffness || name == "stiffness";
+    wanted.stability = wanted.stability || name == "stability";
+    wanted.margins = wanted.margins || name == "margins";
+    wanted.sensitivity = wanted.sensitivity || name == "sensitivity";
+  }
+  if (const auto of = context.query.optional("with_respect_to"))
+    of->fail("not_available", "sensitivity is by the inputs in this version; leave this out");
+  return wanted;
+}
+
+/// [fx, fy, fz, mx, my, mz].
+SpatialWrench read_wrench(const Reader& list) {
+  SpatialWrench wrench = SpatialWrench::Zero();
+  const auto items = list.items(6);
+  for (std::size_t k = 0; k < items.size() && k < 6; ++k)
+    wrench[static_cast<Eigen::Index>(k)] = items[k].quantity(k < 3 ? Dimension::force : Dimension::moment);
+  return wrench;
+}
+
+EquilibriumOptions read_options(Context& context) {
+  EquilibriumOptions options;
+  if (const auto wrench = context.query.optional("wrench")) options.wrench = read_wrench(*wrench);
+  if (context.max_iterations) options.max_iterations = *context.max_iterations;
+  return options;
+}
+
+/// A load that grows.
+struct Until {
+  SpatialWrench direction;
+  double limit = 0;
+};
+
+std::optional<Until> read_until(Context& context) {
+  auto asked = context.query.optional("until");
+  if (!asked) return {};
+  Until until;
+  until.direction =
+      read_wrench(asked->required("wrench", "direction of the load that is added: [fx, fy, fz, mx, my, mz]"));
+  until.limit = asked->required("limit", "largest factor of it").number(Range::positive());
+  asked->close();
+  return until;
+}
+
+Json rods_json(const RodAnalysis& analysis) {
+  Json legs = Json::array();
+  for (const RodReading& rod : analysis.rods) {
+    const Vec3<double> moment = rod.moment_0;
+    legs.push_back({{"length", rod.length},
+                    {"chord", rod.chord},
+                    {"force", to_json(rod.force)},
+                    {"force_0", to_json(rod.force)},
+                    {"moment_0", to_json(moment)},
+                    {"curvature_0", {rod.curvature_0.x(), rod.curvature_0.y()}},
+                    {"tip", to_json(rod.tip)},
+                    {"tip_angle", rod.tip_angle},
+                    {"energy", rod.energy}});
+  }
+  return legs;
+}
+
+Json rows_json(std::span<const double> numbers, std::size_t columns) {
+  return to_json(MatrixView(numbers.data(), static_cast<Eigen::Index>(numbers.size() / columns),
+                            static_cast<Eigen::Index>(columns)));
+}
+
+/// Largest bending strain of the rods, κ d/2: a rod between a clamped tangent and a free tip bends most at its
+/// base or where n·t is largest; the first integral ½EIκ² + n·t bounds it.
+double largest_strain(const AnyRobot& robot, const RodAnalysis& analysis) {
+  const auto& rods = std::get<ParallelRobot<RodLeg>>(robot.model);
+  double strain = 0;
+  for (std::size_t k = 0; k < analysis.rods.size(); ++k)
+    strain = std::max(strain, analysis.rods[k].largest_curvature * rods.legs[k].link.diameter / 2);
+  return strain;
+}
+
+void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analysis) {
+  Json& answer = context.answer;
+  if (wanted.stiffness) answer["stiffness"] = rows_json(analysis.stiffness, 6);
+  if (wanted.stability) {
+    answer["stable"] = analysis.unstable_directions == 0;
+    answer["unstable_directions"] = analysis.unstable_directions;
+    Json twists = Json::array();
+    for (const auto& twist : analysis.unstable) twists.push_back(to_json(std::span<const double>(twist)));
+    answer["unstable"] = std::move(twists);
+  }
+  if (wanted.margins)
+    answer["margins"] = {{"fold", analysis.smallest_pivot}, {"strain", largest_strain(context.robot, analysis)}};
+  if (wanted.sensitivity)
+    answer["sensitivity"] = rows_json(analysis.sensitivity, context.work.inputs.size());
+}
+
+/// The equilibrium the workspace holds, as both questions answer it.
+void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& wanted) {
+  context.report(found.report);
+  if (found.report.iterations > 0 || found.is_solved()) {
+    context.answer["iterations"] = found.report.iterations;
+    put_number(context.answer, "residual", found.report.residual);
+  }
+  if (!found.is_solved()) return;
+  const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
+  context.answer["pose"] = to_json(found.pose);
+  context.answer["inputs"] = to_json(found.inputs);
+  context.answer["legs"] = rods_json(analysis);
+  context.answer["energy"] = analysis.energy;
+  put_number(context.answer, "potential", analysis.potential);
+  put_wanted(context, wanted, analysis);
+}
+
+void put_all(Context& context, std::span<const double> inputs, const SpatialWrench& wrench) {
+  Json solutions = Json::array();
+  for (const FoundEquilibrium& one : equilibria(context.robot, inputs, wrench, context.work)) {
+    Json solution{{"pose", to_json(one.pose)},
+                  {"residual", one.residual},
+                  {"stable", one.unstable_directions == 0},
+                  {"unstable_directions", one.unstable_directions}};
+    put_number(solution, "potential", one.potential);
+    solutions.push_back(std::move(solution));
+  }
+  context.answer["count"] = solutions.size();
+  context.answer["complete"] = false;  // many starts, no proof
+  context.answer["solutions"] = std::move(solutions);
+}
+
+}  // namespace
+
+void answer_rods_forward(Context& context) {
+  const auto inputs = read_inputs(context, context.query.required("inputs", "rod lengths, in leg order"));
+  EquilibriumOptions options = read_options(context);
+  if (auto start = context.query.optional("start")) options.start = read_spatial_pose(std::move(*start));
+  const Wanted wanted = read_want(context);
+  const std::optional<Until> until = read_until(context);
+  const auto all = context.query.optional("all");
+  const bool want_all = all && all->boolean();
+  if (!context.ready()) return;
+
+  Equilibrium found = equilibrium(context.robot, inputs, options, context.work);
+  if (until && found.is_solved()) {
+    const LoadPath path = follow_load(context.robot, until->direction, until->limit, context.work);
+    context.answer["load"] = path.load;
+    context.answer["why"] = to_string(path.end);
+    found.pose = held_pose(context.work);
+  }
+  put_equilibrium(context, found, wanted);
+  if (want_all) put_all(context, inputs, options.wrench);
+}
+
+void answer_rods_inverse(Context& context) {
+  auto asked = context.query.required("independent", "{z, e1, e2}: a robot of three rod lengths holds these");
+  IndependentPose pose;
+  pose.z = asked.required("z").quantity(Dimension::length, Range::place());
+  pose.e1 = asked.required("e1").number(Range::between(-1, 1));
+  pose.e2 = asked.required("e2").number(Range::between(-1, 1));
+  asked.close();
+  const EquilibriumOptions options = read_options(context);
+  const Wanted wanted = read_want(context);
+  if (const auto all = context.query.optional("all"))
+    if (all->boolean()) all->fail("not_available", "of several solutions only the one nearest home is found");
+  if (!context.ready()) return;
+  put_equilibrium(context, inverse_equilibrium(context.robot, pose, options, context.work), wanted);
+}
+
+void answer_rods_velocity(Context& context) {
+  const auto inputs = read_inputs(context, context.query.required("inputs", "rod lengths, in leg order"));
+  EquilibriumOptions options = read_options(context);
+  if (auto start = context.query.optional("start")) options.start = read_spatial_pose(std::move(*start));
+  if (const auto twist = context.query.optional("twist"))
+    twist->fail("not_available", "rates of rods that a twist needs are not available in this version; U has them");
+  if (!context.ready()) return;
+  const Equilibrium found = equilibrium(context.robot, inputs, options, context.work);
+  context.report(found.report);
+  if (!found.is_solved()) return;
+  const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
+  Json& answer = context.answer;
+  const std::size_t columns = inputs.size();
+  answer["pose"] = to_json(found.pose);
+  answer["J"] = rows_json(analysis.stiffness, 6);
+  answer["K"] = rows_json(analysis.feed, columns);
+  answer["U"] = rows_json(analysis.sensitivity, columns);
+  std::vector<double> sigma(std::min<std::size_t>(3, columns));
+  const auto block = [&](std::size_t row) {
+    singular_values(MatrixView(&analysis.sensitivity[row * columns], 3, static_cast<Eigen::Index>(columns)), sigma);
+    return sigma.front();
+  };
+  answer["indices"] = {{"position", block(0)}, {"rotation", block(3)}};
+  answer["type_2"] = {{"singular", analysis.smallest_pivot < 1e-10}};
+  answer["residual"] = found.report.residual;
+  answer["legs"] = rods_json(analysis);
+}
+
+void answer_rods_shape(Context& context) {
+  const auto inputs = read_inputs(context, context.query.required("inputs", "rod lengths, in leg order"));
+  EquilibriumOptions options = read_options(context);
+  if (auto start = context.query.optional("start")) options.start = read_spatial_pose(std::move(*start));
+  const auto samples = context.query.optional("samples");
+  const int count = samples ? samples->integer(Range::between(2, 2000)) : 33;
+  if (!context.ready()) return;
+  const Equilibrium found = equilibrium(context.robot, inputs, options, context.work);
+  context.report(found.report);
+  if (!found.is_solved()) return;
+  context.answer["pose"] = to_json(found.pose);
+  put_shape(context.answer, any_shape(context.robot, found.pose, found.coordinates, count));
+  context.answer["frames"] = Json::array({to_json(found.pose)});
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,13 @@
+/// @file rods.hpp
+/// Handlers of the queries put to robots whose legs bear load.
+#pragma once
+#include "query/context.hpp"
+
+namespace sinew::inline v0 {
+
+void answer_rods_forward(Context& context);
+void answer_rods_inverse(Context& context);
+void answer_rods_velocity(Context& context);
+void answer_rods_shape(Context& context);
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,170 @@
+/// Single rods of a system, stable and not, against the exact elastica: indices of stability and what the
+/// estimate of truncation is worth; and one instruction set against another.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include "rod_robots.hpp"
+#include "sinew/link/elastica_map.hpp"
+
+namespace sinew::test {
+namespace {
+
+/// A system of one rod of unit length and stiffness. Only its rod is of interest: nothing else holds the platform.
+struct SingleRod {
+  RodSystem system{RodRobot{{rod_leg(Vec3<double>::Zero(), Vec3<double>::Zero(), 1)}, pose_of(level(0.9)), 1}};
+
+  /// Takes over an exact shape, at its tip. Evaluated.
+  double take(const Vec2<double>& local_force, const ElasticaState<double>& state) {
+    const auto& basis = GalerkinBasis<fine_nodes>::get();
+    std::array<ElasticaSection, fine_nodes> sections;
+    elastica_sections(local_force, basis.node, sections);
+    std::array<double, RodLeg::coordinates> x;
+    for (std::size_t j = 0; j < fine_nodes; ++j) x[j] = sections[j].angle;
+    x[fine_nodes] = state.force[0];
+    x[fine_nodes + 1] = state.force[1];
+    x[fine_nodes + 2] = 1;
+    const Vec3<double> lateral = Vec3<double>(0.6, 0.8, 0) * (state.tip[0] < 0 ? -1 : 1);
+    SE3<double> pose;
+    pose.p = Vec3<double>(0.6, 0.8, 0) * state.tip[0] + Vec3<double>(0, 0, state.tip[1]);
+    system.set_platform(pose);
+    if (state.tip[0] < 0)  // its coordinates are those of the side the tip lies on
+      for (std::size_t j = 0; j <= fine_nodes; ++j) x[j] = -x[j];
+    system.set_rod(0, x, lateral);
+    return system.evaluate(), system.rod_error();
+  }
+};
+
+TEST(RodStability, CountsTheUnstableDirectionsOfAllEquilibriaOfATip) {
+  RodRandom random(1);
+  SingleRod rod;
+  int stable = 0, in_plane = 0, aside = 0, inflected = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const double r = random.uniform(0.2, 0.99), angle = random.uniform(0.05, 3);
+    const ElasticaMap map = elastica_map({r * std::sin(angle), r * std::cos(angle)}, {.force_bound = 100});
+    for (const ElasticaEquilibrium& exact : map.equilibria) {
+      SCOPED_TRACE(testing::Message() << "local force " << exact.local_force.transpose());
+      if (exact.unstable_in_plane < 0) continue;
+      ASSERT_LT(rod.take(exact.local_force, exact.state), 0.1);
+      if (rod.system.truncation() > 1e-6) continue;  // not resolved, and settle() says so
+      ASSERT_TRUE(close_rods(rod.system));
+      rod.system.linearise();
+      const auto counted = rod.system.unstable_with_tip_held(0);
+      EXPECT_EQ(counted[0], exact.unstable_in_plane);
+      EXPECT_EQ(counted[1], exact.unstable_out_of_plane);
+      stable += exact.is_stable();
+      in_plane += exact.unstable_in_plane > 0;
+      aside += exact.unstable_out_of_plane > 0;
+      inflected += exact.inflections > 0;
+    }
+  }
+  EXPECT_GT(stable, 50);  // the samples were worth it
+  EXPECT_GT(in_plane, 50);
+  EXPECT_GT(aside, 50);
+  EXPECT_GT(inflected, 50);
+}
+
+TEST(RodStability, TruncationIsAnHonestEstimate) {
+  RodRandom random(2);
+  SingleRod rod;
+  for (const bool is_fine : {false, true}) {
+    int judged = 0, exceeded = 0;
+    double worst = 0, least = 1e300;
+    for (int trial = 0; trial < 2000; ++trial) {
+      const Vec2<double> local =
+          elastica_local_force(random.uniform(0, is_fine ? 150 : 20), random.uniform(-3.14159, 3.14159));
+      const ElasticaTangent exact = elastica_tangent(local);
+      const Mat<double, 2, 2> compliance = exact.compliance();
+      rod.take(local, exact.state);
+      if (!is_fine) rod.system.coarsen();
+      if (!close_rods(rod.system)) continue;
+      const double estimate = rod.system.truncation();
+      if (estimate < 1e-12 || estimate > 1e-6 || !(compliance.norm() < 1)) continue;
+      // the force it takes to hold the exact tip: how far the tip moves under what that is off
+      const RodReading reading = rod.system.rod(0);
+      const Vec2<double> force(exact.state.tip[0] < 0 ? -reading.lateral_force : reading.lateral_force,
+                               reading.axial_force);
+      const double error = (compliance * (force - exact.state.force)).norm() / estimate;
+      ++judged;
+      exceeded += error > 1;
+      worst = std::max(worst, error);
+      least = std::min(least, error);
+    }
+    std::printf("%s judged %d exceeded %d worst %g least %g\n", is_fine ? "fine" : "coarse", judged, exceeded, worst, least);
+    EXPECT_GT(judged, 300);
+    EXPECT_LT(exceeded, judged / 50);
+    EXPECT_LT(worst, 20);
+    EXPECT_GT(worst, 0.05);  // nor does it only frighten
+  }
+}
+
+/// All numbers of a Newton step and its outcome.
+std::vector<double> numbers_of_a_step() {
+  RodRandom random(3);
+  std::vector<double> numbers;
+  for (const int rods : {3, 8, 9})
+    for (const bool is_fine : {false, true})
+      for (const double far : {0.0, 1.0}) {  // shapes within 2.5 rad and beyond: two ways to a sine
+        const RodRobot robot = random.robot(rods, 0.2);
+        RodSystem system(robot);
+        EXPECT_TRUE(rest_at(system, random.near(home(robot), 0.02, 0.1)));
+        if (is_fine) system.refine();
+        system.set_platform(random.near(system.platform(), 1e-3, 1e-2));
+        system.set_wrench(random.wrench(5, 1));
+        if (far > 0)
+          for (int k = 0; k < rods; ++k) {
+            std::array<double, RodLeg::coordinates> x;
+            system.evaluate();
+            system.get_rod(k, x);
+            for (std::size_t j = 0; j < fine_nodes; ++j) x[j] += 3.0 * double(j) / double(fine_nodes);
+            system.set_rod(k, x, system.aim(k).lateral);
+          }
+        numbers.push_back(system.evaluate());
+        system.linearise();
+        numbers.insert(numbers.end(), system.stiffness().data(), system.stiffness().data() + 36);
+        const Wrench6 missing = system.missing(), feed = system.feed_wrench(rods - 1);
+        numbers.insert(numbers.end(), missing.data(), missing.data() + 6);
+        numbers.insert(numbers.end(), feed.data(), feed.data() + 6);
+        const std::vector<double> fed(std::size_t(rods), 1e-4);
+        RodSystem::Twist twist = RodSystem::Twist::Constant(1e-4);
+        if (far == 0) twist = system.step(true);
+        system.move(twist, fed);
+        system.evaluate(false);
+        const Wrench6 carried = system.step(false);
+        numbers.insert(numbers.end(), carried.data(), carried.data() + 6);
+        numbers.push_back(system.evaluate());
+        for (int k = 0; k < rods; ++k) {
+          const RodReading rod = system.rod(k);
+          numbers.insert(numbers.end(), rod.force.data(), rod.force.data() + 3);
+          numbers.insert(numbers.end(), {rod.tip_angle, rod.energy, rod.length});
+        }
+      }
+  return numbers;
+}
+
+TEST(RodLanes, AgreeWhateverTheInstructionSet) {
+  const std::vector<double> best = numbers_of_a_step();
+  const std::string best_name = rod_kernels::instruction_set();
+  int sets = 0;
+  for (const std::int64_t set : {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_SSSE3},
+                                 std::int64_t{HWY_EMU128}, std::int64_t{HWY_SCALAR}}) {
+    if ((hwy::SupportedTargets() & set) == 0) continue;
+    hwy::SetSupportedTargetsForTest(set);
+    hwy::GetChosenTarget().Update(set);
+    const std::string name = rod_kernels::instruction_set();
+    const std::vector<double> numbers = numbers_of_a_step();
+    std::printf("%s\n", name.c_str());
+    ASSERT_EQ(numbers.size(), best.size());
+    double worst = 0;
+    for (std::size_t k = 0; k < best.size(); ++k) worsen(worst, std::abs(numbers[k] - best[k]) / (1 + std::abs(best[k])));
+    EXPECT_LT(worst, 1e-11) << name << " beside " << best_name;
+    std::printf("%s %g\n", name.c_str(), worst);
+    hwy::SetSupportedTargetsForTest(0);
+    ++sets;
+  }
+  hwy::GetChosenTarget().DeInit();
+  EXPECT_EQ(rod_kernels::instruction_set(), best_name);
+  EXPECT_GT(sets, 0);
+}
+
+}  // namespace
+}  // namespace sinew::test
