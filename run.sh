@@ -37,7 +37,8 @@ if ! up_to_date; then
   flock 9
   if ! up_to_date; then  # another run may just have built it
     touch build/release/.started
-    build_preset release
+    # shellcheck disable=SC2086
+    build_preset release ${SINEW_CMAKE_ARGUMENTS-}
     mv build/release/.started "$stamp"
   fi
   exec 9>&-

@@ -31,8 +31,8 @@ struct Walk {
   Walk() {
     for (int i = 0; i < 1024; ++i) {
       const double t = 2 * std::numbers::pi * i / 256;
-      const ConstrainedPose at = constrained_pose(
-          robot, {0.5 + 0.03 * std::sin(2 * t), 0.15 * std::cos(t), 0.15 * std::sin(t) + 0.05 * std::cos(3 * t)});
+      const ConstrainedPose at = constrained_pose(robot, {0.5 + 0.03 * std::sin(2 * t), 0.15 * std::cos(t),
+                                                          0.15 * std::sin(t) + 0.05 * std::cos(3 * t)});
       if (!at.ok() || !inverse(robot, at.pose, {}, work).ok()) continue;
       poses.push_back(at.pose);
       inputs.emplace_back(work.inputs);
@@ -55,7 +55,8 @@ Six residuals_as_printed(const std::vector<PrsLeg>& legs, const SpatialPose& pos
   Six g;
   for (int i = 0; i < 3; ++i) {
     const PrsLeg& leg = legs[static_cast<std::size_t>(i)];
-    const Eigen::Vector3d u = leg.base.rotate(Vec3<double>(1, 0, 0)), k = leg.base.rotate(Vec3<double>(0, 1, 0));
+    const Eigen::Vector3d u = leg.base.rotate(Vec3<double>(1, 0, 0)),
+                          k = leg.base.rotate(Vec3<double>(0, 1, 0));
     const Eigen::Vector3d strut =
         p + R * Eigen::Vector3d(leg.platform_point) - Eigen::Vector3d(leg.base.p) - z[6 + i] * k;
     g[i] = (strut.squaredNorm() - leg.closure.length * leg.closure.length) / 2;
@@ -146,7 +147,8 @@ void compare_inverse() {
   double error = 0;
   for (std::size_t i = 0; i < walk->poses.size(); ++i) {
     const Inverse answer = inverse(walk->robot, walk->poses[i], {}, walk->work);
-    for (std::size_t k = 0; k < 3; ++k) error = std::max(error, std::abs(answer.inputs[k] - walk->inputs[i][k]));
+    for (std::size_t k = 0; k < 3; ++k)
+      error = std::max(error, std::abs(answer.inputs[k] - walk->inputs[i][k]));
   }
   compare({"3-prs inverse", "Newton on differences",
            [walk] {
@@ -156,7 +158,8 @@ void compare_inverse() {
            [walk] {
              const std::size_t i = walk->next();
              Nine z = Nine::Zero();
-             for (int k = 0; k < 3; ++k) z[6 + k] = walk->inputs[walk->before(i)][static_cast<std::size_t>(k)];
+             for (int k = 0; k < 3; ++k)
+               z[6 + k] = walk->inputs[walk->before(i)][static_cast<std::size_t>(k)];
              for (int iteration = 0; iteration < 20; ++iteration) {
                const Six g = residuals_as_printed(walk->legs(), walk->poses[i], z);
                if (g.head<3>().cwiseAbs().maxCoeff() < 1e-15) break;

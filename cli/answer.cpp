@@ -16,6 +16,8 @@ namespace {
 /// A text that begins with a field of the query, with the option of that field instead: `--pose.x` for
 /// `pose.x`.
 std::string as_option(std::string where) {
+  for (const auto& [path, option] : {std::pair("until.limit", "limit"), std::pair("until.wrench", "until")})
+    if (where.starts_with(path)) where.replace(0, std::string_view(path).size(), option);
   const std::string field = where.substr(0, where.find_first_of(".[ :"));
   std::string name = field;
   std::ranges::replace(name, '_', '-');
@@ -100,7 +102,7 @@ Errors Answer::errors() const {
 int exit_code(const Answer& answer) {
   if (answer.find("error")) return bad_input;
   const std::string status = answer.text("status");
-  if (status == "converged" || status == "unstable") return solved;
+  if (status == "converged") return solved;
   return status == "iteration_limit" ? stopped : no_solution;
 }
 

@@ -92,9 +92,12 @@ class Request {
   void poses(const Robot& robot);
   void inputs(std::string_view key, const Robot& robot);
   void twist(const Robot& robot);
+  void wrench(const Robot& robot);
+  void until(const Robot& robot);
   void signs(std::string_view key);
   void curvature();
   void word(std::string_view option, std::string_view key);
+  void words(std::string_view key);
   void whole_number(std::string_view option, std::string_view key);
   void set();
 
@@ -106,6 +109,7 @@ class Request {
   std::vector<double> values(std::string_view option, std::span<const std::string_view> parts,
                              std::span<const Dimension> dimensions, std::string_view per = {},
                              std::span<const std::string_view> names = {});
+  std::string wrench(std::string_view option, const Robot& robot);
 
   const Arguments& arguments_;
   std::string text_;
@@ -238,6 +242,49 @@ void Request::twist(const Robot& robot) {
          json_list(values("twist", parts, lengths_then(half, Dimension::angle, count - half), "/s")));
 }
 
+/// Forces, then moments, as JSON; nothing where there are not as many as the robot's space has.
+std::string Request::wrench(std::string_view option, const Robot& robot) {
+  const std::string& given = *arguments_.text(option);
+  const auto parts = split(given);
+  const std::size_t forces = robot.is_spatial ? 3 : 2, count = robot.is_spatial ? 6 : 3;
+  if (parts.size() != count) {
+    fail("wrong_length", option,
+         fmt::format("{}; {}.", counted(given, parts.size()),
+                     robot.is_spatial
+                         ? fmt::format("a spatial wrench has six, force and moment on the platform: --{} \"1 N, "
+                                       "-0.5 N, -5 N, 0.2 N m, 0.1 N m, -0.1 N m\"",
+                                       option)
+                         : fmt::format("a planar wrench has three, force and moment on the platform: --{} \"1 "
+                                       "N, -0.5 N, 0.2 N m\"",
+                                       option)));
+    return {};
+  }
+  std::vector<Dimension> dimensions(forces, Dimension::force);
+  dimensions.resize(count, Dimension::moment);
+  return json_list(values(option, parts, dimensions));
+}
+
+void Request::wrench(const Robot& robot) {
+  if (!arguments_.has("wrench")) return;
+  if (const std::string list = wrench("wrench", robot); !list.empty()) member("wrench", list);
+}
+
+/// A load that grows, and how far.
+void Request::until(const Robot& robot) {
+  const std::string *given = arguments_.text("until"), *limit = arguments_.text("limit");
+  if (given && !limit)
+    return fail("missing_option", "limit",
+                "--until needs it: how many times its wrench is added at most: --until \"0, 0, -1 N, 0, 0, 0\" "
+                "--limit 200.");
+  if (limit && !given)
+    return fail("no_effect", "limit", "it ends --until, which is not given; give both, or leave it out.");
+  if (!given) return;
+  const std::string list = wrench("until", robot);
+  const Expected<double> most = parse_quantity(*limit, Dimension::number);
+  if (!most) return fail(most.error().front().code, "limit", most.error().front().message);
+  if (!list.empty()) member("until", fmt::format(R"({{"wrench": {}, "limit": {}}})", list, si_text(*most)));
+}
+
 void Request::signs(std::string_view key) {
   const std::string* given = arguments_.text(key);
   if (!given) return;
@@ -263,6 +310,14 @@ void Request::curvature() {
 
 void Request::word(std::string_view option, std::string_view key) {
   if (const std::string* given = arguments_.text(option)) member(key, json_text(*given));
+}
+
+void Request::words(std::string_view key) {
+  const std::string* given = arguments_.text(key);
+  if (!given) return;
+  std::string list;
+  for (const std::string_view word : split(*given)) list += (list.empty() ? "" : ", ") + json_text(word);
+  member(key, "[" + list + "]");
 }
 
 void Request::whole_number(std::string_view option, std::string_view key) {
@@ -312,7 +367,16 @@ Expected<Robot> open(const Arguments& arguments) {
   for (const Node& input : description.find("inputs")->items)
     inputs.push_back({input.find("name")->text, input.find("unit")->text});
   const bool is_spatial = description.text("space") == "spatial";
-  return Robot{std::move(*session), std::move(description), std::move(inputs), is_spatial};
+  const bool is_on_rods = description.text("model") == "rod";
+  return Robot{std::move(*session), std::move(description), std::move(inputs), is_spatial, is_on_rods};
+}
+
+std::string at_home(const Robot& robot) {
+  const Node& home = *robot.description.find("home");
+  if (!robot.is_on_rods) return fmt::format(R"("pose": {})", as_json(home));
+  const auto number_at = [&](std::string_view path) { return si_text(number(home, path)); };
+  return fmt::format(R"("independent": {{"z": {}, "e1": {}, "e2": {}}})", number_at("position[2]"),
+                     number_at("quaternion[1]"), number_at("quaternion[2]"));
 }
 
 Expected<std::string> request(std::string_view query, const Arguments& arguments, const Robot& robot) {
@@ -329,6 +393,9 @@ Expected<std::string> request(std::string_view query, const Arguments& arguments
   request.signs("elbow");
   request.curvature();
   request.twist(robot);
+  request.wrench(robot);
+  request.until(robot);
+  request.words("want");
   request.word("objective", "objective");
   request.word("model", "model");
   request.word("theta-is", "theta_is");

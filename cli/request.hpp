@@ -20,12 +20,16 @@ struct Robot {
   Answer description;  ///< answer to `describe`
   std::vector<Input> inputs;
   bool is_spatial;
+  bool is_on_rods;  ///< its legs bear load
 
   /// The SI unit of all inputs; empty where they differ.
   std::string input_unit() const;
 };
 /// The robot that the command line names, as `--set` and `--theta-is` change it.
 Expected<Robot> open(const Arguments& arguments);
+
+/// The members of a query about the robot's home: its `pose`, of a robot on rods its `independent` coordinates.
+std::string at_home(const Robot& robot);
 
 /// The query that the options of a verb stand for (`--pose "10 mm, 0, 5 deg"`, `--set path=value`, ...), as
 /// JSON.

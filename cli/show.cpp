@@ -42,11 +42,19 @@ struct LegColumn {
 
 /// What legs may tell of themselves: a planar one its base tangent, one on a rail its slide.
 constexpr std::array all_leg_columns{
-    LegColumn{"tendon_1", "m", "tendon_lengths[0]"}, LegColumn{"tendon_2", "m", "tendon_lengths[1]"},
-    LegColumn{"curvature", "1/m", "curvature"},      LegColumn{"chord", "m", "chord"},
-    LegColumn{"joint_1", "rad", "joint_angles[0]"},  LegColumn{"joint_2", "rad", "joint_angles[1]"},
+    LegColumn{"tendon_1", "m", "tendon_lengths[0]"},  LegColumn{"tendon_2", "m", "tendon_lengths[1]"},
+    LegColumn{"curvature", "1/m", "curvature"},       LegColumn{"chord", "m", "chord"},
+    LegColumn{"joint_1", "rad", "joint_angles[0]"},   LegColumn{"joint_2", "rad", "joint_angles[1]"},
     LegColumn{"base_tangent", "rad", "base_tangent"}, LegColumn{"slide", "m", "slide"},
     LegColumn{"hinge_angle", "rad", "hinge_angle"},
+};
+
+constexpr std::array rod_columns{
+    LegColumn{"length", "m", "length"},           LegColumn{"force_x", "N", "force[0]"},
+    LegColumn{"force_y", "N", "force[1]"},        LegColumn{"force_z", "N", "force[2]"},
+    LegColumn{"moment_0_x", "N m", "moment_0[0]"}, LegColumn{"moment_0_y", "N m", "moment_0[1]"},
+    LegColumn{"moment_0_z", "N m", "moment_0[2]"}, LegColumn{"tip_angle", "rad", "tip_angle"},
+    LegColumn{"energy", "J", "energy"},
 };
 
 const Node* number_of(const Node& leg, const LegColumn& column) {
@@ -56,6 +64,8 @@ const Node* number_of(const Node& leg, const LegColumn& column) {
 
 /// Those that at least one of the legs has.
 std::vector<LegColumn> leg_columns(const Node& legs) {
+  if (!legs.items.empty() && legs.items.front().find("tip_angle"))
+    return {rod_columns.begin(), rod_columns.end()};
   std::vector<LegColumn> columns;
   std::ranges::copy_if(all_leg_columns, std::back_inserter(columns), [&](const LegColumn& column) {
     return std::ranges::any_of(legs.items, [&](const Node& leg) { return number_of(leg, column); });
@@ -194,7 +204,12 @@ std::string show_report(const Answer& answer) {
   Report report;
   report.residual = answer.number("residual").value_or(0);
   report.iterations = static_cast<int>(answer.number("iterations").value_or(0));
-  return to_string(report) + '\n';
+  std::string text = to_string(report);
+  if (is_on_rods(answer)) {
+    text.resize(text.size() - 2);  // a residual of rods is relative, and has no unit
+    text += ", stable";            // else the answer is not a converged one
+  }
+  return text + '\n';
 }
 
 }  // namespace sinew::cli

@@ -1,6 +1,7 @@
 /// @file show.hpp
 /// Answers as people read them: tables and a closing line of evidence.
 #pragma once
+#include <functional>
 #include <string>
 
 #include "request.hpp"
@@ -16,6 +17,10 @@ std::string show_pose(const Node& pose);
 /// @}
 
 std::string show_legs(const Node& legs);
+/// A matrix with headings; `factor` of row i and column j takes SI to what the headings say.
+std::string show_matrix(const Node& matrix, std::vector<std::string> header,
+                        const std::vector<std::string>& rows,
+                        const std::function<double(std::size_t, std::size_t)>& factor);
 /// One row an input; `per` ends its unit: `/s`.
 std::string show_inputs(std::string_view title, const std::vector<double>& values, const Robot& robot,
                         std::string_view per = {});
@@ -25,11 +30,24 @@ std::string show_working_modes(const Node& solutions, const Robot& robot);
 std::string show_assembly_modes(const Answer& answer);
 /// One row a pose of a path: pose, inputs, condition number.
 std::string show_path(const Node& rows, const Robot& robot);
+
+/// @name Robots on rods
+/// @{
+bool is_on_rods(const Answer& answer);
+/// What an answer has beside pose and legs: energies and what was wanted.
+std::string show_equilibrium(const Answer& answer, const Robot& robot);
+/// One row an equilibrium of the same inputs and load.
+std::string show_equilibria(const Answer& answer);
+std::string show_rod_velocity(const Answer& answer, const Robot& robot);
+/// @}
+
 /// J, K, U, indices, singularities.
 std::string show_velocity(const Answer& answer, const Robot& robot);
+/// U, or what has its form.
+std::string show_sensitivity(std::string_view title, const Node& matrix, const Robot& robot);
 std::string show_indices(const Answer& answer, const Robot& robot);
 std::string show_singularities(const Answer& answer);
-/// `converged in 4 iterations, residual 5.0e-14 m`.
+/// `converged in 4 iterations, residual 5.0e-14 m`; of rods `converged in 4 iterations, residual 5.0e-14, stable`.
 std::string show_report(const Answer& answer);
 
 }  // namespace sinew::cli

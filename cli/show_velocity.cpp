@@ -17,23 +17,6 @@ double largest(const Node& matrix) {
   return result;
 }
 
-/// A matrix with headings; `factor` of row i and column j takes SI to what the headings say.
-template <class Factor>
-std::string show_matrix(const Node& matrix, std::vector<std::string> header,
-                        const std::vector<std::string>& rows, Factor factor) {
-  const double scale = largest(matrix);
-  TextTable table(std::move(header));
-  for (std::size_t i = 0; i < matrix.items.size(); ++i) {
-    std::vector<std::string> row{rows.at(i)};
-    for (std::size_t j = 0; j < matrix.items[i].items.size(); ++j) {
-      const double entry = matrix.items[i].items[j].number;
-      row.push_back(std::abs(entry) <= 1e-12 * scale ? "0" : six_digits(entry * factor(i, j)));
-    }
-    table.add(std::move(row));
-  }
-  return table.text();
-}
-
 /// The rows of J and K: one a leg, of a pinned leg one a coordinate; those of planes come last.
 struct Rows {
   std::vector<std::string> names;
@@ -45,7 +28,8 @@ Rows rows_of(const Robot& robot) {
   const auto& legs = robot.description.find("legs")->items;
   std::vector<std::string> planes;
   for (std::size_t i = 0; i < legs.size(); ++i) {
-    if (at(legs[i], "closure.type")->text == "hinged_strut") planes.push_back(fmt::format("legs[{}].plane", i));
+    if (at(legs[i], "closure.type")->text == "hinged_strut")
+      planes.push_back(fmt::format("legs[{}].plane", i));
     if (at(legs[i], "closure.type")->text != "pin") {
       rows.names.push_back(fmt::format("legs[{}]", i));
       continue;
@@ -74,22 +58,6 @@ std::string show_equations(const Answer& answer, const Robot& robot) {
          show_matrix(*answer.find("K"), std::move(K), rows.names, si);
 }
 
-/// U maps inputs to the platform. Inputs of one unit: a ratio of lengths is one in any unit, the rest is in
-/// degrees and mm. Mixed inputs: rows and columns each have theirs.
-std::string show_sensitivity(const Node& matrix, const Robot& robot) {
-  const auto platform = pose_columns(robot.is_spatial);
-  const std::string unit = robot.input_unit();
-  std::vector<std::string> header{"U"}, rows;
-  for (const Input& input : robot.inputs)
-    header.push_back(unit.empty() ? fmt::format("{}[1/{}]", input.name, shown(input.unit).unit) : input.name);
-  for (const Input& row : platform)
-    rows.push_back(unit.empty() ? heading(row.name, row.unit)
-                                : fmt::format("{}[{}/{}]", row.name, shown(row.unit).unit, shown(unit).unit));
-  return show_matrix(matrix, header, rows, [&](std::size_t i, std::size_t j) {
-    return shown(platform[i].unit).factor / shown(robot.inputs[j].unit).factor;
-  });
-}
-
 std::string in_mm(const Node& point) {
   std::string text;
   constexpr std::string_view axes = "xyz";
@@ -112,6 +80,38 @@ std::string screw(const Answer& answer) {
 }
 
 }  // namespace
+
+std::string show_matrix(const Node& matrix, std::vector<std::string> header,
+                        const std::vector<std::string>& rows,
+                        const std::function<double(std::size_t, std::size_t)>& factor) {
+  const double scale = largest(matrix);
+  TextTable table(std::move(header));
+  for (std::size_t i = 0; i < matrix.items.size(); ++i) {
+    std::vector<std::string> row{rows.at(i)};
+    for (std::size_t j = 0; j < matrix.items[i].items.size(); ++j) {
+      const double entry = matrix.items[i].items[j].number;
+      row.push_back(std::abs(entry) <= 1e-12 * scale ? "0" : six_digits(entry * factor(i, j)));
+    }
+    table.add(std::move(row));
+  }
+  return table.text();
+}
+
+/// U maps inputs to the platform. Inputs of one unit: a ratio of lengths is one in any unit, the rest is in
+/// degrees and mm. Mixed inputs: rows and columns each have theirs.
+std::string show_sensitivity(std::string_view title, const Node& matrix, const Robot& robot) {
+  const auto platform = pose_columns(robot.is_spatial);
+  const std::string unit = robot.input_unit();
+  std::vector<std::string> header{std::string(title)}, rows;
+  for (const Input& input : robot.inputs)
+    header.push_back(unit.empty() ? fmt::format("{}[1/{}]", input.name, shown(input.unit).unit) : input.name);
+  for (const Input& row : platform)
+    rows.push_back(unit.empty() ? heading(row.name, row.unit)
+                                : fmt::format("{}[{}/{}]", row.name, shown(row.unit).unit, shown(unit).unit));
+  return show_matrix(matrix, header, rows, [&](std::size_t i, std::size_t j) {
+    return shown(platform[i].unit).factor / shown(robot.inputs[j].unit).factor;
+  });
+}
 
 std::string show_indices(const Answer& answer, const Robot& robot) {
   TextTable table({"index", "value"});
@@ -157,8 +157,9 @@ std::string show_singularities(const Answer& answer) {
 }
 
 std::string show_velocity(const Answer& answer, const Robot& robot) {
+  if (is_on_rods(answer)) return show_rod_velocity(answer, robot);
   std::string text = show_pose(*answer.find("pose")) + '\n' + show_equations(answer, robot) + '\n';
-  if (const Node* U = answer.find("U")) text += show_sensitivity(*U, robot) + '\n';
+  if (const Node* U = answer.find("U")) text += show_sensitivity("U", *U, robot) + '\n';
   text += show_indices(answer, robot) + '\n' + show_singularities(answer);
   if (const Node* rates = answer.find("rates"))
     text += '\n' + show_inputs("rate", numbers(rates), robot, "/s");

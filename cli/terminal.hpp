@@ -12,7 +12,7 @@ enum Exit : int {
   solved = 0,
   internal_error = 1,
   bad_input = 2,
-  no_solution = 3,
+  no_solution = 3,  ///< or one that does not hold by itself
   stopped = 4,  ///< by a limit, by a signal, or because nobody reads stdout any more
 };
 

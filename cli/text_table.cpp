@@ -55,6 +55,7 @@ std::string TextTable::text() const {
 Shown shown(std::string_view si_unit) {
   if (si_unit == "m") return {"mm", 1e3};
   if (si_unit == "rad") return {"deg", 180 / std::numbers::pi};
+  if (si_unit == "J") return {"mJ", 1e3};
   return {si_unit, 1};
 }
 

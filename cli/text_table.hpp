@@ -27,7 +27,7 @@ struct Shown {
   std::string_view unit;
   double factor;
 };
-/// mm for m, deg for rad, anything else as it is.
+/// mm for m, deg for rad, mJ for J, anything else as it is.
 Shown shown(std::string_view si_unit);
 
 /// `name[mm]`.

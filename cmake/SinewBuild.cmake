@@ -6,6 +6,8 @@ target_compile_options(sinew_options INTERFACE
   -Wnon-virtual-dtor -Wimplicit-fallthrough
   # No fast-math: NaN must stay visible. These two only drop errno and trap bookkeeping, never a rounding.
   -fno-math-errno -fno-trapping-math
+  # Public functions are inlined into their callers within the library although they are visible.
+  -fno-semantic-interposition
   # a*b+c is rounded the same way on every machine
   -ffp-contract=off)
 if(SINEW_WARNINGS_AS_ERRORS)

@@ -4,12 +4,12 @@
 
 # What building the library and the command and drawing figures needs, ...
 # shellcheck disable=SC2034
-build_packages=(build-essential cmake pkgconf libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
+build_packages=(build-essential cmake ninja-build pkgconf libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
                 libfmt-dev libexpected-dev libhwy-dev gnuplot-nox)
-# ... and what the tests and benchmarks need beside it.
+# ... and what the tests and benchmarks need beside it. ccache saves compiling the library again for the packaging tests.
 # shellcheck disable=SC2034
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
-               python3-yaml)
+               python3-yaml ccache)
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -82,12 +82,24 @@ run_logged() {
   say "$what: $((SECONDS - start)) s"
 }
 
-# build_preset PRESET: configures and builds build/PRESET, one at a time.
+# quick_tools: Ninja and ccache where they are installed, for trees not configured yet. Nothing needs them.
+quick_tools() {
+  if command -v ninja >/dev/null; then
+    export CMAKE_GENERATOR=${CMAKE_GENERATOR-Ninja}
+  fi
+  if command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache} CCACHE_DIR=${CCACHE_DIR-$PWD/build/ccache}
+    export CCACHE_DEPEND=1  # the compiler's own list of headers, so that nothing is preprocessed twice
+  fi
+}
+
+# build_preset PRESET [ARGUMENTS]: configures build/PRESET (with more arguments for cmake) and builds it, one at a time.
 build_preset() {
   local preset=$1 log=build/$1.log
   mkdir -p build
   : >"$log"
+  quick_tools
   say "building build/$preset (log: $log) ..."
-  run_logged "configuring $preset" "$log" cmake --preset "$preset" || return
+  run_logged "configuring $preset" "$log" cmake --preset "$@" || return
   run_logged "building $preset" "$log" cmake --build --preset "$preset" --parallel "$(nproc)"
 }

@@ -22,8 +22,9 @@ struct Checked {
 };
 
 Checked put_questions(Robot robot) {
-  const std::string at = fmt::format(R"("pose": {})", as_json(*robot.description.find("home")));
-  Answer home = ask(robot.session, R"({"query": "inverse", )" + at + "}"),
+  const std::string at = at_home(robot),
+                    want = robot.is_on_rods ? R"(, "want": ["sensitivity", "margins", "stability"])" : "";
+  Answer home = ask(robot.session, R"({"query": "inverse", )" + at + want + "}"),
          velocity = ask(robot.session, R"({"query": "velocity", )" + at + "}");
   return {std::move(robot), std::move(home), std::move(velocity)};
 }
@@ -142,7 +143,20 @@ std::string show_limits(const Node& inputs) {
   return table.text();
 }
 
+/// A home that rods rest at, and how they do.
+std::string show_rest(const Checked& checked) {
+  const Answer& home = checked.home;
+  if (home.find("error")) return "home\n" + show_pose(*checked.robot.description.find("home"));
+  if (!home.find("legs"))
+    return "home\n" + show_pose(*checked.robot.description.find("home")) + "\n" + home.text("status") + ": " +
+           home.text("message") + "\n";
+  return "home, at rest\n" + show_pose(*home.find("pose")) + '\n' +
+         show_inputs("value", numbers(home.find("inputs")), checked.robot) + '\n' + show_legs(*home.find("legs")) +
+         '\n' + show_equilibrium(home, checked.robot);
+}
+
 std::string show_home(const Checked& checked) {
+  if (checked.robot.is_on_rods) return show_rest(checked);
   std::string text = "home\n" + show_pose(*checked.robot.description.find("home"));
   if (!checked.home.converged())
     return text + "\n" + checked.home.text("status") + ": " + checked.home.text("message") + "\n";
@@ -185,7 +199,7 @@ void suspect(const Node& leg, std::size_t i, PerLeg& warnings) {
     warnings.add(
         i, fmt::format("the tendon offset of {} is more than a quarter of the length of {}; is a unit wrong?",
                        mm(offset), mm(length)));
-  if (diameter > length / 10)
+  if (length > 0 && diameter > length / 10)
     warnings.add(
         i,
         fmt::format("the diameter of {} is more than a tenth of the length of {}: too thick for an elastic "
@@ -196,7 +210,31 @@ void suspect(const Node& leg, std::size_t i, PerLeg& warnings) {
         i, fmt::format("Young's modulus of {} Pa is outside 1 kPa to 1 TPa; is a unit wrong?", si_text(E)));
 }
 
+/// The same of a rod, whose length is an input.
+void suspect_rod_at_home(const Node& leg, const Node& state, std::size_t i, PerLeg& warnings) {
+  const double length = number(state, "length"), diameter = number(leg, "link.diameter");
+  if (diameter > length / 10)
+    warnings.add(i, fmt::format("the diameter of {} is more than a tenth of its length at home, {}: too thick for "
+                                "a slender rod; is a unit wrong?",
+                                human(diameter, Dimension::length), human(length, Dimension::length)));
+}
+
+/// What Nitinol recovers from; steel yields long before.
+constexpr double most_strain = 0.08;
+
+void warn_of_rods(const Checked& checked) {
+  const Answer& home = checked.home;
+  if (home.find("error")) return;
+  if (!home.find("legs")) return message("warning: no lengths hold the platform at home: " + home.text("message"));
+  if (!home.converged()) message("warning: home is " + home.text("status") + ": " + home.text("message"));
+  if (const double strain = number(home.root(), "margins.strain"); strain > most_strain)
+    message(fmt::format("warning: at home the rods bend to a strain of {:.3g} %; few materials recover from more than "
+                        "{:.3g} %",
+                        100 * strain, 100 * most_strain));
+}
+
 void suspect_at_home(const Node& leg, const Node& state, std::size_t i, PerLeg& warnings) {
+  if (at(leg, "link.type")->text == "rod") return suspect_rod_at_home(leg, state, i, warnings);
   const double length = number(leg, "link.length"), chord = number(state, "chord");
   const double turns = std::abs(number(state, "curvature")) * length / (2 * std::numbers::pi);
   const bool is_stretched = at(leg, "closure.type")->text != "strut" && chord > 0.999 * length;
@@ -241,6 +279,7 @@ void warn(const Checked& checked) {
   warnings.each(
       [](const std::string& who, const std::string& what) { message("warning: " + who + ": " + what); });
   warn_of_freedoms(checked.robot.description);
+  if (checked.robot.is_on_rods) return warn_of_rods(checked);
   if (!checked.home.converged())
     message("warning: the home pose cannot be reached: " + checked.home.text("message"));
 }

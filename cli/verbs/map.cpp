@@ -41,7 +41,7 @@ Expected<Subject> subject(const Arguments& arguments, Robot& opened) {
   auto query = request("inverse", arguments, opened);
   if (!query) return tl::unexpected(query.error());
   query->pop_back();  // its closing brace
-  *query += fmt::format(R"(, "pose": {}}})", as_json(*opened.description.find("home")));
+  *query += fmt::format(", {}}}", at_home(opened));
   if (Errors errors = ask(opened.session, *query).errors(); !errors.empty())
     return tl::unexpected(std::move(errors));
   const Document tree = parse_json(*query, "query").value();
@@ -205,6 +205,10 @@ Errors refuse_file(const std::string& file, const PoseGrid& grid, const std::vec
 int run_map(const Arguments& arguments) {
   auto opened = open(arguments);
   if (!opened) return refuse("map", opened.error());
+  if (opened->is_on_rods)
+    return refuse("map", {{"not_available", arguments.operand(),
+                           "a map shows singularities of legs that close on the platform; this robot's bear load. "
+                           "Ask at one configuration: sinew analyse 3pfs-g2 --inputs \"0.44 m, 0.42 m, 0.41 m\""}});
   const std::vector<Input> axes = pose_columns(opened->is_spatial);
   if (std::ranges::none_of(axis_names, [&](std::string_view name) { return arguments.has(name); }))
     return refuse("map",

@@ -40,7 +40,7 @@ Series curve(const Node& points, const View& view, Mark mark, Colour colour, dou
 }
 
 /// As Fig. 10 of [TDPCR]: backbones, tendons, platform, joints, and the lines along which the closures pull.
-Panel picture(const Answer& shape, const View& view) {
+Panel picture(const Answer& shape, const View& view, const Node& legs) {
   Panel panel{.title = {},
               .x = {.label = std::string(view.x_name), .unit = "mm"},
               .y = {.label = std::string(view.y_name), .unit = "mm"},
@@ -56,40 +56,44 @@ Panel picture(const Answer& shape, const View& view) {
   };
   const Node& platform = *shape.find("platform");
   add(platform, platform.items.size() > 2 ? Mark::polygon : Mark::line, Colour::green, 1.5, "platform");
+  const auto is = [&](std::size_t i, std::string_view link) { return at(legs.items[i], "link.type")->text == link; };
   const auto& lines = shape.find("lines")->items;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    add(lines[i], Mark::dashed, Colour::vermillion, 1.5, once(i, "line of the leg"));
+    if (!is(i, "rod"))  // its tip is on the platform
+      add(lines[i], Mark::dashed, Colour::vermillion, 1.5, once(i, "line of the leg"));
   const auto& tendons = shape.find("tendons")->items;
   for (std::size_t i = 0; i < tendons.size(); ++i)
     for (std::size_t k = 0; k < tendons[i].items.size(); ++k)
-      if (!tendons[i].items[k].items.empty())  // a rail has none
+      if (!tendons[i].items[k].items.empty())  // rails and rods have none
         add(tendons[i].items[k], Mark::dashed, Colour::grey, 1, once(i + k, "tendon"));
   const auto& backbones = shape.find("backbones")->items;
-  const auto is_rail = [&](std::size_t i) { return tendons[i].items[0].items.empty(); };
   for (std::size_t i = 0; i < backbones.size(); ++i)
-    add(backbones[i], Mark::line, Colour::blue, 3, once(i, is_rail(i) ? "rail" : "backbone"));
+    add(backbones[i], Mark::line, Colour::blue, 3, once(i, is(i, "rail")  ? "rail"
+                                                            : is(i, "rod") ? "rod"
+                                                                           : "backbone"));
   add(*shape.find("base"), Mark::circles, Colour::black, 1.5);
   add(platform, Mark::circles, Colour::black, 1.5);
   return panel;
 }
 
 /// A spatial robot from the front and from above.
-Figure picture(const Answer& shape, bool is_spatial) {
+Figure picture(const Answer& shape, const Robot& robot) {
+  const Node& legs = *robot.description.find("legs");
   Figure figure;
   figure.title = shape.text("robot");
   figure.width = figure.height = 700;
-  if (is_spatial) {
-    figure.panels = {picture(shape, {0, 2, "x", "z"}), picture(shape, {0, 1, "x", "y"})};
+  if (robot.is_spatial) {
+    figure.panels = {picture(shape, {0, 2, "x", "z"}, legs), picture(shape, {0, 1, "x", "y"}, legs)};
     figure.columns = 2;
     figure.width = 1400;
   } else {
-    figure.panels = {picture(shape, {0, 1, "x", "y"})};
+    figure.panels = {picture(shape, {0, 1, "x", "y"}, legs)};
   }
   return figure;
 }
 
 /// The robot's shape at the asked configuration, default its home. Nothing where it has none; `exit` then
-/// says why.
+/// says why. An unstable one is drawn, and `exit` says that it is none that holds.
 std::optional<Figure> robot_figure(const Arguments& arguments, int& exit) {
   auto robot = open(arguments);
   auto query = robot ? request("shape", arguments, *robot) : tl::unexpected(robot.error());
@@ -98,8 +102,14 @@ std::optional<Figure> robot_figure(const Arguments& arguments, int& exit) {
     return {};
   }
   if (!arguments.has("pose") && !arguments.has("independent") && !arguments.has("inputs")) {
+    if (robot->is_on_rods && robot->inputs.size() != 3) {
+      exit = refuse("plot", {{"missing_option", "",
+                              fmt::format("--inputs is missing: which lengths have the {} rods?",
+                                          robot->inputs.size())}});
+      return {};
+    }
     query->pop_back();  // its closing brace
-    *query += fmt::format(R"(, "pose": {}}})", as_json(*robot->description.find("home")));
+    *query += fmt::format(", {}}}", at_home(*robot));
   }
   const Answer shape = ask(robot->session, *query);
   exit = exit_code(shape);
@@ -107,7 +117,8 @@ std::optional<Figure> robot_figure(const Arguments& arguments, int& exit) {
     refuse("plot", errors);
   else if (!shape.converged())
     message(fmt::format("plot {}: {}: {}", shape.text("robot"), shape.text("status"), shape.text("message")));
-  return exit == solved ? std::optional(picture(shape, robot->is_spatial)) : std::nullopt;
+  if (!shape.find("backbones")) return {};
+  return picture(shape, *robot);
 }
 
 const Column* column(const Table& table, std::string_view name, std::string_view option, Errors& errors) {
@@ -202,7 +213,7 @@ int run_plot(const Arguments& arguments) {
   if (!written) return refuse("plot", written.error());
   if (!arguments.has("quiet"))
     for (const auto& path : *written) print(path.string() + '\n');
-  return solved;
+  return exit;
 }
 
 }  // namespace sinew::cli

@@ -12,10 +12,14 @@ std::string show(const Answer& answer, const Robot& robot) {
   const std::string query = answer.text("query");
   if (query == "velocity") return show_velocity(answer, robot);
   const bool is_forward = query == "forward";
-  std::string text = is_forward ? show_pose(*answer.find("pose"))
-                                : show_inputs("value", numbers(answer.find("inputs")), robot);
+  std::string text =
+      is_forward ? "" : show_inputs("value", numbers(answer.find("inputs")), robot);
+  if (is_forward || is_on_rods(answer)) text += (text.empty() ? "" : "\n") + show_pose(*answer.find("pose"));
   text += '\n' + show_legs(*answer.find("legs"));
-  if (const Node* solutions = answer.find("solutions"))
+  if (is_on_rods(answer)) {
+    text += '\n' + show_equilibrium(answer, robot);
+    if (answer.find("solutions")) text += '\n' + show_equilibria(answer);
+  } else if (const Node* solutions = answer.find("solutions"))
     text += '\n' + (is_forward ? show_assembly_modes(answer) : show_working_modes(*solutions, robot));
   return text;
 }
@@ -54,7 +58,7 @@ int run_question(const Arguments& arguments) {
   if (!robot) return refuse_question(arguments, robot.error());
   const auto answer = put(arguments.verb == "analyse" ? "velocity" : arguments.verb, arguments, *robot);
   if (!answer) return refuse_question(arguments, answer.error());
-  const bool can_show = answer->converged() || answer->find("J");
+  const bool can_show = answer->converged() || answer->text("status") == "unstable" || answer->find("J");
   return conclude(*answer, arguments, can_show ? show(*answer, *robot) : "");
 }
 

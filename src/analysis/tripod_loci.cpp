@@ -54,7 +54,8 @@ double tripod_determinant(const TripodSize& size, double e1, double e2) {
   const SO3<double> turn{std::sqrt(rest), Vec3<double>(e1, e2, 0)};
   const std::array<double, 3> radial = radial_positions(e1, e2);
   // of (8): the third is minus the second turned on by 120°
-  const std::array<Vec3<double>, 3> axes{Vec3<double>(1, 0, 0), Vec3<double>(-0.5, 0.5 * std::numbers::sqrt3, 0),
+  const std::array<Vec3<double>, 3> axes{Vec3<double>(1, 0, 0),
+                                         Vec3<double>(-0.5, 0.5 * std::numbers::sqrt3, 0),
                                          Vec3<double>(0.5, 0.5 * std::numbers::sqrt3, 0)};
   Eigen::Matrix<double, 6, 6, Eigen::RowMajor> J;
   for (int i = 0; i < 3; ++i) {

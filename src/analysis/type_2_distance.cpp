@@ -31,7 +31,8 @@ struct Line {
     if (!spatial || plane_count(robot) == 0) return true;
     const SpatialPose moved = Spatial::moved(*spatial, Vec<double, 6>(step * direction));
     const double radius = std::visit([](const auto& r) { return r.platform_radius; }, robot.model);
-    return gap(std::get<SpatialPose>(settled(robot, moved)), moved, radius) < 0.5 * gap(moved, *spatial, radius);
+    return gap(std::get<SpatialPose>(settled(robot, moved)), moved, radius) <
+           0.5 * gap(moved, *spatial, radius);
   }
 
   AnyPose at(double s) const {

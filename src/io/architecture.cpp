@@ -200,12 +200,12 @@ class Expansion {
     }
     for (const std::string_view key : {"direction", "directions"})
       if (base.has(key))
-        base.fail("no_effect",
-                  is_on_rails_
-                      ? fmt::format("{} has no effect: the rails of a short form stand upright; list the legs",
-                                    key)
-                      : fmt::format("{} has no effect: the legs of a {} turn at their base; remove it", key,
-                                    architecture_->name));
+        base.fail(
+            "no_effect",
+            is_on_rails_
+                ? fmt::format("{} has no effect: the rails of a short form stand upright; list the legs", key)
+                : fmt::format("{} has no effect: the legs of a {} turn at their base; remove it", key,
+                              architecture_->name));
     return {};
   }
 

@@ -33,6 +33,8 @@ constexpr std::string_view hex(Colour colour) {  // Okabe & Ito, Color Universal
       return "#f0e442";
     case Colour::grey:
       return "#999999";
+    case Colour::white:
+      return "#ffffff";
   }
   return "#000000";
 }
@@ -90,26 +92,64 @@ std::string data_block(const std::string& name, const HeatMap& map) {
   return text + "EOD\n";
 }
 
+/// Between the outer edges of the cells.
+std::array<double, 2> frame(const std::vector<double>& places) {
+  const double half = std::abs(spacing(places)) / 2;
+  const auto [low, high] = std::ranges::minmax(places);
+  return {low - half, high + half};
+}
+
+/// The map's frame and back along a closed curve, the other way round: no rule of filling, even or winding,
+/// then fills what is inside. The frame is no larger: gnuplot does not clip a polygon with a seam as it
+/// should. One point a line.
+std::string outside_block(const std::string& name, const Series& series, const HeatMap& map) {
+  const std::size_t count = std::min(series.x.size(), series.y.size());
+  const auto [left, right] = frame(map.x);
+  const auto [low, high] = frame(map.y);
+  double twice_area = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = (i + 1) % count;
+    twice_area += series.x[i] * series.y[next] - series.x[next] * series.y[i];
+  }
+  std::string text = name + " << EOD\n";
+  const auto add = [&text](double x, double y) { text += si_text(x) + ' ' + si_text(y) + '\n'; };
+  for (const auto& [x, y] : {std::array{left, low}, {left, high}, {right, high}, {right, low}, {left, low}})
+    add(x, y);
+  for (std::size_t i = 0; i <= count && count > 0; ++i) {
+    const std::size_t k = twice_area > 0 ? i % count : (count - i) % count;
+    add(series.x[k], series.y[k]);
+  }
+  add(left, low);
+  return text + "EOD\n";
+}
+
+std::string series_block(const Panel& panel, const std::string& name, const Series& series) {
+  const bool is_edge = series.mark == Mark::outside && panel.map.has_value();
+  return is_edge ? outside_block(name, series, *panel.map) : data_block(name, series);
+}
+
 /// The colours and their bar, for which gnuplot leaves too little room, and the frame just around the cells.
 std::string map_lines(const HeatMap& map) {
   const auto range = [](char axis, const std::vector<double>& places) {
-    const double half = std::abs(spacing(places)) / 2;
-    const auto [low, high] = std::ranges::minmax(places);
-    return fmt::format("  set {}range [{}:{}]\n", axis, si_text(low - half), si_text(high + half));
+    const auto [low, high] = frame(places);
+    return fmt::format("  set {}range [{}:{}]\n", axis, si_text(low), si_text(high));
   };
   // Cividis (Nuñez, Anderton, Renslow 2018), at equal steps.
   return fmt::format(
-      "{}{}  set cbrange [{}:{}]\n  set cblabel {}\n  unset grid\n  set rmargin 9\n"
+      "{}{}{}  set cbrange [{}:{}]\n  set cblabel {}\n  unset grid\n  set rmargin 9\n"
       "  set palette defined (0 '#00224e', 1 '#123570', 2 '#3b496c', 3 '#575d6d', 4 '#707173', 5 '#8a8678', "
       "6 '#a59c74', 7 '#c3b369', 8 '#e1cc55', 9 '#fee838')\n",
-      range('x', map.x), range('y', map.y), bound(map.low), bound(map.high), literal(map.label));
+      range('x', map.x), range('y', map.y), map.log ? "  set logscale cb\n" : "", bound(map.low),
+      bound(map.high), literal(map.label));
 }
 
-/// Cells reach a little over their neighbours: else the page shines through where two edges are smoothed.
+/// Cells reach a little over their neighbours, the further the smaller they are: else the page shines through
+/// where two edges are smoothed.
 std::string map_stroke(const HeatMap& map, std::size_t panel) {
-  constexpr double reach = 0.52;
-  const std::string x = si_text(std::abs(spacing(map.x)) * reach),
-                    y = si_text(std::abs(spacing(map.y)) * reach);
+  const auto reach = [](const std::vector<double>& places) {
+    return si_text(std::abs(spacing(places)) * (0.52 + 0.001 * static_cast<double>(places.size())));
+  };
+  const std::string x = reach(map.x), y = reach(map.y);
   return fmt::format(
       "{} using 1:2:($1-{}):($1+{}):($2-{}):($2+{}):3 with boxxyerror fs solid 1 noborder lc palette notitle",
       map_name(panel), x, x, y, y);
@@ -138,6 +178,8 @@ std::vector<std::string> strokes(const Series& series) {
               fmt::format("with lines {} lw {} dt 1", colour, width)};
     case Mark::outline:
       return {fmt::format("with lines {} lw {} dt 1", colour, width)};
+    case Mark::outside:
+      return {"with filledcurves closed lc rgb '#ffffff' fs solid 1 noborder"};
   }
   return {};
 }
@@ -191,6 +233,7 @@ std::string panel_lines(const Panel& panel, std::size_t index) {
     separator = ", \\\n       ";
   }
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
+    if (panel.series[i].mark == Mark::outside && !panel.map) continue;  // nothing lies outside
     const std::vector<std::string> all = strokes(panel.series[i]);
     for (std::size_t k = 0; k < all.size(); ++k) {
       const std::string& label = panel.series[i].label;
@@ -200,9 +243,10 @@ std::string panel_lines(const Panel& panel, std::size_t index) {
       separator = ", \\\n       ";
     }
   }
-  if (panel.series.empty() && !panel.map)
-    text += "  plot NaN notitle";  // an empty frame, and the grid stays in step
-  return text + "\n" + (panel.map ? std::string(grid) + "  set rmargin -1\n" : "");
+  if (separator == "  plot ") text += "  plot NaN notitle";  // an empty frame, and the grid stays in step
+  if (!panel.map) return text + "\n";
+  return text + "\n" + std::string(grid) + "  set rmargin -1\n" +
+         (panel.map->log ? "  unset logscale cb\n" : "");
 }
 
 std::string terminal_line(FigureFormat format, double width, double height) {
@@ -237,7 +281,7 @@ std::string header_lines(const Figure& figure, const std::string& name, const Fi
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     if (figure.panels[p].map) text += data_block(map_name(p), *figure.panels[p].map) + '\n';
     for (std::size_t s = 0; s < figure.panels[p].series.size(); ++s)
-      text += data_block(data_name(p, s), figure.panels[p].series[s]) + '\n';
+      text += series_block(figure.panels[p], data_name(p, s), figure.panels[p].series[s]) + '\n';
   }
   for (const FigureFormat format : options.formats)
     formats += fmt::format("{}{}", formats.empty() ? "" : " ", extension(format));

@@ -1,37 +1,34 @@
 /// @file circle_polynomial.hpp
-/// Two of three angles eliminated: a trigonometric polynomial of degree 8 in the one that is left, whose real
-/// roots are the places where the platform can fit. Theory: docs/theory/tripod_rigid.md
+/// Two of three angles eliminated: a trigonometric polynomial F of degree 8 in the one that is left. It
+/// vanishes where the platform can fit, so it counts the modes: at most sixteen. Theory:
+/// docs/theory/tripod_rigid.md
 #pragma once
-#include <array>
 #include <complex>
+#include <optional>
 
 #include "kinematics/three_circles.hpp"
 
 namespace sinew::inline v0 {
 
-/// F(t) = Re Σ cₖ e^{ikt}, |F| ≤ about 1.
+/// F is evaluated as it is, never by its coefficients: between its roots it may be 1e-10 of its largest
+/// value.
 class CirclePolynomial {
  public:
-  static constexpr int degree = 8;
-
   /// Of the angle of circle `first`.
   CirclePolynomial(const ThreeCircles& circles, std::size_t first);
 
-  struct Value {
-    double value, rate, rate_rate;
-  };
-  Value at(double t) const;
+  /// Largest |F| of some angles, against the terms it is the difference of: 0 where every angle is a root.
+  double strength() const;
 
-  /// Largest |F| against the terms it is the difference of: 0 where every angle is a root.
-  double strength() const { return strength_; }
-  /// Rounding of a value of F, as the harmonics above the eighth show it.
-  double noise() const { return noise_; }
-  /// Bound on |F‴|.
-  double third_bound() const { return third_; }
+  /// How many roots are real, or nearer to that than `margin` [rad], multiple ones as often as they are, by
+  /// the argument principle; none where that cannot be told.
+  std::optional<int> count_real(double margin) const;
 
  private:
-  std::array<std::complex<double>, degree + 1> c_;
-  double strength_ = 0, noise_ = 0, third_ = 0;
+  /// F at an angle, over its terms: a positive factor that does not change its argument.
+  std::complex<double> at(const std::complex<double>& t) const;
+
+  Mat<double, 3, 3> to_second_, to_third_, between_;
 };
 
 }  // namespace sinew::inline v0

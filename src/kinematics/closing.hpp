@@ -40,7 +40,8 @@ class Closing {
         system.jacobian.row(row++).template tail<unknowns - D>() /= size_;
       };
       const double beside = dot(leg.normal, n), miss = std::abs(length - leg.distance);
-      system.error = std::max(system.error, leg.has_plane() ? std::sqrt(miss * miss + beside * beside) : miss);
+      system.error =
+          std::max(system.error, leg.has_plane() ? std::sqrt(miss * miss + beside * beside) : miss);
       if (leg.distance > 0) {
         put(0.5 * (length - leg.distance) * (length + leg.distance), n);
         if (leg.has_plane()) put(beside * size_, leg.normal * size_);  // of the size of the others

@@ -106,19 +106,25 @@ class Settling {
       const Vec3<double> b = platform.rotate(plane.point);
       system.residual[i] = dot(plane.normal, platform.p + b - plane.through);
       system.jacobian.row(i) = Spatial::line(plane.normal, b);
-      system.jacobian.row(i).tail<3>() /= planes_.size;
+      system.jacobian.row(i).tail<3>() /= arm();
       system.error = std::max(system.error, std::abs(system.residual[i]));
     }
     return true;
   }
 
   Point moved(const Point& platform, Vec<double, 6> step) const {
-    step.tail<3>() /= planes_.size;
+    step.tail<3>() /= arm();
     return platform.displaced(step);
   }
-  double shortened(const Vec<double, 6>& step) const { return 1 / std::max(1.0, 2 * step.norm() / planes_.size); }
+  /// At most half a radian and half the robot a step.
+  double shortened(const Vec<double, 6>& step) const {
+    return 1 / std::max({1.0, 2 * step.head<3>().norm() / planes_.size, 2 * step.tail<3>().norm() / arm()});
+  }
 
  private:
+  /// A turn counts as if it moved a point this far out: shifts come first.
+  double arm() const { return 1e3 * planes_.size; }
+
   const Planes& planes_;
 };
 
@@ -134,7 +140,8 @@ ConstrainedPose refused(std::string_view why) {
 ConstrainedPose constrained_pose(const AnyRobot& robot, const Independent& independent, OperationMode mode) {
   const Planes planes = planes_of(robot);
   if (planes.count != 3)
-    return refused("z, e1 and e2 determine the pose of a platform that three hinges hold in planes, and no other");
+    return refused(
+        "z, e1 and e2 determine the pose of a platform that three hinges hold in planes, and no other");
   if (!std::isfinite(independent.z)) return refused("z is not a finite number");
   if (!(independent.e1 * independent.e1 + independent.e2 * independent.e2 <= 1))
     return refused("e1 and e2 are components of a unit quaternion: their squares sum up to 1 at most");

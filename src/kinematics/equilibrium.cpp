@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kinematics/rod_solve.hpp"
+#include "kinematics/rod_batch.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -79,6 +79,16 @@ Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wa
   const Report report = solve_rods_at(*work.rods, SE3<double>::from(rods->home),
                                       {wanted.z, wanted.e1, wanted.e2}, question_of(options));
   return answer_of(report, work, options.judge);
+}
+
+void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
+                       std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work) {
+  std::fill(statuses.begin(), statuses.end(), Status::left_domain);
+  const auto* rods = rods_of(robot);
+  if (!rods || statuses.size() != poses.size() || rows.size() != poses.size() * at(rods->total.input)) return;
+  std::vector<SE3<double>> found(poses.size());
+  RodBatch(*work.rods, SE3<double>::from(rods->home)).solve(rows, wrench, found, statuses);
+  std::transform(found.begin(), found.end(), poses.begin(), spatial_pose);
 }
 
 SpatialPose held_pose(const Workspace& work) {

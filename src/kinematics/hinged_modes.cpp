@@ -9,135 +9,136 @@
 #include "kinematics/four_bars.hpp"
 #include "kinematics/sort_poses.hpp"
 #include "kinematics/three_circles.hpp"
-#include "sinew/solve/roots.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 constexpr double same_pose = 1e-6;  // a double mode is known to the root of the rounding error only
-constexpr double near_touch = 1e-7;  // of |F|: an extremum this small is tried for modes that merge
+constexpr int samples = 720;        // of the first angle; ten times as many where a root is missed
+/// Roots of the polynomial this near to a real one count as real [rad]: where a pair of complex ones is near,
+/// the smaller one tells.
+constexpr std::array margins{1e-3, 1e-5};
 
-/// Angles at which A + B cos t + C sin t vanishes; where the circle hardly meets zero, where it comes nearest;
-/// where every angle does, eight all round.
-struct Starts {
-  int count = 0;
-  std::array<Vec2<double>, 8> at;
-  bool are_complex = false;  ///< no real angle comes near
+/// The two angles at which A + B cos t + C sin t vanishes; where it has none, twice the one at which it comes
+/// nearest.
+std::array<Vec2<double>, 2> zeros(const Vec3<double>& form) {
+  const double square = form[1] * form[1] + form[2] * form[2];
+  if (!(square > 0)) return {Vec2<double>(1, 0), Vec2<double>(-1, 0)};
+  const double slope = std::sqrt(square), along = std::clamp(-form[0] / slope, -1.0, 1.0);
+  const Vec2<double> n(form[1] / slope, form[2] / slope);
+  const Vec2<double> across = std::sqrt((1 - along) * (1 + along)) * perp(n);
+  return {along * n + across, along * n - across};
+}
 
-  explicit Starts(const Vec3<double>& form, double scale) {
-    const double slope = std::hypot(form[1], form[2]);
-    if (slope <= 1e-9 * scale) {
-      for (; count < 8; ++count) add(count * turn / 8);
-      return;
-    }
-    const double level = -form[0] / slope, towards = std::atan2(form[2], form[1]);
-    are_complex = std::abs(level) > 1 + 1e-6;
-    const double half = std::acos(std::clamp(level, -1.0, 1.0));
-    for (const double sign : {1.0, -1.0}) {
-      add(towards + sign * half);
-      ++count;
-    }
-  }
+/// Whether the sides hold the angles of a pose hardly: two modes are nearer there than about 1e-5.
+bool is_merged(std::span<const Reach<3>> legs, double size, const SE3<double>& pose) {
+  Linearised<3> sides;
+  ThreeCircles(legs, size, pose).linearise(ThreeCircles::start(), sides);
+  double volume = 1;
+  for (int i = 0; i < 3; ++i) volume *= sides.jacobian.row(i).norm();
+  const Mat<double, 3, 3> J = sides.jacobian;
+  return !(std::abs(dot(J.col(0), cross(J.col(1), J.col(2)))) > 1e-6 * volume);
+}
 
- private:
-  void add(double t) { at[static_cast<std::size_t>(count)] = {std::cos(t), std::sin(t)}; }
-};
-
-/// The search of one set of legs.
+/// The search of one set of legs: at every value of the first angle the others have two each; the third side
+/// is followed along these four branches.
 class Search {
  public:
-  Search(std::span<const Reach<3>> legs, HingedModes& modes) : closing_(legs), circles_(legs, closing_.size(), SE3<double>::identity()), modes_(modes) {}
+  Search(std::span<const Reach<3>> legs, HingedModes& modes)
+      : legs_(legs),
+        closing_(legs),
+        circles_(legs, closing_.size(), SE3<double>::identity()),
+        modes_(modes) {}
 
-  /// False where the polynomial of every circle vanishes: the legs do not bind each other.
+  /// False where every angle of some circle will do: the legs do not bind each other.
   bool run() {
     double best = 0;
     for (std::size_t i = 0; i < 3; ++i)
-      if (const CirclePolynomial candidate(circles_, i); candidate.strength() > best) {
-        best = candidate.strength();
+      if (const double strength = CirclePolynomial(circles_, i).strength(); strength > best) {
+        best = strength;
         first_ = i;
       }
-    if (!(best > 1e-13)) return false;
-    follow(CirclePolynomial(circles_, first_));
+    if (!(best > 1e-12)) return false;
+    follow(samples);
+    if (!is_complete()) follow(10 * samples);
+    modes_.is_complete = is_complete();
     return true;
   }
 
   bool is_overfull() const { return overfull_; }
 
  private:
-  void follow(const CirclePolynomial& F) {
-    std::array<double, 40> extrema;
-    const auto slope = [&](double t) {
-      const auto f = F.at(t);
-      return RootSample{f.rate, f.rate_rate, F.third_bound() + 1e-300, 8 * F.noise()};
-    };
-    const int found = all_roots(slope, {.low = -0.01, .high = turn + 0.01, .stride = 0.1}, extrema);
-    if (found < 0 || found == static_cast<int>(extrema.size())) return;
-    modes_.is_complete = true;
-    for (int k = 0; k < found; ++k) {
-      const double t = extrema[static_cast<std::size_t>(k)];
-      if (std::abs(F.at(t).value) <= near_touch) touch(F, t);
-      if (k + 1 < found) crossing(F, t, extrema[static_cast<std::size_t>(k + 1)]);
-    }
+  struct Place {
+    CircleAngles angles;
+    double value;  ///< of the third side, over its largest terms
+  };
+  using Branches = std::array<Place, 4>;
+
+  /// Whether every root of the polynomial is accounted for.
+  bool is_complete() const {
+    const CirclePolynomial F(circles_, first_);
+    int known = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(modes_.count); ++k)
+      known += is_merged(legs_, closing_.size(), found_[k]) ? 2 : 1;
+    return std::ranges::any_of(margins, [&](double margin) {
+      const std::optional<int> count = F.count_real(margin);
+      return count && *count <= known;
+    });
   }
 
-  /// Between two extrema there is one root at most.
-  void crossing(const CirclePolynomial& F, double low, double high) {
-    const bool sign = std::signbit(F.at(low).value);
-    if (std::signbit(F.at(high).value) == sign) return;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = low + 0.5 * (high - low);
-      (std::signbit(F.at(middle).value) == sign ? low : high) = middle;
-    }
-    const bool is_found = try_at(low);
-    // what rounding lets cross is a touch, and no promise of a mode
-    if (!is_found && std::abs(F.at(low).rate) > 1e-5) modes_.is_complete = false;
-  }
-
-  /// Modes with one angle in common (mirror images), or merging: both are double roots of F.
-  void touch(const CirclePolynomial& F, double t) {
-    bool is_found = try_at(t);
-    for (const double apart : {1e-5, -1e-5, 1e-3, -1e-3}) is_found = try_at(t + apart) || is_found;
-    if (!is_found && !are_complex_ && std::abs(F.at(t).value) <= F.noise()) modes_.is_complete = false;
-  }
-
-  /// Newton from wherever the other two circles may be at this angle; true where a mode is near.
-  bool try_at(double t) {
+  Branches at(double t) const {
     const std::size_t second = ThreeCircles::next(first_), third = ThreeCircles::next(second);
-    const Vec3<double> at(1, std::cos(t), std::sin(t));
-    const Mat<double, 3, 3> to_second = circles_.form(first_), to_third = circles_.form(third);
-    const Starts a(to_second.transpose() * at, to_second.norm()), b(to_third * at, to_third.norm());
-    are_complex_ = a.are_complex || b.are_complex;
-    bool is_found = false;
-    for (int i = 0; i < a.count; ++i)
-      for (int j = 0; j < b.count; ++j) {
-        CircleAngles angles;
-        angles[first_] = at.tail<2>();
-        angles[second] = a.at[static_cast<std::size_t>(i)];
-        angles[third] = b.at[static_cast<std::size_t>(j)];
-        is_found = add(angles, at.tail<2>()) || is_found;
-      }
-    return is_found;
+    const Vec3<double> first(1, std::cos(t), std::sin(t));
+    const auto a = zeros(circles_.form(first_).transpose() * first), b = zeros(circles_.form(third) * first);
+    const Mat<double, 3, 3>& side = circles_.form(second);
+    Branches places;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec2<double>&u = a[k / 2], &v = b[k % 2];
+      places[k].angles[first_] = first.tail<2>();
+      places[k].angles[second] = u;
+      places[k].angles[third] = v;
+      places[k].value = dot(Vec3<double>(1, u[0], u[1]), side * Vec3<double>(1, v[0], v[1])) / side.norm();
+    }
+    return places;
   }
 
-  /// Takes the mode that Newton finds from here, if any; true if its first angle is the one started from.
-  bool add(CircleAngles angles, const Vec2<double>& from) {
+  /// Newton from every change of sign, and from every place where a branch comes near zero and leaves.
+  void follow(int steps) {
+    Branches before = at(-turn / steps), here = at(0);
+    for (int n = 0; n < steps; ++n) {
+      const Branches ahead = at(turn * (n + 1) / steps);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double v = here[k].value, size = std::abs(v);
+        const bool crosses = (v < 0) != (ahead[k].value < 0);
+        const bool turns =
+            size <= std::abs(before[k].value) && size <= std::abs(ahead[k].value) && size < 0.05;
+        if (!crosses && !turns) continue;
+        add(here[k].angles);
+        add(ahead[k].angles);
+        if (turns) add(before[k].angles);
+      }
+      before = here;
+      here = ahead;
+    }
+  }
+
+  /// Takes the mode that Newton finds from here, if any and new.
+  void add(CircleAngles angles) {
     newton(circles_, angles, {.tolerance = 1e-15 * circles_.size(), .max_iterations = 30});
     const SE3<double> pose = circles_.platform(angles);
     Linearised<6> at;
     closing_.linearise(pose, at);
-    if (!(at.error <= 1e-12 * circles_.size()) || !pose.p.allFinite()) return false;
-    const bool is_near = (angles[first_] - from).norm() < 1e-2;
+    if (!(at.error <= 1e-12 * circles_.size()) || !pose.p.allFinite()) return;
     for (int k = 0; k < modes_.count; ++k)
-      if (gap(found_[static_cast<std::size_t>(k)], pose) < same_pose) return is_near;
+      if (gap(found_[static_cast<std::size_t>(k)], pose) < same_pose) return;
     if (modes_.count == HingedModes::most) {
       overfull_ = true;
-      return is_near;
+      return;
     }
     const auto k = static_cast<std::size_t>(modes_.count++);
     found_[k] = pose;
     modes_.poses[k] = spatial_pose(pose);
-    return is_near;
   }
 
   double gap(const SE3<double>& a, const SE3<double>& b) const {
@@ -145,12 +146,13 @@ class Search {
     return std::max((a.p - b.p).norm() / circles_.size(), turned.norm());
   }
 
+  std::span<const Reach<3>> legs_;
   Closing<Spatial> closing_;
   ThreeCircles circles_;
   HingedModes& modes_;
   std::array<SE3<double>, HingedModes::most> found_;
   std::size_t first_ = 0;
-  bool overfull_ = false, are_complex_ = false;
+  bool overfull_ = false;
 };
 
 /// Order, residuals, and where modes merge.
@@ -164,13 +166,7 @@ void tell(std::span<const Reach<3>> legs, HingedModes& modes) {
     closing.linearise(pose, at);
     modes.residual[k] = at.error;
     modes.report.residual = std::max(modes.report.residual, at.error);
-    Linearised<3> sides;
-    const ThreeCircles circles(legs, closing.size(), pose);
-    circles.linearise(ThreeCircles::start(), sides);
-    double volume = 1;
-    for (int i = 0; i < 3; ++i) volume *= sides.jacobian.row(i).norm();
-    const Mat<double, 3, 3> J = sides.jacobian;
-    modes.is_double[k] = !(std::abs(dot(J.col(0), cross(J.col(1), J.col(2)))) > 1e-9 * volume);
+    modes.is_double[k] = is_merged(legs, closing.size(), pose);
   }
 }
 

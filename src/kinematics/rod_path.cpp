@@ -17,7 +17,7 @@ double size_of(const Vec<double, 6>& twist, double radius) {
 
 void set(RodSystem& system, const RodTarget& from, const RodTarget& to, double part) {
   for (int k = 0; k < system.rods(); ++k)
-    system.set_length(k, from.lengths[at(k)] + part * (to.lengths[at(k)] - from.lengths[at(k)]));
+    system.set_length(k, std::lerp(from.lengths[at(k)], to.lengths[at(k)], part));  // exact at the end
   system.set_wrench(from.wrench + part * (to.wrench - from.wrench));
 }
 

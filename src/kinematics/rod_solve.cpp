@@ -9,7 +9,9 @@ namespace {
 constexpr double tolerance = 1e-12;
 /// Estimated error of a shape at its tip, over the length, beyond which an answer is refused.
 constexpr double worst_truncation = 1e-10;
-/// ... and from which an answer that is not resumed takes the fine nodes: stiff robots turn it into forces.
+/// ... from which one that is to be quick takes the fine nodes (poses were then within 2e-13 m of exact ones),
+constexpr double quick_truncation = 1e-10;
+/// ... and from which an answer that is not resumed takes them: stiff robots turn it into forces.
 constexpr double best_truncation = 1e-17;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -125,23 +127,26 @@ Report explain(const RodSystem& system, const RodPathEnd& end, bool is_load) {
   return report;
 }
 
-/// Newton's method from the state before, factors kept for the predictor and after one renewal. False, with
-/// the state lost, where it does not contract at once.
+/// Newton's method from the state before: first with the factors kept from there, then with new ones, and kept
+/// again once a step with them gains as much as a new one would. False, with the state lost, where it does not
+/// contract at once.
 bool solve_warm(RodSystem& system, Report& report) {
+  constexpr double worth_renewing = 3e-9;
   double error = system.evaluate();
   if (!(error <= tolerance)) {
     system.move(system.step(false));
-    error = system.evaluate();
+    error = system.evaluate(false);
     ++report.iterations;
   }
-  bool is_fresh = false;
-  while (!(error <= tolerance)) {
-    if (!is_fresh && !system.linearise()) return false;
-    system.move(system.step(!is_fresh));
-    is_fresh = true;
-    const double next = system.evaluate();
+  for (int renewals = 0; !(error <= tolerance);) {
+    const bool renews = renewals == 0 || (error > worth_renewing && renewals < 3);
+    if (renews && !system.linearise()) return false;
+    renewals += renews;
+    system.move(system.step(renews));
+    const double next = system.evaluate(false);
     ++report.iterations;
-    if (!(next < 0.3 * error) || report.iterations > 10) return false;
+    if (!(next < 0.3 * error) && !(next <= tolerance)) return false;
+    if (report.iterations > 10) return false;
     error = next;
   }
   report.residual = error;
@@ -149,32 +154,39 @@ bool solve_warm(RodSystem& system, Report& report) {
 }
 
 /// Back to the coarse nodes where they resolve the shapes. `before` holds the state.
-void lighten(RodWork& work) {
+void lighten(RodWork& work, double truncation) {
   RodSystem& system = work.system;
   system.coarsen();
   system.evaluate();
-  if (system.truncation() > coarse_truncation) {
+  if (system.truncation() > truncation) {
     system.restore(work.before);
     system.evaluate();
   }
   system.linearise();
 }
 
-/// What holds of a solved state: shapes resolved, platform's stiffness known there, stability.
-Report settle(RodSystem& system, Report report, double truncation) {
+/// The shapes of a solved state to this estimate of their error, by the fine nodes where it takes them. False where
+/// those do not do it.
+bool resolve(RodSystem& system, Report& report, double truncation) {
   if (!system.is_fine() && system.truncation() > truncation) {
     system.refine();
     if (!correct(system, tolerance, false, report.iterations, report.residual)) {
       report.status = Status::stalled;
       report.message.append("the rods bend too sharply to be resolved");
-      return report;
+      return false;
     }
   }
-  if (system.truncation() > worst_truncation) {
+  if (!(system.truncation() <= worst_truncation)) {
     report.status = Status::left_domain;
     report.message.append("the rods bend more sharply than their 24 nodes resolve");
-    return report;
+    return false;
   }
+  return true;
+}
+
+/// What holds of a solved state: shapes resolved, platform's stiffness known there, stability.
+Report settle(RodSystem& system, Report report, double truncation) {
+  if (!resolve(system, report, truncation)) return report;
   system.linearise();
   const int unstable = unstable_directions(system);
   if (unstable == 0) return report;
@@ -301,7 +313,7 @@ bool lay_rods(RodWork& work, const SE3<double>& pose, Numbers inputs) {
     const double next = std::min(1.0, part + stride);
     system.save(work.spare);
     for (int k = 0; k < system.rods(); ++k)
-      system.set_length(k, from.lengths[at(k)] + next * (to.lengths[at(k)] - from.lengths[at(k)]));
+      system.set_length(k, std::lerp(from.lengths[at(k)], to.lengths[at(k)], next));
     double residual;
     if (correct(system, 1e-10, true, iterations, residual)) {
       part = next;
@@ -320,7 +332,9 @@ bool lay_rods(RodWork& work, const SE3<double>& pose, Numbers inputs) {
   return part >= 1 && work.is_solved;
 }
 
-Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& question) {
+Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& asked) {
+  RodQuestion question = asked;
+  question.resume = asked.resume && work.is_solved;  // else it begins like any other
   if (const Report checked = check_inputs(work.system, inputs); !checked.ok()) return checked;
   if (!question.wrench.allFinite()) {
     Report report = failed(Status::left_domain);
@@ -328,19 +342,26 @@ Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const 
     return report;
   }
   RodSystem& system = work.system;
-  if (const Report checked = check_reach(system, inputs); !checked.ok()) return checked;
-  if (question.resume && work.is_solved) {
+  if (question.resume) {
     system.save(work.before);
-    if (system.is_fine()) lighten(work);
-    for (int k = 0; k < system.rods(); ++k) system.set_length(k, inputs[at(system.input_of(k))]);
+    const double truncation = question.judge ? coarse_truncation : quick_truncation;
+    if (system.is_fine()) lighten(work, truncation);
+    system.set_inputs(inputs);
     system.set_wrench(question.wrench);
     Report report;
-    if (solve_warm(system, report))
-      return question.judge ? settle(system, report, coarse_truncation) : report;
+    if (solve_warm(system, report)) {
+      if (question.judge)
+        report = settle(system, report, truncation);
+      else
+        resolve(system, report, truncation);
+      work.is_solved = report.ok() || report.status == Status::unstable;
+      return report;
+    }
     system.restore(work.before);
     system.evaluate();
     system.linearise();
   }
+  if (const Report checked = check_reach(system, inputs); !checked.ok()) return checked;
   if (const Report begun = begin(work, home, inputs, question); !begun.ok()) return begun;
   Report report = failed(Status::stalled);
   if (!question.start || !jump(work, inputs, question, report)) report = travel(work, inputs, question);

@@ -28,7 +28,7 @@ void gauss(std::array<Real, N>& node, std::array<Real, N>& weight) {
   constexpr int degree = static_cast<int>(N);
   for (std::size_t i = 0; i < N; ++i) {
     Real x = -std::cos(std::numbers::pi_v<Real> * (Real(i) + Real(0.75)) / (degree + Real(0.5))), rate = 1;
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < 8; ++k) {  // the guess is good to 1e-3: four are enough
       const auto [before, value] = legendre(N, x);
       rate = degree * (x * value - before) / (x * x - 1);
       x -= value / rate;
@@ -46,17 +46,23 @@ Real lagrange(const std::array<Real, M>& z, std::size_t j, Real s) {
     if (m != j) value *= (s - z[m]) / (z[j] - z[m]);
   return value;
 }
+/// ℓⱼ′ at zᵢ, for all i and j: by barycentric weights, as every program that links this waits for it.
 template <std::size_t M>
-Real lagrange_slope(const std::array<Real, M>& z, std::size_t j, Real s) {
-  Real sum = 0;
-  for (std::size_t k = 0; k < M; ++k) {
-    if (k == j) continue;
-    Real term = 1 / (z[j] - z[k]);
+std::array<std::array<Real, M>, M> lagrange_slopes(const std::array<Real, M>& z) {
+  std::array<Real, M> weight;
+  for (std::size_t j = 0; j < M; ++j) {
+    weight[j] = 1;
     for (std::size_t m = 0; m < M; ++m)
-      if (m != j && m != k) term *= (s - z[m]) / (z[j] - z[m]);
-    sum += term;
+      if (m != j) weight[j] /= z[j] - z[m];
   }
-  return sum;
+  std::array<std::array<Real, M>, M> slope{};
+  for (std::size_t i = 0; i < M; ++i)
+    for (std::size_t j = 0; j < M; ++j) {
+      if (i == j) continue;
+      slope[i][j] = weight[j] / (weight[i] * (z[i] - z[j]));
+      slope[i][i] += 1 / (z[i] - z[j]);
+    }
+  return slope;
 }
 
 }  // namespace
@@ -68,6 +74,7 @@ GalerkinBasis<N> GalerkinBasis<N>::make() {
   std::array<Real, N + 1> z{};  // the base, where θ = 0, then the nodes
   for (std::size_t i = 0; i < N; ++i) z[i + 1] = node[i];
 
+  const auto slopes = lagrange_slopes(z);
   std::array<std::array<Real, N>, N> slope;
   GalerkinBasis basis;
   for (std::size_t j = 0; j < N; ++j) {
@@ -76,7 +83,7 @@ GalerkinBasis<N> GalerkinBasis<N>::make() {
     basis.at_tip[j] = static_cast<double>(lagrange(z, j + 1, Real(1)));
     basis.last[j] = basis.before_last[j] = 0;
     for (std::size_t i = 0; i < N; ++i) {
-      slope[i][j] = lagrange_slope(z, j + 1, node[i]);
+      slope[i][j] = slopes[i + 1][j + 1];
       basis.slope[i][j] = static_cast<double>(slope[i][j]);
       const auto [before, value] = legendre(N - 1, 2 * node[i] - 1);
       basis.last[j] += static_cast<double>(Real(2 * N - 1) * weight[i] * slope[i][j] * value);

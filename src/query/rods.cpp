@@ -1,5 +1,7 @@
 #include "query/rods.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "sinew/analysis/shape.hpp"
@@ -106,11 +108,80 @@ void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analy
     Json twists = Json::array();
     for (const auto& twist : analysis.unstable) twists.push_back(to_json(std::span<const double>(twist)));
     answer["unstable"] = std::move(twists);
+    Json legs = Json::array();
+    for (std::size_t k = 0; k < analysis.unstable_rods.size(); ++k)
+      if (analysis.unstable_rods[k][0] + analysis.unstable_rods[k][1] > 0) legs.push_back(k);
+    answer["unstable_legs"] = std::move(legs);
   }
   if (wanted.margins)
     answer["margins"] = {{"fold", analysis.smallest_pivot}, {"strain", largest_strain(context.robot, analysis)}};
   if (wanted.sensitivity)
     answer["sensitivity"] = rows_json(analysis.sensitivity, context.work.inputs.size());
+}
+
+/// The platform of three lengths, by z, e₁ and e₂.
+IndependentPose read_independent(const Context& context, Reader& asked) {
+  IndependentPose pose;
+  pose.z = asked.required("z", "height of the platform").quantity(Dimension::length, Range::place());
+  pose.e1 = asked.required("e1", "a component of its quaternion").number(Range::between(-1, 1));
+  pose.e2 = asked.required("e2", "a component of its quaternion").number(Range::between(-1, 1));
+  if (asked.is(Node::Kind::map)) asked.close();
+  if (input_count(context.robot) != 3)
+    asked.fail("not_available", fmt::format("z, e1 and e2 are held by three rod lengths, this robot has {}; ask with inputs",
+                                            input_count(context.robot)));
+  return pose;
+}
+
+/// Questions of other robots that have no meaning here, each with its way out.
+void refuse_what_rods_lack(Context& context) {
+  const auto refuse = [&](const char* key, const char* why) {
+    if (const auto asked = context.query.optional(key)) asked->fail("not_available", why);
+  };
+  refuse("pose",
+         "on rods the rest of a pose follows from lengths and load; give independent: {z, e1, e2}, or inputs");
+  refuse("trace", "the iterates of rods are not recorded; leave it out");
+  read_branch(context);  // refuses bending, curvature and elbow
+}
+
+/// Where a robot of rods is asked to be: at inputs, or at coordinates that lengths are found for.
+struct RodQuery {
+  std::vector<double> inputs;
+  std::optional<IndependentPose> independent;
+  EquilibriumOptions options;
+};
+
+RodQuery read_configuration_of_rods(Context& context) {
+  RodQuery asked;
+  refuse_what_rods_lack(context);
+  asked.options = read_options(context);
+  auto start = context.query.optional("start");
+  if (start) asked.options.start = read_spatial_pose(std::move(*start));
+  const auto inputs = context.query.optional("inputs");
+  auto independent = context.query.optional("independent");
+  if (inputs) asked.inputs = read_inputs(context, *inputs);
+  if (independent) asked.independent = read_independent(context, *independent);
+  if (!inputs && !independent)
+    context.query.fail("missing_key", "give inputs (rod lengths, in leg order), or independent: {z, e1, e2}");
+  if (inputs && independent)
+    context.query.fail("ambiguous", "inputs and independent both say where the platform is; keep one");
+  if (independent && start)
+    context.query.fail("ambiguous",
+                       "start is where a search with given inputs begins; that of independent begins at home");
+  return asked;
+}
+
+/// A bound that was met is told as such, whatever the path saw last.
+Equilibrium solve(Context& context, const RodQuery& asked) {
+  Equilibrium found = asked.independent
+                          ? inverse_equilibrium(context.robot, *asked.independent, asked.options, context.work)
+                          : equilibrium(context.robot, asked.inputs, asked.options, context.work);
+  if (context.max_iterations && !found.is_solved() && found.report.status != Status::unreachable &&
+      found.report.status != Status::left_domain && found.report.iterations >= *context.max_iterations) {
+    found.report.status = Status::iteration_limit;
+    found.report.message = {};
+    found.report.message.append("the path to the answer takes more steps than max_iterations; raise it");
+  }
+  return found;
 }
 
 /// The equilibrium the workspace holds, as both questions answer it.
@@ -130,14 +201,29 @@ void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& w
   put_wanted(context, wanted, analysis);
 }
 
-void put_all(Context& context, std::span<const double> inputs, const SpatialWrench& wrench) {
+double distance(const SpatialPose& a, const SpatialPose& b) {
+  const auto from = SE3<double>::from(a), to = SE3<double>::from(b);
+  return (from.p - to.p).norm() + from.R.inverse().compose(to.R).log().norm();
+}
+
+/// Rods of an equilibrium among several: solved again from where it is.
+void put_rods(Context& context, Json& solution, const FoundEquilibrium& one, std::span<const double> inputs,
+              EquilibriumOptions options) {
+  options.start = one.pose;
+  const Equilibrium again = equilibrium(context.robot, inputs, options, context.work);
+  if (again.is_solved() && distance(again.pose, one.pose) < 1e-7)
+    solution["legs"] = rods_json(analyse_equilibrium(context.robot, context.work));
+}
+
+void put_all(Context& context, std::span<const double> inputs, const EquilibriumOptions& options) {
   Json solutions = Json::array();
-  for (const FoundEquilibrium& one : equilibria(context.robot, inputs, wrench, context.work)) {
+  for (const FoundEquilibrium& one : equilibria(context.robot, inputs, options.wrench, context.work)) {
     Json solution{{"pose", to_json(one.pose)},
                   {"residual", one.residual},
                   {"stable", one.unstable_directions == 0},
                   {"unstable_directions", one.unstable_directions}};
     put_number(solution, "potential", one.potential);
+    put_rods(context, solution, one, inputs, options);
     solutions.push_back(std::move(solution));
   }
   context.answer["count"] = solutions.size();
@@ -145,19 +231,24 @@ void put_all(Context& context, std::span<const double> inputs, const SpatialWren
   context.answer["solutions"] = std::move(solutions);
 }
 
+constexpr std::string_view inputs_rule = "rod lengths, in leg order";
+
 }  // namespace
 
 void answer_rods_forward(Context& context) {
-  const auto inputs = read_inputs(context, context.query.required("inputs", "rod lengths, in leg order"));
-  EquilibriumOptions options = read_options(context);
-  if (auto start = context.query.optional("start")) options.start = read_spatial_pose(std::move(*start));
+  RodQuery asked;
+  asked.inputs = read_inputs(context, context.query.required("inputs", inputs_rule));
+  refuse_what_rods_lack(context);
+  asked.options = read_options(context);
+  if (auto start = context.query.optional("start")) asked.options.start = read_spatial_pose(std::move(*start));
   const Wanted wanted = read_want(context);
   const std::optional<Until> until = read_until(context);
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
+  if (until && want_all) all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
   if (!context.ready()) return;
 
-  Equilibrium found = equilibrium(context.robot, inputs, options, context.work);
+  Equilibrium found = solve(context, asked);
   if (until && found.is_solved()) {
     const LoadPath path = follow_load(context.robot, until->direction, until->limit, context.work);
     context.answer["load"] = path.load;
@@ -165,38 +256,43 @@ void answer_rods_forward(Context& context) {
     found.pose = held_pose(context.work);
   }
   put_equilibrium(context, found, wanted);
-  if (want_all) put_all(context, inputs, options.wrench);
+  if (want_all) put_all(context, asked.inputs, asked.options);
 }
 
 void answer_rods_inverse(Context& context) {
-  auto asked = context.query.required("independent", "{z, e1, e2}: a robot of three rod lengths holds these");
-  IndependentPose pose;
-  pose.z = asked.required("z").quantity(Dimension::length, Range::place());
-  pose.e1 = asked.required("e1").number(Range::between(-1, 1));
-  pose.e2 = asked.required("e2").number(Range::between(-1, 1));
-  asked.close();
-  const EquilibriumOptions options = read_options(context);
+  RodQuery asked;
+  refuse_what_rods_lack(context);
+  if (!context.query.has("pose") || context.query.has("independent")) {
+    auto independent = context.query.required("independent", "{z, e1, e2}: what three rod lengths hold");
+    asked.independent = read_independent(context, independent);
+  }
+  asked.options = read_options(context);
   const Wanted wanted = read_want(context);
+  if (const auto start = context.query.optional("start"))
+    start->fail("not_available", "the search for the lengths of rods begins at home; leave it out");
   if (const auto all = context.query.optional("all"))
     if (all->boolean()) all->fail("not_available", "of several solutions only the one nearest home is found");
   if (!context.ready()) return;
-  put_equilibrium(context, inverse_equilibrium(context.robot, pose, options, context.work), wanted);
+  put_equilibrium(context, solve(context, asked), wanted);
 }
 
 void answer_rods_velocity(Context& context) {
-  const auto inputs = read_inputs(context, context.query.required("inputs", "rod lengths, in leg order"));
-  EquilibriumOptions options = read_options(context);
-  if (auto start = context.query.optional("start")) options.start = read_spatial_pose(std::move(*start));
+  const RodQuery asked = read_configuration_of_rods(context);
   if (const auto twist = context.query.optional("twist"))
-    twist->fail("not_available", "rates of rods that a twist needs are not available in this version; U has them");
+    twist->fail("not_available",
+                "rates of rods that a twist needs are not available in this version; U has what the rates do");
+  for (const char* key : {"along", "limit"})
+    if (const auto given = context.query.optional(key))
+      given->fail("not_available", "robots of rods have no search for type II; leave it out");
   if (!context.ready()) return;
-  const Equilibrium found = equilibrium(context.robot, inputs, options, context.work);
+  const Equilibrium found = solve(context, asked);
   context.report(found.report);
   if (!found.is_solved()) return;
   const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
   Json& answer = context.answer;
-  const std::size_t columns = inputs.size();
+  const std::size_t columns = found.inputs.size();
   answer["pose"] = to_json(found.pose);
+  answer["inputs"] = to_json(found.inputs);
   answer["J"] = rows_json(analysis.stiffness, 6);
   answer["K"] = rows_json(analysis.feed, columns);
   answer["U"] = rows_json(analysis.sensitivity, columns);
@@ -212,13 +308,11 @@ void answer_rods_velocity(Context& context) {
 }
 
 void answer_rods_shape(Context& context) {
-  const auto inputs = read_inputs(context, context.query.required("inputs", "rod lengths, in leg order"));
-  EquilibriumOptions options = read_options(context);
-  if (auto start = context.query.optional("start")) options.start = read_spatial_pose(std::move(*start));
+  const RodQuery asked = read_configuration_of_rods(context);
   const auto samples = context.query.optional("samples");
   const int count = samples ? samples->integer(Range::between(2, 2000)) : 33;
   if (!context.ready()) return;
-  const Equilibrium found = equilibrium(context.robot, inputs, options, context.work);
+  const Equilibrium found = solve(context, asked);
   context.report(found.report);
   if (!found.is_solved()) return;
   context.answer["pose"] = to_json(found.pose);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sinew/base/assert.hpp"
@@ -63,10 +64,10 @@ int unstable_aside(const Group& rods, int i) {
 }  // namespace
 
 bool Lu6::factor(const double* matrix, double length) {
-  length_ = length;
+  per_length_ = 1 / length;
+  const double scale[3] = {1, per_length_, per_length_ * per_length_};
   for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = 0; j < 6; ++j)
-      lu_[6 * i + j] = matrix[6 * i + j] / ((i < 3 ? 1 : length) * (j < 3 ? 1 : length));
+    for (std::size_t j = 0; j < 6; ++j) lu_[6 * i + j] = matrix[6 * i + j] * scale[(i > 2) + (j > 2)];
   double largest = 0;
   smallest_ = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 6; ++k) {
@@ -90,7 +91,7 @@ bool Lu6::factor(const double* matrix, double length) {
 }
 
 void Lu6::solve(const double* rhs, double* x) const {
-  for (std::size_t i = 0; i < 6; ++i) x[i] = i < 3 ? rhs[i] : rhs[i] / length_;
+  for (std::size_t i = 0; i < 6; ++i) x[i] = i < 3 ? rhs[i] : rhs[i] * per_length_;
   for (std::size_t k = 0; k < 6; ++k) std::swap(x[k], x[at(order_[k])]);
   for (std::size_t i = 1; i < 6; ++i)
     for (std::size_t k = 0; k < i; ++k) x[i] -= lu_[6 * i + k] * x[k];
@@ -98,7 +99,7 @@ void Lu6::solve(const double* rhs, double* x) const {
     for (std::size_t k = i + 1; k < 6; ++k) x[i] -= lu_[6 * i + k] * x[k];
     x[i] *= lu_[7 * i];
   }
-  for (std::size_t i = 3; i < 6; ++i) x[i] /= length_;
+  for (std::size_t i = 3; i < 6; ++i) x[i] *= per_length_;
 }
 
 RodSystem::RodSystem(const ParallelRobot<RodLeg>& robot)
@@ -142,13 +143,11 @@ void RodSystem::fill_idle_lanes(Group& last) const {
 }
 
 PlatformFrame RodSystem::frame() const {
-  PlatformFrame frame;
-  const Mat<double, 3, 3> turn = platform_.R.matrix();
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) frame.rotation[3 * r + c] = turn(r, c);
-    frame.position[r] = platform_.p[r];
-  }
-  return frame;
+  const double w = platform_.R.w, x = platform_.R.v[0], y = platform_.R.v[1], z = platform_.R.v[2];
+  const double xx = 2 * x * x, yy = 2 * y * y, zz = 2 * z * z, xy = 2 * x * y, xz = 2 * x * z, yz = 2 * y * z,
+               wx = 2 * w * x, wy = 2 * w * y, wz = 2 * w * z;
+  return {{1 - yy - zz, xy - wz, xz + wy, xy + wz, 1 - xx - zz, yz - wx, xz - wy, yz + wx, 1 - xx - yy},
+          {platform_.p[0], platform_.p[1], platform_.p[2]}};
 }
 
 RodSystem::Snapshot RodSystem::snapshot() const {
@@ -199,6 +198,15 @@ void RodSystem::set_length(int rod, double length) {
   });
 }
 
+void RodSystem::set_inputs(std::span<const double> inputs) {
+  with([&](auto groups) {
+    for (int k = 0; k < static_cast<int>(groups.size()) * rod_lanes; ++k) {
+      const int rod = k < rods_ ? k : k / rod_lanes * rod_lanes;  // idle lanes: the first of their group
+      groups[at(k / rod_lanes)].length[k % rod_lanes] = inputs[at(input_of(rod))];
+    }
+  });
+}
+
 namespace {
 
 /// The states of some groups at other nodes; `rows` interpolates.
@@ -232,11 +240,19 @@ void RodSystem::coarsen() {
 double RodSystem::evaluate(bool anew) {
   const PlatformFrame platform = frame();
   with([&](auto groups) { rod_kernels::evaluate(groups, platform, anew, sums_); });
-  const double length = this->length(0), stiffness = 1 / coarse_[0].flexibility[0];
+  // In the unit of the stiffest rod: the rounding of its force alone may exceed 1e-12 of a slack one's.
+  double per_force = std::numeric_limits<double>::infinity(), per_moment = per_force;
+  with([&](auto groups) {
+    for (int k = 0; k < rods_; ++k) {
+      const auto& rods = groups[at(k / rod_lanes)];
+      const double softness = rods.length[k % rod_lanes] * rods.flexibility[k % rod_lanes];
+      per_moment = std::min(per_moment, softness);
+      per_force = std::min(per_force, softness * rods.length[k % rod_lanes]);
+    }
+  });
   double error = sums_.error;
   for (int k = 0; k < 6; ++k) {
-    const double unit = stiffness / (k < 3 ? length * length : length);
-    const double part = std::abs(sums_.wrench[k] - wrench_[k]) / unit;
+    const double part = std::abs(sums_.wrench[k] - wrench_[k]) * (k < 3 ? per_force : per_moment);
     if (!std::isnan(error) && !(part <= error)) error = part;  // no NaN is hidden, of either
   }
   return error;

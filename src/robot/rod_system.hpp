@@ -26,7 +26,7 @@ class Lu6 {
  private:
   std::array<double, 36> lu_;
   std::array<int, 6> order_;
-  double length_ = 1, smallest_ = 0;
+  double per_length_ = 1, smallest_ = 0;
 };
 
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
@@ -58,6 +58,7 @@ class RodSystem {
   Vec3<double> platform_point(int rod) const;
   double length(int rod) const;
   void set_length(int rod, double length);
+  void set_inputs(std::span<const double> inputs);  ///< the lengths of all rods [m]
   const SE3<double>& platform() const { return platform_; }
   void set_platform(const SE3<double>& pose) { platform_ = pose; }
   const Wrench& wrench() const { return wrench_; }  ///< of the world on the platform, base axes

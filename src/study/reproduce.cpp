@@ -14,8 +14,13 @@ constexpr std::array items{
               "Performance indices of the 3-RFR along the trajectory of section 5.1, constant curvature"},
     StudyItem{"tdpcr/fig10",
               "Last pose of the trajectory of section 5.1: the lines of the 3-RFR meet in one point"},
+    StudyItem{"3pfs/fig4", "Parasitic motions of the rigid tripod 3PRS over its tilts"},
+    StudyItem{"3pfs/fig5", "Singularity loci of the 3PRS over its tilts: of inverse and of forward kinematics"},
+    StudyItem{"3pfs/fig6", "Norm of the inverse kinematics' Jacobian of the 3PRS over its tilts"},
+    StudyItem{"3pfs/fig7", "Norm of the forward kinematics' Jacobian of the 3PRS over its tilts"},
 };
-constexpr std::array<StudyFunction, items.size()> functions{tdpcr_fig8, tdpcr_fig9, tdpcr_fig10};
+constexpr std::array<StudyFunction, items.size()> functions{
+    tdpcr_fig8, tdpcr_fig9, tdpcr_fig10, tripod_fig4, tripod_fig5, tripod_fig6, tripod_fig7};
 
 /// A bar would end the cell, and a line break the table.
 std::string cell(const std::string& text) {

@@ -25,7 +25,8 @@ struct Tripod {
 
 TEST(TripodLoci, LeftSidesAreWhereThePlatformPointsAre) {  // @verifies 3PFS (19)
   Tripod tripod;
-  const auto& legs = std::get<ParallelRobot<Leg<Spatial, Rail, SlideDrive, HingedStrut>>>(tripod.robot.model).legs;
+  const auto& legs =
+      std::get<ParallelRobot<Leg<Spatial, Rail, SlideDrive, HingedStrut>>>(tripod.robot.model).legs;
   std::mt19937 random{1};
   for (int sample = 0; sample < 200; ++sample) {
     const double e1 = uniform(random, -0.7, 0.7), e2 = uniform(random, -0.7, 0.7);
@@ -48,7 +49,8 @@ TEST(TripodLoci, KLosesARowWhereALeftSideReachesARightSide) {  // @verifies 3PFS
     EXPECT_NEAR(*std::ranges::min_element(at), -0.8, 1e-14);
     const Velocity near = tripod.velocity_at((radius - 1e-9) * c, (radius - 1e-9) * s);
     EXPECT_LT(near.K.topRows(3).diagonal().minCoeff(), 1e-4);  // the root of how near it is
-    EXPECT_FALSE(inverse(tripod.robot, tripod.pose((radius + 1e-9) * c, (radius + 1e-9) * s), {}, tripod.work).ok());
+    EXPECT_FALSE(
+        inverse(tripod.robot, tripod.pose((radius + 1e-9) * c, (radius + 1e-9) * s), {}, tripod.work).ok());
   }
   EXPECT_NEAR(inverse_locus(size, 0).value(), std::sqrt(0.6), 1e-12);
   EXPECT_NEAR(inverse_locus(size, 30 * degree).value(), std::sqrt(0.9), 1e-12);

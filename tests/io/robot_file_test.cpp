@@ -67,8 +67,9 @@ void expect_same_robot(const AnyRobot& a, const AnyRobot& b) {
       const Point axis = Point::Unit(k);
       const Point here = leg.base.rotate(axis), there = other.base.rotate(axis);
       // the axis of a hinge may point either way
-      EXPECT_LT(leg.has_plane ? std::min((here - there).norm(), (here + there).norm()) : (here - there).norm(),
-                1e-14);
+      EXPECT_LT(
+          leg.has_plane ? std::min((here - there).norm(), (here + there).norm()) : (here - there).norm(),
+          1e-14);
     }
     EXPECT_LT((leg.platform_point - other.platform_point).norm(), 1e-15);
     EXPECT_EQ(leg.link.size(), other.link.size());

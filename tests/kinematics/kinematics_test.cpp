@@ -100,7 +100,8 @@ TEST_P(EveryRobot, ElbowIsChosenAsAsked) {
     const auto states = leg_states(robot, pose, values(answer.coordinates), work);
     for (std::size_t i = 0; i < legs; ++i) EXPECT_EQ(states[i].elbow, elbow[i]);
     ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
-    for (const LegState& leg : leg_states(robot, pose, values(work.coordinates), work)) EXPECT_EQ(leg.elbow, 1);
+    for (const LegState& leg : leg_states(robot, pose, values(work.coordinates), work))
+      EXPECT_EQ(leg.elbow, 1);
   }
 }
 

@@ -174,29 +174,29 @@ TYPED_TEST(EveryLeg, LinkFrameCarriesTheBackboneToTheAnchor) {
   if constexpr (!HasArc<typename TypeParam::Link>) {
     GTEST_SKIP() << "it has no backbone";
   } else {
-  using Vector = Vec<double, TypeParam::dimension>;
-  for (int sample = 0; sample < 500; ++sample) {
-    const auto leg = random_leg<TypeParam>(this->random);
-    const auto platform = this->platform(leg);
-    std::array<typename TypeParam::Coordinates, 8> roots;
-    const int count = leg.solutions_at(platform, {}, roots);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
-      const auto& arc = leg.link.arc();
-      Vector end = Vector::Zero();
-      end.template head<2>() = arc.point(leg.link.curvature(roots[i]), arc.length);
-      const Vector tip = leg.link_frame(platform, roots[i]).point(end);
-      const Vector head = platform.point(leg.platform_point);
-      const auto reach = leg.reach(roots[i]);
-      EXPECT_NEAR((head - reach.anchor).norm(), reach.distance, 1e-12);
-      if (TypeParam::Closure::base_turns || reach.distance == 0) {  // then the tip is the platform point
-        EXPECT_LT((head - tip).norm(), 1e-12);
-      } else {
-        EXPECT_LT((reach.anchor - tip).norm(), 1e-12);
+    using Vector = Vec<double, TypeParam::dimension>;
+    for (int sample = 0; sample < 500; ++sample) {
+      const auto leg = random_leg<TypeParam>(this->random);
+      const auto platform = this->platform(leg);
+      std::array<typename TypeParam::Coordinates, 8> roots;
+      const int count = leg.solutions_at(platform, {}, roots);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(std::max(count, 0)); ++i) {
+        const auto& arc = leg.link.arc();
+        Vector end = Vector::Zero();
+        end.template head<2>() = arc.point(leg.link.curvature(roots[i]), arc.length);
+        const Vector tip = leg.link_frame(platform, roots[i]).point(end);
+        const Vector head = platform.point(leg.platform_point);
+        const auto reach = leg.reach(roots[i]);
+        EXPECT_NEAR((head - reach.anchor).norm(), reach.distance, 1e-12);
+        if (TypeParam::Closure::base_turns || reach.distance == 0) {  // then the tip is the platform point
+          EXPECT_LT((head - tip).norm(), 1e-12);
+        } else {
+          EXPECT_LT((reach.anchor - tip).norm(), 1e-12);
+        }
+        const LegState state = leg.state(platform, roots[i]);
+        EXPECT_NEAR(state.base_tangent.norm(), 1, 1e-14);
       }
-      const LegState state = leg.state(platform, roots[i]);
-      EXPECT_NEAR(state.base_tangent.norm(), 1, 1e-14);
     }
-  }
   }
 }
 
@@ -226,7 +226,8 @@ TEST(HingedStrut, ItsAngleTurnsItFromTheRailToThePlatformPoint) {
   for (int sample = 0; sample < 300; ++sample) {
     const auto leg = random_leg<PrsLeg>(random);
     auto platform = random_frame<Spatial>(random, 0.1);
-    const Vec3<double> axis = leg.base.rotate(Vec3<double>(1, 0, 0)), rail = leg.base.rotate(Vec3<double>(0, 1, 0));
+    const Vec3<double> axis = leg.base.rotate(Vec3<double>(1, 0, 0)),
+                       rail = leg.base.rotate(Vec3<double>(0, 1, 0));
     platform.p -= axis * dot(axis, platform.point(leg.platform_point) - leg.base.p);
     std::array<PrsLeg::Coordinates, 8> roots;
     const int count = leg.solutions_at(platform, {}, roots);

@@ -1,13 +1,16 @@
 # Builds and runs the consumer against sinew.  cmake -D MODE=install|subdirectory|shared -D SOURCE= -D BUILD= -D WORK=
-#   -D COMPILER= -D JOBS= -P packaging.cmake
+#   -D JOBS= -D COMPILER= -D LAUNCHER= -D BUILD_TYPE= -D FLAGS= -D WARNINGS_AS_ERRORS= -P packaging.cmake
 #   install       what is built in BUILD, installed and found with find_package
 #   subdirectory  sinew's sources inside the consumer's project
 #   shared        sinew as a shared library, installed and found; and the symbols it exports
 cmake_minimum_required(VERSION 3.25)
 set(prefix ${WORK}/prefix)
 set(consumer ${CMAKE_CURRENT_LIST_DIR}/consumer)
-# Quick to build; assertions on, where the library's own build has them off.
-set(flags -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_BUILD_TYPE=Debug -D "CMAKE_CXX_FLAGS_DEBUG=-O0")
+# The consumer is quick to build, with assertions on, where the library's own build has them off. Sources of sinew are
+# compiled exactly as in BUILD: with ccache that is not done again.
+set(flags -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG=-O0)
+set(sinew_flags -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
+  -D CMAKE_BUILD_TYPE=${BUILD_TYPE} -D CMAKE_CXX_FLAGS=${FLAGS} -D SINEW_WARNINGS_AS_ERRORS=${WARNINGS_AS_ERRORS})
 
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
@@ -19,14 +22,14 @@ file(REMOVE_RECURSE ${prefix})
 if(MODE STREQUAL "install")
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 elseif(MODE STREQUAL "shared")
-  run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/sinew ${flags} -D BUILD_SHARED_LIBS=ON -D SINEW_BUILD_COMMAND=OFF)
+  run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/sinew ${sinew_flags} -D BUILD_SHARED_LIBS=ON -D SINEW_BUILD_COMMAND=OFF)
   run(${CMAKE_COMMAND} --build ${WORK}/sinew --parallel ${JOBS})
   run(${CMAKE_COMMAND} --install ${WORK}/sinew --prefix ${prefix})
 endif()
 
 file(REMOVE ${WORK}/consumer/CMakeCache.txt)
 if(MODE STREQUAL "subdirectory")
-  run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/consumer ${flags} -D SINEW_SOURCE=${SOURCE})
+  run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/consumer ${sinew_flags} -D SINEW_SOURCE=${SOURCE})
 else()
   run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/consumer ${flags} -D CMAKE_PREFIX_PATH=${prefix}
       -D CMAKE_FIND_PACKAGE_NO_PACKAGE_REGISTRY=ON)
@@ -56,6 +59,14 @@ endif()
 
 if(MODE STREQUAL "install" AND EXISTS ${prefix}/bin/sinew)
   run(${prefix}/bin/sinew --version)
+endif()
+
+if(NOT MODE STREQUAL "shared")
+  execute_process(COMMAND nm --dynamic --defined-only ${WORK}/consumer/libconsumer_plugin.so
+                  OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT symbols MATCHES "consumer_version" OR symbols MATCHES "5sinew")
+    message(FATAL_ERROR "a plugin that links the static library exports:\n${symbols}")
+  endif()
 endif()
 
 if(MODE STREQUAL "shared")

@@ -1,5 +1,5 @@
-/// The rigid 3PRS against numbers of an independent implementation (tests/data/tripod/rigid_cases.json), through
-/// the real `sinew query`.
+/// The rigid 3PRS against numbers of an independent implementation (tests/data/tripod/rigid_cases.json),
+/// through the real `sinew query`.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,7 +69,8 @@ TEST(ReferenceTripod, EveryModeLeadsBack) {
   }
   const auto there = ask("3prs", back);
   for (std::size_t k = 0; k < 8; ++k) expect_pose(there[k]["pose"], p, 1e-12);
-  for (std::size_t k = 8; k < there.size(); ++k) EXPECT_LT(relative_error(there[k]["inputs"], p["rho"]), 1e-12);
+  for (std::size_t k = 8; k < there.size(); ++k)
+    EXPECT_LT(relative_error(there[k]["inputs"], p["rho"]), 1e-12);
 }
 
 }  // namespace

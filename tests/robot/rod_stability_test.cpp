@@ -34,33 +34,51 @@ struct SingleRod {
   }
 };
 
+/// Whether what a system counts is what is exact; true where the shape is too sharp to be resolved.
+bool counts_right(SingleRod& rod, const ElasticaEquilibrium& exact) {
+  rod.take(exact.local_force, exact.state);
+  if (!(rod.system.truncation() < 1e-6)) return true;
+  EXPECT_TRUE(close_rods(rod.system));
+  rod.system.linearise();
+  return rod.system.unstable_with_tip_held(0) ==
+         std::array{exact.unstable_in_plane, exact.unstable_out_of_plane};
+}
+
 TEST(RodStability, CountsTheUnstableDirectionsOfAllEquilibriaOfATip) {
   RodRandom random(1);
   SingleRod rod;
-  int stable = 0, in_plane = 0, aside = 0, inflected = 0;
-  for (int trial = 0; trial < 60; ++trial) {
+  int stable = 0, aside = 0;
+  for (int trial = 0; trial < 25; ++trial) {
     const double r = random.uniform(0.2, 0.99), angle = random.uniform(0.05, 3);
-    const ElasticaMap map = elastica_map({r * std::sin(angle), r * std::cos(angle)}, {.force_bound = 100});
-    for (const ElasticaEquilibrium& exact : map.equilibria) {
-      SCOPED_TRACE(testing::Message() << "local force " << exact.local_force.transpose());
+    for (const auto& exact : elastica_map({r * std::sin(angle), r * std::cos(angle)}).equilibria) {
       if (exact.unstable_in_plane < 0) continue;
-      ASSERT_LT(rod.take(exact.local_force, exact.state), 0.1);
-      if (rod.system.truncation() > 1e-6) continue;  // not resolved, and settle() says so
-      ASSERT_TRUE(close_rods(rod.system));
-      rod.system.linearise();
-      const auto counted = rod.system.unstable_with_tip_held(0);
-      EXPECT_EQ(counted[0], exact.unstable_in_plane);
-      EXPECT_EQ(counted[1], exact.unstable_out_of_plane);
+      EXPECT_TRUE(counts_right(rod, exact)) << "local force " << exact.local_force.transpose();
       stable += exact.is_stable();
-      in_plane += exact.unstable_in_plane > 0;
       aside += exact.unstable_out_of_plane > 0;
-      inflected += exact.inflections > 0;
     }
   }
-  EXPECT_GT(stable, 50);  // the samples were worth it
-  EXPECT_GT(in_plane, 50);
-  EXPECT_GT(aside, 50);
-  EXPECT_GT(inflected, 50);
+  EXPECT_GT(stable, 20);  // the samples were worth it
+  EXPECT_GT(aside, 15);
+}
+
+TEST(RodStability, CountsThemBeyondTheFirstInflection) {
+  RodRandom random(4);
+  SingleRod rod;
+  std::array<int, 4> by_inflections{};
+  int in_plane = 0, many_aside = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const ElasticaEquilibrium exact =
+        elastica_equilibrium(elastica_local_force(random.uniform(0, 200), random.uniform(-3.14159, 3.14159)));
+    if (exact.unstable_in_plane < 0) continue;
+    EXPECT_TRUE(counts_right(rod, exact)) << "local force " << exact.local_force.transpose();
+    if (!(rod.system.truncation() < 1e-6)) continue;
+    ++by_inflections[std::size_t(std::min(exact.inflections, 3))];
+    in_plane += exact.unstable_in_plane > 0;
+    many_aside += exact.unstable_out_of_plane > 1;
+  }
+  for (const int seen : by_inflections) EXPECT_GT(seen, 50);
+  EXPECT_GT(in_plane, 200);
+  EXPECT_GT(many_aside, 200);
 }
 
 TEST(RodStability, TruncationIsAnHonestEstimate) {
@@ -68,7 +86,7 @@ TEST(RodStability, TruncationIsAnHonestEstimate) {
   SingleRod rod;
   for (const bool is_fine : {false, true}) {
     int judged = 0, exceeded = 0;
-    double worst = 0, least = 1e300;
+    double worst = 0;
     for (int trial = 0; trial < 2000; ++trial) {
       const Vec2<double> local =
           elastica_local_force(random.uniform(0, is_fine ? 150 : 20), random.uniform(-3.14159, 3.14159));
@@ -87,12 +105,10 @@ TEST(RodStability, TruncationIsAnHonestEstimate) {
       ++judged;
       exceeded += error > 1;
       worst = std::max(worst, error);
-      least = std::min(least, error);
     }
-    std::printf("%s judged %d exceeded %d worst %g least %g\n", is_fine ? "fine" : "coarse", judged, exceeded, worst, least);
     EXPECT_GT(judged, 300);
-    EXPECT_LT(exceeded, judged / 50);
-    EXPECT_LT(worst, 20);
+    EXPECT_LE(exceeded, judged / 100);
+    EXPECT_LT(worst, 5);
     EXPECT_GT(worst, 0.05);  // nor does it only frighten
   }
 }
@@ -152,12 +168,10 @@ TEST(RodLanes, AgreeWhateverTheInstructionSet) {
     hwy::GetChosenTarget().Update(set);
     const std::string name = rod_kernels::instruction_set();
     const std::vector<double> numbers = numbers_of_a_step();
-    std::printf("%s\n", name.c_str());
     ASSERT_EQ(numbers.size(), best.size());
     double worst = 0;
     for (std::size_t k = 0; k < best.size(); ++k) worsen(worst, std::abs(numbers[k] - best[k]) / (1 + std::abs(best[k])));
     EXPECT_LT(worst, 1e-11) << name << " beside " << best_name;
-    std::printf("%s %g\n", name.c_str(), worst);
     hwy::SetSupportedTargetsForTest(0);
     ++sets;
   }

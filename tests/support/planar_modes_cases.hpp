@@ -53,7 +53,7 @@ inline Legs random_legs(std::mt19937& random, std::size_t count, double platform
   for (auto& leg : legs) leg = {point(random), 0, point(random, platform)};
   return legs;
 }
-inline PlanarPose random_pose(std::mt19937& random) {
+inline PlanarPose any_pose(std::mt19937& random) {
   return {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -pi, pi)};
 }
 

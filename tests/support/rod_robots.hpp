@@ -127,7 +127,7 @@ inline bool close_rods(RodSystem& system) {
     system.move(RodSystem::Twist::Zero());
   }
   system.evaluate();
-  return system.rod_error() <= 1e-12;
+  return system.rod_error() <= 1e-11;
 }
 
 /// Evaluated and linearised under the wrench that holds this state.

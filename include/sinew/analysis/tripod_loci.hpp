@@ -1,6 +1,6 @@
 /// @file tripod_loci.hpp
-/// Where the symmetric 3PRS is singular: curves in the plane of e₁ and e₂, the same at every height. Operation
-/// mode e₃ = 0, every carriage below its platform point. Theory: docs/theory/tripod_rigid.md
+/// Where the symmetric 3PRS is singular: curves in the plane of e₁ and e₂, the same at every height.
+/// Operation mode e₃ = 0, every carriage below its platform point. Theory: docs/theory/tripod_rigid.md
 #pragma once
 #include <array>
 #include <optional>
@@ -15,8 +15,8 @@ struct TripodSize {
   double base_radius, platform_radius, strut_length;
 };
 
-/// Distances of the platform points from the robot's axis, each in the plane of its hinge, over the platform's
-/// radius: the left sides of (19).  @implements 3PFS (19)
+/// Distances of the platform points from the robot's axis, each in the plane of its hinge, over the
+/// platform's radius: the left sides of (19).  @implements 3PFS (19)
 SINEW_API std::array<double, 3> radial_positions(double e1, double e2);
 
 /// The right sides of (19), (r_A − L)/r and (r_A + L)/r: where one of the three reaches either, that strut is

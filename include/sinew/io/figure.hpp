@@ -13,8 +13,9 @@
 
 namespace sinew::inline v0 {
 
-/// Okabe and Ito's palette, told apart with any colour vision; grey for what is only there for orientation.
-enum class Colour { black, blue, vermillion, green, orange, sky, purple, yellow, grey };
+/// Okabe and Ito's palette, told apart with any colour vision; grey for what is only there for orientation,
+/// white for what lies on the dark of a map.
+enum class Colour { black, blue, vermillion, green, orange, sky, purple, yellow, grey, white };
 
 enum class Mark {
   line,
@@ -25,6 +26,7 @@ enum class Mark {
   circles,  ///< open circles, white inside: joints
   polygon,  ///< closed, filled with a pale shade of its colour
   outline,  ///< closed, not filled
+  outside,  ///< closed; the map where it is not inside becomes the page's white: an edge through cells
 };
 
 /// One curve. Where x or y is not finite the line is interrupted.
@@ -44,6 +46,7 @@ struct HeatMap {
   std::vector<double> values;                 ///< x fastest
   std::string label;                          ///< of the colour bar
   std::optional<double> low = {}, high = {};  ///< ends of the colours; default: what the values need
+  bool log = false;                           ///< of the colours
 };
 
 /// A text at a point of the panel, in its coordinates.

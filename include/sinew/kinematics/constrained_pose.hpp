@@ -6,7 +6,8 @@
 
 namespace sinew::inline v0 {
 
-/// What can be chosen of the pose of a tripod: a height and two components of the quaternion (e₀, e₁, e₂, e₃).
+/// What can be chosen of the pose of a tripod: a height and two components of the quaternion (e₀, e₁, e₂,
+/// e₃).
 struct Independent {
   double z = 0;           ///< [m]
   double e1 = 0, e2 = 0;  ///< e₁² + e₂² ≤ 1
@@ -31,8 +32,9 @@ struct ConstrainedPose {
 SINEW_API ConstrainedPose constrained_pose(const AnyRobot& robot, const Independent& independent,
                                            OperationMode mode = OperationMode::tilt);
 
-/// The pose put back into the planes of the robot's hinges, by shortest steps; of a robot without such planes
-/// the pose itself. A pose from which no steps lead there is answered by the nearest one found.
+/// The pose put back into the planes of the robot's hinges, by shifts where these suffice and small turns
+/// where not; of a robot without such planes the pose itself. A pose from which no steps lead there is
+/// answered by the nearest one found.
 SINEW_API AnyPose settled(const AnyRobot& robot, const AnyPose& pose);
 
 }  // namespace sinew::inline v0

@@ -57,6 +57,14 @@ struct IndependentPose {
 SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
+/// Many equilibria under one wrench: `rows` holds the inputs of each, one after the other, `poses` and `statuses`
+/// have one entry each. Neighbouring rows should be near each other: eight stretches of them are walked at once
+/// in SIMD lanes, and a row that does not come at once is solved as `equilibrium` does. Poses to 1e-12 of the
+/// rods' length; stability is not asked. Where a status is not `converged` the pose is not one. The same bytes on
+/// one instruction set, whatever ran before. Allocates once a call.
+SINEW_API void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
+                                 std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work);
+
 /// What is known of the equilibrium a workspace holds.
 struct RodAnalysis {
   std::array<double, 36> stiffness;  ///< ∂(F, M)/∂(p, φ) at fixed lengths, rows first, twist order

@@ -1,7 +1,7 @@
 /// @file hinged_modes.hpp
-/// Assembly modes of a platform on three hinged legs (3PRS and its kin): every pose that closes them, whatever
-/// drives the hinges. Each platform point moves on a circle; at most sixteen poses close the three, both
-/// operation modes of a 3PRS among them. Theory: docs/theory/tripod_rigid.md
+/// Assembly modes of a platform on three hinged legs (3PRS and its kin): every pose that closes them,
+/// whatever drives the hinges. Each platform point moves on a circle; at most sixteen poses close the three,
+/// both operation modes of a 3PRS among them. Theory: docs/theory/tripod_rigid.md
 #pragma once
 #include <array>
 #include <span>
@@ -12,9 +12,9 @@
 
 namespace sinew::inline v0 {
 
-/// What the report says besides `converged`: `unreachable`, no pose closes the legs; `singular`, a continuum of
-/// poses does, some of which may be listed; `stalled`, none was found and some may be missing; `left_domain`,
-/// a number is not finite or the legs are not three with a plane each.
+/// What the report says besides `converged`: `unreachable`, no pose closes the legs; `singular`, a continuum
+/// of poses does, some of which may be listed; `stalled`, none was found and some may be missing;
+/// `left_domain`, a number is not finite or the legs are not three with a plane each.
 struct HingedModes {
   static constexpr int most = 16;
   Report report;  ///< residual: the largest of all poses

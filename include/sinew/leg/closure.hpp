@@ -40,15 +40,17 @@ DistanceRow<S, D, Q> distance_row(const Vec<S, D>& r, const Anchor<S, D, Q>& anc
 
 /// A closure that also holds the platform point in a plane through the anchor: it gives one more row.
 template <class Closure>
-concept HoldsInPlane = requires { Closure::template plane_normal<double>(); };
+concept HoldsInPlane = requires {
+  Closure::template plane_normal<double>();
+};
 
 /// Which of a leg's solutions is wanted: the one of this sign of curvature and this elbow (0: any) whose
 /// branch coordinate (of an arc the curvature, of a rail the slide) is nearest to `near`.
 struct Wish {
   double near = 0;  ///< [1/m], of a rail [m]
   int bending = 0;  ///< +1, −1 or 0; without effect on a rail
-  /// Of a link on a motor +1: the strut is turned counter-clockwise from the link's chord; −1: clockwise. Of a
-  /// rail +1: the strut leads ahead along the rail; −1: back. 0: any.
+  /// Of a link on a motor +1: the strut is turned counter-clockwise from the link's chord; −1: clockwise. Of
+  /// a rail +1: the strut leads ahead along the rail; −1: back. 0: any.
   int elbow = 0;
 };
 

@@ -61,7 +61,8 @@ struct HingedStrut {
       text.append("has its platform point ");
       append_mm(text, std::abs(r.x()));
       text.append(
-          " beside the plane its hinge holds it in: not all of a pose can be chosen here; give the independent "
+          " beside the plane its hinge holds it in: not all of a pose can be chosen here; give the "
+          "independent "
           "coordinates z, e1, e2 instead");
       return;
     }

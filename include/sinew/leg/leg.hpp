@@ -8,40 +8,15 @@
 #include <span>
 
 #include "sinew/base/fixed_text.hpp"
+#include "sinew/leg/blocks.hpp"
 #include "sinew/leg/closure.hpp"
 #include "sinew/leg/reach.hpp"
 #include "sinew/leg/space.hpp"
+#include "sinew/leg/state.hpp"
 #include "sinew/link/backbone.hpp"
 #include "sinew/solve/roots.hpp"
 
 namespace sinew::inline v0 {
-
-/// What a leg hands over at platform pose x and link coordinates q. The row of a plane comes last.
-template <Scalar S, int R, int Dof, int Q>
-struct LegBlocks {
-  Vec<S, R> g;         ///< residual [m²]; of a pin or a plane [m]
-  Mat<S, R, Dof> g_x;  ///< ∂g/∂x by the platform's twist: Plücker lines (times the distance); rows of J
-  Mat<S, R, Q> g_q;    ///< ∂g/∂q by the link coordinates
-  S error;             ///< the residual as a distance [m], without that of a plane
-};
-
-/// What a person wants to know of a leg in an answer: first of one with an arc, then of one on a rail; what
-/// the leg has not is NaN or 0.
-struct LegState {
-  static constexpr double absent = std::numeric_limits<double>::quiet_NaN();
-
-  double curvature = absent;                                ///< κ [1/m], signed
-  double chord = absent;                                    ///< ρ [m]
-  std::array<double, 2> tendon_lengths = {absent, absent};  ///< tendon 1, tendon 2 [m]
-  Vec3<double> base_tangent = Vec3<double>::Zero();  ///< unit vector along the backbone at its base, base axes
-  std::array<double, 2> joint_angles = {0, 0};  ///< of the universal joint at the base [rad]; 0 in the plane
-
-  double slide = absent;                         ///< ρ of the carriage along its rail [m]
-  Vec3<double> carriage = Vec3<double>::Zero();  ///< base frame [m]
-  double hinge_angle = absent;                   ///< of the strut about the hinge's axis, from the rail [rad]
-
-  int elbow = 0;  ///< see Wish, ±1; 0 of a leg without
-};
 
 /// A closure that gives the coordinates of this link in closed form; others are searched.
 template <class Closure, class Link, class Point>
@@ -66,7 +41,7 @@ struct Leg {
   static constexpr bool is_redundant = coordinates > rows;
   /// The strut may lead to either side: solutions come in pairs that a wish tells apart by their elbow.
   static constexpr bool has_elbow = is_redundant || HasSlide<Link>;
-  static constexpr bool has_plane = HoldsInPlane<Closure>;  ///< the last row is that of a plane
+  static constexpr bool has_plane = HoldsInPlane<Closure>;        ///< the last row is that of a plane
   static constexpr int driven_rows = rows - (has_plane ? 1 : 0);  ///< rows that the link's coordinates close
 
   template <class S>
@@ -167,9 +142,7 @@ struct Leg {
   /// The branch coordinate lies in (−domain, domain): a curvature short of a full turn, and no tendon at its
   /// centre of curvature; a slide not beyond any place.
   double domain() const { return std::min(link.domain(), drive.domain()); }
-  bool in_domain(const Coordinates& q) const {
-    return std::abs(link.branch(q)) < domain() && q.allFinite();
-  }
+  bool in_domain(const Coordinates& q) const { return std::abs(link.branch(q)) < domain() && q.allFinite(); }
   /// A change of the branch coordinate that compares with a radian: of a curvature the bend angle κℓ is.
   double branch_unit() const {
     if constexpr (HasArc<Link>)
@@ -179,9 +152,9 @@ struct Leg {
   }
   /// @}
 
-  /// Link coordinates in ascending order of their branch coordinate that close the leg at this platform pose: all of them,
-  /// or of a leg that can still move there those the wish singles out. Returns their number, -1 where they
-  /// cannot be told apart.
+  /// Link coordinates in ascending order of their branch coordinate that close the leg at this platform pose:
+  /// all of them, or of a leg that can still move there those the wish singles out. Returns their number, -1
+  /// where they cannot be told apart.
   int solutions_at(const Frame& platform, const Wish& wish, std::span<Coordinates> roots) const {
     return solutions_of(offset<double>(platform), wish, roots);
   }
@@ -279,8 +252,7 @@ struct Leg {
       }
       return nearest;
     } else {
-      const NearestRoot found =
-          nearest_root(closing_at(r), search_for(wish.bending), wish.near);
+      const NearestRoot found = nearest_root(closing_at(r), search_for(wish.bending), wish.near);
       const Coordinates q(found.root);
       return found.count > 0 && !in_domain(q) ? Nearest{0, q} : Nearest{found.count, q};
     }

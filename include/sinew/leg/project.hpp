@@ -53,7 +53,8 @@ Projection project(const LegT& leg, const typename LegT::Frame& platform, double
     Mat<double, R, LegT::coordinates> slope = blocks.g_q.template topRows<R>() * scale.asDiagonal();
     if (is_held) slope.col(LegT::coordinates - 1).setZero();
     const Mat<double, R, R> normal = slope * slope.transpose();
-    const Vec<double, LegT::coordinates> step = slope.transpose() * (normal.inverse() * -blocks.g.template head<R>());
+    const Vec<double, LegT::coordinates> step =
+        slope.transpose() * (normal.inverse() * -blocks.g.template head<R>());
     const double length = step.norm();
     if (!std::isfinite(length) || length > 1) return result;
     if (iteration == 0) first = length;
@@ -66,7 +67,8 @@ Projection project(const LegT& leg, const typename LegT::Frame& platform, double
       }
   }
   const auto blocks = leg.template blocks<double>(platform, leg.template tip<double>(q));
-  result.ok = result.error <= 1e3 * tolerance && leg.in_domain(q) && is_in_plane(leg, blocks);  // the last digits need not come
+  result.ok = result.error <= 1e3 * tolerance && leg.in_domain(q) &&
+              is_in_plane(leg, blocks);  // the last digits need not come
   return result;
 }
 

@@ -66,9 +66,9 @@ struct Arc {
 
   /// The coordinate that tells solutions of a leg apart: the curvature [1/m].
   double branch(const Vec<double, 1>& q) const { return q[0]; }
-  double size() const { return length; }               ///< a length to compare errors with [m]
-  double domain() const { return bounds().domain; }    ///< branch coordinates lie in (−domain, domain)
-  static constexpr std::string_view beyond_domain =    ///< what an input does that leaves the domain
+  double size() const { return length; }             ///< a length to compare errors with [m]
+  double domain() const { return bounds().domain; }  ///< branch coordinates lie in (−domain, domain)
+  static constexpr std::string_view beyond_domain =  ///< what an input does that leaves the domain
       "bends the link to a full turn, or a tendon to its centre of curvature; give a length nearer to the "
       "backbone's";
 

@@ -23,7 +23,9 @@ concept HasArc = requires(const Link& link) {
 
 /// A link that slides its tip along +y: closures may then solve in closed form.
 template <class Link>
-concept HasSlide = requires(const Link& link, const Vec<double, 1>& q) { link.slide(q); };
+concept HasSlide = requires(const Link& link, const Vec<double, 1>& q) {
+  link.slide(q);
+};
 
 /// Bounds that hold for every value of the coordinate of a one-coordinate link. They make root isolation a
 /// proof.

@@ -46,9 +46,9 @@ SINEW_API int row_count(const AnyRobot& robot);
 SINEW_API int dof(const AnyRobot& robot);
 /// A leg can move while the platform stands still.
 SINEW_API bool has_redundant_leg(const AnyRobot& robot);
-SINEW_API bool has_elbow(const AnyRobot& robot);  ///< a leg's strut may lead to either side
-SINEW_API bool has_arc(const AnyRobot& robot);    ///< a leg has a curvature
-SINEW_API int plane_count(const AnyRobot& robot); ///< rows of planes, the last of all
+SINEW_API bool has_elbow(const AnyRobot& robot);   ///< a leg's strut may lead to either side
+SINEW_API bool has_arc(const AnyRobot& robot);     ///< a leg has a curvature
+SINEW_API int plane_count(const AnyRobot& robot);  ///< rows of planes, the last of all
 
 /// An input of the robot, as messages and tables name it: `legs[0].tendon_1`.
 struct InputOfLeg {

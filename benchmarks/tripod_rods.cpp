@@ -1,0 +1,141 @@
+/// Flexible 3PFS: warm forward kinematics, cold starts and batches, each on every instruction set this machine
+/// has. Run: build/dev/bin/bench_tripod_rods
+/// The baseline is the paper's own way: 37 unknowns, rods by RK4 with 40 steps, Jacobian by differences; each of its
+/// columns integrates only the rod that owns the unknown (all six rods for every column would take five times as long).
+#include <fmt/format.h>
+
+#include <hwy/highway.h>
+
+#include <memory>
+#include <random>
+
+#include "reference_3pfs.hpp"
+#include "report.hpp"
+#include "shooting_3pfs.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
+
+namespace sinew::bench {
+namespace {
+
+namespace paper = sinew::test::shooting;
+
+struct Set {
+  const char *name, *file;
+  double range;  ///< of the walk about home [m]
+};
+constexpr Set sets[] = {{"G1", "3pfs-g1", 0.012}, {"G2", "3pfs-g2", 0.030}};
+
+struct InstructionSet {
+  const char* name;
+  std::int64_t target;
+};
+constexpr InstructionSet instruction_sets[] = {{"AVX-512", HWY_AVX3}, {"AVX2", HWY_AVX2}, {"SSSE3", HWY_SSSE3}};
+
+/// Lengths that wander about home in steps of one size, a new direction every 50 steps.
+struct Walk {
+  AnyRobot robot;
+  Workspace work;
+  double home;
+  std::vector<std::array<double, 3>> lengths;
+  std::size_t at = 0;
+
+  Walk(const Set& set, double stride)
+      : robot(load(set.file).value()),
+        work(robot),
+        home(paper::reference(set.name)["L_home"].get<double>()) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    std::array<double, 3> offset{}, direction{};
+    for (int k = 0; k < 4096; ++k) {
+      if (k % 50 == 0) {
+        for (double& d : direction) d = uniform(random);
+        const double norm = std::hypot(direction[0], direction[1], direction[2]);
+        for (double& d : direction) d *= stride / norm;
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (std::abs(offset[i] + direction[i]) > set.range) direction[i] = -direction[i];
+        offset[i] += direction[i];
+      }
+      lengths.push_back({home + offset[0], home + offset[1], home + offset[2]});
+    }
+    // there and back, so that it may be walked round and round
+    lengths.insert(lengths.end(), lengths.rbegin(), lengths.rend());
+  }
+  Equilibrium next() {
+    at = (at + 1) % lengths.size();
+    return equilibrium(robot, lengths[at], {.resume = true, .judge = false}, work);
+  }
+};
+
+/// Largest difference of the warm poses from cold ones, in metres and as quaternions; mean iterations.
+std::string judge(const std::shared_ptr<Walk>& walk) {
+  Workspace cold(walk->robot);
+  double worst = 0, iterations = 0;
+  int failures = 0;
+  for (std::size_t k = 0; k < walk->lengths.size(); ++k) {
+    const Equilibrium warm = walk->next();
+    iterations += warm.report.iterations / static_cast<double>(walk->lengths.size());
+    failures += !(warm.report.ok() && warm.report.residual <= 1e-12);
+    if (k % 64 != 0) continue;
+    const Equilibrium exact = equilibrium(walk->robot, walk->lengths[walk->at], {}, cold);
+    worst = std::max(worst, (warm.pose.position - exact.pose.position).norm());
+    for (std::size_t c = 0; c < 4; ++c)
+      worst = std::max(worst, std::abs(warm.pose.quaternion[c] - exact.pose.quaternion[c]));
+  }
+  return fmt::format("pose to {:.0e}, {:.1f} iterations, {} failures", worst, iterations, failures);
+}
+
+/// The paper's Newton on the same walk, warm.
+struct PaperWalk {
+  paper::Tripod tripod;
+  paper::Solution state;
+  std::shared_ptr<Walk> walk;
+  std::size_t at = 0;
+
+  PaperWalk(const Set& set, std::shared_ptr<Walk> same)
+      : tripod(paper::tripod(paper::reference(set.name))),
+        walk(std::move(same)) {
+    const auto home = lengths(0);
+    state = paper::solve(tripod, home, {}, paper::first_guess(tripod, home), paper::baseline);
+  }
+  paper::PerRod<double> lengths(std::size_t k) const {
+    const auto& l = walk->lengths[k];
+    return {l[0], l[0], l[1], l[1], l[2], l[2]};
+  }
+  void next() {
+    at = (at + 1) % walk->lengths.size();
+    state = paper::solve(tripod, lengths(at), {}, state.v, paper::baseline);
+  }
+};
+
+void compare_warm(const Set& set, double stride, const InstructionSet& isa) {
+  auto walk = std::make_shared<Walk>(set, stride);
+  hwy::SetSupportedTargetsForTest(isa.target);
+  equilibrium(walk->robot, walk->lengths[0], {}, walk->work);
+  const std::string accuracy = judge(walk);
+  auto baseline = std::make_shared<PaperWalk>(set, walk);
+  compare({fmt::format("3pfs {} {:.1f} mm {}", set.name, 1e3 * stride, isa.name), "37 unknowns",
+           [walk, isa] {
+             hwy::SetSupportedTargetsForTest(isa.target);
+             benchmark::DoNotOptimize(walk->next().report.residual);
+           },
+           [baseline] {
+             baseline->next();
+             benchmark::DoNotOptimize(baseline->state.residual);
+           },
+           accuracy});
+}
+
+}  // namespace
+}  // namespace sinew::bench
+
+int main(int argc, char** argv) {
+  using namespace sinew::bench;
+  const auto has = hwy::SupportedTargets();
+  for (const InstructionSet& isa : instruction_sets)
+    if (has & isa.target)
+      for (const Set& set : sets)
+        for (const double stride : {0.5e-3, 1e-3, 2e-3}) compare_warm(set, stride, isa);
+  return sinew::bench::main(argc, argv);
+}

@@ -1,0 +1,28 @@
+/// @file tripod_contour.hpp
+/// Lines of equal value over a heat map, with their values written on them.
+#pragma once
+#include <vector>
+
+#include "sinew/io/figure.hpp"
+
+namespace sinew::inline v0::contour {
+
+/// The lines of one value, linear between the cells' middles; a cell with a corner that is not finite has
+/// none.
+Series line(const HeatMap& map, double level);
+
+/// Lines of some values, each written where its line first crosses a ray from the middle of the map, once for
+/// each direction in which it does.
+struct Levels {
+  std::vector<double> values;
+  std::vector<double> directions;  ///< [deg]
+};
+
+/// The lines into the panel with the map: white on the dark half of its colours, black on the other.
+void add(Panel& panel, const std::vector<Levels>& all);
+
+/// The values of the cells next to the map's edge carried one cell further, and so on `rings` times: what
+/// lies under an edge that cuts through cells. The map's own values stay.
+HeatMap spread(HeatMap map, int rings = 2);
+
+}  // namespace sinew::inline v0::contour
