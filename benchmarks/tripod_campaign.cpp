@@ -1,6 +1,6 @@
-/// Cold forward kinematics of the flexible 3PFS on random inputs, every answer judged from outside: its rods integrated
-/// anew at order 8, and where it is not an equilibrium the paper's own system walked there from home.
-/// Run: build/dev/bin/bench_tripod_campaign [inputs a preset]
+/// Cold forward kinematics of the flexible 3PFS on random inputs, every answer judged from outside: its rods
+/// integrated anew at order 8, and where it is not an equilibrium the paper's own system walked there from
+/// home. Run: build/dev/bin/bench_tripod_campaign [inputs a preset]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@ struct Asked {
   SpatialWrench wrench = SpatialWrench::Zero();
 };
 
-/// Lengths within 60 mm of home; every other one with a force of up to 5 N an axis and a moment of up to 0.5 N m.
+/// Lengths within 60 mm of home; every other one with a force of up to 5 N an axis and a moment of up to 0.5
+/// N m.
 Asked random_question(std::mt19937& random, double home, bool is_loaded) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   Asked asked;
@@ -67,7 +68,8 @@ void run(const char* set_name, const char* file, int count) {
     const Asked asked = random_question(random, home, k % 2 == 1);
     const auto begin = std::chrono::steady_clock::now();
     const Equilibrium answer = equilibrium(robot, asked.lengths, {.wrench = asked.wrench}, work);
-    times.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+    times.push_back(
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
     ++statuses[std::string(to_string(answer.report.status))];
     if (answer.is_solved()) {
       const auto [gap, lost] = judge(tripod, asked, robot, answer, work);
@@ -78,8 +80,9 @@ void run(const char* set_name, const char* file, int count) {
       wrong += !(gap <= 1e-9 && lost <= 1e-9 && answer.report.residual <= 1e-12);
     } else {
       const auto& l = asked.lengths;
-      const auto found = paper::walk(tripod, {home_lengths, {}}, {paper::pairs({l[0], l[1], l[2]}), wrench_of(asked.wrench)},
-                                     start.v, 200);
+      const auto found =
+          paper::walk(tripod, {home_lengths, {}}, {paper::pairs({l[0], l[1], l[2]}), wrench_of(asked.wrench)},
+                      start.v, 200);
       missed += found.converged;
     }
   }
@@ -88,10 +91,10 @@ void run(const char* set_name, const char* file, int count) {
   fmt::print("{}: {} inputs", set_name, count);
   for (const auto& [status, number] : statuses) fmt::print(", {} {}", number, status);
   fmt::print("\n  wrong {}, missed where the paper's system walks there {}\n", wrong, missed);
-  fmt::print("  largest residual {:.1e}; integrated anew: closure {:.1e} m, balance {:.1e} N or N m\n", residual, closure,
-             balance);
-  fmt::print("  cold: median {:.1f} us, p99 {:.1f} us, p99.9 {:.1f} us, {:.1f} iterations in the mean\n", at(0.5), at(0.99),
-             at(0.999), iterations);
+  fmt::print("  largest residual {:.1e}; integrated anew: closure {:.1e} m, balance {:.1e} N or N m\n",
+             residual, closure, balance);
+  fmt::print("  cold: median {:.1f} us, p99 {:.1f} us, p99.9 {:.1f} us, {:.1f} iterations in the mean\n",
+             at(0.5), at(0.99), at(0.999), iterations);
 }
 
 }  // namespace

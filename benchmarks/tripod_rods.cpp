@@ -1,7 +1,7 @@
-/// Flexible 3PFS: warm forward kinematics, cold starts and batches, each on every instruction set this machine
-/// has. Run: build/dev/bin/bench_tripod_rods
-/// The baseline is the paper's own way: 37 unknowns, rods by RK4 with 40 steps, Jacobian by differences; each of its
-/// columns integrates only the rod that owns the unknown (all six rods for every column would take five times as long).
+/// Flexible 3PFS: warm forward kinematics, cold starts and batches, each on every instruction set this
+/// machine has. Run: build/dev/bin/bench_tripod_rods The baseline is the paper's own way: 37 unknowns, rods
+/// by RK4 with 40 steps, Jacobian by differences; each of its columns integrates only the rod that owns the
+/// unknown (all six rods for every column would take five times as long).
 #include <fmt/format.h>
 
 #include <hwy/highway.h>
@@ -30,7 +30,8 @@ struct InstructionSet {
   const char* name;
   std::int64_t target;
 };
-constexpr InstructionSet instruction_sets[] = {{"AVX-512", HWY_AVX3}, {"AVX2", HWY_AVX2}, {"SSSE3", HWY_SSSE3}};
+constexpr InstructionSet instruction_sets[] = {
+    {"AVX-512", HWY_AVX3}, {"AVX2", HWY_AVX2}, {"SSSE3", HWY_SSSE3}};
 
 /// Lengths that wander about home in steps of one size, a new direction every 50 steps.
 struct Walk {

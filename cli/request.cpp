@@ -249,14 +249,15 @@ std::string Request::wrench(std::string_view option, const Robot& robot) {
   const std::size_t forces = robot.is_spatial ? 3 : 2, count = robot.is_spatial ? 6 : 3;
   if (parts.size() != count) {
     fail("wrong_length", option,
-         fmt::format("{}; {}.", counted(given, parts.size()),
-                     robot.is_spatial
-                         ? fmt::format("a spatial wrench has six, force and moment on the platform: --{} \"1 N, "
-                                       "-0.5 N, -5 N, 0.2 N m, 0.1 N m, -0.1 N m\"",
-                                       option)
-                         : fmt::format("a planar wrench has three, force and moment on the platform: --{} \"1 "
-                                       "N, -0.5 N, 0.2 N m\"",
-                                       option)));
+         fmt::format(
+             "{}; {}.", counted(given, parts.size()),
+             robot.is_spatial
+                 ? fmt::format("a spatial wrench has six, force and moment on the platform: --{} \"1 N, "
+                               "-0.5 N, -5 N, 0.2 N m, 0.1 N m, -0.1 N m\"",
+                               option)
+                 : fmt::format("a planar wrench has three, force and moment on the platform: --{} \"1 "
+                               "N, -0.5 N, 0.2 N m\"",
+                               option)));
     return {};
   }
   std::vector<Dimension> dimensions(forces, Dimension::force);
@@ -273,9 +274,10 @@ void Request::wrench(const Robot& robot) {
 void Request::until(const Robot& robot) {
   const std::string *given = arguments_.text("until"), *limit = arguments_.text("limit");
   if (given && !limit)
-    return fail("missing_option", "limit",
-                "--until needs it: how many times its wrench is added at most: --until \"0, 0, -1 N, 0, 0, 0\" "
-                "--limit 200.");
+    return fail(
+        "missing_option", "limit",
+        "--until needs it: how many times its wrench is added at most: --until \"0, 0, -1 N, 0, 0, 0\" "
+        "--limit 200.");
   if (limit && !given)
     return fail("no_effect", "limit", "it ends --until, which is not given; give both, or leave it out.");
   if (!given) return;

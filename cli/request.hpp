@@ -28,7 +28,8 @@ struct Robot {
 /// The robot that the command line names, as `--set` and `--theta-is` change it.
 Expected<Robot> open(const Arguments& arguments);
 
-/// The members of a query about the robot's home: its `pose`, of a robot on rods its `independent` coordinates.
+/// The members of a query about the robot's home: its `pose`, of a robot on rods its `independent`
+/// coordinates.
 std::string at_home(const Robot& robot);
 
 /// The query that the options of a verb stand for (`--pose "10 mm, 0, 5 deg"`, `--set path=value`, ...), as

@@ -50,10 +50,14 @@ constexpr std::array all_leg_columns{
 };
 
 constexpr std::array rod_columns{
-    LegColumn{"length", "m", "length"},           LegColumn{"force_x", "N", "force[0]"},
-    LegColumn{"force_y", "N", "force[1]"},        LegColumn{"force_z", "N", "force[2]"},
-    LegColumn{"moment_0_x", "N m", "moment_0[0]"}, LegColumn{"moment_0_y", "N m", "moment_0[1]"},
-    LegColumn{"moment_0_z", "N m", "moment_0[2]"}, LegColumn{"tip_angle", "rad", "tip_angle"},
+    LegColumn{"length", "m", "length"},
+    LegColumn{"force_x", "N", "force[0]"},
+    LegColumn{"force_y", "N", "force[1]"},
+    LegColumn{"force_z", "N", "force[2]"},
+    LegColumn{"moment_0_x", "N m", "moment_0[0]"},
+    LegColumn{"moment_0_y", "N m", "moment_0[1]"},
+    LegColumn{"moment_0_z", "N m", "moment_0[2]"},
+    LegColumn{"tip_angle", "rad", "tip_angle"},
     LegColumn{"energy", "J", "energy"},
 };
 

@@ -47,7 +47,8 @@ std::string show_velocity(const Answer& answer, const Robot& robot);
 std::string show_sensitivity(std::string_view title, const Node& matrix, const Robot& robot);
 std::string show_indices(const Answer& answer, const Robot& robot);
 std::string show_singularities(const Answer& answer);
-/// `converged in 4 iterations, residual 5.0e-14 m`; of rods `converged in 4 iterations, residual 5.0e-14, stable`.
+/// `converged in 4 iterations, residual 5.0e-14 m`; of rods `converged in 4 iterations, residual 5.0e-14,
+/// stable`.
 std::string show_report(const Answer& answer);
 
 }  // namespace sinew::cli

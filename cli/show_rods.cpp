@@ -79,10 +79,11 @@ std::string show_margins(const Node& margins) {
 
 std::string show_load(const Answer& answer) {
   const std::string why = answer.text("why");
-  return fmt::format("load: {} times the wrench of --until, {}\n", six_digits(answer.number("load").value_or(0)),
-                     why == "limit"         ? "the limit"
-                     : why == "bifurcation" ? "a bifurcation: beyond it the equilibrium does not hold by itself"
-                                            : "a fold: beyond it no equilibrium is nearby");
+  return fmt::format(
+      "load: {} times the wrench of --until, {}\n", six_digits(answer.number("load").value_or(0)),
+      why == "limit"         ? "the limit"
+      : why == "bifurcation" ? "a bifurcation: beyond it the equilibrium does not hold by itself"
+                             : "a fold: beyond it no equilibrium is nearby");
 }
 
 }  // namespace
@@ -133,11 +134,12 @@ std::string show_rod_velocity(const Answer& answer, const Robot& robot) {
                      show_sensitivity("U", *answer.find("U"), robot) + '\n';
   TextTable table({"index", "value"});
   table.add({"position[mm/mm]", six_digits(answer.number("indices.position").value_or(0))});
-  table.add({"rotation[deg/mm]",
-             six_digits(answer.number("indices.rotation").value_or(0) * shown("rad").factor / shown("m").factor)});
+  table.add({"rotation[deg/mm]", six_digits(answer.number("indices.rotation").value_or(0) *
+                                            shown("rad").factor / shown("m").factor)});
   return text + table.text() +
-         (answer.text("type_2.singular") == "true" ? "\ntype II: singular, the platform moves with the inputs held\n"
-                                                   : "\ntype II: none, the stiffness is regular\n");
+         (answer.text("type_2.singular") == "true"
+              ? "\ntype II: singular, the platform moves with the inputs held\n"
+              : "\ntype II: none, the stiffness is regular\n");
 }
 
 }  // namespace sinew::cli

@@ -13,7 +13,7 @@ enum Exit : int {
   internal_error = 1,
   bad_input = 2,
   no_solution = 3,  ///< or one that does not hold by itself
-  stopped = 4,  ///< by a limit, by a signal, or because nobody reads stdout any more
+  stopped = 4,      ///< by a limit, by a signal, or because nobody reads stdout any more
 };
 
 /// Thrown where stdout takes no more; `code` is an errno.

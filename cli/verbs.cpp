@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::array options{
     Option{"inputs", "\"A, B, ...\"",
-           "in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its length; where the leg "
+           "in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its length; where the "
+           "leg "
            "has a motor, theta, an angle, before it"},
     Option{
         "pose", "\"X, Y, PHI\"",
@@ -39,8 +40,9 @@ constexpr std::array options{
            "add this wrench again and again until the robot buckles, or --limit is reached"},
     Option{"limit", "N", "how many times --until adds its wrench at most"},
     Option{"all", "", "every solution, not only the one wanted"},
-    Option{"max-iterations", "N", "most iterations of the solver; default 100"},
-    Option{"model", "NAME", "model of the legs: cc (constant curvature), rigid, rod (Kirchhoff); a robot has one"},
+    Option{"max-iterations", "N", "most iterations of the solver; default 100, of rods 4000"},
+    Option{"model", "NAME",
+           "model of the legs: cc (constant curvature), rigid, rod (Kirchhoff); a robot has one"},
     Option{"set", "PATH=VALUE", "change the robot, e.g. \"legs[0].link.length=180 mm\"; may be repeated", 0,
            true},
     Option{"output", "FILE",
@@ -64,37 +66,40 @@ constexpr std::array options{
 };
 
 const std::array table{
-    Verb{"forward",
-         "ROBOT",
-         "pose of the platform from the inputs",
-         {"inputs", "start", "wrench", "want", "until", "limit", "all", "theta-is", "max-iterations", "model",
-          "set", "json", "quiet", "help"},
-         {"inputs"},
-         "Newton's method from the start; --all finds the other assembly modes too. Exit code 3 where the\n"
-         "legs do not close, 4 where the iterations ran out. A platform on rods comes to rest under a load:\n"
-         "  sinew forward 3pfs-g2 --inputs \"0.44 m, 0.42 m, 0.41 m\" --wrench \"1 N, -0.5 N, -5 N, 0, 0, 0\" "
-         "--want stiffness\n"
-         "  sinew forward 3pfs-g2 --inputs \"0.44 m, 0.42 m, 0.41 m\" --until \"0, 0, -1 N, 0, 0, 0\" --limit "
-         "200\n"
-         "There --all finds equilibria, stable or not. One that does not hold by itself is shown, and the exit\n"
-         "code is 3.",
-         "sinew forward 3-rfr --inputs \"0.19 m, 190 mm, 0.188\"",
-         run_question},
-    Verb{"inverse",
-         "ROBOT",
-         "inputs from the pose of the platform",
-         {"pose", "independent", "bending", "elbow", "curvature", "start", "wrench", "want", "all", "theta-is",
-          "model", "set", "json", "quiet", "help"},
-         {"pose", "independent"},
-         "Of several solutions the one that bends least is taken, positive where both signs do; with --start "
-         "the "
-         "one\n"
-         "nearest to those inputs. In space: sinew inverse 6-ufs --pose \"0, 0, 180 mm, 0, 10 deg, 0\"\n"
-         "A platform that hinges hold in planes: sinew inverse 3prs --independent \"0.54 m, 0.1, 0.05\"\n"
-         "One on rods: sinew inverse 3pfs-g2 --independent \"0.39 m, 0.1, 0.05\" --wrench \"0, 0, -5 N, 0, 0, "
-         "0\"",
-         "sinew inverse 3-rfr --pose \"10 mm, -5 mm, 10 deg\" --bending \"+,-,+\"",
-         run_question},
+    Verb{
+        "forward",
+        "ROBOT",
+        "pose of the platform from the inputs",
+        {"inputs", "start", "wrench", "want", "until", "limit", "all", "theta-is", "max-iterations", "model",
+         "set", "json", "quiet", "help"},
+        {"inputs"},
+        "Newton's method from the start; --all finds the other assembly modes too. Exit code 3 where the\n"
+        "legs do not close, 4 where the iterations ran out. A platform on rods comes to rest under a load:\n"
+        "  sinew forward 3pfs-g2 --inputs \"0.44 m, 0.42 m, 0.41 m\" --wrench \"1 N, -0.5 N, -5 N, 0, 0, 0\" "
+        "--want stiffness\n"
+        "  sinew forward 3pfs-g2 --inputs \"0.44 m, 0.42 m, 0.41 m\" --until \"0, 0, -1 N, 0, 0, 0\" --limit "
+        "200\n"
+        "There --all finds equilibria, stable or not. One that does not hold by itself is shown, and the "
+        "exit\n"
+        "code is 3.",
+        "sinew forward 3-rfr --inputs \"0.19 m, 190 mm, 0.188\"",
+        run_question},
+    Verb{
+        "inverse",
+        "ROBOT",
+        "inputs from the pose of the platform",
+        {"pose", "independent", "bending", "elbow", "curvature", "start", "wrench", "want", "all", "theta-is",
+         "model", "set", "json", "quiet", "help"},
+        {"pose", "independent"},
+        "Of several solutions the one that bends least is taken, positive where both signs do; with --start "
+        "the "
+        "one\n"
+        "nearest to those inputs. In space: sinew inverse 6-ufs --pose \"0, 0, 180 mm, 0, 10 deg, 0\"\n"
+        "A platform that hinges hold in planes: sinew inverse 3prs --independent \"0.54 m, 0.1, 0.05\"\n"
+        "One on rods: sinew inverse 3pfs-g2 --independent \"0.39 m, 0.1, 0.05\" --wrench \"0, 0, -5 N, 0, 0, "
+        "0\"",
+        "sinew inverse 3-rfr --pose \"10 mm, -5 mm, 10 deg\" --bending \"+,-,+\"",
+        run_question},
     Verb{"analyse",
          "ROBOT",
          "velocity equations, sensitivities and singularities at a configuration",
@@ -103,7 +108,8 @@ const std::array table{
          {"pose", "independent", "inputs"},
          "Give a pose, or inputs, or both. J·(platform velocity) = K·(input rates) is printed in SI as in "
          "the paper,\n"
-         "U = J⁻¹K in mm and degrees. A singular configuration is shown, and the exit code is 3. Of a robot on "
+         "U = J⁻¹K in mm and degrees. A singular configuration is shown, and the exit code is 3. Of a robot "
+         "on "
          "rods\n"
          "J is the platform's stiffness at fixed lengths, K the force that an input exerts on a platform at "
          "rest.",

@@ -151,8 +151,8 @@ std::string show_rest(const Checked& checked) {
     return "home\n" + show_pose(*checked.robot.description.find("home")) + "\n" + home.text("status") + ": " +
            home.text("message") + "\n";
   return "home, at rest\n" + show_pose(*home.find("pose")) + '\n' +
-         show_inputs("value", numbers(home.find("inputs")), checked.robot) + '\n' + show_legs(*home.find("legs")) +
-         '\n' + show_equilibrium(home, checked.robot);
+         show_inputs("value", numbers(home.find("inputs")), checked.robot) + '\n' +
+         show_legs(*home.find("legs")) + '\n' + show_equilibrium(home, checked.robot);
 }
 
 std::string show_home(const Checked& checked) {
@@ -214,9 +214,10 @@ void suspect(const Node& leg, std::size_t i, PerLeg& warnings) {
 void suspect_rod_at_home(const Node& leg, const Node& state, std::size_t i, PerLeg& warnings) {
   const double length = number(state, "length"), diameter = number(leg, "link.diameter");
   if (diameter > length / 10)
-    warnings.add(i, fmt::format("the diameter of {} is more than a tenth of its length at home, {}: too thick for "
-                                "a slender rod; is a unit wrong?",
-                                human(diameter, Dimension::length), human(length, Dimension::length)));
+    warnings.add(
+        i, fmt::format("the diameter of {} is more than a tenth of its length at home, {}: too thick for "
+                       "a slender rod; is a unit wrong?",
+                       human(diameter, Dimension::length), human(length, Dimension::length)));
 }
 
 /// What Nitinol recovers from; steel yields long before.
@@ -225,12 +226,14 @@ constexpr double most_strain = 0.08;
 void warn_of_rods(const Checked& checked) {
   const Answer& home = checked.home;
   if (home.find("error")) return;
-  if (!home.find("legs")) return message("warning: no lengths hold the platform at home: " + home.text("message"));
+  if (!home.find("legs"))
+    return message("warning: no lengths hold the platform at home: " + home.text("message"));
   if (!home.converged()) message("warning: home is " + home.text("status") + ": " + home.text("message"));
   if (const double strain = number(home.root(), "margins.strain"); strain > most_strain)
-    message(fmt::format("warning: at home the rods bend to a strain of {:.3g} %; few materials recover from more than "
-                        "{:.3g} %",
-                        100 * strain, 100 * most_strain));
+    message(fmt::format(
+        "warning: at home the rods bend to a strain of {:.3g} %; few materials recover from more than "
+        "{:.3g} %",
+        100 * strain, 100 * most_strain));
 }
 
 void suspect_at_home(const Node& leg, const Node& state, std::size_t i, PerLeg& warnings) {

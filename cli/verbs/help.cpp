@@ -14,7 +14,8 @@ namespace sinew::cli {
 namespace {
 
 constexpr std::string_view exit_codes =
-    "Exit codes: 0 solved, 1 internal error, 2 bad input, 3 no solution, or an unstable one (said why), 4 stopped by a limit or "
+    "Exit codes: 0 solved, 1 internal error, 2 bad input, 3 no solution, or an unstable one (said why), 4 "
+    "stopped by a limit or "
     "a signal.\n";
 
 std::string joined_names(char separator) {

@@ -206,9 +206,10 @@ int run_map(const Arguments& arguments) {
   auto opened = open(arguments);
   if (!opened) return refuse("map", opened.error());
   if (opened->is_on_rods)
-    return refuse("map", {{"not_available", arguments.operand(),
-                           "a map shows singularities of legs that close on the platform; this robot's bear load. "
-                           "Ask at one configuration: sinew analyse 3pfs-g2 --inputs \"0.44 m, 0.42 m, 0.41 m\""}});
+    return refuse("map",
+                  {{"not_available", arguments.operand(),
+                    "a map shows singularities of legs that close on the platform; this robot's bear load. "
+                    "Ask at one configuration: sinew analyse 3pfs-g2 --inputs \"0.44 m, 0.42 m, 0.41 m\""}});
   const std::vector<Input> axes = pose_columns(opened->is_spatial);
   if (std::ranges::none_of(axis_names, [&](std::string_view name) { return arguments.has(name); }))
     return refuse("map",

@@ -26,6 +26,7 @@ constexpr std::array kinds{
     Kind{"3-RFRR", "3-rfrr", "planar, short form, redundant: links on motors with struts, 6 inputs"},
     Kind{"6-UFS", "6-ufs", "spatial, short form: six links between free joints, 6 inputs"},
     Kind{"3-PRS", "3prs", "spatial, short form, rigid: carriages on rails, struts on hinges, 3 inputs"},
+    Kind{"3PFS", "3pfs", "spatial, legs listed, elastic: three pairs of rods that bear load, 3 inputs"},
     Kind{"planar", "mixed-legs", "legs listed: a chord, a strut, and a strut on a motor, 4 inputs"},
     Kind{"two-legged", "two-legged",
          "planar, legs listed, fully determined: a pinned link on a motor and a chord"},

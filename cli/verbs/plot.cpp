@@ -56,7 +56,9 @@ Panel picture(const Answer& shape, const View& view, const Node& legs) {
   };
   const Node& platform = *shape.find("platform");
   add(platform, platform.items.size() > 2 ? Mark::polygon : Mark::line, Colour::green, 1.5, "platform");
-  const auto is = [&](std::size_t i, std::string_view link) { return at(legs.items[i], "link.type")->text == link; };
+  const auto is = [&](std::size_t i, std::string_view link) {
+    return at(legs.items[i], "link.type")->text == link;
+  };
   const auto& lines = shape.find("lines")->items;
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!is(i, "rod"))  // its tip is on the platform
@@ -68,9 +70,10 @@ Panel picture(const Answer& shape, const View& view, const Node& legs) {
         add(tendons[i].items[k], Mark::dashed, Colour::grey, 1, once(i + k, "tendon"));
   const auto& backbones = shape.find("backbones")->items;
   for (std::size_t i = 0; i < backbones.size(); ++i)
-    add(backbones[i], Mark::line, Colour::blue, 3, once(i, is(i, "rail")  ? "rail"
-                                                            : is(i, "rod") ? "rod"
-                                                                           : "backbone"));
+    add(backbones[i], Mark::line, Colour::blue, 3,
+        once(i, is(i, "rail")  ? "rail"
+                : is(i, "rod") ? "rod"
+                               : "backbone"));
   add(*shape.find("base"), Mark::circles, Colour::black, 1.5);
   add(platform, Mark::circles, Colour::black, 1.5);
   return panel;
@@ -103,9 +106,10 @@ std::optional<Figure> robot_figure(const Arguments& arguments, int& exit) {
   }
   if (!arguments.has("pose") && !arguments.has("independent") && !arguments.has("inputs")) {
     if (robot->is_on_rods && robot->inputs.size() != 3) {
-      exit = refuse("plot", {{"missing_option", "",
-                              fmt::format("--inputs is missing: which lengths have the {} rods?",
-                                          robot->inputs.size())}});
+      exit = refuse(
+          "plot",
+          {{"missing_option", "",
+            fmt::format("--inputs is missing: which lengths have the {} rods?", robot->inputs.size())}});
       return {};
     }
     query->pop_back();  // its closing brace

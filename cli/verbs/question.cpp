@@ -12,8 +12,7 @@ std::string show(const Answer& answer, const Robot& robot) {
   const std::string query = answer.text("query");
   if (query == "velocity") return show_velocity(answer, robot);
   const bool is_forward = query == "forward";
-  std::string text =
-      is_forward ? "" : show_inputs("value", numbers(answer.find("inputs")), robot);
+  std::string text = is_forward ? "" : show_inputs("value", numbers(answer.find("inputs")), robot);
   if (is_forward || is_on_rods(answer)) text += (text.empty() ? "" : "\n") + show_pose(*answer.find("pose"));
   text += '\n' + show_legs(*answer.find("legs"));
   if (is_on_rods(answer)) {

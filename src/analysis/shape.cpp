@@ -64,8 +64,9 @@ AnyShape rods_shape(const ParallelRobot<RodLeg>& robot, const SpatialPose& pose,
   RodSystem system(robot);
   system.set_platform(SE3<double>::from(pose));
   for (int k = 0; k < system.rods(); ++k)
-    system.set_rod(k, coordinates.subspan(static_cast<std::size_t>(k * RodLeg::coordinates), RodLeg::coordinates),
-                   system.aim(k).lateral);
+    system.set_rod(
+        k, coordinates.subspan(static_cast<std::size_t>(k * RodLeg::coordinates), RodLeg::coordinates),
+        system.aim(k).lateral);
   system.evaluate();
   for (int k = 0; k < system.rods(); ++k) {
     shape.backbones.push_back(system.centreline(k, samples));
@@ -93,7 +94,10 @@ AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinat
         });
         return shape;
       },
-      [&] { return rods_shape(std::get<ParallelRobot<RodLeg>>(robot.model), std::get<SpatialPose>(pose), coordinates, samples); });
+      [&] {
+        return rods_shape(std::get<ParallelRobot<RodLeg>>(robot.model), std::get<SpatialPose>(pose),
+                          coordinates, samples);
+      });
 }
 
 }  // namespace sinew::inline v0

@@ -135,7 +135,8 @@ Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinate
       robot, [&](const auto& r) { return velocity_of(r, robot, pose, coordinates, reduced, work); },
       [&] {
         Velocity answer = nothing_yet(reduced, work);
-        refuse(answer, Status::left_domain, "the legs bear load: analyse_equilibrium has their stiffness and sensitivity");
+        refuse(answer, Status::left_domain,
+               "the legs bear load: analyse_equilibrium has their stiffness and sensitivity");
         return answer;
       });
 }

@@ -72,11 +72,12 @@ template <class LegT>
 SE3<double> read_foot(Reader& base, const Vec3<double>& point) {
   constexpr bool is_rail = HasSlide<typename LegT::Link>;
   const Reader axis =
-      is_rail ? base.required("hinge_axis",
-                              "axis of the strut's hinge, square to the rail: [1, 0, 0], or an angle in the base "
-                              "plane")
-              : base.required("first_axis",
-                              "first axis of the universal joint: [1, 0, 0], or an angle in the base plane");
+      is_rail
+          ? base.required("hinge_axis",
+                          "axis of the strut's hinge, square to the rail: [1, 0, 0], or an angle in the base "
+                          "plane")
+          : base.required("first_axis",
+                          "first axis of the universal joint: [1, 0, 0], or an angle in the base plane");
   const Vec3<double> first = read_direction(axis);
   const auto given = base.optional("direction");
   const Vec3<double> ahead = given ? read_direction(*given) : Vec3<double>(0, 0, 1);
@@ -84,9 +85,10 @@ SE3<double> read_foot(Reader& base, const Vec3<double>& point) {
   const bool is_slanted = is_rail && std::abs(dot(first, ahead)) > 1e-6;
   if (side.norm() < 1e-6 || is_slanted) {
     axis.fail("no_direction",
-              is_rail ? "must be square to the rail (base.direction, default [0, 0, 1]); turn one of them"
-                      : "lies along the leg's direction when the joint is straight (base.direction, default [0, "
-                        "0, 1]); turn one of them");
+              is_rail
+                  ? "must be square to the rail (base.direction, default [0, 0, 1]); turn one of them"
+                  : "lies along the leg's direction when the joint is straight (base.direction, default [0, "
+                    "0, 1]); turn one of them");
     return {point, SO3<double>::identity()};
   }
   const Vec3<double> second = side.normalized();
@@ -157,7 +159,8 @@ RodLeg read_rod(Reader& leg, Reader& link) {
   Reader material = link.required("material", "{E: Young's modulus}");
   result.link.youngs_modulus = material.required("E").quantity(Dimension::pressure, Range::positive());
   material.close();
-  result.platform_point = read_point<Spatial>(leg.required("platform_point", "where the leg meets the platform"));
+  result.platform_point =
+      read_point<Spatial>(leg.required("platform_point", "where the leg meets the platform"));
   read_actuated<RodLeg>(leg);
   return result;
 }
@@ -370,19 +373,43 @@ std::optional<RobotModel> read_model(Reader& robot, Kinds kinds) {
   return make_robot(read.legs, read.tied, home, radius);
 }
 
-/// Whether a leg of the file is a rod: all of them must then be.
-bool has_rod(const Reader& robot) {
+/// The link types of the legs as the file writes them; empty where there is none.
+std::vector<std::string_view> link_types(const Reader& robot) {
+  std::vector<std::string_view> types;
   const Node* legs = robot.node() ? robot.node()->find("legs") : nullptr;
-  if (!legs || legs->kind != Node::Kind::list) return false;
-  return std::ranges::any_of(legs->items, [](const Node& leg) {
+  if (!legs || legs->kind != Node::Kind::list) return types;
+  for (const Node& leg : legs->items) {
     const Node* link = leg.kind == Node::Kind::map ? leg.find("link") : nullptr;
     const Node* type = link && link->kind == Node::Kind::map ? link->find("type") : nullptr;
-    return type && type->text == Rod::name;
+    types.push_back(type ? std::string_view(type->text) : std::string_view());
+  }
+  return types;
+}
+
+/// Whether rods are where none can be: in the plane, or among legs that bear no load. One error says so.
+bool has_misplaced_rods(Reader& robot, bool is_spatial) {
+  const auto types = link_types(robot);
+  const auto rod = std::ranges::find(types, Rod::name);
+  const auto other = std::ranges::find_if(types, [](std::string_view type) {
+    return type == Arc::name || type == Swivel<Arc>::name || type == Rail::name;
   });
+  if (rod == types.end() || (is_spatial && other == types.end())) return false;
+  const auto type_of = [&](auto place) {
+    return robot.required("legs")
+        .items()[static_cast<std::size_t>(place - types.begin())]
+        .required("link")
+        .required("type");
+  };
+  if (is_spatial)
+    type_of(other).refuse("no_such_leg", "other legs are rods, which bear load: then all legs must be rods");
+  else
+    type_of(rod).refuse("no_such_leg", "rods are for robots in space; write space: spatial");
+  return true;
 }
 
 std::optional<RobotModel> read_model_of_space(Reader& robot, bool is_spatial) {
-  if (is_spatial && has_rod(robot)) return read_model<AnyLoadedLeg>(robot, LoadedLegs{});
+  if (is_spatial && std::ranges::count(link_types(robot), Rod::name) > 0)
+    return read_model<AnyLoadedLeg>(robot, LoadedLegs{});
   if (is_spatial) return read_model<AnySpatialLeg>(robot, SpatialLegs{});
   return read_model<AnyPlanarLeg>(robot, PlanarLegs{});
 }
@@ -397,6 +424,7 @@ AnyRobot read_listed(Reader& robot) {
     if (!defaults->is(Node::Kind::map)) defaults->refuse("wrong_type", "give a map of what the legs share.");
   const auto space = robot.optional("space");
   const bool is_spatial = space && space->choice({"planar", "spatial"}) == "spatial";
+  if (has_misplaced_rods(robot, is_spatial)) return result;
   auto model = read_model_of_space(robot, is_spatial);
   robot.close();
   if (model) result.model = std::move(*model);

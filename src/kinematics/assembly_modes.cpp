@@ -1,5 +1,6 @@
 #include "sinew/kinematics/assembly_modes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinematics/reaches.hpp"
@@ -31,7 +32,16 @@ void put(AssemblyModes& modes, const SpatialModes& found) {
 
 void put_modes(AssemblyModes& modes, std::span<const Reach<2>> reaches) { put(modes, planar_modes(reaches)); }
 void put_modes(AssemblyModes& modes, std::span<const Reach<3>> reaches) {
-  if (!are_hinged(reaches)) return put(modes, spatial_modes(reaches));
+  const bool has_plane =
+      std::ranges::any_of(reaches, [](const Reach<3>& reach) { return reach.has_plane(); });
+  if (has_plane && !are_hinged(reaches)) {
+    modes.report.status = Status::left_domain;
+    modes.report.message.append(
+        "all modes are known of three hinged legs, or of legs without hinges, not of both mixed");
+    modes.is_complete = false;
+    return;
+  }
+  if (!has_plane) return put(modes, spatial_modes(reaches));
   const HingedModes found = hinged_modes(reaches);
   put(modes, found);
   modes.is_complete = found.is_complete;

@@ -42,7 +42,8 @@ Equilibrium answer_of(const Report& report, Workspace& work, bool with_coordinat
   for (int k = 0; k < system.rods(); ++k) {
     work.inputs[at(system.input_of(k))] = system.length(k);
     if (with_coordinates)
-      system.get_rod(k, std::span(work.coordinates).subspan(at(k) * RodLeg::coordinates, RodLeg::coordinates));
+      system.get_rod(k,
+                     std::span(work.coordinates).subspan(at(k) * RodLeg::coordinates, RodLeg::coordinates));
   }
   answer.inputs = work.inputs;
   if (with_coordinates) answer.coordinates = work.coordinates;
@@ -67,8 +68,7 @@ Equilibrium equilibrium(const AnyRobot& robot, Numbers inputs, const Equilibrium
                         Workspace& work) {
   const auto* rods = rods_of(robot);
   if (!rods) return refused();
-  const Report report =
-      solve_rods(*work.rods, SE3<double>::from(rods->home), inputs, question_of(options));
+  const Report report = solve_rods(*work.rods, SE3<double>::from(rods->home), inputs, question_of(options));
   return answer_of(report, work, options.judge);
 }
 
@@ -135,15 +135,19 @@ RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
 
 std::string_view to_string(LoadEnd end) noexcept {
   switch (end) {
-    case LoadEnd::limit: return "limit";
-    case LoadEnd::bifurcation: return "bifurcation";
-    case LoadEnd::fold: return "fold";
+    case LoadEnd::limit:
+      return "limit";
+    case LoadEnd::bifurcation:
+      return "bifurcation";
+    case LoadEnd::fold:
+      return "fold";
   }
   return "";
 }
 
 LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit, Workspace& work) {
-  if (!rods_of(robot) || !work.rods->is_solved) return {0, LoadEnd::fold};
+  if (!rods_of(robot) || !work.rods->is_solved || !direction.allFinite() || !(limit > 0))
+    return {0, LoadEnd::fold};
   RodSystem& system = work.rods->system;
   system.evaluate();
   system.linearise();
@@ -175,8 +179,7 @@ SE3<double> scattered(const SE3<double>& home, double size, int k) {
 bool is_new(const std::vector<FoundEquilibrium>& found, const SE3<double>& pose, double size) {
   return std::none_of(found.begin(), found.end(), [&](const FoundEquilibrium& other) {
     const SE3<double> there = SE3<double>::from(other.pose);
-    return (there.p - pose.p).norm() < 1e-7 * size &&
-           there.R.inverse().compose(pose.R).log().norm() < 1e-7;
+    return (there.p - pose.p).norm() < 1e-7 * size && there.R.inverse().compose(pose.R).log().norm() < 1e-7;
   });
 }
 
@@ -202,7 +205,8 @@ std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs, 
     one.pose = spatial_pose(system.platform());
     one.coordinates.resize(at(system.rods()) * RodLeg::coordinates);
     for (int rod = 0; rod < system.rods(); ++rod)
-      system.get_rod(rod, std::span(one.coordinates).subspan(at(rod) * RodLeg::coordinates, RodLeg::coordinates));
+      system.get_rod(rod,
+                     std::span(one.coordinates).subspan(at(rod) * RodLeg::coordinates, RodLeg::coordinates));
     one.residual = report.residual;
     one.potential = potential_of(system);
     one.unstable_directions = unstable_directions(system);

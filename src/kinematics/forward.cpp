@@ -5,8 +5,8 @@
 #include "kinematics/reaches.hpp"
 #include "kinematics/three_circles.hpp"
 #include "robot/pose.hpp"
-#include "sinew/kinematics/hinged_modes.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
+#include "sinew/kinematics/hinged_modes.hpp"
 #include "sinew/kinematics/planar_modes.hpp"
 
 namespace sinew::inline v0 {
@@ -107,11 +107,10 @@ Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, con
   const Closing<Space> closing(reaches.view());
   const typename Space::Pose start = options.start ? in_space<Space>(*options.start) : robot.home;
   auto platform = Space::frame(start);
-  Report report = solve(closing, reaches.view(),
-                        {.tolerance = 1e-14 * closing.size(),
-                         .max_iterations = options.max_iterations,
-                         .trace = options.trace},
-                        platform);
+  Report report = solve(
+      closing, reaches.view(),
+      {.tolerance = 1e-14 * closing.size(), .max_iterations = options.max_iterations, .trace = options.trace},
+      platform);
   typename Space::Pose pose = pose_of(platform);
   // constraints beyond the freedoms need not fit to rounding
   if (closing.rows() > Space::dof && report.residual <= 1e-9 * closing.size())
@@ -127,7 +126,8 @@ Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, con
 }
 
 /// Rods without a load on the platform.
-Forward forward_loaded(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work) {
+Forward forward_loaded(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options,
+                       Workspace& work) {
   EquilibriumOptions unloaded;
   if (options.start) unloaded.start = std::get<SpatialPose>(*options.start);
   const Equilibrium found = equilibrium(robot, inputs, unloaded, work);
@@ -141,8 +141,7 @@ Forward forward(const AnyRobot& robot, Numbers inputs, const ForwardOptions& opt
   const Report commanded = command(robot, inputs, work);
   if (!commanded.ok()) return {commanded, options.start.value_or(home(robot)), work.coordinates};
   return visit_closing(
-      robot, [&](const auto& r) { return forward_robot(r, robot, options, work); },
-      [] { return Forward{}; });
+      robot, [&](const auto& r) { return forward_robot(r, robot, options, work); }, [] { return Forward{}; });
 }
 
 }  // namespace sinew::inline v0

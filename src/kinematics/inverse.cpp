@@ -226,7 +226,8 @@ class Problem {
     misfit_ = found.misfit <= misfit_ ? misfit_ : found.misfit;  // NaN is the worst
     if (found.count > 0) return {};
     const Wish anything{.near = wish.near};
-    if (!HasArc<typename LegT::Link> || wish.bending == 0 || leg.nearest_solution(platform_, anything).count <= 0)
+    if (!HasArc<typename LegT::Link> || wish.bending == 0 ||
+        leg.nearest_solution(platform_, anything).count <= 0)
       return without_solution(leg, platform_, i, found.count);
     Report report = name(Status::unreachable, "legs", i);
     report.message.append(wish.bending > 0 ? "has no solution of positive curvature at this pose"
@@ -288,8 +289,9 @@ Report with_problem(const AnyRobot& robot, const AnyPose& pose, const InverseOpt
                    : refused(Status::left_domain, "the pose is not a finite number in every coordinate");
       },
       [] {
-        return refused(Status::left_domain,
-                       "the legs bear load: their inputs hold an equilibrium; ask for independent coordinates");
+        return refused(
+            Status::left_domain,
+            "the legs bear load: their inputs hold an equilibrium; ask for independent coordinates");
       });
 }
 

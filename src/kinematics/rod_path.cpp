@@ -170,7 +170,8 @@ bool rest_shape(double angle, std::array<double, N + 1>& unknowns) {
   const int strides = std::max(1, static_cast<int>(std::ceil(angle / 0.2)));
   for (int k = 1; k <= strides; ++k) {
     const double d = std::sin(angle * k / strides), w = std::cos(angle * k / strides);
-    for (int iteration = 0; iteration < 20; ++iteration) {
+    double largest = 1;
+    for (int iteration = 0; iteration < 20 && !(largest < 1e-13); ++iteration) {
       std::array<double, (N + 1) * (N + 1)> matrix{};
       std::array<double, N + 1> gap{}, step{};
       for (int i = 0; i < N; ++i) {
@@ -187,14 +188,14 @@ bool rest_shape(double angle, std::array<double, N + 1>& unknowns) {
       }
       if (!solve(MatrixView(matrix.data(), N + 1, N + 1), MatrixView(gap.data(), N + 1, 1), step))
         return false;
-      double largest = 0;
+      largest = 0;
       for (int i = 0; i <= N; ++i) {
         unknowns[at(i)] -= step[at(i)];
         largest = std::max(largest, std::abs(step[at(i)]));
       }
       if (!(largest < 1e3)) return false;
-      if (largest < 1e-13) break;
     }
+    if (!(largest < 1e-9)) return false;
   }
   return true;
 }

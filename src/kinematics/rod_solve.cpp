@@ -9,7 +9,8 @@ namespace {
 constexpr double tolerance = 1e-12;
 /// Estimated error of a shape at its tip, over the length, beyond which an answer is refused.
 constexpr double worst_truncation = 1e-10;
-/// ... from which one that is to be quick takes the fine nodes (poses were then within 2e-13 m of exact ones),
+/// ... from which one that is to be quick takes the fine nodes (poses were then within 2e-13 m of exact
+/// ones),
 constexpr double quick_truncation = 1e-10;
 /// ... and from which an answer that is not resumed takes them: stiff robots turn it into forces.
 constexpr double best_truncation = 1e-17;
@@ -36,7 +37,7 @@ Report check_inputs(const RodSystem& system, Numbers inputs) {
     if (inputs[k] > 0 && std::isfinite(inputs[k])) continue;
     report.message.append("inputs[");
     append_number(report.message, static_cast<int>(k));
-    report.message.append("] is not a length a rod can have");
+    report.message.append("] is not a length a rod can have; it must be positive");
     return report;
   }
   return {};
@@ -127,9 +128,9 @@ Report explain(const RodSystem& system, const RodPathEnd& end, bool is_load) {
   return report;
 }
 
-/// Newton's method from the state before: first with the factors kept from there, then with new ones, and kept
-/// again once a step with them gains as much as a new one would. False, with the state lost, where it does not
-/// contract at once.
+/// Newton's method from the state before: first with the factors kept from there, then with new ones, and
+/// kept again once a step with them gains as much as a new one would. False, with the state lost, where it
+/// does not contract at once.
 bool solve_warm(RodSystem& system, Report& report) {
   constexpr double worth_renewing = 3e-9;
   double error = system.evaluate();
@@ -165,8 +166,8 @@ void lighten(RodWork& work, double truncation) {
   system.linearise();
 }
 
-/// The shapes of a solved state to this estimate of their error, by the fine nodes where it takes them. False where
-/// those do not do it.
+/// The shapes of a solved state to this estimate of their error, by the fine nodes where it takes them. False
+/// where those do not do it.
 bool resolve(RodSystem& system, Report& report, double truncation) {
   if (!system.is_fine() && system.truncation() > truncation) {
     system.refine();
@@ -231,7 +232,8 @@ Report begin(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQu
   if (lay_rods(work, *question.start, inputs) || work.is_solved) return {};
   Report report = failed(Status::left_domain);
   report.message.append(
-      "the rods cannot be laid to this start: a tip lies on the line of its guide, or behind it");
+      "the rods cannot be laid to this start: a tip lies on the line of its guide, or behind it; start with "
+      "every tip ahead of its guide, or leave start out");
   return report;
 }
 
@@ -494,7 +496,8 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
     system.set_wrench(from.wrench + next * (question.wrench - from.wrench));
     for (int k = 0; k < system.rods(); ++k) {
       const int first = first_of_input(system, k);
-      system.set_length(k, system.length(first) + (1 - next) * (from.lengths[at(k)] - from.lengths[at(first)]));
+      system.set_length(k,
+                        system.length(first) + (1 - next) * (from.lengths[at(k)] - from.lengths[at(first)]));
     }
     const auto ahead = with(system.platform(), now);
     bool is_reached = false;

@@ -191,8 +191,7 @@ template <class Use>
 auto follow(const AnyRobot& robot, const TrackOptions& options, Workspace& work, const Use& use) {
   using Result = decltype(use(Follower(std::get<0>(robot.model), robot, options, work)));
   return visit_closing(
-      robot, [&](const auto& r) { return use(Follower(r, robot, options, work)); },
-      [] { return Result(); });
+      robot, [&](const auto& r) { return use(Follower(r, robot, options, work)); }, [] { return Result(); });
 }
 
 }  // namespace

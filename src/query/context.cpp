@@ -31,9 +31,10 @@ AskedPose read_asked_pose(Context& context) {
   if (independent->is(Node::Kind::map)) independent->close();
   if (pose) context.query.fail("ambiguous", "pose and independent both say where the platform is; keep one");
   if (plane_count(context.robot) != 3) {
-    independent->fail("not_available",
-                      "z, e1 and e2 belong to a platform that three hinges hold in planes, such as a 3-PRS; give "
-                      "the pose");
+    independent->fail(
+        "not_available",
+        "z, e1 and e2 belong to a platform that three hinges hold in planes, such as a 3-PRS; give "
+        "the pose");
     return asked;
   }
   const ConstrainedPose found = constrained_pose(context.robot, free, mode);

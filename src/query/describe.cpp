@@ -23,7 +23,8 @@ template <class LegT>
 Json base_json(const LegT& leg) {
   Json base{{"point", to_json(leg.base.p)}};
   if constexpr (LegT::dimension == 3) {
-    base[HasSlide<typename LegT::Link> ? "hinge_axis" : "first_axis"] = to_json(leg.base.rotate(Vec3<double>(1, 0, 0)));
+    base[HasSlide<typename LegT::Link> ? "hinge_axis" : "first_axis"] =
+        to_json(leg.base.rotate(Vec3<double>(1, 0, 0)));
     base["direction"] = to_json(leg.base.rotate(Vec3<double>(0, 1, 0)));
   } else if constexpr (LegT::is_clamped) {
     base["direction"] = wrap_angle(leg.base.angle() + std::numbers::pi / 2);
@@ -70,7 +71,8 @@ void add_inputs(Json& inputs, const LegT& leg, std::size_t index) {
   const double b = leg.inputs_of(q)[LegT::inputs - 1];
   for (const InputKind& kind : LegT::Drive::input_kinds) {
     Json input{{"name", joined(joined("legs", index), kind.name)}, {"unit", unit(kind.dimension)}};
-    if (HasArc<typename LegT::Link> && kind.dimension == Dimension::length) input["limits"] = {std::min(a, b), std::max(a, b)};
+    if (HasArc<typename LegT::Link> && kind.dimension == Dimension::length)
+      input["limits"] = {std::min(a, b), std::max(a, b)};
     inputs.push_back(std::move(input));
   }
 }

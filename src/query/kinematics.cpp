@@ -124,8 +124,10 @@ void answer_forward(Context& context) {
   options.trace = trace;
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
-  refuse_if_asked(context, "wrench", "a constant-curvature model bears no load; leave the wrench out");
-  refuse_if_asked(context, "until", "a constant-curvature model bears no load; leave until out");
+  refuse_if_asked(context, "want",
+                  "this robot's legs bear no load; velocity has its indices, leave want out");
+  refuse_if_asked(context, "wrench", "this robot's legs bear no load; leave the wrench out");
+  refuse_if_asked(context, "until", "this robot's legs bear no load; leave until out");
   if (!context.ready()) return;
 
   if (want_all) return answer_all_modes(context, inputs, options.start.value_or(home(context.robot)));
@@ -144,11 +146,14 @@ void answer_forward(Context& context) {
 void answer_inverse(Context& context) {
   if (bears_load(context.robot)) return answer_rods_inverse(context);
   const AskedPose asked = read_asked_pose(context);
-  if (!asked.pose && !context.query.has("independent")) context.query.required("pose", "pose of the platform");
+  if (!asked.pose && !context.query.has("independent"))
+    context.query.required("pose", "pose of the platform");
   const Branch branch = read_branch(context);
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
-  refuse_if_asked(context, "wrench", "a constant-curvature model bears no load; leave the wrench out");
+  refuse_if_asked(context, "want",
+                  "this robot's legs bear no load; velocity has its indices, leave want out");
+  refuse_if_asked(context, "wrench", "this robot's legs bear no load; leave the wrench out");
   std::vector<double> start;
   if (const auto given = context.query.optional("start")) start = read_inputs(context, *given);
   if (!context.ready()) return;

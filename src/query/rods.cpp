@@ -22,8 +22,7 @@ Wanted read_want(Context& context) {
   if (!list) return wanted;
   for (const Reader& word : list->items()) {
     const std::string name = word.choice({"stiffness", "stability", "margins", "sensitivity", "lines"});
-    if (name == "lines")
-      word.refuse("not_available", "legs that bear load have no lines; ask for stiffness");
+    if (name == "lines") word.refuse("not_available", "legs that bear load have no lines; ask for stiffness");
     wanted.stiffness = wanted.stiffness || name == "stiffness";
     wanted.stability = wanted.stability || name == "stability";
     wanted.margins = wanted.margins || name == "margins";
@@ -60,9 +59,12 @@ std::optional<Until> read_until(Context& context) {
   auto asked = context.query.optional("until");
   if (!asked) return {};
   Until until;
-  until.direction =
-      read_wrench(asked->required("wrench", "direction of the load that is added: [fx, fy, fz, mx, my, mz]"));
-  until.limit = asked->required("limit", "largest factor of it").number(Range::positive());
+  const Reader wrench = asked->required("wrench", "the load that is added: [fx, fy, fz, mx, my, mz]");
+  until.direction = read_wrench(wrench);
+  if (context.errors.empty() && until.direction == SpatialWrench::Zero())
+    wrench.fail("out_of_range", "is the load that is added; not all of its numbers may be zero");
+  until.limit =
+      asked->required("limit", "how many times the wrench is added at most").number(Range::positive());
   asked->close();
   return until;
 }
@@ -89,8 +91,8 @@ Json rows_json(std::span<const double> numbers, std::size_t columns) {
                             static_cast<Eigen::Index>(columns)));
 }
 
-/// Largest bending strain of the rods, κ d/2: a rod between a clamped tangent and a free tip bends most at its
-/// base or where n·t is largest; the first integral ½EIκ² + n·t bounds it.
+/// Largest bending strain of the rods, κ d/2: a rod between a clamped tangent and a free tip bends most at
+/// its base or where n·t is largest; the first integral ½EIκ² + n·t bounds it.
 double largest_strain(const AnyRobot& robot, const RodAnalysis& analysis) {
   const auto& rods = std::get<ParallelRobot<RodLeg>>(robot.model);
   double strain = 0;
@@ -114,9 +116,9 @@ void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analy
     answer["unstable_legs"] = std::move(legs);
   }
   if (wanted.margins)
-    answer["margins"] = {{"fold", analysis.smallest_pivot}, {"strain", largest_strain(context.robot, analysis)}};
-  if (wanted.sensitivity)
-    answer["sensitivity"] = rows_json(analysis.sensitivity, context.work.inputs.size());
+    answer["margins"] = {{"fold", analysis.smallest_pivot},
+                         {"strain", largest_strain(context.robot, analysis)}};
+  if (wanted.sensitivity) answer["sensitivity"] = rows_json(analysis.sensitivity, context.work.inputs.size());
 }
 
 /// The platform of three lengths, by z, e₁ and e₂.
@@ -125,21 +127,22 @@ IndependentPose read_independent(const Context& context, Reader& asked) {
   pose.z = asked.required("z", "height of the platform").quantity(Dimension::length, Range::place());
   pose.e1 = asked.required("e1", "a component of its quaternion").number(Range::between(-1, 1));
   pose.e2 = asked.required("e2", "a component of its quaternion").number(Range::between(-1, 1));
+  if (const auto mode = asked.optional("mode"))
+    mode->refuse("no_effect", "rods have no such modes, hinges have; leave it out");
   if (asked.is(Node::Kind::map)) asked.close();
   if (input_count(context.robot) != 3)
-    asked.fail("not_available", fmt::format("z, e1 and e2 are held by three rod lengths, this robot has {}; ask with inputs",
-                                            input_count(context.robot)));
+    asked.fail("not_available",
+               fmt::format("z, e1 and e2 are held by three rod lengths, this robot has {}; ask with inputs",
+                           input_count(context.robot)));
   return pose;
 }
 
 /// Questions of other robots that have no meaning here, each with its way out.
 void refuse_what_rods_lack(Context& context) {
-  const auto refuse = [&](const char* key, const char* why) {
-    if (const auto asked = context.query.optional(key)) asked->fail("not_available", why);
-  };
-  refuse("pose",
-         "on rods the rest of a pose follows from lengths and load; give independent: {z, e1, e2}, or inputs");
-  refuse("trace", "the iterates of rods are not recorded; leave it out");
+  if (const auto pose = context.query.optional("pose"))
+    pose->fail(
+        "not_available",
+        "on rods the rest of a pose follows from lengths and load; give independent: {z, e1, e2}, or inputs");
   read_branch(context);  // refuses bending, curvature and elbow
 }
 
@@ -160,21 +163,21 @@ RodQuery read_configuration_of_rods(Context& context) {
   auto independent = context.query.optional("independent");
   if (inputs) asked.inputs = read_inputs(context, *inputs);
   if (independent) asked.independent = read_independent(context, *independent);
-  if (!inputs && !independent)
+  if (!inputs && !independent && !context.query.has("pose"))
     context.query.fail("missing_key", "give inputs (rod lengths, in leg order), or independent: {z, e1, e2}");
   if (inputs && independent)
     context.query.fail("ambiguous", "inputs and independent both say where the platform is; keep one");
   if (independent && start)
-    context.query.fail("ambiguous",
-                       "start is where a search with given inputs begins; that of independent begins at home");
+    context.query.fail(
+        "ambiguous", "start is where a search with given inputs begins; that of independent begins at home");
   return asked;
 }
 
 /// A bound that was met is told as such, whatever the path saw last.
 Equilibrium solve(Context& context, const RodQuery& asked) {
-  Equilibrium found = asked.independent
-                          ? inverse_equilibrium(context.robot, *asked.independent, asked.options, context.work)
-                          : equilibrium(context.robot, asked.inputs, asked.options, context.work);
+  Equilibrium found =
+      asked.independent ? inverse_equilibrium(context.robot, *asked.independent, asked.options, context.work)
+                        : equilibrium(context.robot, asked.inputs, asked.options, context.work);
   if (context.max_iterations && !found.is_solved() && found.report.status != Status::unreachable &&
       found.report.status != Status::left_domain && found.report.iterations >= *context.max_iterations) {
     found.report.status = Status::iteration_limit;
@@ -238,9 +241,11 @@ constexpr std::string_view inputs_rule = "rod lengths, in leg order";
 void answer_rods_forward(Context& context) {
   RodQuery asked;
   asked.inputs = read_inputs(context, context.query.required("inputs", inputs_rule));
-  refuse_what_rods_lack(context);
+  if (const auto trace = context.query.optional("trace"))
+    trace->fail("not_available", "the iterates of rods are not recorded; leave it out");
   asked.options = read_options(context);
-  if (auto start = context.query.optional("start")) asked.options.start = read_spatial_pose(std::move(*start));
+  if (auto start = context.query.optional("start"))
+    asked.options.start = read_spatial_pose(std::move(*start));
   const Wanted wanted = read_want(context);
   const std::optional<Until> until = read_until(context);
   const auto all = context.query.optional("all");
@@ -271,7 +276,8 @@ void answer_rods_inverse(Context& context) {
   if (const auto start = context.query.optional("start"))
     start->fail("not_available", "the search for the lengths of rods begins at home; leave it out");
   if (const auto all = context.query.optional("all"))
-    if (all->boolean()) all->fail("not_available", "of several solutions only the one nearest home is found");
+    if (all->boolean())
+      all->fail("not_available", "of several solutions only the one nearest home is found; leave it out");
   if (!context.ready()) return;
   put_equilibrium(context, solve(context, asked), wanted);
 }
@@ -279,8 +285,9 @@ void answer_rods_inverse(Context& context) {
 void answer_rods_velocity(Context& context) {
   const RodQuery asked = read_configuration_of_rods(context);
   if (const auto twist = context.query.optional("twist"))
-    twist->fail("not_available",
-                "rates of rods that a twist needs are not available in this version; U has what the rates do");
+    twist->fail(
+        "not_available",
+        "rates that a twist needs are not answered for rods in this version; U tells what each rate does");
   for (const char* key : {"along", "limit"})
     if (const auto given = context.query.optional(key))
       given->fail("not_available", "robots of rods have no search for type II; leave it out");
@@ -298,7 +305,8 @@ void answer_rods_velocity(Context& context) {
   answer["U"] = rows_json(analysis.sensitivity, columns);
   std::vector<double> sigma(std::min<std::size_t>(3, columns));
   const auto block = [&](std::size_t row) {
-    singular_values(MatrixView(&analysis.sensitivity[row * columns], 3, static_cast<Eigen::Index>(columns)), sigma);
+    singular_values(MatrixView(&analysis.sensitivity[row * columns], 3, static_cast<Eigen::Index>(columns)),
+                    sigma);
     return sigma.front();
   };
   answer["indices"] = {{"position", block(0)}, {"rotation", block(3)}};

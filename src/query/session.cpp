@@ -49,7 +49,8 @@ void read_model(Reader& query, const AnyRobot& robot) {
   const auto model = query.optional("model");
   const std::string_view own = model_of(robot);
   if (model && model->choice({"cc", "prb", "rod", "rigid"}) != own)
-    model->refuse("not_available", "this robot's model in this version is " + std::string(own) + std::string(meaning_of(own)));
+    model->refuse("not_available",
+                  "this robot's model in this version is " + std::string(own) + std::string(meaning_of(own)));
 }
 
 std::string error_text(const Json& id, const Errors& errors) {

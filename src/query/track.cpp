@@ -50,7 +50,8 @@ std::vector<AnyPose> read_path(Context& context) {
   const AnyPose to = read_pose(context, query.required("to", "last pose of the path"));
   const auto samples = query.optional("samples");
   const int count = samples ? samples->integer(Range::between(2, most_samples)) : 60;
-  return context.errors.empty() ? straight_path(context.robot, from, to, std::max(count, 2)) : std::vector<AnyPose>{};
+  return context.errors.empty() ? straight_path(context.robot, from, to, std::max(count, 2))
+                                : std::vector<AnyPose>{};
 }
 
 Objective read_objective(Reader& query) {
@@ -108,7 +109,9 @@ void put_end(Context& context, const Track& track, std::size_t rows, std::size_t
 
 void answer_track(Context& context) {
   if (bears_load(context.robot)) {
-    context.query.fail("not_available", "track follows robots whose legs close on the platform; this one's bear load");
+    context.query.fail("not_available",
+                       "track follows robots whose legs close on the platform; this one's bear load; ask "
+                       "inverse with independent, pose by pose");
     return;
   }
   const std::vector<AnyPose> poses = read_path(context);

@@ -75,19 +75,22 @@ Report command_robot(const ParallelRobot<LegT>& robot, Numbers inputs, Workspace
   robot.for_each_leg([&]<class L>(const L& leg, const LegPlace& place, int) {
     const auto q = leg.coordinates_of(inputs.subspan(static_cast<std::size_t>(place.input), L::inputs));
     std::copy(q.begin(), q.end(), work.coordinates.begin() + place.coordinate);
-    if (report.ok() && !leg.in_domain(q)) report = beyond_domain(place.input + L::inputs - 1, L::Link::beyond_domain);
+    if (report.ok() && !leg.in_domain(q))
+      report = beyond_domain(place.input + L::inputs - 1, L::Link::beyond_domain);
   });
   if (report.ok()) std::copy(inputs.begin(), inputs.end(), work.inputs.begin());
   return report;
 }
 
-/// Balance of the platform on rods: J its stiffness, K what feeding them does to the wrench, s what is missing.
+/// Balance of the platform on rods: J its stiffness, K what feeding them does to the wrench, s what is
+/// missing.
 Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, Workspace& work) {
   RodSystem& system = work.rods->system;
   system.set_platform(SE3<double>::from(pose));
   for (int k = 0; k < system.rods(); ++k)
-    system.set_rod(k, coordinates.subspan(static_cast<std::size_t>(k * RodLeg::coordinates), RodLeg::coordinates),
-                   system.aim(k).lateral);
+    system.set_rod(
+        k, coordinates.subspan(static_cast<std::size_t>(k * RodLeg::coordinates), RodLeg::coordinates),
+        system.aim(k).lateral);
   work.rods->is_solved = false;
   system.evaluate();
   system.linearise();
@@ -99,7 +102,8 @@ Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, Workspace& w
     const RodSystem::Wrench feed = system.feed_wrench(j);
     for (int i = 0; i < 6; ++i) work.K[at(i, j, inputs)] = -feed[i];
   }
-  return {MatrixView(work.J.data(), 6, 6), MatrixView(work.K.data(), 6, inputs), work.s, system.rod_error(), 0};
+  return {MatrixView(work.J.data(), 6, 6), MatrixView(work.K.data(), 6, inputs), work.s, system.rod_error(),
+          0};
 }
 
 }  // namespace
@@ -168,7 +172,8 @@ int coordinate_count(const AnyRobot& robot) {
   return std::visit([](const auto& r) { return r.total.coordinate; }, robot.model);
 }
 int row_count(const AnyRobot& robot) {
-  return visit_closing(robot, [](const auto& r) { return r.total.row; }, [] { return Spatial::dof; });
+  return visit_closing(
+      robot, [](const auto& r) { return r.total.row; }, [] { return Spatial::dof; });
 }
 int dof(const AnyRobot& robot) {
   return std::visit([]<class LegT>(const ParallelRobot<LegT>&) { return LegT::Space::dof; }, robot.model);

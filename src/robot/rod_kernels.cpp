@@ -550,18 +550,19 @@ void EvaluatePoses(std::span<CoarseRods> rods, bool anew, PoseLanes& poses) {
   for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
     const LaneFrame frame = frame_of(poses, i);
     Wrench wrench;
-    Pack worst = all(0), sums = all(0);
+    Pack worst = all(0), sums = all(0), per_force = all(1e300), per_moment = all(1e300);
     for (CoarseRods& rod : rods) {
       place(rod, i, frame);
-      const Pack error = measure(rod, i, anew);
+      const Pack error = measure(rod, i, anew), loading = load(rod.load + i);
+      per_force = hn::Min(per_force, loading);  // of the stiffest rod
+      per_moment = hn::Min(per_moment, loading / load(rod.length + i));
       worst = hn::Max(worst, error);
       sums = sums + error;
       wrench.add(load3(rod.arm, i), force(rod, i), all(1));
     }
     put_missing(wrench, poses, i);
-    const Pack per_length = load(rods[0].load + i), per_moment = per_length / load(rods[0].length + i);
     for (int k = 0; k < 6; ++k) {
-      const Pack part = hn::Abs(load(poses.missing[k] + i)) * (k < 3 ? per_length : per_moment);
+      const Pack part = hn::Abs(load(poses.missing[k] + i)) * (k < 3 ? per_force : per_moment);
       worst = hn::Max(worst, part);
       sums = sums + part;
     }

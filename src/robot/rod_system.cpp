@@ -470,16 +470,17 @@ std::vector<Vec3<double>> RodSystem::centreline(int index, int samples) const {
       return sum;
     };
     std::vector<Vec3<double>> points{vector_of(rods.base, i)};
-    const double step = 1.0 / (samples - 1), offset = std::sqrt(3.0 / 5) / 2;
-    for (int k = 1; k < samples; ++k) {
-      double d = 0, w = 0;  // three-point Gauss
+    const int panels = 1 + 24 / samples;  // between two points; 24 in all give the tip to rounding
+    const double step = 1.0 / (panels * (samples - 1)), offset = std::sqrt(3.0 / 5) / 2;
+    double d = 0, w = 0;
+    for (int k = 0; k < panels * (samples - 1); ++k) {  // three-point Gauss
       for (const auto& [place, weight] :
            {std::pair{0.5 - offset, 5.0 / 18}, std::pair{0.5, 8.0 / 18}, std::pair{0.5 + offset, 5.0 / 18}}) {
-        const double theta = angle((k - 1 + place) * step);
-        d += weight * std::sin(theta);
-        w += weight * std::cos(theta);
+        const double theta = angle((k + place) * step);
+        d += step * weight * std::sin(theta);
+        w += step * weight * std::cos(theta);
       }
-      points.push_back(points.back() + (h * d + t * w) * (step * rods.length[i]));
+      if ((k + 1) % panels == 0) points.push_back(points.front() + (h * d + t * w) * rods.length[i]);
     }
     return points;
   });

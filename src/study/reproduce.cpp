@@ -15,7 +15,8 @@ constexpr std::array items{
     StudyItem{"tdpcr/fig10",
               "Last pose of the trajectory of section 5.1: the lines of the 3-RFR meet in one point"},
     StudyItem{"3pfs/fig4", "Parasitic motions of the rigid tripod 3PRS over its tilts"},
-    StudyItem{"3pfs/fig5", "Singularity loci of the 3PRS over its tilts: of inverse and of forward kinematics"},
+    StudyItem{"3pfs/fig5",
+              "Singularity loci of the 3PRS over its tilts: of inverse and of forward kinematics"},
     StudyItem{"3pfs/fig6", "Norm of the inverse kinematics' Jacobian of the 3PRS over its tilts"},
     StudyItem{"3pfs/fig7", "Norm of the forward kinematics' Jacobian of the 3PRS over its tilts"},
 };

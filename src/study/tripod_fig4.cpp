@@ -96,21 +96,21 @@ void add_equations(std::vector<Finding>& findings, const std::vector<Parasitic>&
 }
 
 /// Largest and smallest value on the grid, and where.
-Finding extremes(const char* name, double Parasitic::*value, const char* unit,
-                 const std::vector<Parasitic>& all, double low, double high) {
+Finding extremes(const char* quantity, double Parasitic::*value, const std::vector<Parasitic>& all,
+                 double low, double high) {
   const Parasitic *least = nullptr, *most = nullptr;
   for (const Parasitic& p : all) {
     if (std::isnan(p.*value)) continue;
     if (!least || p.*value < least->*value) least = &p;
     if (!most || p.*value > most->*value) most = &p;
   }
-  if (!most) return {name, "drawn", "none", "", "fails"};
-  const double off = std::max(std::abs(least->*value - low), std::abs(most->*value - high));
-  return compare::claimed(fmt::format("{} from {:g} to {:g}{}, derived", name, low, high, unit),
-                          "drawn, not printed",
-                          fmt::format("{:.4g} at ({:g}, {:g}), {:.4g} at ({:g}, {:g})", least->*value,
-                                      least->e1, least->e2, most->*value, most->e1, most->e2),
-                          off, 1e-14, "");
+  if (!most) return {quantity, "drawn, not printed", "none", "", "fails"};
+  // Not −0: the sign of what rounding leaves of e₀ means nothing.
+  const double lowest = std::abs(least->*value) < 1e-12 ? 0.0 : least->*value;
+  return compare::claimed(quantity, "drawn, not printed",
+                          fmt::format("{:.4g} at ({:g}, {:g}), {:.4g} at ({:g}, {:g})", lowest, least->e1,
+                                      least->e2, most->*value, most->e1, most->e2),
+                          std::max(std::abs(least->*value - low), std::abs(most->*value - high)), 1e-14, "");
 }
 
 /// x_p has its ends at 45° on the rim, between the places of the grid: at (1, ∓1)/√2.
@@ -144,8 +144,8 @@ Finding symmetry(const AnyRobot& robot) {
 
 void add_shape(std::vector<Finding>& findings, const AnyRobot& robot, const std::vector<Parasitic>& all) {
   findings.push_back(extremes_of_x(robot));
-  findings.push_back(extremes("y_p", &Parasitic::y, " m", all, -1, 1));
-  findings.push_back(extremes("e_0", &Parasitic::e0, "", all, 0, 1));
+  findings.push_back(extremes("y_p from −1 to 1 m, derived at (±1, 0), (0, ±1)", &Parasitic::y, all, -1, 1));
+  findings.push_back(extremes("e_0 from 0 on the rim to 1 at home, derived", &Parasitic::e0, all, 0, 1));
   findings.push_back(compare::claimed(
       "derived: P leaves the axis by r (e_1² + e_2²) = r sin²(φ/2), whatever the direction of the tilt",
       "not stated", "everywhere on the grid",
@@ -192,10 +192,12 @@ Panel panel(const std::vector<Parasitic>& all, double Parasitic::*value, std::st
 }
 
 Figure figure_of(const std::vector<Parasitic>& all) {
-  const auto xs = panel(all, &Parasitic::x, "(a) xₚ [m] for r = 1 m", -1,
-                        {{{-0.8, -0.4}, {45}}, {{-0.6, -0.2}, {225}}, {{0.4, 0.8}, {-45}}, {{0, 0.2, 0.6}, {135}}});
-  const auto ys = panel(all, &Parasitic::y, "(b) yₚ [m] for r = 1 m", -1,
-                        {{{-0.6, -0.2}, {0}}, {{-0.4}, {180}}, {{-0.8}, {}}, {{0, 0.2, 0.4, 0.6, 0.8}, {90}}});
+  const auto xs =
+      panel(all, &Parasitic::x, "(a) xₚ [m] for r = 1 m", -1,
+            {{{-0.8, -0.4}, {45}}, {{-0.6, -0.2}, {225}}, {{0.4, 0.8}, {-45}}, {{0, 0.2, 0.6}, {135}}});
+  const auto ys =
+      panel(all, &Parasitic::y, "(b) yₚ [m] for r = 1 m", -1,
+            {{{-0.6, -0.2}, {0}}, {{-0.4}, {180}}, {{-0.8}, {}}, {{0, 0.2, 0.4, 0.6, 0.8}, {90}}});
   return {.title = "",
           .panels = {xs, ys,
                      panel(all, &Parasitic::e0, "(c) e₀ = cos(φ/2)", 0,

@@ -118,20 +118,27 @@ Finding reach(const AnyRobot& robot, const std::vector<Locus>& loci, Workspace& 
           inside == loci.size() && outside == 0 ? "holds" : "fails"};
 }
 
-/// σmin/σmax of the homogenised J at the places of the forward locus, by the velocity analysis of the robot.
-double largest_inverse_condition(const AnyRobot& robot, const std::vector<Locus>& loci, Workspace& work) {
+/// The forward locus by the velocity analysis of the robot: its determinant there over that at home.
+Finding singular_there(const AnyRobot& robot, const TripodSize& size, const std::vector<Locus>& loci,
+                       Workspace& work) {
+  std::size_t places = 0, found = 0;
   double most = 0;
   for (const Locus& at : loci) {
     if (std::isnan(at.forward)) continue;
+    ++places;
     const double direction = at.direction * degree;
     const ConstrainedPose place = constrained_pose(
         robot, {tripod::height, at.forward * std::cos(direction), at.forward * std::sin(direction)});
     const Inverse legs = inverse(robot, place.pose, {}, work);
-    if (!legs.ok()) return missing;
+    if (!legs.ok()) continue;
     const Velocity rates = velocity(robot, place.pose, legs.coordinates, work);
-    most = worse(most, rates.type_2.singular ? 0 : 1 / rates.indices.condition_homogenised);
+    found += rates.type_2.singular;
+    most = worse(most, std::abs(rates.determinant / tripod_determinant(size, 0, 0)));
   }
-  return most;
+  if (found < places) most = std::numeric_limits<double>::infinity();
+  return compare::claimed("J of the robot on the FK locus", "not stated",
+                          fmt::format("type II at {} of {} places", found, places), most, 1e-12,
+                          "of the determinant at home");
 }
 
 /// On e₂ = 0 the mechanism is symmetric and det = 0 falls apart; what is left of the factor that vanishes.
@@ -162,9 +169,7 @@ void add_forward(std::vector<Finding>& findings, const AnyRobot& robot, const Tr
                       fmt::format("none within {:.2f}°; the arcs end on (19), at {:.4f}, a tilt of {:.2f}°",
                                   gap, end, tripod::tilt(end)),
                       "", none ? "for information" : "fails"});
-  findings.push_back(compare::claimed("J on the FK locus by the velocity analysis of the robot", "not stated",
-                                      fmt::format("singular at {} places", found),
-                                      largest_inverse_condition(robot, loci, work), 1e-12, "σmin/σmax"));
+  findings.push_back(singular_there(robot, size, loci, work));
 }
 
 void add_areas(std::vector<Finding>& findings, const TripodSize& size) {

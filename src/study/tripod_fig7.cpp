@@ -42,7 +42,7 @@ void add_home(std::vector<Finding>& findings, const TripodSize& size, const Samp
   const double r = size.platform_radius;
   const auto row = [&](const char* name, double derived, double ours, const char* unit) {
     findings.push_back(compare::claimed(fmt::format("{} = {:.6f}", name, derived), "not printed",
-                                        fmt::format("{:.6f} {}", ours, unit), off_by(ours, derived) / derived,
+                                        fmt::format("{:.6f}{}", ours, unit), off_by(ours, derived) / derived,
                                         1e-14, "relative"));
   };
   // A strut's row is (s, r × s) with r in the same plane as s: |r × s| is r times the strut's rise at home.
@@ -50,8 +50,8 @@ void add_home(std::vector<Finding>& findings, const TripodSize& size, const Samp
   const double struts = size.strut_length * size.strut_length + r * r * rise * rise, planes = 1 + r * r;
   row("‖J_FK‖_F at home, derived √(3 (L² + r² d² + 1 + r²))", std::sqrt(3 * (struts + planes)),
       home.forward_norm, "");
-  row("‖U_p‖ at home, derived 1/√3", 1 / std::numbers::sqrt3, home.position, "m/m");
-  row("‖U_r‖ at home, derived √(2/3)/r", std::sqrt(2.0 / 3) / r, home.rotation, "rad/m");
+  row("‖U_p‖ at home, derived 1/√3", 1 / std::numbers::sqrt3, home.position, " m/m");
+  row("‖U_r‖ at home, derived √(2/3)/r", std::sqrt(2.0 / 3) / r, home.rotation, " rad/m");
 }
 
 Finding range(const char* name, double Sample::*value, const char* unit, const Samples& all) {

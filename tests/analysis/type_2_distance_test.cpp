@@ -125,8 +125,8 @@ TEST(TypeTwoDistance, WhereTheDeterminantOnlyTouchesZero) {
 }
 
 TEST(TypeTwoDistance, OfEveryRobotIsTheFirstOneOnItsWay) {
-  for (const std::string_view name : builtin_robot_names()) {
-    const AnyRobot robot = load(std::string(name)).value();
+  for (const std::string& name : builtin_robots(false)) {
+    const AnyRobot robot = load(name).value();
     Workspace work(robot);
     std::vector<double> turn(static_cast<std::size_t>(dof(robot)));
     (plane_count(robot) > 0 ? turn[4] : turn.back()) = 1;

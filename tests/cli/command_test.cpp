@@ -176,6 +176,59 @@ TEST(Plot, WithoutAPoseItDrawsTheHomeThatSetMoved) {
   EXPECT_EQ(drawn({"--set", "platform.home.x=7 mm"}), drawn({"--pose", "7 mm, 0, 0"}));
 }
 
+TEST(Plot, DrawsRodsUnderALoadAndAtHome) {
+  const Scratch here;
+  const auto drawn = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"plot", "3pfs-g2", "-o", "fig.svg"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run_command(words, here.path());
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    return read_text(here.path() / "fig.gp");
+  };
+  const std::string home = drawn({}),
+                    loaded =
+                        drawn({"--inputs", "0.44 m, 0.42 m, 0.41 m", "--wrench", "0, 0, -30 N, 0, 0, 0"});
+  EXPECT_NE(home.find("rod"), std::string::npos);
+  EXPECT_EQ(home.find("rail"), std::string::npos);
+  EXPECT_NE(loaded, drawn({"--inputs", "0.44 m, 0.42 m, 0.41 m"}));
+}
+
+TEST(Plot, DrawsWhatDoesNotHoldAndSaysSo) {
+  const Scratch here;
+  const Outcome outcome = run_command({"plot", "3pfs-g2", "--inputs", "434.7 mm, 434.7 mm, 434.7 mm",
+                                       "--wrench", "0, 0, -115 N, 0, 0, 0", "-o", "fig.svg"},
+                                      here.path());
+  EXPECT_EQ(outcome.exit, 3);
+  EXPECT_NE(outcome.err.find("unstable: 2 directions"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(here.path() / "fig.svg"));
+}
+
+TEST(Forward, AllListsEquilibriaOfRods) {
+  const Scratch here;
+  const Outcome outcome = run_command({"forward", "3pfs-g2", "--inputs", "434.7 mm, 434.7 mm, 434.7 mm",
+                                       "--wrench", "0, 0, -100 N, 0, 0, 0", "--all"},
+                                      here.path());
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("potential[mJ]  unstable_directions\n          1    0.0000"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("40604.4286                    1\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\nat least "), std::string::npos);
+}
+
+TEST(New, EveryKindIsGoodAsItIs) {
+  const Scratch here;
+  const auto kinds = lines_of(run_command({"new"}, here.path()).err);
+  int count = 0;
+  for (std::size_t i = 3; i < kinds.size() && !kinds[i].empty(); ++i, ++count) {
+    const std::string kind = kinds[i].substr(0, kinds[i].find(' '));
+    write_text(here.path() / "mine.yaml", run_command({"new", kind}, here.path()).out);
+    const Outcome outcome = run_command({"check", "mine.yaml"}, here.path());
+    EXPECT_EQ(outcome.exit, 0) << kind << outcome.err;
+    EXPECT_EQ(outcome.err.find("home"), std::string::npos) << kind << outcome.err;
+  }
+  EXPECT_GE(count, 10);
+}
+
 TEST(Plot, DrawsColumnsOfATable) {
   const Scratch here;
   write_text(here.path() / "result.csv", "k,x[m],y[m],condition\n0,0.01,0.5,14.5\n1,0.02,0.25,150\n");
@@ -263,6 +316,8 @@ TEST(Completion, CompletesVerbsOptionsAndRobots) {
   EXPECT_EQ(completed("inv", 1).out, "inverse\n");
   EXPECT_EQ(completed("inverse 3-rfr --be", 3).out, "--bending\n");
   EXPECT_EQ(completed("track 3-rfr --obj", 3).out, "--objective\n");
+  EXPECT_EQ(completed("forward 3pfs-g2 --wr", 3).out, "--wrench\n");
+  EXPECT_EQ(completed("check 3pfs", 2).out, "3pfs-g1 3pfs-g2\n");
   EXPECT_EQ(completed("check 6-", 2).out, "6-ufs\n");
   EXPECT_EQ(completed("check m", 2).out, "mine.yaml\n");
   EXPECT_EQ(completed("reproduce tdpcr/fig9", 2).out, "tdpcr/fig9\n");

@@ -48,7 +48,7 @@ std::string rewritten(const std::string& text, const std::regex& pattern, Rewrit
 /// (a residual) is zero and what is above 1e15 (the condition of a singular matrix) infinite, for both are
 /// rounding. So is by how little a path misses its end.
 std::string without_rounding(const std::string& output) {
-  static const std::regex number(R"(-?\d+(\.\d+)?([eE][-+]?\d+)?)"), residual(R"(residual [-+.e0-9]+ m)"),
+  static const std::regex number(R"(-?\d+(\.\d+)?([eE][-+]?\d+)?)"), residual(R"(residual [-+.e0-9]+( m)?)"),
       miss(R"(\d(\.\d+)?e-\d+ mm)");
   const auto six_digits = [](const std::string& text) {
     const double value = std::strtod(text.c_str(), nullptr);
@@ -60,7 +60,8 @@ std::string without_rounding(const std::string& output) {
   for (const std::string& line : lines_of(output))
     text += (line.starts_with('{') ? rewritten(line, number, six_digits) : line) + '\n';
   text = rewritten(text, residual, [](const std::string& found) {
-    return std::strtod(found.c_str() + 9, nullptr) < 1e-12 ? std::string("residual ~0 m") : found;
+    if (std::strtod(found.c_str() + 9, nullptr) >= 1e-12) return found;
+    return std::string(found.ends_with('m') ? "residual ~0 m" : "residual ~0");
   });
   return rewritten(text, miss, [](const std::string&) { return std::string("~0 mm"); });
 }

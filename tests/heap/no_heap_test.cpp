@@ -7,6 +7,7 @@
 
 #include "every_robot.hpp"
 #include "sinew/analysis/velocity.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
 
 namespace {
 std::atomic<long> allocations{0};
@@ -41,7 +42,7 @@ long allocations_of(Work&& run) {
   return allocations - before;
 }
 
-class NoHeap : public testing::TestWithParam<std::string_view> {
+class NoHeap : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
 #if defined(__SANITIZE_ADDRESS__)
@@ -56,7 +57,7 @@ class NoHeap : public testing::TestWithParam<std::string_view> {
     inputs = values(work.inputs);
     coordinates = values(work.coordinates);
   }
-  AnyRobot robot = load(std::string(GetParam())).value();
+  AnyRobot robot = load(GetParam()).value();
   Workspace work{robot};
   std::mt19937 random{4};
   AnyPose pose = reachable_pose(robot, random, work);
@@ -93,8 +94,34 @@ TEST_P(NoHeap, Velocity) {
   EXPECT_EQ(allocations_of([&] { rates(v, twist, work); }), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builtin, NoHeap, testing::ValuesIn(builtin_robot_names()),
+INSTANTIATE_TEST_SUITE_P(Builtin, NoHeap, testing::ValuesIn(builtin_robots(false)),
                          [](const auto& robot) { return "robot_" + std::to_string(robot.index); });
+
+TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer owns malloc";
+#endif
+  for (const std::string& name : builtin_robots(true)) {
+    const AnyRobot robot = load(name).value();
+    Workspace work(robot);
+    ASSERT_TRUE(inverse_equilibrium(robot, {std::get<SpatialPose>(home(robot)).position[2], 0, 0}, {}, work)
+                    .is_solved());
+    std::vector<double> inputs = values(work.inputs);
+    SpatialWrench load = SpatialWrench::Zero(), down = SpatialWrench::Zero();
+    load << 1, -0.5, -5, 0.2, 0.1, -0.1;
+    down[2] = -1;
+    const auto none = [&](auto&& run) { EXPECT_EQ(allocations_of(run), 0) << name; };
+    none([&] { EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load}, work).is_solved()); });
+    inputs[0] += 1e-3;
+    none(
+        [&] { EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load, .resume = true}, work).is_solved()); });
+    none([&] { inverse_equilibrium(robot, {0.3, 0.1, 0}, {}, work); });
+    none([&] { equilibrium(robot, inputs, {.start = std::get<SpatialPose>(home(robot))}, work); });
+    none([&] { follow_load(robot, down, 500, work); });
+    inputs[1] = 0.01;  // out of reach
+    none([&] { EXPECT_FALSE(equilibrium(robot, inputs, {}, work).is_solved()); });
+  }
+}
 
 }  // namespace
 }  // namespace sinew::test

@@ -16,7 +16,8 @@ struct Path {
   RodPathEnd to(const RodTarget& target, const RodPathOptions& options = {}) {
     return follow(system, target, options, spare);
   }
-  RodPathEnd to(const std::array<double, 3>& lengths, const Wrench6& wrench, const RodPathOptions& options = {}) {
+  RodPathEnd to(const std::array<double, 3>& lengths, const Wrench6& wrench,
+                const RodPathOptions& options = {}) {
     RodTarget target = present(system);
     for (std::size_t k = 0; k < 6; ++k) target.lengths[k] = lengths[k / 2];
     target.wrench = wrench;
@@ -96,7 +97,8 @@ TEST(RodPath, ArrivesOnTheSameBranchByAnyNumberOfPieces) {
     for (int trial = 0; trial < 25; ++trial) {
       Path path(t);
       RodTarget far = present(path.system);
-      for (std::size_t k = 0; k < 6; k += 2) far.lengths[k] = far.lengths[k + 1] = t.length + random.uniform(-0.06, 0.06);
+      for (std::size_t k = 0; k < 6; k += 2)
+        far.lengths[k] = far.lengths[k + 1] = t.length + random.uniform(-0.06, 0.06);
       far.wrench = random.wrench(4, 0.3);
       const RodTarget from = present(path.system);
       const RodPathEnd whole = path.to(far);
@@ -108,7 +110,8 @@ TEST(RodPath, ArrivesOnTheSameBranchByAnyNumberOfPieces) {
       Path pieces(t);
       for (int part = 1; part <= 40; ++part) {
         RodTarget next = from;
-        for (std::size_t k = 0; k < 6; ++k) next.lengths[k] += part / 40.0 * (far.lengths[k] - from.lengths[k]);
+        for (std::size_t k = 0; k < 6; ++k)
+          next.lengths[k] += part / 40.0 * (far.lengths[k] - from.lengths[k]);
         next.wrench += part / 40.0 * (far.wrench - from.wrench);
         ASSERT_TRUE(pieces.to(next).arrived);
       }
@@ -160,7 +163,8 @@ TEST(RodPath, KeepsToItsBoundOnIterations) {
   }
 }
 
-TEST(RodPath, FindsWhereTheSymmetricStateBuckles) {  // notes: G2 between -110 and -112 N, G1 between -190 and -200
+TEST(RodPath,
+     FindsWhereTheSymmetricStateBuckles) {  // notes: G2 between -110 and -112 N, G1 between -190 and -200
   for (const auto& [t, low, high] : {std::tuple{g2, 110.0, 112.0}, std::tuple{g1, 190.0, 200.0}}) {
     SCOPED_TRACE(t.name);
     Path path(t);
@@ -173,7 +177,7 @@ TEST(RodPath, FindsWhereTheSymmetricStateBuckles) {  // notes: G2 between -110 a
     EXPECT_FALSE(end.arrived);
     EXPECT_GT(300 * end.progress, low);
     EXPECT_LT(300 * end.progress, high);
-    EXPECT_EQ(unstable_directions(path.system), 0);  // the last stable state
+    EXPECT_EQ(unstable_directions(path.system), 0);              // the last stable state
     EXPECT_LT(path.system.platform().p.head<2>().norm(), 1e-7);  // rounding, over what stiffness is left
 
     EXPECT_LT(path.system.factors().smallest_pivot(), 1e-3);
@@ -200,7 +204,8 @@ TEST(RodPath, DoesNotStopWhereNothingIsLost) {
   EXPECT_EQ((path.system.platform().p - other.system.platform().p).norm(), 0);
 }
 
-TEST(RodPath, PerturbedPathsEndAtAFold) {  // subcritical: a small side force turns the bifurcation into a fold
+TEST(RodPath,
+     PerturbedPathsEndAtAFold) {  // subcritical: a small side force turns the bifurcation into a fold
   Path path(g2);
   const std::array<double, 3> lengths{g2.length, g2.length, g2.length};
   ASSERT_TRUE(path.to(lengths, Wrench6::Zero()).arrived);

@@ -19,7 +19,8 @@ struct Set {
         work(robot) {}
 
   Report solve(const Json& c, RodQuestion question = {}) {
-    for (int k = 0; k < 6; ++k) question.wrench[k] = c[k < 3 ? "F_ext" : "M_ext"][std::size_t(k % 3)].get<double>();
+    for (int k = 0; k < 6; ++k)
+      question.wrench[k] = c[k < 3 ? "F_ext" : "M_ext"][std::size_t(k % 3)].get<double>();
     const Vec3<double> inputs = judge::vector(c["L"]);
     return solve_rods(work, home(robot), std::span<const double>(inputs.data(), 3), question);
   }
@@ -31,8 +32,7 @@ struct Set {
   }
   double force_error(const Json& c) const {
     double worst = 0;
-    for (int k = 0; k < 6; ++k)
-      worsen(worst, judge::error(work.system.rod(k).force, c["n"][std::size_t(k)]));
+    for (int k = 0; k < 6; ++k) worsen(worst, judge::error(work.system.rod(k).force, c["n"][std::size_t(k)]));
     return worst;
   }
 

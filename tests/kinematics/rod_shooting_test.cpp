@@ -49,7 +49,8 @@ TEST(RodShooting, ThePapersNewtonStaysWhereItIsStarted) {  // @verifies 3PFS (24
       for (int input = 0; input < 3; ++input) {
         feed.col(input) = system.feed_wrench(input);
         // δw = K δx + (feed) δL, at fixed load
-        by_wrench.col(input) = -around.stiffness.lazyProduct(around.length.col(2 * input) + around.length.col(2 * input + 1));
+        by_wrench.col(input) =
+            -around.stiffness.lazyProduct(around.length.col(2 * input) + around.length.col(2 * input + 1));
       }
       for (int r = 0; r < 6; ++r) {
         EXPECT_LT((stiffness.row(r) - around.stiffness.row(r)).norm(), 1e-10 * stiffness.row(r).norm());

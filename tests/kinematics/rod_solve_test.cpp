@@ -24,7 +24,9 @@ struct Solver {
     return solve_rods_at(work, home(robot), wanted, question);
   }
   const SE3<double>& pose() const { return work.system.platform(); }
-  Vec3<double> lengths() const { return {work.system.length(0), work.system.length(2), work.system.length(4)}; }
+  Vec3<double> lengths() const {
+    return {work.system.length(0), work.system.length(2), work.system.length(4)};
+  }
 
   RodRobot robot;
   RodWork work;
@@ -47,8 +49,8 @@ TEST(RodSolve, NoInputWithinTheWorkingRangeIsLostOrWrong) {
     Solver solver(t);
     RodRandom random(1);
     for (int trial = 0; trial < 1500; ++trial) {
-      const Report report =
-          solver.solve(inputs_around(t, random, 0.06), {.wrench = random.wrench(trial % 3 * 3, trial % 3 * 0.15)});
+      const Report report = solver.solve(inputs_around(t, random, 0.06),
+                                         {.wrench = random.wrench(trial % 3 * 3, trial % 3 * 0.15)});
       ASSERT_TRUE(report.ok()) << trial << ' ' << to_string(report);
       EXPECT_LE(report.residual, 1e-12);
       EXPECT_LE(report.iterations, 80);
@@ -126,7 +128,8 @@ TEST(RodSolve, TheFoldsItNamesAreThere) {
       RodSystem::Snapshot spare = system.snapshot();
       RodRandom random(15);
       for (int trial = 0; trial < 120; ++trial) {
-        const Vec3<double> inputs = inputs_around(t, random, 0.3).cwiseMax(0.02);  // rods of very unequal length too
+        const Vec3<double> inputs =
+            inputs_around(t, random, 0.3).cwiseMax(0.02);  // rods of very unequal length too
         const Wrench6 wrench = random.wrench(force, force / 20);
         const Report report = solver.solve(inputs, {.wrench = wrench});
         if (report.status != Status::singular && report.status != Status::stalled) continue;
@@ -353,7 +356,8 @@ TEST(RodSolve, SaysWhatIsWrongWithAQuestion) {
 TEST(RodSolve, SaysWhenHomeCannotBeLaid) {
   judge::Tripod above = g2.data();
   above.platform[3] = above.base[3];
-  for (Solver solver : {Solver(tripod_robot(above, level(0.4))), Solver(tripod_robot(g2.data(), level(-0.1)))})
+  for (Solver solver :
+       {Solver(tripod_robot(above, level(0.4))), Solver(tripod_robot(g2.data(), level(-0.1)))})
     for (int again = 0; again < 2; ++again) {
       const double L = g2.length;
       for (const Report& report : {solver.solve({L, L, L}), solver.solve_at({0.4, 0, 0})}) {
@@ -386,12 +390,14 @@ TEST(RodInverse, RoundTrips) {
       EXPECT_NEAR(there.pose().p[2], wanted.z, 1e-15);
       EXPECT_NEAR(q.v[0], wanted.e1, 1e-15);
       EXPECT_NEAR(q.v[1], wanted.e2, 1e-15);
-      for (int k = 0; k < 6; k += 2) EXPECT_NEAR(there.work.system.length(k), there.work.system.length(k + 1), 1e-15);
+      for (int k = 0; k < 6; k += 2)
+        EXPECT_NEAR(there.work.system.length(k), there.work.system.length(k + 1), 1e-15);
       EXPECT_LT(off_elastica(there.robot, there.work.system), 1e-12);
       const Report forward = back.solve(there.lengths(), {.wrench = wrench, .start = there.pose()});
       ASSERT_TRUE(forward.ok()) << to_string(forward);
       EXPECT_LT(distance(there.pose(), back.pose()), 1e-12);
-      if (!is_solved(back.solve(there.lengths(), {.wrench = wrench}))) continue;  // from home: a path of its own
+      if (!is_solved(back.solve(there.lengths(), {.wrench = wrench})))
+        continue;  // from home: a path of its own
       EXPECT_LT(distance(there.pose(), back.pose()), 1e-11);
     }
     EXPECT_GE(solved, 295);
@@ -415,10 +421,12 @@ TEST(RodInverse, RodsOfOneInputHaveOneLengthWhateverTheHome) {
 TEST(RodInverse, SaysWhatIsWrongOrOutOfReach) {
   Solver solver(g2);
   const double nan = std::nan("");
-  for (const RodCoordinates& wanted : {RodCoordinates{nan, 0, 0}, {0.4, nan, 0}, {0.4, 0, nan}, {0.4, 0.8, 0.7}})
+  for (const RodCoordinates& wanted :
+       {RodCoordinates{nan, 0, 0}, {0.4, nan, 0}, {0.4, 0, nan}, {0.4, 0.8, 0.7}})
     EXPECT_EQ(solver.solve_at(wanted).status, Status::left_domain);
   EXPECT_EQ(solver.solve_at({0.4, 0, 0}, {.wrench = Wrench6::Constant(nan)}).status, Status::left_domain);
-  for (const RodCoordinates& wanted : {RodCoordinates{-5, 0, 0}, {0.4, 0.95, 0}, {0.4, 0, -0.99}, {0.001, 0, 0}}) {
+  for (const RodCoordinates& wanted :
+       {RodCoordinates{-5, 0, 0}, {0.4, 0.95, 0}, {0.4, 0, -0.99}, {0.001, 0, 0}}) {
     const Report report = solver.solve_at(wanted);
     SCOPED_TRACE(to_string(report));
     if (!is_solved(report)) {
@@ -447,7 +455,7 @@ TEST(RodLay, HoldsAPoseAtGivenLengths) {
   }
   Solver solver(g2);
   EXPECT_FALSE(lay_rods(solver.work, level(0.4), {0.41, 0.41, 0.41}));  // shorter than the way
-  EXPECT_LE(solver.work.system.evaluate(), 1e-10);                     // at rest all the same
+  EXPECT_LE(solver.work.system.evaluate(), 1e-10);                      // at rest all the same
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// The flexible 3PFS against numbers of an independent implementation (tests/data/tripod/), and of another one
-/// with Cosserat rods (tests/data/field/), through the real `sinew query`.
+/// The flexible 3PFS against numbers of an independent implementation (tests/data/tripod/), and of another
+/// one with Cosserat rods (tests/data/field/), through the real `sinew query`.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,14 +43,31 @@ void expect_rods(const Json& answer, const Json& c, double bending_stiffness, do
     EXPECT_LT(error(leg["curvature_0"], c["u0"][i]), tolerance);
     EXPECT_NEAR(leg["tip_angle"].get<double>(), c["tip_angle"][i].get<double>(), tolerance);
     for (std::size_t k = 0; k < 2; ++k)
-      EXPECT_NEAR(leg["moment_0"][k].get<double>(), bending_stiffness * c["u0"][i][k].get<double>(), tolerance);
+      EXPECT_NEAR(leg["moment_0"][k].get<double>(), bending_stiffness * c["u0"][i][k].get<double>(),
+                  tolerance);
     EXPECT_NEAR(leg["moment_0"][2].get<double>(), 0, tolerance);  // guides are upright, rods bear no torque
     for (std::size_t k = 0; k < 3; ++k) sum[k] = sum[k].get<double>() + leg["force"][k].get<double>();
-    if (c.contains("energy_rods"))
-      EXPECT_NEAR(leg["energy"].get<double>(), c["energy_rods"][i].get<double>(), 1e-11);
+    if (!c.contains("energy_rods")) continue;
+    EXPECT_NEAR(leg["energy"].get<double>(), c["energy_rods"][i].get<double>(), 1e-11);
   }
   EXPECT_LT(error(sum, c["F_ext"]), 1e-9);
   EXPECT_NEAR(answer["energy"].get<double>(), c["energy"].get<double>(), 1e-11);
+}
+
+/// Largest curvature times half the diameter, by the first integral ½ EI κ² + n·t along each rod.
+double largest_strain(const Json& c, double bending_stiffness) {
+  double largest = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double ux = c["u0"][i][0], uy = c["u0"][i][1], curvature = std::hypot(ux, uy);
+    const double axial = c["n"][i][2],
+                 aside = (c["n"][i][0].get<double>() * uy - c["n"][i][1].get<double>() * ux) / curvature;
+    for (int k = 0; k <= 10000; ++k) {
+      const double angle = c["tip_angle"][i].get<double>() * k / 10000,
+                   drop = axial - (aside * std::sin(angle) + axial * std::cos(angle));
+      largest = std::max(largest, curvature * curvature + 2 / bending_stiffness * drop);
+    }
+  }
+  return std::sqrt(largest) * 0.003 / 2;
 }
 
 void expect_potential(const Json& answer, const Json& c) {
@@ -84,7 +101,8 @@ TEST_P(ReferenceRods, EveryCase) {  // @verifies 3PFS (17), (25)-(30)
   ASSERT_EQ(known.size(), 10U);
   std::vector<Json> queries;
   for (const Json& c : known) {
-    queries.push_back({{"query", "forward"}, {"inputs", c["L"]}, {"wrench", wrench_of(c)}, {"want", everything}});
+    queries.push_back(
+        {{"query", "forward"}, {"inputs", c["L"]}, {"wrench", wrench_of(c)}, {"want", everything}});
     queries.push_back({{"query", "velocity"}, {"inputs", c["L"]}, {"wrench", wrench_of(c)}});
     queries.push_back({{"query", "inverse"},
                        {"independent", {{"z", c["p"][2]}, {"e1", c["e"][1]}, {"e2", c["e"][2]}}},
@@ -106,7 +124,7 @@ TEST_P(ReferenceRods, EveryCase) {  // @verifies 3PFS (17), (25)-(30)
     EXPECT_EQ(forward["unstable_directions"], c["unstable_directions"]);
     EXPECT_TRUE(forward["unstable"].empty());
     EXPECT_GT(forward["margins"]["fold"].get<double>(), 1e-3);
-    EXPECT_LT(forward["margins"]["strain"].get<double>(), 0.01);
+    EXPECT_NEAR(forward["margins"]["strain"].get<double>(), largest_strain(c, bending_stiffness), 1e-9);
     EXPECT_LT(error(inverse["inputs"], c["L"]), 1e-12);
     expect_pose(inverse["pose"], c, 1e-12);
     EXPECT_LT(relative_error(velocity["J"], forward["stiffness"]), 1e-9);
@@ -170,7 +188,8 @@ TEST(ReferenceManyEquilibria, AllFindsTheSwayOfG2AndItsCopies) {
   for (const Json& solution : answer["solutions"]) {
     EXPECT_EQ(solution["legs"].size(), 6U);
     EXPECT_EQ(solution["stable"], solution["unstable_directions"] == 0);
-    sways += std::abs(solution["potential"].get<double>() - 40.604136) < 1e-6 && solution["unstable_directions"] == 1;
+    sways += std::abs(solution["potential"].get<double>() - 40.604136) < 1e-6 &&
+             solution["unstable_directions"] == 1;
   }
   EXPECT_EQ(sways, 3);  // one for each plane of symmetry
   EXPECT_NEAR(answer["solutions"][0]["potential"].get<double>(), 40.569164, 1e-6);  // in ascending order
@@ -182,8 +201,8 @@ TEST(ReferenceBuckling, UntilEndsWhereSwayBegins) {
     const char* robot;
     double length, least, most;
   };
-  for (const Load& known : {Load{"3pfs-g2", 0.4346969702550149, 110, 112},
-                            Load{"3pfs-g1", 0.20755705266417177, 190, 200}}) {
+  for (const Load& known :
+       {Load{"3pfs-g2", 0.4346969702550149, 110, 112}, Load{"3pfs-g1", 0.20755705266417177, 190, 200}}) {
     const Json lengths = {known.length, known.length, known.length}, down = {0, 0, -1, 0, 0, 0};
     const Json answer = ask(known.robot, {{{"query", "forward"},
                                            {"inputs", lengths},
@@ -197,7 +216,8 @@ TEST(ReferenceBuckling, UntilEndsWhereSwayBegins) {
     EXPECT_LT(load, known.most);
     std::vector<Json> queries;
     for (const double factor : {0.999, 1.001})
-      queries.push_back({{"query", "forward"}, {"inputs", lengths}, {"wrench", {0, 0, -factor * load, 0, 0, 0}}});
+      queries.push_back(
+          {{"query", "forward"}, {"inputs", lengths}, {"wrench", {0, 0, -factor * load, 0, 0, 0}}});
     const auto beside = ask(known.robot, queries);
     EXPECT_EQ(beside[0]["status"], "converged");
     EXPECT_EQ(beside[1]["status"], "unstable");
@@ -205,13 +225,13 @@ TEST(ReferenceBuckling, UntilEndsWhereSwayBegins) {
 }
 
 TEST(ReferenceBuckling, UntilStopsAtItsLimit) {
-  const auto answers = ask(
-      "3pfs-g2",
-      {{{"query", "forward"}, {"inputs", {0.44, 0.42, 0.41}}, {"wrench", {1, -0.5, -25, 0.2, 0.1, -0.1}}},
-       {{"query", "forward"},
-        {"inputs", {0.44, 0.42, 0.41}},
-        {"wrench", {1, -0.5, -5, 0.2, 0.1, -0.1}},
-        {"until", {{"wrench", {0, 0, -1, 0, 0, 0}}, {"limit", 20}}}}});
+  const auto answers =
+      ask("3pfs-g2",
+          {{{"query", "forward"}, {"inputs", {0.44, 0.42, 0.41}}, {"wrench", {1, -0.5, -25, 0.2, 0.1, -0.1}}},
+           {{"query", "forward"},
+            {"inputs", {0.44, 0.42, 0.41}},
+            {"wrench", {1, -0.5, -5, 0.2, 0.1, -0.1}},
+            {"until", {{"wrench", {0, 0, -1, 0, 0, 0}}, {"limit", 20}}}}});
   EXPECT_EQ(answers[1]["why"], "limit");
   EXPECT_EQ(answers[1]["load"], 20.0);
   EXPECT_LT(error(answers[1]["pose"]["position"], answers[0]["pose"]["position"]), 1e-11);
@@ -234,7 +254,8 @@ TEST(ReferenceRods, CosseratRodsOfAnotherSourceAreNear) {
   for (std::size_t i = 0; i < known.size(); ++i) {
     ASSERT_EQ(answers[i]["status"], "converged");
     EXPECT_LT(error(answers[i]["pose"]["position"], known[i]["p"]), 1e-5);
-    EXPECT_LT(error(answers[i]["pose"]["quaternion"], known[i]["quat_wxyz"]), 1e-5);
+    EXPECT_LT(2 * 0.125 * error(answers[i]["pose"]["quaternion"], known[i]["quat_wxyz"]),
+              1e-5);  // at its rim
   }
 }
 

@@ -9,9 +9,11 @@
 namespace sinew::test {
 namespace {
 
-/// A system of one rod of unit length and stiffness. Only its rod is of interest: nothing else holds the platform.
+/// A system of one rod of unit length and stiffness. Only its rod is of interest: nothing else holds the
+/// platform.
 struct SingleRod {
-  RodSystem system{RodRobot{{rod_leg(Vec3<double>::Zero(), Vec3<double>::Zero(), 1)}, pose_of(level(0.9)), 1}};
+  RodSystem system{
+      RodRobot{{rod_leg(Vec3<double>::Zero(), Vec3<double>::Zero(), 1)}, pose_of(level(0.9)), 1}};
 
   /// Takes over an exact shape, at its tip. Evaluated.
   double take(const Vec2<double>& local_force, const ElasticaState<double>& state) {
@@ -170,7 +172,8 @@ TEST(RodLanes, AgreeWhateverTheInstructionSet) {
     const std::vector<double> numbers = numbers_of_a_step();
     ASSERT_EQ(numbers.size(), best.size());
     double worst = 0;
-    for (std::size_t k = 0; k < best.size(); ++k) worsen(worst, std::abs(numbers[k] - best[k]) / (1 + std::abs(best[k])));
+    for (std::size_t k = 0; k < best.size(); ++k)
+      worsen(worst, std::abs(numbers[k] - best[k]) / (1 + std::abs(best[k])));
     EXPECT_LT(worst, 1e-11) << name << " beside " << best_name;
     hwy::SetSupportedTargetsForTest(0);
     ++sets;

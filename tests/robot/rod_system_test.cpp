@@ -1,5 +1,5 @@
-/// Rods between a base and a platform as one system: each rod against the exact elastica, forces against their
-/// slopes, lanes against each other. Whole robots: tests/kinematics/rod_*_test.cpp.
+/// Rods between a base and a platform as one system: each rod against the exact elastica, forces against
+/// their slopes, lanes against each other. Whole robots: tests/kinematics/rod_*_test.cpp.
 #include "robot/rod_system.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,8 @@ TEST(RodSystem, LargestCurvatureIsThatOfTheExactShape) {
         if (std::abs(sections[i].curvature) > std::abs(sections[best].curvature)) best = i;
       double largest = std::abs(sections[best].curvature);
       if (best > 0) {  // the top of the parabola through it and its neighbours
-        const double left = std::abs(sections[best - 1].curvature), right = std::abs(sections[best + 1].curvature);
+        const double left = std::abs(sections[best - 1].curvature),
+                     right = std::abs(sections[best + 1].curvature);
         largest += (right - left) * (right - left) / (8 * (2 * largest - left - right));
       }
       largest /= rod.length;
@@ -76,7 +77,8 @@ TEST(RodSystem, CentrelineRunsAlongTheElastica) {
       const RodLeg& leg = robot.legs[std::size_t(k)];
       const RodReading rod = system.rod(k);
       elastica_sections(local_force(planar_state(rod, leg)), s, sections);
-      const Vec3<double> aside = rod.tip - leg.base.p - leg.tangent() * dot(leg.tangent(), rod.tip - leg.base.p);
+      const Vec3<double> aside =
+          rod.tip - leg.base.p - leg.tangent() * dot(leg.tangent(), rod.tip - leg.base.p);
       const std::vector<Vec3<double>> line = system.centreline(k, samples);
       ASSERT_EQ(line.size(), s.size());
       for (std::size_t i = 0; i < line.size(); ++i) {
@@ -93,7 +95,9 @@ TEST(RodSystem, StiffnessIsTheSlopeOfTheForces) {  // rods found anew at every d
   each_robot({3, 6, 9}, 4, [](const RodRobot&, RodSystem& system) {
     const RodSystem::Snapshot at = system.snapshot();
     const Eigen::MatrixXd stiffness = system.stiffness();
-    const auto forces = [&](const Vec<double, 6>& x) { return Eigen::VectorXd(wrench_beside(system, at, x)); };
+    const auto forces = [&](const Vec<double, 6>& x) {
+      return Eigen::VectorXd(wrench_beside(system, at, x));
+    };
     const Vec<double, 6> zero = Vec<double, 6>::Zero();
     EXPECT_LT(check_jacobian_real(forces, zero, stiffness, {.step = 1e-5}), 1e-7);
   });
@@ -106,7 +110,8 @@ TEST(RodSystem, FeedWrenchIsTheSlopeByAnInput) {
     Eigen::MatrixXd feed(6, system.inputs());
     for (int input = 0; input < system.inputs(); ++input) feed.col(input) = system.feed_wrench(input);
     const auto forces = [&](const Eigen::VectorXd& x) {
-      return Eigen::VectorXd(wrench_beside(system, at, Vec<double, 6>::Zero(), {x.data(), std::size_t(x.size())}));
+      return Eigen::VectorXd(
+          wrench_beside(system, at, Vec<double, 6>::Zero(), {x.data(), std::size_t(x.size())}));
     };
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.inputs());
     EXPECT_LT(check_jacobian_real(forces, zero, feed, {.step = 1e-5}), 1e-7);
@@ -140,7 +145,9 @@ TEST(RodSystem, EnergyFallsByWhatTheForcesDo) {
     const Vec<double, 6> still = Vec<double, 6>::Zero();
     const auto by_pose = [&](const Vec<double, 6>& x) { return energy(x, {}); };
     EXPECT_LT(check_jacobian_real(by_pose, still, wrench.transpose(), {.step = 1e-5}), 1e-8);
-    const auto by_feed = [&](const Eigen::VectorXd& x) { return energy(still, {x.data(), std::size_t(x.size())}); };
+    const auto by_feed = [&](const Eigen::VectorXd& x) {
+      return energy(still, {x.data(), std::size_t(x.size())});
+    };
     const Eigen::VectorXd unfed = Eigen::VectorXd::Zero(system.inputs());
     EXPECT_LT(check_jacobian_real(by_feed, unfed, by_length, {.step = 1e-5}), 1e-8);
   });
@@ -262,7 +269,8 @@ TEST(RodSystem, RefinesAndCoarsensTheSameShapes) {
     const RodReading rod = system.rod(0);
     system.refine();
     ASSERT_TRUE(system.is_fine());
-    EXPECT_GT(system.evaluate(), 1e-12);  // the same polynomial, whose equation is met in the coarse sense only
+    EXPECT_GT(system.evaluate(),
+              1e-12);  // the same polynomial, whose equation is met in the coarse sense only
     const auto refined = points();
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LT((refined[i] - before[i]).norm(), 1e-14);
     EXPECT_NEAR(system.rod(0).tip_angle, rod.tip_angle, 1e-13);

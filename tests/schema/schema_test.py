@@ -236,6 +236,7 @@ class Schema(unittest.TestCase):
             ("inputs in another order", listed({"link": swivel, "closure": pin}, {"actuated": ["tendon_1", "theta"]})),
             ("inputs of an arc", listed({"link": link, "closure": chord}, {"actuated": ["theta", "tendon_1"]})),
             ("tied", listed({"link": link, "closure": chord}, {}, {"tied": 0})),
+            ("the first one tied", listed({"link": link, "closure": chord}, {"tied": 0}, {})),
             ("tied to -1", listed({"link": link, "closure": chord}, {}, {"tied": -1})),
             ("a default taken away", listed({"link": {**link, "joints": 6}, "closure": chord},
                                             {"link": {"joints": None}})),
@@ -247,6 +248,55 @@ class Schema(unittest.TestCase):
             ("an unknown default", listed({"link": link, "closure": chord, "colour": "red"}, {})),
         ])
 
+    def test_rods_are_judged_alike(self):
+        rod, ball, axis = {"type": "rod", "diameter": "3 mm", "material": {"E": "83 GPa"}}, {"type": "ball"}, [1, 0, 0]
+        arc = {"link": self.link, "closure": {"type": "chord"}, "base": {"first_axis": axis}}
+        in_space = {"space": "spatial", "platform": {"home": {"position": [0, 0, "300 mm"]}}}
+
+        def standing(defaults, *legs, **more):
+            """Legs evenly around a circle, in space."""
+            whole = []
+            for i, leg in enumerate(legs):
+                point = {"radius": "200 mm", "angle": f"{120 * i} deg"}
+                whole.append({"platform_point": {**point, "radius": "100 mm"}, **leg,
+                              "base": {"point": point, **leg.get("base", {})}})
+            return {"sinew": 1, "name": "mine", "defaults": defaults, "legs": whole, **in_space, **more}
+
+        three, rods = [{}, {}, {}], {"link": rod, "closure": ball}
+        self.agree([
+            ("rods", standing(rods, *three)),
+            ("rods in their legs", standing({}, *[rods] * 3)),
+            ("a guide along a vector", standing({**rods, "base": {"direction": [0, 1, 1]}}, *three)),
+            ("a guide along an angle", standing({**rods, "base": {"direction": "30 deg"}}, *three)),
+            ("guides of their own", standing(rods, {}, {"base": {"direction": [0, 0.1, 1]}}, {})),
+            ("no guide direction", standing({**rods, "base": {"direction": None}}, *three)),
+            ("a direction of two numbers", standing({**rods, "base": {"direction": [0, 1]}}, *three)),
+            ("a first axis", standing({**rods, "base": {"first_axis": axis}}, *three)),
+            ("a hinge axis", standing(rods, {"base": {"hinge_axis": axis}}, {}, {})),
+            ("a length", standing({**rods, "link": {**rod, "length": "1 m"}}, *three)),
+            ("a tendon", standing({**rods, "link": {**rod, "tendon_offset": "5 mm"}}, *three)),
+            ("joints", standing({**rods, "link": {**rod, "joints": 6}}, *three)),
+            ("a closure with a length", standing({**rods, "closure": {**ball, "length": "1 m"}}, *three)),
+            ("a chord", standing({**rods, "closure": {"type": "chord"}}, *three)),
+            ("an arc with a ball", standing({**arc, "closure": ball}, *three)),
+            ("no material", standing({**rods, "link": {"type": "rod", "diameter": 1}}, *three)),
+            ("an empty material", standing({**rods, "link": {**rod, "material": None}}, *three)),
+            ("a material without a modulus", standing({**rods, "link": {**rod, "material": {}}}, *three)),
+            ("no diameter", standing({**rods, "link": {**rod, "diameter": None}}, *three)),
+            ("diameters of their own", standing({**rods, "link": {"type": "rod", "material": {"E": 1e9}}},
+                                                *[{"link": {"diameter": 1e-3}}] * 3)),
+            ("one diameter", standing({**rods, "link": {"type": "rod", "material": {"E": 1e9}}},
+                                      {}, {"link": {"diameter": 1e-3}}, {})),
+            ("a negative diameter", standing(rods, {}, {"link": {"diameter": -1e-3}}, {})),
+            ("an arc among rods", standing(rods, {}, arc, {})),
+            ("a rod among arcs", standing(arc, {}, rods, {})),
+            ("the input of a rod", standing({**rods, "actuated": ["length"]}, *three)),
+            ("the input of an arc", standing({**rods, "actuated": ["tendon_1"]}, *three)),
+            ("tied rods", standing(rods, {}, {"tied": 0}, {"tied": 0})),
+            ("rods in the plane", standing(rods, *three, space="planar", platform={})),
+            ("no home", standing(rods, *three, platform={})),
+        ])
+
     def test_relations_between_values_are_told_by_the_reader_alone(self):
         link, listed, chord = self.link, self.listed, {"type": "chord"}
         swivel = {**link, "type": "swivel"}
@@ -256,7 +306,7 @@ class Schema(unittest.TestCase):
                                                   {}, {"base": {"point": self.feet[0]}})),
                 ("collapsed_platform", listed({"link": link, "closure": chord, "platform_point": [0, 0]},
                                               {"platform_point": [0, 0]})),
-                ("out_of_range", listed({"link": link, "closure": chord}, {"tied": 1}, {})),
+                ("out_of_range", listed({"link": link, "closure": chord}, {}, {"tied": 1})),
                 ("too_many_legs", listed({"link": swivel, "closure": {"type": "pin"}},
                                          *({"base": {"point": [i, 0]}} for i in range(13)))),
                 ("no_such_leg", listed({"link": swivel, "closure": chord}, {})),

@@ -8,6 +8,14 @@
 
 namespace sinew::test {
 
+/// The built-in robots whose legs close on the platform, or those whose legs bear load.
+inline std::vector<std::string> builtin_robots(bool loaded) {
+  std::vector<std::string> names;
+  for (const std::string_view name : builtin_robot_names())
+    if (bears_load(load(std::string(name)).value()) == loaded) names.emplace_back(name);
+  return names;
+}
+
 /// A pose near home.
 inline AnyPose pose_near_home(const AnyRobot& robot, std::mt19937& random, double shift = 0.04,
                               double turn = 0.6) {

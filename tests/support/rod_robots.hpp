@@ -1,6 +1,7 @@
 /// @file rod_robots.hpp
-/// Robots of rods as tests need them: the two tripods of tests/data/tripod/, random ones of any number of rods,
-/// guides and stiffnesses, and states of equilibrium to begin from. How far a rod is from an exact elastica.
+/// Robots of rods as tests need them: the two tripods of tests/data/tripod/, random ones of any number of
+/// rods, guides and stiffnesses, and states of equilibrium to begin from. How far a rod is from an exact
+/// elastica.
 #pragma once
 #include <random>
 #include <vector>
@@ -69,8 +70,7 @@ inline constexpr RodTripod g2{"G2", 0.25, 0.125, 30, 0.4, 0.4346969702550149};
 /// Rods 2j and 2j + 1 share input j.
 inline RodRobot tripod_robot(const judge::Tripod& t, const SE3<double>& home) {
   std::vector<RodLeg> legs;
-  for (std::size_t k = 0; k < 6; ++k)
-    legs.push_back(rod_leg(t.base[k], t.platform[k], t.bending_stiffness));
+  for (std::size_t k = 0; k < 6; ++k) legs.push_back(rod_leg(t.base[k], t.platform[k], t.bending_stiffness));
   const std::array<int, 6> tied = {-1, 0, -1, 2, -1, 4};
   return {legs, pose_of(home), t.platform[0].norm(), tied};
 }
@@ -139,8 +139,8 @@ inline bool balance(RodSystem& system) {
   return system.linearise();
 }
 
-/// Rods at a pose with lengths of no special kind: laid there to rest, then fed so that what they are longer than
-/// their chord becomes half to three times as much. In balance, linearised.
+/// Rods at a pose with lengths of no special kind: laid there to rest, then fed so that what they are longer
+/// than their chord becomes half to three times as much. In balance, linearised.
 inline bool lay(RodSystem& system, const SE3<double>& pose, RodRandom& random) {
   if (!rest_at(system, pose)) return false;
   const RodTarget from = present(system);
@@ -195,8 +195,8 @@ inline judge::Mismatch reintegrated(const judge::Tripod& t, const RodSystem& sys
   return judge::reintegrate(t, lengths, wrench, system.platform().p, system.platform().R.matrix(), forces);
 }
 
-/// Distance of a rod from an exact elastica: differences of tip, tip angle, and, over the force's size, force,
-/// base curvature and energy, in the units of a rod of unit length and stiffness. The largest of them.
+/// Distance of a rod from an exact elastica: differences of tip, tip angle, and, over the force's size,
+/// force, base curvature and energy, in the units of a rod of unit length and stiffness. The largest of them.
 inline double off(const ElasticaState<double>& exact, const ElasticaState<double>& rod) {
   const double size = 1 + rod.force.norm();
   double worst = 0;
@@ -239,8 +239,9 @@ inline double off_elastica(const ElasticaState<double>& rod) {
     const ElasticaTangent at = elastica_tangent(local);
     const Mat<double, 2, 2>& rate = at.tip_rate;
     const Vec2<double> gap = rod.tip - at.state.tip;
-    local += Vec2<double>(rate(1, 1) * gap[0] - rate(0, 1) * gap[1], rate(0, 0) * gap[1] - rate(1, 0) * gap[0]) /
-             (rate(0, 0) * rate(1, 1) - rate(0, 1) * rate(1, 0));
+    local +=
+        Vec2<double>(rate(1, 1) * gap[0] - rate(0, 1) * gap[1], rate(0, 0) * gap[1] - rate(1, 0) * gap[0]) /
+        (rate(0, 0) * rate(1, 1) - rate(0, 1) * rate(1, 0));
   }
   better(off(elastica<double>(local), rod));
   return best;

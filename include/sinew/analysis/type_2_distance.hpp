@@ -29,8 +29,9 @@ struct TypeTwoDistance {
 };
 
 /// The nearest type II along a straight motion: in the plane (x, y, φ) + s·direction; in space p + s·v,
-/// exp(s·ω)·R, of a platform that hinges hold in planes the nearest pose in these. The distance is the multiple of the direction given, exact to 1e-10 for directions of a length
-/// near one. A pose that is itself singular has the distance 0.
+/// exp(s·ω)·R, of a platform that hinges hold in planes the nearest pose in these. The distance is the
+/// multiple of the direction given, exact to 1e-10 for directions of a length near one. A pose that is itself
+/// singular has the distance 0.
 /// @param direction a twist (v, ω) in base axes
 SINEW_API TypeTwoDistance type_2_distance(const AnyRobot& robot, const AnyPose& pose, Numbers direction,
                                           const TypeTwoSearch& search, Workspace& work);

@@ -1,7 +1,7 @@
 /// @file assembly_modes.hpp
-/// Every platform pose that given inputs allow, for any robot. Planar: planar_modes.hpp, all of them. Spatial:
-/// hinged_modes.hpp for three hinged legs, spatial_modes.hpp for others, all of them or a lower bound that
-/// says so. Theory: docs/theory/assembly_modes.md
+/// Every platform pose that given inputs allow, for any robot. Planar: planar_modes.hpp, all of them.
+/// Spatial: hinged_modes.hpp for three hinged legs, spatial_modes.hpp for others, all of them or a lower
+/// bound that says so. Theory: docs/theory/assembly_modes.md
 #pragma once
 #include <vector>
 
@@ -12,9 +12,9 @@ namespace sinew::inline v0 {
 struct AssemblyModes {
   Report report;  ///< unreachable where there is none; singular where there is a continuum
   std::vector<AnyPose> poses;
-  std::vector<double> residual;         ///< largest closure error of each pose [m]
-  std::vector<bool> is_double;          ///< of planar and of hinged legs: two modes merge in this pose, see there
-  bool is_complete = true;              ///< otherwise their number is a lower bound
+  std::vector<double> residual;  ///< largest closure error of each pose [m]
+  std::vector<bool> is_double;   ///< of planar and of hinged legs: two modes merge in this pose, see there
+  bool is_complete = true;       ///< otherwise their number is a lower bound
   std::span<const double> coordinates;  ///< of the links, the same in every mode; view into the workspace
 };
 

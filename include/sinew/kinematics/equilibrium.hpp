@@ -23,7 +23,7 @@ struct EquilibriumOptions {
   bool resume = false;
   int max_iterations = 4000;  ///< Newton steps of the whole path
   /// A resumed answer too is asked for stability and resolution, and its coordinates are handed out. Without,
-  /// it is as quick as it can be: shapes to 1e-12 of the length.
+  /// it is as quick as it can be: shapes to an estimated 1e-10 of the length.
   bool judge = true;
 };
 
@@ -40,9 +40,9 @@ struct Equilibrium {
 
 /// The platform on rods of these lengths, under a wrench. One Newton iteration on pose and rods together,
 /// along a path from the start: first the lengths, then the load. Residual: the largest of closure error over
-/// leg length, of force error over EI/L², and of the rods' own equations. Where the path ends early the
-/// report says why: rods pulled straight, a fold of the inputs, buckling under the load. No heap, no throw,
-/// bounded work.
+/// leg length, of force error over EI/L² of the stiffest rod, and of the rods' own equations. Where the path
+/// ends early the report says why: rods pulled straight, a fold of the inputs, buckling under the load. No
+/// heap, no throw, bounded work.
 /// @implements 3PFS (25)-(30)
 SINEW_API Equilibrium equilibrium(const AnyRobot& robot, Numbers inputs, const EquilibriumOptions& options,
                                   Workspace& work);
@@ -57,11 +57,11 @@ struct IndependentPose {
 SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
-/// Many equilibria under one wrench: `rows` holds the inputs of each, one after the other, `poses` and `statuses`
-/// have one entry each. Neighbouring rows should be near each other: eight stretches of them are walked at once
-/// in SIMD lanes, and a row that does not come at once is solved as `equilibrium` does. Poses to 1e-12 of the
-/// rods' length; stability is not asked. Where a status is not `converged` the pose is not one. The same bytes on
-/// one instruction set, whatever ran before. Allocates once a call.
+/// Many equilibria under one wrench: `rows` holds the inputs of each, one after the other, `poses` and
+/// `statuses` have one entry each. Neighbouring rows should be near each other: eight stretches of them are
+/// walked at once in SIMD lanes, and a row that does not come at once is solved as `equilibrium` does. Poses
+/// to 1e-12 of the rods' length; stability is not asked. Where a status is not `converged` the pose is not
+/// one. The same bytes on one instruction set, whatever ran before. Allocates once a call.
 SINEW_API void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work);
 

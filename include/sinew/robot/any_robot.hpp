@@ -45,13 +45,14 @@ struct AnyRobot {
         model(std::move(robot)) {}
 };
 
-/// Whether the legs of this robot bear load: it then has equilibria (kinematics/equilibrium.hpp) and no closures.
+/// Whether the legs of this robot bear load: it then has equilibria (kinematics/equilibrium.hpp) and no
+/// closures.
 inline bool bears_load(const AnyRobot& robot) {
   return std::holds_alternative<ParallelRobot<RodLeg>>(robot.model);
 }
 
-/// Calls `use` with the robot behind `robot` if its legs close on the platform, and `otherwise()` if they bear
-/// load.
+/// Calls `use` with the robot behind `robot` if its legs close on the platform, and `otherwise()` if they
+/// bear load.
 template <class Use, class Otherwise>
 decltype(auto) visit_closing(const AnyRobot& robot, Use&& use, Otherwise&& otherwise) {
   return std::visit(

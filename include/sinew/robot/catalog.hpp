@@ -55,8 +55,9 @@ inline constexpr std::array architectures{
                  "planar, redundant: three tendon-driven links on motors, each with a rigid strut"},
     Architecture{"6-UFS", "spatial", 6, "arc", "chord", "TDPCR 4.1",
                  "spatial, six tendon-driven links between universal and spherical joints"},
-    Architecture{"3-PRS", "spatial", 3, "rail", "hinged_strut", "3PFS 3.1",
-                 "spatial, rigid: three carriages on rails, each with a strut on a hinge; it tilts and lifts"},
+    Architecture{
+        "3-PRS", "spatial", 3, "rail", "hinged_strut", "3PFS 3.1",
+        "spatial, rigid: three carriages on rails, each with a strut on a hinge; it tilts and lifts"},
 };
 
 }  // namespace sinew::inline v0
