@@ -92,16 +92,18 @@ class Follower {
       }
       if (options_.stop_at_instability && unstable_directions(system_) > unstable_) {
         retreat();
-        end_.became_unstable = true;
+        unstable_from_ = std::min(unstable_from_, next);
         stride = (next - end_.progress) / 2;
         if (stride < 1e-9) break;
         continue;
       }
       stride = quick_ ? 2 * (next - end_.progress) : next - end_.progress;
       end_.progress = next;
-      end_.became_unstable = false;
+      if (unstable_from_ <= next) unstable_from_ = std::numeric_limits<double>::infinity();
     }
     end_.arrived = end_.progress == 1;
+    // the last step may fail for the singular stiffness in between: what was met beyond it decides
+    end_.became_unstable = unstable_from_ - end_.progress < 1e-3;
     return end_;
   }
 
@@ -148,6 +150,7 @@ class Follower {
   RodSystem::Snapshot& spare_;
   RodPathEnd end_;
   bool quick_ = false;
+  double unstable_from_ = std::numeric_limits<double>::infinity();  ///< the path goes on here, unstable
   int unstable_ = 0;
 };
 
