@@ -1,6 +1,8 @@
 /// @file every_robot.hpp
 /// What tests that run on every robot of the library need of it, planar or spatial.
 #pragma once
+#include <stdexcept>
+
 #include "planar_robots.hpp"
 #include "random_leg.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
@@ -29,10 +31,11 @@ inline AnyPose pose_near_home(const AnyRobot& robot, std::mt19937& random, doubl
 
 /// A pose near home that every leg reaches, and that hinges allow.
 inline AnyPose reachable_pose(const AnyRobot& robot, std::mt19937& random, Workspace& work) {
-  for (;;) {
+  for (int tries = 0; tries < 10000; ++tries) {
     const AnyPose pose = settled(robot, pose_near_home(robot, random));
     if (inverse(robot, pose, {}, work).ok()) return pose;
   }
+  throw std::runtime_error(robot.name + " reaches no pose near home");
 }
 
 /// The pose after a small motion in base axes.
