@@ -1,7 +1,7 @@
-/// Flexible 3PFS: warm forward kinematics, cold starts and batches, each on every instruction set this
-/// machine has. Run: build/dev/bin/bench_tripod_rods The baseline is the paper's own way: 37 unknowns, rods
-/// by RK4 with 40 steps, Jacobian by differences; each of its columns integrates only the rod that owns the
-/// unknown (all six rods for every column would take five times as long).
+/// Flexible 3PFS: warm forward kinematics and batches, each on every instruction set this machine has.
+/// Run: build/dev/bin/bench_tripod_rods. Cold starts: bench_tripod_campaign.
+/// The baseline is the paper's own way: 37 unknowns, rods by RK4 with 40 steps, Jacobian by differences; each
+/// of its columns integrates only the rod that owns the unknown, which is less work than all six.
 #include <fmt/format.h>
 
 #include <hwy/highway.h>
@@ -128,6 +128,27 @@ void compare_warm(const Set& set, double stride, const InstructionSet& isa) {
            accuracy});
 }
 
+/// A batch of the whole walk, to be divided by its poses.
+void compare_batch(const Set& set, const InstructionSet& isa) {
+  auto walk = std::make_shared<Walk>(set, 1e-3);
+  auto rows = std::make_shared<std::vector<double>>();
+  for (const auto& lengths : walk->lengths) rows->insert(rows->end(), lengths.begin(), lengths.end());
+  const std::size_t count = walk->lengths.size();
+  auto poses = std::make_shared<std::vector<SpatialPose>>(count);
+  auto statuses = std::make_shared<std::vector<Status>>(count);
+  auto baseline = std::make_shared<PaperWalk>(set, walk);
+  compare({fmt::format("3pfs {} {} poses {}", set.name, count, isa.name), "37 unknowns, one pose",
+           [walk, rows, poses, statuses, isa] {
+             hwy::SetSupportedTargetsForTest(isa.target);
+             equilibrium_batch(walk->robot, *rows, SpatialWrench::Zero(), *poses, *statuses, walk->work);
+           },
+           [baseline] {
+             baseline->next();
+             benchmark::DoNotOptimize(baseline->state.residual);
+           },
+           "divide by the number of poses"});
+}
+
 }  // namespace
 }  // namespace sinew::bench
 
@@ -138,5 +159,8 @@ int main(int argc, char** argv) {
     if (has & isa.target)
       for (const Set& set : sets)
         for (const double stride : {0.5e-3, 1e-3, 2e-3}) compare_warm(set, stride, isa);
+  for (const InstructionSet& isa : instruction_sets)
+    if (has & isa.target)
+      for (const Set& set : sets) compare_batch(set, isa);
   return sinew::bench::main(argc, argv);
 }

@@ -39,9 +39,8 @@ class Closing {
         system.jacobian.row(row) = Space::line(direction, b);
         system.jacobian.row(row++).template tail<unknowns - D>() /= size_;
       };
-      const double beside = dot(leg.normal, n), miss = std::abs(length - leg.distance);
-      system.error =
-          std::max(system.error, leg.has_plane() ? std::sqrt(miss * miss + beside * beside) : miss);
+      const double beside = dot(leg.normal, n);  // 0 without a plane
+      system.error = std::max(system.error, misfit(leg, length, beside));
       if (leg.distance > 0) {
         put(0.5 * (length - leg.distance) * (length + leg.distance), n);
         if (leg.has_plane()) put(beside * size_, leg.normal * size_);  // of the size of the others
@@ -57,9 +56,7 @@ class Closing {
     double worst = 0;
     for (const Reach<D>& leg : reaches_) {
       const Vec<double, D> n = platform.point(leg.platform_point) - leg.anchor;
-      const double miss = std::abs(n.norm() - leg.distance);
-      const double beside = dot(leg.normal, n);  // 0 without a plane
-      worst = std::max(worst, leg.has_plane() ? std::sqrt(miss * miss + beside * beside) : miss);
+      worst = std::max(worst, misfit(leg, n.norm(), dot(leg.normal, n)));
     }
     return worst;
   }
@@ -80,6 +77,11 @@ class Closing {
   Eigen::Index rows() const { return rows_; }
 
  private:
+  static double misfit(const Reach<D>& leg, double length, double beside) {
+    const double miss = std::abs(length - leg.distance);
+    return leg.has_plane() ? std::sqrt(miss * miss + beside * beside) : miss;
+  }
+
   std::span<const Reach<D>> reaches_;
   Eigen::Index rows_ = 0;
   double size_ = 0;

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "kinematics/rod_batch.hpp"
+#include "kinematics/rods/batch.hpp"
+#include "kinematics/rods/inverse.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -50,6 +51,19 @@ Equilibrium answer_of(const Report& report, Workspace& work, bool with_coordinat
   return answer;
 }
 
+/// Of three rows.
+double largest_singular_value(const double* rows, int columns) {
+  std::array<double, 3> sigma;
+  singular_values(MatrixView(rows, 3, columns), std::span(sigma).first(at(std::min(3, columns))));
+  return sigma[0];
+}
+
+std::vector<RodReading> readings_of(const RodSystem& system) {
+  std::vector<RodReading> rods;
+  for (int k = 0; k < system.rods(); ++k) rods.push_back(system.rod(k));
+  return rods;
+}
+
 double energy_of(const RodSystem& system) {
   double energy = 0;
   for (int k = 0; k < system.rods(); ++k) energy += system.rod(k).energy;
@@ -91,13 +105,10 @@ void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench&
   std::transform(found.begin(), found.end(), poses.begin(), spatial_pose);
 }
 
-SpatialPose held_pose(const Workspace& work) {
-  return work.rods ? spatial_pose(work.rods->system.platform()) : SpatialPose{};
-}
-
 RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
   RodAnalysis analysis;
-  if (!rods_of(robot)) return analysis;
+  const auto* loaded = rods_of(robot);
+  if (!loaded) return analysis;
   RodSystem& system = work.rods->system;
   system.evaluate();
   system.linearise();
@@ -123,10 +134,14 @@ RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
     std::copy_n(vectors.begin() + static_cast<std::ptrdiff_t>(6 * k), 6, analysis.unstable.back().begin());
   }
   analysis.unstable_directions = unstable_directions(system);
+  analysis.rods = readings_of(system);
   for (int k = 0; k < system.rods(); ++k) {
-    analysis.rods.push_back(system.rod(k));
     analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
+    analysis.largest_strain = std::max(analysis.largest_strain, analysis.rods[at(k)].largest_curvature *
+                                                                    loaded->legs[at(k)].link.diameter / 2);
   }
+  analysis.position_index = largest_singular_value(&analysis.sensitivity[0], system.inputs());
+  analysis.rotation_index = largest_singular_value(&analysis.sensitivity[3 * inputs], system.inputs());
   analysis.energy = energy_of(system);
   analysis.potential = potential_of(system);
   analysis.smallest_pivot = system.factors().smallest_pivot();
@@ -146,17 +161,17 @@ std::string_view to_string(LoadEnd end) noexcept {
 }
 
 LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit, Workspace& work) {
-  if (!rods_of(robot) || !work.rods->is_solved || !direction.allFinite() || !(limit > 0))
-    return {0, LoadEnd::fold};
+  if (!rods_of(robot) || !work.rods->is_solved || !direction.allFinite() || !(limit > 0)) return {};
   RodSystem& system = work.rods->system;
   system.evaluate();
   system.linearise();
   RodTarget target = present(system);
   target.wrench += limit * direction;
   const RodPathEnd end = follow(system, target, {.stop_at_instability = true}, work.rods->spare);
-  return {limit * end.progress, end.arrived           ? LoadEnd::limit
-                                : end.became_unstable ? LoadEnd::bifurcation
-                                                      : LoadEnd::fold};
+  const LoadEnd why = end.arrived           ? LoadEnd::limit
+                      : end.became_unstable ? LoadEnd::bifurcation
+                                            : LoadEnd::fold;
+  return {limit * end.progress, why, spatial_pose(system.platform()), system.evaluate()};
 }
 
 namespace {
@@ -203,10 +218,7 @@ std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs, 
     if (!is_new(found, system.platform(), size)) continue;
     FoundEquilibrium one;
     one.pose = spatial_pose(system.platform());
-    one.coordinates.resize(at(system.rods()) * RodLeg::coordinates);
-    for (int rod = 0; rod < system.rods(); ++rod)
-      system.get_rod(rod,
-                     std::span(one.coordinates).subspan(at(rod) * RodLeg::coordinates, RodLeg::coordinates));
+    one.rods = readings_of(system);
     one.residual = report.residual;
     one.potential = potential_of(system);
     one.unstable_directions = unstable_directions(system);

@@ -69,9 +69,9 @@ std::optional<Until> read_until(Context& context) {
   return until;
 }
 
-Json rods_json(const RodAnalysis& analysis) {
+Json rods_json(std::span<const RodReading> rods) {
   Json legs = Json::array();
-  for (const RodReading& rod : analysis.rods) {
+  for (const RodReading& rod : rods) {
     const Vec3<double> moment = rod.moment_0;
     legs.push_back({{"length", rod.length},
                     {"chord", rod.chord},
@@ -91,16 +91,6 @@ Json rows_json(std::span<const double> numbers, std::size_t columns) {
                             static_cast<Eigen::Index>(columns)));
 }
 
-/// Largest bending strain of the rods, κ d/2: a rod between a clamped tangent and a free tip bends most at
-/// its base or where n·t is largest; the first integral ½EIκ² + n·t bounds it.
-double largest_strain(const AnyRobot& robot, const RodAnalysis& analysis) {
-  const auto& rods = std::get<ParallelRobot<RodLeg>>(robot.model);
-  double strain = 0;
-  for (std::size_t k = 0; k < analysis.rods.size(); ++k)
-    strain = std::max(strain, analysis.rods[k].largest_curvature * rods.legs[k].link.diameter / 2);
-  return strain;
-}
-
 void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analysis) {
   Json& answer = context.answer;
   if (wanted.stiffness) answer["stiffness"] = rows_json(analysis.stiffness, 6);
@@ -116,8 +106,7 @@ void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analy
     answer["unstable_legs"] = std::move(legs);
   }
   if (wanted.margins)
-    answer["margins"] = {{"fold", analysis.smallest_pivot},
-                         {"strain", largest_strain(context.robot, analysis)}};
+    answer["margins"] = {{"fold", analysis.smallest_pivot}, {"strain", analysis.largest_strain}};
   if (wanted.sensitivity) answer["sensitivity"] = rows_json(analysis.sensitivity, context.work.inputs.size());
 }
 
@@ -173,18 +162,10 @@ RodQuery read_configuration_of_rods(Context& context) {
   return asked;
 }
 
-/// A bound that was met is told as such, whatever the path saw last.
 Equilibrium solve(Context& context, const RodQuery& asked) {
-  Equilibrium found =
-      asked.independent ? inverse_equilibrium(context.robot, *asked.independent, asked.options, context.work)
-                        : equilibrium(context.robot, asked.inputs, asked.options, context.work);
-  if (context.max_iterations && !found.is_solved() && found.report.status != Status::unreachable &&
-      found.report.status != Status::left_domain && found.report.iterations >= *context.max_iterations) {
-    found.report.status = Status::iteration_limit;
-    found.report.message = {};
-    found.report.message.append("the path to the answer takes more steps than max_iterations; raise it");
-  }
-  return found;
+  return asked.independent
+             ? inverse_equilibrium(context.robot, *asked.independent, asked.options, context.work)
+             : equilibrium(context.robot, asked.inputs, asked.options, context.work);
 }
 
 /// The equilibrium the workspace holds, as both questions answer it.
@@ -198,24 +179,10 @@ void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& w
   const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
   context.answer["pose"] = to_json(found.pose);
   context.answer["inputs"] = to_json(found.inputs);
-  context.answer["legs"] = rods_json(analysis);
+  context.answer["legs"] = rods_json(analysis.rods);
   context.answer["energy"] = analysis.energy;
   put_number(context.answer, "potential", analysis.potential);
   put_wanted(context, wanted, analysis);
-}
-
-double distance(const SpatialPose& a, const SpatialPose& b) {
-  const auto from = SE3<double>::from(a), to = SE3<double>::from(b);
-  return (from.p - to.p).norm() + from.R.inverse().compose(to.R).log().norm();
-}
-
-/// Rods of an equilibrium among several: solved again from where it is.
-void put_rods(Context& context, Json& solution, const FoundEquilibrium& one, std::span<const double> inputs,
-              EquilibriumOptions options) {
-  options.start = one.pose;
-  const Equilibrium again = equilibrium(context.robot, inputs, options, context.work);
-  if (again.is_solved() && distance(again.pose, one.pose) < 1e-7)
-    solution["legs"] = rods_json(analyse_equilibrium(context.robot, context.work));
 }
 
 void put_all(Context& context, std::span<const double> inputs, const EquilibriumOptions& options) {
@@ -226,7 +193,7 @@ void put_all(Context& context, std::span<const double> inputs, const Equilibrium
                   {"stable", one.unstable_directions == 0},
                   {"unstable_directions", one.unstable_directions}};
     put_number(solution, "potential", one.potential);
-    put_rods(context, solution, one, inputs, options);
+    solution["legs"] = rods_json(one.rods);
     solutions.push_back(std::move(solution));
   }
   context.answer["count"] = solutions.size();
@@ -258,7 +225,8 @@ void answer_rods_forward(Context& context) {
     const LoadPath path = follow_load(context.robot, until->direction, until->limit, context.work);
     context.answer["load"] = path.load;
     context.answer["why"] = to_string(path.end);
-    found.pose = held_pose(context.work);
+    found.pose = path.pose;
+    found.report.residual = path.residual;
   }
   put_equilibrium(context, found, wanted);
   if (want_all) put_all(context, asked.inputs, asked.options);
@@ -303,16 +271,10 @@ void answer_rods_velocity(Context& context) {
   answer["J"] = rows_json(analysis.stiffness, 6);
   answer["K"] = rows_json(analysis.feed, columns);
   answer["U"] = rows_json(analysis.sensitivity, columns);
-  std::vector<double> sigma(std::min<std::size_t>(3, columns));
-  const auto block = [&](std::size_t row) {
-    singular_values(MatrixView(&analysis.sensitivity[row * columns], 3, static_cast<Eigen::Index>(columns)),
-                    sigma);
-    return sigma.front();
-  };
-  answer["indices"] = {{"position", block(0)}, {"rotation", block(3)}};
-  answer["type_2"] = {{"singular", analysis.smallest_pivot < 1e-10}};
+  answer["indices"] = {{"position", analysis.position_index}, {"rotation", analysis.rotation_index}};
+  answer["type_2"] = {{"singular", analysis.is_singular()}};
   answer["residual"] = found.report.residual;
-  answer["legs"] = rods_json(analysis);
+  answer["legs"] = rods_json(analysis.rods);
 }
 
 void answer_rods_shape(Context& context) {

@@ -1,5 +1,5 @@
 /// Following an equilibrium of rods: where it begins, where it goes, where it ends.
-#include "kinematics/rod_path.hpp"
+#include "kinematics/rods/path.hpp"
 
 #include <gtest/gtest.h>
 
@@ -119,7 +119,7 @@ TEST(RodPath, ArrivesOnTheSameBranchByAnyNumberOfPieces) {
         each->system.refine();
         int iterations = 0;
         double residual = 0;
-        ASSERT_TRUE(correct(each->system, 1e-12, false, iterations, residual));
+        ASSERT_TRUE(correct(each->system, iterations, residual));
       }
       EXPECT_LT((path.system.platform().p - pieces.system.platform().p).norm(), 1e-13);
       for (int k = 0; k < 6; ++k)

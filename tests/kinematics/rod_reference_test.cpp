@@ -1,7 +1,7 @@
 /// Equilibria of rods against tests/data/tripod/, whose numbers come from another implementation.
 #include <gtest/gtest.h>
 
-#include "kinematics/rod_solve.hpp"
+#include "kinematics/rods/solve.hpp"
 #include "reference_3pfs.hpp"
 #include "rod_robots.hpp"
 

@@ -1,7 +1,7 @@
 /// Equilibria of rods against the paper's own 37 unknowns.
 #include <gtest/gtest.h>
 
-#include "kinematics/rod_solve.hpp"
+#include "kinematics/rods/solve.hpp"
 #include "rod_robots.hpp"
 #include "shooting_3pfs.hpp"
 

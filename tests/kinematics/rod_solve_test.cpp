@@ -1,6 +1,7 @@
 /// Forward and inverse equilibria of whole robots of rods: against tests/data/tripod/, against their own rods
 /// integrated anew, and against themselves.
-#include "kinematics/rod_solve.hpp"
+#include "kinematics/rods/inverse.hpp"
+#include "kinematics/rods/start.hpp"
 
 #include <gtest/gtest.h>
 

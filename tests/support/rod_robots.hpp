@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "kinematics/rod_path.hpp"
+#include "kinematics/rods/path.hpp"
 #include "sinew/link/elastica.hpp"
 #include "tripod_3pfs.hpp"
 

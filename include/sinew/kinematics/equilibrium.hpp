@@ -59,9 +59,9 @@ SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const Independe
 
 /// Many equilibria under one wrench: `rows` holds the inputs of each, one after the other, `poses` and
 /// `statuses` have one entry each. Neighbouring rows should be near each other: eight stretches of them are
-/// walked at once in SIMD lanes, and a row that does not come at once is solved as `equilibrium` does. Poses
-/// to 1e-12 of the rods' length; stability is not asked. Where a status is not `converged` the pose is not
-/// one. The same bytes on one instruction set, whatever ran before. Allocates once a call.
+/// walked at once in SIMD lanes, and a row that does not come at once, or whose rods bend more sharply than
+/// the lanes resolve, is solved alone. Shapes to an estimated 1e-10 of the length, as resumed answers;
+/// stability is not asked. Where a status is not `converged` the pose is not one. Allocates once a call.
 SINEW_API void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work);
 
@@ -77,10 +77,13 @@ struct RodAnalysis {
   double energy = 0;          ///< of all rods [J]
   double potential = 0;       ///< energy − F·p [J]; with a moment on the platform there is none: NaN
   double smallest_pivot = 0;  ///< of the platform's stiffness, over the largest: 0 at a fold
-};
+  double largest_strain = 0;  ///< of bending, κ d/2, anywhere on a rod
+  /// Kinematic sensitivities: 2-norms of the blocks of `sensitivity`, position [m/m], rotation [rad/m].
+  double position_index = 0, rotation_index = 0;
 
-/// Where the workspace's equilibrium is.
-SINEW_API SpatialPose held_pose(const Workspace& work);
+  /// The platform can move with all lengths held.
+  bool is_singular() const { return !(smallest_pivot >= 1e-10); }
+};
 
 /// Allocates.
 SINEW_API RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work);
@@ -96,17 +99,20 @@ SINEW_API std::string_view to_string(LoadEnd end) noexcept;
 struct LoadPath {
   double load = 0;  ///< factor of the direction that was reached
   LoadEnd end = LoadEnd::limit;
+  SpatialPose pose;  ///< there
+  double residual = 0;
 };
 
 /// Adds `direction` times a growing factor to the wrench of the equilibrium the workspace holds, up to
-/// `limit`. Afterwards the workspace holds the last stable equilibrium.
+/// `limit`. Afterwards the workspace holds the last stable equilibrium. Where it held none, or the direction
+/// or limit is no load, the factor is 0.
 SINEW_API LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit,
                                Workspace& work);
 
 /// One of several equilibria at the same inputs and load.
 struct FoundEquilibrium {
   SpatialPose pose;
-  std::vector<double> coordinates;
+  std::vector<RodReading> rods;
   double residual = 0, potential = 0;
   int unstable_directions = 0;
 };

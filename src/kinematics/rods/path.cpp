@@ -1,4 +1,4 @@
-#include "kinematics/rod_path.hpp"
+#include "kinematics/rods/path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,30 +21,28 @@ void set(RodSystem& system, const RodTarget& from, const RodTarget& to, double p
   system.set_wrench(from.wrench + part * (to.wrench - from.wrench));
 }
 
-/// Error below which Newton's method can only lose to rounding.
-constexpr double rounding = 2e-13;
-
 }  // namespace
 
-bool correct(RodSystem& system, double tolerance, bool hold_platform, int& iterations, double& residual) {
-  const auto error_now = [&] {
-    const double error = system.evaluate();
-    return hold_platform ? system.rod_error() : error;
+bool correct(RodSystem& system, int& iterations, double& residual, double tolerance) {
+  const auto step = [&] {
+    if (!system.linearise()) return false;
+    system.move(system.step(true));
+    return true;
   };
-  double error = error_now();
-  for (int k = 0; k < 12 && !(error <= rounding); ++k) {
-    if (!system.linearise() && !hold_platform) return false;
-    system.move(hold_platform ? Vec<double, 6>(Vec<double, 6>::Zero()) : system.step(true));
-    ++iterations;
-    const double next = error_now();
-    const bool is_done = next <= tolerance;
-    if (!is_done && !(next < 0.5 * error)) return false;
-    const bool gains = next < 0.1 * error;
-    error = next;
-    if (is_done && !gains) break;
-  }
-  residual = error;
-  return error <= tolerance;
+  return contract([&] { return system.evaluate(); }, step, tolerance, iterations, residual);
+}
+
+bool correct_rods(RodSystem& system, int& iterations, double& residual, double tolerance) {
+  const auto error = [&] {
+    system.evaluate();
+    return system.rod_error();
+  };
+  const auto step = [&] {
+    system.linearise();  // the platform's stiffness, which may be singular, is not asked for
+    system.move(RodSystem::Twist::Zero());
+    return true;
+  };
+  return contract(error, step, tolerance, iterations, residual);
 }
 
 RodTarget present(const RodSystem& system) {
@@ -102,6 +100,7 @@ class Follower {
       if (unstable_from_ <= next) unstable_from_ = std::numeric_limits<double>::infinity();
     }
     end_.arrived = end_.progress == 1;
+    end_.ran_out = !end_.arrived && end_.iterations >= options_.max_iterations;
     // the last step may fail for the singular stiffness in between: what was met beyond it decides
     end_.became_unstable = unstable_from_ - end_.progress < 1e-3;
     return end_;
@@ -122,14 +121,14 @@ class Follower {
     const SE3<double> predicted = system_.platform();
     const int before = end_.iterations;
     double residual = 0;
-    if (!correct(system_, options_.tolerance, false, end_.iterations, residual)) return false;
+    if (!correct(system_, end_.iterations, residual, options_.tolerance)) return false;
     Vec<double, 6> correction;
     correction << system_.platform().p - predicted.p,
         predicted.R.inverse().compose(system_.platform().R).log();
     if (size_of(correction, system_.radius()) > 0.5 * length + 1e-9) return false;
     if (!system_.is_fine() && system_.truncation() > coarse_truncation) {
       system_.refine();
-      if (!correct(system_, options_.tolerance, false, end_.iterations, residual)) return false;
+      if (!correct(system_, end_.iterations, residual, options_.tolerance)) return false;
     }
     if (!system_.linearise()) return false;
     quick_ = end_.iterations - before <= 4;

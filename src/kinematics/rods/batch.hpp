@@ -1,8 +1,8 @@
-/// @file rod_batch.hpp
+/// @file batch.hpp
 /// Many poses of one robot, eight at once in the lanes. The rows are cut into eight stretches of neighbours;
 /// each lane walks along its own, and a pose that does not come at once is solved alone.
 #pragma once
-#include "kinematics/rod_solve.hpp"
+#include "kinematics/rods/solve.hpp"
 
 namespace sinew::inline v0 {
 
@@ -12,7 +12,7 @@ class RodBatch {
   RodBatch(RodWork& work, const SE3<double>& home);
 
   /// @param rows inputs of every pose, one after the other; @param poses, statuses one a row
-  /// Poses are to 1e-12 of the rods' length, as those of a resumed answer; stability is not asked.
+  /// Poses as those of a quick resumed answer; stability is not asked.
   void solve(std::span<const double> rows, const RodSystem::Wrench& wrench, std::span<SE3<double>> poses,
              std::span<Status> statuses);
 
@@ -22,6 +22,7 @@ class RodBatch {
   void from_lane(int lane);
   bool solve_lane(int lane, Numbers inputs, Status& status);
   double worst() const;
+  double truncation(int lane) const;
   void walk();
 
   RodWork* work_;

@@ -1,12 +1,13 @@
-#include "kinematics/rod_batch.hpp"
+#include "kinematics/rods/batch.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/rods/verdict.hpp"
+
 namespace sinew::inline v0 {
 namespace {
 
-constexpr double tolerance = 1e-12;
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
@@ -79,6 +80,21 @@ double RodBatch::worst() const {
   return worst;
 }
 
+/// As RodSystem::truncation, of one pose.
+double RodBatch::truncation(int lane) const {
+  const auto& basis = GalerkinBasis<coarse_nodes>::get();
+  double worst = 0;
+  for (const CoarseRods& rod : rods_) {
+    double last = 0, before = 0;
+    for (std::size_t j = 0; j < coarse_nodes; ++j) {
+      last += basis.last[j] * rod.theta[j][lane];
+      before += basis.before_last[j] * rod.theta[j][lane];
+    }
+    worst = std::max(worst, last * last + before * before);
+  }
+  return worst;
+}
+
 /// All lanes to their new lengths, as solve_rods resumes: kept factors, one renewal, kept again.
 void RodBatch::walk() {
   rod_kernels::evaluate(rods_, true, poses_);
@@ -86,14 +102,14 @@ void RodBatch::walk() {
   rod_kernels::evaluate(rods_, false, poses_);
   double error = worst();
   int renewals = 0;
-  for (int k = 0; k < 8 && !(error <= tolerance); ++k) {
+  for (int k = 0; k < 8 && !(error <= rod_tolerance); ++k) {
     const bool renews = renewals == 0 || (error > 3e-9 && renewals < 3);
     if (renews) rod_kernels::linearise(rods_, poses_);
     renewals += renews;
     rod_kernels::step(rods_, renews, poses_);
     rod_kernels::evaluate(rods_, false, poses_);
     const double next = worst();
-    if (!(next < 0.3 * error) && !(next <= tolerance)) break;
+    if (!(next < 0.3 * error) && !(next <= rod_tolerance)) break;
     error = next;
   }
 }
@@ -115,7 +131,8 @@ void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wren
     bool is_renewed = false;
     for (int lane = 0; lane < rod_lanes; ++lane) {
       Status status = Status::converged;
-      if (!knows_[at(lane)] || !(poses_.error[lane] <= tolerance)) {
+      if (!knows_[at(lane)] || !(poses_.error[lane] <= rod_tolerance) ||
+          !(truncation(lane) <= quick_truncation)) {
         is_renewed = true;
         if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), status)) {
           statuses[row(lane)] = status;

@@ -1,4 +1,4 @@
-/// @file rod_path.hpp
+/// @file path.hpp
 /// Following an equilibrium of rods while lengths and wrench change together: from a state that is in
 /// equilibrium under some wrench to the one that is asked for. Theory: docs/theory/rod_robot.md
 #pragma once
@@ -19,8 +19,11 @@ struct RodTarget {
   RodSystem::Wrench wrench = RodSystem::Wrench::Zero();
 };
 
+/// On RodSystem::evaluate: what counts as solved, and below which Newton's method can only lose to rounding.
+inline constexpr double rod_tolerance = 1e-12, rod_rounding = 2e-13;
+
 struct RodPathOptions {
-  double tolerance = 1e-12;          ///< on RodSystem::evaluate
+  double tolerance = rod_tolerance;
   int max_iterations = 4000;         ///< Newton steps of the whole path
   bool stop_at_instability = false;  ///< ends where the number of unstable directions grows
 };
@@ -29,14 +32,34 @@ struct RodPathOptions {
 struct RodPathEnd {
   bool arrived = false;
   bool became_unstable = false;  ///< with stop_at_instability
+  bool ran_out = false;          ///< of iterations
   double progress = 0;           ///< 0 at the start, 1 at the target
   int iterations = 0;            ///< Newton steps
   double residual = std::numeric_limits<double>::infinity();
 };
 
-/// Newton's method at fixed lengths and wrench, as long as it contracts.
-/// @param hold_platform the rods alone
-bool correct(RodSystem& system, double tolerance, bool hold_platform, int& iterations, double& residual);
+/// Newton's method as long as each step halves the error, at most twelve of them, to the last digits.
+/// @param error evaluates where the system is; @param step moves it, false where it cannot
+template <class Error, class Step>
+bool contract(Error&& error, Step&& step, double tolerance, int& iterations, double& residual) {
+  double here = error();
+  for (int k = 0; k < 12 && !(here <= rod_rounding); ++k) {
+    if (!step()) return false;
+    ++iterations;
+    const double next = error();
+    const bool is_done = next <= tolerance, gains = next < 0.1 * here;
+    if (!is_done && !(next < 0.5 * here)) return false;
+    here = next;
+    if (is_done && !gains) break;
+  }
+  residual = here;
+  return here <= tolerance;
+}
+
+/// At fixed lengths and wrench, pose and rods together ...
+bool correct(RodSystem& system, int& iterations, double& residual, double tolerance = rod_tolerance);
+/// ... or the rods alone, the platform held.
+bool correct_rods(RodSystem& system, int& iterations, double& residual, double tolerance);
 
 /// From the state of `system`, which must be in equilibrium and linearised, to `target`. Afterwards the
 /// system is at the last equilibrium found, linearised there. `spare` is memory.

@@ -1,0 +1,210 @@
+#include "kinematics/rods/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinematics/rods/start.hpp"
+#include "kinematics/rods/verdict.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Report check_inputs(const RodSystem& system, Numbers inputs) {
+  Report report = failed(Status::left_domain);
+  if (inputs.size() != at(system.inputs())) {
+    report.message.append("the robot has ");
+    append_number(report.message, system.inputs());
+    report.message.append(" inputs, ");
+    append_number(report.message, static_cast<int>(inputs.size()));
+    report.message.append(" were given");
+    return report;
+  }
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    if (inputs[k] > 0 && std::isfinite(inputs[k])) continue;
+    report.message.append("inputs[");
+    append_number(report.message, static_cast<int>(k));
+    report.message.append("] is not a length a rod can have; it must be positive");
+    return report;
+  }
+  return {};
+}
+
+/// Two guides farther apart than their rods and the platform between them reach: no pose exists.
+Report check_reach(const RodSystem& system, Numbers inputs) {
+  Report report;
+  for (int j = 1; j < system.rods(); ++j)
+    for (int k = 0; k < j; ++k) {
+      const double apart = (system.base(j) - system.base(k)).norm();
+      const double between = (system.platform_point(j) - system.platform_point(k)).norm();
+      const double reach = inputs[at(system.input_of(j))] + inputs[at(system.input_of(k))] + between;
+      if (apart <= reach) continue;
+      report.status = Status::unreachable;
+      report.message.append("legs[");
+      append_number(report.message, k);
+      report.message.append("] and legs[");
+      append_number(report.message, j);
+      report.message.append("] are too short: their guides are ");
+      append_mm(report.message, apart);
+      report.message.append(" apart, rods and platform reach ");
+      append_mm(report.message, reach);
+      return report;
+    }
+  return report;
+}
+
+/// Newton's method from the state before: first with the factors kept from there, then with new ones, and
+/// kept again once a step with them gains as much as a new one would. False, with the state lost, where it
+/// does not contract at once.
+bool solve_warm(RodSystem& system, Report& report) {
+  constexpr double worth_renewing = 3e-9;
+  double error = system.evaluate();
+  if (!(error <= rod_tolerance)) {
+    system.move(system.step(false));
+    error = system.evaluate(false);
+    ++report.iterations;
+  }
+  for (int renewals = 0; !(error <= rod_tolerance);) {
+    const bool renews = renewals == 0 || (error > worth_renewing && renewals < 3);
+    if (renews && !system.linearise()) return false;
+    renewals += renews;
+    system.move(system.step(renews));
+    const double next = system.evaluate(false);
+    ++report.iterations;
+    if (!(next < 0.3 * error) && !(next <= rod_tolerance)) return false;
+    if (report.iterations > 10) return false;
+    error = next;
+  }
+  report.residual = error;
+  return true;
+}
+
+/// Back to the coarse nodes where they resolve the shapes. `before` holds the state.
+void lighten(RodWork& work, double truncation) {
+  RodSystem& system = work.system;
+  system.coarsen();
+  system.evaluate();
+  if (system.truncation() > truncation) {
+    system.restore(work.before);
+    system.evaluate();
+  }
+  system.linearise();
+}
+
+Report begin(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& question) {
+  if (question.resume && work.is_solved) return {};
+  if (!question.start) return go_home(work, home);
+  if (lay_rods(work, *question.start, inputs) || work.is_solved) return {};
+  Report report = failed(Status::left_domain);
+  report.message.append(
+      "the rods cannot be laid to this start: a tip lies on the line of its guide, or behind it; start with "
+      "every tip ahead of its guide, or leave start out");
+  return report;
+}
+
+/// First the lengths, then the load; where the unloaded lengths fail, both together.
+Report travel(RodWork& work, Numbers inputs, const RodQuestion& question) {
+  RodSystem& system = work.system;
+  system.save(work.before);
+  const RodPathOptions options{.max_iterations = question.max_iterations};
+  const auto arrived = [&](const RodPathEnd& end) {
+    Report report;
+    report.iterations = end.iterations;
+    report.residual = end.residual;
+    return report;
+  };
+  const bool is_loaded = question.wrench != RodSystem::Wrench::Zero();
+  // from a pose that was asked for, and on a way that is resumed, lengths and load go together
+  const bool at_once = question.start || question.resume || !is_loaded;
+  RodTarget target = target_of(system, inputs, question.wrench);
+  if (at_once) {
+    const RodPathEnd end = follow(system, target, options, work.spare);
+    return end.arrived ? arrived(end) : explain(system, end, false);
+  }
+  target.wrench.setZero();
+  const RodPathEnd first = follow(system, target, options, work.spare);
+  target.wrench = question.wrench;
+  if (first.arrived) {
+    RodPathEnd second = follow(system, target, options, work.spare);
+    second.iterations += first.iterations;
+    return second.arrived ? arrived(second) : explain(system, second, true);
+  }
+  system.restore(work.before);
+  system.evaluate();
+  system.linearise();
+  RodPathEnd both = follow(system, target, options, work.spare);
+  both.iterations += first.iterations;
+  return both.arrived ? arrived(both) : explain(system, both, false);
+}
+
+/// Newton's method from a start at once: whoever gives a pose wants what is near it. False, with the state as
+/// it was, where it does not contract or leads away.
+bool jump(RodWork& work, Numbers inputs, const RodQuestion& question, Report& report) {
+  RodSystem& system = work.system;
+  system.save(work.before);
+  const SE3<double> start = system.platform();
+  system.set_inputs(inputs);
+  system.set_wrench(question.wrench);
+  double error = system.evaluate();
+  for (int k = 0; k < 15 && !(error <= 1e-6); ++k) {
+    if (!system.linearise()) break;
+    const RodSystem::Twist twist = system.step(true);
+    if (!(twist.head<3>().norm() + system.radius() * twist.tail<3>().norm() < 0.2 * system.length(0))) break;
+    system.move(twist);
+    ++report.iterations;
+    error = system.evaluate();
+  }
+  report.status = Status::converged;
+  if (error <= 1e-6 && correct(system, report.iterations, report.residual) &&
+      (system.platform().p - start.p).norm() < 0.2 * system.length(0))
+    return true;
+  system.restore(work.before);
+  system.evaluate();
+  system.linearise();
+  return false;
+}
+
+}  // namespace
+
+Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& asked) {
+  RodQuestion question = asked;
+  question.resume = asked.resume && work.is_solved;  // else it begins like any other
+  if (const Report checked = check_inputs(work.system, inputs); !checked.ok()) return checked;
+  if (!question.wrench.allFinite()) {
+    Report report = failed(Status::left_domain);
+    report.message.append("the wrench is not a number");
+    return report;
+  }
+  RodSystem& system = work.system;
+  if (question.resume) {
+    system.save(work.before);
+    const double truncation = question.judge ? coarse_truncation : quick_truncation;
+    if (system.is_fine()) lighten(work, truncation);
+    system.set_inputs(inputs);
+    system.set_wrench(question.wrench);
+    Report report;
+    if (solve_warm(system, report)) {
+      if (question.judge)
+        report = settle(system, report, truncation);
+      else
+        resolve(system, report, truncation);
+      work.is_solved = report.ok() || report.status == Status::unstable;
+      return report;
+    }
+    system.restore(work.before);
+    system.evaluate();
+    system.linearise();
+  }
+  if (const Report checked = check_reach(system, inputs); !checked.ok()) return checked;
+  if (const Report begun = begin(work, home, inputs, question); !begun.ok()) return begun;
+  Report report = failed(Status::stalled);
+  if (!question.start || !jump(work, inputs, question, report)) report = travel(work, inputs, question);
+  work.is_solved = report.ok();
+  if (!work.is_solved) return report;
+  const Report settled = settle(system, report, best_truncation);
+  work.is_solved = settled.ok() || settled.status == Status::unstable;
+  return settled;
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,74 @@
+#include "kinematics/rods/start.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinematics/rods/verdict.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+RodTarget target_of(const RodSystem& system, Numbers inputs, const RodSystem::Wrench& wrench) {
+  RodTarget target;
+  for (int k = 0; k < system.rods(); ++k) target.lengths[at(k)] = inputs[at(system.input_of(k))];
+  target.wrench = wrench;
+  return target;
+}
+
+Report go_home(RodWork& work, const SE3<double>& home) {
+  if (!work.knows_home) {
+    if (!rest_at(work.system, home)) {
+      Report report = failed(Status::singular);
+      report.message.append(
+          "at home a rod's tip lies on the line of its guide, or behind it: the direction in which it bends "
+          "is not determined; give a start, or another home");
+      return report;
+    }
+    work.system.save(work.home);
+    work.knows_home = true;
+    return {};
+  }
+  work.system.restore(work.home);
+  work.system.evaluate();
+  work.system.linearise();
+  return {};
+}
+
+bool lay_rods(RodWork& work, const SE3<double>& pose, Numbers inputs) {
+  RodSystem& system = work.system;
+  work.is_solved = false;
+  if (!pose.p.allFinite() || !rest_at(system, pose)) return false;
+  work.is_solved = true;
+  system.save(work.before);
+  // from the lengths at which they rest to those that are given, the platform held
+  RodTarget from = present(system), to = target_of(system, inputs, from.wrench);
+  double part = 0, stride = 0.25;
+  int iterations = 0;
+  while (part < 1 && stride > 1e-3) {
+    const double next = std::min(1.0, part + stride);
+    system.save(work.spare);
+    for (int k = 0; k < system.rods(); ++k)
+      system.set_length(k, std::lerp(from.lengths[at(k)], to.lengths[at(k)], next));
+    double residual;
+    if (correct_rods(system, iterations, residual, 1e-10)) {
+      part = next;
+      stride *= 1.5;
+    } else {
+      system.restore(work.spare);
+      stride /= 3;
+    }
+  }
+  if (part < 1) system.restore(work.before);
+  system.set_wrench(RodSystem::Wrench::Zero());
+  system.evaluate();
+  system.set_wrench(-system.missing());
+  system.evaluate();
+  work.is_solved = system.linearise();
+  return part >= 1 && work.is_solved;
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,112 @@
+#include "kinematics/rods/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::inline v0 {
+namespace {
+
+/// Of the rods the one nearest to straight: by how much less than its length it spans.
+struct Straightest {
+  int rod = 0;
+  double slack = 1, tension = 0;  ///< 1 − chord/length; axial force in EI/L²
+};
+Straightest straightest(const RodSystem& system) {
+  Straightest found;
+  for (int k = 0; k < system.rods(); ++k) {
+    const RodReading rod = system.rod(k);
+    const double slack = 1 - rod.chord / rod.length;
+    if (slack >= found.slack) continue;
+    found = {k, slack, rod.axial_force * rod.length * rod.length / system.aim(k).stiffness};
+  }
+  return found;
+}
+
+}  // namespace
+
+Report failed(Status status) {
+  Report report;
+  report.status = status;
+  return report;
+}
+
+Report explain(const RodSystem& system, const RodPathEnd& end, bool is_load) {
+  Report report = failed(Status::singular);
+  report.iterations = end.iterations;
+  report.residual = end.residual;
+  if (end.ran_out) {
+    report.status = Status::iteration_limit;
+    report.message.append("the path to the answer takes more steps than max_iterations; raise it");
+    return report;
+  }
+  const auto percent = [&] {
+    append_number(report.message, static_cast<int>(100 * end.progress));
+    report.message.append(" % of the way");
+  };
+  if (system.truncation() > worst_truncation) {
+    report.status = Status::left_domain;
+    report.message.append("the rods bend too sharply to be resolved at ");
+    percent();
+    return report;
+  }
+  const Straightest tight = straightest(system);
+  if (tight.tension > 60) {
+    report.status = Status::unreachable;
+    report.message.append("legs[");
+    append_number(report.message, tight.rod);
+    report.message.append("] is pulled straight at ");
+    percent();
+    report.message.append(is_load ? " to this load; give it less"
+                                  : " to these inputs: it is too short for the others");
+    return report;
+  }
+  const int unstable = unstable_directions(system);
+  if (unstable == 0 && system.factors().smallest_pivot() > 1e-3) {
+    report.status = Status::stalled;
+    report.message.append("the path ends at ");
+    percent();
+    report.message.append("; start nearer, or allow more iterations");
+    return report;
+  }
+  if (is_load) {
+    report.message.append("the robot buckles at ");
+    percent();
+    report.message.append(" to this load: a fold, no equilibrium is nearby beyond it");
+  } else {
+    report.message.append("the inputs pass a fold at ");
+    percent();
+    report.message.append(" from the start: no equilibrium is nearby beyond it");
+  }
+  return report;
+}
+
+bool resolve(RodSystem& system, Report& report, double truncation) {
+  if (!system.is_fine() && system.truncation() > truncation) {
+    system.refine();
+    if (!correct(system, report.iterations, report.residual)) {
+      report.status = Status::stalled;
+      report.message.append("the rods bend too sharply to be resolved");
+      return false;
+    }
+  }
+  if (!(system.truncation() <= worst_truncation)) {
+    report.status = Status::left_domain;
+    report.message.append("the rods bend more sharply than their 24 nodes resolve");
+    return false;
+  }
+  return true;
+}
+
+Report settle(RodSystem& system, Report report, double truncation) {
+  if (!resolve(system, report, truncation)) return report;
+  system.linearise();
+  const int unstable = unstable_directions(system);
+  if (unstable == 0) return report;
+  report.status = Status::unstable;
+  append_number(report.message, unstable);
+  report.message.append(unstable == 1 ? " direction in which the robot does not hold by itself"
+                                      : " directions in which the robot does not hold by itself");
+  return report;
+}
+
+}  // namespace sinew::inline v0

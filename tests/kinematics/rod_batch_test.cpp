@@ -1,0 +1,106 @@
+/// Many poses at once are the poses that are found one by one.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sinew/io/robot_file.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
+
+namespace sinew::test {
+namespace {
+
+/// Poses of these rows, all at once, and what is found for each alone.
+struct Both {
+  std::vector<SpatialPose> poses;
+  std::vector<Status> statuses;
+  double worst = 0;  ///< largest difference of a coordinate where both are solved
+  int differ = 0;    ///< rows that one way solves and the other does not
+
+  Both(const char* name, const std::vector<double>& rows, const SpatialWrench& wrench = SpatialWrench::Zero())
+      : poses(rows.size() / 3),
+        statuses(rows.size() / 3) {
+    const AnyRobot robot = load(name).value();
+    Workspace work(robot), alone(robot);
+    equilibrium_batch(robot, rows, wrench, poses, statuses, work);
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const Equilibrium one =
+          equilibrium(robot, std::span(rows).subspan(3 * k, 3), {.wrench = wrench}, alone);
+      const bool is_solved = statuses[k] == Status::converged;
+      differ += one.is_solved() != is_solved;
+      if (!one.is_solved() || !is_solved) continue;
+      worst = std::max(worst, (poses[k].position - one.pose.position).norm());
+      for (std::size_t c = 0; c < 4; ++c)
+        worst = std::max(worst, std::abs(poses[k].quaternion[c] - one.pose.quaternion[c]));
+    }
+  }
+};
+
+std::vector<double> random_rows(int count, double home, double range) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(-range, range);
+  std::vector<double> rows;
+  for (int k = 0; k < 3 * count; ++k) rows.push_back(home + uniform(random));
+  return rows;
+}
+
+/// A walk of small steps through the same box.
+std::vector<double> walked_rows(int count, double home, double range) {
+  std::vector<double> rows;
+  for (int k = 0; k < count; ++k)
+    for (const double speed : {0.021, 0.034, 0.055}) rows.push_back(home + range * std::sin(speed * k));
+  return rows;
+}
+
+TEST(RodBatch, FindsWhatIsFoundOneByOne) {
+  SpatialWrench wrench;
+  wrench << 1, -0.5, -5, 0.2, 0.1, -0.1;
+  for (const int count : {1, 7, 8, 500}) {
+    for (const Both& both : {Both("3pfs-g1", walked_rows(count, 0.2076, 0.03)),
+                             Both("3pfs-g2", walked_rows(count, 0.4347, 0.05), wrench)}) {
+      EXPECT_EQ(both.differ, 0) << count;
+      EXPECT_LT(both.worst, 1e-11) << count;
+    }
+  }
+}
+
+TEST(RodBatch, IsNotMisledByRowsFarFromEachOther) {
+  const Both both("3pfs-g2", random_rows(200, 0.4347, 0.06));
+  EXPECT_EQ(both.differ, 0);
+  EXPECT_LT(both.worst, 1e-11);
+}
+
+TEST(RodBatch, TakesTheFineNodesWhereTheLanesDoNotResolveTheRods) {
+  const Both both("3pfs-g2", walked_rows(400, 0.4347, 0.15));
+  EXPECT_EQ(both.differ, 0);
+  EXPECT_LT(both.worst, 1e-10);
+}
+
+TEST(RodBatch, SaysWhichRowsHaveNoPoseAndGoesOn) {
+  std::vector<double> rows = walked_rows(64, 0.4347, 0.02);
+  rows[3 * 20] = 0.01;  // out of reach
+  rows[3 * 40 + 1] = std::numeric_limits<double>::quiet_NaN();
+  const Both both("3pfs-g2", rows);
+  EXPECT_EQ(both.differ, 0);
+  EXPECT_LT(both.worst, 1e-11);
+  EXPECT_EQ(both.statuses[20], Status::unreachable);
+  EXPECT_EQ(both.statuses[40], Status::left_domain);
+  EXPECT_EQ(std::ranges::count(both.statuses, Status::converged), 62);
+}
+
+TEST(RodBatch, AnswersAlikeWhateverTheWorkspaceHeld) {
+  const AnyRobot robot = load("3pfs-g1").value();
+  const std::vector<double> rows = walked_rows(100, 0.2076, 0.03);
+  std::vector<SpatialPose> first(100), second(100);
+  std::vector<Status> statuses(100);
+  Workspace fresh(robot), used(robot);
+  ASSERT_TRUE(equilibrium(robot, {0.23, 0.2, 0.19}, {}, used).is_solved());
+  equilibrium_batch(robot, rows, SpatialWrench::Zero(), first, statuses, fresh);
+  equilibrium_batch(robot, rows, SpatialWrench::Zero(), second, statuses, used);
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    EXPECT_EQ(first[k].position, second[k].position);
+    EXPECT_EQ(first[k].quaternion, second[k].quaternion);
+  }
+}
+
+}  // namespace
+}  // namespace sinew::test
