@@ -24,6 +24,36 @@ HWY_INLINE Pack plus(Pack c, Pack a, Pack b) { return hn::MulAdd(a, b, c); }    
 HWY_INLINE Pack minus(Pack c, Pack a, Pack b) { return hn::NegMulAdd(a, b, c); }  // c − ab
 HWY_INLINE double sum(Pack v) { return hn::GetLane(hn::SumOfLanes(tag, v)); }
 
+/// Sums over the lanes of eight packs at once: halves are exchanged between packs, so that no lane adds what
+/// is thrown away.
+HWY_INLINE void totals(const Pack* v, double* out) {
+#if HWY_TARGET == HWY_SCALAR
+  for (int k = 0; k < 8; ++k) out[k] = hn::GetLane(v[k]);
+#else
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(tag));
+  Pack half[4];  // each two packs, alternating
+  for (int k = 0; k < 4; ++k)
+    half[k] =
+        hn::InterleaveLower(tag, v[2 * k], v[2 * k + 1]) + hn::InterleaveUpper(tag, v[2 * k], v[2 * k + 1]);
+  if constexpr (lanes == 2) {
+    for (int k = 0; k < 4; ++k) hn::StoreU(half[k], tag, out + 2 * k);
+  } else {
+    Pack quarter[2];  // each four, a block one pair
+    for (int k = 0; k < 2; ++k)
+      quarter[k] = hn::OddEvenBlocks(half[2 * k + 1], half[2 * k]) +
+                   hn::SwapAdjacentBlocks(hn::OddEvenBlocks(half[2 * k], half[2 * k + 1]));
+    if constexpr (lanes == 4) {
+      for (int k = 0; k < 2; ++k) hn::StoreU(quarter[k], tag, out + 4 * k);
+    } else {
+      const hn::Half<Tag> half_tag;
+      for (int k = 0; k < 2; ++k)
+        hn::StoreU(hn::LowerHalf(half_tag, quarter[k]) + hn::UpperHalf(half_tag, quarter[k]), half_tag,
+                   out + 4 * k);
+    }
+  }
+#endif
+}
+
 struct Pack3 {
   Pack x, y, z;
 };
@@ -116,19 +146,16 @@ struct Wrench {
     force = {force.x + f.x, force.y + f.y, force.z + f.z};
     moment = {moment.x + m.x, moment.y + m.y, moment.z + m.z};
   }
-  HWY_INLINE void total(double* out) const {
-    out[0] = sum(force.x);
-    out[1] = sum(force.y);
-    out[2] = sum(force.z);
-    out[3] = sum(moment.x);
-    out[4] = sum(moment.y);
-    out[5] = sum(moment.z);
+  /// Force, moment, and two more sums.
+  HWY_INLINE void total(double (&out)[8], Pack more = all(0)) const {
+    const Pack packs[8] = {force.x, force.y, force.z, moment.x, moment.y, moment.z, more, all(0)};
+    totals(packs, out);
   }
 };
 
 /// The platform's frame, the same in all lanes ...
 struct SameFrame {
-  const PlatformFrame& frame;
+  const RodPlatform& frame;
   HWY_INLINE Pack rotation(int k) const { return all(frame.rotation[k]); }
   HWY_INLINE Pack position(int k) const { return all(frame.position[k]); }
 };
@@ -158,9 +185,9 @@ HWY_INLINE void place(Rods& rods, int i, const Frame& at) {
   store(w, rods.tip_w + i);
 }
 
-/// Weighted sines and cosines at the nodes, and their sums: where the tip of the unit rod is.
+/// Weighted sines and cosines at the nodes.
 template <class Rods>
-HWY_INLINE void bend(Rods& rods, int i, Pack& d, Pack& w) {
+HWY_INLINE void bend(Rods& rods, int i) {
   constexpr int N = Rods::nodes;
   const auto& basis = GalerkinBasis<Rods::size>::get();
   Pack theta[Rods::size], largest = all(0);
@@ -170,8 +197,6 @@ HWY_INLINE void bend(Rods& rods, int i, Pack& d, Pack& w) {
     largest = hn::Max(largest, hn::Abs(theta[j]));
   }
   const bool is_near = hn::AllTrue(tag, largest < all(2.5));
-  d = all(0);
-  w = all(0);
   constexpr std::size_t block = N % 5 == 0 ? 5 : 6;
   static_assert(N % block == 0);
 #pragma GCC unroll 4
@@ -184,13 +209,29 @@ HWY_INLINE void bend(Rods& rods, int i, Pack& d, Pack& w) {
 #pragma GCC unroll 8
     for (std::size_t k = 0; k < block; ++k) {
       const Pack weight = all(basis.weight[j + k]);
-      s[k] = s[k] * weight;
-      c[k] = c[k] * weight;
-      d = d + s[k];
-      w = w + c[k];
-      store(s[k], rods.sine[j + k] + i);
-      store(c[k], rods.cosine[j + k] + i);
+      store(s[k] * weight, rods.sine[j + k] + i);
+      store(c[k] * weight, rods.cosine[j + k] + i);
     }
+  }
+}
+
+/// The same after the angles changed: turned by the addition theorems where all of them changed by less than
+/// 0.07, to 2e-16.
+template <class Rods>
+HWY_INLINE void bend_on(Rods& rods, int i, const Pack* change) {
+  constexpr int N = Rods::nodes;
+  Pack largest[2] = {all(0), all(0)};
+#pragma GCC unroll 10
+  for (int j = 0; j < N; ++j) largest[j % 2] = hn::Max(largest[j % 2], hn::Abs(change[j]));
+  if (!hn::AllTrue(tag, hn::Max(largest[0], largest[1]) < all(0.07))) return bend(rods, i);
+#pragma GCC unroll 10
+  for (int j = 0; j < N; ++j) {
+    const Pack x = change[j], z = x * x, s = load(rods.sine[j] + i), c = load(rods.cosine[j] + i);
+    const Pack sine = x * plus(all(1), z, plus(all(-1.0 / 6), z, plus(all(1.0 / 120), z, all(-1.0 / 5040))));
+    const Pack less =
+        z * plus(all(-0.5), z, plus(all(1.0 / 24), z, plus(all(-1.0 / 720), z, all(1.0 / 40320))));
+    store(plus(plus(s, s, less), c, sine), rods.sine[j] + i);
+    store(minus(plus(c, c, less), s, sine), rods.cosine[j] + i);
   }
 }
 
@@ -213,28 +254,31 @@ HWY_INLINE void bent_anew(Rods& rods, int i) {
 template <class Rods>
 HWY_INLINE Pack measure(Rods& rods, int i, bool anew) {
   constexpr int N = Rods::nodes;
+  if (anew) {
+    bend(rods, i);
+    bent_anew(rods, i);
+  }
   const Pack length = load(rods.length + i), factor = length * length * load(rods.flexibility + i);
   store(factor, rods.load + i);
   const Pack fd = factor * load(rods.force_d + i), fw = factor * load(rods.force_w + i);
-  Pack d, w;
-  bend(rods, i, d, w);
-  if (anew) bent_anew(rods, i);
-  Pack largest = all(0), squares = all(0);
+  // sums in two parts, which do not wait for each other
+  Pack d[2] = {all(0), all(0)}, w[2] = {all(0), all(0)}, largest[2] = {all(0), all(0)};
 #pragma GCC unroll 10
   for (int j = 0; j < N; ++j) {
-    const Pack gap =
-        plus(minus(load(rods.bent[j] + i), fd, load(rods.cosine[j] + i)), fw, load(rods.sine[j] + i));
+    const Pack sine = load(rods.sine[j] + i), cosine = load(rods.cosine[j] + i);
+    const Pack gap = plus(minus(load(rods.bent[j] + i), fd, cosine), fw, sine);
     store(gap, rods.gap[j] + i);
-    largest = hn::Max(largest, hn::Abs(gap));
-    squares = plus(squares, gap, gap);
+    largest[j % 2] = hn::Max(largest[j % 2], hn::Abs(gap));
+    d[j % 2] = d[j % 2] + sine;
+    w[j % 2] = w[j % 2] + cosine;
   }
-  const Pack gap_d = plus(hn::Neg(load(rods.tip_d + i)), length, d);
-  const Pack gap_w = plus(hn::Neg(load(rods.tip_w + i)), length, w);
+  const Pack gap_d = plus(hn::Neg(load(rods.tip_d + i)), length, d[0] + d[1]);
+  const Pack gap_w = plus(hn::Neg(load(rods.tip_w + i)), length, w[0] + w[1]);
   store(gap_d, rods.gap_d + i);
   store(gap_w, rods.gap_w + i);
-  largest = hn::Max(largest, hn::Max(hn::Abs(gap_d), hn::Abs(gap_w)) / length);
-  squares = plus(plus(squares, gap_d, gap_d), gap_w, gap_w);
-  return largest + (squares - squares);  // the maximum may hide a NaN, the sum does not
+  // a maximum may hide a NaN, a sum does not: that of an angle is in the tip's gaps
+  const Pack nothing = (fd + fw + gap_d + gap_w) * all(0);
+  return hn::Max(hn::Max(largest[0], largest[1]), hn::Max(hn::Abs(gap_d), hn::Abs(gap_w)) / length) + nothing;
 }
 
 template <class Rods>
@@ -244,81 +288,103 @@ HWY_INLINE Pack3 force(const Rods& rods, int i) {
 }
 
 template <class Rods>
-void evaluate(std::span<Rods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
+void evaluate(std::span<Rods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
   Wrench wrench;
-  Pack worst = all(0), all_of_them = all(0);
+  // the balance counts in the unit of the stiffest rod: the rounding of its force alone may exceed 1e-12 of a
+  // slack one's
+  Pack worst = all(0), errors = all(0), per_force = all(1e300), per_moment = all(1e300);
   for (Rods& rods : groups)
     for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
       place(rods, i, SameFrame{platform});
-      const Pack error = measure(rods, i, anew);
+      const Pack error = measure(rods, i, anew), loading = load(rods.load + i);
+      per_force = hn::Min(per_force, loading);
+      per_moment = hn::Min(per_moment, load(rods.length + i) * load(rods.flexibility + i));
       worst = hn::Max(worst, error);
-      all_of_them = all_of_them + error;
+      errors = errors + error;
       wrench.add(load3(rods.arm, i), force(rods, i), load(rods.active + i));
     }
-  wrench.total(sums.wrench);
-  const Pack kept = worst + (all_of_them - all_of_them);
-  sums.error = hn::GetLane(hn::MaxOfLanes(tag, worst)) + (sum(kept) - sum(kept));
+  wrench.total(sums.wrench, errors * all(0));  // a maximum may hide a NaN, a sum does not
+  sums.rod_error = hn::GetLane(hn::MaxOfLanes(tag, worst)) + sums.wrench[6];
+  per_force = hn::MinOfLanes(tag, per_force);
+  per_moment = hn::MinOfLanes(tag, per_moment);
+  errors = all(0);
+  for (int i = 0; i < 8; i += static_cast<int>(hn::Lanes(tag))) {
+    const Pack missing = hn::Abs(load(platform.wrench + i) - load(sums.wrench + i));
+    const Pack part = missing * hn::IfThenElse(hn::Iota(tag, i) < all(3), per_force, per_moment);
+    worst = hn::Max(worst, part);
+    errors = errors + part;
+  }
+  sums.error = hn::GetLane(hn::MaxOfLanes(tag, worst)) + sum(errors * all(0));
 }
 
-/// H = B + diag(L²/EI (Fd s + Fw c)) = LDLᵀ without pivoting, and its solutions for c and −s.
+/// What was stored is loaded again: the compiler would else keep all of a factorisation in registers that no
+/// machine has, and spill every one of them beside storing it.
+HWY_INLINE void forget() { asm volatile("" ::: "memory"); }
+
+/// H = B + diag(L²/EI (Fd s + Fw c)) = LDLᵀ without pivoting, and its solutions for c and −s. Column by
+/// column; what is left of a row is times its pivot until the row's own turn.
 template <class Rods>
 HWY_INLINE void factor(Rods& rods, int i) {
   constexpr int N = Rods::nodes;
   const auto& basis = GalerkinBasis<Rods::size>::get();
+  const auto lower = [&](int row, int column) { return rods.lower[row * (row - 1) / 2 + column] + i; };
   const Pack fd = load(rods.load + i) * load(rods.force_d + i),
              fw = load(rods.load + i) * load(rods.force_w + i);
-  Pack l[Rods::size][Rods::size], inverse[Rods::size], by_d[Rods::size], by_w[Rods::size];
-  Pack dd = all(0), dw = all(0), ww = all(0);
+  Pack last = all(0);  // reciprocal of the pivot before, for which everything waits
 #pragma GCC unroll 10
   for (int j = 0; j < N; ++j) {
-    by_d[j] = load(rods.cosine[j] + i);
-    by_w[j] = hn::Neg(load(rods.sine[j] + i));
-    store(by_d[j], rods.cosine_kept[j] + i);
-    store(hn::Neg(by_w[j]), rods.sine_kept[j] + i);
-    const Pack load_stiffness = minus(fw * by_d[j], fd, by_w[j]);
+    Pack by_d = load(rods.cosine[j] + i), by_w = hn::Neg(load(rods.sine[j] + i));
+    store(by_d, rods.cosine_kept[j] + i);
+    store(hn::Neg(by_w), rods.sine_kept[j] + i);
+    const Pack load_stiffness = minus(fw * by_d, fd, by_w);
     store(load_stiffness, rods.stiffening[j] + i);
-    Pack pivot = all(basis.bending[j][j]) + load_stiffness;
+    Pack pivot = all(basis.bending[j][j]) + load_stiffness, row[Rods::size];
 #pragma GCC unroll 10
     for (int k = 0; k < j; ++k) {
-      const Pack raw = l[j][k];
-      l[j][k] = raw * inverse[k];
-      pivot = minus(pivot, raw, l[j][k]);
-      by_d[j] = minus(by_d[j], l[j][k], by_d[k]);
-      by_w[j] = minus(by_w[j], l[j][k], by_w[k]);
-      store(l[j][k], rods.lower[j * (j - 1) / 2 + k] + i);
+      const Pack raw = load(lower(j, k));
+      row[k] = raw * (k == j - 1 ? last : load(rods.pivot[k] + i));
+      pivot = minus(pivot, raw, row[k]);
+      by_d = minus(by_d, row[k], load(rods.by_d[k] + i));
+      by_w = minus(by_w, row[k], load(rods.by_w[k] + i));
+      store(row[k], lower(j, k));
     }
-    inverse[j] = all(1) / pivot;
-    store(inverse[j], rods.pivot[j] + i);
+    last = all(1) / pivot;
+    store(last, rods.pivot[j] + i);
+    store(by_d, rods.by_d[j] + i);
+    store(by_w, rods.by_w[j] + i);
 #pragma GCC unroll 10
     for (int m = j + 1; m < N; ++m) {
       Pack raw = all(basis.bending[m][j]);
 #pragma GCC unroll 10
-      for (int k = 0; k < j; ++k) raw = minus(raw, l[m][k], l[j][k]);
-      l[m][j] = raw;
+      for (int k = 0; k < j; ++k) raw = minus(raw, load(lower(m, k)), row[k]);
+      store(raw, lower(m, j));
     }
+    forget();
   }
+  Pack by_d[Rods::size], by_w[Rods::size], dd[2] = {all(0), all(0)}, dw[2] = {all(0), all(0)},
+                                           ww[2] = {all(0), all(0)};
 #pragma GCC unroll 10
   for (int j = 0; j < N; ++j) {
-    const Pack d = by_d[j] * inverse[j], w = by_w[j] * inverse[j];
-    dd = plus(dd, by_d[j], d);
-    dw = plus(dw, by_d[j], w);
-    ww = plus(ww, by_w[j], w);
-    by_d[j] = d;
-    by_w[j] = w;
+    const Pack inverse = load(rods.pivot[j] + i), d = load(rods.by_d[j] + i), w = load(rods.by_w[j] + i);
+    by_d[j] = d * inverse;
+    by_w[j] = w * inverse;
+    dd[j % 2] = plus(dd[j % 2], d, by_d[j]);
+    dw[j % 2] = plus(dw[j % 2], d, by_w[j]);
+    ww[j % 2] = plus(ww[j % 2], w, by_w[j]);
   }
 #pragma GCC unroll 10
   for (int j = N - 1; j >= 0; --j) {
 #pragma GCC unroll 10
-    for (int k = j + 1; k < N; ++k) {
-      by_d[j] = minus(by_d[j], l[k][j], by_d[k]);
-      by_w[j] = minus(by_w[j], l[k][j], by_w[k]);
+    for (int k = N - 1; k > j; --k) {  // the newest last: the others are known by then
+      by_d[j] = minus(by_d[j], load(lower(k, j)), by_d[k]);
+      by_w[j] = minus(by_w[j], load(lower(k, j)), by_w[k]);
     }
     store(by_d[j], rods.by_d[j] + i);
     store(by_w[j], rods.by_w[j] + i);
   }
-  store(dd, rods.soft_dd + i);
-  store(dw, rods.soft_dw + i);
-  store(ww, rods.soft_ww + i);
+  store(dd[0] + dd[1], rods.soft_dd + i);
+  store(dw[0] + dw[1], rods.soft_dw + i);
+  store(ww[0] + ww[1], rods.soft_ww + i);
 }
 
 /// The tip's stiffness in the plane, and the force per length fed.
@@ -343,16 +409,16 @@ HWY_INLINE void stiffen(Rods& rods, int i) {
 template <class Rods>
 HWY_INLINE void close_gaps(Rods& rods, int i, Wrench& wrench) {
   constexpr int N = Rods::nodes;
-  Pack by_d = all(0), by_w = all(0);
+  Pack by_d[2] = {all(0), all(0)}, by_w[2] = {all(0), all(0)};
 #pragma GCC unroll 10
   for (int j = 0; j < N; ++j) {
     const Pack gap = load(rods.gap[j] + i);
-    by_d = plus(by_d, gap, load(rods.by_d[j] + i));
-    by_w = plus(by_w, gap, load(rods.by_w[j] + i));
+    by_d[j % 2] = plus(by_d[j % 2], gap, load(rods.by_d[j] + i));
+    by_w[j % 2] = plus(by_w[j % 2], gap, load(rods.by_w[j] + i));
   }
   const Pack length = load(rods.length + i);
-  const Pack d = plus(hn::Neg(load(rods.gap_d + i)), length, by_d);
-  const Pack w = plus(hn::Neg(load(rods.gap_w + i)), length, by_w);
+  const Pack d = plus(hn::Neg(load(rods.gap_d + i)), length, by_d[0] + by_d[1]);
+  const Pack w = plus(hn::Neg(load(rods.gap_w + i)), length, by_w[0] + by_w[1]);
   const Pack k_dw = load(rods.stiff_dw + i);
   const Pack fix_d = plus(load(rods.stiff_dd + i) * d, k_dw, w);
   const Pack fix_w = plus(k_dw * d, load(rods.stiff_ww + i), w);
@@ -419,8 +485,8 @@ struct Stiffness {
       moment[6 + j] = moment[6 + j] + (j == 2 ? m.z - across : m.z);
     }
   }
+  static constexpr int symmetric[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
   HWY_INLINE void matrix(Pack* out) const {
-    constexpr int symmetric[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) {
         out[6 * r + c] = force[symmetric[3 * r + c]];
@@ -429,20 +495,54 @@ struct Stiffness {
       }
   }
   HWY_INLINE void total(double* out) const {
-    constexpr int symmetric[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-    double f[6];
-    for (int j = 0; j < 6; ++j) f[j] = sum(force[j]);
+    Pack packs[24];
+    for (int k = 0; k < 6; ++k) packs[k] = force[k];
+    for (int k = 0; k < 9; ++k) packs[6 + k] = couple[k];
+    for (int k = 0; k < 9; ++k) packs[15 + k] = moment[k];
+    double sums[24];
+    for (int k = 0; k < 24; k += 8) totals(packs + k, sums + k);
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) {
-        out[6 * r + c] = f[symmetric[3 * r + c]];
-        out[6 * r + 3 + c] = out[6 * (3 + c) + r] = sum(couple[3 * r + c]);
-        out[6 * (3 + r) + 3 + c] = sum(moment[3 * r + c]);
+        out[6 * r + c] = sums[symmetric[3 * r + c]];
+        out[6 * r + 3 + c] = out[6 * (3 + c) + r] = sums[6 + 3 * r + c];
+        out[6 * (3 + r) + 3 + c] = sums[15 + 3 * r + c];
       }
   }
 };
 
+/// Inverse of a 6×6 matrix in place by Gauss and Jordan, its rows padded to eight. Without pivoting, as what
+/// holds by itself needs none: false where a pivot says that digits were lost.
+HWY_INLINE bool invert(double (&a)[6][8]) {
+  double diagonal[6];
+  for (int k = 0; k < 6; ++k) diagonal[k] = a[k][k];
+  bool is_safe = true;
+#pragma GCC unroll 6
+  for (int k = 0; k < 6; ++k) {
+    const double pivot = a[k][k], kept = pivot / diagonal[k];
+    is_safe = is_safe && kept * kept > 1e-12 && kept * kept < 1e12;
+    const Pack inverse = all(1 / pivot);
+#pragma GCC unroll 4
+    for (int i = 0; i < 6; i += static_cast<int>(hn::Lanes(tag))) {
+      const auto own = hn::Iota(tag, i) == all(k);
+      const Pack row = hn::IfThenElse(own, all(1), load(a[k] + i)) * inverse;
+      store(row, a[k] + i);
+    }
+#pragma GCC unroll 6
+    for (int r = 0; r < 6; ++r) {
+      if (r == k) continue;
+      const Pack factor = all(a[r][k]);
+#pragma GCC unroll 4
+      for (int i = 0; i < 6; i += static_cast<int>(hn::Lanes(tag))) {
+        const auto own = hn::Iota(tag, i) == all(k);
+        store(minus(hn::IfThenZeroElse(own, load(a[r] + i)), factor, load(a[k] + i)), a[r] + i);
+      }
+    }
+  }
+  return is_safe;
+}
+
 template <class Rods>
-void linearise(std::span<Rods> groups, RodSums& sums) {
+bool linearise(std::span<Rods> groups, RodPlatform& platform, RodSums& sums) {
   Stiffness stiffness;
   Wrench wrench;
   for (Rods& rods : groups)
@@ -455,23 +555,37 @@ void linearise(std::span<Rods> groups, RodSums& sums) {
     }
   stiffness.total(sums.stiffness);
   wrench.total(sums.wrench);
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 8; ++c) platform.inverse[r][c] = c < 6 ? sums.stiffness[6 * c + r] : 0;
+  return invert(platform.inverse);  // the rows of the transposed are the columns
 }
 
 template <class Rods>
-void reduce(std::span<Rods> groups, RodSums& sums) {
-  Wrench wrench;
-  for (Rods& rods : groups)
-    for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) close_gaps(rods, i, wrench);
-  wrench.total(sums.wrench);
+void step(std::span<Rods> groups, const RodPlatform& platform, bool fresh, RodSums& sums) {
+  if (!fresh) {
+    Wrench wrench;
+    for (Rods& rods : groups)
+      for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) close_gaps(rods, i, wrench);
+    wrench.total(sums.wrench);
+  }
+  Pack missing[6];
+  for (int k = 0; k < 6; ++k) missing[k] = all(platform.wrench[k] - sums.wrench[k]);
+  for (int i = 0; i < 8; i += static_cast<int>(hn::Lanes(tag))) {
+    const auto& columns = platform.inverse;
+    const Pack shift = plus(plus(load(columns[0] + i) * missing[0], load(columns[1] + i), missing[1]),
+                            load(columns[2] + i), missing[2]);
+    const Pack turn = plus(plus(load(columns[3] + i) * missing[3], load(columns[4] + i), missing[4]),
+                           load(columns[5] + i), missing[5]);
+    store(shift + turn, sums.twist + i);
+  }
 }
 
-/// H⁻¹ gap by the kept factors.
+/// H⁻¹x by the kept factors, in place.
 template <class Rods>
-HWY_INLINE void solve_gap(const Rods& rods, int i, Pack* x) {
+HWY_INLINE void solve(const Rods& rods, int i, Pack* x) {
   constexpr int N = Rods::nodes;
 #pragma GCC unroll 10
   for (int j = 0; j < N; ++j) {
-    x[j] = load(rods.gap[j] + i);
 #pragma GCC unroll 10
     for (int k = 0; k < j; ++k) x[j] = minus(x[j], load(rods.lower[j * (j - 1) / 2 + k] + i), x[k]);
   }
@@ -479,7 +593,8 @@ HWY_INLINE void solve_gap(const Rods& rods, int i, Pack* x) {
   for (int j = N - 1; j >= 0; --j) {
     x[j] = x[j] * load(rods.pivot[j] + i);
 #pragma GCC unroll 10
-    for (int k = j + 1; k < N; ++k) x[j] = minus(x[j], load(rods.lower[k * (k - 1) / 2 + j] + i), x[k]);
+    for (int k = N - 1; k > j; --k)  // the newest last
+      x[j] = minus(x[j], load(rods.lower[k * (k - 1) / 2 + j] + i), x[k]);
   }
 }
 
@@ -506,17 +621,20 @@ HWY_INLINE void carry_on(Rods& rods, int i, const Pack3& shift, const Pack3& tur
   }
   store(old_d + fd, rods.force_d + i);
   store(old_w + fw, rods.force_w + i);
-  Pack back[Rods::size];
-  solve_gap(rods, i, back);
+  Pack driven[Rods::size], change[Rods::size];
+#pragma GCC unroll 10
+  for (int j = 0; j < N; ++j)
+    driven[j] = change[j] = minus(load(rods.cosine_kept[j] + i) * by_d, load(rods.sine_kept[j] + i), by_w) -
+                            load(rods.gap[j] + i);
+  solve(rods, i, change);
 #pragma GCC unroll 10
   for (int j = 0; j < N; ++j) {
-    const Pack change = plus(load(rods.by_d[j] + i) * by_d, load(rods.by_w[j] + i), by_w) - back[j];
-    store(load(rods.theta[j] + i) + change, rods.theta[j] + i);
-    // H δθ = c by_d − s by_w − gap, and H is B and a diagonal
-    const Pack driven = minus(load(rods.cosine_kept[j] + i) * by_d, load(rods.sine_kept[j] + i), by_w);
-    const Pack bent = minus(driven - load(rods.gap[j] + i), load(rods.stiffening[j] + i), change);
-    store(load(rods.bent[j] + i) + bent, rods.bent[j] + i);
+    store(load(rods.theta[j] + i) + change[j], rods.theta[j] + i);
+    // what drives is H δθ, and H is B and a diagonal
+    store(load(rods.bent[j] + i) + minus(driven[j], load(rods.stiffening[j] + i), change[j]),
+          rods.bent[j] + i);
   }
+  bend_on(rods, i, change);
 }
 
 template <class Rods>
@@ -526,6 +644,31 @@ void apply(std::span<Rods> groups, const double* step, const RodFeed* fed) {
   for (Rods& rods : groups)
     for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag)))
       carry_on(rods, i, shift, turn, fed == nullptr ? nullptr : fed[&rods - groups.data()].length);
+}
+
+/// Squares of the two highest Legendre coefficients of θ′.
+template <class Rods>
+HWY_INLINE Pack truncation(const Rods& rods, int i) {
+  const auto& basis = GalerkinBasis<Rods::size>::get();
+  Pack last[2] = {all(0), all(0)}, before[2] = {all(0), all(0)};
+#pragma GCC unroll 10
+  for (std::size_t j = 0; j < Rods::size; ++j) {
+    const Pack theta = load(rods.theta[j] + i);
+    last[j % 2] = plus(last[j % 2], all(basis.last[j]), theta);
+    before[j % 2] = plus(before[j % 2], all(basis.before_last[j]), theta);
+  }
+  const Pack a = last[0] + last[1], b = before[0] + before[1];
+  return plus(a * a, b, b);
+}
+
+/// The largest of each lane.
+template <class Rods>
+void truncation(std::span<const Rods> groups, double* largest) {
+  for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
+    Pack worst = all(0);
+    for (const Rods& rods : groups) worst = hn::Max(worst, truncation(rods, i));
+    store(worst, largest + i);
+  }
 }
 
 /// @name The same with a pose in each lane
@@ -555,7 +698,7 @@ void EvaluatePoses(std::span<CoarseRods> rods, bool anew, PoseLanes& poses) {
       place(rod, i, frame);
       const Pack error = measure(rod, i, anew), loading = load(rod.load + i);
       per_force = hn::Min(per_force, loading);  // of the stiffest rod
-      per_moment = hn::Min(per_moment, loading / load(rod.length + i));
+      per_moment = hn::Min(per_moment, load(rod.length + i) * load(rod.flexibility + i));
       worst = hn::Max(worst, error);
       sums = sums + error;
       wrench.add(load3(rod.arm, i), force(rod, i), all(1));
@@ -635,22 +778,32 @@ void StepPoses(std::span<CoarseRods> rods, bool fresh, PoseLanes& poses) {
 }
 /// @}
 
-void EvaluateCoarse(std::span<CoarseRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
+void EvaluateCoarse(std::span<CoarseRods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
   evaluate(groups, platform, anew, sums);
 }
-void EvaluateFine(std::span<FineRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
+void EvaluateFine(std::span<FineRods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
   evaluate(groups, platform, anew, sums);
 }
-void LineariseCoarse(std::span<CoarseRods> groups, RodSums& sums) { linearise(groups, sums); }
-void LineariseFine(std::span<FineRods> groups, RodSums& sums) { linearise(groups, sums); }
-void ReduceCoarse(std::span<CoarseRods> groups, RodSums& sums) { reduce(groups, sums); }
-void ReduceFine(std::span<FineRods> groups, RodSums& sums) { reduce(groups, sums); }
+bool LineariseCoarse(std::span<CoarseRods> groups, RodPlatform& platform, RodSums& sums) {
+  return linearise(groups, platform, sums);
+}
+bool LineariseFine(std::span<FineRods> groups, RodPlatform& platform, RodSums& sums) {
+  return linearise(groups, platform, sums);
+}
+void StepCoarse(std::span<CoarseRods> groups, const RodPlatform& platform, bool fresh, RodSums& sums) {
+  step(groups, platform, fresh, sums);
+}
+void StepFine(std::span<FineRods> groups, const RodPlatform& platform, bool fresh, RodSums& sums) {
+  step(groups, platform, fresh, sums);
+}
 void ApplyCoarse(std::span<CoarseRods> groups, const double* step, const RodFeed* fed) {
   apply(groups, step, fed);
 }
 void ApplyFine(std::span<FineRods> groups, const double* step, const RodFeed* fed) {
   apply(groups, step, fed);
 }
+void TruncationCoarse(std::span<const CoarseRods> groups, double* largest) { truncation(groups, largest); }
+void TruncationFine(std::span<const FineRods> groups, double* largest) { truncation(groups, largest); }
 const char* InstructionSet() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace HWY_NAMESPACE
@@ -664,34 +817,46 @@ HWY_EXPORT(EvaluateCoarse);
 HWY_EXPORT(EvaluateFine);
 HWY_EXPORT(LineariseCoarse);
 HWY_EXPORT(LineariseFine);
-HWY_EXPORT(ReduceCoarse);
-HWY_EXPORT(ReduceFine);
+HWY_EXPORT(StepCoarse);
+HWY_EXPORT(StepFine);
 HWY_EXPORT(ApplyCoarse);
 HWY_EXPORT(ApplyFine);
+HWY_EXPORT(TruncationCoarse);
+HWY_EXPORT(TruncationFine);
 HWY_EXPORT(EvaluatePoses);
 HWY_EXPORT(LinearisePoses);
 HWY_EXPORT(StepPoses);
 HWY_EXPORT(InstructionSet);
 
-void evaluate(std::span<CoarseRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
+void evaluate(std::span<CoarseRods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
   HWY_DYNAMIC_DISPATCH(EvaluateCoarse)(groups, platform, anew, sums);
 }
-void evaluate(std::span<FineRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums) {
+void evaluate(std::span<FineRods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
   HWY_DYNAMIC_DISPATCH(EvaluateFine)(groups, platform, anew, sums);
 }
-void linearise(std::span<CoarseRods> groups, RodSums& sums) {
-  HWY_DYNAMIC_DISPATCH(LineariseCoarse)(groups, sums);
+bool linearise(std::span<CoarseRods> groups, RodPlatform& platform, RodSums& sums) {
+  return HWY_DYNAMIC_DISPATCH(LineariseCoarse)(groups, platform, sums);
 }
-void linearise(std::span<FineRods> groups, RodSums& sums) {
-  HWY_DYNAMIC_DISPATCH(LineariseFine)(groups, sums);
+bool linearise(std::span<FineRods> groups, RodPlatform& platform, RodSums& sums) {
+  return HWY_DYNAMIC_DISPATCH(LineariseFine)(groups, platform, sums);
 }
-void reduce(std::span<CoarseRods> groups, RodSums& sums) { HWY_DYNAMIC_DISPATCH(ReduceCoarse)(groups, sums); }
-void reduce(std::span<FineRods> groups, RodSums& sums) { HWY_DYNAMIC_DISPATCH(ReduceFine)(groups, sums); }
+void step(std::span<CoarseRods> groups, const RodPlatform& platform, bool fresh, RodSums& sums) {
+  HWY_DYNAMIC_DISPATCH(StepCoarse)(groups, platform, fresh, sums);
+}
+void step(std::span<FineRods> groups, const RodPlatform& platform, bool fresh, RodSums& sums) {
+  HWY_DYNAMIC_DISPATCH(StepFine)(groups, platform, fresh, sums);
+}
 void apply(std::span<CoarseRods> groups, const double* step, const RodFeed* fed) {
   HWY_DYNAMIC_DISPATCH(ApplyCoarse)(groups, step, fed);
 }
 void apply(std::span<FineRods> groups, const double* step, const RodFeed* fed) {
   HWY_DYNAMIC_DISPATCH(ApplyFine)(groups, step, fed);
+}
+void truncation(std::span<const CoarseRods> groups, double* largest) {
+  HWY_DYNAMIC_DISPATCH(TruncationCoarse)(groups, largest);
+}
+void truncation(std::span<const FineRods> groups, double* largest) {
+  HWY_DYNAMIC_DISPATCH(TruncationFine)(groups, largest);
 }
 void evaluate(std::span<CoarseRods> rods, bool anew, PoseLanes& poses) {
   HWY_DYNAMIC_DISPATCH(EvaluatePoses)(rods, anew, poses);

@@ -11,16 +11,20 @@ namespace sinew::inline v0 {
 using CoarseRods = RodLanes<coarse_nodes>;
 using FineRods = RodLanes<fine_nodes>;
 
-/// Rotation matrix (rows first) and position of a platform; wrench-like sums about its reference point.
-struct PlatformFrame {
-  double rotation[9], position[3];
+/// A platform as the rods see it.
+struct alignas(64) RodPlatform {
+  double wrench[8];                 ///< of the world on it, base axes; then two zeros
+  double inverse[6][8];             ///< columns of the inverse of its stiffness, each with two zeros
+  double rotation[9], position[3];  ///< rows first; [m]
 };
 
 /// What the rods make of a platform: forces and moments on their tips, and their change by its twist.
-struct RodSums {
-  double wrench[6];      ///< Σ n, Σ b × n
+struct alignas(64) RodSums {
+  double wrench[8];      ///< Σ n, Σ b × n; the last two are of no use
+  double twist[8];       ///< Newton's step (δp, δφ), likewise
   double stiffness[36];  ///< ∂wrench/∂(δp, δφ), rows first
-  double error;          ///< largest gap: closure over length, or of the rod's own equations; NaN if any is
+  double rod_error;      ///< largest gap: closure over length, or of the rods' own equations; NaN if any is
+  double error;          ///< the balance of the platform too, see RodSystem::evaluate
 };
 
 /// Lengths fed to the rods of a group [m].
@@ -39,21 +43,27 @@ struct alignas(64) PoseLanes {
 
 namespace rod_kernels {
 
-/// Gaps, forces: `wrench` and `error`. Not `anew` it takes Bθ as the last step left it.
-void evaluate(std::span<CoarseRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums);
-void evaluate(std::span<FineRods> groups, const PlatformFrame& platform, bool anew, RodSums& sums);
+/// Gaps, forces: `wrench` and the errors. Not `anew` it takes sines and Bθ as the last step left them.
+void evaluate(std::span<CoarseRods> groups, const RodPlatform& platform, bool anew, RodSums& sums);
+void evaluate(std::span<FineRods> groups, const RodPlatform& platform, bool anew, RodSums& sums);
 
-/// Factors at the point last evaluated: `stiffness`, and `wrench` of the forces that close the gaps.
-void linearise(std::span<CoarseRods> groups, RodSums& sums);
-void linearise(std::span<FineRods> groups, RodSums& sums);
+/// Factors at the point last evaluated: `stiffness`, and `wrench` of the forces that close the gaps. False
+/// where the blocks of the stiffness do not give `inverse`: it is then for the caller to find.
+bool linearise(std::span<CoarseRods> groups, RodPlatform& platform, RodSums& sums);
+bool linearise(std::span<FineRods> groups, RodPlatform& platform, RodSums& sums);
 
-/// With kept factors: `wrench` of the forces that would close the gaps of the last evaluation.
-void reduce(std::span<CoarseRods> groups, RodSums& sums);
-void reduce(std::span<FineRods> groups, RodSums& sums);
+/// Newton's `twist` with the last factors, and `wrench` as after `linearise`, which need not be found again
+/// where it is `fresh` from there.
+void step(std::span<CoarseRods> groups, const RodPlatform& platform, bool fresh, RodSums& sums);
+void step(std::span<FineRods> groups, const RodPlatform& platform, bool fresh, RodSums& sums);
 
 /// Moves the states by the platform's step (δp, δφ) and, where not null, by the lengths fed to each group.
 void apply(std::span<CoarseRods> groups, const double* step, const RodFeed* fed);
 void apply(std::span<FineRods> groups, const double* step, const RodFeed* fed);
+
+/// Of each lane the largest of all groups: see RodSystem::truncation.
+void truncation(std::span<const CoarseRods> groups, double* largest);
+void truncation(std::span<const FineRods> groups, double* largest);
 
 /// @name Eight poses at once: `rods[k]` holds rod k of each
 /// @{

@@ -142,14 +142,6 @@ void RodSystem::fill_idle_lanes(Group& last) const {
   for (RodLane* lane : {&last.flexibility, &last.length, &last.force_d, &last.force_w}) fill(*lane);
 }
 
-PlatformFrame RodSystem::frame() const {
-  const double w = platform_.R.w, x = platform_.R.v[0], y = platform_.R.v[1], z = platform_.R.v[2];
-  const double xx = 2 * x * x, yy = 2 * y * y, zz = 2 * z * z, xy = 2 * x * y, xz = 2 * x * z, yz = 2 * y * z,
-               wx = 2 * w * x, wy = 2 * w * y, wz = 2 * w * z;
-  return {{1 - yy - zz, xy - wz, xz + wy, xy + wz, 1 - xx - zz, yz - wx, xz - wy, yz + wx, 1 - xx - yy},
-          {platform_.p[0], platform_.p[1], platform_.p[2]}};
-}
-
 RodSystem::Snapshot RodSystem::snapshot() const {
   Snapshot to;
   to.coarse.resize(coarse_.size());
@@ -165,7 +157,7 @@ void RodSystem::save(Snapshot& to) const {
     std::copy(coarse_.begin(), coarse_.end(), to.coarse.begin());
   to.is_fine = is_fine_;
   to.platform = platform_;
-  to.wrench = wrench_;
+  to.wrench = wrench();
 }
 
 void RodSystem::restore(const Snapshot& from) {
@@ -176,7 +168,7 @@ void RodSystem::restore(const Snapshot& from) {
     else
       static_cast<CoarseRods::State&>(coarse_[g]) = from.coarse[g];
   platform_ = from.platform;
-  wrench_ = from.wrench;
+  set_wrench(from.wrench);
 }
 
 Vec3<double> RodSystem::base(int rod) const {
@@ -238,41 +230,43 @@ void RodSystem::coarsen() {
 }
 
 double RodSystem::evaluate(bool anew) {
-  const PlatformFrame platform = frame();
-  with([&](auto groups) { rod_kernels::evaluate(groups, platform, anew, sums_); });
-  // In the unit of the stiffest rod: the rounding of its force alone may exceed 1e-12 of a slack one's.
-  double per_force = std::numeric_limits<double>::infinity(), per_moment = per_force;
-  with([&](auto groups) {
-    for (int k = 0; k < rods_; ++k) {
-      const auto& rods = groups[at(k / rod_lanes)];
-      const double softness = rods.length[k % rod_lanes] * rods.flexibility[k % rod_lanes];
-      per_moment = std::min(per_moment, softness);
-      per_force = std::min(per_force, softness * rods.length[k % rod_lanes]);
-    }
-  });
-  double error = sums_.error;
-  for (int k = 0; k < 6; ++k) {
-    const double part = std::abs(sums_.wrench[k] - wrench_[k]) * (k < 3 ? per_force : per_moment);
-    if (!std::isnan(error) && !(part <= error)) error = part;  // no NaN is hidden, of either
-  }
-  return error;
+  constexpr int most_carried = 64;  // each rounds by 2e-16
+  if (carried_ > most_carried) anew = true;
+  if (anew) carried_ = 0;
+  const double w = platform_.R.w, x = platform_.R.v[0], y = platform_.R.v[1], z = platform_.R.v[2];
+  const double xx = 2 * x * x, yy = 2 * y * y, zz = 2 * z * z, xy = 2 * x * y, xz = 2 * x * z, yz = 2 * y * z,
+               wx = 2 * w * x, wy = 2 * w * y, wz = 2 * w * z;
+  const double rotation[9] = {1 - yy - zz, xy - wz, xz + wy, xy + wz,    1 - xx - zz,
+                              yz - wx,     xz - wy, yz + wx, 1 - xx - yy};
+  std::copy_n(rotation, 9, held_.rotation);
+  for (int k = 0; k < 3; ++k) held_.position[k] = platform_.p[k];
+  with([&](auto groups) { rod_kernels::evaluate(groups, held_, anew, sums_); });
+  return sums_.error;
 }
 
 bool RodSystem::linearise() {
-  with([&](auto groups) { rod_kernels::linearise(groups, sums_); });
-  return lu_.factor(sums_.stiffness, radius_);
+  if (with([&](auto groups) { return rod_kernels::linearise(groups, held_, sums_); })) return true;
+  Lu6 lu;
+  if (!lu.factor(sums_.stiffness, radius_)) return false;
+  for (std::size_t k = 0; k < 6; ++k) {
+    double unit[6] = {};
+    unit[k] = 1;
+    lu.solve(unit, held_.inverse[k]);
+  }
+  return true;
 }
 
-RodSystem::Wrench RodSystem::missing() const {
-  return wrench_ - Eigen::Map<const Eigen::Matrix<double, 6, 1>>(sums_.wrench);
+Lu6 RodSystem::factors() const {
+  Lu6 lu;
+  lu.factor(sums_.stiffness, radius_);
+  return lu;
 }
+
+RodSystem::Wrench RodSystem::missing() const { return wrench() - Eigen::Map<const Wrench>(sums_.wrench); }
 
 RodSystem::Twist RodSystem::step(bool fresh) {
-  if (!fresh) with([&](auto groups) { rod_kernels::reduce(groups, sums_); });
-  const Wrench wanted = missing();
-  Twist twist;
-  lu_.solve(wanted.data(), twist.data());
-  return twist;
+  with([&](auto groups) { rod_kernels::step(groups, held_, fresh, sums_); });
+  return Eigen::Map<const Twist>(sums_.twist);
 }
 
 void RodSystem::move(const Twist& twist, std::span<const double> fed) {
@@ -281,10 +275,11 @@ void RodSystem::move(const Twist& twist, std::span<const double> fed) {
       const int rod = k < rods_ ? k : k / rod_lanes * rod_lanes;  // idle lanes: the first of their group
       fed_[at(k / rod_lanes)].length[k % rod_lanes] = fed[at(input_of(rod))];
     }
-  with([&](auto groups) { rod_kernels::apply(groups, twist.data(), fed.empty() ? nullptr : fed_.data()); });
   // turned by half-angle quaternion: like the exponential to second order, and exactly a rotation
   const SO3<double> turn{1, Vec3<double>(twist.tail<3>()) / 2};
   platform_ = {platform_.p + twist.head<3>(), turn.compose(platform_.R).normalised()};
+  ++carried_;
+  with([&](auto groups) { rod_kernels::apply(groups, twist.data(), fed.empty() ? nullptr : fed_.data()); });
 }
 
 RodSystem::Wrench RodSystem::feed_wrench(int input) const {
@@ -442,17 +437,9 @@ std::array<int, 2> RodSystem::unstable_with_tip_held(int index) const {
 
 /// The Galerkin solution is best in energy, so that tips err by the square of the shape's error.
 double RodSystem::truncation() const {
-  double worst = 0;
-  for (int k = 0; k < rods_; ++k)
-    with_rod(k, [&](const auto& rods, int i) {
-      double last = 0, before = 0;
-      for (int j = 0; j < rods.nodes; ++j) {
-        last += basis_of(rods).last[j] * rods.theta[j][i];
-        before += basis_of(rods).before_last[j] * rods.theta[j][i];
-      }
-      worst = std::max(worst, last * last + before * before);
-    });
-  return worst;
+  alignas(64) RodLane largest;
+  with([&](auto groups) { rod_kernels::truncation(groups, largest); });
+  return *std::max_element(largest, largest + rod_lanes);
 }
 
 std::vector<Vec3<double>> RodSystem::centreline(int index, int samples) const {

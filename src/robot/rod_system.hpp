@@ -61,8 +61,8 @@ class RodSystem {
   void set_inputs(std::span<const double> inputs);  ///< the lengths of all rods [m]
   const SE3<double>& platform() const { return platform_; }
   void set_platform(const SE3<double>& pose) { platform_ = pose; }
-  const Wrench& wrench() const { return wrench_; }  ///< of the world on the platform, base axes
-  void set_wrench(const Wrench& wrench) { wrench_ = wrench; }
+  Wrench wrench() const { return Eigen::Map<const Wrench>(held_.wrench); }  ///< of the world, base axes
+  void set_wrench(const Wrench& wrench) { Eigen::Map<Wrench>(held_.wrench) = wrench; }
   bool is_fine() const { return is_fine_; }
   void refine();   ///< to the fine nodes, the same shapes
   void coarsen();  ///< to the coarse nodes, the shapes interpolated
@@ -73,9 +73,12 @@ class RodSystem {
 
   /// Largest of closure error over length, of force error over EI/L² and moment error over EI/L, and of the
   /// rods' own equations. NaN where anything is.
-  /// Not `anew`, right after a step, it is quicker and rounds once more.
+  /// Where nothing but lengths, wrench and steps changed since the last time, not `anew` is quicker and
+  /// rounds once more a step; after some dozens of steps it is anew all the same.
   double evaluate(bool anew = true);
-  double rod_error() const { return sums_.error; }  ///< of the last evaluation: the rods' own and their tips'
+  double rod_error() const {
+    return sums_.rod_error;
+  }  ///< of the last evaluation: the rods' own and their tips'
   /// Factors at the point last evaluated. False where the platform's stiffness is singular.
   bool linearise();
   /// Newton's step from the last evaluation with the last factors; `fresh` right after `linearise`.
@@ -84,7 +87,7 @@ class RodSystem {
   Wrench missing() const;
   /// A step of the platform, and lengths fed by each input; the rods follow to first order.
   void move(const Twist& twist, std::span<const double> fed = {});
-  const Lu6& factors() const { return lu_; }
+  Lu6 factors() const;                                              ///< of the stiffness
   MatrixView stiffness() const { return {sums_.stiffness, 6, 6}; }  ///< ∂(F, M)/∂(p, φ) at fixed lengths
   /// ∂(F, M)/∂length of one input at a resting platform [N/m, N].
   Wrench feed_wrench(int input) const;
@@ -140,7 +143,6 @@ class RodSystem {
   }
   template <class Group>
   void fill_idle_lanes(Group& last) const;
-  PlatformFrame frame() const;
 
   std::vector<CoarseRods> coarse_;
   std::vector<FineRods> fine_;
@@ -149,9 +151,9 @@ class RodSystem {
   int rods_ = 0, inputs_ = 0;
   bool is_fine_ = false;
   SE3<double> platform_;
-  Wrench wrench_ = Wrench::Zero();
+  int carried_ = 0;  ///< steps since the last evaluation anew
+  RodPlatform held_{};
   RodSums sums_{};
-  Lu6 lu_;
   double radius_ = 1;
 };
 

@@ -80,21 +80,6 @@ double RodBatch::worst() const {
   return worst;
 }
 
-/// As RodSystem::truncation, of one pose.
-double RodBatch::truncation(int lane) const {
-  const auto& basis = GalerkinBasis<coarse_nodes>::get();
-  double worst = 0;
-  for (const CoarseRods& rod : rods_) {
-    double last = 0, before = 0;
-    for (std::size_t j = 0; j < coarse_nodes; ++j) {
-      last += basis.last[j] * rod.theta[j][lane];
-      before += basis.before_last[j] * rod.theta[j][lane];
-    }
-    worst = std::max(worst, last * last + before * before);
-  }
-  return worst;
-}
-
 /// All lanes to their new lengths, as solve_rods resumes: kept factors, one renewal, kept again.
 void RodBatch::walk() {
   rod_kernels::evaluate(rods_, true, poses_);
@@ -128,11 +113,13 @@ void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wren
     for (int lane = 0; lane < rod_lanes; ++lane)
       if (knows_[at(lane)]) set_lengths(lane, rows.subspan(row(lane) * inputs, inputs));
     if (std::ranges::any_of(knows_, std::identity())) walk();
+    alignas(64) RodLane truncation;
+    rod_kernels::truncation(rods_, truncation);
     bool is_renewed = false;
     for (int lane = 0; lane < rod_lanes; ++lane) {
       Status status = Status::converged;
       if (!knows_[at(lane)] || !(poses_.error[lane] <= rod_tolerance) ||
-          !(truncation(lane) <= quick_truncation)) {
+          !(truncation[lane] <= quick_truncation)) {
         is_renewed = true;
         if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), status)) {
           statuses[row(lane)] = status;

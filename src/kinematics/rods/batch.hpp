@@ -22,7 +22,6 @@ class RodBatch {
   void from_lane(int lane);
   bool solve_lane(int lane, Numbers inputs, Status& status);
   double worst() const;
-  double truncation(int lane) const;
   void walk();
 
   RodWork* work_;

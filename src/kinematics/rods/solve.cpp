@@ -54,26 +54,22 @@ Report check_reach(const RodSystem& system, Numbers inputs) {
   return report;
 }
 
-/// Newton's method from the state before: first with the factors kept from there, then with new ones, and
-/// kept again once a step with them gains as much as a new one would. False, with the state lost, where it
-/// does not contract at once.
+/// Newton's method from the state before: a step or two with the factors kept from there, until new ones
+/// would end it at once, then with new ones, and with those kept as long as they gain as much as newer ones
+/// would. False, with the state lost, where it does not contract.
 bool solve_warm(RodSystem& system, Report& report) {
-  constexpr double worth_renewing = 3e-9;
-  double error = system.evaluate();
-  if (!(error <= rod_tolerance)) {
-    system.move(system.step(false));
-    error = system.evaluate(false);
-    ++report.iterations;
-  }
-  for (int renewals = 0; !(error <= rod_tolerance);) {
-    const bool renews = renewals == 0 || (error > worth_renewing && renewals < 3);
+  constexpr double worth_starting = 1e-6, worth_renewing = 3e-9;
+  double error = system.evaluate(false);
+  int renewals = 0;
+  for (int& k = report.iterations; !(error <= rod_tolerance); ++k) {
+    const bool renews =
+        renewals == 0 ? k == 2 || (k == 1 && error < worth_starting) : renewals < 3 && error > worth_renewing;
     if (renews && !system.linearise()) return false;
     renewals += renews;
     system.move(system.step(renews));
     const double next = system.evaluate(false);
-    ++report.iterations;
-    if (!(next < 0.3 * error) && !(next <= rod_tolerance)) return false;
-    if (report.iterations > 10) return false;
+    if (renewals > 0 && !(next < 0.3 * error) && !(next <= rod_tolerance)) return false;
+    if (k > 10) return false;
     error = next;
   }
   report.residual = error;
