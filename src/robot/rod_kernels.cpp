@@ -511,7 +511,8 @@ struct Stiffness {
 };
 
 /// Inverse of a 6×6 matrix in place by Gauss and Jordan, its rows padded to eight. Without pivoting, as what
-/// holds by itself needs none: false where a pivot says that digits were lost.
+/// holds by itself needs none: false where a pivot says that four digits were lost. (A product with an
+/// inverse may lose them twice, which solving with factors does not.)
 HWY_INLINE bool invert(double (&a)[6][8]) {
   double diagonal[6];
   for (int k = 0; k < 6; ++k) diagonal[k] = a[k][k];
@@ -519,7 +520,7 @@ HWY_INLINE bool invert(double (&a)[6][8]) {
 #pragma GCC unroll 6
   for (int k = 0; k < 6; ++k) {
     const double pivot = a[k][k], kept = pivot / diagonal[k];
-    is_safe = is_safe && kept * kept > 1e-12 && kept * kept < 1e12;
+    is_safe = is_safe && kept * kept > 1e-8 && kept * kept < 1e8;
     const Pack inverse = all(1 / pivot);
 #pragma GCC unroll 4
     for (int i = 0; i < 6; i += static_cast<int>(hn::Lanes(tag))) {
@@ -683,97 +684,111 @@ HWY_INLINE LaneFrame frame_of(const PoseLanes& poses, int i) {
           {load(poses.position[0] + i), load(poses.position[1] + i), load(poses.position[2] + i)}};
 }
 
-HWY_INLINE void put_missing(const Wrench& wrench, PoseLanes& poses, int i) {
+/// What the world's wrench is more than these forces.
+HWY_INLINE Pack missing(const Wrench& wrench, const PoseLanes& poses, int i, int k) {
   const Pack sums[6] = {wrench.force.x,  wrench.force.y,  wrench.force.z,
                         wrench.moment.x, wrench.moment.y, wrench.moment.z};
-  for (int k = 0; k < 6; ++k) store(load(poses.wrench[k] + i) - sums[k], poses.missing[k] + i);
+  return load(poses.wrench[k] + i) - sums[k];
 }
 
-void EvaluatePoses(std::span<CoarseRods> rods, bool anew, PoseLanes& poses) {
-  for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
-    const LaneFrame frame = frame_of(poses, i);
-    Wrench wrench;
-    Pack worst = all(0), sums = all(0), per_force = all(1e300), per_moment = all(1e300);
-    for (CoarseRods& rod : rods) {
-      place(rod, i, frame);
-      const Pack error = measure(rod, i, anew), loading = load(rod.load + i);
-      per_force = hn::Min(per_force, loading);  // of the stiffest rod
-      per_moment = hn::Min(per_moment, load(rod.length + i) * load(rod.flexibility + i));
-      worst = hn::Max(worst, error);
-      sums = sums + error;
-      wrench.add(load3(rod.arm, i), force(rod, i), all(1));
+/// LU factors of the platforms' stiffness, without pivoting: it is nearly symmetric and, where it holds by
+/// itself, positive.
+HWY_INLINE void factor(const Stiffness& stiffness, PoseLanes& poses, int i) {
+  Pack a[36];
+  stiffness.matrix(a);
+#pragma GCC unroll 6
+  for (int k = 0; k < 6; ++k) {
+    a[7 * k] = all(1) / a[7 * k];
+#pragma GCC unroll 6
+    for (int r = k + 1; r < 6; ++r) {
+      a[6 * r + k] = a[6 * r + k] * a[7 * k];
+#pragma GCC unroll 6
+      for (int c = k + 1; c < 6; ++c) a[6 * r + c] = minus(a[6 * r + c], a[6 * r + k], a[6 * k + c]);
     }
-    put_missing(wrench, poses, i);
-    for (int k = 0; k < 6; ++k) {
-      const Pack part = hn::Abs(load(poses.missing[k] + i)) * (k < 3 ? per_force : per_moment);
-      worst = hn::Max(worst, part);
-      sums = sums + part;
-    }
-    store(worst + (sums - sums), poses.error + i);
   }
+  for (int k = 0; k < 36; ++k) store(a[k], poses.factors[k] + i);
 }
 
-/// Without pivoting: the platform's stiffness is nearly symmetric and, where it holds by itself, positive.
-void LinearisePoses(std::span<CoarseRods> rods, PoseLanes& poses) {
-  for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
-    Stiffness stiffness;
-    Wrench wrench;
-    for (CoarseRods& rod : rods) {
-      factor(rod, i);
-      stiffen(rod, i);
-      stiffness.add(tip_stiffness(rod, i), load3(rod.arm, i), force(rod, i));
-      close_gaps(rod, i, wrench);
-    }
-    put_missing(wrench, poses, i);
-    Pack a[36];
-    stiffness.matrix(a);
+/// Newton's step of the platforms.
+HWY_INLINE void move_platforms(PoseLanes& poses, int i) {
+  Pack x[6];
 #pragma GCC unroll 6
-    for (int k = 0; k < 6; ++k) {
-      a[7 * k] = all(1) / a[7 * k];
+  for (int k = 0; k < 6; ++k) {
+    x[k] = load(poses.missing[k] + i);
 #pragma GCC unroll 6
-      for (int r = k + 1; r < 6; ++r) {
-        a[6 * r + k] = a[6 * r + k] * a[7 * k];
+    for (int c = 0; c < k; ++c) x[k] = minus(x[k], load(poses.factors[6 * k + c] + i), x[c]);
+  }
 #pragma GCC unroll 6
-        for (int c = k + 1; c < 6; ++c) a[6 * r + c] = minus(a[6 * r + c], a[6 * r + k], a[6 * k + c]);
+  for (int k = 5; k >= 0; --k) {
+#pragma GCC unroll 6
+    for (int c = 5; c > k; --c) x[k] = minus(x[k], load(poses.factors[6 * k + c] + i), x[c]);
+    x[k] = x[k] * load(poses.factors[7 * k] + i);
+  }
+  for (int k = 0; k < 6; ++k) store(x[k], poses.twist[k] + i);
+  for (int k = 0; k < 3; ++k) store(load(poses.position[k] + i) + x[k], poses.position[k] + i);
+  const Pack half = all(0.5), a = half * x[3], b = half * x[4], c = half * x[5];
+  const Pack w = load(poses.quaternion[0] + i), p = load(poses.quaternion[1] + i),
+             q = load(poses.quaternion[2] + i), r = load(poses.quaternion[3] + i);
+  const Pack nw = minus(minus(minus(w, a, p), b, q), c, r), np = plus(minus(plus(p, a, w), c, q), b, r),
+             nq = plus(minus(plus(q, b, w), a, r), c, p), nr = plus(minus(plus(r, c, w), b, p), a, q);
+  const Pack scale = all(1) / hn::Sqrt(plus(plus(plus(nw * nw, np, np), nq, nq), nr, nr));
+  store(nw * scale, poses.quaternion[0] + i);
+  store(np * scale, poses.quaternion[1] + i);
+  store(nq * scale, poses.quaternion[2] + i);
+  store(nr * scale, poses.quaternion[3] + i);
+}
+
+/// What all rods of the poses in some lanes add up to.
+struct PoseSums {
+  Wrench wrench, closing;  // of the forces as they are, and of those that close the gaps
+  Stiffness stiffness;
+  Pack worst, errors, per_force, per_moment;
+  HWY_INLINE PoseSums() : worst(all(0)), errors(all(0)), per_force(all(1e300)), per_moment(all(1e300)) {}
+};
+
+/// One sweep over the rods does all there is to do, as they do not fit the nearest cache.
+void AdvancePoses(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& poses) {
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(tag)), packs = rod_lanes / lanes;
+  PoseSums sums[packs];
+  LaneFrame frames[packs];
+  for (int p = 0; p < packs; ++p) {
+    if (step.moves) move_platforms(poses, p * lanes);
+    frames[p] = frame_of(poses, p * lanes);
+  }
+  for (CoarseRods& rod : rods)
+    for (int p = 0; p < packs; ++p) {
+      const int i = p * lanes;
+      PoseSums& sum = sums[p];
+      if (step.moves) {
+        const auto& twist = poses.twist;
+        carry_on(rod, i, {load(twist[0] + i), load(twist[1] + i), load(twist[2] + i)},
+                 {load(twist[3] + i), load(twist[4] + i), load(twist[5] + i)}, nullptr);
       }
+      place(rod, i, frames[p]);
+      const Pack error = measure(rod, i, step.anew);
+      sum.per_force = hn::Min(sum.per_force, load(rod.load + i));  // of the stiffest rod
+      sum.per_moment = hn::Min(sum.per_moment, load(rod.length + i) * load(rod.flexibility + i));
+      sum.worst = hn::Max(sum.worst, error);
+      sum.errors = sum.errors + error;
+      sum.wrench.add(load3(rod.arm, i), force(rod, i), all(1));
+      if (step.renews) {
+        factor(rod, i);
+        stiffen(rod, i);
+        sum.stiffness.add(tip_stiffness(rod, i), load3(rod.arm, i), force(rod, i));
+      }
+      close_gaps(rod, i, sum.closing);
     }
-    for (int k = 0; k < 36; ++k) store(a[k], poses.factors[k] + i);
-  }
-}
-
-void StepPoses(std::span<CoarseRods> rods, bool fresh, PoseLanes& poses) {
-  for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
-    if (!fresh) {
-      Wrench wrench;
-      for (CoarseRods& rod : rods) close_gaps(rod, i, wrench);
-      put_missing(wrench, poses, i);
-    }
-    Pack x[6];
-#pragma GCC unroll 6
+  for (int p = 0; p < packs; ++p) {
+    const int i = p * lanes;
+    PoseSums& sum = sums[p];
     for (int k = 0; k < 6; ++k) {
-      x[k] = load(poses.missing[k] + i);
-#pragma GCC unroll 6
-      for (int c = 0; c < k; ++c) x[k] = minus(x[k], load(poses.factors[6 * k + c] + i), x[c]);
+      const Pack part = hn::Abs(missing(sum.wrench, poses, i, k)) * (k < 3 ? sum.per_force : sum.per_moment);
+      sum.worst = hn::Max(sum.worst, part);
+      sum.errors = sum.errors + part;
+      store(missing(sum.closing, poses, i, k), poses.missing[k] + i);
     }
-#pragma GCC unroll 6
-    for (int k = 5; k >= 0; --k) {
-#pragma GCC unroll 6
-      for (int c = k + 1; c < 6; ++c) x[k] = minus(x[k], load(poses.factors[6 * k + c] + i), x[c]);
-      x[k] = x[k] * load(poses.factors[7 * k] + i);
-    }
-    const Pack3 shift = {x[0], x[1], x[2]}, turn = {x[3], x[4], x[5]};
-    for (CoarseRods& rod : rods) carry_on(rod, i, shift, turn, nullptr);
-    for (int k = 0; k < 3; ++k) store(load(poses.position[k] + i) + x[k], poses.position[k] + i);
-    const Pack half = all(0.5), a = half * x[3], b = half * x[4], c = half * x[5];
-    const Pack w = load(poses.quaternion[0] + i), p = load(poses.quaternion[1] + i),
-               q = load(poses.quaternion[2] + i), r = load(poses.quaternion[3] + i);
-    const Pack nw = minus(minus(minus(w, a, p), b, q), c, r), np = plus(minus(plus(p, a, w), c, q), b, r),
-               nq = plus(minus(plus(q, b, w), a, r), c, p), nr = plus(minus(plus(r, c, w), b, p), a, q);
-    const Pack scale = all(1) / hn::Sqrt(plus(plus(plus(nw * nw, np, np), nq, nq), nr, nr));
-    store(nw * scale, poses.quaternion[0] + i);
-    store(np * scale, poses.quaternion[1] + i);
-    store(nq * scale, poses.quaternion[2] + i);
-    store(nr * scale, poses.quaternion[3] + i);
+    store(sum.worst + sum.errors * all(0), poses.error + i);
+    if (step.renews) factor(sum.stiffness, poses, i);
   }
 }
 /// @}
@@ -823,9 +838,7 @@ HWY_EXPORT(ApplyCoarse);
 HWY_EXPORT(ApplyFine);
 HWY_EXPORT(TruncationCoarse);
 HWY_EXPORT(TruncationFine);
-HWY_EXPORT(EvaluatePoses);
-HWY_EXPORT(LinearisePoses);
-HWY_EXPORT(StepPoses);
+HWY_EXPORT(AdvancePoses);
 HWY_EXPORT(InstructionSet);
 
 void evaluate(std::span<CoarseRods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
@@ -858,14 +871,8 @@ void truncation(std::span<const CoarseRods> groups, double* largest) {
 void truncation(std::span<const FineRods> groups, double* largest) {
   HWY_DYNAMIC_DISPATCH(TruncationFine)(groups, largest);
 }
-void evaluate(std::span<CoarseRods> rods, bool anew, PoseLanes& poses) {
-  HWY_DYNAMIC_DISPATCH(EvaluatePoses)(rods, anew, poses);
-}
-void linearise(std::span<CoarseRods> rods, PoseLanes& poses) {
-  HWY_DYNAMIC_DISPATCH(LinearisePoses)(rods, poses);
-}
-void step(std::span<CoarseRods> rods, bool fresh, PoseLanes& poses) {
-  HWY_DYNAMIC_DISPATCH(StepPoses)(rods, fresh, poses);
+void advance(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& poses) {
+  HWY_DYNAMIC_DISPATCH(AdvancePoses)(rods, step, poses);
 }
 const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(InstructionSet)(); }
 

@@ -36,9 +36,17 @@ struct alignas(64) RodFeed {
 struct alignas(64) PoseLanes {
   RodLane position[3], quaternion[4];
   RodLane wrench[6];    ///< of the world on the platform
-  RodLane missing[6];   ///< to balance
+  RodLane missing[6];   ///< to balance, once the gaps of the rods are closed
+  RodLane twist[6];     ///< the last step
   RodLane error;        ///< as RodSystem::evaluate, of each pose
   RodLane factors[36];  ///< of the platforms' stiffness
+};
+
+/// What is done to eight poses in one sweep over their rods.
+struct PoseStep {
+  bool moves = true;    ///< else they are evaluated where they are
+  bool anew = false;    ///< see RodSystem::evaluate
+  bool renews = false;  ///< factors
 };
 
 namespace rod_kernels {
@@ -48,12 +56,12 @@ void evaluate(std::span<CoarseRods> groups, const RodPlatform& platform, bool an
 void evaluate(std::span<FineRods> groups, const RodPlatform& platform, bool anew, RodSums& sums);
 
 /// Factors at the point last evaluated: `stiffness`, and `wrench` of the forces that close the gaps. False
-/// where the blocks of the stiffness do not give `inverse`: it is then for the caller to find.
+/// where the stiffness is too near to singular for its `inverse` to be of use.
 bool linearise(std::span<CoarseRods> groups, RodPlatform& platform, RodSums& sums);
 bool linearise(std::span<FineRods> groups, RodPlatform& platform, RodSums& sums);
 
-/// Newton's `twist` with the last factors, and `wrench` as after `linearise`, which need not be found again
-/// where it is `fresh` from there.
+/// Newton's `twist` with the last factors and inverse, and `wrench` as after `linearise`, which need not be
+/// found again where it is `fresh` from there.
 void step(std::span<CoarseRods> groups, const RodPlatform& platform, bool fresh, RodSums& sums);
 void step(std::span<FineRods> groups, const RodPlatform& platform, bool fresh, RodSums& sums);
 
@@ -65,12 +73,9 @@ void apply(std::span<FineRods> groups, const double* step, const RodFeed* fed);
 void truncation(std::span<const CoarseRods> groups, double* largest);
 void truncation(std::span<const FineRods> groups, double* largest);
 
-/// @name Eight poses at once: `rods[k]` holds rod k of each
-/// @{
-void evaluate(std::span<CoarseRods> rods, bool anew, PoseLanes& poses);
-void linearise(std::span<CoarseRods> rods, PoseLanes& poses);
-void step(std::span<CoarseRods> rods, bool fresh, PoseLanes& poses);
-/// @}
+/// Eight poses at once, `rods[k]` holds rod k of each: Newton's step from where they were last evaluated, and
+/// evaluation where it leads.
+void advance(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& poses);
 
 /// Name of the instruction set in use.
 const char* instruction_set();

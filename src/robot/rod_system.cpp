@@ -245,15 +245,8 @@ double RodSystem::evaluate(bool anew) {
 }
 
 bool RodSystem::linearise() {
-  if (with([&](auto groups) { return rod_kernels::linearise(groups, held_, sums_); })) return true;
-  Lu6 lu;
-  if (!lu.factor(sums_.stiffness, radius_)) return false;
-  for (std::size_t k = 0; k < 6; ++k) {
-    double unit[6] = {};
-    unit[k] = 1;
-    lu.solve(unit, held_.inverse[k]);
-  }
-  return true;
+  has_inverse_ = with([&](auto groups) { return rod_kernels::linearise(groups, held_, sums_); });
+  return has_inverse_ || lu_.factor(sums_.stiffness, radius_);
 }
 
 Lu6 RodSystem::factors() const {
@@ -266,7 +259,11 @@ RodSystem::Wrench RodSystem::missing() const { return wrench() - Eigen::Map<cons
 
 RodSystem::Twist RodSystem::step(bool fresh) {
   with([&](auto groups) { rod_kernels::step(groups, held_, fresh, sums_); });
-  return Eigen::Map<const Twist>(sums_.twist);
+  if (has_inverse_) return Eigen::Map<const Twist>(sums_.twist);
+  const Wrench wanted = missing();
+  Twist twist;
+  lu_.solve(wanted.data(), twist.data());
+  return twist;
 }
 
 void RodSystem::move(const Twist& twist, std::span<const double> fed) {

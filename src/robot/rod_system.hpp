@@ -154,6 +154,8 @@ class RodSystem {
   int carried_ = 0;  ///< steps since the last evaluation anew
   RodPlatform held_{};
   RodSums sums_{};
+  bool has_inverse_ = false;  ///< in `held_`; else there are factors
+  Lu6 lu_;
   double radius_ = 1;
 };
 

@@ -118,7 +118,8 @@ TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
     none([&] { inverse_equilibrium(robot, {0.3, 0.1, 0}, {}, work); });
     none([&] { equilibrium(robot, inputs, {.start = std::get<SpatialPose>(home(robot))}, work); });
     none([&] { follow_load(robot, down, 500, work); });
-    inputs[1] = 0.01;  // out of reach
+    none([&] { EXPECT_FALSE(equilibrium(robot, inputs, {.wrench = 1000 * down}, work).is_solved()); });
+    inputs[1] = 0.005;  // out of reach
     none([&] { EXPECT_FALSE(equilibrium(robot, inputs, {}, work).is_solved()); });
   }
 }

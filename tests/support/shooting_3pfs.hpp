@@ -37,10 +37,12 @@ struct Options {
   Derivative derivative = Derivative::complex_step;
   double tolerance = 1e-12;  ///< on the largest |g_res|, in its own mixed units
   int iterations = 30;
+  bool by_blocks = true;  ///< a difference integrates only the rod that owns the unknown
 };
-/// The paper's own choice, and the baseline of benchmarks.
+/// The paper's own choice, and the baseline of benchmarks: differences that know nothing of the equations.
 inline constexpr Options baseline{.rods = {.method = Method::rk4, .steps = 40},
-                                  .derivative = Derivative::forward_difference};
+                                  .derivative = Derivative::forward_difference,
+                                  .by_blocks = false};
 
 template <class S>
 Section<S> rod_tip(const Tripod& t, double length, const Vector37<S>& v, int i, const Integration& how) {
@@ -81,8 +83,8 @@ Vector37<S> residual(const Tripod& t, const Wrench& w, const Vector37<S>& v, con
   return g;
 }
 
-/// J of (33), column by column. Only the rod that owns an unknown is integrated anew: 36 rods an iteration,
-/// not 6 · 38, the most the order (34) of the unknowns can save a reader of the paper.
+/// J of (33), column by column. By blocks only the rod that owns an unknown is integrated anew: 36 rods an
+/// iteration, not 6 · 38, the most the order (34) of the unknowns can save a reader of the paper.
 inline Matrix37 jacobian(const Tripod& t, const PerRod<double>& L, const Wrench& w, const Vector37<double>& v,
                          const PerRod<Section<double>>& tips, const Vector37<double>& g, const Options& how) {
   Matrix37 J;
@@ -100,8 +102,8 @@ inline Matrix37 jacobian(const Tripod& t, const PerRod<double>& L, const Wrench&
     } else {
       Vector37<double> at = v;
       at[j] += 1e-7 * std::max(1.0, std::abs(v[j]));
-      PerRod<Section<double>> moved = tips;
-      if (i < 6) moved[k] = rod_tip(t, L[k], at, i, how.rods);
+      PerRod<Section<double>> moved = how.by_blocks ? tips : rod_tips(t, L, at, how.rods);
+      if (how.by_blocks && i < 6) moved[k] = rod_tip(t, L[k], at, i, how.rods);
       J.col(j) = (residual(t, w, at, moved) - g) / (at[j] - v[j]);
     }
   }

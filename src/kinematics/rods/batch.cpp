@@ -80,21 +80,20 @@ double RodBatch::worst() const {
   return worst;
 }
 
-/// All lanes to their new lengths, as solve_rods resumes: kept factors, one renewal, kept again.
+/// All lanes to their new lengths: two steps with the factors they have, then with new ones, and with those
+/// as long as they gain as much as newer ones would.
 void RodBatch::walk() {
-  rod_kernels::evaluate(rods_, true, poses_);
-  rod_kernels::step(rods_, false, poses_);
-  rod_kernels::evaluate(rods_, false, poses_);
+  constexpr int rows_carried = 16;  // each rounds a few times by 2e-16
+  rod_kernels::advance(rods_, {.moves = false, .anew = ++walked_ % rows_carried == 0}, poses_);
   double error = worst();
   int renewals = 0;
-  for (int k = 0; k < 8 && !(error <= rod_tolerance); ++k) {
-    const bool renews = renewals == 0 || (error > 3e-9 && renewals < 3);
-    if (renews) rod_kernels::linearise(rods_, poses_);
-    renewals += renews;
-    rod_kernels::step(rods_, renews, poses_);
-    rod_kernels::evaluate(rods_, false, poses_);
+  for (int k = 0; k < 10 && !(error <= rod_tolerance); ++k) {
+    // the factors of a step are found in the sweep before it
+    const bool renews = renewals == 0 ? k == 0 : renewals < 3 && error > 1e-6;
+    rod_kernels::advance(rods_, {.renews = renews}, poses_);
     const double next = worst();
-    if (!(next < 0.3 * error) && !(next <= rod_tolerance)) break;
+    if (renewals > 0 && !(next < 0.3 * error) && !(next <= rod_tolerance)) break;
+    renewals += renews;
     error = next;
   }
 }
@@ -133,8 +132,7 @@ void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wren
       statuses[row(lane)] = status;
     }
     if (is_renewed) {  // factors of the lanes that were solved alone
-      rod_kernels::evaluate(rods_, true, poses_);
-      rod_kernels::linearise(rods_, poses_);
+      rod_kernels::advance(rods_, {.moves = false, .anew = true, .renews = true}, poses_);
     }
   }
 }

@@ -30,6 +30,7 @@ class RodBatch {
   std::vector<CoarseRods::State> before_;
   PoseLanes poses_{}, poses_before_{};
   std::array<bool, rod_lanes> knows_{};  ///< the lane is in equilibrium
+  int walked_ = 0;                       ///< rows
 };
 
 }  // namespace sinew::inline v0
