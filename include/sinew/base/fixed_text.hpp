@@ -1,6 +1,7 @@
 /// @file fixed_text.hpp
 /// A short text of fixed capacity: a solver in a hot loop can say why it failed without touching the heap.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
@@ -19,6 +20,14 @@ class FixedText {
   FixedText() = default;
   FixedText(std::string_view text) { append(text); }  // NOLINT(google-explicit-constructor): a text is a text
 
+  /// Only what there is, mostly nothing, is copied: every answer of a solver carries a text.
+  FixedText(const FixedText& other) : size_(other.size_) { copy(other); }
+  FixedText& operator=(const FixedText& other) {
+    size_ = other.size_;
+    copy(other);
+    return *this;
+  }
+
   /// Appends what fits; the rest is cut off.
   void append(std::string_view text) {
     for (const char c : text) push_back(c);
@@ -31,6 +40,10 @@ class FixedText {
   std::string_view view() const { return {text_.data(), size_}; }
 
  private:
+  void copy(const FixedText& other) {
+    if (this != &other) std::copy_n(other.text_.begin(), size_, text_.begin());
+  }
+
   std::size_t size_ = 0;
   std::array<char, Capacity> text_;  // not initialised: only the first size_ characters are ever read
 };

@@ -115,8 +115,9 @@ Report travel(RodWork& work, Numbers inputs, const RodQuestion& question) {
   const bool at_once = question.start || question.resume || !is_loaded;
   RodTarget target = target_of(system, inputs, question.wrench);
   if (at_once) {
+    const bool is_load = question.resume && target.lengths == present(system).lengths;
     const RodPathEnd end = follow(system, target, options, work.spare);
-    return end.arrived ? arrived(end) : explain(system, end, false);
+    return end.arrived ? arrived(end) : explain(system, end, is_load);
   }
   target.wrench.setZero();
   const RodPathEnd first = follow(system, target, options, work.spare);
