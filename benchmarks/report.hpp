@@ -81,7 +81,7 @@ inline int main(int argc, char** argv) {
     if (ours == 0) continue;  // filtered out
     const double slow = slowest_of_1000(row.run, operation);
     std::printf("%-44s %10.0f %10s %12.0f %7.1f  %s; %s\n", row.what.c_str(), ours,
-                slow > 0 ? std::to_string(std::lround(slow)).c_str() : "-", theirs, theirs / ours,
+                slow > 0 ? std::to_string(std::lround(slow / row.items)).c_str() : "-", theirs, theirs / ours,
                 row.baseline.c_str(), row.accuracy.c_str());
   }
   return 0;

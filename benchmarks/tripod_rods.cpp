@@ -171,8 +171,14 @@ void compare_blocks(const Set& set) {
       benchmark::DoNotOptimize(one->state.residual);
     };
   };
+  double worst = 0;
+  for (int k = 0; k < 50; ++k) {
+    next(blocks)();
+    next(plain)();
+    worst = std::max(worst, (blocks->state.v - plain->state.v).cwiseAbs().maxCoeff());
+  }
   compare({fmt::format("37 unknowns by blocks {} 1.0 mm", set.name), "37 unknowns", next(blocks), next(plain),
-           "the same iterates"});
+           fmt::format("unknowns differ by {:.0e}", worst)});
 }
 
 }  // namespace

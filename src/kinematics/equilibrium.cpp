@@ -113,13 +113,14 @@ RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
   system.evaluate();
   system.linearise();
   std::copy_n(system.stiffness().data(), 36, analysis.stiffness.begin());
+  const Lu6 factors = system.factors();
   const auto inputs = at(system.inputs());
   analysis.sensitivity.resize(6 * inputs);
   analysis.feed.resize(6 * inputs);
   for (std::size_t k = 0; k < inputs; ++k) {
     const RodSystem::Wrench feed = -system.feed_wrench(static_cast<int>(k));
     std::array<double, 6> twist;
-    system.factors().solve(feed.data(), twist.data());
+    factors.solve(feed.data(), twist.data());
     for (std::size_t r = 0; r < 6; ++r) {
       analysis.sensitivity[r * inputs + k] = twist[r];
       analysis.feed[r * inputs + k] = feed[static_cast<Eigen::Index>(r)];
@@ -144,7 +145,7 @@ RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
   analysis.rotation_index = largest_singular_value(&analysis.sensitivity[3 * inputs], system.inputs());
   analysis.energy = energy_of(system);
   analysis.potential = potential_of(system);
-  analysis.smallest_pivot = system.factors().smallest_pivot();
+  analysis.smallest_pivot = factors.smallest_pivot();
   return analysis;
 }
 

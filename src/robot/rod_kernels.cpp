@@ -146,7 +146,7 @@ struct Wrench {
     force = {force.x + f.x, force.y + f.y, force.z + f.z};
     moment = {moment.x + m.x, moment.y + m.y, moment.z + m.z};
   }
-  /// Force, moment, and two more sums.
+  /// Force, moment, one more sum, and 0.
   HWY_INLINE void total(double (&out)[8], Pack more = all(0)) const {
     const Pack packs[8] = {force.x, force.y, force.z, moment.x, moment.y, moment.z, more, all(0)};
     totals(packs, out);
@@ -287,34 +287,43 @@ HWY_INLINE Pack3 force(const Rods& rods, int i) {
               load(rods.force_w + i));
 }
 
+/// Errors of rods, and the unit in which the balance of their platform counts beside them: that of the
+/// stiffest, as the rounding of its force alone may exceed 1e-12 of a slack one's. A maximum may hide a NaN,
+/// a sum does not.
+struct Errors {
+  Pack worst, sum, per_force, per_moment;
+  HWY_INLINE Errors() : worst(all(0)), sum(all(0)), per_force(all(1e300)), per_moment(all(1e300)) {}
+  HWY_INLINE void add(Pack error) {
+    worst = hn::Max(worst, error);
+    sum = sum + error;
+  }
+  template <class Rods>
+  HWY_INLINE void add(Rods& rods, int i, bool anew) {
+    add(measure(rods, i, anew));
+    per_force = hn::Min(per_force, load(rods.load + i));
+    per_moment = hn::Min(per_moment, load(rods.length + i) * load(rods.flexibility + i));
+  }
+};
+
 template <class Rods>
 void evaluate(std::span<Rods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
   Wrench wrench;
-  // the balance counts in the unit of the stiffest rod: the rounding of its force alone may exceed 1e-12 of a
-  // slack one's
-  Pack worst = all(0), errors = all(0), per_force = all(1e300), per_moment = all(1e300);
+  Errors errors;
   for (Rods& rods : groups)
     for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
       place(rods, i, SameFrame{platform});
-      const Pack error = measure(rods, i, anew), loading = load(rods.load + i);
-      per_force = hn::Min(per_force, loading);
-      per_moment = hn::Min(per_moment, load(rods.length + i) * load(rods.flexibility + i));
-      worst = hn::Max(worst, error);
-      errors = errors + error;
+      errors.add(rods, i, anew);
       wrench.add(load3(rods.arm, i), force(rods, i), load(rods.active + i));
     }
-  wrench.total(sums.wrench, errors * all(0));  // a maximum may hide a NaN, a sum does not
-  sums.rod_error = hn::GetLane(hn::MaxOfLanes(tag, worst)) + sums.wrench[6];
-  per_force = hn::MinOfLanes(tag, per_force);
-  per_moment = hn::MinOfLanes(tag, per_moment);
-  errors = all(0);
+  wrench.total(sums.wrench, errors.sum * all(0));
+  sums.rod_error = hn::GetLane(hn::MaxOfLanes(tag, errors.worst)) + sums.wrench[6];
+  const Pack per_force = hn::MinOfLanes(tag, errors.per_force),
+             per_moment = hn::MinOfLanes(tag, errors.per_moment);
   for (int i = 0; i < 8; i += static_cast<int>(hn::Lanes(tag))) {
     const Pack missing = hn::Abs(load(platform.wrench + i) - load(sums.wrench + i));
-    const Pack part = missing * hn::IfThenElse(hn::Iota(tag, i) < all(3), per_force, per_moment);
-    worst = hn::Max(worst, part);
-    errors = errors + part;
+    errors.add(missing * hn::IfThenElse(hn::Iota(tag, i) < all(3), per_force, per_moment));
   }
-  sums.error = hn::GetLane(hn::MaxOfLanes(tag, worst)) + sum(errors * all(0));
+  sums.error = hn::GetLane(hn::MaxOfLanes(tag, errors.worst)) + sum(errors.sum * all(0));
 }
 
 /// What was stored is loaded again: the compiler would else keep all of a factorisation in registers that no
@@ -742,8 +751,8 @@ HWY_INLINE void move_platforms(PoseLanes& poses, int i) {
 struct PoseSums {
   Wrench wrench, closing;  // of the forces as they are, and of those that close the gaps
   Stiffness stiffness;
-  Pack worst, errors, per_force, per_moment;
-  HWY_INLINE PoseSums() : worst(all(0)), errors(all(0)), per_force(all(1e300)), per_moment(all(1e300)) {}
+  Errors errors;
+  HWY_INLINE PoseSums() {}
 };
 
 /// One sweep over the rods does all there is to do, as they do not fit the nearest cache.
@@ -765,11 +774,7 @@ void AdvancePoses(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& p
                  {load(twist[3] + i), load(twist[4] + i), load(twist[5] + i)}, nullptr);
       }
       place(rod, i, frames[p]);
-      const Pack error = measure(rod, i, step.anew);
-      sum.per_force = hn::Min(sum.per_force, load(rod.load + i));  // of the stiffest rod
-      sum.per_moment = hn::Min(sum.per_moment, load(rod.length + i) * load(rod.flexibility + i));
-      sum.worst = hn::Max(sum.worst, error);
-      sum.errors = sum.errors + error;
+      sum.errors.add(rod, i, step.anew);
       sum.wrench.add(load3(rod.arm, i), force(rod, i), all(1));
       if (step.renews) {
         factor(rod, i);
@@ -781,13 +786,12 @@ void AdvancePoses(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& p
   for (int p = 0; p < packs; ++p) {
     const int i = p * lanes;
     PoseSums& sum = sums[p];
+    Errors& errors = sum.errors;
     for (int k = 0; k < 6; ++k) {
-      const Pack part = hn::Abs(missing(sum.wrench, poses, i, k)) * (k < 3 ? sum.per_force : sum.per_moment);
-      sum.worst = hn::Max(sum.worst, part);
-      sum.errors = sum.errors + part;
+      errors.add(hn::Abs(missing(sum.wrench, poses, i, k)) * (k < 3 ? errors.per_force : errors.per_moment));
       store(missing(sum.closing, poses, i, k), poses.missing[k] + i);
     }
-    store(sum.worst + sum.errors * all(0), poses.error + i);
+    store(errors.worst + errors.sum * all(0), poses.error + i);
     if (step.renews) factor(sum.stiffness, poses, i);
   }
 }

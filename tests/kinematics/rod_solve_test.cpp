@@ -160,6 +160,24 @@ TEST(RodSolve, SaysWhenTheRobotDoesNotHoldByItself) {  // symmetric, pressed bey
   }
 }
 
+TEST(RodSolve, NamesTheLoadWhereTheLoadAloneWasChanged) {
+  int buckled = 0;
+  for (const RodTripod& t : {g2, g1}) {
+    SCOPED_TRACE(t.name);
+    Solver solver(t);
+    RodRandom random(21);
+    const Vec3<double> inputs = Vec3<double>::Constant(t.length);
+    for (int trial = 0; trial < 60; ++trial) {
+      ASSERT_TRUE(solver.solve(inputs, {.wrench = random.wrench(1, 0.1)}).ok());
+      const Report report = solver.solve(inputs, {.wrench = random.wrench(400, 20), .resume = true});
+      if (report.status != Status::singular) continue;
+      ++buckled;
+      EXPECT_EQ(report.message.view().substr(0, 17), "the robot buckles") << report.message.view();
+    }
+  }
+  EXPECT_GT(buckled, 0);
+}
+
 TEST(RodSolve, ResumingNothingIsBeginningAtHome) {
   RodRandom random(14);
   for (int trial = 0; trial < 30; ++trial) {

@@ -114,7 +114,7 @@ RC_GTEST_PROP(Elastica, TipIsThatOfTheRodShotFromItsFreeEnd, ()) {
       static_cast<double>(local[0] * c + local[1] * s), static_cast<double>(local[1] * c - local[0] * s),
       static_cast<double>(-rod.angle), static_cast<double>(-rod.curvature),
       static_cast<double>(local[1] - (local[1] * rod.w + local[0] * rod.d));
-  RC_ASSERT(worst(numbers(x) - exact, local.norm()) < 1e-13);  // 3e-14 but once in some ten thousand
+  RC_ASSERT(worst(numbers(x) - exact, local.norm()) < 3e-14);
 }
 
 RC_GTEST_PROP(Elastica, ClosedFormIsThatOfEllipticIntegrals, ()) {

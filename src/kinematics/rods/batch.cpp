@@ -80,8 +80,8 @@ double RodBatch::worst() const {
   return worst;
 }
 
-/// All lanes to their new lengths: two steps with the factors they have, then with new ones, and with those
-/// as long as they gain as much as newer ones would.
+/// All lanes to their new lengths: a step with the factors they have, then with new ones, and with those as
+/// long as they gain as much as newer ones would.
 void RodBatch::walk() {
   constexpr int rows_carried = 16;  // each rounds a few times by 2e-16
   rod_kernels::advance(rods_, {.moves = false, .anew = ++walked_ % rows_carried == 0}, poses_);
