@@ -32,7 +32,8 @@ struct DistanceRow {
 
 /// The row of a distance closure.
 template <Scalar S, int D, int Q>
-DistanceRow<S, D, Q> distance_row(const Vec<S, D>& r, const Anchor<S, D, Q>& anchor) {
+[[gnu::always_inline]] inline DistanceRow<S, D, Q> distance_row(const Vec<S, D>& r,
+                                                                const Anchor<S, D, Q>& anchor) {
   const Vec<S, D> n = r - anchor.position;
   const Mat<S, 1, Q> g_q = -(n.transpose() * anchor.rate) - anchor.half_square_rate;
   return {S(0.5) * squared_norm(n) - anchor.half_square, n, g_q};

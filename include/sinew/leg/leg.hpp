@@ -80,7 +80,8 @@ struct Leg {
 
   /// @implements TDPCR (18)
   template <Scalar S>
-  Blocks<S> blocks(const typename Space::template Frame<S>& platform, const LinkTip<S>& tip) const {
+  [[gnu::always_inline]] Blocks<S> blocks(const typename Space::template Frame<S>& platform,
+                                          const LinkTip<S>& tip) const {
     const Vec<S, dimension> b = platform.rotate(platform_point.template cast<S>());
     const Vec<S, dimension> r = in_base<S>(platform.p + b - base.p.template cast<S>());
     const auto anchor = closure.template anchor<dimension>(tip);

@@ -28,11 +28,11 @@ struct SE3 {
     return {pose.position.cast<S>(), {static_cast<S>(turn.w), turn.v.cast<S>()}};
   }
 
-  Vec3<S> rotate(const Vec3<S>& u) const { return R.rotate(u); }
-  Vec3<S> rotate_back(const Vec3<S>& u) const { return R.rotate_back(u); }
+  [[gnu::always_inline]] Vec3<S> rotate(const Vec3<S>& u) const { return R.rotate(u); }
+  [[gnu::always_inline]] Vec3<S> rotate_back(const Vec3<S>& u) const { return R.rotate_back(u); }
 
   /// p + R b: where the body-fixed point b is.
-  Vec3<S> point(const Vec3<S>& b) const { return p + R.rotate(b); }
+  [[gnu::always_inline]] Vec3<S> point(const Vec3<S>& b) const { return p + R.rotate(b); }
 
   SE3 compose(const SE3& next) const { return {point(next.p), R.compose(next.R)}; }
   SE3 inverse() const { return {-R.rotate_back(p), R.inverse()}; }

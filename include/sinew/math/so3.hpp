@@ -55,11 +55,11 @@ struct SO3 {
   }
   SO3 inverse() const { return {w, -v}; }
 
-  Vec3<S> rotate(const Vec3<S>& u) const {
+  [[gnu::always_inline]] Vec3<S> rotate(const Vec3<S>& u) const {
     const Vec3<S> side = cross(v, u) * S(2);
     return u + side * w + cross(v, side);
   }
-  Vec3<S> rotate_back(const Vec3<S>& u) const { return inverse().rotate(u); }
+  [[gnu::always_inline]] Vec3<S> rotate_back(const Vec3<S>& u) const { return inverse().rotate(u); }
 
   /// Ad: R·exp(ω)·R⁻¹ = exp(Ad ω); the rotation matrix itself.
   Mat<S, 3, 3> adjoint() const { return matrix(); }

@@ -75,9 +75,10 @@ typename A::Scalar squared_norm(const Eigen::MatrixBase<A>& a) {
   return dot(v, v);
 }
 
-/// In the plane the z component of a × b, in space the vector.
+/// In the plane the z component of a × b, in space the vector. Always inlined, as rotations are: otherwise
+/// one copy, compiled for the file that is linked first, serves all, and its vectors go through memory.
 template <class A, class B>
-auto cross(const Eigen::MatrixBase<A>& a_, const Eigen::MatrixBase<B>& b_) {
+[[gnu::always_inline]] inline auto cross(const Eigen::MatrixBase<A>& a_, const Eigen::MatrixBase<B>& b_) {
   static_assert(int{A::SizeAtCompileTime} == int{B::SizeAtCompileTime});
   static_assert(A::SizeAtCompileTime == 2 || A::SizeAtCompileTime == 3);
   using S = typename A::Scalar;
