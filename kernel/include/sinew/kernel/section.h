@@ -120,7 +120,7 @@ constexpr Bend<Angle> linear_bend(const Section<Angle, Length>& section, Length 
 }
 
 /// The same for PCC, in closed form: the pull is that of chords, x = g · 2 sin(β₁/2) and so on, and each
-/// chord has one arc |β| ≤ π a joint. A longer chord than there is gives the bend π.
+/// chord has one arc |β| ≤ π a joint. A longer chord u has none; its bend is π/2 · u, beyond π.
 template <class Angle, class Length>
 constexpr Bend<Angle> exact_bend(const Section<Angle, Length>& section, Length x, Length y) {
   const Bend<Angle> chord = linear_bend(section, x, y);

@@ -1,0 +1,63 @@
+/// @file polygon.hpp
+/// Convex sets of the plane bounded by straight lines and one circle about the origin: vertices, areas and
+/// sums, with what is thinner than rounding kept as a segment or a point. Any unit of length. Theory:
+/// docs/theory/section_diagram.md
+///
+/// Lines are few, so vertices are those crossings of two lines that no third one cuts off: no order of
+/// insertion, no box that stands for infinity, and each vertex is as exact as the two lines it comes from.
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sinew/math/vec.hpp"
+
+namespace sinew::inline v0 {
+
+/// A convex set by its vertices, counter-clockwise, none twice: none of them is the empty set, one a point,
+/// two a segment.
+using Polygon = std::vector<Vec2<double>>;
+
+/// The points x with normal·x ≥ offset; the normal is a unit vector.
+struct HalfPlane {
+  Vec2<double> normal;
+  double offset;
+
+  /// How deep inside x lies, < 0: outside.
+  double depth(const Vec2<double>& x) const { return dot(normal, x) - offset; }
+};
+
+/// What the half-planes have in common; absent where it is unbounded. A set thinner than rounding, on either
+/// side of nothing, is a segment or a point. Takes time ~ count³.
+SINEW_API std::optional<Polygon> intersection(std::span<const HalfPlane> half_planes);
+
+/// Where two lines cross; absent where they are parallel.
+SINEW_API std::optional<Vec2<double>> crossing(const HalfPlane& a, const HalfPlane& b);
+
+/// Area, 0 of a segment or a point.
+SINEW_API double area(const Polygon& polygon);
+
+/// The smallest convex set that holds the points. Those closer than `tolerance` are one, and no vertex lies
+/// within `tolerance` of the line through its neighbours.
+SINEW_API Polygon hull(Polygon points, double tolerance);
+
+/// All differences a − b. The Minkowski sum of a and the mirror image of b.
+SINEW_API Polygon difference(const Polygon& a, const Polygon& b);
+
+/// A polygon cut with the disc |x| ≤ radius. From corner k to the next the boundary is straight where arc[k]
+/// is 0, else an arc of the circle over that angle [rad], counter-clockwise. A whole disc is one corner with
+/// an arc of 2π.
+struct DiscCut {
+  double radius = 0;
+  Polygon corners;
+  std::vector<double> arc;
+};
+SINEW_API DiscCut cut_with_disc(const Polygon& polygon, double radius);
+
+/// Area, circular segments included.
+SINEW_API double area(const DiscCut& cut);
+
+/// Points of the boundary; a chord between them is nowhere farther from its arc than `deviation`.
+SINEW_API Polygon boundary(const DiscCut& cut, double deviation);
+
+}  // namespace sinew::inline v0
