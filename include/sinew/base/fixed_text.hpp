@@ -57,6 +57,15 @@ void append_mm(FixedText<Capacity>& text, double metres) {
   text.append(format_mm(metres, buffer));
 }
 
+/// The angle as people read it, "12.5 deg".
+SINEW_API std::string_view format_degrees(double radians, std::span<char> buffer) noexcept;
+
+template <std::size_t Capacity>
+void append_degrees(FixedText<Capacity>& text, double radians) {
+  std::array<char, 32> buffer;
+  text.append(format_degrees(radians, buffer));
+}
+
 template <std::size_t Capacity>
 void append_number(FixedText<Capacity>& text, int number) {
   std::array<char, 12> buffer;

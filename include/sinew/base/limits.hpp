@@ -8,4 +8,7 @@ namespace sinew::inline v0 {
 /// Most constraint rows of a robot, and most rows or columns of a matrix that is decomposed.
 inline constexpr int max_rows = 24;
 
+/// Most sections of a serial robot: two columns of its Jacobian each.
+inline constexpr int max_sections = max_rows / 2;
+
 }  // namespace sinew::inline v0

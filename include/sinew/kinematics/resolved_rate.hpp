@@ -1,0 +1,60 @@
+/// @file resolved_rate.hpp
+/// Rates of bends and tendons that move a serial robot's tip as commanded, within the limits of its sections.
+/// Theory: docs/theory/serial_inverse.md
+#pragma once
+#include <vector>
+
+#include "sinew/kinematics/serial.hpp"
+
+namespace sinew::inline v0 {
+
+/// Motion of the tip: velocity of its origin [m/s] and angular velocity [rad/s].
+struct TipTwist {
+  Vec3<double> linear = Vec3<double>(0, 0, 0), angular = Vec3<double>(0, 0, 0);
+};
+
+enum class TipFrame { base, tip };  ///< whose axes the twist is given in; always of the tip's origin
+enum class TipTask {
+  position,
+  axis,
+  whole
+};  ///< what of the twist counts: linear; turns of the tip's axis too; all
+
+struct ResolvedRateOptions {
+  TipFrame frame = TipFrame::base;
+  TipTask task = TipTask::whole;
+  /// What is given up near singular shapes: motions whose square is below this share of Σ of the squares of
+  /// the Jacobian, in shares of the robot's length and rad per rad a section turns. ≥ 1e-12.
+  double damping = 1e-9;
+  double fastest = std::numeric_limits<double>::infinity();  ///< a section may turn about either axis [rad/s]
+  double tolerance = 1e-6;  ///< what may be missed and still count as followed, as a share of the twist
+  kernel::Model model = kernel::Model::exact;  ///< of the tendons
+};
+
+/// Memory for the rates of one robot; one per thread.
+struct RateWorkspace {
+  std::vector<double> bends;    ///< section by section [rad/s]
+  std::vector<double> tendons;  ///< of Δl [m/s], section by section; > 0 pays out
+  SINEW_API explicit RateWorkspace(const SerialRobot& robot);
+};
+
+struct ResolvedRate {
+  /// `left_domain` where limits, or `fastest`, keep the tip from following; `singular` where the shape does;
+  /// the rates are then those that come nearest. Residual: what is missed, the larger of velocity and, times
+  /// the robot's length, angular velocity [m/s]. Its iterations are 0.
+  Report report;
+  std::span<const double> bends;    ///< view into the rates' workspace
+  std::span<const double> tendons;  ///< view into the rates' workspace
+  int held = 0;                     ///< components of bends that a limit, or `fastest`, holds
+
+  bool ok() const noexcept { return report.ok(); }
+};
+
+/// The slowest rates that give the tip this twist, in least squares; a section at its limit does not turn
+/// further outwards. `bends` are within the limits. Leaves the tip's Jacobian in `work.J`, the tendons' in
+/// `work.K`. No heap, no throw. At most `max_sections` sections.
+SINEW_API ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends,
+                                     const TipTwist& twist, const ResolvedRateOptions& options,
+                                     SerialWorkspace& work, RateWorkspace& rates);
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,70 @@
+/// @file serial.hpp
+/// Kinematics of serial robots: bends to tendon changes and back, bends to poses and their derivatives.
+/// Nothing here allocates: a workspace holds what answers are read from. Theory: docs/theory/section.md
+#pragma once
+#include <span>
+#include <vector>
+
+#include "sinew/base/export.hpp"
+#include "sinew/base/numbers.hpp"
+#include "sinew/math/linalg.hpp"
+#include "sinew/robot/serial.hpp"
+#include "sinew/solve/report.hpp"
+
+namespace sinew::inline v0 {
+
+/// Memory for questions to one serial robot; one per thread. `J` and `K` are rows first.
+struct SerialWorkspace {
+  std::vector<Bend> bends;        ///< per section [rad]
+  std::vector<double> changes;    ///< Δl of every tendon [m], section by section; > 0 pays out
+  std::vector<double> slack;      ///< what every tendon has beyond what the bends need [m]
+  std::vector<SE3<double>> ends;  ///< pose of every section's end
+  std::vector<double> J;          ///< tip twist (base axes, of the tip) per bend rate: 6 × 2M [m, rad]
+  std::vector<double> K;          ///< tendon rates per bend rate: tendons × 2M [m]
+  std::vector<kernel::Section<double>> maps;          ///< of the robot's sections
+  std::vector<kernel::Direction<double>> directions;  ///< of every tendon
+  std::vector<int> tendons;                           ///< of every section
+
+  SINEW_API explicit SerialWorkspace(const SerialRobot& robot);
+
+  MatrixView jacobian() const { return {J.data(), 6, static_cast<Eigen::Index>(2 * bends.size())}; }
+  MatrixView tendon_jacobian() const {
+    return {K.data(), static_cast<Eigen::Index>(changes.size()), static_cast<Eigen::Index>(2 * bends.size())};
+  }
+};
+
+/// Changes of all tendons into `work.changes`, in one pass over the sections (LSK (5), (12)).
+SINEW_API void tendon_changes(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
+
+/// The same of many poses at once, in SIMD lanes: `bends` is 2M rows, `changes` a row for each tendon, both
+/// with one number a pose. Bends that are not finite give changes that are not.
+SINEW_API void tendon_changes_batch(std::span<const double> bends, kernel::Model model,
+                                    std::span<double> changes, const SerialWorkspace& work);
+
+/// Bends that come nearest to what the tendons did, in least squares for each section, into `work.bends`, and
+/// what every tendon then has too much (> 0: slack) or too little (< 0: over-tensioned) into `work.slack`.
+///
+/// Not converged, with `work.bends` the nearest there is: `unreachable` where a joint would bend by more than
+/// half a turn, or where tendons contradict one another by more than the robot's tolerance (over-tensioned);
+/// `left_domain` where a section would bend beyond its limit; `slack` where a tendon is longer by more than
+/// the tolerance. The message names section and tendon. Theory: [LSK] section 4.1.
+SINEW_API Report bends_of_changes(const SerialRobot& robot, Numbers changes, kernel::Model model,
+                                  SerialWorkspace& work);
+
+/// `left_domain` and which section it is, where a bend is beyond its section's limit by more than rounding.
+SINEW_API Report check_limits(const SerialRobot& robot, std::span<const Bend> bends);
+
+/// What a tendon may be off before it counts as slack or over-tensioned [m]: the robot's tolerance, at least
+/// rounding.
+SINEW_API double tendon_tolerance(const SerialRobot& robot);
+
+/// Pose of every section's end into `work.ends`.
+SINEW_API void section_ends(const SerialRobot& robot, std::span<const Bend> bends, SerialWorkspace& work);
+
+/// The same with the tip's Jacobian in `work.J`.
+SINEW_API void tip_motion(const SerialRobot& robot, std::span<const Bend> bends, SerialWorkspace& work);
+
+/// ∂(changes)/∂(bends) into `work.K`.
+SINEW_API void tendon_rates(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
+
+}  // namespace sinew::inline v0

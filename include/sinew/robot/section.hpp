@@ -1,0 +1,96 @@
+/// @file section.hpp
+/// One section of a serial robot: segments, each a joint and then a disc, and the tendons that end at its
+/// last disc. Theory: docs/theory/section.md
+#pragma once
+#include <limits>
+#include <numbers>
+
+#include "sinew/kernel/direction.h"
+#include "sinew/kernel/section.h"
+#include "sinew/link/bent_joint.hpp"
+
+namespace sinew::inline v0 {
+
+/// Bend of a section [rad]: (β₁, β₂) of each joint of a twin-pivot backbone, θ (cos φ, sin φ) of a neutral
+/// one.
+using Bend = Vec2<double>;
+
+struct Section {
+  kernel::Backbone backbone = kernel::Backbone::twin_pivot;
+  int segments = 8;          ///< N ≥ 1; of twin pivots even: they bend about two axes in turn
+  double joint = 0;          ///< arc length L of one joint [m], > 0
+  double disc_height = 0;    ///< h of the disc after it [m]
+  double disc_radius = 0;    ///< of the disc [m]; 0: the section has none
+  int tendons = 3;           ///< n ≥ 3
+  double tendon_radius = 0;  ///< r_c, distance of every tendon from the backbone [m], > 0
+  double tendon_angle = 0;   ///< δ of tendon 0 [rad]; the others follow evenly spread
+  /// Largest bend [rad]: |β| of a joint about either axis, θ of a section with a neutral backbone.
+  double limit = std::numeric_limits<double>::infinity();
+
+  bool is_twin() const { return backbone == kernel::Backbone::twin_pivot; }
+  double arc_length() const { return segments * joint; }              ///< N L [m]
+  double length() const { return segments * (joint + disc_height); }  ///< of the whole section [m]
+
+  kernel::Section<double> map() const {
+    return kernel::make_section<double>(backbone, segments, joint, tendon_radius);
+  }
+  kernel::Direction<double> direction(int tendon) const {
+    return kernel::direction<double>(tendon_angle + 2 * std::numbers::pi * tendon / tendons);
+  }
+
+  /// Pose of the section's end on its base, z distal.  @implements LSK (3), (4)
+  template <Scalar S>
+  [[gnu::always_inline]] BentPose<S> pose(const Vec2<S>& bend) const {
+    return power(unit(bend[0], bend[1]).pose, units());  // inlined: rates not asked for are not computed
+  }
+  /// The same with its derivatives by the bend.
+  template <Scalar S>
+  [[gnu::always_inline]] BentMotion<S> motion(const Vec2<S>& bend) const {
+    return power(unit(bend[0], bend[1]), units());
+  }
+
+  /// What repeats along a section: a segment; of twin pivots two, the proximal one bent by β₂.
+  int units() const { return is_twin() ? segments / 2 : segments; }
+
+ private:
+  BentJoint segment() const { return {joint, disc_height}; }
+
+  template <Scalar S>
+  [[gnu::always_inline]] BentMotion<S> unit(const S& x, const S& y) const {
+    if (is_twin()) return twin_motion(segment().pivot(y), segment().pivot(x));
+    const S share(1.0 / segments);
+    BentMotion<S> one = segment().motion(S(share * x), S(share * y));
+    for (int i = 0; i < 3; ++i) {
+      one.shift[i] = share * one.shift[i];
+      one.turn[i] = share * one.turn[i];
+    }
+    return one;
+  }
+  /// A segment bent by β₂, about −x, then one bent by β₁, about y.
+  template <Scalar S>
+  [[gnu::always_inline]] static BentMotion<S> twin_motion(const PivotMotion<S>& low,
+                                                          const PivotMotion<S>& high) {
+    return {{low.half_cosine * high.half_cosine,
+             {-low.half_sine * high.half_cosine, low.half_cosine * high.half_sine,
+              -low.half_sine * high.half_sine},
+             {high.side, low.side + high.ahead * low.sine, low.ahead + high.ahead * low.cosine}},
+            {{high.side_rate, S(0)},
+             {high.ahead_rate * low.sine, low.side_rate + high.ahead * low.cosine},
+             {high.ahead_rate * low.cosine, low.ahead_rate - high.ahead * low.sine}},
+            {{S(0), S(-1)}, {low.cosine, S(0)}, {-low.sine, S(0)}}};
+  }
+
+  /// unitᴺ by squaring.
+  template <class T>
+  [[gnu::always_inline]] static T power(T unit, int count) {
+    for (; count % 2 == 0; count /= 2) unit = unit.then(unit);
+    T all = unit;
+    for (count /= 2; count > 0; count /= 2) {
+      unit = unit.then(unit);
+      if (count % 2 == 1) all = all.then(unit);
+    }
+    return all;
+  }
+};
+
+}  // namespace sinew::inline v0

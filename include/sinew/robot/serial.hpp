@@ -1,0 +1,50 @@
+/// @file serial.hpp
+/// A serial robot: sections one after the other, each with tendons of its own that pass all sections before
+/// it. Theory: docs/theory/section.md
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/base/export.hpp"
+#include "sinew/robot/section.hpp"
+
+namespace sinew::inline v0 {
+
+/// How a motor moves a tendon: turns of a lead screw, counted by an encoder.
+struct TendonMotor {
+  double lead = 0;    ///< of the screw [m] a turn, > 0
+  double counts = 0;  ///< of the encoder a turn of the motor, > 0
+  double gear = 1;    ///< turns of the motor a turn of the screw, > 0
+  double counts_per_length() const { return counts * gear / lead; }  ///< [1/m]
+};
+
+/// What a tendon gives way under tension.
+struct TendonStretch {
+  double stiffness = 0;  ///< EA [N], > 0
+  double outside = 0;    ///< its length between motor and robot [m], ≥ 0
+};
+
+struct SerialRobot {
+  std::string name;
+  bool geometry_inferred = false;
+  std::vector<Section> sections;
+  double tolerance = 0;  ///< of a tendon [m]: encoder step, friction, stretch; ≥ 0
+  std::optional<TendonMotor> motor;
+  std::optional<TendonStretch> stretch;
+
+  int section_count() const { return static_cast<int>(sections.size()); }
+  /// Tendons of all sections.
+  int tendon_count() const {
+    int count = 0;
+    for (const Section& section : sections) count += section.tendons;
+    return count;
+  }
+  double length() const {
+    double length = 0;
+    for (const Section& section : sections) length += section.length();
+    return length;
+  }
+};
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,127 @@
+// Compiled once for each instruction set; Highway chooses among them at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kinematics/serial/batch.cpp"
+// SSSE3 is what every x86-64 of the last fifteen years has; what lies between is not worth its compile time.
+#define HWY_DISABLED_TARGETS (HWY_SSE4 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "sinew/base/assert.hpp"
+#include "sinew/kinematics/serial.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace sinew::inline v0 {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// The kernel once more for each instruction set: what was compiled for another is not inlined.
+#undef SINEW_KERNEL_ARC_H
+#undef SINEW_KERNEL_SECTION_H
+#include "sinew/kernel/section.h"
+namespace wide_kernel = sinew::kernel;
+
+using Tag = hn::ScalableTag<double>;
+constexpr Tag tag;
+
+/// One number of several poses, as the kernel's scalar.
+struct Number {
+  hn::Vec<Tag> v;
+  Number() = default;
+  HWY_INLINE explicit Number(double x) : v(hn::Set(tag, x)) {}
+  HWY_INLINE explicit Number(hn::Vec<Tag> x) : v(x) {}
+};
+HWY_INLINE Number operator+(Number a, Number b) { return Number(hn::Add(a.v, b.v)); }
+HWY_INLINE Number operator-(Number a, Number b) { return Number(hn::Sub(a.v, b.v)); }
+HWY_INLINE Number operator*(Number a, Number b) { return Number(hn::Mul(a.v, b.v)); }
+
+/// Whether all lanes are below a bound; NaN is not.
+HWY_INLINE bool all_below(Number a, double bound) {
+  return hn::AllTrue(tag, hn::Le(a.v, hn::Set(tag, bound)));
+}
+
+/// The kernel's, without a branch of its own for each lane.
+HWY_INLINE Number chord_loss(Number w) {
+  using Few = wide_kernel::detail::PowerSeries<Number, 2, 1, kernel::Terms<double>::few>;
+  using Most = wide_kernel::detail::PowerSeries<Number, 2, 1, kernel::Terms<double>::most>;
+  if (all_below(w, 0.0625)) return w * Few::at(w);
+  if (all_below(w, 2.4675)) return w * Most::at(w);
+  HWY_ALIGN double lanes[hn::MaxLanes(tag)];
+  hn::Store(w.v, tag, lanes);
+  for (double& lane : lanes) lane = kernel::chord_loss(lane);
+  return Number(hn::Load(tag, lanes));
+}
+HWY_INLINE void chord_losses(Number w_x, Number w_y, Number& x, Number& y) {
+  x = chord_loss(w_x);
+  y = chord_loss(w_y);
+}
+
+/// The robot's maps in all lanes.
+using WideSection = wide_kernel::Section<Number>;
+
+HWY_INLINE WideSection wide(const kernel::Section<double>& map) {
+  return {static_cast<wide_kernel::Backbone>(map.backbone), Number(map.length), Number(map.gain),
+          Number(map.per_gain), Number(map.half)};
+}
+
+template <wide_kernel::Model model>
+void changes_of(const SerialWorkspace& maps, const double* bends, double* changes, std::size_t poses,
+                std::size_t at) {
+  wide_kernel::Pull<Number> sum{Number(0.0), Number(0.0), Number(0.0)};
+  std::size_t tendon = 0;
+  for (std::size_t m = 0; m < maps.maps.size(); ++m) {
+    const wide_kernel::Bend<Number> bend{Number(hn::LoadU(tag, bends + 2 * m * poses + at)),
+                                         Number(hn::LoadU(tag, bends + (2 * m + 1) * poses + at))};
+    sum = sum + wide_kernel::pull<model>(wide(maps.maps[m]), bend);
+    for (int i = 0; i < maps.tendons[m]; ++i, ++tendon) {
+      const auto& d = maps.directions[tendon];
+      const wide_kernel::Direction<Number> direction{Number(d.cosine), Number(d.sine)};
+      hn::StoreU(wide_kernel::tendon_change(sum, direction).v, tag, changes + tendon * poses + at);
+    }
+  }
+}
+
+/// Whole packs first; the last one overlaps them where the poses do not fill it. Fewer poses than lanes are
+/// padded.
+template <wide_kernel::Model model>
+void sweep(const SerialWorkspace& maps, std::span<const double> bends, std::span<double> changes,
+           std::size_t poses) {
+  const std::size_t lanes = hn::Lanes(tag);
+  if (poses < lanes) {
+    std::vector<double> padded(bends.size() / poses * lanes), out(changes.size() / poses * lanes);
+    for (std::size_t k = 0; k < bends.size(); ++k) padded[k / poses * lanes + k % poses] = bends[k];
+    changes_of<model>(maps, padded.data(), out.data(), lanes, 0);
+    for (std::size_t k = 0; k < changes.size(); ++k) changes[k] = out[k / poses * lanes + k % poses];
+    return;
+  }
+  for (std::size_t at = 0; at + lanes <= poses; at += lanes)
+    changes_of<model>(maps, bends.data(), changes.data(), poses, at);
+  if (poses % lanes != 0) changes_of<model>(maps, bends.data(), changes.data(), poses, poses - lanes);
+}
+
+void TendonChanges(const SerialWorkspace& maps, kernel::Model model, std::span<const double> bends,
+                   std::span<double> changes, std::size_t poses) {
+  if (model == kernel::Model::exact)
+    sweep<wide_kernel::Model::exact>(maps, bends, changes, poses);
+  else
+    sweep<wide_kernel::Model::linear>(maps, bends, changes, poses);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sinew::inline v0
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sinew::inline v0 {
+
+HWY_EXPORT(TendonChanges);
+
+void tendon_changes_batch(std::span<const double> bends, kernel::Model model, std::span<double> changes,
+                          const SerialWorkspace& work) {
+  const std::size_t poses = bends.size() / (2 * work.bends.size());
+  SINEW_EXPECTS(bends.size() == poses * 2 * work.bends.size() &&
+                changes.size() == poses * work.changes.size());
+  if (poses > 0) HWY_DYNAMIC_DISPATCH(TendonChanges)(work, model, bends, changes, poses);
+}
+
+}  // namespace sinew::inline v0
+#endif

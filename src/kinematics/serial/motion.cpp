@@ -1,0 +1,47 @@
+/// Poses of a serial robot's sections and the Jacobian of its tip.
+#include "sinew/base/assert.hpp"
+#include "sinew/kinematics/serial.hpp"
+
+namespace sinew::inline v0 {
+
+void section_ends(const SerialRobot& robot, std::span<const Bend> bends, SerialWorkspace& work) {
+  SINEW_EXPECTS(bends.size() == work.ends.size());
+  BentPose<double> end;
+  for (std::size_t m = 0; m < bends.size(); ++m) {
+    end = end.then(robot.sections[m].pose(bends[m]));
+    work.ends[m] = end.rigid();
+  }
+}
+
+/// A section's columns are first those of a point of the tip that is at the base's origin, and are carried to
+/// the tip when it is known where that is.
+void tip_motion(const SerialRobot& robot, std::span<const Bend> bends, SerialWorkspace& work) {
+  SINEW_EXPECTS(bends.size() == work.ends.size());
+  const std::size_t columns = 2 * bends.size();
+  double* const J = work.J.data();
+  BentPose<double> end;
+  for (std::size_t m = 0; m < bends.size(); ++m) {
+    const BentMotion<double> section = robot.sections[m].motion(bends[m]);
+    const detail::Turn<double> base(end.w, end.v);
+    double arm[3];
+    base.apply(section.pose.p, arm);
+    end = end.then(section.pose, arm);
+    work.ends[m] = end.rigid();
+    detail::Abreast<double> shift[3], turn[3];
+    base.apply(section.shift, shift);
+    base.apply(section.turn, turn);
+    const double back[3] = {-end.p[0], -end.p[1], -end.p[2]};
+    for (int i = 0; i < 3; ++i) {
+      detail::carried(shift[i], turn, back, i).store(J + static_cast<std::size_t>(i) * columns + 2 * m);
+      turn[i].store(J + static_cast<std::size_t>(i + 3) * columns + 2 * m);
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t k = (i + 1) % 3, l = (i + 2) % 3;
+    const double *turn_k = J + (3 + k) * columns, *turn_l = J + (3 + l) * columns;
+    for (std::size_t j = 0; j < columns; ++j)
+      J[i * columns + j] += turn_k[j] * end.p[l] - turn_l[j] * end.p[k];
+  }
+}
+
+}  // namespace sinew::inline v0

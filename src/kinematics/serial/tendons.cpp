@@ -1,0 +1,188 @@
+/// Bends and tendon changes of serial robots, by the kernel's maps.
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/base/assert.hpp"
+#include "sinew/kernel/tendon_state.h"
+#include "sinew/kinematics/serial.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+using kernel::Model;
+using Pull = kernel::Pull<double>;
+
+Pull pull_of(const kernel::Section<double>& section, const Bend& bend, Model model) {
+  const kernel::Bend<double> b{bend.x(), bend.y()};
+  return model == Model::exact ? kernel::exact_pull(section, b) : kernel::linear_pull(section, b);
+}
+
+void name_section(FixedText<240>& text, std::size_t section) {
+  text = {};
+  text.append("sections[");
+  append_number(text, static_cast<int>(section));
+  text.append("]");
+}
+
+/// The first tendon that has as much as the extreme one; rounding does not choose between equals.
+int first_as(std::span<const double> slack, double extreme) {
+  const auto is_as = [&](double one) { return std::abs(one - extreme) <= 1e-9 * std::abs(extreme); };
+  return static_cast<int>(std::ranges::find_if(slack, is_as) - slack.begin());
+}
+
+void say_tendon(Report& report, Status status, std::size_t section, int tendon, double length,
+                std::string_view what) {
+  report.status = status;
+  name_section(report.message, section);
+  report.message.append(": tendon ");
+  append_number(report.message, tendon);
+  report.message.append(" is ");
+  append_mm(report.message, length);
+  report.message.append(what);
+}
+
+/// What the tendons of a section say, if it is worse than what was found before.
+void judge_tendons(std::size_t m, std::span<const double> slack, double tolerance, Report& report) {
+  const auto [least, most] = std::ranges::minmax(slack);
+  if (kernel::tendon_state(least, tolerance) == kernel::TendonState::over_tensioned)
+    say_tendon(report, Status::unreachable, m, first_as(slack, least), -least,
+               " too short for any bend: its tendons contradict one another (over-tensioned)");
+  else if (report.ok() && kernel::tendon_state(most, tolerance) == kernel::TendonState::slack)
+    say_tendon(report, Status::slack, m, first_as(slack, most), most,
+               " longer than the bend needs: it is slack, and the bend not determined");
+}
+
+/// Whether joints can have chords of the section's pull: |2 sin(β/2)| ≤ 2, a little more by rounding.
+bool has_arcs(const Section& section, const kernel::Section<double>& map, double x, double y) {
+  const double a = x * map.per_gain * map.half, b = y * map.per_gain * map.half, whole = 1 + 1e-12;
+  return section.is_twin() ? std::abs(a) <= whole && std::abs(b) <= whole : std::hypot(a, b) <= whole;
+}
+
+}  // namespace
+
+SerialWorkspace::SerialWorkspace(const SerialRobot& robot)
+    : bends(robot.sections.size(), Bend::Zero()),
+      changes(static_cast<std::size_t>(robot.tendon_count())),
+      slack(changes.size()),
+      ends(bends.size()),
+      J(12 * bends.size()),
+      K(changes.size() * 2 * bends.size()) {
+  for (const Section& section : robot.sections) {
+    maps.push_back(section.map());
+    tendons.push_back(section.tendons);
+    for (int i = 0; i < section.tendons; ++i) directions.push_back(section.direction(i));
+  }
+}
+
+void tendon_changes(std::span<const Bend> bends, Model model, SerialWorkspace& work) {
+  Pull sum{};
+  auto direction = work.directions.begin();
+  auto change = work.changes.begin();
+  for (std::size_t m = 0; m < work.maps.size(); ++m) {
+    sum = sum + pull_of(work.maps[m], bends[m], model);
+    for (int i = 0; i < work.tendons[m]; ++i) *change++ = kernel::tendon_change(sum, *direction++);
+  }
+}
+
+double tendon_tolerance(const SerialRobot& robot) {
+  return std::max(robot.tolerance, 1e-12 * robot.length());
+}
+
+Report check_limits(const SerialRobot& robot, std::span<const Bend> bends) {
+  Report report;
+  for (std::size_t m = 0; m < bends.size() && report.ok(); ++m) {
+    const Section& section = robot.sections[m];
+    const double bend = section.is_twin() ? bends[m].lpNorm<Eigen::Infinity>() : bends[m].norm();
+    if (bend <= section.limit * (1 + 1e-12)) continue;
+    report.status = Status::left_domain;
+    name_section(report.message, m);
+    report.message.append(section.is_twin() ? " bends its joints by " : " bends by ");
+    append_degrees(report.message, bend);
+    report.message.append(", its limit is ");
+    append_degrees(report.message, section.limit);
+  }
+  return report;
+}
+
+Report bends_of_changes(const SerialRobot& robot, Numbers changes, Model model, SerialWorkspace& work) {
+  SINEW_EXPECTS(changes.size() == work.changes.size());
+  std::copy(changes.begin(), changes.end(), work.changes.begin());
+  Report report;
+  const double tolerance = tendon_tolerance(robot);
+  Pull asked{}, needed{};
+  std::size_t first = 0;
+  for (std::size_t m = 0; m < work.maps.size(); ++m) {
+    const auto count = static_cast<std::size_t>(work.tendons[m]);
+    const std::span<double> slack(work.slack.data() + first, count);
+    const auto* directions = work.directions.data() + first;
+    const Pull sum = kernel::nearest_pull(work.changes.data() + first, directions, work.tendons[m]);
+    const double x = sum.x - asked.x, y = sum.y - asked.y;
+    const auto bend = model == Model::exact ? kernel::exact_bend(work.maps[m], x, y)
+                                            : kernel::linear_bend(work.maps[m], x, y);
+    work.bends[m] = {bend.x, bend.y};
+    asked = sum;
+    needed = needed + pull_of(work.maps[m], work.bends[m], model);
+    for (std::size_t i = 0; i < count; ++i)
+      slack[i] = kernel::tendon_slack(work.changes[first + i], needed, directions[i]);
+    if (model == Model::exact && report.status != Status::unreachable &&
+        !has_arcs(robot.sections[m], work.maps[m], x, y)) {
+      report.status = Status::unreachable;
+      name_section(report.message, m);
+      report.message.append(" would have to bend a joint by more than half a turn");
+    }
+    if (report.status != Status::unreachable) judge_tendons(m, slack, tolerance, report);
+    first += count;
+  }
+  if (report.status == Status::unreachable) return report;
+  const Report limits = check_limits(robot, work.bends);
+  return limits.ok() ? report : limits;
+}
+
+namespace {
+
+/// ∂pull/∂bend, one column a component of the bend.
+struct PullRate {
+  Mat<double, 2, 2> bend;  ///< of x and y
+  Vec2<double> common;
+};
+
+/// With h the half angle a joint has of a bend b and s = sinc: ∂s/∂b = −sinc_slope(h)·(h/b)²·b.
+PullRate pull_rate(const kernel::Section<double>& section, const Bend& bend, Model model) {
+  const double g = section.gain;
+  PullRate rate{Mat<double, 2, 2>(Mat<double, 2, 2>::Identity() * g), Vec2<double>::Zero()};
+  if (model == Model::linear) return rate;
+  const Vec2<double> half = section.half * bend;
+  if (section.backbone == kernel::Backbone::neutral) {
+    const double angle = half.norm();
+    const Vec2<double> s_rate = -sinc_slope(angle) * section.half * half;
+    rate.bend = g * (sinc(angle) * Mat<double, 2, 2>::Identity() + bend * s_rate.transpose());
+    rate.common = section.length * s_rate;
+  } else {
+    for (int j = 0; j < 2; ++j) {
+      rate.bend(j, j) = g * std::cos(half[j]);
+      rate.common[j] = -0.5 * section.length * sinc_slope(half[j]) * section.half * half[j];
+    }
+  }
+  return rate;
+}
+
+}  // namespace
+
+void tendon_rates(std::span<const Bend> bends, Model model, SerialWorkspace& work) {
+  std::fill(work.K.begin(), work.K.end(), 0.0);
+  const std::size_t columns = 2 * work.maps.size();
+  for (std::size_t k = 0; k < work.maps.size(); ++k) {
+    const PullRate rate = pull_rate(work.maps[k], bends[k], model);
+    std::size_t row = 0;
+    for (std::size_t m = 0; m < work.maps.size(); ++m)
+      for (int i = 0; i < work.tendons[m]; ++i, ++row) {
+        if (m < k) continue;
+        const auto& at = work.directions[row];
+        const Vec2<double> change = rate.common - rate.bend.transpose() * Vec2<double>(at.cosine, at.sine);
+        work.K[row * columns + 2 * k] = change[0];
+        work.K[row * columns + 2 * k + 1] = change[1];
+      }
+  }
+}
+
+}  // namespace sinew::inline v0
