@@ -18,5 +18,11 @@ Expected<Reproduction> tripod_fig4(const StudyItem& item, const std::filesystem:
 Expected<Reproduction> tripod_fig5(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tripod_fig6(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tripod_fig7(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> lsk_fig3(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> lsk_fig4(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> lsk_fig5(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> lsk_fig6(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> lsk_fig7(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> lsk_numbers(const StudyItem& item, const std::filesystem::path& folder);
 
 }  // namespace sinew::inline v0

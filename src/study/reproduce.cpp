@@ -19,9 +19,16 @@ constexpr std::array items{
               "Singularity loci of the 3PRS over its tilts: of inverse and of forward kinematics"},
     StudyItem{"3pfs/fig6", "Norm of the inverse kinematics' Jacobian of the 3PRS over its tilts"},
     StudyItem{"3pfs/fig7", "Norm of the forward kinematics' Jacobian of the 3PRS over its tilts"},
+    StudyItem{"lsk/fig3", "Length of a tendon past one joint: constant curvature and linearised"},
+    StudyItem{"lsk/fig4", "How the diagram of a section is built: vector and frontier of a tendon"},
+    StudyItem{"lsk/fig5", "Tendons that agree on one bend, on many, on none, or beyond the limits only"},
+    StudyItem{"lsk/fig6", "The diagram of a section with a neutral backbone, in polar coordinates"},
+    StudyItem{"lsk/fig7", "Relative error of the linearised length and the parabola through it"},
+    StudyItem{"lsk/numbers", "Numbers derived in the text: sizes, travel, evaluations, errors, misprints"},
 };
 constexpr std::array<StudyFunction, items.size()> functions{
-    tdpcr_fig8, tdpcr_fig9, tdpcr_fig10, tripod_fig4, tripod_fig5, tripod_fig6, tripod_fig7};
+    tdpcr_fig8, tdpcr_fig9, tdpcr_fig10, tripod_fig4, tripod_fig5, tripod_fig6, tripod_fig7,
+    lsk_fig3,   lsk_fig4,   lsk_fig5,    lsk_fig6,    lsk_fig7,    lsk_numbers};
 
 /// A bar would end the cell, and a line break the table.
 std::string cell(const std::string& text) {
