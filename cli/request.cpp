@@ -94,6 +94,9 @@ class Request {
   void twist(const Robot& robot);
   void wrench(const Robot& robot);
   void until(const Robot& robot);
+  void per_section(std::string_view key, Dimension dimension);
+  void quantity(std::string_view option, Dimension dimension);
+  void vector(std::string_view option, Dimension dimension);
   void signs(std::string_view key);
   void curvature();
   void word(std::string_view option, std::string_view key);
@@ -287,6 +290,44 @@ void Request::until(const Robot& robot) {
   if (!list.empty()) member("until", fmt::format(R"({{"wrench": {}, "limit": {}}})", list, si_text(*most)));
 }
 
+/// Some values for each section, sections apart by semicolons; of one section they are a plain list where the
+/// query takes that for the section's own.
+void Request::per_section(std::string_view key, Dimension dimension) {
+  const std::string* given = arguments_.text(key);
+  if (!given) return;
+  std::string list;
+  std::string_view rest = *given;
+  std::size_t sections = 0;
+  for (bool more = true; more; ++sections) {
+    const std::size_t end = rest.find(';');
+    const auto parts = split(rest.substr(0, end));
+    const std::vector<Dimension> dimensions(parts.size(), dimension);
+    list += (sections ? ", " : "") + json_list(values(key, parts, dimensions));
+    more = end != std::string_view::npos;
+    if (more) rest.remove_prefix(end + 1);
+  }
+  const bool is_own = sections == 1 && arguments_.verb == "diagram";
+  member(key, is_own ? list : "[" + list + "]");
+}
+
+void Request::quantity(std::string_view option, Dimension dimension) {
+  const std::string* given = arguments_.text(option);
+  if (!given) return;
+  const Expected<double> value = parse_quantity(*given, dimension);
+  if (value) return member(option, si_text(*value));
+  fail(value.error().front().code, option, value.error().front().message);
+}
+
+void Request::vector(std::string_view option, Dimension dimension) {
+  const std::string* given = arguments_.text(option);
+  if (!given) return;
+  const auto parts = split(*given);
+  if (parts.size() != 3)
+    return fail("wrong_length", option,
+                fmt::format("{}; it has three, x, y, z.", counted(*given, parts.size())));
+  member(option, json_list(values(option, parts, std::vector<Dimension>(3, dimension))));
+}
+
 void Request::signs(std::string_view key) {
   const std::string* given = arguments_.text(key);
   if (!given) return;
@@ -373,7 +414,18 @@ Expected<Robot> open(const Arguments& arguments) {
   return Robot{std::move(*session), std::move(description), std::move(inputs), is_spatial, is_on_rods};
 }
 
+Expected<Robot> open_with_platform(const Arguments& arguments) {
+  auto robot = open(arguments);
+  if (robot && is_serial(*robot))
+    return tl::unexpected(
+        Errors{{"not_available", "",
+                fmt::format("{} is a serial robot; {} is for robots with a platform in this version",
+                            robot->description.text("robot"), arguments.verb)}});
+  return robot;
+}
+
 std::string at_home(const Robot& robot) {
+  if (is_serial(robot)) return R"("configuration": [])";  // straight
   const Node& home = *robot.description.find("home");
   if (!robot.is_on_rods) return fmt::format(R"("pose": {})", as_json(home));
   const auto number_at = [&](std::string_view path) { return si_text(number(home, path)); };
@@ -387,7 +439,9 @@ Expected<std::string> request(std::string_view query, const Arguments& arguments
   request.independent();
   request.poses(robot);
   request.inputs("inputs", robot);
-  if (query == "inverse" || query == "track")
+  if (is_serial(robot))
+    request.per_section("start", Dimension::angle);
+  else if (query == "inverse" || query == "track")
     request.inputs("start", robot);
   else
     request.pose("start", robot);
@@ -396,7 +450,20 @@ Expected<std::string> request(std::string_view query, const Arguments& arguments
   request.curvature();
   request.twist(robot);
   request.wrench(robot);
-  request.until(robot);
+  if (query == "diagram") {
+    request.word("envelope", "envelope");
+    const std::string* envelope = arguments.text("envelope");
+    request.quantity("limit", envelope && *envelope == "actuator" ? Dimension::length : Dimension::angle);
+    request.whole_number("section", "section");
+  } else {
+    request.until(robot);
+  }
+  request.per_section("configuration", Dimension::angle);
+  request.per_section("changes", Dimension::length);
+  request.per_section("measured", Dimension::length);
+  request.quantity("tolerance", Dimension::length);
+  request.vector("position", Dimension::length);
+  request.vector("direction", Dimension::number);
   request.words("want");
   request.word("objective", "objective");
   request.word("model", "model");

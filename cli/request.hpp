@@ -27,9 +27,11 @@ struct Robot {
 };
 /// The robot that the command line names, as `--set` and `--theta-is` change it.
 Expected<Robot> open(const Arguments& arguments);
+/// The same; an error where that is a serial robot.
+Expected<Robot> open_with_platform(const Arguments& arguments);
 
-/// The members of a query about the robot's home: its `pose`, of a robot on rods its `independent`
-/// coordinates.
+/// The members of a query about the robot's home: its `pose`, of a serial robot `configuration`, of a robot
+/// on rods its `independent` coordinates.
 std::string at_home(const Robot& robot);
 
 /// The query that the options of a verb stand for (`--pose "10 mm, 0, 5 deg"`, `--set path=value`, ...), as

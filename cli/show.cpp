@@ -209,6 +209,7 @@ std::string show_report(const Answer& answer) {
   report.residual = answer.number("residual").value_or(0);
   report.iterations = static_cast<int>(answer.number("iterations").value_or(0));
   std::string text = to_string(report);
+  if (!answer.number("residual")) text = "converged";  // in closed form
   if (is_on_rods(answer)) {
     text.resize(text.size() - 2);  // a residual of rods is relative, and has no unit
     text += ", stable";            // else the answer is not a converged one

@@ -41,6 +41,17 @@ std::string show_equilibria(const Answer& answer);
 std::string show_rod_velocity(const Answer& answer, const Robot& robot);
 /// @}
 
+/// @name Serial robots
+/// @{
+bool is_serial(const Robot& robot);
+/// What it is made of.
+std::string show_serial_robot(const Robot& robot);
+/// Sections and their ends; of velocity J, K and indices.
+std::string show_serial(const Answer& answer, const Robot& robot);
+/// Class, slack, polygons of one section's diagram.
+std::string show_diagram(const Answer& answer, const Robot& robot, std::size_t section);
+/// @}
+
 /// J, K, U, indices, singularities.
 std::string show_velocity(const Answer& answer, const Robot& robot);
 /// U, or what has its form.

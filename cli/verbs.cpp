@@ -18,6 +18,18 @@ constexpr std::array options{
     Option{"independent", "\"Z, E1, E2\"",
            "in place of --pose where hinges hold the platform in planes, or rods hold it: height and two "
            "components of its quaternion; a fourth value, half_turn, is the mode with E0 = 0 of hinges"},
+    Option{"configuration", "\"A, B; ...\"",
+           "of a serial robot two angles a section: theta, phi of a neutral backbone, beta_1, beta_2 of twin "
+           "pivots; "
+           "sections not given are straight"},
+    Option{"position", "\"X, Y, Z\"", "of a serial robot's tip"},
+    Option{"direction", "\"X, Y, Z\"", "in which a serial robot's tip points"},
+    Option{"changes", "\"A, B, C; ...\"",
+           "of a serial robot the change of each tendon, > 0 pays out, section after section"},
+    Option{"measured", "\"A, B, C; ...\"", "changes that encoders read, beside those commanded"},
+    Option{"section", "N", "which section, from 0"},
+    Option{"tolerance", "LENGTH", "of a tendon before it counts as slack or too short; default the file's"},
+    Option{"envelope", "NAME", "bends a section is allowed: square, disc or actuator; default its limit"},
     Option{"from", "\"X, Y, PHI\"", "first pose of a path, written like --pose"},
     Option{"to", "\"X, Y, PHI\"", "last pose of a path"},
     Option{"poses", "FILE", "the path as a table: a .csv file of poses"},
@@ -38,11 +50,13 @@ constexpr std::array options{
     Option{"want", "NAME,NAME", "of a robot on rods: stiffness, stability, margins, sensitivity"},
     Option{"until", "\"FX, FY, FZ, MX, MY, MZ\"",
            "add this wrench again and again until the robot buckles, or --limit is reached"},
-    Option{"limit", "N", "how many times --until adds its wrench at most"},
+    Option{"limit", "N", "how many times --until adds its wrench at most; of diagram the envelope's size"},
     Option{"all", "", "every solution, not only the one wanted"},
     Option{"max-iterations", "N", "most iterations of the solver; default 100, of rods 4000"},
     Option{"model", "NAME",
-           "model of the legs: cc (constant curvature), rigid, rod (Kirchhoff); a robot has one"},
+           "model of the legs: cc (constant curvature), rigid, rod (Kirchhoff); a robot has one. Of the "
+           "tendons of a serial "
+           "robot: pcc (exact) or lsk (linearised)"},
     Option{"set", "PATH=VALUE", "change the robot, e.g. \"legs[0].link.length=180 mm\"; may be repeated", 0,
            true},
     Option{"output", "FILE",
@@ -70,9 +84,9 @@ const std::array table{
         "forward",
         "ROBOT",
         "pose of the platform from the inputs",
-        {"inputs", "start", "wrench", "want", "until", "limit", "all", "theta-is", "max-iterations", "model",
-         "set", "json", "quiet", "help"},
-        {"inputs"},
+        {"inputs", "configuration", "changes", "start", "wrench", "want", "until", "limit", "all", "theta-is",
+         "max-iterations", "model", "set", "json", "quiet", "help"},
+        {"inputs", "configuration", "changes"},
         "Newton's method from the start; --all finds the other assembly modes too. Exit code 3 where the\n"
         "legs do not close, 4 where the iterations ran out. A platform on rods comes to rest under a load:\n"
         "  sinew forward 3pfs-g2 --inputs \"0.44 m, 0.42 m, 0.41 m\" --wrench \"1 N, -0.5 N, -5 N, 0, 0, 0\" "
@@ -81,31 +95,35 @@ const std::array table{
         "200\n"
         "There --all finds equilibria, stable or not. One that does not hold by itself is shown, and the "
         "exit\n"
-        "code is 3.",
+        "code is 3. A serial robot takes its configuration, or the changes of its tendons:\n"
+        "  sinew forward nottingham-tpcj --configuration \"10 deg, 5 deg; 0, -10 deg\"",
         "sinew forward 3-rfr --inputs \"0.19 m, 190 mm, 0.188\"",
         run_question},
     Verb{
         "inverse",
         "ROBOT",
         "inputs from the pose of the platform",
-        {"pose", "independent", "bending", "elbow", "curvature", "start", "wrench", "want", "all", "theta-is",
-         "model", "set", "json", "quiet", "help"},
-        {"pose", "independent"},
+        {"pose", "independent", "position", "direction", "bending", "elbow", "curvature", "start", "wrench",
+         "want", "all", "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
+        {"pose", "independent", "position"},
         "Of several solutions the one that bends least is taken, positive where both signs do; with --start "
         "the "
         "one\n"
         "nearest to those inputs. In space: sinew inverse 6-ufs --pose \"0, 0, 180 mm, 0, 10 deg, 0\"\n"
         "A platform that hinges hold in planes: sinew inverse 3prs --independent \"0.54 m, 0.1, 0.05\"\n"
         "One on rods: sinew inverse 3pfs-g2 --independent \"0.39 m, 0.1, 0.05\" --wrench \"0, 0, -5 N, 0, 0, "
-        "0\"",
+        "0\"\n"
+        "The tip of a serial robot: sinew inverse nottingham-tpcj --position \"60 mm, 20 mm, 120 mm\" "
+        "--direction \"1, "
+        "0, 1\"",
         "sinew inverse 3-rfr --pose \"10 mm, -5 mm, 10 deg\" --bending \"+,-,+\"",
         run_question},
     Verb{"analyse",
          "ROBOT",
          "velocity equations, sensitivities and singularities at a configuration",
-         {"pose", "independent", "bending", "elbow", "curvature", "inputs", "start", "wrench", "twist",
-          "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
-         {"pose", "independent", "inputs"},
+         {"pose", "independent", "bending", "elbow", "curvature", "inputs", "configuration", "changes",
+          "start", "wrench", "twist", "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
+         {"pose", "independent", "inputs", "configuration", "changes"},
          "Give a pose, or inputs, or both. J·(platform velocity) = K·(input rates) is printed in SI as in "
          "the paper,\n"
          "U = J⁻¹K in mm and degrees. A singular configuration is shown, and the exit code is 3. Of a robot "
@@ -115,6 +133,21 @@ const std::array table{
          "rest.",
          "sinew analyse 3-rfr --pose \"10 mm, -5 mm, 10 deg\" --twist \"5 mm/s, 0, 2 deg/s\"",
          run_question},
+    Verb{"diagram",
+         "ROBOT",
+         "what the tendons of one section of a serial robot leave it free to do",
+         {"section", "changes", "measured", "model", "tolerance", "envelope", "limit", "output", "set",
+          "json", "quiet", "help"},
+         {"changes"},
+         "Exact: the tendons agree on one bend. Indeterminate: some are slack, the section can be anywhere "
+         "in the "
+         "polygon.\nInconsistent: they are too short for any bend. Unreachable: they agree beyond the "
+         "envelope only. "
+         "Changes are\nthose of the section, or of all sections up to it. What drives with exact lengths "
+         "says --model "
+         "pcc.\nWith -o the diagram is drawn.",
+         "sinew diagram nottingham-tpcj --section 0 --changes \"-1.1 mm, 2 mm, -0.5 mm\"",
+         run_diagram},
     Verb{
         "track",
         "ROBOT",
@@ -182,12 +215,13 @@ const std::array table{
     Verb{"plot",
          "RESULT|ROBOT",
          "a figure of a table of results, or of a robot",
-         {"output", "x", "y", "log-y", "title", "pose", "independent", "bending", "elbow", "curvature",
-          "inputs", "start", "wrench", "theta-is", "model", "set", "quiet", "help"},
+         {"output",  "x",        "y",         "log-y",  "title",         "pose",    "independent",
+          "bending", "elbow",    "curvature", "inputs", "configuration", "changes", "start",
+          "wrench",  "theta-is", "model",     "set",    "quiet",         "help"},
          {"output"},
          "RESULT is a .csv file with headings like x[m]. A robot is drawn at a pose or at inputs, default "
          "its home;\n"
-         "a spatial one from the front and from above.\n"
+         "a spatial one from the front and from above, a serial one from the front and from the side.\n"
          "The figure is an .svg, .png or .pdf; the gnuplot script beside it draws it again.",
          "sinew plot 3-rfr --pose \"10 mm, -5 mm, 10 deg\" -o fig.svg",
          run_plot},

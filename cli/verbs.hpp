@@ -60,6 +60,7 @@ std::string help_units();
 /// @name What the verbs do; the answer is the exit code
 /// @{
 int run_question(const Arguments& arguments);  ///< forward, inverse, analyse
+int run_diagram(const Arguments& arguments);
 int run_track(const Arguments& arguments);
 int run_map(const Arguments& arguments);
 int run_query(const Arguments& arguments);

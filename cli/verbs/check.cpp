@@ -295,6 +295,10 @@ int run_check(const Arguments& arguments) {
     if (arguments.has("json")) print(json_error(robot.error()) + '\n');
     return refuse(arguments.verb, robot.error());
   }
+  if (is_serial(*robot)) {
+    print(arguments.has("json") ? robot->description.line + '\n' : show_serial_robot(*robot));
+    return solved;
+  }
   const Checked checked = put_questions(std::move(*robot));
   print(arguments.has("json") ? checked.robot.description.line + '\n' : show(checked));
   if (!arguments.has("quiet")) warn(checked);

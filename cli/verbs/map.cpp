@@ -203,7 +203,7 @@ Errors refuse_file(const std::string& file, const PoseGrid& grid, const std::vec
 }  // namespace
 
 int run_map(const Arguments& arguments) {
-  auto opened = open(arguments);
+  auto opened = open_with_platform(arguments);
   if (!opened) return refuse("map", opened.error());
   if (opened->is_on_rods)
     return refuse("map",

@@ -31,6 +31,7 @@ constexpr std::array kinds{
     Kind{"two-legged", "two-legged",
          "planar, legs listed, fully determined: a pinned link on a motor and a chord"},
     Kind{"four-legged", "four-legged", "planar, legs listed, redundantly constrained: four chords"},
+    Kind{"serial", "serial", "sections one after the other, bent by tendons, 3 or more inputs each"},
     Kind{"spatial", "spatial", "legs listed: six links in pairs from three shared base points"},
 };
 

@@ -3,24 +3,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
+#include "figure_file.hpp"
 #include "request.hpp"
+#include "show.hpp"
 #include "sinew/io/figure.hpp"
 #include "sinew/io/table.hpp"
+#include "sinew/math/so3.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {
 namespace {
-
-constexpr std::array formats{FigureFormat::svg, FigureFormat::png, FigureFormat::pdf};
-
-/// The format an extension names.
-const FigureFormat* format_of(const std::filesystem::path& file) {
-  const auto found = std::ranges::find_if(formats, [&](FigureFormat format) {
-    return file.extension() == fmt::format(".{}", extension(format));
-  });
-  return found == formats.end() ? nullptr : &*found;
-}
 
 /// The two coordinates that a panel shows.
 struct View {
@@ -79,8 +74,65 @@ Panel picture(const Answer& shape, const View& view, const Node& legs) {
   return panel;
 }
 
-/// A spatial robot from the front and from above.
+/// Rim of a disc in the base frame, its proximal face and then its distal one.
+Node rim(const Node& disc) {
+  const auto p = numbers(at(disc, "pose.position")), q = numbers(at(disc, "pose.quaternion"));
+  const SO3<double> turn{q.at(0), Vec3<double>(q.at(1), q.at(2), q.at(3))};
+  Node points;
+  points.kind = Node::Kind::list;
+  constexpr int corners = 24;
+  for (const double height : {0.0, number(disc, "height")})
+    for (int k = 0; k <= corners; ++k) {
+      const double angle = 2 * std::numbers::pi * k / corners, radius = number(disc, "radius");
+      const Vec3<double> corner =
+          turn.rotate(Vec3<double>(radius * std::cos(angle), radius * std::sin(angle), height));
+      Node point;
+      point.kind = Node::Kind::list;
+      for (std::size_t i = 0; i < 3; ++i)
+        point.items.push_back(make_node(p.at(i) + corner[static_cast<Eigen::Index>(i)]));
+      points.items.push_back(std::move(point));
+    }
+  return points;
+}
+
+/// A serial robot: backbone by sections, discs, tendons.
+Panel serial_picture(const Answer& shape, const View& view) {
+  Panel panel{.title = {},
+              .x = {.label = std::string(view.x_name), .unit = "mm"},
+              .y = {.label = std::string(view.y_name), .unit = "mm"},
+              .series = {},
+              .notes = {},
+              .legend = Legend::below,
+              .equal_aspect = true};
+  const auto once = [](std::size_t i, const char* label) {
+    return i == 0 ? std::string(label) : std::string();
+  };
+  const auto& discs = shape.find("discs")->items;
+  for (std::size_t i = 0; i < discs.size(); ++i)
+    panel.series.push_back(curve(rim(discs[i]), view, Mark::line, Colour::grey, 0.8, once(i, "disc")));
+  const auto& sections = shape.find("tendons")->items;
+  for (std::size_t m = 0; m < sections.size(); ++m)
+    for (std::size_t i = 0; i < sections[m].items.size(); ++i)
+      panel.series.push_back(
+          curve(sections[m].items[i], view, Mark::line, Colour::vermillion, 0.6, once(m + i, "tendon")));
+  const auto& backbones = shape.find("backbones")->items;
+  for (std::size_t m = 0; m < backbones.size(); ++m)
+    panel.series.push_back(curve(backbones[m], view, Mark::line, m % 2 == 0 ? Colour::blue : Colour::green,
+                                 2.5, once(m, "backbone")));
+  return panel;
+}
+
+/// A spatial robot from the front and from above; a serial one from the front and from the side.
 Figure picture(const Answer& shape, const Robot& robot) {
+  if (is_serial(robot)) {
+    Figure figure;
+    figure.title = shape.text("robot");
+    figure.panels = {serial_picture(shape, {0, 2, "x", "z"}), serial_picture(shape, {1, 2, "y", "z"})};
+    figure.columns = 2;
+    figure.width = 1400;
+    figure.height = 800;
+    return figure;
+  }
   const Node& legs = *robot.description.find("legs");
   Figure figure;
   figure.title = shape.text("robot");
@@ -104,7 +156,8 @@ std::optional<Figure> robot_figure(const Arguments& arguments, int& exit) {
     exit = refuse("plot", query.error());
     return {};
   }
-  if (!arguments.has("pose") && !arguments.has("independent") && !arguments.has("inputs")) {
+  if (!arguments.has("pose") && !arguments.has("independent") && !arguments.has("inputs") &&
+      !arguments.has("configuration") && !arguments.has("changes")) {
     if (robot->is_on_rods && robot->inputs.size() != 3) {
       exit = refuse(
           "plot",
@@ -201,23 +254,14 @@ int run_plot(const Arguments& arguments) {
     return refuse("plot",
                   {{"missing_result", "RESULT|ROBOT", "what is to be drawn? Give a .csv file or a robot."}});
   const std::string* output = arguments.text("output");
-  const std::filesystem::path file = *output;
-  const FigureFormat* format = format_of(file);
-  if (!format)
-    return refuse("plot", {{"no_figure_format", "--output",
-                            fmt::format("{} the figure's file ends in .svg, .png or .pdf: -o fig.svg.",
-                                        in_quotes(*output) + " names no format;")}});
+  if (const Errors errors = refuse_format(*output); !errors.empty()) return refuse("plot", errors);
   int exit = solved;
   auto figure =
       arguments.operand().ends_with(".csv") ? table_figure(arguments, exit) : robot_figure(arguments, exit);
   if (!figure) return exit;
   if (const std::string* title = arguments.text("title")) figure->title = *title;
-  const auto written =
-      write_figure(*figure, std::filesystem::path(file).replace_extension(), {.formats = {*format}});
-  if (!written) return refuse("plot", written.error());
-  if (!arguments.has("quiet"))
-    for (const auto& path : *written) print(path.string() + '\n');
-  return exit;
+  const int written = write_figure_file(arguments, *figure, *output);
+  return written == solved ? exit : written;
 }
 
 }  // namespace sinew::cli

@@ -9,6 +9,7 @@ namespace sinew::cli {
 namespace {
 
 std::string show(const Answer& answer, const Robot& robot) {
+  if (is_serial(robot)) return show_serial(answer, robot);
   const std::string query = answer.text("query");
   if (query == "velocity") return show_velocity(answer, robot);
   const bool is_forward = query == "forward";
@@ -57,7 +58,8 @@ int run_question(const Arguments& arguments) {
   if (!robot) return refuse_question(arguments, robot.error());
   const auto answer = put(arguments.verb == "analyse" ? "velocity" : arguments.verb, arguments, *robot);
   if (!answer) return refuse_question(arguments, answer.error());
-  const bool can_show = answer->converged() || answer->text("status") == "unstable" || answer->find("J");
+  const bool can_show = answer->converged() || answer->text("status") == "unstable" || answer->find("J") ||
+                        answer->find("configuration");
   return conclude(*answer, arguments, can_show ? show(*answer, *robot) : "");
 }
 

@@ -55,7 +55,7 @@ int run_track(const Arguments& arguments) {
     return refuse_question(arguments,
                            {{"missing_option", "--to",
                              fmt::format("--to is missing. Example: {}", find_verb("track")->example)}});
-  auto robot = open(arguments);
+  auto robot = open_with_platform(arguments);
   if (!robot) return refuse_question(arguments, robot.error());
   const auto answer = put("track", arguments, *robot);
   if (!answer) return refuse_question(arguments, answer.error());

@@ -12,6 +12,7 @@
 #include "sinew/io/parse.hpp"
 #include "sinew/io/read_pose.hpp"
 #include "sinew/io/reader.hpp"
+#include "sinew/io/serial_file.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -437,7 +438,7 @@ void check_head(Reader& robot) {
   if (version.node() && number != 1) version.refuse("unknown_version", "this sinew reads version 1");
   if (const auto kind = robot.optional("kind"))
     if (kind->choice({"parallel", "serial"}) == "serial")
-      kind->refuse("not_available", "serial robots are not available in this version");
+      kind->refuse("not_available", "this reads parallel robots; load_serial reads this one");
 }
 
 /// Every leg written out in full: architecture expanded, defaults merged in.
@@ -503,8 +504,8 @@ Expected<AnyRobot> load(const std::string& path_or_name) {
 
 Expected<Document> with(const Document& document, const std::string& path, Node value) {
   Document changed = document;
-  if (path.starts_with("legs")) {
-    auto longer = listed(document);
+  if (path.starts_with("legs") || path.starts_with("sections[")) {
+    auto longer = is_serial(document) ? expanded_sections(document) : listed(document);
     if (!longer) return longer;
     changed = std::move(*longer);
   }

@@ -15,10 +15,9 @@ namespace sinew::inline v0 {
 
 using Json = nlohmann::ordered_json;
 
-/// One query being answered. A handler reads every field it knows, calls `ready`, and only then computes.
-struct Context {
-  const AnyRobot& robot;
-  Workspace& work;
+/// One query being answered, whatever the robot. A handler reads every field it knows, calls `ready`, and
+/// only then computes.
+struct Question {
   Reader& query;
   Errors& errors;
   Json& answer;
@@ -33,6 +32,12 @@ struct Context {
     answer["status"] = to_string(report.status);
     if (!report.message.empty()) answer["message"] = report.message.view();
   }
+};
+
+/// One put to a robot with a platform.
+struct Context : Question {
+  const AnyRobot& robot;
+  Workspace& work;
 };
 
 /// Branch of an inverse-type question, with the storage its views point to.

@@ -4,32 +4,41 @@
 #include <array>
 
 #include "query/context.hpp"
+#include "query/serial.hpp"
 #include "sinew/io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "sinew/io/serial_file.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-using Handler = void (*)(Context&);
-
+/// A handler is null where the protocol knows the query, but this version does not answer it.
 struct Kind {
   std::string_view name;
-  Handler handler;  // null: known to the protocol, not available in this version
+  void (*handler)(Context&);
+  void (*serial_handler)(SerialContext&);
 };
 
 constexpr std::array kinds{
-    Kind{"forward", answer_forward}, Kind{"inverse", answer_inverse},   Kind{"velocity", answer_velocity},
-    Kind{"shape", answer_shape},     Kind{"describe", answer_describe}, Kind{"statics", nullptr},
-    Kind{"track", answer_track},     Kind{"diagram", nullptr},
+    Kind{"forward", answer_forward, answer_serial_forward},
+    Kind{"inverse", answer_inverse, answer_serial_inverse},
+    Kind{"velocity", answer_velocity, answer_serial_velocity},
+    Kind{"shape", answer_shape, answer_serial_shape},
+    Kind{"describe", answer_describe, answer_serial_describe},
+    Kind{"statics", nullptr, nullptr},
+    Kind{"track", answer_track, nullptr},
+    Kind{"diagram", nullptr, answer_serial_diagram},
 };
 
-const Kind& read_kind(Reader& query) {
+const Kind& read_kind(Reader& query, bool is_serial) {
   std::vector<std::string_view> names;
   for (const Kind& kind : kinds) names.push_back(kind.name);
   const Reader word =
-      query.required("query", "what is asked: forward, inverse, velocity, track, shape or describe");
+      query.required("query", "what is asked: forward, inverse, velocity, track, diagram, shape or describe");
   const Kind& kind = kinds[word.choice_index(names)];
-  if (!kind.handler) word.fail("not_available", std::string(kind.name) + " is not available in this version");
+  if (is_serial ? !kind.serial_handler : !kind.handler)
+    word.fail("not_available", std::string(kind.name) + " is not available " +
+                                   (is_serial ? "of serial robots " : "") + "in this version");
   return kind;
 }
 
@@ -63,43 +72,69 @@ std::string error_text(const Json& id, const Errors& errors) {
   return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// A robot, and the memory for questions to it.
+struct Platform {
+  AnyRobot robot;
+  Workspace work;
+  explicit Platform(AnyRobot any) : robot(std::move(any)), work(robot) {}
+  const std::string& name() const { return robot.name; }
+};
+struct Chain {
+  SerialRobot robot;
+  SerialWorkspace work;
+  explicit Chain(SerialRobot serial) : robot(std::move(serial)), work(robot) {}
+  const std::string& name() const { return robot.name; }
+};
+using Opened = std::variant<Platform, Chain>;
+
+Expected<Opened> open_robot(const Document& document) {
+  if (is_serial(document)) {
+    auto robot = read_serial_robot(document);
+    if (!robot) return tl::unexpected(robot.error());
+    return Opened(std::in_place_type<Chain>, std::move(*robot));
+  }
+  auto robot = read_robot(document);
+  if (!robot) return tl::unexpected(robot.error());
+  return Opened(std::in_place_type<Platform>, std::move(*robot));
+}
+
 }  // namespace
 
 struct Session::State {
   Document document;
-  AnyRobot robot;
-  Workspace work;
+  Opened opened;
 };
 
 namespace {
 
 /// The reading of θ that a query asks for, into every drive that has one.
-void choose_theta(AnyRobot& robot, const Reader& asked, ThetaIs theta_is) {
+void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
   bool found = false;
-  std::visit(
-      [&](auto& r) {
-        for (auto& any : r.legs)
-          with_leg(any, [&](auto& leg) {
-            if constexpr (requires { leg.drive.theta_is; }) {
-              leg.drive.theta_is = theta_is;
-              found = true;
-            }
-          });
-      },
-      robot.model);
+  const auto choose = [&](auto& leg) {
+    if constexpr (requires { leg.drive.theta_is; }) {
+      leg.drive.theta_is = theta_is;
+      found = true;
+    }
+  };
+  if (auto* platform = std::get_if<Platform>(&opened))
+    std::visit(
+        [&](auto& r) {
+          for (auto& any : r.legs) with_leg(any, choose);
+        },
+        platform->robot.model);
   if (!found) asked.fail("no_effect", "has no effect: no leg of this robot has an input theta; remove it");
 }
 
 /// The robot with the query's `set` and `theta_is` applied; null if it has neither, or if (with errors noted)
 /// that gives no robot.
-std::optional<AnyRobot> altered(const Document& document, Reader& query, Errors& errors) {
+std::optional<Opened> altered(const Document& document, Reader& query, Errors& errors) {
   const auto set = query.optional("set");
   const auto theta_is = query.optional("theta_is");
   if (!set && !theta_is) return {};
   if (set) set->members();  // notes it where this is no map
   const auto changed =
       with(document, set ? std::span<const Member>(set->node()->members) : std::span<const Member>());
-  auto robot = changed ? read_robot(*changed) : tl::unexpected(changed.error());
+  auto robot = changed ? open_robot(*changed) : tl::unexpected(changed.error());
   if (!robot) {
     errors.insert(errors.end(), robot.error().begin(), robot.error().end());
     return {};
@@ -116,10 +151,9 @@ Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
 
 Expected<Session> Session::open(Document document) {
-  auto robot = read_robot(document);
+  auto robot = open_robot(document);
   if (!robot) return tl::unexpected(robot.error());
-  Workspace work(*robot);
-  return Session(std::make_unique<State>(State{std::move(document), std::move(*robot), std::move(work)}));
+  return Session(std::make_unique<State>(State{std::move(document), std::move(*robot)}));
 }
 
 Expected<Session> Session::open(const std::string& path) {
@@ -133,23 +167,29 @@ std::string Session::answer(std::string_view text) {
   Errors errors;
   Reader query(*document, errors);
   const Json id = read_id(query);
-  const Kind& kind = read_kind(query);
+  const bool is_chain = std::holds_alternative<Chain>(state_->opened);
+  const Kind& kind = read_kind(query, is_chain);
   if (!errors.empty()) return error_text(id, errors);
-  read_model(query, state_->robot);
-  const std::optional<AnyRobot> other = altered(state_->document, query, errors);
+  if (const auto* platform = std::get_if<Platform>(&state_->opened)) read_model(query, platform->robot);
+  std::optional<Opened> other = altered(state_->document, query, errors);
   if (!errors.empty()) return error_text(id, errors);
-  std::optional<Workspace> other_work;
-  if (other) other_work.emplace(*other);
+  Opened& opened = other ? *other : state_->opened;
 
   Json answer = Json::object();
   if (!id.is_null()) answer["id"] = id;
   answer["query"] = kind.name;
-  answer["robot"] = (other ? *other : state_->robot).name;
-  Context context{
-      other ? *other : state_->robot, other_work ? *other_work : state_->work, query, errors, answer, {}};
+  answer["robot"] = std::visit([](const auto& any) -> const std::string& { return any.name(); }, opened);
+  Question question{query, errors, answer, {}};
   if (const auto limit = query.optional("max_iterations"))
-    context.max_iterations = limit->integer(Range::between(0, 100000));
-  kind.handler(context);
+    question.max_iterations = limit->integer(Range::between(0, 100000));
+  if (auto* chain = std::get_if<Chain>(&opened)) {
+    SerialContext context{question, chain->robot, chain->work};
+    kind.serial_handler(context);
+  } else {
+    auto& platform = std::get<Platform>(opened);
+    Context context{question, platform.robot, platform.work};
+    kind.handler(context);
+  }
   if (!errors.empty()) return error_text(id, errors);
   return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -6,8 +6,11 @@
 #include <cstdlib>
 
 #include "every_robot.hpp"
+#include "serial_robots.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
+#include "sinew/kinematics/resolved_rate.hpp"
+#include "sinew/kinematics/serial_inverse.hpp"
 
 namespace {
 std::atomic<long> allocations{0};
@@ -121,6 +124,34 @@ TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
     none([&] { EXPECT_FALSE(equilibrium(robot, inputs, {.wrench = 1000 * down}, work).is_solved()); });
     inputs[1] = 0.005;  // out of reach
     none([&] { EXPECT_FALSE(equilibrium(robot, inputs, {}, work).is_solved()); });
+  }
+}
+
+TEST(NoHeapOfSerialRobots, FromTendonsToTipAndBack) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer owns malloc";
+#endif
+  for (const char* name : {"nottingham-tpcj", "four-tendon-neutral"}) {
+    const SerialRobot robot = load_serial(name).value();
+    SerialWorkspace work(robot);
+    RateWorkspace rates(robot);
+    std::mt19937 random(4);
+    const std::vector<Bend> bends = random_bends(robot, random);
+    const auto none = [&](auto&& run) { EXPECT_EQ(allocations_of(run), 0) << name; };
+    none([&] { tendon_changes(bends, kernel::Model::exact, work); });
+    std::vector<double> changes = work.changes;
+    none([&] { EXPECT_TRUE(bends_of_changes(robot, changes, kernel::Model::exact, work).ok()); });
+    changes[0] -= 1e-3;
+    none([&] { EXPECT_FALSE(bends_of_changes(robot, changes, kernel::Model::exact, work).ok()); });
+    none([&] { tendon_rates(bends, kernel::Model::exact, work); });
+    none([&] { tip_motion(robot, bends, work); });
+    const SE3<double> tip = work.ends.back();
+    const Vec3<double> axis = tip.rotate(Vec3<double>(0, 0, 1));
+    none([&] { EXPECT_TRUE(inverse(robot, {tip.p}, {}, work).ok()); });
+    none([&] { EXPECT_TRUE(inverse(robot, {tip.p, axis}, {}, work).ok()); });
+    none([&] { EXPECT_TRUE(inverse(robot, {tip.p, {}, tip.R}, {}, work).ok()); });
+    none([&] { EXPECT_FALSE(inverse(robot, {Vec3<double>(1, 0, 0)}, {}, work).ok()); });
+    none([&] { resolved_rate(robot, bends, {{0.01, 0, 0}, {0, 0.1, 0}}, {}, work, rates); });
   }
 }
 

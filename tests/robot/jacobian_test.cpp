@@ -17,7 +17,9 @@ std::vector<std::string> every_robot() {
   for (const std::string_view name : builtin_robot_names()) names.emplace_back(name);
   for (const std::string_view name : robot_template_names())
     names.push_back(std::string(SINEW_SOURCE_DIR) + "/examples/robots/" + std::string(name) + ".yaml");
-  std::erase_if(names, [](const std::string& name) { return bears_load(load(name).value()); });
+  std::erase_if(names, [](const std::string& name) {
+    return is_serial(read_robot_file(name).value()) || bears_load(load(name).value());
+  });
   return names;
 }
 

@@ -5,15 +5,24 @@
 
 #include "planar_robots.hpp"
 #include "random_leg.hpp"
+#include "sinew/io/serial_file.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 
 namespace sinew::test {
 
+/// The built-in robots with a platform.
+inline std::vector<std::string_view> parallel_robot_names() {
+  std::vector<std::string_view> names = builtin_robot_names();
+  std::erase_if(names,
+                [](std::string_view name) { return is_serial(read_robot_file(std::string(name)).value()); });
+  return names;
+}
+
 /// The built-in robots whose legs close on the platform, or those whose legs bear load.
 inline std::vector<std::string> builtin_robots(bool loaded) {
   std::vector<std::string> names;
-  for (const std::string_view name : builtin_robot_names())
+  for (const std::string_view name : parallel_robot_names())
     if (bears_load(load(std::string(name)).value()) == loaded) names.emplace_back(name);
   return names;
 }

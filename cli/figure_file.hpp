@@ -1,0 +1,17 @@
+/// @file figure_file.hpp
+/// A figure into the file that a command line names.
+#pragma once
+#include <string>
+
+#include "sinew/io/figure.hpp"
+#include "verbs.hpp"
+
+namespace sinew::cli {
+
+/// `no_figure_format` where the name ends in none; empty where it does.
+Errors refuse_format(const std::string& file);
+
+/// Draws it and says what was written; the answer is the exit code.
+int write_figure_file(const Arguments& arguments, const Figure& figure, const std::string& file);
+
+}  // namespace sinew::cli

@@ -1,0 +1,26 @@
+/// @file serial_file.hpp
+/// Files of serial robots (`kind: serial`): a list of sections, or one section and how often it comes.
+/// Format: docs/robot-files.md
+#pragma once
+#include <string>
+
+#include "sinew/base/error.hpp"
+#include "sinew/io/node.hpp"
+#include "sinew/robot/serial.hpp"
+
+namespace sinew::inline v0 {
+
+/// Whether a document says `kind: serial`.
+SINEW_API bool is_serial(const Document& document);
+
+/// The serial robot in a file, or the one of that name (`nottingham-tpcj`); or every error of the file at
+/// once, each with its line and column.
+SINEW_API Expected<SerialRobot> load_serial(const std::string& path_or_name);
+
+/// The serial robot a document describes.
+SINEW_API Expected<SerialRobot> read_serial_robot(const Document& document);
+
+/// The same document with `sections: {count, ...}` written out as a list; unchanged if it is one.
+SINEW_API Expected<Document> expanded_sections(const Document& document);
+
+}  // namespace sinew::inline v0

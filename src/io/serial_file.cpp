@@ -1,0 +1,196 @@
+#include "sinew/io/serial_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "sinew/base/limits.hpp"
+#include "sinew/io/quantity.hpp"
+#include "sinew/io/reader.hpp"
+#include "sinew/io/robot_file.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+constexpr int max_segments = 1000, max_tendons = 24;
+
+/// A value where another stood, so that messages name that place.
+Node placed(Node value, const Node& place) {
+  value.line = place.line;
+  value.column = place.column;
+  return value;
+}
+
+/// Angles of tendon 0 of every section [rad]: a list, or `24 deg each`, by which every section is turned
+/// against the one before (the first against the x axis).
+std::vector<double> section_angles(const Reader& angle, std::size_t count) {
+  if (angle.is(Node::Kind::list)) return angle.quantities(Dimension::angle, {}, count);
+  std::vector<double> angles(count, 0.0);
+  const std::string text = angle.node() ? angle.node()->text : std::string();
+  constexpr std::string_view each = " each";
+  const auto turn = text.ends_with(each)
+                        ? parse_quantity(text.substr(0, text.size() - each.size()), Dimension::angle)
+                        : Expected<double>(tl::unexpected(Errors{}));
+  if (!turn) {
+    angle.refuse(
+        "wrong_type",
+        fmt::format(
+            "write how much every section is turned against the one before, \"24 deg each\", or a list "
+            "of {} angles",
+            count));
+    return angles;
+  }
+  for (std::size_t m = 0; m < count; ++m) angles[m] = static_cast<double>(m + 1) * *turn;
+  return angles;
+}
+
+/// One section of the list that a short form stands for.
+Node section_node(const Node& shared, double angle) {
+  Node section = shared;
+  std::erase_if(section.members, [](const Member& member) { return member.key == "count"; });
+  if (Node* tendons = section.find("tendons"))
+    if (Node* place = tendons->find("angle")) *place = placed(make_node(angle), *place);
+  return section;
+}
+
+void read_disc(Reader& section, Section& result) {
+  auto disc = section.optional("disc");
+  if (!disc) return;
+  result.disc_height =
+      disc->required("height").quantity(Dimension::length, {.low = 0, .high = Range::size().high});
+  result.disc_radius = disc->required("radius").quantity(Dimension::length, Range::size());
+  disc->close();
+}
+
+void read_tendons(Reader& section, Section& result) {
+  Reader tendons = section.required("tendons", "{count, radius, angle}");
+  if (const auto count = tendons.optional("count"))
+    result.tendons = count->integer(Range::between(3, max_tendons));
+  const Reader radius = tendons.required("radius", "distance of the tendons from the backbone");
+  result.tendon_radius = radius.quantity(Dimension::length, Range::size());
+  if (result.disc_radius > 0 && radius.node() && result.tendon_radius > result.disc_radius)
+    radius.refuse("out_of_range", fmt::format("the disc's radius is {}: the tendons would run outside it",
+                                              human(result.disc_radius, Dimension::length)));
+  result.tendon_angle =
+      tendons.required("angle", "direction of tendon 0 around the disc").quantity(Dimension::angle);
+  tendons.close();
+}
+
+void read_limit(Reader& section, Section& result) {
+  const auto limit = section.optional("limit");
+  if (!limit) return;
+  const double most = std::numbers::pi * (result.is_twin() ? 1 : result.segments);
+  result.limit = limit->quantity(Dimension::angle, {.low = 0, .high = most, .low_excluded = true});
+}
+
+Section read_section(Reader& section) {
+  Section result;
+  result.backbone = section.required("type", "tpcj or neutral")
+                        .choice_of<kernel::Backbone>(
+                            {{"tpcj", kernel::Backbone::twin_pivot}, {"neutral", kernel::Backbone::neutral}});
+  const Reader segments = section.required("segments", "how many joints, each with a disc");
+  result.segments = segments.integer(Range::between(1, max_segments));
+  if (segments.node() && result.is_twin() && result.segments % 2 == 1)
+    segments.refuse("out_of_range", "twin-pivot joints bend about two axes in turn: give an even number");
+  result.joint = section.required("joint", "length of the backbone in one joint")
+                     .quantity(Dimension::length, Range::size());
+  read_disc(section, result);
+  read_tendons(section, result);
+  read_limit(section, result);
+  section.close();
+  return result;
+}
+
+void read_actuation(Reader& robot, SerialRobot& result) {
+  if (auto motor = robot.optional("motor")) {
+    TendonMotor& m = result.motor.emplace();
+    m.lead =
+        motor->required("lead", "way of the screw in one turn").quantity(Dimension::length, Range::size());
+    m.counts = motor->required("counts", "of the encoder in one turn").number(Range::positive());
+    if (const auto gear = motor->optional("gear")) m.gear = gear->number(Range::positive());
+    motor->close();
+  }
+  if (auto stretch = robot.optional("stretch")) {
+    TendonStretch& s = result.stretch.emplace();
+    s.stiffness =
+        stretch->required("stiffness", "EA of a tendon").quantity(Dimension::force, Range::positive());
+    if (const auto outside = stretch->optional("outside"))
+      s.outside = outside->quantity(Dimension::length, {.low = 0, .high = Range::size().high});
+    stretch->close();
+  }
+}
+
+SerialRobot read_listed(Reader& robot) {
+  SerialRobot result;
+  const Reader version = robot.required("sinew", "version of the file format: 1");
+  if (version.integer() != 1 && version.node())
+    version.refuse("unknown_version", "this sinew reads version 1");
+  robot.required("kind");
+  result.name = robot.required("name").text();
+  if (const auto geometry = robot.optional("geometry"))
+    result.geometry_inferred = geometry->choice({"given", "inferred"}) == "inferred";
+  if (const auto tolerance = robot.optional("tolerance"))
+    result.tolerance = tolerance->quantity(Dimension::length, {.low = 0, .high = Range::size().high});
+  Reader sections = robot.required("sections", "a list, one entry a section, or {count, ...}");
+  if (sections.node()) {
+    auto items = sections.items();
+    if (items.empty()) sections.fail("too_few_sections", "there is none; list at least one section.");
+    if (items.size() > max_sections)
+      sections.fail("too_many_sections", fmt::format("there are {} sections; this build carries at most {}.",
+                                                     items.size(), max_sections));
+    for (Reader& section : items) result.sections.push_back(read_section(section));
+  }
+  read_actuation(robot, result);
+  robot.close();
+  return result;
+}
+
+}  // namespace
+
+bool is_serial(const Document& document) {
+  const Node* kind = document.root.find("kind");
+  return kind && kind->text == "serial";
+}
+
+Expected<Document> expanded_sections(const Document& document) {
+  const Node* sections = document.root.find("sections");
+  if (!sections || sections->kind != Node::Kind::map) return document;
+  Errors errors;
+  Reader robot(document, errors);
+  Reader shared = robot.required("sections");
+  const auto count = static_cast<std::size_t>(
+      shared.required("count", "how many sections there are").integer(Range::between(1, max_sections)));
+  std::vector<double> angles(count, 0.0);
+  if (auto tendons = shared.optional("tendons"))
+    if (const auto angle = tendons->optional("angle")) angles = section_angles(*angle, count);
+  if (!errors.empty()) return tl::unexpected(errors);
+  Document longer = document;
+  Node list = placed(Node(), *sections);
+  list.kind = Node::Kind::list;
+  for (const double angle : angles) list.items.push_back(section_node(*sections, angle));
+  *longer.root.find("sections") = std::move(list);
+  return longer;
+}
+
+Expected<SerialRobot> read_serial_robot(const Document& document) {
+  const Expected<Document> longer = expanded_sections(document);
+  if (!longer) return tl::unexpected(longer.error());
+  Errors errors;
+  Reader robot(*longer, errors);
+  SerialRobot result = read_listed(robot);
+  if (!errors.empty()) return tl::unexpected(errors);
+  return result;
+}
+
+Expected<SerialRobot> load_serial(const std::string& path_or_name) {
+  const Expected<Document> document = read_robot_file(path_or_name);
+  if (!document) return tl::unexpected(document.error());
+  if (is_serial(*document)) return read_serial_robot(*document);
+  Errors errors;
+  Reader robot(*document, errors);
+  robot.fail("wrong_kind", "is no serial robot; load reads it");
+  return tl::unexpected(errors);
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,35 @@
+/// @file serial.hpp
+/// Handlers of queries to serial robots.
+#pragma once
+#include "query/context.hpp"
+#include "sinew/kinematics/serial.hpp"
+
+namespace sinew::inline v0 {
+
+/// A query put to a serial robot.
+struct SerialContext : Question {
+  const SerialRobot& robot;
+  SerialWorkspace& work;
+};
+
+/// `model`: `pcc` or `lsk`.
+kernel::Model read_tendon_model(SerialContext& context, kernel::Model otherwise);
+/// The entries of a list of sections: at most as many as there are; the sections after them are straight.
+std::vector<Reader> section_items(const SerialContext& context, const Reader& list);
+
+/// Per section [θ, φ] or [β₁, β₂]; what is not given is straight.
+std::vector<Bend> read_configuration(SerialContext& context, const Reader& list);
+Json configuration_json(const SerialRobot& robot, std::span<const Bend> bends);
+/// What the bends ask of the tendons, per section. Uses the workspace.
+Json changes_json(SerialContext& context, std::span<const Bend> bends, kernel::Model model);
+/// Writes configuration, changes, motors, sections and tip. Uses the workspace.
+void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model);
+
+void answer_serial_forward(SerialContext& context);
+void answer_serial_inverse(SerialContext& context);
+void answer_serial_velocity(SerialContext& context);
+void answer_serial_shape(SerialContext& context);
+void answer_serial_describe(SerialContext& context);
+void answer_serial_diagram(SerialContext& context);
+
+}  // namespace sinew::inline v0

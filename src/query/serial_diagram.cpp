@@ -1,0 +1,176 @@
+/// Handler of `diagram`: what the tendons of one section leave it free to do.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "query/serial.hpp"
+#include "sinew/tendon/diagram.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+/// Changes of the tendons of section m and of all before it; those before are straight where only its own are
+/// given.
+struct TendonsTo {
+  std::vector<double> changes;
+  std::size_t first = 0;  ///< of the section's own
+};
+
+std::size_t tendons_before(const SerialRobot& robot, std::size_t section) {
+  std::size_t count = 0;
+  for (std::size_t m = 0; m < section; ++m) count += static_cast<std::size_t>(robot.sections[m].tendons);
+  return count;
+}
+
+TendonsTo read_tendons(const SerialContext& context, const Reader& list, std::size_t section) {
+  TendonsTo read{{}, tendons_before(context.robot, section)};
+  const auto count = [&](std::size_t m) {
+    return static_cast<std::size_t>(context.robot.sections[m].tendons);
+  };
+  const bool is_own = list.is(Node::Kind::list) && !list.node()->items.empty() &&
+                      list.node()->items[0].kind != Node::Kind::list;
+  if (is_own) {
+    read.changes.assign(read.first, 0.0);
+    const auto own = list.quantities(Dimension::length, Range::place(), count(section));
+    read.changes.insert(read.changes.end(), own.begin(), own.end());
+    return read;
+  }
+  const auto items = list.items(section + 1);
+  for (std::size_t m = 0; m < std::min(items.size(), section + 1); ++m) {
+    const auto one = items[m].quantities(Dimension::length, Range::place(), count(m));
+    read.changes.insert(read.changes.end(), one.begin(), one.end());
+  }
+  read.changes.resize(read.first + count(section), 0.0);
+  return read;
+}
+
+Envelope read_envelope(SerialContext& context, const Section& section) {
+  Envelope envelope{section.is_twin() ? Envelope::Kind::square : Envelope::Kind::disc, section.limit};
+  const auto kind = context.query.optional("envelope");
+  const auto limit = context.query.optional("limit");
+  if (kind)
+    envelope.kind = kind->choice_of<Envelope::Kind>({{"square", Envelope::Kind::square},
+                                                     {"disc", Envelope::Kind::disc},
+                                                     {"actuator", Envelope::Kind::actuator}});
+  const bool is_travel = envelope.kind == Envelope::Kind::actuator;
+  if (limit)
+    envelope.limit = limit->quantity(is_travel ? Dimension::length : Dimension::angle, Range::not_negative());
+  else if (is_travel)
+    context.query.required("limit", "largest change of a tendon");
+  else if (!std::isfinite(envelope.limit))
+    context.query.required("limit", "largest bend: the section has none of its own");
+  return envelope;
+}
+
+constexpr std::string_view names[] = {"exact", "indeterminate", "inconsistent", "unreachable"};
+
+Json points_json(const std::vector<Vec2<double>>& points) {
+  Json list = Json::array();
+  for (const auto& point : points) list.push_back(to_json(point));
+  return list;
+}
+
+/// A question about one section, with the storage its views point to.
+struct Asked {
+  SerialRobot first;  ///< the sections before it
+  SerialWorkspace work;
+  DiagramQuestion question;
+  bool is_conditional = false;  ///< the section before it is not exact
+
+  Asked(const SerialContext& context, std::size_t section)
+      : first(context.robot),
+        work((first.sections.resize(section), first)) {}
+};
+
+/// What earlier sections ask of this one's tendons, where their own tendons put them.
+void put_earlier(Asked& asked, const TendonsTo& tendons) {
+  bends_of_changes(asked.first, Numbers(std::span(tendons.changes).first(tendons.first)),
+                   asked.question.model, asked.work);
+  for (std::size_t m = 0; m < asked.work.maps.size(); ++m) {
+    const kernel::Bend<double> bend{asked.work.bends[m].x(), asked.work.bends[m].y()};
+    asked.question.earlier = asked.question.earlier + (asked.question.model == kernel::Model::exact
+                                                           ? kernel::exact_pull(asked.work.maps[m], bend)
+                                                           : kernel::linear_pull(asked.work.maps[m], bend));
+  }
+  if (asked.first.sections.empty()) return;
+  const auto last = static_cast<std::size_t>(asked.first.sections.back().tendons);
+  for (const double slack : std::span(asked.work.slack).last(last))
+    asked.is_conditional = asked.is_conditional || std::abs(slack) > asked.question.tolerance;
+}
+
+void put_state(Json& answer, const SectionDiagram& diagram) {
+  answer["class"] = names[static_cast<std::size_t>(diagram.agree)];
+  answer["partial"] = diagram.partial;
+  answer["point"] = to_json(diagram.point);
+  answer["slack"] = to_json(diagram.slack);
+  put_number(answer, "margin", diagram.margin);
+  put_number(answer, "over_tension", diagram.over_tension);
+}
+
+void put_diagram(Json& answer, const SectionDiagram& diagram) {
+  put_state(answer, diagram);
+  Json frontiers = Json::array();
+  for (const HalfPlane& plane : diagram.frontiers)
+    frontiers.push_back({{"normal", to_json(plane.normal)}, {"offset", plane.offset}});
+  for (const Curve& curve : diagram.curves) frontiers.push_back({{"curve", points_json(curve)}});
+  answer["frontiers"] = std::move(frontiers);
+  if (diagram.free) answer["polygon"] = points_json(*diagram.free);
+  answer["boundary"] = points_json(diagram.boundary);
+  put_number(answer, "area", diagram.area);
+}
+
+}  // namespace
+
+void answer_serial_diagram(SerialContext& context) {
+  const Reader which = context.query.required("section", "0-based");
+  const auto m =
+      static_cast<std::size_t>(which.integer(Range::between(0, context.robot.section_count() - 1)));
+  const Section& section = context.robot.sections[m < context.robot.sections.size() ? m : 0];
+  const kernel::Model model = read_tendon_model(context, kernel::Model::linear);
+  const TendonsTo commanded =
+      read_tendons(context, context.query.required("changes", "of all sections up to it, or its own"), m);
+  std::optional<TendonsTo> measured;
+  if (const auto given = context.query.optional("measured")) measured = read_tendons(context, *given, m);
+  const auto tolerance = context.query.optional("tolerance");
+  const double own_tolerance = tolerance ? tolerance->quantity(Dimension::length, Range::not_negative())
+                                         : tendon_tolerance(context.robot);
+  const Envelope envelope = read_envelope(context, section);
+  if (!context.ready()) return;
+
+  const auto ask = [&](const TendonsTo& tendons, Asked& asked) {
+    asked.question.section = section.map();
+    asked.question.envelope = envelope;
+    asked.question.tolerance = own_tolerance;
+    asked.question.model = model;
+    asked.question.tendons = {
+        std::span(context.work.directions).subspan(tendons.first, tendons.changes.size() - tendons.first),
+        std::span(tendons.changes).subspan(tendons.first)};
+    put_earlier(asked, tendons);
+    return section_diagram(asked.question);
+  };
+  Asked asked(context, m);
+  const SectionDiagram diagram = ask(commanded, asked);
+  context.report(diagram.report);
+  if (diagram.report.status == Status::left_domain) return;
+  put_diagram(context.answer, diagram);
+  constexpr std::string_view kinds[] = {"square", "disc", "actuator"};
+  context.answer["envelope"] = {{"kind", kinds[static_cast<std::size_t>(envelope.kind)]},
+                                {"limit", envelope.limit}};
+  context.answer["conditional"] = asked.is_conditional;
+  if (asked.is_conditional && model == kernel::Model::linear) {
+    const std::size_t before = tendons_before(context.robot, m - 1);
+    const auto count = commanded.first - before;
+    const SectionOutline outline =
+        section_outline(asked.question, {std::span(context.work.directions).subspan(before, count),
+                                         std::span(commanded.changes).subspan(before, count)});
+    if (outline.report.ok()) context.answer["outline"] = points_json(outline.boundary);
+  }
+  if (measured) {
+    Asked of_encoders(context, m);
+    Json state = Json::object();
+    put_state(state, ask(*measured, of_encoders));
+    context.answer["measured"] = std::move(state);
+  }
+}
+
+}  // namespace sinew::inline v0

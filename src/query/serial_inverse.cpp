@@ -1,0 +1,110 @@
+/// Handler of `inverse` of serial robots: bends that bring the tip where it is wanted.
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "query/serial.hpp"
+#include "sinew/io/read_pose.hpp"
+#include "sinew/kinematics/serial_inverse.hpp"
+#include "sinew/kinematics/three_arcs.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+/// `position`, `position` and `direction`, or `pose`.
+TipTarget read_target(SerialContext& context) {
+  TipTarget target{Vec3<double>::Zero()};
+  if (auto pose = context.query.optional("pose")) {
+    for (const char* key : {"position", "direction"})
+      if (const auto other = context.query.optional(key))
+        other->fail("ambiguous", fmt::format("the query gives a pose and a {}; keep one", key));
+    const SpatialPose given = read_spatial_pose(std::move(*pose));
+    const SE3<double> frame = SE3<double>::from(given);
+    target.position = frame.p;
+    target.rotation = frame.R;
+    return target;
+  }
+  const auto [x, y, z] =
+      context.query.required("position", "of the tip; or a pose").array<3>(Dimension::length, Range::place());
+  target.position = {x, y, z};
+  if (const auto direction = context.query.optional("direction")) {
+    const auto [u, v, w] = direction->array<3>(Dimension::number, Range::place());
+    const Vec3<double> axis(u, v, w);
+    if (axis.norm() >= 1e-9)
+      target.direction = axis.normalized();
+    else
+      direction->fail("no_direction", "a direction needs a component that is not 0");
+  }
+  return target;
+}
+
+/// The robot as three arcs, if that is what it is.
+std::optional<ThreeArcs> three_arcs(const SerialRobot& robot) {
+  ThreeArcs arcs;
+  if (robot.sections.size() != 3) return {};
+  double limit = 0;
+  for (std::size_t m = 0; m < 3; ++m) {
+    const Section& section = robot.sections[m];
+    if (section.is_twin() || section.segments != 1 || section.disc_height > 0) return {};
+    arcs.lengths[m] = section.joint;
+    limit = std::max(limit, section.limit);
+  }
+  arcs.limit = std::min(limit, 2 * std::numbers::pi);
+  return arcs;
+}
+
+/// Every solution within the limits; the one that bends least stands for the answer.
+void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& target, kernel::Model model) {
+  const SE3<double> tip{target.position, *target.rotation};
+  const ThreeArcSolutions found = all_bends(arcs, spatial_pose(tip));
+  Json solutions = Json::array();
+  std::optional<std::size_t> first;
+  for (std::size_t k = 0; k < found.solutions.size(); ++k) {
+    const std::span<const Bend> bends = found.solutions[k];
+    if (!check_limits(context.robot, bends).ok()) continue;
+    if (!first) first = k;
+    solutions.push_back({{"configuration", configuration_json(context.robot, bends)},
+                         {"changes", changes_json(context, bends, model)},
+                         {"residual", found.residual[k]}});
+  }
+  context.report(found.report);
+  if (found.report.status == Status::left_domain) return;
+  if (first) {
+    put_configuration(context, found.solutions[*first], model);
+    context.answer["residual"] = found.residual[*first];
+  }
+  context.answer["count"] = solutions.size();
+  context.answer["complete"] = found.is_complete();
+  context.answer["solutions"] = std::move(solutions);
+}
+
+}  // namespace
+
+void answer_serial_inverse(SerialContext& context) {
+  const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
+  const TipTarget target = read_target(context);
+  std::vector<Bend> start;
+  if (const auto given = context.query.optional("start")) start = read_configuration(context, *given);
+  const auto all = context.query.optional("all");
+  const bool want_all = all && all->boolean();
+  const auto arcs = three_arcs(context.robot);
+  if (want_all && !arcs)
+    all->fail("not_available",
+              "every solution is found of three arcs only: three neutral sections of one segment, "
+              "without discs");
+  if (want_all && !target.rotation && context.errors.empty())
+    all->fail("not_available", "a position alone has a continuum of solutions; give a pose");
+  if (!context.ready()) return;
+  if (want_all) return answer_all(context, *arcs, target, model);
+
+  SerialInverseOptions options{.start = start};
+  if (context.max_iterations) options.max_iterations = *context.max_iterations;
+  const SerialInverse found = inverse(context.robot, target, options, context.work);
+  context.report(found.report);
+  const std::vector<Bend> bends(found.bends.begin(), found.bends.end());
+  put_configuration(context, bends, model);
+  context.answer["residual"] = found.report.residual;
+  context.answer["iterations"] = found.report.iterations;
+}
+
+}  // namespace sinew::inline v0

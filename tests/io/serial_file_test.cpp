@@ -1,0 +1,100 @@
+#include "sinew/io/serial_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "serial_robots.hpp"
+#include "sinew/io/parse.hpp"
+#include "sinew/io/robot_file.hpp"
+
+namespace sinew::test {
+namespace {
+
+constexpr std::string_view section =
+    "{type: tpcj, segments: 8, joint: 2.375 mm, disc: {height: 2 mm, radius: 3 mm}, tendons: {radius: 2.45 "
+    "mm, angle: 24 "
+    "deg}}";
+
+Expected<SerialRobot> read(const std::string& sections, const std::string& more = {}) {
+  return read_serial_robot(
+      parse_yaml("sinew: 1\nname: snake\nkind: serial\n" + more + "sections: " + sections, "mine.yaml")
+          .value());
+}
+
+std::string error(const std::string& sections, const std::string& more = {}) {
+  const auto robot = read(sections, more);
+  return robot ? "good" : robot.error().front().message;
+}
+
+std::string changed(std::string_view from, std::string_view to) {
+  std::string text(section);
+  return "[" + text.replace(text.find(from), from.size(), to) + "]";
+}
+
+TEST(SerialFile, TheRobotOfThePaperIsThatOfItsTable) {
+  const SerialRobot robot = load_serial("nottingham-tpcj").value(), expected = nottingham();
+  ASSERT_EQ(robot.sections.size(), 5U);
+  for (std::size_t m = 0; m < 5; ++m) {
+    const Section &a = robot.sections[m], &b = expected.sections[m];
+    EXPECT_EQ(a.segments, b.segments);
+    EXPECT_EQ(a.joint, b.joint);
+    EXPECT_EQ(a.disc_height, b.disc_height);
+    EXPECT_EQ(a.tendon_radius, b.tendon_radius);
+    EXPECT_NEAR(a.tendon_angle, b.tendon_angle, 1e-15);
+    EXPECT_NEAR(a.limit, b.limit, 1e-16);
+    EXPECT_EQ(a.backbone, b.backbone);
+  }
+  EXPECT_EQ(load_serial("four-tendon-neutral").value().sections[2].tendons, 4);
+  EXPECT_EQ(load_serial("three-arcs").value().length(), 3.0);
+}
+
+TEST(SerialFile, TemplateOfSerialRobotsReads) {
+  const std::string text(robot_template("serial"));
+  const SerialRobot robot = read_serial_robot(parse_yaml(text, "serial.yaml").value()).value();
+  EXPECT_EQ(robot.sections[1].backbone, kernel::Backbone::neutral);
+  EXPECT_EQ(robot.motor->counts_per_length(), 2e6);
+  EXPECT_EQ(robot.stretch->stiffness, 15e3);
+}
+
+TEST(SerialFile, AnglesMayBeListed) {
+  const auto robot = read(
+      "{count: 2, type: neutral, segments: 7, joint: 2 mm, tendons: {radius: 2 mm, angle: [10 deg, 50 "
+      "deg]}}");
+  EXPECT_NEAR(robot.value().sections[1].tendon_angle, degrees(50), 1e-16);
+}
+
+TEST(SerialFile, WhatIsWrongIsNamed) {
+  EXPECT_EQ(error("[" + std::string(section) + "]"), "good");
+  EXPECT_NE(error(changed("segments: 8", "segments: 7")).find("give an even number"), std::string::npos);
+  EXPECT_NE(error(changed("2.45 mm", "3.5 mm")).find("outside"), std::string::npos);
+  EXPECT_NE(error("[]").find("list at least one section"), std::string::npos);
+  EXPECT_NE(error(changed("joint: 2.375 mm", "joint: 2.375 deg")).find("angle"), std::string::npos);
+  EXPECT_NE(error(changed("24 deg", "24 deg each")), "good");
+  EXPECT_NE(
+      error("{count: 2, type: neutral, segments: 7, joint: 2 mm, tendons: {radius: 2 mm, angle: 24 deg}}")
+          .find("24 deg each"),
+      std::string::npos);
+  EXPECT_NE(error("[" + std::string(section) + "]", "motor: {lead: 0 mm, counts: 10}\n"), "good");
+  std::string many = "[";
+  for (int m = 0; m < 13; ++m) many += (m ? ", " : "") + std::string(section);
+  EXPECT_NE(error(many + "]").find("at most 12"), std::string::npos);
+}
+
+TEST(SerialFile, ParallelAndSerialRobotsAreNotMistaken) {
+  EXPECT_NE(load("nottingham-tpcj").error().front().message.find("load_serial"), std::string::npos);
+  EXPECT_NE(load_serial("3-rfr").error().front().message.find("no serial robot"), std::string::npos);
+}
+
+TEST(SerialFile, OneSectionOfManyCanBeChanged) {
+  const Document document = read_robot_file("nottingham-tpcj").value();
+  const auto other = with(document, "sections[1].segments", make_node(6.0));
+  const SerialRobot robot = read_serial_robot(other.value()).value();
+  EXPECT_EQ(robot.sections[1].segments, 6);
+  EXPECT_EQ(robot.sections[2].segments, 8);
+  EXPECT_NEAR(robot.sections[4].tendon_angle, degrees(120), 1e-15);
+  const SerialRobot all =
+      read_serial_robot(with(document, "sections.segments", make_node(6.0)).value()).value();
+  EXPECT_EQ(all.sections[4].segments, 6);
+}
+
+}  // namespace
+}  // namespace sinew::test
