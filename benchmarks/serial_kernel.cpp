@@ -16,25 +16,42 @@ namespace {
 
 constexpr double limit = 24 * std::numbers::pi / 180;
 
+constexpr std::size_t count = 64;
+
 template <std::size_t M>
 struct Walk {
   kernel::Serial<M, 3, double> robot =
       kernel::make_serial<M, 3, double>(kernel::Backbone::twin_pivot, 8, 2.375e-3, 2.45e-3, limit);
   std::vector<std::array<kernel::Bend<double>, M>> poses;
   double changes[M][3] = {};
-  std::size_t step = 0;
 
   Walk() {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> bend(-limit, limit);
-    for (int k = 0; k < 256; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       auto& pose = poses.emplace_back();
       for (auto& b : pose) b = {bend(random), bend(random)};
     }
   }
-  const kernel::Bend<double> (&next())[M] {
-    step = (step + 1) % poses.size();
-    return *reinterpret_cast<const kernel::Bend<double>(*)[M]>(poses[step].data());
+  using Pose = const kernel::Bend<double> (&)[M];
+  Pose pose(std::size_t k) const {
+    return *reinterpret_cast<const kernel::Bend<double>(*)[M]>(poses[k].data());
+  }
+
+  /// All poses, one after the other: the clock and the call count for little.
+  template <kernel::Model model>
+  void sweep() {
+    for (std::size_t k = 0; k < count; ++k) {
+      robot.template changes<model>(pose(k), changes);
+      benchmark::DoNotOptimize(changes);
+    }
+  }
+  template <class F>
+  void sweep_loop(F&& loop) {
+    for (std::size_t k = 0; k < count; ++k) {
+      loop(pose(k), changes);
+      benchmark::DoNotOptimize(changes);
+    }
   }
 };
 
@@ -62,7 +79,7 @@ double largest_gap() {
   Walk<M> walk;
   double gap = 0, theirs[M][3];
   for (std::size_t k = 0; k < walk.poses.size(); ++k) {
-    const auto& bends = walk.next();
+    const auto& bends = walk.pose(k);
     walk.robot.template changes<kernel::Model::exact>(bends, walk.changes);
     double_loop(bends, theirs);
     for (std::size_t m = 0; m < M; ++m)
@@ -74,17 +91,16 @@ double largest_gap() {
 template <std::size_t M, kernel::Model model>
 void compare_one(const char* name) {
   auto walk = std::make_shared<Walk<M>>();
-  compare({fmt::format("{}, {} sections", name, M), "double loop",
-           [walk] {
-             walk->robot.template changes<model>(walk->next(), walk->changes);
-             benchmark::DoNotOptimize(walk->changes);
-           },
-           [walk] {
-             double_loop(walk->next(), walk->changes);
-             benchmark::DoNotOptimize(walk->changes);
+  auto theirs = std::make_shared<Walk<M>>();
+  compare({fmt::format("{}, {} sections", name, M), "double loop", [walk] { walk->template sweep<model>(); },
+           [theirs, k = std::size_t{0}]() mutable {
+             double_loop(theirs->pose(k), theirs->changes);
+             benchmark::DoNotOptimize(theirs->changes);
+             k = (k + 1) % count;
            },
            model == kernel::Model::exact ? fmt::format("changes to {:.0e} m", largest_gap<M>())
-                                         : std::string("linearised: 0.7 % of a length at 24 deg")});
+                                         : std::string("linearised: 0.7 % of a length at 24 deg"),
+           static_cast<double>(count)});
 }
 
 /// The library's own, of a robot whose size is known at run time; and many poses at once.
@@ -95,7 +111,7 @@ void compare_library() {
     std::vector<double> bends, changes;
     Walk<5> walk;
   };
-  constexpr std::size_t poses = 256;
+  constexpr std::size_t poses = count;
   auto many = std::make_shared<Many>();
   for (int m = 1; m <= 5; ++m) {
     Section section;
@@ -121,9 +137,10 @@ void compare_library() {
                tendon_changes_batch(many->bends, model, many->changes, *many->work);
                benchmark::DoNotOptimize(many->changes.data());
              },
-             [many] {
-               double_loop(many->walk.next(), many->walk.changes);
+             [many, k = std::size_t{0}]() mutable {
+               double_loop(many->walk.pose(k), many->walk.changes);
                benchmark::DoNotOptimize(many->walk.changes);
+               k = (k + 1) % count;
              },
              "in SIMD lanes", static_cast<double>(poses)});
 }
@@ -131,14 +148,15 @@ void compare_library() {
 template <class F>
 double nanoseconds(F&& run) {
   std::vector<double> times;
-  for (int repeat = 0; repeat < 15; ++repeat) {
+  for (int repeat = 0; repeat < 31; ++repeat) {
     const auto start = std::chrono::steady_clock::now();
-    for (int k = 0; k < 20000; ++k) run();
+    for (int k = 0; k < 200; ++k) run();
     times.push_back(
-        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / 20000);
+        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() /
+        static_cast<double>(200 * count));
   }
-  std::nth_element(times.begin(), times.begin() + 7, times.end());
-  return times[7];
+  std::nth_element(times.begin(), times.begin() + 15, times.end());
+  return times[15];
 }
 
 struct Growth {
@@ -148,18 +166,10 @@ struct Growth {
 template <std::size_t M>
 void grow(Growth& growth) {
   Walk<M> walk;
-  const auto time = [&](auto&& run) {
-    return nanoseconds([&] {
-      run();
-      benchmark::DoNotOptimize(walk.changes);
-    });
-  };
   growth.sections.push_back(M);
-  growth.linear.push_back(
-      time([&] { walk.robot.template changes<kernel::Model::linear>(walk.next(), walk.changes); }));
-  growth.exact.push_back(
-      time([&] { walk.robot.template changes<kernel::Model::exact>(walk.next(), walk.changes); }));
-  growth.loop.push_back(time([&] { double_loop(walk.next(), walk.changes); }));
+  growth.linear.push_back(nanoseconds([&] { walk.template sweep<kernel::Model::linear>(); }));
+  growth.exact.push_back(nanoseconds([&] { walk.template sweep<kernel::Model::exact>(); }));
+  growth.loop.push_back(nanoseconds([&] { walk.sweep_loop(double_loop<M>); }));
 }
 
 /// Slope of log time over log sections, least squares.
