@@ -97,6 +97,7 @@ class Request {
   void per_section(std::string_view key, Dimension dimension);
   void quantity(std::string_view option, Dimension dimension);
   void vector(std::string_view option, Dimension dimension);
+  void lengths(std::string_view option);
   void signs(std::string_view key);
   void curvature();
   void word(std::string_view option, std::string_view key);
@@ -318,6 +319,13 @@ void Request::quantity(std::string_view option, Dimension dimension) {
   fail(value.error().front().code, option, value.error().front().message);
 }
 
+void Request::lengths(std::string_view option) {
+  const std::string* given = arguments_.text(option);
+  if (!given) return;
+  const auto parts = split(*given);
+  member(option, json_list(values(option, parts, std::vector<Dimension>(parts.size(), Dimension::length))));
+}
+
 void Request::vector(std::string_view option, Dimension dimension) {
   const std::string* given = arguments_.text(option);
   if (!given) return;
@@ -461,6 +469,7 @@ Expected<std::string> request(std::string_view query, const Arguments& arguments
   request.per_section("configuration", Dimension::angle);
   request.per_section("changes", Dimension::length);
   request.per_section("measured", Dimension::length);
+  request.lengths("slack");
   request.quantity("tolerance", Dimension::length);
   request.vector("position", Dimension::length);
   request.vector("direction", Dimension::number);

@@ -26,6 +26,9 @@ constexpr std::array options{
     Option{"direction", "\"X, Y, Z\"", "in which a serial robot's tip points"},
     Option{"changes", "\"A, B, C; ...\"",
            "of a serial robot the change of each tendon, > 0 pays out, section after section"},
+    Option{
+        "slack", "\"A, B, ...\"",
+        "of a serial robot's configuration what each section's tendons are paid out beyond it; < 0 stiffens"},
     Option{"measured", "\"A, B, C; ...\"", "changes that encoders read, beside those commanded"},
     Option{"section", "N", "which section, from 0"},
     Option{"tolerance", "LENGTH", "of a tendon before it counts as slack or too short; default the file's"},
@@ -84,8 +87,8 @@ const std::array table{
         "forward",
         "ROBOT",
         "pose of the platform from the inputs",
-        {"inputs", "configuration", "changes", "start", "wrench", "want", "until", "limit", "all", "theta-is",
-         "max-iterations", "model", "set", "json", "quiet", "help"},
+        {"inputs", "configuration", "changes", "slack", "start", "wrench", "want", "until", "limit", "all",
+         "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
         {"inputs", "configuration", "changes"},
         "Newton's method from the start; --all finds the other assembly modes too. Exit code 3 where the\n"
         "legs do not close, 4 where the iterations ran out. A platform on rods comes to rest under a load:\n"

@@ -74,10 +74,13 @@ Json changes_json(SerialContext& context, std::span<const Bend> bends, kernel::M
   return by_section(context.robot, context.work.changes);
 }
 
-void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model) {
+void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
+                       std::span<const double> more) {
   Json& answer = context.answer;
   answer["configuration"] = configuration_json(context.robot, bends);
-  answer["changes"] = changes_json(context, bends, model);
+  tendon_changes(bends, model, context.work);
+  if (!more.empty()) pay_out(more, context.work);
+  answer["changes"] = by_section(context.robot, context.work.changes);
   section_ends(context.robot, bends, context.work);
   if (context.robot.motor) {
     std::vector<double> counts = context.work.changes;
@@ -125,6 +128,20 @@ Shaped read_shape(SerialContext& context) {
   else
     context.query.required("configuration", "per section [theta, phi] or [beta_1, beta_2]; or changes");
   return given;
+}
+
+/// `slack`: what every tendon of a section is paid out beyond what its bend needs; of sections not named
+/// nothing.
+std::vector<double> read_pay_out(SerialContext& context, const Shaped& shape) {
+  const auto given = context.query.optional("slack");
+  if (!given) return {};
+  if (shape.changes) given->fail("no_effect", "has no effect: the changes are given; remove it");
+  std::vector<double> more = given->quantities(Dimension::length, Range::place());
+  if (more.size() > context.robot.sections.size())
+    given->fail("wrong_length", fmt::format("the robot has {} sections, found {} values",
+                                            context.robot.sections.size(), more.size()));
+  more.resize(context.robot.sections.size(), 0.0);
+  return more;
 }
 
 /// Bends of the first sections from their tendons; what was not given is straight.
@@ -204,10 +221,11 @@ void put_rates(SerialContext& context, const Eigen::MatrixXd& J, std::span<const
 void answer_serial_forward(SerialContext& context) {
   const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
   Shaped shape = read_shape(context);
+  const std::vector<double> more = read_pay_out(context, shape);
   if (!context.ready()) return;
   solve_shape(context, model, shape);
   context.report(shape.report);
-  put_configuration(context, shape.bends, model);
+  put_configuration(context, shape.bends, model, more);
 }
 
 void answer_serial_velocity(SerialContext& context) {

@@ -23,7 +23,9 @@ Json configuration_json(const SerialRobot& robot, std::span<const Bend> bends);
 /// What the bends ask of the tendons, per section. Uses the workspace.
 Json changes_json(SerialContext& context, std::span<const Bend> bends, kernel::Model model);
 /// Writes configuration, changes, motors, sections and tip. Uses the workspace.
-void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model);
+/// @param more what every tendon of a section is paid out beyond that [m]; empty: nothing
+void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
+                       std::span<const double> more = {});
 
 void answer_serial_forward(SerialContext& context);
 void answer_serial_inverse(SerialContext& context);

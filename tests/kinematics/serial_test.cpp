@@ -181,6 +181,21 @@ TEST_P(SerialRobots, SayWhichTendonIsSlackOrTooShort) {  // [LSK] section 4.1
   for (const Bend& bend : work.bends) EXPECT_TRUE(bend.allFinite());
 }
 
+TEST_P(SerialRobots, AreSlackByWhatWasPaidOut) {
+  const auto bends = random_bends(robot, random);
+  const std::vector<double> more{0, 0.3e-3, 0, -0.1e-3, 0};
+  tendon_changes(bends, Model::exact, work);
+  pay_out(more, work);
+  const std::vector<double> changes = work.changes;
+  const Report report = bends_of_changes(robot, changes, Model::exact, work);
+  EXPECT_EQ(report.status, Status::unreachable);  // section 3 is stiffened: no bend is exact
+  std::size_t k = 0;
+  for (std::size_t m = 0; m < 5; ++m) {
+    EXPECT_LT((work.bends[m] - bends[m]).norm(), 1e-12);  // the common mode does not bend
+    for (int i = 0; i < robot.sections[m].tendons; ++i) EXPECT_NEAR(work.slack[k++], more[m], 1e-15);
+  }
+}
+
 TEST_P(SerialRobots, NameTheSectionBeyondItsLimit) {
   auto bends = random_bends(robot, random);
   EXPECT_TRUE(check_limits(robot, bends).ok());

@@ -36,6 +36,11 @@ struct SerialWorkspace {
 /// Changes of all tendons into `work.changes`, in one pass over the sections (LSK (5), (12)).
 SINEW_API void tendon_changes(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
 
+/// Adds to the changes of all tendons of each section what `more` says of it [m]: > 0 leaves the section
+/// slack by as much, as for a fast move; < 0 stiffens it, at most by what the tendons bear. Later sections
+/// have tendons of their own. [LSK] section 4.1: exact, or slightly over-tensioned, at rest.
+SINEW_API void pay_out(std::span<const double> more, SerialWorkspace& work);
+
 /// The same of many poses at once, in SIMD lanes: `bends` is 2M rows, `changes` a row for each tendon, both
 /// with one number a pose. Bends that are not finite give changes that are not.
 SINEW_API void tendon_changes_batch(std::span<const double> bends, kernel::Model model,

@@ -84,6 +84,13 @@ void tendon_changes(std::span<const Bend> bends, Model model, SerialWorkspace& w
   }
 }
 
+void pay_out(std::span<const double> more, SerialWorkspace& work) {
+  SINEW_EXPECTS(more.size() == work.maps.size());
+  auto change = work.changes.begin();
+  for (std::size_t m = 0; m < work.maps.size(); ++m)
+    for (int i = 0; i < work.tendons[m]; ++i) *change++ += more[m];
+}
+
 double tendon_tolerance(const SerialRobot& robot) {
   return std::max(robot.tolerance, 1e-12 * robot.length());
 }
