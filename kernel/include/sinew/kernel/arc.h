@@ -52,13 +52,34 @@ template <class S>
 constexpr S chord_loss_beyond(S w) {
   return S(w * PowerSeries<S, 2, 1, Terms<S>::most>::at(w));
 }
+inline double root(double x) { return __builtin_sqrt(x); }
+inline double sine(double x) { return __builtin_sin(x); }
+inline double arcsine(double x) { return __builtin_asin(x); }
+#if __SIZEOF_DOUBLE__ == __SIZEOF_FLOAT__  // AVR: its library has no names for float
+inline float root(float x) { return static_cast<float>(root(static_cast<double>(x))); }
+inline float sine(float x) { return static_cast<float>(sine(static_cast<double>(x))); }
+inline float arcsine(float x) { return static_cast<float>(arcsine(static_cast<double>(x))); }
+#else
+inline float root(float x) { return __builtin_sqrtf(x); }
+inline float sine(float x) { return __builtin_sinf(x); }
+inline float arcsine(float x) { return __builtin_asinf(x); }
+#endif
+
 inline double chord_loss_beyond(double w) {
-  const double half = __builtin_sqrt(w);
-  return __builtin_sin(half) / half - 1;
+  const double half = root(w);
+  return sine(half) / half - 1;
 }
 inline float chord_loss_beyond(float w) {
-  const float half = __builtin_sqrtf(w);
-  return __builtin_sinf(half) / half - 1;
+  const float half = root(w);
+  return sine(half) / half - 1;
+}
+
+/// arcsin(√y)/√y
+template <class S>
+S arcsine_ratio(S y) {
+  if (!(y > 0)) return 1;
+  const S half_chord = y < 1 ? root(y) : S(1);
+  return arcsine(half_chord) / half_chord;
 }
 
 }  // namespace detail
@@ -103,16 +124,8 @@ constexpr S arc_over_chord(S y) {
   }
   return S(1.0) / (S(1.0) + chord_loss(w));
 }
-inline double arc_over_chord(double y) {
-  if (!(y > 1e-300)) return 1;
-  const double sine = y < 1 ? __builtin_sqrt(y) : 1;
-  return __builtin_asin(sine) / sine;
-}
-inline float arc_over_chord(float y) {
-  if (!(y > 1e-30F)) return 1;
-  const float sine = y < 1 ? __builtin_sqrtf(y) : 1;
-  return __builtin_asinf(sine) / sine;
-}
+inline double arc_over_chord(double y) { return detail::arcsine_ratio(y); }
+inline float arc_over_chord(float y) { return detail::arcsine_ratio(y); }
 
 }  // namespace kernel
 }  // namespace sinew
