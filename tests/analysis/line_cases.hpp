@@ -2,10 +2,9 @@
 /// Sets of lines whose class is known: by construction, and those of an independent implementation.
 #pragma once
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <random>
 
+#include "reference_file.hpp"
 #include "sinew/analysis/lines.hpp"
 
 namespace sinew::test {
@@ -180,8 +179,7 @@ inline V3 padded(const nlohmann::json& list) {
 /// The cases of an independent implementation, which does not say where the axes of its screws are.
 inline std::vector<Lines> reference_lines() {
   std::vector<Lines> cases;
-  const nlohmann::json all =
-      nlohmann::json::parse(std::ifstream(SINEW_SOURCE_DIR "/tests/data/tdpcr/singular.json"));
+  const nlohmann::json& all = reference_file("data/tdpcr/singular.json");
   for (const auto& [list, matrix] :
        {std::pair("planar_classification", "J"), std::pair("spatial_classification", "lines")})
     for (const nlohmann::json& given : all[list]) {

@@ -2,20 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "planar_robots.hpp"
+#include "reference_file.hpp"
 #include "sinew/analysis/velocity.hpp"
 
 namespace sinew::test {
 namespace {
 
 /// Numbers of an independent implementation.
-nlohmann::json reference() {
-  std::ifstream file(SINEW_SOURCE_DIR "/tests/data/tdpcr/singular.json");
-  return nlohmann::json::parse(file);
-}
+const nlohmann::json& reference() { return test::reference_file("data/tdpcr/singular.json"); }
 
 /// The axis of a list of values a regular distance apart.
 MapAxis axis(const nlohmann::json& values) {
@@ -23,7 +18,7 @@ MapAxis axis(const nlohmann::json& values) {
 }
 
 TEST(SingularityMap, Of3RfrIsTheReference) {  // all 13 × 13 × 9 poses
-  const nlohmann::json map = reference()["3-RFR_map"];
+  const nlohmann::json& map = reference()["3-RFR_map"];
   const AnyRobot robot = load("3-rfr").value();
   Workspace work(robot);
   std::size_t k = 0, reachable = 0;
@@ -52,7 +47,7 @@ TEST(SingularityMap, Of3RfrIsTheReference) {  // all 13 × 13 × 9 poses
 }
 
 TEST(SingularityMap, Of3FrrOnTheReferencesBranchIsTheReference) {
-  const nlohmann::json map = reference()["3-FRR_map"];
+  const nlohmann::json& map = reference()["3-FRR_map"];
   const AnyRobot robot = load("3-frr").value();
   Workspace work(robot);
   std::size_t k = 0, reachable = 0;
@@ -75,7 +70,7 @@ TEST(SingularityMap, Of3FrrOnTheReferencesBranchIsTheReference) {
 }
 
 TEST(SingularityMap, OfUfsTurningAboutZHasTheReferencesDeterminant) {
-  const nlohmann::json line = reference()["6-UFS_det_rotz"];
+  const nlohmann::json& line = reference()["6-UFS_det_rotz"];
   const AnyRobot robot = load("6-ufs").value();
   Workspace work(robot);
   PoseGrid grid = PoseGrid::at(home(robot));

@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "planar_modes_cases.hpp"
+#include "reference_file.hpp"
 
 namespace sinew::test {
 namespace {
@@ -41,7 +40,7 @@ std::vector<PlanarPose> multi_start(const Legs& legs, int starts, std::mt19937& 
 }
 
 TEST(PlanarModes, AreThoseOfTheReference) {  // @verifies TDPCR (42)
-  const auto reference = nlohmann::json::parse(std::ifstream(SINEW_SOURCE_DIR "/tests/data/tdpcr/fk.json"));
+  const auto& reference = test::reference_file("data/tdpcr/fk.json");
   int cases = 0;
   for (const auto& [name, robot] : reference.items()) {
     if (name == "6-UFS") continue;

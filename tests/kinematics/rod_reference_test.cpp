@@ -103,7 +103,7 @@ TEST(RodReference, AllCases) {  // @verifies 3PFS (25)-(30)
 }
 
 TEST(RodReference, AllMultipleEquilibriaFromAStartBeside) {
-  const Json file = judge::data("multiple_equilibria.json");
+  const Json& file = judge::data("multiple_equilibria.json");
   int unstable = 0;
   for (const Json& c : file["equilibria"]) {
     SCOPED_TRACE(c["set"].get<std::string>() + " " + c["label"].get<std::string>());

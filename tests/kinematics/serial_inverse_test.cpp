@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "kinematics/serial/bounded_step.hpp"
+#include "reference_file.hpp"
 #include "serial_robots.hpp"
 
 namespace sinew::test {
@@ -244,8 +245,8 @@ TEST(SerialInverse, BringsAStartWithinTheLimits) {
 }
 
 TEST(SerialInverse, FindsSolutionsOfTheReference) {  // every one of them, from starts near it
-  std::ifstream file(SINEW_SOURCE_DIR "/tests/data/field/cc3_fk_and_all_ik.json");
-  const auto solutions = nlohmann::json::parse(file)["ik_all_solutions"]["solutions_xi"];
+  const auto& file = test::reference_file("data/field/cc3_fk_and_all_ik.json");
+  const auto& solutions = file["ik_all_solutions"]["solutions_xi"];
   const SerialRobot robot = three_arcs();
   SerialWorkspace work(robot);
   const double half = 15 * std::numbers::pi / 32;

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <random>
+
+#include "reference_file.hpp"
 
 namespace sinew::test {
 namespace {
@@ -53,8 +53,7 @@ struct ReferenceCase {
 
 std::vector<ReferenceCase> reference() {
   using Json = nlohmann::json;
-  std::ifstream file(SINEW_SOURCE_DIR "/tests/data/tdpcr/fk.json");
-  const Json robot = Json::parse(file).at("6-UFS");
+  const Json& robot = test::reference_file("data/tdpcr/fk.json").at("6-UFS");
   const auto vector = [](const Json& v) {
     return Vec3<double>(v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>());
   };

@@ -5,10 +5,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <random>
+
+#include "reference_file.hpp"
 
 namespace sinew::test {
 namespace {
@@ -120,10 +120,7 @@ bool is_within(const ThreeBends& b, double limit) {
   return std::ranges::all_of(b, [&](const Vec2<double>& bend) { return bend.norm() < limit; });
 }
 
-nlohmann::json reference() {
-  std::ifstream file(SINEW_SOURCE_DIR "/tests/data/field/cc3_fk_and_all_ik.json");
-  return nlohmann::json::parse(file);
-}
+const nlohmann::json& reference() { return test::reference_file("data/field/cc3_fk_and_all_ik.json"); }
 ThreeBends bends_of(const nlohmann::json& xi) {
   ThreeBends b;
   for (std::size_t k = 0; k < 3; ++k) b[k] = {xi.at(2 * k + 1).get<double>(), -xi.at(2 * k).get<double>()};
@@ -131,7 +128,7 @@ ThreeBends bends_of(const nlohmann::json& xi) {
 }
 
 TEST(ThreeArcs, TipIsThatOfTheReference) {
-  const auto fk = reference().at("fk");
+  const auto& fk = reference().at("fk");
   const SE3<double> tip = tip_pose({}, bends_of(fk.at("xi")));
   const Mat<double, 3, 3> turn = tip.R.matrix();
   for (int i = 0; i < 3; ++i)
@@ -141,7 +138,7 @@ TEST(ThreeArcs, TipIsThatOfTheReference) {
 }
 
 TEST(ThreeArcs, EverySolutionOfTheReferenceIsFoundAndNoOtherExists) {
-  const auto ik = reference().at("ik_all_solutions");
+  const auto& ik = reference().at("ik_all_solutions");
   const double half = 15 * pi / 32;
   const Vec3<double> turn = std::sin(half) * Vec3<double>(0.48, std::sqrt(3.0) / 10, -0.86);
   const SpatialPose pose{Vec3<double>(-0.4, 1.1, 0.8), {std::cos(half), turn[0], turn[1], turn[2]}};

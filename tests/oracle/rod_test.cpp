@@ -82,7 +82,7 @@ double worst(const Mismatch& off) {
 
 TEST(Reintegration, AcceptsTheReference) {
   for (const char* name : {"G1", "G2"}) {
-    const Json set = reference(name);
+    const Json& set = reference(name);
     for (const Json& c : set["cases"]) {
       const Mismatch off = Claim(c).judged(tripod(set));
       EXPECT_LT(off.closure, 1e-13) << c["id"];
@@ -92,7 +92,7 @@ TEST(Reintegration, AcceptsTheReference) {
 }
 
 TEST(Reintegration, RejectsWhatIsSlightlyWrong) {
-  const Json set = reference("G2");
+  const Json& set = reference("G2");
   const Tripod t = tripod(set);
   const Claim right(set["cases"].back());
   const double rounding = worst(right.judged(t));
@@ -116,7 +116,7 @@ TEST(Reintegration, RejectsWhatIsSlightlyWrong) {
 }
 
 TEST(Reintegration, NeverAcceptsWhatIsNoNumber) {
-  const Json set = reference("G2");
+  const Json& set = reference("G2");
   const Tripod t = tripod(set);
   Claim no_pose(set["cases"][0]), no_force = no_pose;
   no_pose.p.y() = std::nan("");

@@ -147,7 +147,7 @@ TEST(Shooting, LinearAroundIsTheSlopeOfSolutions) {  // solved anew at both side
 
 TEST(Shooting, HoldsUnstableEquilibriaToo) {
   int unstable = 0;
-  const Json file = data("multiple_equilibria.json");
+  const Json& file = data("multiple_equilibria.json");
   for (const Json& c : file["equilibria"]) {
     SCOPED_TRACE(c["set"].get<std::string>() + " " + c["label"].get<std::string>());
     const Robot r = robot(c["set"].get<std::string>().c_str());

@@ -51,7 +51,7 @@ void expect_same_modes(const Json& answer, const Json& known) {
 }
 
 TEST(ReferenceModes, Of3RfrAndItsRigidTwins) {  // @verifies TDPCR (42)
-  const Json all = read_json("data/tdpcr/fk.json");
+  const Json& all = read_json("data/tdpcr/fk.json");
   std::vector<Json> queries, known;
   for (const char* name : {"3-RFR_example_geometry", "3-RFR_generic_geometry",
                            "3-RPR_phi_pi_root_at_infinity", "3-RPR_w2_parallel_w3"}) {
@@ -71,7 +71,7 @@ TEST(ReferenceModes, Of3RfrAndItsRigidTwins) {  // @verifies TDPCR (42)
 }
 
 TEST(ReferenceModes, Of3Frr) {
-  const Json cases = read_json("data/tdpcr/fk.json")["3-FRR"]["cases"];
+  const Json& cases = read_json("data/tdpcr/fk.json")["3-FRR"]["cases"];
   std::vector<Json> queries;
   for (const Json& c : cases) queries.push_back({{"query", "forward"}, {"inputs", c["l1"]}, {"all", true}});
   const auto answers = ask("3-frr", queries);
@@ -79,7 +79,7 @@ TEST(ReferenceModes, Of3Frr) {
 }
 
 TEST(ReferenceModes, Of3Rfrr) {  // inputs as the paper has them: angle of the chord
-  const Json robot = read_json("data/tdpcr/fk.json")["3-RFRR"];
+  const Json& robot = read_json("data/tdpcr/fk.json")["3-RFRR"];
   std::vector<Json> queries;
   for (const Json& c : robot["cases"]) {
     Json inputs = Json::array();
@@ -113,7 +113,7 @@ double spatial_gap(const Json& pose, const Json& expected) {
 }
 
 TEST(ReferenceModes, Of6UfsAreAllThereAre) {  // the reference's counts are lower bounds; ours are complete
-  const Json cases = read_json("data/tdpcr/fk.json")["6-UFS"]["cases"];
+  const Json& cases = read_json("data/tdpcr/fk.json")["6-UFS"]["cases"];
   std::vector<Json> queries;
   for (const Json& c : cases) queries.push_back({{"query", "forward"}, {"inputs", c["l1"]}, {"all", true}});
   const auto answers = ask("6-ufs", queries);

@@ -20,7 +20,7 @@ Json rfrr_inputs(const Json& angles, const Json& lengths) {
 }
 
 TEST(Reference, PosesOf3RfrrInBothReadingsOfTheta) {  // @verifies TDPCR (63)-(67)
-  const Json reference = read_json("data/tdpcr/poses.json")["3-RFRR"]["poses"];
+  const Json& reference = read_json("data/tdpcr/poses.json")["3-RFRR"]["poses"];
   for (const std::string theta : {"tangent", "chord"}) {
     std::vector<Json> queries;
     for (const Json& p : reference) {
@@ -75,7 +75,7 @@ double dot(const Json& a, const Json& b) {
 }
 
 TEST(Reference, PosesOf6Ufs) {  // @verifies TDPCR (56)-(59)
-  const Json robot = read_json("data/tdpcr/poses.json")["6-UFS"];
+  const Json& robot = read_json("data/tdpcr/poses.json")["6-UFS"];
   std::vector<Json> queries;
   for (const Json& p : robot["poses"]) {
     const Json pose = spatial_pose_of(p["p"], p["rotvec"]);
@@ -105,7 +105,7 @@ TEST(Reference, PosesOf6Ufs) {  // @verifies TDPCR (56)-(59)
 }
 
 TEST(Reference, DeterminantOf6UfsTurnedAboutZ) {
-  const Json map = read_json("data/tdpcr/singular.json")["6-UFS_det_rotz"];
+  const Json& map = read_json("data/tdpcr/singular.json")["6-UFS_det_rotz"];
   std::vector<Json> queries;
   for (const Json& turn : map["rot"])
     queries.push_back({{"query", "velocity"},
@@ -120,7 +120,7 @@ TEST(Reference, DeterminantOf6UfsTurnedAboutZ) {
 
 TEST(Reference, FichtersPosesOf6UfsLeaveAScrewFree) {
   std::vector<Json> queries, known;
-  const Json classes = read_json("data/tdpcr/singular.json")["spatial_classification"];
+  const Json& classes = read_json("data/tdpcr/singular.json")["spatial_classification"];
   for (const Json& c : classes) {
     if (!c.contains("rot_z")) continue;
     known.push_back(c);

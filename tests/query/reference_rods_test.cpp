@@ -90,7 +90,7 @@ struct Set {
 class ReferenceRods : public testing::TestWithParam<Set> {
  protected:
   static Json cases(const char* name) {
-    const Json all = read_json("data/tripod/cases.json");
+    const Json& all = read_json("data/tripod/cases.json");
     for (const Json& set : all["sets"])
       if (set["name"] == name) return set["cases"];
     throw std::runtime_error("no such set");
@@ -151,7 +151,7 @@ Json rounded(const Json& list) {
 }
 
 TEST(ReferenceManyEquilibria, EachIsFoundFromNearby) {  // @verifies 3PFS (25)-(30)
-  const Json all = read_json("data/tripod/multiple_equilibria.json");
+  const Json& all = read_json("data/tripod/multiple_equilibria.json");
   for (const Set& set : {Set{"3pfs-g1", "G1"}, Set{"3pfs-g2", "G2"}}) {
     std::vector<Json> queries, known;
     for (const Json& c : all["equilibria"]) {
@@ -241,7 +241,7 @@ TEST(ReferenceBuckling, UntilStopsAtItsLimit) {
 
 /// Rods that also stretch and shear are another model of the same robot: so near, and no nearer.
 TEST(ReferenceRods, CosseratRodsOfAnotherSourceAreNear) {
-  const Json source = read_json("data/field/pfs_tripod_hexapod_fk.json");
+  const Json& source = read_json("data/field/pfs_tripod_hexapod_fk.json");
   std::vector<Json> queries, known;
   for (const Json& c : source["cases"]) {
     const Json& L = c["L"];

@@ -115,7 +115,7 @@ Json polar(const std::vector<Bend>& bends) {
 }
 
 TEST(SerialQuery, ThreeArcsHaveTheTipAndEverySolutionOfTheReference) {
-  const Json data = read_json("data/field/cc3_fk_and_all_ik.json");
+  const Json& data = read_json("data/field/cc3_fk_and_all_ik.json");
   const Json forward =
       ask("three-arcs", {{{"query", "forward"}, {"configuration", polar(bends_of_twists(data["fk"]["xi"]))}}})
           .front();

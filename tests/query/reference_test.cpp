@@ -24,7 +24,7 @@ Json diagonal(const Json& values) {
 /// queries.
 void expect_poses(const std::string& robot, const std::string& key, const std::string& branch,
                   const std::string& branch_data) {
-  const Json reference = read_json("data/tdpcr/poses.json")[key];
+  const Json& reference = read_json("data/tdpcr/poses.json")[key];
   std::vector<Json> queries;
   for (const Json& p : reference["poses"]) {
     queries.push_back({{"query", "velocity"}, {"pose", pose_of(p["pose"])}, {branch, p[branch_data]}});
@@ -64,7 +64,7 @@ TEST(Reference, PosesOf3Frr) {  // @verifies TDPCR (21)-(24), (28)-(30)
 
 TEST(Reference,
      EveryWorkingModeOf3Frr) {  // all roots of each leg within a full turn: none missing, none invented
-  const Json reference = read_json("data/tdpcr/poses.json")["3-FRR"]["poses"];
+  const Json& reference = read_json("data/tdpcr/poses.json")["3-FRR"]["poses"];
   std::vector<Json> queries;
   for (const Json& p : reference)
     queries.push_back({{"query", "inverse"}, {"pose", pose_of(p["pose"])}, {"all", true}});
@@ -85,7 +85,7 @@ TEST(Reference,
 }
 
 TEST(Reference, MapsOfBothRobots) {  // singularities over a grid: det J, condition numbers, reachable or not
-  const Json all = read_json("data/tdpcr/singular.json");
+  const Json& all = read_json("data/tdpcr/singular.json");
   std::vector<Json> rfr, frr;
   const auto over = [](const Json& map, std::vector<Json>& queries) {
     for (const Json& phi : map["phi"])
@@ -120,7 +120,7 @@ TEST(Reference, MapsOfBothRobots) {  // singularities over a grid: det J, condit
 }
 
 TEST(Reference, AStraightFrrLegIsRegular) {
-  const Json all = read_json("data/tdpcr/singular.json");
+  const Json& all = read_json("data/tdpcr/singular.json");
   const Json& straight = all["3-FRR_kappa0_regular"];
   std::vector<Json> queries{
       {{"query", "velocity"}, {"pose", pose_of(straight["pose"])}, {"curvature", straight["kappa"]}}};
@@ -132,7 +132,7 @@ TEST(Reference, AStraightFrrLegIsRegular) {
 }
 
 TEST(Reference, BaseTangentsOf3Rfr) {
-  const Json reference = read_json("data/tdpcr/poses.json")["3-RFR"]["poses"];
+  const Json& reference = read_json("data/tdpcr/poses.json")["3-RFR"]["poses"];
   std::vector<Json> queries;
   for (const Json& p : reference)
     queries.push_back({{"query", "inverse"}, {"pose", pose_of(p["pose"])}, {"bending", p["bending_signs"]}});
@@ -147,7 +147,7 @@ TEST(Reference, BaseTangentsOf3Rfr) {
 }
 
 TEST(Reference, CurvesOfExample51) {  // TDPCR 5.1, Fig. 9: 1e-10 for k ≤ 55, 1e-9 at k = 58
-  const Json reference = read_json("data/tdpcr/example51.json")["CC"];
+  const Json& reference = read_json("data/tdpcr/example51.json")["CC"];
   std::vector<Json> queries;
   for (const Json& p : reference) queries.push_back({{"query", "velocity"}, {"pose", pose_of(p["pose"])}});
   const auto answers = ask("3-rfr", queries);

@@ -10,10 +10,7 @@
 namespace sinew::test {
 namespace {
 
-const Json& reference() {
-  static const Json read = read_json("data/tripod/rigid_cases.json");
-  return read;
-}
+const Json& reference() { return read_json("data/tripod/rigid_cases.json"); }
 Json independent(const Json& p) { return {{"z", p["z"]}, {"e1", p["e1"]}, {"e2", p["e2"]}}; }
 
 void expect_pose(const Json& found, const Json& p, double tolerance) {

@@ -1,4 +1,5 @@
 #include "sinew/study/reproduce.hpp"
+#include "reference_file.hpp"
 #include "study_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "sinew/io/robot_file.hpp"
@@ -35,17 +35,14 @@ const Table& fig9() {
 
 double value(const char* column, std::size_t k) { return fig9().find(column)->values.at(k); }
 
-nlohmann::json reference() {
-  std::ifstream file(fs::path(SINEW_SOURCE_DIR) / "tests/data/tdpcr/example51.json");
-  return nlohmann::json::parse(file);
-}
+const nlohmann::json& reference() { return test::reference_file("data/tdpcr/example51.json"); }
 
 void expect_relative(double ours, double theirs, double tolerance, const std::string& what) {
   EXPECT_LE(std::abs(ours - theirs), tolerance * std::abs(theirs)) << what << ": " << ours << ", " << theirs;
 }
 
 TEST(Fig9, CurvesEqualTheReference) {  // @verifies TDPCR (68)-(70)
-  const nlohmann::json example = reference();
+  const nlohmann::json& example = reference();
   ASSERT_EQ(example["CC"].size(), 30U);
   for (const auto& row : example["CC"]) {
     const auto k = row["k"].get<std::size_t>();
@@ -82,7 +79,7 @@ TEST(Example51, DivergenceRatesEqualTheReference) {
   ASSERT_TRUE(robot);
   Workspace work(*robot);
   const auto rates = example51::rates(example51::sample(*robot, 1, work).value());
-  const auto divergence = reference()["divergence"];
+  const auto& divergence = reference()["divergence"];
   expect_relative(rates.condition, divergence["cond"], 1e-12, "condition");
   expect_relative(rates.position, divergence["Up"], 1e-12, "position");
   expect_relative(rates.rotation, divergence["Ur"], 1e-12, "rotation");

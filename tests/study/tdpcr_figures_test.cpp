@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
+#include "reference_file.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/study/reproduce.hpp"
 #include "study/compare.hpp"
@@ -49,9 +49,7 @@ double value(const Made& made, const char* column, std::size_t leg) {
 }
 
 nlohmann::json reference(std::size_t k) {
-  std::ifstream file(fs::path(SINEW_SOURCE_DIR) / "tests/data/tdpcr/example51.json");
-  const nlohmann::json example = nlohmann::json::parse(file);
-  for (const auto& row : example["CC"])
+  for (const auto& row : test::reference_file("data/tdpcr/example51.json")["CC"])
     if (row["k"] == k) return row;
   return {};
 }

@@ -2,18 +2,15 @@
 /// The flexible tripods of tests/data/tripod/ (numbers of another implementation) and how far a result is
 /// from them.
 #pragma once
-#include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "reference_file.hpp"
 #include "tripod_3pfs.hpp"
 
 namespace sinew::test::shooting {
 
 using Json = nlohmann::json;
 
-inline Json data(const char* name) {
-  return Json::parse(std::ifstream(std::string(SINEW_SOURCE_DIR "/tests/data/tripod/") + name));
-}
+inline const Json& data(const std::string& name) { return reference_file("data/tripod/" + name); }
 
 inline Vector3d vector(const Json& json) {
   return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
@@ -43,9 +40,8 @@ inline Tripod tripod(const Json& set) {
 inline PerRod<double> pairs(const Vector3d& L) { return {L[0], L[0], L[1], L[1], L[2], L[2]}; }
 
 /// The set "G1" or "G2".
-inline Json reference(const char* name) {
-  static const Json file = data("cases.json");
-  for (const Json& set : file["sets"])
+inline const Json& reference(const char* name) {
+  for (const Json& set : data("cases.json")["sets"])
     if (set["name"] == name) return set;
   throw std::runtime_error("no such set");
 }

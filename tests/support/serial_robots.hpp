@@ -1,16 +1,15 @@
 /// Serial robots for tests, and the references of tests/data/lsk as such.
 #pragma once
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
 
+#include "reference_file.hpp"
 #include "sinew/kinematics/serial.hpp"
 
 namespace sinew::test {
 
-inline nlohmann::json lsk_reference(const std::string& name) {
-  return nlohmann::json::parse(std::ifstream(SINEW_SOURCE_DIR "/tests/data/lsk/" + name + ".json"));
+inline const nlohmann::json& lsk_reference(const std::string& name) {
+  return reference_file("data/lsk/" + name + ".json");
 }
 
 inline double degrees(double angle) { return angle * std::numbers::pi / 180; }

@@ -6,20 +6,17 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "reference_file.hpp"
 
 namespace sinew::test {
 
 using Json = nlohmann::ordered_json;
 
-inline Json read_json(const std::string& path_in_tests) {
-  std::ifstream file(std::string(SINEW_SOURCE_DIR) + "/tests/" + path_in_tests);
-  if (!file) throw std::runtime_error("missing " + path_in_tests);
-  return Json::parse(file);
-}
+inline const Json& read_json(const std::string& path_in_tests) { return reference_file<Json>(path_in_tests); }
 
 /// Puts the queries to `sinew query ROBOT`, one process, and returns its answers in order.
 inline std::vector<Json> ask(const std::string& robot, const std::vector<Json>& queries) {

@@ -4,12 +4,11 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
 
+#include "reference_file.hpp"
 #include "sinew/kernel/direction.h"
 
 namespace sinew {
@@ -132,8 +131,7 @@ std::string name(TendonsAgree agree) {
 }
 
 TEST(SectionDiagram, AnIndependentImplementationAgrees) {  // [LSK] sections 4.1, 4.2
-  std::ifstream stream(SINEW_SOURCE_DIR "/tests/data/lsk/polygons.json");
-  const Json file = Json::parse(stream);
+  const Json& file = test::reference_file("data/lsk/polygons.json");
   EXPECT_EQ(file["examples"].size(), 11u);
   for (const Json& json : file["examples"]) {
     SCOPED_TRACE(json["name"].get<std::string>());
@@ -300,14 +298,15 @@ Point pulled_in(const Asked& asked, const Point& x) {
   return low * x;
 }
 
-/// Best of a grid over the envelope and its rim, refined around its best point.
+/// Best of a grid over the envelope and its rim, refined around its best point by coarser ones.
 double searched_margin(const Asked& asked, double half, Point centre) {
   double best = -1e9;
   for (int level = 0; level < 60; ++level) {
     const Point from = centre;
-    for (int i = -20; i <= 20; ++i)
-      for (int j = -20; j <= 20; ++j) {
-        const Point x = pulled_in(asked, from + half / 20 * Point(i, j));
+    const int count = level == 0 ? 20 : 4;
+    for (int i = -count; i <= count; ++i)
+      for (int j = -count; j <= count; ++j) {
+        const Point x = pulled_in(asked, from + half / count * Point(i, j));
         if (const double slack = asked.least_slack(x); slack > best) best = slack, centre = x;
       }
     half *= level == 0 ? 0.3 : 0.6;
@@ -335,7 +334,7 @@ TEST(SectionDiagram, NoAllowedBendHasMoreMargin) {
 /// Area of the free, allowed bends by counting columns: the set is cut by each line in intervals found by
 /// bisection.
 double searched_area(const Asked& asked, double half) {
-  constexpr int columns = 600, steps = 600;
+  constexpr int columns = 300, steps = 300;
   const auto is_in = [&](double x, double y) {
     return asked.allows({x, y}) && asked.least_slack({x, y}) >= 0;
   };
