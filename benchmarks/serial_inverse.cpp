@@ -73,7 +73,7 @@ struct Walk {
         at.emplace_back(limit * std::sin((2 + static_cast<double>(m % 3)) * t + 2 * k),
                         limit * std::cos((3 - static_cast<double>(m % 2)) * t + k));
       }
-      section_ends(robot, at, work);
+      section_ends(at, work);
       bends.push_back(at);
       targets.push_back(target_of(work.ends.back(), task));
     }
@@ -167,13 +167,13 @@ void compare_jacobian(Backbone backbone) {
   auto walk = std::make_shared<Walk>(backbone, Task::pose);
   double worst = 0;
   for (std::size_t i = 0; i < walk->bends.size(); i += 16) {
-    tip_motion(walk->robot, walk->bends[i], walk->work);
+    tip_motion(walk->bends[i], walk->work);
     worst = std::max(
         worst, (walk->work.jacobian() - differences(walk->robot, walk->bends[i])).cwiseAbs().maxCoeff());
   }
   compare({fmt::format("{} x 5: tip's Jacobian", name(backbone)), "differences of products of matrices",
            [walk] {
-             tip_motion(walk->robot, walk->bends[walk->next()], walk->work);
+             tip_motion(walk->bends[walk->next()], walk->work);
              benchmark::DoNotOptimize(walk->work.J.data());
            },
            [walk] { benchmark::DoNotOptimize(differences(walk->robot, walk->bends[walk->next()])); },
@@ -214,7 +214,7 @@ struct Cold {
   Cold(Backbone backbone, Task task, int sections, int count) : robot(table_2(backbone, sections)) {
     std::mt19937 random(1);
     for (int i = 0; i < count; ++i) {
-      section_ends(robot, random_bends(robot, random), work);
+      section_ends(random_bends(robot, random), work);
       targets.push_back(target_of(work.ends.back(), task));
     }
   }
@@ -258,7 +258,7 @@ void compare_rates() {
                  resolved_rate(walk->robot, walk->bends[walk->next()], twist, {}, walk->work, *rates).held);
            },
            [walk, twist] {
-             tip_motion(walk->robot, walk->bends[walk->next()], walk->work);
+             tip_motion(walk->bends[walk->next()], walk->work);
              std::array<double, 10> out;
              Vec<double, 6> t;
              t << twist.linear, twist.angular;

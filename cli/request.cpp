@@ -302,7 +302,8 @@ void Request::per_section(std::string_view key, Dimension dimension) {
   for (bool more = true; more; ++sections) {
     const std::size_t end = rest.find(';');
     const auto parts = split(rest.substr(0, end));
-    const std::vector<Dimension> dimensions(parts.size(), dimension);
+    std::vector<Dimension> dimensions(parts.size(), dimension);
+    if (key == "configuration" && parts.size() == 3) dimensions[2] = Dimension::length;  // the extension
     list += (sections ? ", " : "") + json_list(values(key, parts, dimensions));
     more = end != std::string_view::npos;
     if (more) rest.remove_prefix(end + 1);

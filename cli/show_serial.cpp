@@ -23,22 +23,40 @@ std::size_t most_tendons(const Node& changes) {
   return most;
 }
 
-/// Configuration and changes of each section. Where sections are of two kinds, the headings name neither's
-/// coordinates.
+/// Columns for the coordinates of all sections. Where these are of two kinds, the headings name both's.
+std::vector<std::string> coordinate_columns(const Robot& robot, std::string_view per = {}) {
+  const auto& sections = robot.description.find("sections")->items;
+  const auto first = coordinates(robot, 0);
+  bool is_one_kind = true, has_extension = false;
+  for (std::size_t m = 0; m < sections.size(); ++m) {
+    is_one_kind = is_one_kind && coordinates(robot, m) == first;
+    has_extension = has_extension || sections[m].find("extension");
+  }
+  std::vector<std::string> columns{fmt::format("{}[deg{}]", is_one_kind ? first[0] : "theta|beta_1", per),
+                                   fmt::format("{}[deg{}]", is_one_kind ? first[1] : "phi|beta_2", per)};
+  if (has_extension) columns.push_back(fmt::format("extension[mm{}]", per));
+  return columns;
+}
+
+/// Their cells of one section, of a configuration or its rate.
+void append_coordinates(const Node& section, std::size_t columns, std::vector<std::string>& row) {
+  constexpr std::string_view units[] = {"rad", "rad", "m"};
+  for (std::size_t j = 0; j < columns; ++j)
+    row.push_back(j < section.items.size() ? cell(section.items[j].number, units[j]) : "-");
+}
+
+/// Configuration and changes of each section.
 std::string show_sections(const Answer& answer, const Robot& robot) {
   const auto &bends = answer.find("configuration")->items, &changes = answer.find("changes")->items;
-  const auto first = coordinates(robot, 0);
-  bool is_one_kind = true;
-  for (std::size_t m = 1; m < bends.size(); ++m) is_one_kind = is_one_kind && coordinates(robot, m) == first;
+  const auto columns = coordinate_columns(robot);
   std::vector<std::string> header{"section"};
-  for (const std::size_t j : {0U, 1U})
-    header.push_back(heading(is_one_kind ? first[j] : j == 0 ? "theta|beta_1" : "phi|beta_2", "rad"));
+  header.insert(header.end(), columns.begin(), columns.end());
   const std::size_t tendons = most_tendons(*answer.find("changes"));
   for (std::size_t i = 0; i < tendons; ++i) header.push_back(heading(fmt::format("change_{}", i), "m"));
   TextTable table(std::move(header));
   for (std::size_t m = 0; m < bends.size(); ++m) {
     std::vector<std::string> row{fmt::format("sections[{}]", m)};
-    for (const Node& part : bends[m].items) row.push_back(cell(part.number, "rad"));
+    append_coordinates(bends[m], columns.size(), row);
     for (std::size_t i = 0; i < tendons; ++i)
       row.push_back(i < changes[m].items.size() ? cell(changes[m].items[i].number, "m") : "-");
     table.add(std::move(row));
@@ -82,21 +100,31 @@ std::string show_solutions(const Answer& answer, const Robot& robot) {
 std::string show_tip_velocity(const Answer& answer, const Robot& robot) {
   std::vector<std::string> J{"J"}, K{"K"}, tendons;
   const auto& sections = robot.description.find("sections")->items;
-  for (std::size_t m = 0; m < sections.size(); ++m)
-    for (const std::string_view name : coordinates(robot, m)) J.push_back(fmt::format("{}[{}]", name, m));
+  for (std::size_t m = 0; m < sections.size(); ++m) {
+    for (const std::string_view name : coordinates(robot, m))
+      J.push_back(fmt::format("{}[{}][rad/s]", name, m));
+    if (sections[m].find("extension")) J.push_back(fmt::format("extension[{}][m/s]", m));
+  }
   K.insert(K.end(), J.begin() + 1, J.end());
-  for (const Input& input : robot.inputs) tendons.push_back(input.name);
+  for (const Input& input : robot.inputs) tendons.push_back(input.name + "[m/s]");
   const auto si = [](std::size_t, std::size_t) { return 1.0; };
-  std::string text = show_matrix(*answer.find("J"), std::move(J), {"vx", "vy", "vz", "wx", "wy", "wz"}, si) +
-                     '\n' + show_matrix(*answer.find("K"), std::move(K), tendons, si);
+  std::string text =
+      show_matrix(*answer.find("J"), std::move(J),
+                  {"vx[m/s]", "vy[m/s]", "vz[m/s]", "wx[rad/s]", "wy[rad/s]", "wz[rad/s]"}, si) +
+      '\n' + show_matrix(*answer.find("K"), std::move(K), tendons, si);
   for (const char* key : {"condition", "condition_homogenised", "position", "rotation"})
     if (const auto value = answer.number(fmt::format("indices.{}", key)))
-      text += fmt::format("{}{} {}\n", text.ends_with("\n\n") ? "" : "", key, six_digits(*value));
+      text += fmt::format("{} {}\n", key, six_digits(*value));
   if (const Node* rates = answer.find("rates")) {
-    TextTable table({"section", "rate_1[deg/s]", "rate_2[deg/s]"});
-    for (std::size_t m = 0; m < rates->items.size(); ++m)
-      table.add({fmt::format("sections[{}]", m), cell(rates->items[m].items[0].number, "rad"),
-                 cell(rates->items[m].items[1].number, "rad")});
+    const auto columns = coordinate_columns(robot, "/s");
+    std::vector<std::string> header{"rate of"};
+    header.insert(header.end(), columns.begin(), columns.end());
+    TextTable table(std::move(header));
+    for (std::size_t m = 0; m < rates->items.size(); ++m) {
+      std::vector<std::string> row{fmt::format("sections[{}]", m)};
+      append_coordinates(rates->items[m], columns.size(), row);
+      table.add(std::move(row));
+    }
     text += '\n' + table.text();
   }
   return text;
@@ -121,10 +149,14 @@ std::string show_serial_robot(const Robot& robot) {
   const Answer& about = robot.description;
   const auto& sections = about.find("sections")->items;
   TextTable table({"section", "type", "segments", "length[mm]", "joint[mm]", "disc_radius[mm]", "tendons",
-                   "tendon_radius[mm]", "tendon_angle[deg]", "limit[deg]"});
+                   "tendon_radius[mm]", "tendon_angle[deg]", "limit[deg]", "extension[mm]"});
   const auto shown_at = [](const Node& section, std::string_view path, std::string_view unit) {
     const Node* value = at(section, path);
     return value ? cell(value->number, unit) : std::string("-");
+  };
+  const auto shown_extension = [](const Node& section) {
+    const auto range = numbers(section.find("extension"));
+    return range.empty() ? std::string("-") : fmt::format("{}..{}", cell(range[0], "m"), cell(range[1], "m"));
   };
   for (std::size_t m = 0; m < sections.size(); ++m) {
     const Node& section = sections[m];
@@ -132,7 +164,8 @@ std::string show_serial_robot(const Robot& robot) {
                six_digits(number(section, "segments")), shown_at(section, "length", "m"),
                shown_at(section, "joint", "m"), shown_at(section, "disc.radius", "m"),
                six_digits(number(section, "tendons.count")), shown_at(section, "tendons.radius", "m"),
-               shown_at(section, "tendons.angle", "rad"), shown_at(section, "limit", "rad")});
+               shown_at(section, "tendons.angle", "rad"), shown_at(section, "limit", "rad"),
+               shown_extension(section)});
   }
   return fmt::format(
              "{}: serial robot, {} section{}, {} tendons, {} mm long\ntolerance of a tendon {} mm\n\n",

@@ -20,8 +20,7 @@ constexpr std::array options{
            "components of its quaternion; a fourth value, half_turn, is the mode with E0 = 0 of hinges"},
     Option{"configuration", "\"A, B; ...\"",
            "of a serial robot two angles a section: theta, phi of a neutral backbone, beta_1, beta_2 of twin "
-           "pivots; "
-           "sections not given are straight"},
+           "pivots; and, where its length varies, its extension; sections not given are straight"},
     Option{"position", "\"X, Y, Z\"", "of a serial robot's tip"},
     Option{"direction", "\"X, Y, Z\"", "in which a serial robot's tip points"},
     Option{"changes", "\"A, B, C; ...\"",

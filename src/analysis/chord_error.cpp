@@ -161,8 +161,8 @@ Bend random_bend(const Section& section, std::mt19937& random) {
   return {section.limit * x, section.limit * y};
 }
 
-Vec<double, 3> tip(const SerialRobot& robot, const std::vector<Bend>& bends, SerialWorkspace& work) {
-  section_ends(robot, bends, work);
+Vec<double, 3> tip(const std::vector<Bend>& bends, SerialWorkspace& work) {
+  section_ends(bends, work);
   return work.ends.back().p;
 }
 
@@ -173,16 +173,16 @@ struct LinearPose {
 };
 
 LinearPose linear_pose(const SerialRobot& robot, const std::vector<Bend>& meant, SerialWorkspace& work) {
-  const Vec<double, 3> there = tip(robot, meant, work);
+  const Vec<double, 3> there = tip(meant, work);
   tendon_changes(meant, Model::linear, work);
   std::vector<double> changes = work.changes;
   LinearPose out{};
   out.has_arcs = bends_of_changes(robot, changes, Model::exact, work).status != Status::unreachable;
-  out.commanded = (tip(robot, work.bends, work) - there).norm();
+  out.commanded = (tip(work.bends, work) - there).norm();
   tendon_changes(meant, Model::exact, work);
   changes = work.changes;
   bends_of_changes(robot, changes, Model::linear, work);
-  out.read_back = (tip(robot, work.bends, work) - there).norm();
+  out.read_back = (tip(work.bends, work) - there).norm();
   return out;
 }
 
@@ -199,6 +199,7 @@ void add_slack(const SerialRobot& robot, const std::vector<Bend>& bends,
 }  // namespace
 
 LinearConsequences linear_consequences(const SerialRobot& robot, int poses, std::uint32_t seed) {
+  SINEW_EXPECTS(!robot.is_extensible());
   SINEW_EXPECTS(std::ranges::all_of(robot.sections, [](const Section& s) { return std::isfinite(s.limit); }));
   std::mt19937 random(seed);
   SerialWorkspace work(robot);

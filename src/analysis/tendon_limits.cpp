@@ -62,14 +62,23 @@ double joint_limit(const Section& section) {
   return std::min(section.is_twin() ? section.limit : section.limit / section.segments, std::numbers::pi);
 }
 
-/// What a section asks of a tendon that passes it at that angle.
-TendonTravel section_travel(const Section& section, double angle, Model model) {
+/// What a section of that length asks of a tendon that passes it at that angle.
+TendonTravel bending_travel(const Section& section, double angle, Model model) {
   const double r = section.tendon_radius, limit = joint_limit(section);
   // A neutral backbone bends any way, and a tendon is moved most by bends in its own plane.
   if (!section.is_twin()) return section.segments * Gap{section.joint, r}.travel(limit, model);
   return 0.5 * section.segments *
          (Gap{section.joint, r * std::cos(angle)}.travel(limit, model) +
           Gap{section.joint, r * std::sin(angle)}.travel(limit, model));
+}
+
+/// The same with all its lengths: for each bend it is linear in the extension.
+TendonTravel section_travel(const Section& section, double angle, Model model) {
+  const double least = section.least_extension, most = section.most_extension;
+  const TendonTravel shorter = bending_travel(section.extended(least), angle, model),
+                     longer = bending_travel(section.extended(most), angle, model);
+  return {std::min(shorter.least + least, longer.least + most),
+          std::max(shorter.most + least, longer.most + most)};
 }
 
 }  // namespace

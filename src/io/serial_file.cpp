@@ -84,6 +84,24 @@ void read_limit(Reader& section, Section& result) {
   result.limit = limit->quantity(Dimension::angle, {.low = 0, .high = most, .low_excluded = true});
 }
 
+void read_extension(Reader& section, Section& result) {
+  const auto extension = section.optional("extension");
+  if (!extension) return;
+  const auto [least, most] = extension->array<2>(Dimension::length, Range::place());
+  if (result.is_twin())
+    extension->refuse("no_effect", "twin pivots have no length to vary; write it of a neutral backbone");
+  else if (!(least <= 0 && most >= 0 && least < most))
+    extension->refuse(
+        "out_of_range",
+        "write how far the section can be made shorter and longer than at rest, \"[-5 mm, 20 mm]\"");
+  else if (!(least > -result.arc_length()))
+    extension->refuse("longer_than_section",
+                      fmt::format("the backbone is {} long: it cannot get shorter than that",
+                                  human(result.arc_length(), Dimension::length)));
+  result.least_extension = least;
+  result.most_extension = most;
+}
+
 Section read_section(Reader& section) {
   Section result;
   result.backbone = section.required("type", "tpcj or neutral")
@@ -98,6 +116,7 @@ Section read_section(Reader& section) {
   read_disc(section, result);
   read_tendons(section, result);
   read_limit(section, result);
+  read_extension(section, result);
   section.close();
   return result;
 }

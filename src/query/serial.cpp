@@ -54,18 +54,34 @@ Json by_section(const SerialRobot& robot, const Values& values) {
 
 }  // namespace
 
-std::vector<Bend> read_configuration(SerialContext& context, const Reader& list) {
-  std::vector<Bend> bends(context.robot.sections.size(), Bend::Zero());
+SerialConfiguration read_configuration(SerialContext& context, const Reader& list) {
+  const std::size_t count = context.robot.sections.size();
+  SerialConfiguration shape{std::vector<Bend>(count, Bend::Zero()), std::vector<double>(count, 0.0)};
   const auto items = section_items(context, list);
-  for (std::size_t m = 0; m < std::min(items.size(), bends.size()); ++m)
-    bends[m] = bend_of(context.robot.sections[m], items[m].array<2>(Dimension::angle));
-  return bends;
+  for (std::size_t m = 0; m < std::min(items.size(), count); ++m) {
+    const Section& section = context.robot.sections[m];
+    const bool has_extension =
+        section.is_extensible() && items[m].is(Node::Kind::list) && items[m].node()->items.size() == 3;
+    if (!has_extension) {
+      shape.bends[m] = bend_of(section, items[m].array<2>(Dimension::angle));
+      continue;
+    }
+    const auto parts = items[m].items();
+    shape.bends[m] =
+        bend_of(section, {parts[0].quantity(Dimension::angle), parts[1].quantity(Dimension::angle)});
+    shape.extensions[m] = parts[2].quantity(Dimension::length, Range::place());
+  }
+  return shape;
 }
 
-Json configuration_json(const SerialRobot& robot, std::span<const Bend> bends) {
+Json configuration_json(const SerialContext& context, std::span<const Bend> bends) {
   Json list = Json::array();
-  for (std::size_t m = 0; m < bends.size(); ++m)
-    list.push_back(configuration_of(robot.sections[m], bends[m]));
+  for (std::size_t m = 0; m < bends.size(); ++m) {
+    const Section& section = context.robot.sections[m];
+    Json one = configuration_of(section, bends[m]);
+    if (section.is_extensible()) one.push_back(context.work.extensions[m]);
+    list.push_back(std::move(one));
+  }
   return list;
 }
 
@@ -77,11 +93,11 @@ Json changes_json(SerialContext& context, std::span<const Bend> bends, kernel::M
 void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
                        std::span<const double> more) {
   Json& answer = context.answer;
-  answer["configuration"] = configuration_json(context.robot, bends);
+  answer["configuration"] = configuration_json(context, bends);
   tendon_changes(bends, model, context.work);
   if (!more.empty()) pay_out(more, context.work);
   answer["changes"] = by_section(context.robot, context.work.changes);
-  section_ends(context.robot, bends, context.work);
+  section_ends(bends, context.work);
   if (context.robot.motor) {
     std::vector<double> counts = context.work.changes;
     for (double& count : counts) count *= context.robot.motor->counts_per_length();
@@ -108,9 +124,9 @@ std::vector<double> read_changes(SerialContext& context, const Reader& list) {
 }
 
 /// What a query gives of the robot's shape, and what became of it.
-struct Shaped {
-  std::vector<Bend> bends;
+struct Shaped : SerialConfiguration {
   std::optional<std::vector<double>> changes;
+  std::vector<double> slack;  ///< of their tendons
   Report report;
 };
 
@@ -124,7 +140,7 @@ Shaped read_shape(SerialContext& context) {
   else if (changes)
     given.changes = read_changes(context, *changes);
   else if (configuration)
-    given.bends = read_configuration(context, *configuration);
+    static_cast<SerialConfiguration&>(given) = read_configuration(context, *configuration);
   else
     context.query.required("configuration", "per section [theta, phi] or [beta_1, beta_2]; or changes");
   return given;
@@ -144,39 +160,64 @@ std::vector<double> read_pay_out(SerialContext& context, const Shaped& shape) {
   return more;
 }
 
-/// Bends of the first sections from their tendons; what was not given is straight.
+/// The shape of the first sections from their tendons; what was not given is straight. The workspace has its
+/// lengths then.
 void solve_shape(SerialContext& context, kernel::Model model, Shaped& shape) {
   if (!shape.changes) {
-    shape.report = check_limits(context.robot, shape.bends);
-    return;
+    shape.report = check_limits(context.robot, shape.bends, shape.extensions);
+  } else {
+    SerialRobot first = context.robot;
+    std::size_t sections = 0, tendons = 0;
+    while (tendons < shape.changes->size())
+      tendons += static_cast<std::size_t>(first.sections[sections++].tendons);
+    first.sections.resize(sections);
+    SerialWorkspace work(first);
+    shape.report = bends_of_changes(first, *shape.changes, model, work);
+    shape.bends = work.bends;
+    shape.bends.resize(context.robot.sections.size(), Bend::Zero());
+    shape.extensions = work.extensions;
+    shape.extensions.resize(context.robot.sections.size(), 0.0);
+    shape.slack = work.slack;
+    shape.slack.resize(context.work.slack.size(), 0.0);
   }
-  SerialRobot first = context.robot;
-  std::size_t sections = 0, tendons = 0;
-  while (tendons < shape.changes->size())
-    tendons += static_cast<std::size_t>(first.sections[sections++].tendons);
-  first.sections.resize(sections);
-  SerialWorkspace work(first);
-  shape.report = bends_of_changes(first, *shape.changes, model, work);
-  shape.bends = work.bends;
-  shape.bends.resize(context.robot.sections.size(), Bend::Zero());
-}
-
-/// Columns of J or K from rates of bends to rates of [θ, φ], where that is what the protocol has.
-Eigen::MatrixXd by_configuration(const SerialRobot& robot, std::span<const Bend> bends,
-                                 const MatrixView& matrix) {
-  Eigen::MatrixXd result = matrix;
-  for (std::size_t m = 0; m < bends.size(); ++m) {
-    if (robot.sections[m].is_twin()) continue;
-    const auto [theta, phi] = configuration_of(robot.sections[m], bends[m]);
-    Mat<double, 2, 2> turn;
-    turn << std::cos(phi), -theta * std::sin(phi), std::sin(phi), theta * std::cos(phi);
-    const auto column = static_cast<Eigen::Index>(2 * m);
-    result.middleCols<2>(column) = (matrix.middleCols<2>(column) * turn).eval();
-  }
-  return result;
+  extend(context.robot, shape.extensions, context.work);
 }
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// J and K, a column for each coordinate of the protocol's configuration.
+struct ByConfiguration {
+  Rows J, K;
+};
+
+/// By rates of [θ, φ], where that is what the protocol has, and of extensions.
+ByConfiguration by_configuration(const SerialContext& context, std::span<const Bend> bends) {
+  const auto& sections = context.robot.sections;
+  const SerialWorkspace& work = context.work;
+  Eigen::Index columns = 0;
+  for (const Section& section : sections) columns += section.is_extensible() ? 3 : 2;
+  const MatrixView J = work.jacobian(), K = work.tendon_jacobian();
+  ByConfiguration by{Rows::Zero(6, columns), Rows::Zero(K.rows(), columns)};
+  Eigen::Index column = 0, row = 0;
+  for (std::size_t m = 0; m < bends.size(); ++m) {
+    Mat<double, 2, 2> turn = Mat<double, 2, 2>::Identity();
+    if (!sections[m].is_twin()) {
+      const auto [theta, phi] = configuration_of(sections[m], bends[m]);
+      turn << std::cos(phi), -theta * std::sin(phi), std::sin(phi), theta * std::cos(phi);
+    }
+    const auto from = static_cast<Eigen::Index>(2 * m);
+    by.J.middleCols<2>(column) = J.middleCols<2>(from) * turn;
+    by.K.middleCols<2>(column) = K.middleCols<2>(from) * turn;
+    column += 2;
+    if (sections[m].is_extensible()) {
+      by.J.col(column).head<3>() = work.lengthwise[m].tip;
+      by.K.col(column).tail(K.rows() - row).setConstant(work.lengthwise[m].tendons);
+      ++column;
+    }
+    row += sections[m].tendons;
+  }
+  return by;
+}
 
 /// σmax/σmin, and the largest speeds of the tip for bend rates of unit norm.
 Json indices_json(const MatrixView& J, double length) {
@@ -200,10 +241,9 @@ Json indices_json(const MatrixView& J, double length) {
 }
 
 /// Rates of the configuration that give the twist, the shortest where there are many.
-void put_rates(SerialContext& context, const Eigen::MatrixXd& J, std::span<const double> twist) {
-  const Rows matrix = J;
+void put_rates(SerialContext& context, const Rows& J, std::span<const double> twist) {
   std::vector<double> rates(static_cast<std::size_t>(J.cols()));
-  least_norm(MatrixView(matrix.data(), matrix.rows(), matrix.cols()), twist, rates);
+  least_norm(MatrixView(J.data(), J.rows(), J.cols()), twist, rates);
   const Eigen::Map<const Eigen::VectorXd> wanted(twist.data(), 6), found(rates.data(), J.cols());
   if ((J * found - wanted).norm() > 1e-9 * wanted.norm()) {
     Report report;
@@ -212,7 +252,12 @@ void put_rates(SerialContext& context, const Eigen::MatrixXd& J, std::span<const
     return context.report(report);
   }
   Json list = Json::array();
-  for (std::size_t m = 0; 2 * m < rates.size(); ++m) list.push_back({rates[2 * m], rates[2 * m + 1]});
+  auto rate = rates.begin();
+  for (const Section& section : context.robot.sections) {
+    list.push_back({rate[0], rate[1]});
+    if (section.is_extensible()) list.back().push_back(rate[2]);
+    rate += section.is_extensible() ? 3 : 2;
+  }
   context.answer["rates"] = list;
 }
 
@@ -226,6 +271,7 @@ void answer_serial_forward(SerialContext& context) {
   solve_shape(context, model, shape);
   context.report(shape.report);
   put_configuration(context, shape.bends, model, more);
+  if (shape.changes) context.answer["slack"] = by_section(context.robot, shape.slack);
 }
 
 void answer_serial_velocity(SerialContext& context) {
@@ -236,15 +282,14 @@ void answer_serial_velocity(SerialContext& context) {
   if (!context.ready()) return;
   solve_shape(context, model, shape);
   context.report(shape.report);
-  tip_motion(context.robot, shape.bends, context.work);
+  tip_motion(shape.bends, context.work);
   tendon_rates(shape.bends, model, context.work);
-  const Eigen::MatrixXd J = by_configuration(context.robot, shape.bends, context.work.jacobian()),
-                        K = by_configuration(context.robot, shape.bends, context.work.tendon_jacobian());
-  const Rows j = J, k = K;
-  context.answer["configuration"] = configuration_json(context.robot, shape.bends);
+  extension_motion(shape.bends, model, context.work);
+  const auto [J, K] = by_configuration(context, shape.bends);
+  context.answer["configuration"] = configuration_json(context, shape.bends);
   context.answer["tip"] = to_json(AnyPose(spatial_pose(context.work.ends.back())));
-  context.answer["J"] = to_json(MatrixView(j.data(), j.rows(), j.cols()));
-  context.answer["K"] = to_json(MatrixView(k.data(), k.rows(), k.cols()));
+  context.answer["J"] = to_json(MatrixView(J.data(), J.rows(), J.cols()));
+  context.answer["K"] = to_json(MatrixView(K.data(), K.rows(), K.cols()));
   context.answer["indices"] = indices_json(context.work.jacobian(), context.robot.length());
   if (!twist.empty()) put_rates(context, J, twist);
 }
@@ -257,7 +302,7 @@ void answer_serial_shape(SerialContext& context) {
   if (!context.ready()) return;
   solve_shape(context, model, given);
   context.report(given.report);
-  const SerialShape shape = serial_shape(context.robot, given.bends, count);
+  const SerialShape shape = serial_shape(context.robot.extended(given.extensions), given.bends, count);
   const auto polyline = [](const std::vector<Vec3<double>>& line) {
     Json points = Json::array();
     for (const auto& point : line) points.push_back(to_json(point));
@@ -275,7 +320,7 @@ void answer_serial_shape(SerialContext& context) {
                      {"height", disc.height},
                      {"radius", disc.radius}});
   for (const SE3<double>& end : shape.ends) frames.push_back(to_json(AnyPose(spatial_pose(end))));
-  context.answer["configuration"] = configuration_json(context.robot, given.bends);
+  context.answer["configuration"] = configuration_json(context, given.bends);
   context.answer["tip"] = frames.back();
   context.answer["backbones"] = std::move(backbones);
   context.answer["tendons"] = std::move(tendons);
@@ -299,9 +344,11 @@ void answer_serial_describe(SerialContext& context) {
     if (section.disc_radius > 0)
       one["disc"] = {{"height", section.disc_height}, {"radius", section.disc_radius}};
     if (std::isfinite(section.limit)) one["limit"] = section.limit;
+    if (section.is_extensible()) one["extension"] = {section.least_extension, section.most_extension};
     sections.push_back(std::move(one));
     for (const char* name : section.is_twin() ? std::array{"beta_1", "beta_2"} : std::array{"theta", "phi"})
       coordinates.push_back({{"name", joined(place, name)}, {"unit", "rad"}});
+    if (section.is_extensible()) coordinates.push_back({{"name", joined(place, "extension")}, {"unit", "m"}});
     for (int i = 0; i < section.tendons; ++i)
       inputs.push_back(
           {{"name", joined(joined(place, "tendons"), static_cast<std::size_t>(i))}, {"unit", "m"}});

@@ -17,12 +17,20 @@ kernel::Model read_tendon_model(SerialContext& context, kernel::Model otherwise)
 /// The entries of a list of sections: at most as many as there are; the sections after them are straight.
 std::vector<Reader> section_items(const SerialContext& context, const Reader& list);
 
-/// Per section [θ, φ] or [β₁, β₂]; what is not given is straight.
-std::vector<Bend> read_configuration(SerialContext& context, const Reader& list);
-Json configuration_json(const SerialRobot& robot, std::span<const Bend> bends);
+/// Shape of all sections.
+struct SerialConfiguration {
+  std::vector<Bend> bends;
+  std::vector<double> extensions;  ///< longer than at rest by [m]
+};
+
+/// Per section [θ, φ] or [β₁, β₂], and the extension where its length varies; what is not given is straight
+/// and as long as at rest.
+SerialConfiguration read_configuration(SerialContext& context, const Reader& list);
+/// As long as the sections of the workspace are.
+Json configuration_json(const SerialContext& context, std::span<const Bend> bends);
 /// What the bends ask of the tendons, per section. Uses the workspace.
 Json changes_json(SerialContext& context, std::span<const Bend> bends, kernel::Model model);
-/// Writes configuration, changes, motors, sections and tip. Uses the workspace.
+/// Writes configuration, changes, motors, sections and tip, as long as the sections of the workspace are.
 /// @param more what every tendon of a section is paid out beyond that [m]; empty: nothing
 void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
                        std::span<const double> more = {});

@@ -1,6 +1,7 @@
 /// Handler of `diagram`: what the tendons of one section leave it free to do.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "query/serial.hpp"
@@ -86,16 +87,26 @@ struct Asked {
 void put_earlier(Asked& asked, const TendonsTo& tendons) {
   bends_of_changes(asked.first, Numbers(std::span(tendons.changes).first(tendons.first)),
                    asked.question.model, asked.work);
-  for (std::size_t m = 0; m < asked.work.maps.size(); ++m) {
-    const kernel::Bend<double> bend{asked.work.bends[m].x(), asked.work.bends[m].y()};
-    asked.question.earlier = asked.question.earlier + (asked.question.model == kernel::Model::exact
-                                                           ? kernel::exact_pull(asked.work.maps[m], bend)
-                                                           : kernel::linear_pull(asked.work.maps[m], bend));
-  }
+  asked.question.earlier = pull_of_all(asked.work.bends, asked.question.model, asked.work);
   if (asked.first.sections.empty()) return;
   const auto last = static_cast<std::size_t>(asked.first.sections.back().tendons);
   for (const double slack : std::span(asked.work.slack).last(last))
     asked.is_conditional = asked.is_conditional || std::abs(slack) > asked.question.tolerance;
+}
+
+/// The length of a section whose length varies is what its own tendons have in common, as far as that goes:
+/// beyond the limits they are slack, or too short.
+void take_extension(Asked& asked, const Section& section) {
+  const auto& [directions, changes] = asked.question.tendons;
+  const auto& earlier = asked.question.earlier;
+  const auto sum = kernel::nearest_pull(changes.data(), directions.data(), section.tendons);
+  const kernel::Model model = asked.question.model;
+  const auto bend = kernel::bend(model, asked.question.section, sum.x - earlier.x, sum.y - earlier.y);
+  const double extension =
+      std::clamp(kernel::extension(model, asked.question.section, bend, sum.common - earlier.common),
+                 section.least_extension, section.most_extension);
+  asked.question.section = section.extended(extension).map();
+  asked.question.earlier.common += extension;
 }
 
 void put_state(Json& answer, const SectionDiagram& diagram) {
@@ -146,6 +157,7 @@ void answer_serial_diagram(SerialContext& context) {
         std::span(context.work.directions).subspan(tendons.first, tendons.changes.size() - tendons.first),
         std::span(tendons.changes).subspan(tendons.first)};
     put_earlier(asked, tendons);
+    if (section.is_extensible()) take_extension(asked, section);
     return section_diagram(asked.question);
   };
   Asked asked(context, m);

@@ -45,7 +45,8 @@ std::optional<ThreeArcs> three_arcs(const SerialRobot& robot) {
   double limit = 0;
   for (std::size_t m = 0; m < 3; ++m) {
     const Section& section = robot.sections[m];
-    if (section.is_twin() || section.segments != 1 || section.disc_height > 0) return {};
+    if (section.is_twin() || section.segments != 1 || section.disc_height > 0 || section.is_extensible())
+      return {};
     arcs.lengths[m] = section.joint;
     limit = std::max(limit, section.limit);
   }
@@ -63,7 +64,7 @@ void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& 
     const std::span<const Bend> bends = found.solutions[k];
     if (!check_limits(context.robot, bends).ok()) continue;
     if (!first) first = k;
-    solutions.push_back({{"configuration", configuration_json(context.robot, bends)},
+    solutions.push_back({{"configuration", configuration_json(context, bends)},
                          {"changes", changes_json(context, bends, model)},
                          {"residual", found.residual[k]}});
   }
@@ -83,7 +84,7 @@ void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& 
 void answer_serial_inverse(SerialContext& context) {
   const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
   const TipTarget target = read_target(context);
-  std::vector<Bend> start;
+  SerialConfiguration start;
   if (const auto given = context.query.optional("start")) start = read_configuration(context, *given);
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
@@ -91,13 +92,13 @@ void answer_serial_inverse(SerialContext& context) {
   if (want_all && !arcs)
     all->fail("not_available",
               "every solution is found of three arcs only: three neutral sections of one segment, "
-              "without discs");
+              "without discs, of fixed lengths");
   if (want_all && !target.rotation && context.errors.empty())
     all->fail("not_available", "a position alone has a continuum of solutions; give a pose");
   if (!context.ready()) return;
   if (want_all) return answer_all(context, *arcs, target, model);
 
-  SerialInverseOptions options{.start = start};
+  SerialInverseOptions options{.start = start.bends, .start_extensions = start.extensions};
   if (context.max_iterations) options.max_iterations = *context.max_iterations;
   const SerialInverse found = inverse(context.robot, target, options, context.work);
   context.report(found.report);

@@ -228,7 +228,7 @@ void add_misprints(Findings& findings, const SerialRobot& robot, const SerialRob
   SerialWorkspace work(neutral);
   std::vector<Bend> bends(neutral.sections.size(), Bend(0, 0));
   bends[0] = Bend(theta * std::cos(phi), theta * std::sin(phi));
-  section_ends(neutral, bends, work);
+  section_ends(bends, work);
   const Eigen::Vector3d ours = work.ends[0].p * 1e3, printed_3 = tip_of_3(theta, phi, 1, L);
   findings.push_back(compare::given("(3): end of a section of 35 mm at θ = 60°, φ = 35°", point(printed_3),
                                     point(ours), (ours - printed_3).norm(), 1e-9, "mm"));

@@ -66,13 +66,11 @@ SectionCase::SectionCase(const DiagramQuestion& asked)
 }
 
 kernel::Pull<double> SectionCase::pull(const Vec2<double>& bend) const {
-  const kernel::Bend<double> b{bend[0], bend[1]};
-  return is_exact() ? kernel::exact_pull(question.section, b) : kernel::linear_pull(question.section, b);
+  return kernel::pull(question.model, question.section, kernel::Bend<double>{bend[0], bend[1]});
 }
 
 Vec2<double> SectionCase::bend(const Vec2<double>& pull) const {
-  const auto b = is_exact() ? kernel::exact_bend(question.section, pull[0], pull[1])
-                            : kernel::linear_bend(question.section, pull[0], pull[1]);
+  const auto b = kernel::bend(question.model, question.section, pull[0], pull[1]);
   return {b.x, b.y};
 }
 

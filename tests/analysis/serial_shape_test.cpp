@@ -18,7 +18,7 @@ TEST_P(SerialShapes, EndWhereTheSectionsDo) {
   for (int k = 0; k < 20; ++k) {
     const auto bends = random_bends(robot, random);
     const SerialShape shape = serial_shape(robot, bends, 4);
-    section_ends(robot, bends, work);
+    section_ends(bends, work);
     for (std::size_t m = 0; m < bends.size(); ++m) {
       EXPECT_LT((shape.ends[m].p - work.ends[m].p).norm(), 1e-15);
       EXPECT_LT((shape.ends[m].R.matrix() - work.ends[m].R.matrix()).norm(), 1e-13);

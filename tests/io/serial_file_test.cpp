@@ -1,5 +1,6 @@
 #include "sinew/io/serial_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "serial_robots.hpp"
@@ -77,6 +78,25 @@ TEST(SerialFile, WhatIsWrongIsNamed) {
   std::string many = "[";
   for (int m = 0; m < 13; ++m) many += (m ? ", " : "") + std::string(section);
   EXPECT_NE(error(many + "]").find("at most 12"), std::string::npos);
+}
+
+TEST(SerialFile, LengthsThatVary) {
+  const auto with_extension = [](const char* type, const char* extension) {
+    return fmt::format(
+        "[{{type: {}, segments: 8, joint: 2 mm, tendons: {{radius: 2 mm, angle: 0 deg}}, extension: {}}}]",
+        type, extension);
+  };
+  const SerialRobot robot = read(with_extension("neutral", "[-5 mm, 20 mm]")).value();
+  EXPECT_EQ(robot.sections[0].least_extension, -5e-3);
+  EXPECT_EQ(robot.sections[0].most_extension, 20e-3);
+  EXPECT_TRUE(robot.is_extensible());
+  EXPECT_NEAR(robot.longest(), 36e-3, 1e-17);
+  EXPECT_NE(error(with_extension("tpcj", "[-5 mm, 20 mm]")).find("twin pivots"), std::string::npos);
+  EXPECT_NE(error(with_extension("neutral", "[5 mm, 20 mm]")).find("[-5 mm, 20 mm]"), std::string::npos);
+  EXPECT_NE(error(with_extension("neutral", "[0, 0]")).find("[-5 mm, 20 mm]"), std::string::npos);
+  EXPECT_NE(error(with_extension("neutral", "[-16 mm, 0]")).find("16 mm long"), std::string::npos);
+  EXPECT_NE(error(with_extension("neutral", "20 mm")), "good");
+  EXPECT_NE(error(with_extension("neutral", "[nan, 20 mm]")), "good");
 }
 
 TEST(SerialFile, ParallelAndSerialRobotsAreNotMistaken) {

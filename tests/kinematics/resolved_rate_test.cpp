@@ -106,7 +106,7 @@ TEST_P(ResolvedRateOf, NothingTurnsBeyondItsLimit) {
 
 TEST_P(ResolvedRateOf, FollowsAPathWhenIntegrated) {
   std::vector<Bend> bends = shape(0.4);
-  section_ends(robot, bends, work);
+  section_ends(bends, work);
   const SE3<double> first = work.ends.back();
   const TipTwist wanted{Vec3<double>(0.004, -0.003, 0.002), Vec3<double>(0, 0, 0)};
   const double step = 0.01;
@@ -124,7 +124,7 @@ TEST_P(ResolvedRateOf, FollowsAPathWhenIntegrated) {
     const std::vector<Bend> half_way = rate(middle);
     for (std::size_t m = 0; m < bends.size(); ++m) bends[m] += step * half_way[m];
   }
-  section_ends(robot, bends, work);
+  section_ends(bends, work);
   EXPECT_LT((work.ends.back().p - (first.p + wanted.linear * (step * steps))).norm(), 1e-8);
   EXPECT_LT(work.ends.back().R.compose(first.R.inverse()).log().norm(), 1e-6);
 }

@@ -23,7 +23,7 @@ TipTarget target_of(const SE3<double>& tip, Task task) {
 
 SE3<double> tip(const SerialRobot& robot, std::span<const Bend> bends) {
   SerialWorkspace work(robot);
-  section_ends(robot, bends, work);
+  section_ends(bends, work);
   return work.ends.back();
 }
 

@@ -94,7 +94,7 @@ TEST(SerialMotion, SectionsArePlainProductsOfMatrices) {  // @verifies LSK (3), 
   for (const SerialRobot& robot : robots()) {
     SerialWorkspace work(robot);
     for (const std::vector<Bend>& bends : shapes(robot, random)) {
-      section_ends(robot, bends, work);
+      section_ends(bends, work);
       Matrix end = Matrix::Identity();
       double lost = 0;
       for (std::size_t m = 0; m < bends.size(); ++m) {
@@ -134,7 +134,7 @@ TEST(SerialMotion, JacobianMatchesComplexStepAndDifferences) {
   for (const SerialRobot& robot : robots()) {
     SerialWorkspace work(robot);
     for (const std::vector<Bend>& bends : shapes(robot, random)) {
-      tip_motion(robot, bends, work);
+      tip_motion(bends, work);
       const MatrixView J = work.jacobian();
       const Mat<double, 3, 3> R = work.ends.back().R.matrix();
       Eigen::VectorXd all(2 * bends.size());
@@ -156,8 +156,8 @@ TEST(SerialMotion, EndsAreTheSameWithAndWithoutDerivatives) {
   for (const SerialRobot& robot : robots()) {
     SerialWorkspace with(robot), without(robot);
     for (const std::vector<Bend>& bends : shapes(robot, random)) {
-      tip_motion(robot, bends, with);
-      section_ends(robot, bends, without);
+      tip_motion(bends, with);
+      section_ends(bends, without);
       for (std::size_t m = 0; m < bends.size(); ++m) {
         EXPECT_LT((with.ends[m].p - without.ends[m].p).norm(), 2e-15 * robot.length());
         EXPECT_LT((with.ends[m].R.v - without.ends[m].R.v).norm(), 2e-14);
@@ -171,7 +171,7 @@ TEST(SerialMotion, RotationsStayUnitQuaternions) {
   SerialWorkspace work(robot);
   std::mt19937 random(4);
   for (int i = 0; i < 100; ++i) {
-    section_ends(robot, random_bends(robot, random), work);
+    section_ends(random_bends(robot, random), work);
     for (const SE3<double>& end : work.ends) EXPECT_NEAR(end.R.w * end.R.w + squared_norm(end.R.v), 1, 2e-14);
   }
 }
@@ -179,7 +179,7 @@ TEST(SerialMotion, RotationsStayUnitQuaternions) {
 TEST(SerialMotion, StraightRobotHasTheLengthOfItsParts) {
   const SerialRobot robot = nottingham();
   SerialWorkspace work(robot);
-  section_ends(robot, work.bends, work);
+  section_ends(work.bends, work);
   EXPECT_NEAR(work.ends.back().p.z(), 0.175, 1e-16);  // 5·8·(2.375 + 2) mm
   EXPECT_EQ(work.ends.back().p.x(), 0);
   EXPECT_NEAR(robot.length(), 0.175, 1e-16);

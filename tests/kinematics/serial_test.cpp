@@ -62,7 +62,7 @@ TEST_P(SerialReference, BendsComeBack) {  // @verifies LSK (10)
 }
 
 TEST_P(SerialReference, SectionsEndWhereTheirsDo) {  // @verifies LSK (3), (4)
-  section_ends(robot, bends, work);
+  section_ends(bends, work);
   for (std::size_t m = 0; m < bends.size(); ++m) {
     const auto& pose = c["section_end_pose"][m];
     const Mat<double, 3, 3> turn = work.ends[m].R.matrix();
@@ -79,9 +79,9 @@ TEST_P(SerialReference, TipErrorOfLinearisedCommandsIsTheirs) {
   const std::vector<double> changes = work.changes;
   bends_of_changes(robot, changes, Model::linear, work);
   const std::vector<Bend> read = work.bends;
-  section_ends(robot, bends, work);
+  section_ends(bends, work);
   const Vec3<double> tip = work.ends.back().p;
-  section_ends(robot, read, work);
+  section_ends(read, work);
   EXPECT_NEAR((work.ends.back().p - tip).norm(), number(c["tip_error_lsk_inverse_mm"]) * 1e-3, 1e-14);
 }
 

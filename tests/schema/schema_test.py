@@ -28,7 +28,7 @@ COMMAND = ""
 SCHEMA = json.loads((ROOT / "schema/robot.schema.json").read_text(encoding="utf-8"))
 
 # What a schema cannot say: relations between values. The reader alone refuses these.
-READER_ALONE = {"coincident_base_points", "collapsed_platform", "no_direction", "no_rotation"}
+READER_ALONE = {"coincident_base_points", "collapsed_platform", "no_direction", "no_rotation", "longer_than_section"}
 
 VALUES = ["nonsense", "-1 mm", "0 mm", "1 kg", -1, [1]]
 

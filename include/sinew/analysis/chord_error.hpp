@@ -83,8 +83,8 @@ struct LinearConsequences {
   int left_out = 0;  ///< poses that need a chord no joint has: beyond about 57° a joint
 };
 
-/// Random bends, evenly spread over each section's limits, which must be finite. The same numbers on every
-/// machine but for rounding.
+/// Random bends, evenly spread over each section's limits, which must be finite, their lengths fixed. The
+/// same numbers on every machine but for rounding.
 SINEW_API LinearConsequences linear_consequences(const SerialRobot& robot, int poses, std::uint32_t seed);
 
 /// What LSK leaves slack at most: this and all sections before it at the corner of their limits.

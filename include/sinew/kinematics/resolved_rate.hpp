@@ -33,8 +33,9 @@ struct ResolvedRateOptions {
 
 /// Memory for the rates of one robot; one per thread.
 struct RateWorkspace {
-  std::vector<double> bends;    ///< section by section [rad/s]
-  std::vector<double> tendons;  ///< of Δl [m/s], section by section; > 0 pays out
+  std::vector<double> bends;       ///< section by section [rad/s]
+  std::vector<double> extensions;  ///< of every section [m/s]
+  std::vector<double> tendons;     ///< of Δl [m/s], section by section; > 0 pays out
   SINEW_API explicit RateWorkspace(const SerialRobot& robot);
 };
 
@@ -43,16 +44,17 @@ struct ResolvedRate {
   /// the rates are then those that come nearest. Residual: what is missed, the larger of velocity and, times
   /// the robot's length, angular velocity [m/s]. Its iterations are 0.
   Report report;
-  std::span<const double> bends;    ///< view into the rates' workspace
-  std::span<const double> tendons;  ///< view into the rates' workspace
-  int held = 0;                     ///< components of bends that a limit, or `fastest`, holds
+  std::span<const double> bends;       ///< view into the rates' workspace
+  std::span<const double> extensions;  ///< view into the rates' workspace
+  std::span<const double> tendons;     ///< view into the rates' workspace
+  int held = 0;  ///< bends' components, and extensions, that a limit, or `fastest`, holds
 
   bool ok() const noexcept { return report.ok(); }
 };
 
 /// The slowest rates that give the tip this twist, in least squares; a section at its limit does not turn
-/// further outwards. `bends` are within the limits. Leaves the tip's Jacobian in `work.J`, the tendons' in
-/// `work.K`. No heap, no throw. At most `max_sections` sections.
+/// further outwards, nor lengthen. `bends`, and the extensions in `work`, are within the limits. Leaves the
+/// tip's Jacobian in `work.J`, the tendons' in `work.K`. No heap, no throw. At most `max_sections` sections.
 SINEW_API ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends,
                                      const TipTwist& twist, const ResolvedRateOptions& options,
                                      SerialWorkspace& work, RateWorkspace& rates);

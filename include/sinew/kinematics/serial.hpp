@@ -13,15 +13,25 @@
 
 namespace sinew::inline v0 {
 
-/// Memory for questions to one serial robot; one per thread. `J` and `K` are rows first.
+/// How tip and tendons move with the extension of a section.
+struct ExtensionMotion {
+  Vec3<double> tip;    ///< velocity of the tip per extension rate, base axes; it does not turn
+  double tendons = 0;  ///< rate of every tendon that passes the section, per extension rate
+};
+
+/// Memory for questions to one serial robot, and the lengths its sections have; one per thread. `J` and `K`
+/// are rows first.
 struct SerialWorkspace {
-  std::vector<Bend> bends;        ///< per section [rad]
-  std::vector<double> changes;    ///< Δl of every tendon [m], section by section; > 0 pays out
-  std::vector<double> slack;      ///< what every tendon has beyond what the bends need [m]
-  std::vector<SE3<double>> ends;  ///< pose of every section's end
-  std::vector<double> J;          ///< tip twist (base axes, of the tip) per bend rate: 6 × 2M [m, rad]
-  std::vector<double> K;          ///< tendon rates per bend rate: tendons × 2M [m]
-  std::vector<kernel::Section<double>> maps;          ///< of the robot's sections
+  std::vector<Bend> bends;         ///< per section [rad]
+  std::vector<double> changes;     ///< Δl of every tendon [m], section by section; > 0 pays out
+  std::vector<double> slack;       ///< what every tendon has beyond what the bends need [m]
+  std::vector<SE3<double>> ends;   ///< pose of every section's end
+  std::vector<double> J;           ///< tip twist (base axes, of the tip) per bend rate: 6 × 2M [m, rad]
+  std::vector<double> K;           ///< tendon rates per bend rate: tendons × 2M [m]
+  std::vector<double> extensions;  ///< of every section [m], by `extend`; 0 at first
+  std::vector<ExtensionMotion> lengthwise;            ///< of every section, by `extension_motion`
+  std::vector<Section> sections;                      ///< as long as they are
+  std::vector<kernel::Section<double>> maps;          ///< of these sections
   std::vector<kernel::Direction<double>> directions;  ///< of every tendon
   std::vector<int> tendons;                           ///< of every section
 
@@ -33,43 +43,57 @@ struct SerialWorkspace {
   }
 };
 
+/// Makes the sections longer than at rest by so much [m]: all other questions to this workspace are about a
+/// robot of these lengths, with tendon changes from those of the straight robot at rest.
+SINEW_API void extend(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work);
+
 /// Changes of all tendons into `work.changes`, in one pass over the sections (LSK (5), (12)).
 SINEW_API void tendon_changes(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
-
-/// Adds to the changes of all tendons of each section what `more` says of it [m]: > 0 leaves the section
-/// slack by as much, as for a fast move; < 0 stiffens it, at most by what the tendons bear. Later sections
-/// have tendons of their own. [LSK] section 4.1: exact, or slightly over-tensioned, at rest.
-SINEW_API void pay_out(std::span<const double> more, SerialWorkspace& work);
 
 /// The same of many poses at once, in SIMD lanes: `bends` is 2M rows, `changes` a row for each tendon, both
 /// with one number a pose. Bends that are not finite give changes that are not.
 SINEW_API void tendon_changes_batch(std::span<const double> bends, kernel::Model model,
                                     std::span<double> changes, const SerialWorkspace& work);
 
+/// What all sections of the workspace ask of a tendon that passes them.
+SINEW_API kernel::Pull<double> pull_of_all(std::span<const Bend> bends, kernel::Model model,
+                                           const SerialWorkspace& work);
+
+/// Adds to the changes of all tendons of each section what `more` says of it [m]: > 0 leaves the section
+/// slack by as much, as for a fast move; < 0 stiffens it, at most by what the tendons bear. Later sections
+/// have tendons of their own. [LSK] section 4.1: exact, or slightly over-tensioned, at rest.
+SINEW_API void pay_out(std::span<const double> more, SerialWorkspace& work);
+
 /// Bends that come nearest to what the tendons did, in least squares for each section, into `work.bends`, and
 /// what every tendon then has too much (> 0: slack) or too little (< 0: over-tensioned) into `work.slack`.
+/// What the tendons of a section of variable length have in common is its extension, into `work.extensions`.
 ///
 /// Not converged, with `work.bends` the nearest there is: `unreachable` where a joint would bend by more than
 /// half a turn, or where tendons contradict one another by more than the robot's tolerance (over-tensioned);
-/// `left_domain` where a section would bend beyond its limit; `slack` where a tendon is longer by more than
+/// `left_domain` where a section would go beyond its limits; `slack` where a tendon is longer by more than
 /// the tolerance. The message names section and tendon. Theory: [LSK] section 4.1.
 SINEW_API Report bends_of_changes(const SerialRobot& robot, Numbers changes, kernel::Model model,
                                   SerialWorkspace& work);
 
-/// `left_domain` and which section it is, where a bend is beyond its section's limit by more than rounding.
-SINEW_API Report check_limits(const SerialRobot& robot, std::span<const Bend> bends);
+/// `left_domain` and which section it is, where a bend, or an extension if they are given, is beyond its
+/// section's limit by more than rounding.
+SINEW_API Report check_limits(const SerialRobot& robot, std::span<const Bend> bends,
+                              std::span<const double> extensions = {});
 
 /// What a tendon may be off before it counts as slack or over-tensioned [m]: the robot's tolerance, at least
 /// rounding.
 SINEW_API double tendon_tolerance(const SerialRobot& robot);
 
 /// Pose of every section's end into `work.ends`.
-SINEW_API void section_ends(const SerialRobot& robot, std::span<const Bend> bends, SerialWorkspace& work);
+SINEW_API void section_ends(std::span<const Bend> bends, SerialWorkspace& work);
 
 /// The same with the tip's Jacobian in `work.J`.
-SINEW_API void tip_motion(const SerialRobot& robot, std::span<const Bend> bends, SerialWorkspace& work);
+SINEW_API void tip_motion(std::span<const Bend> bends, SerialWorkspace& work);
 
 /// ∂(changes)/∂(bends) into `work.K`.
 SINEW_API void tendon_rates(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
+
+/// What extensions do, into `work.lengthwise`; after `section_ends` or `tip_motion` of the same bends.
+SINEW_API void extension_motion(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
 
 }  // namespace sinew::inline v0

@@ -17,9 +17,10 @@ struct TipTarget {
 
 struct SerialInverseOptions {
   std::span<const Bend> start = {};  ///< tried first, brought within the limits; empty: the straight robot
-  int starts = 128;                  ///< others tried after it, at most: a fixed set spread over the limits
-  int max_iterations = 100;          ///< of each start
-  double tolerance = 1e-12;          ///< on the residual, as a share of the robot's length
+  std::span<const double> start_extensions = {};  ///< of the sections, with it; empty: their lengths at rest
+  int starts = 128;          ///< others tried after it, at most: a fixed set spread over the limits
+  int max_iterations = 100;  ///< of each start
+  double tolerance = 1e-12;  ///< on the residual, as a share of the robot's length
 };
 
 /// A target has finitely many solutions or a continuum of them; this is the one that `start` leads to: near
@@ -27,10 +28,11 @@ struct SerialInverseOptions {
 struct SerialInverse {
   /// Residual: the larger of position error and, times the robot's length, angle error [m].
   Report report;
-  std::span<const Bend> bends;  ///< within the limits, view into the workspace
-  double position_error = 0;    ///< [m]
-  double angle_error = 0;       ///< of the direction or the rotation, where one was wanted [rad]
-  int start = 0;                ///< which start led here: 0 the first, k the k-th of the fixed set
+  std::span<const Bend> bends;         ///< within the limits, view into the workspace
+  std::span<const double> extensions;  ///< of the sections [m], within the limits, view into the workspace
+  double position_error = 0;           ///< [m]
+  double angle_error = 0;              ///< of the direction or the rotation, where one was wanted [rad]
+  int start = 0;                       ///< which start led here: 0 the first, k the k-th of the fixed set
 
   bool ok() const noexcept { return report.ok(); }
 };
@@ -40,8 +42,8 @@ struct SerialInverse {
 ///
 /// Not converged, with the nearest bends found: `unreachable` where the target lies farther away than the
 /// robot can be long; else `stalled` or `iteration_limit`, as the best start ended: none of the starts led to
-/// the target, which may be out of reach for all that is known. `work.bends`, `work.ends` and `work.J` are
-/// those of the answer. At most `max_sections` sections.
+/// the target, which may be out of reach for all that is known. `work.bends`, `work.extensions`, `work.ends`
+/// and `work.J` are those of the answer. At most `max_sections` sections.
 SINEW_API SerialInverse inverse(const SerialRobot& robot, const TipTarget& target,
                                 const SerialInverseOptions& options, SerialWorkspace& work);
 

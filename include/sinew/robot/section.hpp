@@ -26,6 +26,24 @@ struct Section {
   double tendon_angle = 0;   ///< δ of tendon 0 [rad]; the others follow evenly spread
   /// Largest bend [rad]: |β| of a joint about either axis, θ of a section with a neutral backbone.
   double limit = std::numeric_limits<double>::infinity();
+  /// How much longer than at rest its backbone can be made [m], evenly over its joints: least ≤ 0 ≤
+  /// most. The third coordinate of a neutral backbone; 0 and 0: the length is fixed.
+  double least_extension = 0, most_extension = 0;
+
+  bool is_extensible() const { return least_extension < most_extension; }
+  /// The section made longer by so much [m].
+  Section extended(double extension) const {
+    Section longer = *this;
+    longer.joint += extension / segments;
+    return longer;
+  }
+  /// How fast its end moves when it is made longer, in its base's frame.
+  Vec3<double> extension_motion(const Bend& bend) const {
+    Section chords = *this;  // the end is linear in the length of the joints
+    chords.joint = 1.0 / segments;
+    chords.disc_height = 0;
+    return chords.pose(bend).rigid().p;
+  }
 
   bool is_twin() const { return backbone == kernel::Backbone::twin_pivot; }
   double arc_length() const { return segments * joint; }              ///< N L [m]

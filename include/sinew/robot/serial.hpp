@@ -3,6 +3,7 @@
 /// it. Theory: docs/theory/section.md
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,24 @@ struct SerialRobot {
     double length = 0;
     for (const Section& section : sections) length += section.length();
     return length;
+  }
+  /// Every section longer than at rest by so much [m].
+  SerialRobot extended(std::span<const double> extensions) const {
+    SerialRobot longer = *this;
+    for (std::size_t m = 0; m < sections.size(); ++m)
+      longer.sections[m] = sections[m].extended(extensions[m]);
+    return longer;
+  }
+  /// Made as long as it can be.
+  double longest() const {
+    double length = 0;
+    for (const Section& section : sections) length += section.length() + section.most_extension;
+    return length;
+  }
+  bool is_extensible() const {
+    for (const Section& section : sections)
+      if (section.is_extensible()) return true;
+    return false;
   }
 };
 

@@ -9,9 +9,10 @@
 
 namespace sinew::inline v0 {
 
-/// Columns are the components of bends; bounds that leave no room (low = high = 0) hold one where it is.
+/// Columns are the components of bends and extensions; bounds that leave no room (low = high = 0) hold one
+/// where it is.
 struct BoundedStep {
-  static constexpr int most_rows = 6, most_columns = 2 * max_sections;
+  static constexpr int most_rows = 6, most_columns = 3 * max_sections + max_sections % 2;
   using Row = double[most_columns];
 
   int rows = 0, columns = 0;  ///< columns even

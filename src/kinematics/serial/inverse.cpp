@@ -11,7 +11,7 @@ namespace {
 
 /// Where a descent is, or has ended.
 struct Iterate {
-  Bends bends;
+  Shape shape;
   TipMiss miss;
   double merit;
 };
@@ -30,7 +30,7 @@ class Search {
   int start() const { return start_; }
 
   /// Descends from there, not for long where that gets on slowly; true where it arrived.
-  bool descend(const Bends& from, int start) {
+  bool descend(const Shape& from, int start) {
     Iterate at = evaluated(from);
     const Status end = descend(at, false);
     if (start == 0 || end == Status::converged || at.merit < best_.merit || !std::isfinite(best_.merit)) {
@@ -43,18 +43,18 @@ class Search {
 
   /// From the best so far to the end, however slowly: to the nearest there is about.
   bool finish() {
-    best_ = evaluated(best_.bends);
+    best_ = evaluated(best_.shape);
     status_ = descend(best_, true);
     return status_ == Status::converged;
   }
 
  private:
   static constexpr double longest_step =
-      0.8;  // of what a section turns by [rad]: its linearisation holds so far
+      0.8;  // of what a section turns by [rad]: its linearisation holds so far; of extensions no bound
 
-  Iterate evaluated(const Bends& bends) const {
-    const TipMiss miss = problem_.measure(bends);
-    return {bends, miss, miss.merit(problem_.length())};
+  Iterate evaluated(const Shape& shape) const {
+    const TipMiss miss = problem_.measure(shape);
+    return {shape, miss, miss.merit(problem_.length())};
   }
 
   /// Levenberg-Marquardt with damping in proportion to what is missed, so that it vanishes as fast as that
@@ -69,7 +69,7 @@ class Search {
         mark = at.merit;
       }
       ++iterations_;
-      problem_.linearise(at.bends, at.miss, longest_step, system);
+      problem_.linearise(at.shape, at.miss, longest_step, system);
       if (!step(at, system, damping)) return Status::stalled;
     }
     return at.miss.residual(problem_.length()) <= enough_ ? Status::converged : Status::iteration_limit;
@@ -84,7 +84,7 @@ class Search {
       if (!system.solve(size * (least + damping * std::min(at.merit, 1.0)))) return false;
       const double predicted = at.merit - system.missed();
       if (!(predicted > 1e-5 * at.merit)) return false;  // a minimum within the limits, and not zero
-      const Iterate ahead = evaluated(problem_.moved(at.bends, system));
+      const Iterate ahead = evaluated(problem_.moved(at.shape, system));
       const double gained = at.merit - ahead.merit;
       if (!(gained > 1e-3 * predicted)) continue;
       at = ahead;
@@ -104,25 +104,30 @@ class Search {
 
 /// The k-th of a fixed set of starts, k from 1: the straight robot, then others spread evenly over the limits
 /// by the fractional parts of multiples of roots of primes; of sections without limits over half a turn.
-Bends spread_start(const SerialRobot& robot, int k) {
-  static constexpr std::array<int, 2 * max_sections> primes = {
-      2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71, 73, 79, 83, 89};
+Shape spread_start(const SerialRobot& robot, int k) {
+  static constexpr std::array<int, 3 * max_sections> primes = {
+      2,  3,  5,  7,  11, 13, 17, 19,  23,  29,  31,  37,  41,  43,  47,  53,  59,  61,
+      67, 71, 73, 79, 83, 89, 97, 101, 103, 107, 109, 113, 127, 131, 137, 139, 149, 151};
   const auto part = [k](std::size_t i) {
     const double multiple = (k - 1) * std::sqrt(static_cast<double>(primes[i]));
     return multiple - std::floor(multiple);
   };
-  Bends bends;
+  Shape shape;
   for (std::size_t m = 0; m < robot.sections.size(); ++m) {
     const Section& section = robot.sections[m];
-    bends[m] = Bend(0, 0);
+    shape.bends[m] = Bend(0, 0);
     if (k == 1) continue;
     const double a = part(2 * m), b = part(2 * m + 1),
                  reach = std::min(section.limit, std::numbers::pi / turns(section));
     const double along = 2 * std::numbers::pi * b;
-    bends[m] = section.is_twin() ? Bend(Bend(2 * a - 1, 2 * b - 1) * reach)
-                                 : Bend(Bend(std::cos(along), std::sin(along)) * (reach * std::sqrt(a)));
+    shape.bends[m] = section.is_twin()
+                         ? Bend(Bend(2 * a - 1, 2 * b - 1) * reach)
+                         : Bend(Bend(std::cos(along), std::sin(along)) * (reach * std::sqrt(a)));
+    if (section.is_extensible())
+      shape.extensions[m] =
+          std::lerp(section.least_extension, section.most_extension, part(2 * max_sections + m));
   }
-  return bends;
+  return shape;
 }
 
 /// The starts in batches, each batch in order of how near its tips are.
@@ -162,11 +167,16 @@ class SpreadStarts {
   std::array<Start, batch_size> starts_;
 };
 
-Bends first_start(const SerialRobot& robot, std::span<const Bend> given) {
-  SINEW_EXPECTS(given.empty() || given.size() == robot.sections.size());
-  Bends bends;
-  for (std::size_t m = 0; m < robot.sections.size(); ++m) bends[m] = given.empty() ? Bend(0, 0) : given[m];
-  return bends;
+Shape first_start(const SerialRobot& robot, const SerialInverseOptions& options) {
+  const std::size_t count = robot.sections.size();
+  SINEW_EXPECTS(options.start.empty() || options.start.size() == count);
+  SINEW_EXPECTS(options.start_extensions.empty() || options.start_extensions.size() == count);
+  Shape shape;
+  for (std::size_t m = 0; m < count; ++m) {
+    shape.bends[m] = options.start.empty() ? Bend(0, 0) : options.start[m];
+    shape.extensions[m] = options.start_extensions.empty() ? 0 : options.start_extensions[m];
+  }
+  return shape;
 }
 
 void explain_too_far(double beyond, double length, Report& report) {
@@ -194,7 +204,7 @@ SerialInverse inverse(const SerialRobot& robot, const TipTarget& target, const S
                       SerialWorkspace& work) {
   const TipProblem problem(robot, target, work);
   Search search(problem, options);
-  Bends first = first_start(robot, options.start);
+  Shape first = first_start(robot, options);
   problem.bring_within(first);
   const double beyond = problem.farthest();
   bool found = search.descend(first, 0);
@@ -213,12 +223,13 @@ SerialInverse inverse(const SerialRobot& robot, const TipTarget& target, const S
   answer.angle_error = best.miss.angle;
   answer.start = search.start();
   if (beyond > 0)
-    explain_too_far(beyond, problem.length(), answer.report);
+    explain_too_far(beyond, robot.longest(), answer.report);
   else if (!found)
     explain_miss(best, answer.report);
-  std::copy_n(best.bends.begin(), robot.sections.size(), work.bends.begin());
+  std::copy_n(best.shape.bends.begin(), robot.sections.size(), work.bends.begin());
   answer.bends = work.bends;
-  if (!found) tip_motion(robot, work.bends, work);  // otherwise it was the last to be measured
+  answer.extensions = work.extensions;
+  if (!found) problem.measure(best.shape);  // otherwise it was the last to be measured
   return answer;
 }
 

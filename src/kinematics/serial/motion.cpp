@@ -4,24 +4,24 @@
 
 namespace sinew::inline v0 {
 
-void section_ends(const SerialRobot& robot, std::span<const Bend> bends, SerialWorkspace& work) {
+void section_ends(std::span<const Bend> bends, SerialWorkspace& work) {
   SINEW_EXPECTS(bends.size() == work.ends.size());
   BentPose<double> end;
   for (std::size_t m = 0; m < bends.size(); ++m) {
-    end = end.then(robot.sections[m].pose(bends[m]));
+    end = end.then(work.sections[m].pose(bends[m]));
     work.ends[m] = end.rigid();
   }
 }
 
 /// A section's columns are first those of a point of the tip that is at the base's origin, and are carried to
 /// the tip when it is known where that is.
-void tip_motion(const SerialRobot& robot, std::span<const Bend> bends, SerialWorkspace& work) {
+void tip_motion(std::span<const Bend> bends, SerialWorkspace& work) {
   SINEW_EXPECTS(bends.size() == work.ends.size());
   const std::size_t columns = 2 * bends.size();
   double* const J = work.J.data();
   BentPose<double> end;
   for (std::size_t m = 0; m < bends.size(); ++m) {
-    const BentMotion<double> section = robot.sections[m].motion(bends[m]);
+    const BentMotion<double> section = work.sections[m].motion(bends[m]);
     const detail::Turn<double> base(end.w, end.v);
     double arm[3];
     base.apply(section.pose.p, arm);
@@ -41,6 +41,16 @@ void tip_motion(const SerialRobot& robot, std::span<const Bend> bends, SerialWor
     const double *turn_k = J + (3 + k) * columns, *turn_l = J + (3 + l) * columns;
     for (std::size_t j = 0; j < columns; ++j)
       J[i * columns + j] += turn_k[j] * end.p[l] - turn_l[j] * end.p[k];
+  }
+}
+
+void extension_motion(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work) {
+  SINEW_EXPECTS(bends.size() == work.ends.size());
+  for (std::size_t m = 0; m < bends.size(); ++m) {
+    const Vec3<double> own = work.sections[m].extension_motion(bends[m]);
+    const kernel::Bend<double> bend{bends[m].x(), bends[m].y()};
+    work.lengthwise[m] = {m == 0 ? own : work.ends[m - 1].rotate(own),
+                          kernel::chord_share(model, work.maps[m], bend)};
   }
 }
 

@@ -15,7 +15,7 @@ constexpr int rows_of(TipTask task) { return task == TipTask::position ? 3 : tas
 /// At a limit as far as rounding can tell.
 constexpr double at_limit = 1e-12;
 
-void bound(const SerialRobot& robot, std::span<const Bend> bends, double fastest, BoundedStep& system) {
+void bound_bends(const SerialRobot& robot, std::span<const Bend> bends, double fastest, BoundedStep& system) {
   for (std::size_t m = 0; m < robot.sections.size(); ++m) {
     const Room free = room(robot.sections[m], bends[m]);
     for (std::size_t j = 0; j < 2; ++j) {
@@ -25,6 +25,28 @@ void bound(const SerialRobot& robot, std::span<const Bend> bends, double fastest
       system.high[2 * m + j] = across || free.high[j] > at_limit ? fastest : 0;
     }
   }
+}
+
+/// As fast as it takes; none of a length that is fixed.
+void bound_extensions(const SerialRobot& robot, std::span<const double> extensions, BoundedStep& system) {
+  const std::size_t first = 2 * robot.sections.size();
+  for (auto j = first; j < static_cast<std::size_t>(system.columns); ++j) system.low[j] = system.high[j] = 0;
+  constexpr double free = std::numeric_limits<double>::infinity();
+  const double slop = at_limit * robot.length();
+  for (std::size_t m = 0; m < robot.sections.size(); ++m) {
+    const Section& section = robot.sections[m];
+    if (section.is_extensible() && extensions[m] > section.least_extension + slop)
+      system.low[first + m] = -free;
+    if (section.is_extensible() && extensions[m] < section.most_extension - slop)
+      system.high[first + m] = free;
+  }
+}
+
+/// Unknowns that no limit has to hold: lengths that do not vary, and what fills a pair.
+int fixed_unknowns(const SerialRobot& robot) {
+  int free = 0;
+  for (const Section& section : robot.sections) free += section.is_extensible() ? 3 : 2;
+  return unknowns(robot) - free;
 }
 
 /// Rates into `rates`; what they miss stays in the system's r. Twice: the second solve takes what damping
@@ -62,7 +84,7 @@ void judge(double missed, double wanted, const ResolvedRateOptions& options, Res
     report.status = Status::left_domain;
     append_number(report.message, answer.held);
     report.message.append(
-        " components of bends are held at limits: the tip cannot follow; command another motion, or "
+        " components of the shape are held at limits: the tip cannot follow; command another motion, or "
         "fewer of its components");
   } else {
     report.status = Status::singular;
@@ -76,6 +98,7 @@ void judge(double missed, double wanted, const ResolvedRateOptions& options, Res
 
 RateWorkspace::RateWorkspace(const SerialRobot& robot)
     : bends(2 * robot.sections.size()),
+      extensions(robot.sections.size()),
       tendons(static_cast<std::size_t>(robot.tendon_count())) {}
 
 ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends, const TipTwist& twist,
@@ -83,32 +106,42 @@ ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends
   SINEW_EXPECTS(bends.size() == robot.sections.size() && robot.section_count() <= max_sections);
   SINEW_EXPECTS(rates.bends.size() == 2 * bends.size() && rates.tendons.size() == work.changes.size());
   SINEW_EXPECTS(options.fastest > 0);
-  tip_motion(robot, bends, work);
+  tip_motion(bends, work);
+  extension_motion(bends, options.model, work);
   const SO3<double> frame = options.frame == TipFrame::tip ? work.ends.back().R : SO3<double>::identity();
   const double length = robot.length();
+  const bool is_extensible = robot.is_extensible();
   BoundedStep system;
   system.rows = rows_of(options.task);
-  system.columns = static_cast<int>(rates.bends.size());
+  system.columns = unknowns(robot);
   tip_rows(robot, bends, work, length, frame.rotate(twist.linear), frame.rotate(twist.angular), system);
-  bound(robot, bends, options.fastest, system);
+  bound_bends(robot, bends, options.fastest, system);
+  bound_extensions(robot, work.extensions, system);
 
   ResolvedRate answer;
   const double wanted = length * speed(system.r, system.rows);
-  BoundedStep::Row unknowns;
-  answer.held = solve_rates(options.damping, system, unknowns);
+  BoundedStep::Row unknown;
+  answer.held = solve_rates(options.damping, system, unknown) - fixed_unknowns(robot);
   judge(length * speed(system.r, system.rows), wanted, options, answer);
   for (std::size_t m = 0; m < bends.size(); ++m) {
-    const Bend rate = bend_change(robot.sections[m], bends[m], unknowns[2 * m], unknowns[2 * m + 1]);
+    const Bend rate = bend_change(robot.sections[m], bends[m], unknown[2 * m], unknown[2 * m + 1]);
     rates.bends[2 * m] = rate.x();
     rates.bends[2 * m + 1] = rate.y();
+    rates.extensions[m] = is_extensible ? length * unknown[2 * bends.size() + m] : 0;
   }
   tendon_rates(bends, options.model, work);
-  for (std::size_t i = 0; i < rates.tendons.size(); ++i) {
-    rates.tendons[i] = 0;
-    for (std::size_t j = 0; j < rates.bends.size(); ++j)
-      rates.tendons[i] += work.K[i * rates.bends.size() + j] * rates.bends[j];
+  double paid_out = 0;  // of the tendons that pass a section, by the extensions so far
+  std::size_t i = 0;
+  for (std::size_t m = 0; m < bends.size(); ++m) {
+    paid_out += work.lengthwise[m].tendons * rates.extensions[m];
+    for (int k = 0; k < work.tendons[m]; ++k, ++i) {
+      rates.tendons[i] = paid_out;
+      for (std::size_t j = 0; j < rates.bends.size(); ++j)
+        rates.tendons[i] += work.K[i * rates.bends.size() + j] * rates.bends[j];
+    }
   }
   answer.bends = rates.bends;
+  answer.extensions = rates.extensions;
   answer.tendons = rates.tendons;
   return answer;
 }

@@ -12,9 +12,13 @@ namespace {
 using kernel::Model;
 using Pull = kernel::Pull<double>;
 
-Pull pull_of(const kernel::Section<double>& section, const Bend& bend, Model model) {
-  const kernel::Bend<double> b{bend.x(), bend.y()};
-  return model == Model::exact ? kernel::exact_pull(section, b) : kernel::linear_pull(section, b);
+kernel::Bend<double> kernel_bend(const Bend& bend) { return {bend.x(), bend.y()}; }
+
+/// Of a section as long as it is, and its extension. `work.maps` have that length.
+Pull pull_of(const SerialWorkspace& work, std::size_t m, const Bend& bend, Model model) {
+  Pull pull = kernel::pull(model, work.maps[m], kernel_bend(bend));
+  pull.common += work.extensions[m];
+  return pull;
 }
 
 void name_section(FixedText<240>& text, std::size_t section) {
@@ -39,6 +43,12 @@ void say_tendon(Report& report, Status status, std::size_t section, int tendon, 
   report.message.append(" is ");
   append_mm(report.message, length);
   report.message.append(what);
+}
+
+void extend(const Section& at_rest, std::size_t m, double extension, SerialWorkspace& work) {
+  work.extensions[m] = extension;
+  work.sections[m].joint = at_rest.extended(extension).joint;
+  work.maps[m].length = work.sections[m].arc_length();
 }
 
 /// What the tendons of a section say, if it is worse than what was found before.
@@ -66,7 +76,10 @@ SerialWorkspace::SerialWorkspace(const SerialRobot& robot)
       slack(changes.size()),
       ends(bends.size()),
       J(12 * bends.size()),
-      K(changes.size() * 2 * bends.size()) {
+      K(changes.size() * 2 * bends.size()),
+      extensions(bends.size()),
+      lengthwise(bends.size()),
+      sections(robot.sections) {
   for (const Section& section : robot.sections) {
     maps.push_back(section.map());
     tendons.push_back(section.tendons);
@@ -74,14 +87,25 @@ SerialWorkspace::SerialWorkspace(const SerialRobot& robot)
   }
 }
 
+void extend(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work) {
+  SINEW_EXPECTS(extensions.size() == work.sections.size());
+  for (std::size_t m = 0; m < extensions.size(); ++m) extend(robot.sections[m], m, extensions[m], work);
+}
+
 void tendon_changes(std::span<const Bend> bends, Model model, SerialWorkspace& work) {
   Pull sum{};
   auto direction = work.directions.begin();
   auto change = work.changes.begin();
   for (std::size_t m = 0; m < work.maps.size(); ++m) {
-    sum = sum + pull_of(work.maps[m], bends[m], model);
+    sum = sum + pull_of(work, m, bends[m], model);
     for (int i = 0; i < work.tendons[m]; ++i) *change++ = kernel::tendon_change(sum, *direction++);
   }
+}
+
+kernel::Pull<double> pull_of_all(std::span<const Bend> bends, Model model, const SerialWorkspace& work) {
+  Pull sum{};
+  for (std::size_t m = 0; m < work.maps.size(); ++m) sum = sum + pull_of(work, m, bends[m], model);
+  return sum;
 }
 
 void pay_out(std::span<const double> more, SerialWorkspace& work) {
@@ -95,12 +119,33 @@ double tendon_tolerance(const SerialRobot& robot) {
   return std::max(robot.tolerance, 1e-12 * robot.length());
 }
 
-Report check_limits(const SerialRobot& robot, std::span<const Bend> bends) {
+namespace {
+
+/// What a limit says of a section, if no section before it was beyond one.
+void check_extension(const Section& section, std::size_t m, double extension, Report& report) {
+  const double slop = 1e-12 * section.arc_length();
+  const bool is_long = extension > section.most_extension + slop;
+  if (!report.ok() || !(is_long || extension < section.least_extension - slop)) return;
+  report.status = Status::left_domain;
+  name_section(report.message, m);
+  report.message.append(" is ");
+  append_mm(report.message, std::abs(extension));
+  report.message.append(extension > 0 ? " longer than at rest, its limit is "
+                                      : " shorter than at rest, its limit is ");
+  append_mm(report.message, std::abs(is_long ? section.most_extension : section.least_extension));
+}
+
+}  // namespace
+
+Report check_limits(const SerialRobot& robot, std::span<const Bend> bends,
+                    std::span<const double> extensions) {
+  SINEW_EXPECTS(extensions.empty() || extensions.size() == bends.size());
   Report report;
   for (std::size_t m = 0; m < bends.size() && report.ok(); ++m) {
     const Section& section = robot.sections[m];
     const double bend = section.is_twin() ? bends[m].lpNorm<Eigen::Infinity>() : bends[m].norm();
-    if (bend <= section.limit * (1 + 1e-12)) continue;
+    if (!extensions.empty()) check_extension(section, m, extensions[m], report);
+    if (!report.ok() || bend <= section.limit * (1 + 1e-12)) continue;
     report.status = Status::left_domain;
     name_section(report.message, m);
     report.message.append(section.is_twin() ? " bends its joints by " : " bends by ");
@@ -124,11 +169,13 @@ Report bends_of_changes(const SerialRobot& robot, Numbers changes, Model model, 
     const auto* directions = work.directions.data() + first;
     const Pull sum = kernel::nearest_pull(work.changes.data() + first, directions, work.tendons[m]);
     const double x = sum.x - asked.x, y = sum.y - asked.y;
-    const auto bend = model == Model::exact ? kernel::exact_bend(work.maps[m], x, y)
-                                            : kernel::linear_bend(work.maps[m], x, y);
+    const auto bend = kernel::bend(model, work.maps[m], x, y);
     work.bends[m] = {bend.x, bend.y};
     asked = sum;
-    needed = needed + pull_of(work.maps[m], work.bends[m], model);
+    if (robot.sections[m].is_extensible())
+      extend(robot.sections[m], m,
+             kernel::extension(model, robot.sections[m].map(), bend, sum.common - needed.common), work);
+    needed = needed + pull_of(work, m, work.bends[m], model);
     for (std::size_t i = 0; i < count; ++i)
       slack[i] = kernel::tendon_slack(work.changes[first + i], needed, directions[i]);
     if (model == Model::exact && report.status != Status::unreachable &&
@@ -141,7 +188,7 @@ Report bends_of_changes(const SerialRobot& robot, Numbers changes, Model model, 
     first += count;
   }
   if (report.status == Status::unreachable) return report;
-  const Report limits = check_limits(robot, work.bends);
+  const Report limits = check_limits(robot, work.bends, work.extensions);
   return limits.ok() ? report : limits;
 }
 

@@ -26,7 +26,8 @@ TipProblem::TipProblem(const SerialRobot& robot, const TipTarget& target, Serial
       work_(work),
       target_(target),
       rows_(3),
-      length_(robot.length()) {
+      length_(robot.length()),
+      is_extensible_(robot.is_extensible()) {
   SINEW_EXPECTS(!robot.sections.empty() && robot.section_count() <= max_sections);
   SINEW_EXPECTS(work.ends.size() == robot.sections.size());
   SINEW_EXPECTS(!(target.direction && target.rotation));
@@ -51,29 +52,42 @@ double TipProblem::farthest() const {
     reached -=
         disc * (target_.direction ? *target_.direction : target_.rotation->rotate(Vec3<double>(0, 0, 1)));
   }
-  const double beyond = std::sqrt(squared_norm(reached)) - (length_ - disc);
+  const double beyond = std::sqrt(squared_norm(reached)) - (robot_.longest() - disc);
   return beyond > 1e-12 * length_ ? beyond : 0;
 }
 
-void TipProblem::bring_within(Bends& bends) const {
+void TipProblem::bring_within(Shape& shape) const {
   for (std::size_t m = 0; m < robot_.sections.size(); ++m) {
-    const double limit = robot_.sections[m].limit;
-    Bend& bend = bends[m];
-    if (robot_.sections[m].is_twin()) {
+    const Section& section = robot_.sections[m];
+    const double limit = section.limit;
+    Bend& bend = shape.bends[m];
+    if (section.is_twin()) {
       bend = Bend(std::clamp(bend.x(), -limit, limit), std::clamp(bend.y(), -limit, limit));
     } else if (const double size = std::sqrt(squared_norm(bend)); size > limit) {
       bend *= limit / size;
     }
+    shape.extensions[m] = std::clamp(shape.extensions[m], section.least_extension, section.most_extension);
   }
 }
 
-TipMiss TipProblem::screen(const Bends& bends) const {
-  section_ends(robot_, {bends.data(), robot_.sections.size()}, work_);
+std::span<const Bend> TipProblem::bends_of(const Shape& shape) const {
+  return {shape.bends.data(), robot_.sections.size()};
+}
+
+void TipProblem::set_lengths(const Shape& shape) const {
+  if (is_extensible_) extend(robot_, {shape.extensions.data(), robot_.sections.size()}, work_);
+}
+
+TipMiss TipProblem::screen(const Shape& shape) const {
+  set_lengths(shape);
+  section_ends(bends_of(shape), work_);
   return miss();
 }
 
-TipMiss TipProblem::measure(const Bends& bends) const {
-  tip_motion(robot_, {bends.data(), robot_.sections.size()}, work_);
+TipMiss TipProblem::measure(const Shape& shape) const {
+  set_lengths(shape);
+  tip_motion(bends_of(shape), work_);
+  if (is_extensible_) extension_motion(bends_of(shape), kernel::Model::linear, work_);
   return miss();
 }
 
@@ -89,23 +103,34 @@ TipMiss TipProblem::miss() const {
 
 /// The turn that is missing changes by −δθ to first order, and exactly so in its own direction: the merit's
 /// gradient is right however large it is.
-void TipProblem::linearise(const Bends& bends, const TipMiss& miss, double most, BoundedStep& system) const {
+void TipProblem::linearise(const Shape& shape, const TipMiss& miss, double most, BoundedStep& system) const {
   system.rows = rows_;
-  system.columns = 2 * static_cast<int>(robot_.sections.size());
-  tip_rows(robot_, bends, work_, length_, miss.shift, miss.turn, system);
-  for (std::size_t m = 0; m < robot_.sections.size(); ++m) {
-    const Room free = room(robot_.sections[m], bends[m]);
-    for (std::size_t j = 0; j < 2; ++j) {
-      system.low[2 * m + j] = std::max(free.low[j], -most);
-      system.high[2 * m + j] = std::min(free.high[j], most);
-    }
+  system.columns = unknowns(robot_);
+  tip_rows(robot_, bends_of(shape), work_, length_, miss.shift, miss.turn, system);
+  const auto bound = [&](std::size_t j, double low, double high) {
+    system.low[j] = std::max(low, -most);
+    system.high[j] = std::min(high, most);
+  };
+  const std::size_t count = robot_.sections.size();
+  for (std::size_t m = 0; m < count; ++m) {
+    const Room free = room(robot_.sections[m], shape.bends[m]);
+    for (std::size_t j = 0; j < 2; ++j) bound(2 * m + j, free.low[j], free.high[j]);
   }
+  if (!is_extensible_) return;
+  for (std::size_t m = 0; m < count; ++m)
+    bound(2 * count + m, (robot_.sections[m].least_extension - shape.extensions[m]) / length_,
+          (robot_.sections[m].most_extension - shape.extensions[m]) / length_);
+  if (count % 2 == 1) bound(3 * count, 0, 0);  // fills the pair
 }
 
-Bends TipProblem::moved(const Bends& bends, const BoundedStep& system) const {
-  Bends ahead = bends;
-  for (std::size_t m = 0; m < robot_.sections.size(); ++m)
-    ahead[m] += bend_change(robot_.sections[m], bends[m], system.step[2 * m], system.step[2 * m + 1]);
+Shape TipProblem::moved(const Shape& shape, const BoundedStep& system) const {
+  Shape ahead = shape;
+  const std::size_t count = robot_.sections.size();
+  for (std::size_t m = 0; m < count; ++m) {
+    ahead.bends[m] +=
+        bend_change(robot_.sections[m], shape.bends[m], system.step[2 * m], system.step[2 * m + 1]);
+    if (is_extensible_) ahead.extensions[m] += length_ * system.step[2 * count + m];
+  }
   bring_within(ahead);
   return ahead;
 }

@@ -11,6 +11,12 @@ namespace sinew::inline v0 {
 
 using Bends = std::array<Bend, max_sections>;
 
+/// Bends of all sections and how much longer they are than at rest [m].
+struct Shape {
+  Bends bends;
+  std::array<double, max_sections> extensions{};
+};
+
 /// From the tip to its target, in base axes.
 struct TipMiss {
   Vec3<double> shift, turn;  ///< [m], [rad]; `turn` the shortest, 0 where only a position is wanted
@@ -28,17 +34,19 @@ class TipProblem {
   double length() const { return length_; }
   double farthest() const;  ///< by how much the target is out of reach for certain [m]; 0: it may be in reach
 
-  /// The bends within the limits; of each section, those nearest to the given.
-  void bring_within(Bends& bends) const;
+  /// The shape within the limits; of each section, the bend and the extension nearest to the given.
+  void bring_within(Shape& shape) const;
   /// Only where the tip is, into `work.ends`.
-  TipMiss screen(const Bends& bends) const;
+  TipMiss screen(const Shape& shape) const;
   /// With the Jacobian in `work.J`.
-  TipMiss measure(const Bends& bends) const;
-  /// After `measure` of the same bends; no unknown goes farther than `most` [rad].
-  void linearise(const Bends& bends, const TipMiss& miss, double most, BoundedStep& system) const;
-  Bends moved(const Bends& bends, const BoundedStep& system) const;
+  TipMiss measure(const Shape& shape) const;
+  /// After `measure` of the same shape; no unknown goes farther than `most`.
+  void linearise(const Shape& shape, const TipMiss& miss, double most, BoundedStep& system) const;
+  Shape moved(const Shape& shape, const BoundedStep& system) const;
 
  private:
+  std::span<const Bend> bends_of(const Shape& shape) const;
+  void set_lengths(const Shape& shape) const;
   TipMiss miss() const;
 
   const SerialRobot& robot_;
@@ -46,6 +54,7 @@ class TipProblem {
   TipTarget target_;
   int rows_;
   double length_;
+  bool is_extensible_;
 };
 
 }  // namespace sinew::inline v0

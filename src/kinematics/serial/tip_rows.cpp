@@ -19,7 +19,23 @@ void to_unknowns(const SerialRobot& robot, std::span<const Bend> bends, BoundedS
   }
 }
 
+/// Columns of extensions behind those of bends.
+void append_extensions(const SerialWorkspace& work, BoundedStep& system) {
+  const int first = 2 * static_cast<int>(work.sections.size());
+  for (int i = 0; i < system.rows; ++i)
+    for (int j = first; j < system.columns; ++j) {
+      const auto m = static_cast<std::size_t>(j - first);
+      system.A[i][j] = i < 3 && m < work.sections.size() ? work.lengthwise[m].tip[i] : 0;
+    }
+}
+
 }  // namespace
+
+/// Even, as the solver wants them.
+int unknowns(const SerialRobot& robot) {
+  const int sections = robot.section_count();
+  return 2 * sections + (robot.is_extensible() ? sections + sections % 2 : 0);
+}
 
 Room room(const Section& section, const Bend& bend) {
   const double limit = section.limit, size = section.is_twin() ? 0 : std::sqrt(squared_norm(bend));
@@ -37,7 +53,7 @@ Bend bend_change(const Section& section, const Bend& bend, double first, double 
 
 void tip_rows(const SerialRobot& robot, std::span<const Bend> bends, const SerialWorkspace& work,
               double length, const Vec3<double>& shift, const Vec3<double>& turn, BoundedStep& system) {
-  const auto columns = static_cast<std::size_t>(system.columns);
+  const std::size_t columns = 2 * bends.size();
   const double* const J = work.J.data();
   for (int i = 0; i < 3; ++i) {
     system.r[i] = shift[i] / length;
@@ -53,6 +69,7 @@ void tip_rows(const SerialRobot& robot, std::span<const Bend> bends, const Seria
       system.A[i][j] = axis[0] * T[j] + axis[1] * T[j + columns] + axis[2] * T[j + 2 * columns];
   }
   to_unknowns(robot, bends, system);
+  append_extensions(work, system);
 }
 
 }  // namespace sinew::inline v0

@@ -69,26 +69,58 @@ constexpr Pull<Length> linear_pull(const Section<Angle, Length>& section, const 
   return {Length(section.gain * bend.x), Length(section.gain * bend.y), Length(0.0)};
 }
 
-/// PCC.  @implements LSK (1), (2)
+/// What chords lack of their arcs, as shares: of the pull towards x and y, and of the length.
+template <class Angle>
+struct ChordLoss {
+  Angle x, y, length;
+};
 template <class Angle, class Length>
-constexpr Pull<Length> exact_pull(const Section<Angle, Length>& section, const Bend<Angle>& bend) {
+constexpr ChordLoss<Angle> chord_loss_of(const Section<Angle, Length>& section, const Bend<Angle>& bend) {
   const Angle x = Angle(section.half * bend.x), y = Angle(section.half * bend.y);
   const Angle w_x = Angle(x * x), w_y = Angle(y * y);
-  const Pull<Length> straight = linear_pull(section, bend);
   if (section.backbone == Backbone::neutral) {
     const Angle loss = chord_loss(w_x + w_y);
-    return {straight.x + Length(straight.x * loss), straight.y + Length(straight.y * loss),
-            Length(section.length * loss)};
+    return {loss, loss, loss};
   }
   Angle loss_x{}, loss_y{};
   chord_losses(w_x, w_y, loss_x, loss_y);
-  return {straight.x + Length(straight.x * loss_x), straight.y + Length(straight.y * loss_y),
-          Length(section.length * Angle(Angle(0.5) * (loss_x + loss_y)))};
+  return {loss_x, loss_y, Angle(Angle(0.5) * (loss_x + loss_y))};
+}
+
+/// PCC.  @implements LSK (1), (2)
+template <class Angle, class Length>
+constexpr Pull<Length> exact_pull(const Section<Angle, Length>& section, const Bend<Angle>& bend) {
+  const ChordLoss<Angle> loss = chord_loss_of(section, bend);
+  const Pull<Length> straight = linear_pull(section, bend);
+  return {straight.x + Length(straight.x * loss.x), straight.y + Length(straight.y * loss.y),
+          Length(section.length * loss.length)};
 }
 
 template <Model model, class Angle, class Length>
 constexpr Pull<Length> pull(const Section<Angle, Length>& section, const Bend<Angle>& bend) {
   return model == Model::exact ? exact_pull(section, bend) : linear_pull(section, bend);
+}
+
+/// The pull of a section of variable length, `extension` longer than at rest: x and y are the same, and
+/// what is common to its tendons grows by as much as its chords do.
+template <Model model, class Angle, class Length>
+constexpr Pull<Length> pull(Section<Angle, Length> section, const Bend<Angle>& bend, Length extension) {
+  section.length = section.length + extension;
+  const Pull<Length> longer = pull<model>(section, bend);
+  return {longer.x, longer.y, longer.common + extension};
+}
+
+/// What of an extension the tendons feel: the share of chords in their arcs.
+template <Model model, class Angle, class Length>
+constexpr Angle chord_share(const Section<Angle, Length>& section, const Bend<Angle>& bend) {
+  return model == Model::exact ? Angle(1.0) + chord_loss_of(section, bend).length : Angle(1.0);
+}
+
+/// The extension whose pull has this in common, the section's own: the inverse of the above.
+template <Model model, class Angle, class Length>
+constexpr Length extension(const Section<Angle, Length>& section, const Bend<Angle>& bend, Length common) {
+  const Length own = common - pull<model>(section, bend).common;
+  return model == Model::exact ? Length(own / chord_share<model>(section, bend)) : own;
 }
 
 /// Change of a tendon in that direction, Δl > 0 pays out.  @implements LSK (9), (11), (15), (16)
@@ -136,6 +168,27 @@ constexpr Bend<Angle> exact_bend(const Section<Angle, Length>& section, Length x
 template <Model model, class Angle, class Length>
 constexpr Bend<Angle> bend(const Section<Angle, Length>& section, Length x, Length y) {
   return model == Model::exact ? exact_bend(section, x, y) : linear_bend(section, x, y);
+}
+
+// The same of a model that is chosen while it runs.
+
+template <class Angle, class Length>
+constexpr Pull<Length> pull(Model model, const Section<Angle, Length>& section, const Bend<Angle>& bend) {
+  return model == Model::exact ? exact_pull(section, bend) : linear_pull(section, bend);
+}
+template <class Angle, class Length>
+constexpr Bend<Angle> bend(Model model, const Section<Angle, Length>& section, Length x, Length y) {
+  return model == Model::exact ? exact_bend(section, x, y) : linear_bend(section, x, y);
+}
+template <class Angle, class Length>
+constexpr Angle chord_share(Model model, const Section<Angle, Length>& section, const Bend<Angle>& bend) {
+  return model == Model::exact ? chord_share<Model::exact>(section, bend) : Angle(1.0);
+}
+template <class Angle, class Length>
+constexpr Length extension(Model model, const Section<Angle, Length>& section, const Bend<Angle>& bend,
+                           Length common) {
+  return model == Model::exact ? extension<Model::exact>(section, bend, common)
+                               : extension<Model::linear>(section, bend, common);
 }
 
 }  // namespace kernel

@@ -32,6 +32,17 @@ struct Serial {
     }
   }
 
+  /// The same of sections of variable length, longer than at rest by their extensions.
+  template <Model model>
+  constexpr void changes(const Bend<Angle> (&bends)[Sections], const Length (&extensions)[Sections],
+                         Length (&changes)[Sections][Tendons]) const {
+    Pull<Length> sum{Length(0.0), Length(0.0), Length(0.0)};
+    for (Count m = 0; m < Sections; ++m) {
+      sum = sum + pull<model>(sections[m], bends[m], extensions[m]);
+      for (Count i = 0; i < Tendons; ++i) changes[m][i] = tendon_change(sum, directions[m][i]);
+    }
+  }
+
   /// The bends whose changes come nearest, in least squares for each section.
   template <Model model>
   constexpr void bends(const Length (&changes)[Sections][Tendons], Bend<Angle> (&bends)[Sections]) const {
@@ -41,6 +52,19 @@ struct Serial {
       bends[m] = bend<model>(sections[m], sum.x - x, sum.y - y);
       x = sum.x;
       y = sum.y;
+    }
+  }
+
+  /// The same where all sections vary their length: what the tendons of each have in common.
+  template <Model model>
+  constexpr void bends(const Length (&changes)[Sections][Tendons], Bend<Angle> (&bends)[Sections],
+                       Length (&extensions)[Sections]) const {
+    this->bends<model>(changes, bends);
+    Length common = Length(0.0);
+    for (Count m = 0; m < Sections; ++m) {
+      const Length sum = nearest_pull(changes[m], directions[m], static_cast<int>(Tendons)).common;
+      extensions[m] = extension<model>(sections[m], bends[m], sum - common);
+      common = sum;
     }
   }
 };
