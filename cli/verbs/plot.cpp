@@ -34,18 +34,22 @@ Series curve(const Node& points, const View& view, Mark mark, Colour colour, dou
   return series;
 }
 
+Panel empty_panel(const View& view) {
+  return {.title = {},
+          .x = {.label = std::string(view.x_name), .unit = "mm"},
+          .y = {.label = std::string(view.y_name), .unit = "mm"},
+          .series = {},
+          .notes = {},
+          .legend = Legend::below,
+          .equal_aspect = true};
+}
+
+/// The label of the first of many alike.
+std::string once(std::size_t i, const char* label) { return i == 0 ? std::string(label) : std::string(); }
+
 /// As Fig. 10 of [TDPCR]: backbones, tendons, platform, joints, and the lines along which the closures pull.
 Panel picture(const Answer& shape, const View& view, const Node& legs) {
-  Panel panel{.title = {},
-              .x = {.label = std::string(view.x_name), .unit = "mm"},
-              .y = {.label = std::string(view.y_name), .unit = "mm"},
-              .series = {},
-              .notes = {},
-              .legend = Legend::below,
-              .equal_aspect = true};
-  const auto once = [](std::size_t i, const char* label) {
-    return i == 0 ? std::string(label) : std::string();
-  };
+  Panel panel = empty_panel(view);
   const auto add = [&](const Node& points, Mark mark, Colour colour, double width, std::string label = {}) {
     panel.series.push_back(curve(points, view, mark, colour, width, std::move(label)));
   };
@@ -97,16 +101,7 @@ Node rim(const Node& disc) {
 
 /// A serial robot: backbone by sections, discs, tendons.
 Panel serial_picture(const Answer& shape, const View& view) {
-  Panel panel{.title = {},
-              .x = {.label = std::string(view.x_name), .unit = "mm"},
-              .y = {.label = std::string(view.y_name), .unit = "mm"},
-              .series = {},
-              .notes = {},
-              .legend = Legend::below,
-              .equal_aspect = true};
-  const auto once = [](std::size_t i, const char* label) {
-    return i == 0 ? std::string(label) : std::string();
-  };
+  Panel panel = empty_panel(view);
   const auto& discs = shape.find("discs")->items;
   for (std::size_t i = 0; i < discs.size(); ++i)
     panel.series.push_back(curve(rim(discs[i]), view, Mark::line, Colour::grey, 0.8, once(i, "disc")));

@@ -90,9 +90,9 @@ std::vector<TendonTravel> tendon_travel(const SerialRobot& robot, Model model) {
   for (std::size_t m = 0; m < robot.sections.size(); ++m) {
     const Section& own = robot.sections[m];
     for (int i = 0; i < own.tendons; ++i) {
-      const double angle = own.tendon_angle + 2 * std::numbers::pi * i / own.tendons;
       TendonTravel sum;
-      for (std::size_t k = 0; k <= m; ++k) sum = sum + section_travel(robot.sections[k], angle, model);
+      for (std::size_t k = 0; k <= m; ++k)
+        sum = sum + section_travel(robot.sections[k], own.angle_of(i), model);
       all.push_back(sum);
     }
   }

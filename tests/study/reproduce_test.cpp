@@ -13,7 +13,7 @@
 
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
-#include "study/tdpcr_example51.hpp"
+#include "study/tdpcr/example51.hpp"
 
 namespace {
 

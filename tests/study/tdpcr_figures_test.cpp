@@ -11,7 +11,7 @@
 #include "sinew/io/table.hpp"
 #include "sinew/study/reproduce.hpp"
 #include "study/compare.hpp"
-#include "study/tdpcr_example51.hpp"
+#include "study/tdpcr/example51.hpp"
 #include "study_folder.hpp"
 
 namespace {

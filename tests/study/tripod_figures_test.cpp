@@ -15,8 +15,8 @@
 #include "sinew/kinematics/inverse.hpp"
 #include "sinew/math/linalg.hpp"
 #include "sinew/study/reproduce.hpp"
-#include "study/tripod_contour.hpp"
-#include "study/tripod_example.hpp"
+#include "study/tripod/contour.hpp"
+#include "study/tripod/example.hpp"
 #include "study_folder.hpp"
 
 namespace {

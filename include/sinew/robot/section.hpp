@@ -52,8 +52,10 @@ struct Section {
   kernel::Section<double> map() const {
     return kernel::make_section<double>(backbone, segments, joint, tendon_radius);
   }
+  /// Of a tendon around the disc, from +x [rad].
+  double angle_of(int tendon) const { return tendon_angle + 2 * std::numbers::pi * tendon / tendons; }
   kernel::Direction<double> direction(int tendon) const {
-    return kernel::direction<double>(tendon_angle + 2 * std::numbers::pi * tendon / tendons);
+    return kernel::direction<double>(angle_of(tendon));
   }
 
   /// Pose of the section's end on its base, z distal.  @implements LSK (3), (4)

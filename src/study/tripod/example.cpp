@@ -1,4 +1,4 @@
-#include "study/tripod_example.hpp"
+#include "study/tripod/example.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@
 #include "sinew/io/table.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
-#include "study/tdpcr_example51.hpp"
+#include "study/tdpcr/example51.hpp"
 
 namespace sinew::inline v0 {
 namespace {

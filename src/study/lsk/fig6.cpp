@@ -10,7 +10,7 @@
 #include "sinew/io/serial_file.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
-#include "study/lsk_example.hpp"
+#include "study/lsk/example.hpp"
 
 namespace sinew::inline v0 {
 namespace {

@@ -1,4 +1,4 @@
-#include "study/tripod_contour.hpp"
+#include "study/tripod/contour.hpp"
 
 #include <fmt/format.h>
 

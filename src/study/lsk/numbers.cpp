@@ -13,7 +13,7 @@
 #include "sinew/kinematics/serial.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
-#include "study/lsk_example.hpp"
+#include "study/lsk/example.hpp"
 
 namespace sinew::inline v0 {
 namespace {

@@ -14,7 +14,7 @@
 #include "sinew/kinematics/inverse.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
-#include "study/tripod_example.hpp"
+#include "study/tripod/example.hpp"
 
 namespace sinew::inline v0 {
 namespace {

@@ -1,4 +1,4 @@
-#include "study/lsk_example.hpp"
+#include "study/lsk/example.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/tdpcr_example51.hpp"
+#include "study/tdpcr/example51.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include "sinew/analysis/tripod_loci.hpp"
 #include "sinew/io/figure.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
-#include "study/tripod_contour.hpp"
+#include "study/tripod/contour.hpp"
 
 namespace sinew::inline v0::tripod {
 

@@ -1,4 +1,4 @@
-#include "study/tdpcr_robot_drawing.hpp"
+#include "study/tdpcr/robot_drawing.hpp"
 
 #include <cmath>
 #include <numbers>

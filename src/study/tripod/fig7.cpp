@@ -12,7 +12,7 @@
 #include "sinew/io/table.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
-#include "study/tripod_example.hpp"
+#include "study/tripod/example.hpp"
 
 namespace sinew::inline v0 {
 namespace {

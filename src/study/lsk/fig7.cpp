@@ -9,7 +9,7 @@
 #include "sinew/analysis/chord_error.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
-#include "study/lsk_example.hpp"
+#include "study/lsk/example.hpp"
 
 namespace sinew::inline v0 {
 namespace {

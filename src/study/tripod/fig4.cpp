@@ -12,8 +12,8 @@
 #include "sinew/io/table.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
-#include "study/tripod_contour.hpp"
-#include "study/tripod_example.hpp"
+#include "study/tripod/contour.hpp"
+#include "study/tripod/example.hpp"
 
 namespace sinew::inline v0 {
 namespace {

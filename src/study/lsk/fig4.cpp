@@ -11,7 +11,7 @@
 #include "sinew/math/polygon.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
-#include "study/lsk_example.hpp"
+#include "study/lsk/example.hpp"
 
 namespace sinew::inline v0 {
 namespace {

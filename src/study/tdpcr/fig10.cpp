@@ -15,8 +15,8 @@
 #include "sinew/math/linalg.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
-#include "study/tdpcr_example51.hpp"
-#include "study/tdpcr_robot_drawing.hpp"
+#include "study/tdpcr/example51.hpp"
+#include "study/tdpcr/robot_drawing.hpp"
 
 namespace sinew::inline v0 {
 namespace {
