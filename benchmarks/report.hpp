@@ -41,18 +41,21 @@ class Medians : public benchmark::BenchmarkReporter {
   std::map<std::string, double> nanoseconds;
 };
 
-/// 99.9th percentile of single operations [ns]; includes the clock's own 20 to 30 ns. 0 where operations of
-/// so many ns take too long to be asked often enough.
+/// 99.9th percentile of single operations [ns]; includes the clock's own 20 to 30 ns. 0 where a thousand
+/// operations of so many ns would take too long.
 inline double slowest_of_1000(const std::function<void()>& run, double typical) {
-  if (typical > 1e5) return 0;
-  std::vector<double> times(20000);
+  constexpr double patience = 2e9;  // ns
+  const auto count = static_cast<std::size_t>(std::min(20000.0, patience / typical));
+  if (count < 1000) return 0;
+  std::vector<double> times(count);
   for (double& time : times) {
     const auto start = std::chrono::steady_clock::now();
     run();
     time = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
   }
-  std::nth_element(times.begin(), times.end() - 20, times.end());
-  return *(times.end() - 20);
+  const auto slow = times.end() - static_cast<std::ptrdiff_t>(count / 1000);
+  std::nth_element(times.begin(), slow, times.end());
+  return *slow;
 }
 
 /// Runs all and prints the table.
