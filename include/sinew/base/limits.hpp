@@ -11,4 +11,7 @@ inline constexpr int max_rows = 24;
 /// Most sections of a serial robot: two columns of its Jacobian each.
 inline constexpr int max_sections = max_rows / 2;
 
+/// Most joints of a pseudo-rigid link.
+inline constexpr int max_chain_joints = 32;
+
 }  // namespace sinew::inline v0
