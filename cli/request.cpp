@@ -303,7 +303,8 @@ void Request::per_section(std::string_view key, Dimension dimension) {
     const std::size_t end = rest.find(';');
     const auto parts = split(rest.substr(0, end));
     std::vector<Dimension> dimensions(parts.size(), dimension);
-    if (key == "configuration" && parts.size() == 3) dimensions[2] = Dimension::length;  // the extension
+    if (dimension == Dimension::angle && parts.size() == 3)
+      dimensions[2] = Dimension::length;  // the extension
     list += (sections ? ", " : "") + json_list(values(key, parts, dimensions));
     more = end != std::string_view::npos;
     if (more) rest.remove_prefix(end + 1);

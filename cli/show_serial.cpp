@@ -188,7 +188,8 @@ std::string show_diagram(const Answer& answer, const Robot& robot, std::size_t s
   for (std::size_t i = 0; i < slack.size(); ++i) table.add({fmt::format("{}", i), cell(slack[i], "m")});
   std::string text =
       fmt::format("{}{}\n", answer.text("class"), answer.find("partial")->boolean ? ", partially" : "");
-  if (answer.find("conditional")->boolean) text += "an earlier section is not exact: see outline\n";
+  if (answer.find("conditional")->boolean)
+    text += fmt::format("an earlier section is not exact{}\n", answer.find("outline") ? ": see outline" : "");
   text += '\n' + table.text();
   for (const char* key : {"margin", "over_tension"})
     if (const auto value = answer.number(key)) text += fmt::format("{}[mm] {}\n", key, cell(*value, "m"));

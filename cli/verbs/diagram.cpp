@@ -119,8 +119,9 @@ int run_diagram(const Arguments& arguments) {
   if (!answer->find("class")) return exit_code(*answer);
   const std::size_t section = section_of(arguments);
   if (const std::string* file = arguments.text("output"))
-    return write_figure_file(arguments, picture(*answer, *robot, section), *file);
-  if (!arguments.has("json")) print(show_diagram(*answer, *robot, section));
+    if (const int written = write_figure_file(arguments, picture(*answer, *robot, section), *file))
+      return written;
+  if (!arguments.has("json") && !arguments.has("output")) print(show_diagram(*answer, *robot, section));
   return exit_code(*answer);
 }
 

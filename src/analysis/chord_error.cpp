@@ -225,6 +225,7 @@ LinearConsequences linear_consequences(const SerialRobot& robot, int poses, std:
 }
 
 std::vector<LinearSlack> largest_linear_slack(const SerialRobot& robot) {
+  SINEW_EXPECTS(!robot.is_extensible());
   std::vector<LinearSlack> all;
   double sum = 0;
   for (const Section& section : robot.sections) {

@@ -126,7 +126,10 @@ double bend_at_strain(const Section& section, double strain, double diameter) {
 double tendon_length(const SerialRobot& robot, int section, double outside) {
   SINEW_EXPECTS(section >= 0 && section < robot.section_count());
   double length = outside;
-  for (int k = 0; k <= section; ++k) length += robot.sections[static_cast<std::size_t>(k)].length();
+  for (int k = 0; k <= section; ++k) {
+    const Section& passed = robot.sections[static_cast<std::size_t>(k)];
+    length += passed.length() + passed.most_extension;
+  }
   return length;
 }
 

@@ -25,23 +25,25 @@ Node placed(Node value, const Node& place) {
 /// Angles of tendon 0 of every section [rad]: a list, or `24 deg each`, by which every section is turned
 /// against the one before (the first against the x axis).
 std::vector<double> section_angles(const Reader& angle, std::size_t count) {
-  if (angle.is(Node::Kind::list)) return angle.quantities(Dimension::angle, {}, count);
+  if (angle.is(Node::Kind::list)) return angle.quantities(Dimension::angle, Range::turn(), count);
   std::vector<double> angles(count, 0.0);
   const std::string text = angle.node() ? angle.node()->text : std::string();
   constexpr std::string_view each = " each";
   const auto turn = text.ends_with(each)
                         ? parse_quantity(text.substr(0, text.size() - each.size()), Dimension::angle)
                         : Expected<double>(tl::unexpected(Errors{}));
-  if (!turn) {
+  if (turn && !Range::turn().contains(*turn)) {
+    angle.refuse("out_of_range", "give an angle of at most 1e6 rad");
+  } else if (!turn) {
     angle.refuse(
         "wrong_type",
         fmt::format(
             "write how much every section is turned against the one before, \"24 deg each\", or a list "
             "of {} angles",
             count));
-    return angles;
+  } else {
+    for (std::size_t m = 0; m < count; ++m) angles[m] = static_cast<double>(m + 1) * *turn;
   }
-  for (std::size_t m = 0; m < count; ++m) angles[m] = static_cast<double>(m + 1) * *turn;
   return angles;
 }
 
@@ -72,8 +74,8 @@ void read_tendons(Reader& section, Section& result) {
   if (result.disc_radius > 0 && radius.node() && result.tendon_radius > result.disc_radius)
     radius.refuse("out_of_range", fmt::format("the disc's radius is {}: the tendons would run outside it",
                                               human(result.disc_radius, Dimension::length)));
-  result.tendon_angle =
-      tendons.required("angle", "direction of tendon 0 around the disc").quantity(Dimension::angle);
+  result.tendon_angle = tendons.required("angle", "direction of tendon 0 around the disc")
+                            .quantity(Dimension::angle, Range{.low = -1.2e7, .high = 1.2e7});
   tendons.close();
 }
 
@@ -87,17 +89,18 @@ void read_limit(Reader& section, Section& result) {
 void read_extension(Reader& section, Section& result) {
   const auto extension = section.optional("extension");
   if (!extension) return;
-  const auto [least, most] = extension->array<2>(Dimension::length, Range::place());
+  const auto items = extension->items(2);
+  if (items.size() != 2) return;
+  const double least = items[0].quantity(Dimension::length, {.low = -Range::place().high, .high = 0}),
+               most = items[1].quantity(Dimension::length, {.low = 0, .high = Range::place().high});
   if (result.is_twin())
-    extension->refuse("no_effect", "twin pivots have no length to vary; write it of a neutral backbone");
-  else if (!(least <= 0 && most >= 0 && least < most))
-    extension->refuse(
-        "out_of_range",
-        "write how far the section can be made shorter and longer than at rest, \"[-5 mm, 20 mm]\"");
+    extension->fail("no_effect", "twin pivots have no length to vary; write it of a neutral backbone");
+  else if (least == 0 && most == 0)
+    extension->fail("out_of_range", "both are 0: remove it, or write how far the section can get longer");
   else if (!(least > -result.arc_length()))
-    extension->refuse("longer_than_section",
-                      fmt::format("the backbone is {} long: it cannot get shorter than that",
-                                  human(result.arc_length(), Dimension::length)));
+    items[0].fail("longer_than_section",
+                  fmt::format("the backbone is {} long: it cannot get shorter than that",
+                              human(result.arc_length(), Dimension::length)));
   result.least_extension = least;
   result.most_extension = most;
 }
@@ -123,11 +126,12 @@ Section read_section(Reader& section) {
 
 void read_actuation(Reader& robot, SerialRobot& result) {
   if (auto motor = robot.optional("motor")) {
+    constexpr Range ratio{.low = 0, .high = 1e9, .low_excluded = true};
     TendonMotor& m = result.motor.emplace();
     m.lead =
         motor->required("lead", "way of the screw in one turn").quantity(Dimension::length, Range::size());
-    m.counts = motor->required("counts", "of the encoder in one turn").number(Range::positive());
-    if (const auto gear = motor->optional("gear")) m.gear = gear->number(Range::positive());
+    m.counts = motor->required("counts", "of the encoder in one turn").number(ratio);
+    if (const auto gear = motor->optional("gear")) m.gear = gear->number(ratio);
     motor->close();
   }
   if (auto stretch = robot.optional("stretch")) {

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sinew/analysis/serial_shape.hpp"
 #include "sinew/io/quantity.hpp"
+#include "sinew/kinematics/resolved_rate.hpp"
 
 namespace sinew::inline v0 {
 
@@ -28,15 +30,17 @@ std::vector<Reader> section_items(const SerialContext& context, const Reader& li
 
 namespace {
 
+bool is_straight(const Bend& bend) { return bend.norm() <= 1e-14; }
+
 /// Bend of a section from what the protocol calls its configuration, and back.
 Bend bend_of(const Section& section, const std::array<double, 2>& given) {
   return section.is_twin() ? Bend(given[0], given[1])
                            : Bend(given[0] * std::cos(given[1]), given[0] * std::sin(given[1]));
 }
-std::array<double, 2> configuration_of(const Section& section, const Bend& bend) {
+/// @param straight φ of a straight section, where rounding would decide it
+std::array<double, 2> configuration_of(const Section& section, const Bend& bend, double straight) {
   if (section.is_twin()) return {bend.x(), bend.y()};
-  // Of a straight section rounding would decide the direction.
-  return {bend.norm(), bend.norm() > 1e-14 ? std::atan2(bend.y(), bend.x()) : 0.0};
+  return {bend.norm(), is_straight(bend) ? straight : std::atan2(bend.y(), bend.x())};
 }
 
 /// The same per section, as the protocol has it.
@@ -60,25 +64,28 @@ SerialConfiguration read_configuration(SerialContext& context, const Reader& lis
   const auto items = section_items(context, list);
   for (std::size_t m = 0; m < std::min(items.size(), count); ++m) {
     const Section& section = context.robot.sections[m];
-    const bool has_extension =
-        section.is_extensible() && items[m].is(Node::Kind::list) && items[m].node()->items.size() == 3;
-    if (!has_extension) {
-      shape.bends[m] = bend_of(section, items[m].array<2>(Dimension::angle));
+    const std::size_t given = items[m].is(Node::Kind::list) ? items[m].node()->items.size() : 0;
+    const bool has_extension = section.is_extensible() && given == 3;
+    if (section.is_extensible() && given > 3) {
+      items[m].fail("wrong_length",
+                    fmt::format("there are {} values; give 2, or 3 with the extension", given));
       continue;
     }
-    const auto parts = items[m].items();
-    shape.bends[m] =
-        bend_of(section, {parts[0].quantity(Dimension::angle), parts[1].quantity(Dimension::angle)});
-    shape.extensions[m] = parts[2].quantity(Dimension::length, Range::place());
+    const auto parts = items[m].items(has_extension ? 3 : 2);
+    if (parts.size() < 2 || given != parts.size()) continue;
+    shape.bends[m] = bend_of(section, {parts[0].quantity(Dimension::angle, Range::turn()),
+                                       parts[1].quantity(Dimension::angle, Range::turn())});
+    if (has_extension) shape.extensions[m] = parts[2].quantity(Dimension::length, Range::place());
   }
   return shape;
 }
 
-Json configuration_json(const SerialContext& context, std::span<const Bend> bends) {
+Json configuration_json(const SerialContext& context, std::span<const Bend> bends,
+                        std::span<const double> straight) {
   Json list = Json::array();
   for (std::size_t m = 0; m < bends.size(); ++m) {
     const Section& section = context.robot.sections[m];
-    Json one = configuration_of(section, bends[m]);
+    Json one = configuration_of(section, bends[m], straight.empty() ? 0 : straight[m]);
     if (section.is_extensible()) one.push_back(context.work.extensions[m]);
     list.push_back(std::move(one));
   }
@@ -91,11 +98,12 @@ Json changes_json(SerialContext& context, std::span<const Bend> bends, kernel::M
 }
 
 void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
-                       std::span<const double> more) {
+                       std::span<const double> more, std::span<const double> given) {
   Json& answer = context.answer;
   answer["configuration"] = configuration_json(context, bends);
   tendon_changes(bends, model, context.work);
   if (!more.empty()) pay_out(more, context.work);
+  std::copy(given.begin(), given.end(), context.work.changes.begin());
   answer["changes"] = by_section(context.robot, context.work.changes);
   section_ends(bends, context.work);
   if (context.robot.motor) {
@@ -191,7 +199,8 @@ struct ByConfiguration {
 };
 
 /// By rates of [θ, φ], where that is what the protocol has, and of extensions.
-ByConfiguration by_configuration(const SerialContext& context, std::span<const Bend> bends) {
+ByConfiguration by_configuration(const SerialContext& context, std::span<const Bend> bends,
+                                 std::span<const double> straight) {
   const auto& sections = context.robot.sections;
   const SerialWorkspace& work = context.work;
   Eigen::Index columns = 0;
@@ -202,7 +211,7 @@ ByConfiguration by_configuration(const SerialContext& context, std::span<const B
   for (std::size_t m = 0; m < bends.size(); ++m) {
     Mat<double, 2, 2> turn = Mat<double, 2, 2>::Identity();
     if (!sections[m].is_twin()) {
-      const auto [theta, phi] = configuration_of(sections[m], bends[m]);
+      const auto [theta, phi] = configuration_of(sections[m], bends[m], straight[m]);
       turn << std::cos(phi), -theta * std::sin(phi), std::sin(phi), theta * std::cos(phi);
     }
     const auto from = static_cast<Eigen::Index>(2 * m);
@@ -219,8 +228,17 @@ ByConfiguration by_configuration(const SerialContext& context, std::span<const B
   return by;
 }
 
-/// σmax/σmin, and the largest speeds of the tip for bend rates of unit norm.
-Json indices_json(const MatrixView& J, double length) {
+/// σmax/σmin, and the largest speeds of the tip for rates of unit norm: of bends in rad, not of [θ, φ], and
+/// of extensions as shares of the robot's length.
+Json indices_json(const SerialContext& context) {
+  const SerialWorkspace& work = context.work;
+  const double length = context.robot.length();
+  Rows J = work.jacobian();
+  for (std::size_t m = 0; m < context.robot.sections.size(); ++m) {
+    if (!context.robot.sections[m].is_extensible()) continue;
+    J.conservativeResize(6, J.cols() + 1);
+    J.rightCols<1>() << length * work.lengthwise[m].tip, 0, 0, 0;
+  }
   const auto ratio = [](const Rows& matrix) {
     std::array<double, max_rows> sigma;
     singular_values(MatrixView(matrix.data(), matrix.rows(), matrix.cols()), sigma);
@@ -240,25 +258,44 @@ Json indices_json(const MatrixView& J, double length) {
   return indices;
 }
 
-/// Rates of the configuration that give the twist, the shortest where there are many.
-void put_rates(SerialContext& context, const Rows& J, std::span<const double> twist) {
-  std::vector<double> rates(static_cast<std::size_t>(J.cols()));
-  least_norm(MatrixView(J.data(), J.rows(), J.cols()), twist, rates);
-  const Eigen::Map<const Eigen::VectorXd> wanted(twist.data(), 6), found(rates.data(), J.cols());
-  if ((J * found - wanted).norm() > 1e-9 * wanted.norm()) {
-    Report report;
-    report.status = Status::singular;
-    report.message.append("no rates of the sections give this twist here");
-    return context.report(report);
-  }
+/// Rates of [θ, φ] or [β₁, β₂] and of the extension, from those of bends. A straight section starts towards
+/// where its bend goes: that is its φ.
+Json rates_json(const SerialContext& context, std::span<const Bend> bends, const ResolvedRate& found,
+                std::span<double> straight) {
   Json list = Json::array();
-  auto rate = rates.begin();
-  for (const Section& section : context.robot.sections) {
-    list.push_back({rate[0], rate[1]});
-    if (section.is_extensible()) list.back().push_back(rate[2]);
-    rate += section.is_extensible() ? 3 : 2;
+  for (std::size_t m = 0; m < bends.size(); ++m) {
+    const Section& section = context.robot.sections[m];
+    Bend rate(found.bends[2 * m], found.bends[2 * m + 1]);
+    if (!section.is_twin() && is_straight(bends[m])) {
+      if (rate.norm() > 0) straight[m] = std::atan2(rate.y(), rate.x());
+      rate = {rate.norm(), 0};
+    } else if (!section.is_twin()) {
+      const double theta = bends[m].norm();
+      const Bend along = bends[m] / theta;
+      rate = {along.dot(rate), (along.x() * rate.y() - along.y() * rate.x()) / theta};
+    }
+    Json one{rate.x(), rate.y()};
+    if (section.is_extensible()) one.push_back(found.extensions[m]);
+    list.push_back(std::move(one));
   }
-  context.answer["rates"] = list;
+  return list;
+}
+
+/// A shape that would fill the memory of whoever asks.
+void refuse_many_points(SerialContext& context, int samples) {
+  constexpr std::size_t most = 1000000;
+  std::size_t points = 0, segments = 0;
+  for (const Section& section : context.robot.sections) {
+    segments += static_cast<std::size_t>(section.segments);
+    points += static_cast<std::size_t>(section.segments * samples) +
+              2 * segments * static_cast<std::size_t>(section.tendons);
+  }
+  if (points > most)
+    context.query.fail(
+        "out_of_range",
+        fmt::format("the shape has {} points, this version writes at most {}: ask for fewer samples, "
+                    "or have fewer segments",
+                    points, most));
 }
 
 }  // namespace
@@ -270,7 +307,8 @@ void answer_serial_forward(SerialContext& context) {
   if (!context.ready()) return;
   solve_shape(context, model, shape);
   context.report(shape.report);
-  put_configuration(context, shape.bends, model, more);
+  put_configuration(context, shape.bends, model, more,
+                    shape.changes ? std::span<const double>(*shape.changes) : std::span<const double>());
   if (shape.changes) context.answer["slack"] = by_section(context.robot, shape.slack);
 }
 
@@ -278,20 +316,33 @@ void answer_serial_velocity(SerialContext& context) {
   const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
   Shaped shape = read_shape(context);
   std::vector<double> twist;
-  if (const auto asked = context.query.optional("twist")) twist = asked->quantities(Dimension::number, {}, 6);
+  if (const auto asked = context.query.optional("twist"))
+    twist = asked->quantities(Dimension::number, Range::place(), 6);
   if (!context.ready()) return;
   solve_shape(context, model, shape);
   context.report(shape.report);
+  std::vector<double> straight(shape.bends.size(), 0.0);
+  Json rates;
+  if (!twist.empty()) {
+    RateWorkspace memory(context.robot);
+    const TipTwist wanted{{twist[0], twist[1], twist[2]}, {twist[3], twist[4], twist[5]}};
+    const ResolvedRate found =
+        resolved_rate(context.robot, shape.bends, wanted, {.model = model}, context.work, memory);
+    if (found.ok())
+      rates = rates_json(context, shape.bends, found, straight);
+    else
+      context.report(found.report);
+  }
   tip_motion(shape.bends, context.work);
   tendon_rates(shape.bends, model, context.work);
   extension_motion(shape.bends, model, context.work);
-  const auto [J, K] = by_configuration(context, shape.bends);
-  context.answer["configuration"] = configuration_json(context, shape.bends);
+  const auto [J, K] = by_configuration(context, shape.bends, straight);
+  context.answer["configuration"] = configuration_json(context, shape.bends, straight);
   context.answer["tip"] = to_json(AnyPose(spatial_pose(context.work.ends.back())));
   context.answer["J"] = to_json(MatrixView(J.data(), J.rows(), J.cols()));
   context.answer["K"] = to_json(MatrixView(K.data(), K.rows(), K.cols()));
-  context.answer["indices"] = indices_json(context.work.jacobian(), context.robot.length());
-  if (!twist.empty()) put_rates(context, J, twist);
+  context.answer["indices"] = indices_json(context);
+  if (!rates.is_null()) context.answer["rates"] = std::move(rates);
 }
 
 void answer_serial_shape(SerialContext& context) {
@@ -299,6 +350,7 @@ void answer_serial_shape(SerialContext& context) {
   Shaped given = read_shape(context);
   const auto samples = context.query.optional("samples");
   const int count = samples ? samples->integer(Range::between(2, 200)) : 5;
+  refuse_many_points(context, count);
   if (!context.ready()) return;
   solve_shape(context, model, given);
   context.report(given.report);

@@ -27,13 +27,16 @@ struct SerialConfiguration {
 /// and as long as at rest.
 SerialConfiguration read_configuration(SerialContext& context, const Reader& list);
 /// As long as the sections of the workspace are.
-Json configuration_json(const SerialContext& context, std::span<const Bend> bends);
+/// @param straight φ of each section that is straight; empty: 0
+Json configuration_json(const SerialContext& context, std::span<const Bend> bends,
+                        std::span<const double> straight = {});
 /// What the bends ask of the tendons, per section. Uses the workspace.
 Json changes_json(SerialContext& context, std::span<const Bend> bends, kernel::Model model);
 /// Writes configuration, changes, motors, sections and tip, as long as the sections of the workspace are.
 /// @param more what every tendon of a section is paid out beyond that [m]; empty: nothing
+/// @param given changes of the first tendons, where they are known; the others are those of the bends
 void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
-                       std::span<const double> more = {});
+                       std::span<const double> more = {}, std::span<const double> given = {});
 
 void answer_serial_forward(SerialContext& context);
 void answer_serial_inverse(SerialContext& context);

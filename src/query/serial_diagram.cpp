@@ -77,6 +77,8 @@ struct Asked {
   SerialWorkspace work;
   DiagramQuestion question;
   bool is_conditional = false;  ///< the section before it is not exact
+  Report earlier;               ///< of the sections before it
+  double own_extension = 0;     ///< how much longer than at rest it is itself [m]
 
   Asked(const SerialContext& context, std::size_t section)
       : first(context.robot),
@@ -85,8 +87,8 @@ struct Asked {
 
 /// What earlier sections ask of this one's tendons, where their own tendons put them.
 void put_earlier(Asked& asked, const TendonsTo& tendons) {
-  bends_of_changes(asked.first, Numbers(std::span(tendons.changes).first(tendons.first)),
-                   asked.question.model, asked.work);
+  asked.earlier = bends_of_changes(asked.first, Numbers(std::span(tendons.changes).first(tendons.first)),
+                                   asked.question.model, asked.work);
   asked.question.earlier = pull_of_all(asked.work.bends, asked.question.model, asked.work);
   if (asked.first.sections.empty()) return;
   const auto last = static_cast<std::size_t>(asked.first.sections.back().tendons);
@@ -107,6 +109,7 @@ void take_extension(Asked& asked, const Section& section) {
                  section.least_extension, section.most_extension);
   asked.question.section = section.extended(extension).map();
   asked.question.earlier.common += extension;
+  asked.own_extension = extension;
 }
 
 void put_state(Json& answer, const SectionDiagram& diagram) {
@@ -143,8 +146,9 @@ void answer_serial_diagram(SerialContext& context) {
   std::optional<TendonsTo> measured;
   if (const auto given = context.query.optional("measured")) measured = read_tendons(context, *given, m);
   const auto tolerance = context.query.optional("tolerance");
-  const double own_tolerance = tolerance ? tolerance->quantity(Dimension::length, Range::not_negative())
-                                         : tendon_tolerance(context.robot);
+  SerialRobot judged = context.robot;
+  if (tolerance) judged.tolerance = tolerance->quantity(Dimension::length, Range::not_negative());
+  const double own_tolerance = tendon_tolerance(judged);  // at least rounding
   const Envelope envelope = read_envelope(context, section);
   if (!context.ready()) return;
 
@@ -162,7 +166,9 @@ void answer_serial_diagram(SerialContext& context) {
   };
   Asked asked(context, m);
   const SectionDiagram diagram = ask(commanded, asked);
-  context.report(diagram.report);
+  // An earlier section beyond its limit is not where the diagram takes it; slack there is `conditional`.
+  const bool is_out = asked.earlier.status == Status::left_domain;
+  context.report(is_out && diagram.report.ok() ? asked.earlier : diagram.report);
   if (diagram.report.status == Status::left_domain) return;
   put_diagram(context.answer, diagram);
   constexpr std::string_view kinds[] = {"square", "disc", "actuator"};
@@ -172,15 +178,27 @@ void answer_serial_diagram(SerialContext& context) {
   if (asked.is_conditional && model == kernel::Model::linear) {
     const std::size_t before = tendons_before(context.robot, m - 1);
     const auto count = commanded.first - before;
+    // of whole tendons, but for what the lengths of sections do to them
+    const double longer = asked.question.earlier.common,
+                 own = asked.own_extension;  // of the section, which its own tendons follow as well
+    std::vector<double> changes = commanded.changes;
+    for (std::size_t i = before; i < changes.size(); ++i)
+      changes[i] -= longer - (i < commanded.first ? own : 0);
+    DiagramQuestion question = asked.question;
+    question.tendons.changes = std::span(changes).subspan(commanded.first);
     const SectionOutline outline =
-        section_outline(asked.question, {std::span(context.work.directions).subspan(before, count),
-                                         std::span(commanded.changes).subspan(before, count)});
+        section_outline(question, {std::span(context.work.directions).subspan(before, count),
+                                   std::span(changes).subspan(before, count)});
     if (outline.report.ok()) context.answer["outline"] = points_json(outline.boundary);
   }
   if (measured) {
     Asked of_encoders(context, m);
     Json state = Json::object();
-    put_state(state, ask(*measured, of_encoders));
+    const SectionDiagram read = ask(*measured, of_encoders);
+    if (read.report.status == Status::left_domain)
+      state = {{"status", "left_domain"}, {"message", std::string(read.report.message.view())}};
+    else
+      put_state(state, read);
     context.answer["measured"] = std::move(state);
   }
 }

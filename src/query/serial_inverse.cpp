@@ -33,7 +33,7 @@ TipTarget read_target(SerialContext& context) {
     if (axis.norm() >= 1e-9)
       target.direction = axis.normalized();
     else
-      direction->fail("no_direction", "a direction needs a component that is not 0");
+      direction->fail("no_direction", "a direction needs a length of at least 1e-9");
   }
   return target;
 }
@@ -68,8 +68,17 @@ void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& 
                          {"changes", changes_json(context, bends, model)},
                          {"residual", found.residual[k]}});
   }
-  context.report(found.report);
-  if (found.report.status == Status::left_domain) return;
+  Report report = found.report;
+  if (!first && !found.solutions.empty()) {
+    report.status = found.is_complete() ? Status::unreachable : Status::stalled;
+    report.message = {};
+    append_number(report.message, static_cast<int>(found.solutions.size()));
+    report.message.append(found.is_complete()
+                              ? " solutions, none within the limits of all sections"
+                              : " examples of a continuum, none within the limits of all sections");
+  }
+  context.report(report);
+  if (report.status == Status::left_domain) return;
   if (first) {
     put_configuration(context, found.solutions[*first], model);
     context.answer["residual"] = found.residual[*first];
@@ -94,7 +103,10 @@ void answer_serial_inverse(SerialContext& context) {
               "every solution is found of three arcs only: three neutral sections of one segment, "
               "without discs, of fixed lengths");
   if (want_all && !target.rotation && context.errors.empty())
-    all->fail("not_available", "a position alone has a continuum of solutions; give a pose");
+    all->fail("not_available", "a target that leaves turns open has a continuum of solutions; give a pose");
+  for (const char* key : {"start", "max_iterations"})
+    if (const auto given = context.query.optional(key); given && want_all)
+      given->refuse("no_effect", "has no effect where all solutions are asked for; remove it");
   if (!context.ready()) return;
   if (want_all) return answer_all(context, *arcs, target, model);
 

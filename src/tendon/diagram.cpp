@@ -59,13 +59,25 @@ void find_point(const SectionCase& c, SectionDiagram& diagram) {
   for (std::size_t i = 0; i < c.tendons(); ++i) diagram.slack.push_back(c.slack(i, asked));
 }
 
+/// Whether some bend, allowed or not, leaves no tendon too short; of curved frontiers the nearest is asked.
+bool agree_somewhere(const SectionCase& c, const SectionDiagram& diagram) {
+  const double tolerance = c.question.tolerance;
+  if (c.is_exact()) return *std::ranges::min_element(diagram.slack) >= -tolerance;
+  std::vector<double> longer = c.own;
+  for (double& change : longer) change += tolerance;
+  return !intersection(frontiers(c.at, longer, c.question.section.gain))->empty();
+}
+
+/// By the margin where it can: in the exact model, and of 5 and more tendons in either, a tendon that is too
+/// short where they are met best need not be so elsewhere.
 void classify(const SectionCase& c, SectionDiagram& diagram) {
   const auto [least, most] = std::minmax_element(diagram.slack.begin(), diagram.slack.end());
   const double tolerance = c.question.tolerance;
-  diagram.agree = *least < -tolerance           ? TendonsAgree::inconsistent
-                  : diagram.margin < -tolerance ? TendonsAgree::unreachable
-                  : *most <= tolerance          ? TendonsAgree::exact
-                                                : TendonsAgree::indeterminate;
+  if (diagram.margin < -tolerance)
+    diagram.agree = agree_somewhere(c, diagram) ? TendonsAgree::unreachable : TendonsAgree::inconsistent;
+  else
+    diagram.agree =
+        std::max(*most, diagram.margin) <= tolerance ? TendonsAgree::exact : TendonsAgree::indeterminate;
   diagram.partial = diagram.agree == TendonsAgree::indeterminate && *least <= tolerance;
 }
 

@@ -6,6 +6,7 @@
 #include "serial_robots.hpp"
 #include "sinew/analysis/serial_shape.hpp"
 #include "sinew/analysis/tendon_limits.hpp"
+#include "sinew/kernel/fixed.h"
 #include "sinew/kernel/serial.h"
 #include "sinew/kinematics/resolved_rate.hpp"
 #include "sinew/kinematics/serial_inverse.hpp"
@@ -180,11 +181,18 @@ TEST_P(Extension, LimitsAreNamed) {
   extensions[1] = -6 * mm;
   report = check_limits(robot, bends, extensions);
   EXPECT_EQ(report.message.view(), "sections[1] is 6 mm shorter than at rest, its limit is 5 mm");
-  extend(robot, extensions, work);
-  tendon_changes(bends, Model::exact, work);
-  const std::vector<double> changes = work.changes;
-  EXPECT_EQ(bends_of_changes(robot, changes, Model::exact, work).status, Status::left_domain);
-  EXPECT_NEAR(work.extensions[1], -6 * mm, 1e-15);
+  // Tendons that ask for more than the limits are slack, or too short; no section gets shorter than it can.
+  for (auto& bend : bends) bend.setZero();
+  for (const double asked : {-6 * mm, 18 * mm}) {
+    extend(robot, std::array{0.0, asked, 0.0, 0.0, 0.0}, work);
+    tendon_changes(bends, Model::exact, work);
+    const std::vector<double> changes = work.changes;
+    report = bends_of_changes(robot, changes, Model::exact, work);
+    EXPECT_EQ(report.status, asked < 0 ? Status::unreachable : Status::slack) << to_string(report);
+    EXPECT_TRUE(report.message.view().starts_with("sections[1]")) << report.message.view();
+    EXPECT_EQ(work.extensions[1], asked < 0 ? -5 * mm : 15 * mm);
+    EXPECT_NEAR(work.slack[std::size_t(GetParam())], asked < 0 ? -1 * mm : 3 * mm, 1e-15);
+  }
 }
 
 TEST_P(Extension, InverseUsesIt) {
@@ -217,6 +225,15 @@ TEST_P(Extension, ReachesBeyondTheLengthAtRest) {
   EXPECT_EQ(answer.report.status, Status::unreachable);
   EXPECT_NE(answer.report.message.view().find("1 mm beyond"), std::string_view::npos)
       << answer.report.message.view();
+}
+
+TEST_P(Extension, MayBeAsLongAsARodThatSlidesIn) {
+  SerialRobot slides = robot;
+  slides.sections[1].most_extension = 1e6;
+  SerialWorkspace other(slides);
+  const SerialInverse answer = inverse(slides, {.position = Vec3<double>(0.1, 0.2, 3)}, {}, other);
+  ASSERT_TRUE(answer.ok()) << to_string(answer.report);
+  EXPECT_LT(answer.report.iterations, 30);
 }
 
 TEST_P(Extension, RatesUseItAndStopAtItsLimits) {
@@ -276,6 +293,22 @@ TEST_P(Extension, TravelCoversEveryLength) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tendons, Extension, testing::Values(3, 4));
+
+TEST(KernelExtension, RunsInFixedPointOfTwoFormats) {
+  using Angle = kernel::Fixed<32, 27>;
+  using Length = kernel::Fixed<32, 20>;
+  constexpr auto robot = kernel::make_serial<2, 3, Angle, Length>(Backbone::neutral, 8, 2.375, 2.45, 0.4);
+  const kernel::Bend<Angle> bends[2] = {{Angle(0.3), Angle(-0.2)}, {Angle(0.0), Angle(0.0)}};
+  const Length extensions[2] = {Length(1.5), Length(-0.5)};
+  Length changes[2][3], found[2];
+  kernel::Bend<Angle> back[2];
+  robot.changes<Model::exact>(bends, extensions, changes);
+  robot.bends<Model::exact>(changes, back, found);
+  for (int m = 0; m < 2; ++m) {
+    EXPECT_NEAR(static_cast<double>(back[m].x), static_cast<double>(bends[m].x), 1e-5);
+    EXPECT_NEAR(static_cast<double>(found[m]), static_cast<double>(extensions[m]), 2e-5);
+  }
+}
 
 TEST(KernelExtension, RunsThereAndBackOnAController) {
   constexpr auto robot = kernel::make_serial<2, 3, float>(Backbone::neutral, 8, 2.375, 2.45, 0.4f);

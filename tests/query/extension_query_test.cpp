@@ -71,6 +71,23 @@ TEST(ExtensionQuery, ADiagramTakesItForLengthWithinItsLimits) {
   EXPECT_NEAR(answers[2]["over_tension"].get<double>(), 0.003, 1e-15);
 }
 
+TEST(ExtensionQuery, OutlinesAreOfWhatIsNotLength) {
+  const Json set = {{"sections[0].extension", {"-5 mm", "20 mm"}}};
+  const auto outline = [&](double longer) {
+    Json changes = {{0, 0, 0}, {0, 0, 0, 0.002}, {0, 0, 0}};
+    for (Json& section : changes)
+      for (Json& change : section) change = change.get<double>() + longer;
+    return ask("four-tendon-neutral",
+               {{{"query", "diagram"},
+                 {"set", {{"sections[0].tendons.count", 3}, {"sections[0].extension", {"-5 mm", "20 mm"}}}},
+                 {"section", 1},
+                 {"changes", {changes[0], changes[1]}}}})[0];
+  };
+  const Json rest = outline(0), longer = outline(0.01);
+  EXPECT_EQ(rest["class"], longer["class"]);
+  EXPECT_NEAR(rest["area"].get<double>(), longer["area"].get<double>(), 1e-12);
+}
+
 TEST(ExtensionQuery, AllArcsAreOfFixedLength) {
   const Json set = {{"sections[0].extension", {"-1 mm", "1 mm"}}};
   const Json pose = {{"position", {0, 0, 2.9}}, {"quaternion", {1, 0, 0, 0}}};

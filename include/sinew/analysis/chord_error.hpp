@@ -93,7 +93,7 @@ struct LinearSlack {
   double dead_zone;  ///< how far the whole section's bend can then go either way [rad]
 };
 
-/// Of each section; limits must be finite.
+/// Of each section; limits must be finite, lengths fixed.
 SINEW_API std::vector<LinearSlack> largest_linear_slack(const SerialRobot& robot);
 
 /// How far from a bend the exact geometry lets the first section be where its tendons were driven there by

@@ -44,7 +44,7 @@ SINEW_API double bend_at_strain(const Section& section, double strain, double di
 
 // ---------------------------------------------------------------- stretch and tolerance
 
-/// Length of a tendon of that section from its motor to its end, robot straight [m].
+/// Length of a tendon of that section from its motor to its end, robot straight and as long as it can be [m].
 /// @param outside between motor and robot [m]
 SINEW_API double tendon_length(const SerialRobot& robot, int section, double outside);
 

@@ -43,6 +43,8 @@ struct Range {
   static constexpr Range size() { return {.low = 1e-9, .high = 1e9}; }
   /// Coordinates of points [m].
   static constexpr Range place() { return {.low = -1e9, .high = 1e9}; }
+  /// Angles [rad] that still have a sine in doubles.
+  static constexpr Range turn() { return {.low = -1e6, .high = 1e6}; }
   static constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
 };
 

@@ -1,6 +1,7 @@
 /// @file serial.hpp
 /// Kinematics of serial robots: bends to tendon changes and back, bends to poses and their derivatives.
-/// Nothing here allocates: a workspace holds what answers are read from. Theory: docs/theory/section.md
+/// Nothing here allocates but a batch of fewer poses than lanes: a workspace holds what answers are read
+/// from. Theory: docs/theory/section.md
 #pragma once
 #include <span>
 #include <vector>
@@ -31,7 +32,7 @@ struct SerialWorkspace {
   std::vector<double> extensions;  ///< of every section [m], by `extend`; 0 at first
   std::vector<ExtensionMotion> lengthwise;            ///< of every section, by `extension_motion`
   std::vector<Section> sections;                      ///< as long as they are
-  std::vector<kernel::Section<double>> maps;          ///< of these sections
+  std::vector<kernel::Section<double>> maps;          ///< of the sections at rest
   std::vector<kernel::Direction<double>> directions;  ///< of every tendon
   std::vector<int> tendons;                           ///< of every section
 
@@ -66,11 +67,12 @@ SINEW_API void pay_out(std::span<const double> more, SerialWorkspace& work);
 
 /// Bends that come nearest to what the tendons did, in least squares for each section, into `work.bends`, and
 /// what every tendon then has too much (> 0: slack) or too little (< 0: over-tensioned) into `work.slack`.
-/// What the tendons of a section of variable length have in common is its extension, into `work.extensions`.
+/// What the tendons of a section of variable length have in common is its extension, within its limits, into
+/// `work.extensions`.
 ///
 /// Not converged, with `work.bends` the nearest there is: `unreachable` where a joint would bend by more than
 /// half a turn, or where tendons contradict one another by more than the robot's tolerance (over-tensioned);
-/// `left_domain` where a section would go beyond its limits; `slack` where a tendon is longer by more than
+/// `left_domain` where a section would bend beyond its limit; `slack` where a tendon is longer by more than
 /// the tolerance. The message names section and tendon. Theory: [LSK] section 4.1.
 SINEW_API Report bends_of_changes(const SerialRobot& robot, Numbers changes, kernel::Model model,
                                   SerialWorkspace& work);

@@ -71,8 +71,7 @@ void changes_of(const SerialWorkspace& maps, const double* bends, double* change
   for (std::size_t m = 0; m < maps.maps.size(); ++m) {
     const wide_kernel::Bend<Number> bend{Number(hn::LoadU(tag, bends + 2 * m * poses + at)),
                                          Number(hn::LoadU(tag, bends + (2 * m + 1) * poses + at))};
-    sum = sum + wide_kernel::pull<model>(wide(maps.maps[m]), bend);
-    sum.common = sum.common + Number(maps.extensions[m]);
+    sum = sum + wide_kernel::pull<model>(wide(maps.maps[m]), bend, Number(maps.extensions[m]));
     for (int i = 0; i < maps.tendons[m]; ++i, ++tendon) {
       const auto& d = maps.directions[tendon];
       const wide_kernel::Direction<Number> direction{Number(d.cosine), Number(d.sine)};

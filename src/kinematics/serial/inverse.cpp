@@ -50,7 +50,7 @@ class Search {
 
  private:
   static constexpr double longest_step =
-      0.8;  // of what a section turns by [rad]: its linearisation holds so far; of extensions no bound
+      0.8;  // of what a section turns by [rad]: its linearisation holds so far. In extensions all is linear
 
   Iterate evaluated(const Shape& shape) const {
     const TipMiss miss = problem_.measure(shape);

@@ -14,11 +14,8 @@ using Pull = kernel::Pull<double>;
 
 kernel::Bend<double> kernel_bend(const Bend& bend) { return {bend.x(), bend.y()}; }
 
-/// Of a section as long as it is, and its extension. `work.maps` have that length.
 Pull pull_of(const SerialWorkspace& work, std::size_t m, const Bend& bend, Model model) {
-  Pull pull = kernel::pull(model, work.maps[m], kernel_bend(bend));
-  pull.common += work.extensions[m];
-  return pull;
+  return kernel::pull(model, work.maps[m], kernel_bend(bend), work.extensions[m]);
 }
 
 void name_section(FixedText<240>& text, std::size_t section) {
@@ -48,15 +45,15 @@ void say_tendon(Report& report, Status status, std::size_t section, int tendon, 
 void extend(const Section& at_rest, std::size_t m, double extension, SerialWorkspace& work) {
   work.extensions[m] = extension;
   work.sections[m].joint = at_rest.extended(extension).joint;
-  work.maps[m].length = work.sections[m].arc_length();
 }
 
 /// What the tendons of a section say, if it is worse than what was found before.
 void judge_tendons(std::size_t m, std::span<const double> slack, double tolerance, Report& report) {
   const auto [least, most] = std::ranges::minmax(slack);
   if (kernel::tendon_state(least, tolerance) == kernel::TendonState::over_tensioned)
-    say_tendon(report, Status::unreachable, m, first_as(slack, least), -least,
-               " too short for any bend: its tendons contradict one another (over-tensioned)");
+    say_tendon(
+        report, Status::unreachable, m, first_as(slack, least), -least,
+        " too short where its section's tendons are met best: they contradict one another (over-tensioned)");
   else if (report.ok() && kernel::tendon_state(most, tolerance) == kernel::TendonState::slack)
     say_tendon(report, Status::slack, m, first_as(slack, most), most,
                " longer than the bend needs: it is slack, and the bend not determined");
@@ -172,14 +169,15 @@ Report bends_of_changes(const SerialRobot& robot, Numbers changes, Model model, 
     const auto bend = kernel::bend(model, work.maps[m], x, y);
     work.bends[m] = {bend.x, bend.y};
     asked = sum;
-    if (robot.sections[m].is_extensible())
-      extend(robot.sections[m], m,
-             kernel::extension(model, robot.sections[m].map(), bend, sum.common - needed.common), work);
+    const bool bends_so = model == Model::linear || has_arcs(robot.sections[m], work.maps[m], x, y);
+    if (const Section& section = robot.sections[m]; section.is_extensible() && bends_so) {
+      const double wanted = kernel::extension(model, work.maps[m], bend, sum.common - needed.common);
+      extend(section, m, std::clamp(wanted, section.least_extension, section.most_extension), work);
+    }
     needed = needed + pull_of(work, m, work.bends[m], model);
     for (std::size_t i = 0; i < count; ++i)
       slack[i] = kernel::tendon_slack(work.changes[first + i], needed, directions[i]);
-    if (model == Model::exact && report.status != Status::unreachable &&
-        !has_arcs(robot.sections[m], work.maps[m], x, y)) {
+    if (!bends_so && report.status != Status::unreachable) {
       report.status = Status::unreachable;
       name_section(report.message, m);
       report.message.append(" would have to bend a joint by more than half a turn");
@@ -201,7 +199,7 @@ struct PullRate {
 };
 
 /// With h the half angle a joint has of a bend b and s = sinc: ∂s/∂b = −sinc_slope(h)·(h/b)²·b.
-PullRate pull_rate(const kernel::Section<double>& section, const Bend& bend, Model model) {
+PullRate pull_rate(const kernel::Section<double>& section, double length, const Bend& bend, Model model) {
   const double g = section.gain;
   PullRate rate{Mat<double, 2, 2>(Mat<double, 2, 2>::Identity() * g), Vec2<double>::Zero()};
   if (model == Model::linear) return rate;
@@ -210,11 +208,11 @@ PullRate pull_rate(const kernel::Section<double>& section, const Bend& bend, Mod
     const double angle = half.norm();
     const Vec2<double> s_rate = -sinc_slope(angle) * section.half * half;
     rate.bend = g * (sinc(angle) * Mat<double, 2, 2>::Identity() + bend * s_rate.transpose());
-    rate.common = section.length * s_rate;
+    rate.common = length * s_rate;
   } else {
     for (int j = 0; j < 2; ++j) {
       rate.bend(j, j) = g * std::cos(half[j]);
-      rate.common[j] = -0.5 * section.length * sinc_slope(half[j]) * section.half * half[j];
+      rate.common[j] = -0.5 * length * sinc_slope(half[j]) * section.half * half[j];
     }
   }
   return rate;
@@ -226,7 +224,7 @@ void tendon_rates(std::span<const Bend> bends, Model model, SerialWorkspace& wor
   std::fill(work.K.begin(), work.K.end(), 0.0);
   const std::size_t columns = 2 * work.maps.size();
   for (std::size_t k = 0; k < work.maps.size(); ++k) {
-    const PullRate rate = pull_rate(work.maps[k], bends[k], model);
+    const PullRate rate = pull_rate(work.maps[k], work.sections[k].arc_length(), bends[k], model);
     std::size_t row = 0;
     for (std::size_t m = 0; m < work.maps.size(); ++m)
       for (int i = 0; i < work.tendons[m]; ++i, ++row) {

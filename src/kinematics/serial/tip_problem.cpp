@@ -108,13 +108,14 @@ void TipProblem::linearise(const Shape& shape, const TipMiss& miss, double most,
   system.columns = unknowns(robot_);
   tip_rows(robot_, bends_of(shape), work_, length_, miss.shift, miss.turn, system);
   const auto bound = [&](std::size_t j, double low, double high) {
-    system.low[j] = std::max(low, -most);
-    system.high[j] = std::min(high, most);
+    system.low[j] = low;
+    system.high[j] = high;
   };
   const std::size_t count = robot_.sections.size();
   for (std::size_t m = 0; m < count; ++m) {
     const Room free = room(robot_.sections[m], shape.bends[m]);
-    for (std::size_t j = 0; j < 2; ++j) bound(2 * m + j, free.low[j], free.high[j]);
+    for (std::size_t j = 0; j < 2; ++j)
+      bound(2 * m + j, std::max(free.low[j], -most), std::min(free.high[j], most));
   }
   if (!is_extensible_) return;
   for (std::size_t m = 0; m < count; ++m)

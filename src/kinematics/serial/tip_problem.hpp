@@ -40,7 +40,7 @@ class TipProblem {
   TipMiss screen(const Shape& shape) const;
   /// With the Jacobian in `work.J`.
   TipMiss measure(const Shape& shape) const;
-  /// After `measure` of the same shape; no unknown goes farther than `most`.
+  /// After `measure` of the same shape; no section turns by more than `most` [rad].
   void linearise(const Shape& shape, const TipMiss& miss, double most, BoundedStep& system) const;
   Shape moved(const Shape& shape, const BoundedStep& system) const;
 

@@ -20,12 +20,13 @@ void to_unknowns(const SerialRobot& robot, std::span<const Bend> bends, BoundedS
 }
 
 /// Columns of extensions behind those of bends.
-void append_extensions(const SerialWorkspace& work, BoundedStep& system) {
+void append_extensions(const SerialRobot& robot, const SerialWorkspace& work, BoundedStep& system) {
   const int first = 2 * static_cast<int>(work.sections.size());
   for (int i = 0; i < system.rows; ++i)
     for (int j = first; j < system.columns; ++j) {
       const auto m = static_cast<std::size_t>(j - first);
-      system.A[i][j] = i < 3 && m < work.sections.size() ? work.lengthwise[m].tip[i] : 0;
+      const bool varies = m < robot.sections.size() && robot.sections[m].is_extensible();
+      system.A[i][j] = i < 3 && varies ? work.lengthwise[m].tip[i] : 0;
     }
 }
 
@@ -69,7 +70,7 @@ void tip_rows(const SerialRobot& robot, std::span<const Bend> bends, const Seria
       system.A[i][j] = axis[0] * T[j] + axis[1] * T[j + columns] + axis[2] * T[j + 2 * columns];
   }
   to_unknowns(robot, bends, system);
-  append_extensions(work, system);
+  append_extensions(robot, work, system);
 }
 
 }  // namespace sinew::inline v0

@@ -1,4 +1,4 @@
-/// @file lsk_example.hpp
+/// @file example.hpp
 /// The robot of [LSK] Table 2 in the paper's figures: what is printed of it, its section diagrams and how
 /// they are drawn, in degrees. Theory: docs/theory/model_error.md, docs/theory/section_diagram.md
 #pragma once

@@ -1,4 +1,4 @@
-/// @file tdpcr_example51.hpp
+/// @file example51.hpp
 /// The example of TDPCR section 5.1: robot, trajectory, and what can be derived of both by hand.
 /// Theory: docs/theory/example51.md
 #pragma once

@@ -1,4 +1,4 @@
-/// @file tdpcr_robot_drawing.hpp
+/// @file robot_drawing.hpp
 /// Pieces of a picture of a planar robot. Points and lengths come in metres, the panel is in mm.
 #pragma once
 #include <string>

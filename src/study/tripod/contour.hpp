@@ -1,4 +1,4 @@
-/// @file tripod_contour.hpp
+/// @file contour.hpp
 /// Lines of equal value over a heat map, with their values written on them.
 #pragma once
 #include <vector>

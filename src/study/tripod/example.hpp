@@ -1,4 +1,4 @@
-/// @file tripod_example.hpp
+/// @file example.hpp
 /// The 3PRS of [3PFS] section 3.1 in the plane of e₁ and e₂: what the paper prints of it, what is measured at
 /// a place, the two loci and how they are drawn. Operation mode e₃ = 0, carriages below the platform. Theory:
 /// docs/theory/tripod_figures.md

@@ -4,8 +4,9 @@
 /// pass over the sections; PCC needs no double loop and is not singular when straight.
 ///
 /// A section is N joints with a disc each. Its bend (x, y) is
-///   neutral backbone       x = θ cos φ, y = θ sin φ of the whole section (each joint bends by θ/N towards
-///   φ); twin-pivot joints      x = β₁, y = β₂ per joint (N/2 joints bend about each axis).
+/// - of a neutral backbone x = θ cos φ, y = θ sin φ of the whole section: each joint bends by θ/N towards φ;
+/// - of twin-pivot joints x = β₁, y = β₂ per joint: N/2 joints bend about each axis.
+///
 /// A tendon at angle d passes every joint at radius r, so it changes by  Δl = common − (X cos d + Y sin d)
 /// with X, Y, common summed over the sections it passes. One unit of length throughout, angles in rad.
 /// Freestanding C++14, no includes but its neighbour, no heap. Theory: docs/theory/section.md
@@ -104,10 +105,12 @@ constexpr Pull<Length> pull(const Section<Angle, Length>& section, const Bend<An
 /// The pull of a section of variable length, `extension` longer than at rest: x and y are the same, and
 /// what is common to its tendons grows by as much as its chords do.
 template <Model model, class Angle, class Length>
-constexpr Pull<Length> pull(Section<Angle, Length> section, const Bend<Angle>& bend, Length extension) {
-  section.length = section.length + extension;
-  const Pull<Length> longer = pull<model>(section, bend);
-  return {longer.x, longer.y, longer.common + extension};
+constexpr Pull<Length> pull(const Section<Angle, Length>& section, const Bend<Angle>& bend,
+                            Length extension) {
+  Section<Angle, Length> longer = section;
+  longer.length = section.length + extension;
+  const Pull<Length> bent = pull<model>(longer, bend);
+  return {bent.x, bent.y, bent.common + extension};
 }
 
 /// What of an extension the tendons feel: the share of chords in their arcs.
@@ -120,7 +123,7 @@ constexpr Angle chord_share(const Section<Angle, Length>& section, const Bend<An
 template <Model model, class Angle, class Length>
 constexpr Length extension(const Section<Angle, Length>& section, const Bend<Angle>& bend, Length common) {
   const Length own = common - pull<model>(section, bend).common;
-  return model == Model::exact ? Length(own / chord_share<model>(section, bend)) : own;
+  return model == Model::exact ? Length(own / Length(chord_share<model>(section, bend))) : own;
 }
 
 /// Change of a tendon in that direction, Δl > 0 pays out.  @implements LSK (9), (11), (15), (16)
@@ -175,6 +178,12 @@ constexpr Bend<Angle> bend(const Section<Angle, Length>& section, Length x, Leng
 template <class Angle, class Length>
 constexpr Pull<Length> pull(Model model, const Section<Angle, Length>& section, const Bend<Angle>& bend) {
   return model == Model::exact ? exact_pull(section, bend) : linear_pull(section, bend);
+}
+template <class Angle, class Length>
+constexpr Pull<Length> pull(Model model, const Section<Angle, Length>& section, const Bend<Angle>& bend,
+                            Length extension) {
+  return model == Model::exact ? pull<Model::exact>(section, bend, extension)
+                               : pull<Model::linear>(section, bend, extension);
 }
 template <class Angle, class Length>
 constexpr Bend<Angle> bend(Model model, const Section<Angle, Length>& section, Length x, Length y) {

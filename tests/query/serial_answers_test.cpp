@@ -1,0 +1,107 @@
+/// What serial robots answer where an answer is easily wrong: straight sections, limits, values that
+/// overflow.
+#include <gtest/gtest.h>
+
+#include "sinew_query.hpp"
+
+namespace sinew::test {
+namespace {
+
+Json ask_one(const std::string& robot, const Json& query) { return ask(robot, {query}).front(); }
+
+TEST(SerialAnswers, AStraightRobotMovesSideways) {  // its coordinates are singular there, not the robot
+  for (const Json& straight : {Json{{0, 0}}, Json{{1e-6, 0.3}}})
+    for (const std::vector<double>& twist :
+         {std::vector{0.0, 0.01, 0.0, 0.0, 0.0, 0.0}, std::vector{0.01, 0.0, 0.0, 0.0, 0.1, 0.0}}) {
+      const Json answer = ask_one("nottingham-neutral",
+                                  {{"query", "velocity"}, {"configuration", straight}, {"twist", twist}});
+      ASSERT_EQ(answer["status"], "converged") << answer;
+      std::size_t column = 0;
+      std::array<double, 6> made{};
+      for (const Json& section : answer["rates"])
+        for (const Json& rate : section) {
+          for (std::size_t i = 0; i < 6; ++i)
+            made[i] += answer["J"][i][column].get<double>() * rate.get<double>();
+          ++column;
+        }
+      for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(made[i], twist[i], 1e-7);
+    }
+  const Json along =
+      ask_one("nottingham-neutral",
+              {{"query", "velocity"}, {"configuration", Json::array()}, {"twist", {0, 0, 0.01, 0, 0, 0}}});
+  EXPECT_EQ(along["status"], "singular");
+  EXPECT_FALSE(along.contains("rates"));
+}
+
+TEST(SerialAnswers, NoSolutionWithinTheLimitsIsNotConverged) {
+  Json query = {{"query", "inverse"}, {"all", true}, {"pose", {{"position", {1.5, 0.2, 1.2}}}}};
+  query["set"] = {{"sections[0].limit", "5 deg"}};
+  const Json answer = ask_one("three-arcs", query);
+  EXPECT_EQ(answer["status"], "unreachable") << answer;
+  EXPECT_EQ(answer["count"], 0);
+  query["start"] = Json::array({{0, 0}});
+  EXPECT_EQ(ask_one("three-arcs", query)["error"]["code"], "no_effect");
+}
+
+TEST(SerialAnswers, AnglesWithoutASineAreRefused) {
+  EXPECT_EQ(ask_one("three-arcs", {{"query", "forward"}, {"configuration", {{1e200, 0}}}})["error"]["code"],
+            "out_of_range");
+  EXPECT_EQ(
+      ask_one("nottingham-tpcj", {{"query", "describe"},
+                                  {"set", {{"sections.tendons.angle", "1e20 rad each"}}}})["error"]["code"],
+      "out_of_range");
+}
+
+TEST(SerialAnswers, ChangesGivenAreChangesAnswered) {  // counts to send are those of the command
+  const Json given = {{0.001, 0.001, 0.001}};
+  const Json answer = ask_one("nottingham-tpcj", {{"query", "forward"}, {"changes", given}});
+  EXPECT_EQ(answer["status"], "slack");
+  EXPECT_EQ(answer["changes"][0], given[0]);
+  for (const Json& slack : answer["slack"][0]) EXPECT_NEAR(slack.get<double>(), 0.001, 1e-15);
+}
+
+TEST(SerialAnswers, BendingShortensAllTendonsOfASlenderSection) {  // too short where they are met best only
+  const Json query = {{"query", "diagram"},
+                      {"section", 0},
+                      {"changes", {-1e-4, -1e-4, -1e-4}},
+                      {"limit", "90 deg"},
+                      {"model", "pcc"}};
+  const Json answer = ask_one("three-arcs", query);
+  EXPECT_EQ(answer["class"], "indeterminate") << answer["message"];
+  EXPECT_GT(answer["margin"].get<double>(), 0.01);
+}
+
+TEST(SerialAnswers, EarlierSectionsBeyondTheirLimitAreNamed) {
+  const Json far = {0.1, -0.05, -0.05};
+  const Json answer =
+      ask_one("nottingham-tpcj", {{"query", "diagram"}, {"section", 1}, {"changes", {far, far}}});
+  EXPECT_EQ(answer["status"], "left_domain");
+  EXPECT_TRUE(answer["message"].get<std::string>().starts_with("sections[0]"));
+  EXPECT_TRUE(answer.contains("class"));
+}
+
+TEST(SerialAnswers, ReadingsThatCannotBeAreNoClass) {
+  const Json answer =
+      ask_one("nottingham-tpcj",
+              {{"query", "diagram"}, {"section", 0}, {"changes", {0, 0, 0}}, {"measured", {1e5, 0, 0}}});
+  EXPECT_EQ(answer["measured"]["status"], "left_domain");
+  EXPECT_FALSE(answer["measured"].contains("class"));
+}
+
+TEST(SerialAnswers, RoundingIsWithinAToleranceOfNothing) {
+  const Json answer = ask_one(
+      "nottingham-tpcj",
+      {{"query", "diagram"}, {"section", 0}, {"changes", {-0.0011, 0.002, -0.0009}}, {"tolerance", 0}});
+  EXPECT_EQ(answer["class"], "exact") << answer;
+}
+
+TEST(SerialAnswers, AShapeIsNotLargerThanAMillionPoints) {
+  const Json answer = ask_one("nottingham-tpcj", {{"query", "shape"},
+                                                  {"set", {{"sections.segments", 1000}}},
+                                                  {"configuration", Json::array()},
+                                                  {"samples", 200}});
+  EXPECT_EQ(answer["error"]["code"], "out_of_range") << answer.dump().substr(0, 200);
+}
+
+}  // namespace
+}  // namespace sinew::test
