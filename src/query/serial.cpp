@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -239,11 +240,9 @@ Json indices_json(const SerialContext& context) {
     J.conservativeResize(6, J.cols() + 1);
     J.rightCols<1>() << length * work.lengthwise[m].tip, 0, 0, 0;
   }
-  const auto ratio = [](const Rows& matrix) {
-    std::array<double, max_rows> sigma;
-    singular_values(MatrixView(matrix.data(), matrix.rows(), matrix.cols()), sigma);
-    const auto last = static_cast<std::size_t>(std::min(matrix.rows(), matrix.cols()) - 1);
-    return std::pair(sigma[0], sigma[0] / sigma[last]);
+  const auto ratio = [](const Rows& matrix) {  // of more columns than the library's own decomposition takes
+    const Eigen::VectorXd sigma = Eigen::JacobiSVD<Rows>(matrix).singularValues();
+    return std::pair(sigma[0], sigma[0] / sigma[sigma.size() - 1]);
   };
   Rows scaled = J;
   scaled.topRows<3>() /= length;

@@ -59,6 +59,17 @@ TEST(ExtensionQuery, ColumnsOfItsRateAreDifferences) {
   }
 }
 
+TEST(ExtensionQuery, TwelveSectionsHaveIndices) {
+  const Json set = {{"sections.count", 12}, {"sections.extension", {"-1 mm", "5 mm"}}};
+  const Json answer = ask("nottingham-neutral", {{{"query", "velocity"},
+                                                  {"set", set},
+                                                  {"configuration", {{0.3, 0.2, 0.001}, {0.1, 1}}},
+                                                  {"twist", {0, 0.001, 0, 0, 0, 0.1}}}})[0];
+  ASSERT_EQ(answer["status"], "converged") << answer;
+  EXPECT_EQ(answer["J"][0].size(), 36U);
+  EXPECT_GE(answer["indices"]["condition"].get<double>(), 1);
+}
+
 TEST(ExtensionQuery, ADiagramTakesItForLengthWithinItsLimits) {
   const auto answers =
       ask(robot, {{{"query", "diagram"}, {"section", 1}, {"changes", {0.004, 0.005, 0.006}}},
