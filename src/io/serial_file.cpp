@@ -74,8 +74,10 @@ void read_tendons(Reader& section, Section& result) {
   if (result.disc_radius > 0 && radius.node() && result.tendon_radius > result.disc_radius)
     radius.refuse("out_of_range", fmt::format("the disc's radius is {}: the tendons would run outside it",
                                               human(result.disc_radius, Dimension::length)));
-  result.tendon_angle = tendons.required("angle", "direction of tendon 0 around the disc")
-                            .quantity(Dimension::angle, Range{.low = -1.2e7, .high = 1.2e7});
+  const Range each = Range::turn();  // from one section to the next
+  result.tendon_angle =
+      tendons.required("angle", "direction of tendon 0 around the disc")
+          .quantity(Dimension::angle, Range::between(max_sections * each.low, max_sections * each.high));
   tendons.close();
 }
 

@@ -98,18 +98,14 @@ void put_earlier(Asked& asked, const TendonsTo& tendons) {
 
 /// The length of a section whose length varies is what its own tendons have in common, as far as that goes:
 /// beyond the limits they are slack, or too short.
-void take_extension(Asked& asked, const Section& section) {
-  const auto& [directions, changes] = asked.question.tendons;
-  const auto& earlier = asked.question.earlier;
-  const auto sum = kernel::nearest_pull(changes.data(), directions.data(), section.tendons);
-  const kernel::Model model = asked.question.model;
-  const auto bend = kernel::bend(model, asked.question.section, sum.x - earlier.x, sum.y - earlier.y);
-  const double extension =
-      std::clamp(kernel::extension(model, asked.question.section, bend, sum.common - earlier.common),
-                 section.least_extension, section.most_extension);
-  asked.question.section = section.extended(extension).map();
-  asked.question.earlier.common += extension;
-  asked.own_extension = extension;
+void take_extension(Asked& asked, const TendonsTo& tendons, const SerialRobot& robot, std::size_t m) {
+  SerialRobot up_to = robot;
+  up_to.sections.resize(m + 1);
+  SerialWorkspace work(up_to);
+  bends_of_changes(up_to, Numbers(tendons.changes), asked.question.model, work);
+  asked.own_extension = work.extensions[m];
+  asked.question.section = robot.sections[m].extended(asked.own_extension).map();
+  asked.question.earlier.common += asked.own_extension;
 }
 
 void put_state(Json& answer, const SectionDiagram& diagram) {
@@ -161,7 +157,7 @@ void answer_serial_diagram(SerialContext& context) {
         std::span(context.work.directions).subspan(tendons.first, tendons.changes.size() - tendons.first),
         std::span(tendons.changes).subspan(tendons.first)};
     put_earlier(asked, tendons);
-    if (section.is_extensible()) take_extension(asked, section);
+    if (section.is_extensible()) take_extension(asked, tendons, context.robot, m);
     return section_diagram(asked.question);
   };
   Asked asked(context, m);

@@ -84,8 +84,21 @@ TEST(BentJoint, StraightIsAnOrdinaryPoint) {
   EXPECT_DOUBLE_EQ(joint.pose(1e-200, 0.0).p[0] / 1e-200, joint.length / 2 + joint.disc);
 }
 
+constexpr BentJoint joints{.length = 0.03, .disc = 0.02, .count = 9};
+
+TEST(BentJoint, ManyAreOneAfterTheOther) {
+  for (const Vec2<double>& bend : bends()) {
+    BentPose<double> end;
+    const BentPose<double> one =
+        BentJoint{.length = joints.length, .disc = joints.disc}.pose(bend.x() / 9, bend.y() / 9);
+    for (int i = 0; i < 9; ++i) end = end.then(one);
+    EXPECT_LT((numbers(joints.pose(bend.x(), bend.y())) - numbers(end)).lpNorm<Eigen::Infinity>(), 6e-15)
+        << bend.norm();
+  }
+}
+
 TEST(BentJoint, DerivativesMatchComplexStepAndDifferences) {
-  for (const BentJoint& link : {joint, arc})
+  for (const BentJoint& link : {joint, arc, joints})
     for (const Vec2<double>& bend : bends()) {
       const auto ends = [&]<class S>(const Vec<S, 2>& b) { return numbers(link.pose(S(b[0]), S(b[1]))); };
       EXPECT_LT(check_jacobian(ends, bend, number_rates(link.motion(bend.x(), bend.y())), whole), 1e-12)

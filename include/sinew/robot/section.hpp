@@ -61,31 +61,17 @@ struct Section {
   /// Pose of the section's end on its base, z distal.  @implements LSK (3), (4)
   template <Scalar S>
   [[gnu::always_inline]] BentPose<S> pose(const Vec2<S>& bend) const {
-    return power(unit(bend[0], bend[1]).pose, units());  // inlined: rates not asked for are not computed
+    return motion(bend).pose;  // inlined: rates not asked for are not computed
   }
   /// The same with its derivatives by the bend.
   template <Scalar S>
   [[gnu::always_inline]] BentMotion<S> motion(const Vec2<S>& bend) const {
-    return power(unit(bend[0], bend[1]), units());
+    const BentJoint one{joint, disc_height, is_twin() ? 1 : segments};
+    if (!is_twin()) return one.motion(bend[0], bend[1]);
+    return power(twin_motion(one.pivot(bend[1]), one.pivot(bend[0])), segments / 2);
   }
-
-  /// What repeats along a section: a segment; of twin pivots two, the proximal one bent by β₂.
-  int units() const { return is_twin() ? segments / 2 : segments; }
 
  private:
-  BentJoint segment() const { return {joint, disc_height}; }
-
-  template <Scalar S>
-  [[gnu::always_inline]] BentMotion<S> unit(const S& x, const S& y) const {
-    if (is_twin()) return twin_motion(segment().pivot(y), segment().pivot(x));
-    const S share(1.0 / segments);
-    BentMotion<S> one = segment().motion(S(share * x), S(share * y));
-    for (int i = 0; i < 3; ++i) {
-      one.shift[i] = share * one.shift[i];
-      one.turn[i] = share * one.turn[i];
-    }
-    return one;
-  }
   /// A segment bent by β₂, about −x, then one bent by β₁, about y.
   template <Scalar S>
   [[gnu::always_inline]] static BentMotion<S> twin_motion(const PivotMotion<S>& low,
@@ -101,10 +87,10 @@ struct Section {
   }
 
   /// unitᴺ by squaring.
-  template <class T>
-  [[gnu::always_inline]] static T power(T unit, int count) {
+  template <Scalar S>
+  [[gnu::always_inline]] static BentMotion<S> power(BentMotion<S> unit, int count) {
     for (; count % 2 == 0; count /= 2) unit = unit.then(unit);
-    T all = unit;
+    BentMotion<S> all = unit;
     for (count /= 2; count > 0; count /= 2) {
       unit = unit.then(unit);
       if (count % 2 == 1) all = all.then(unit);

@@ -23,32 +23,53 @@ namespace wide_kernel = sinew::kernel;
 using Tag = hn::ScalableTag<double>;
 constexpr Tag tag;
 
-/// One number of several poses, as the kernel's scalar.
+/// One number of several poses, as the kernel's scalar: two packs, which share what is loaded of the robot
+/// and hide each other's latency.
 struct Number {
-  hn::Vec<Tag> v;
+  hn::Vec<Tag> a, b;
   Number() = default;
-  HWY_INLINE explicit Number(double x) : v(hn::Set(tag, x)) {}
-  HWY_INLINE explicit Number(hn::Vec<Tag> x) : v(x) {}
+  HWY_INLINE explicit Number(double x) : a(hn::Set(tag, x)), b(a) {}
+  HWY_INLINE Number(hn::Vec<Tag> one, hn::Vec<Tag> other) : a(one), b(other) {}
 };
-HWY_INLINE Number operator+(Number a, Number b) { return Number(hn::Add(a.v, b.v)); }
-HWY_INLINE Number operator-(Number a, Number b) { return Number(hn::Sub(a.v, b.v)); }
-HWY_INLINE Number operator*(Number a, Number b) { return Number(hn::Mul(a.v, b.v)); }
+HWY_INLINE Number operator+(Number x, Number y) { return {hn::Add(x.a, y.a), hn::Add(x.b, y.b)}; }
+HWY_INLINE Number operator-(Number x, Number y) { return {hn::Sub(x.a, y.a), hn::Sub(x.b, y.b)}; }
+HWY_INLINE Number operator*(Number x, Number y) { return {hn::Mul(x.a, y.a), hn::Mul(x.b, y.b)}; }
 
-/// Whether all lanes are below a bound; NaN is not.
-HWY_INLINE bool all_below(Number a, double bound) {
-  return hn::AllTrue(tag, hn::Le(a.v, hn::Set(tag, bound)));
+HWY_INLINE Number load(const double* from) {
+  return {hn::LoadU(tag, from), hn::LoadU(tag, from + hn::Lanes(tag))};
+}
+HWY_INLINE void store(Number x, double* to) {
+  hn::StoreU(x.a, tag, to);
+  hn::StoreU(x.b, tag, to + hn::Lanes(tag));
+}
+
+/// Whether all are below a bound; NaN is not.
+HWY_INLINE bool all_below(Number x, double bound) {
+  const auto most = hn::Set(tag, bound);
+  return hn::AllTrue(tag, hn::And(hn::Le(x.a, most), hn::Le(x.b, most)));
+}
+
+/// The kernel's series, each step one fused operation where the machine has it.
+template <int From, int To>
+HWY_INLINE Number chord_series(Number w) {
+  constexpr double c = wide_kernel::detail::coefficient(2, From);
+  const Number constant(c);
+  if constexpr (From == To) {
+    return constant;
+  } else {
+    const Number rest = chord_series<From + 1, To>(w);
+    return {hn::MulAdd(w.a, rest.a, constant.a), hn::MulAdd(w.b, rest.b, constant.b)};
+  }
 }
 
 /// The kernel's, without a branch of its own for each lane.
 HWY_INLINE Number chord_loss(Number w) {
-  using Few = wide_kernel::detail::PowerSeries<Number, 2, 1, kernel::Terms<double>::few>;
-  using Most = wide_kernel::detail::PowerSeries<Number, 2, 1, kernel::Terms<double>::most>;
-  if (all_below(w, 0.0625)) return w * Few::at(w);
-  if (all_below(w, 2.4675)) return w * Most::at(w);
-  HWY_ALIGN double lanes[hn::MaxLanes(tag)];
-  hn::Store(w.v, tag, lanes);
-  for (double& lane : lanes) lane = kernel::chord_loss(lane);
-  return Number(hn::Load(tag, lanes));
+  if (all_below(w, kernel::few_below)) return w * chord_series<1, kernel::Terms<double>::few>(w);
+  if (all_below(w, kernel::most_below)) return w * chord_series<1, kernel::Terms<double>::most>(w);
+  HWY_ALIGN double lanes[2 * hn::MaxLanes(tag)];
+  store(w, lanes);
+  for (std::size_t i = 0; i < 2 * hn::Lanes(tag); ++i) lanes[i] = kernel::chord_loss(lanes[i]);
+  return load(lanes);
 }
 HWY_INLINE void chord_losses(Number w_x, Number w_y, Number& x, Number& y) {
   x = chord_loss(w_x);
@@ -63,19 +84,20 @@ HWY_INLINE WideSection wide(const kernel::Section<double>& map) {
           Number(map.per_gain), Number(map.half)};
 }
 
+/// Flat: packs that are passed on through memory take twice the time.
 template <wide_kernel::Model model>
-void changes_of(const SerialWorkspace& maps, const double* bends, double* changes, std::size_t poses,
-                std::size_t at) {
+HWY_FLATTEN void changes_of(const SerialWorkspace& maps, const double* bends, double* changes,
+                            std::size_t poses, std::size_t at) {
   wide_kernel::Pull<Number> sum{Number(0.0), Number(0.0), Number(0.0)};
   std::size_t tendon = 0;
   for (std::size_t m = 0; m < maps.maps.size(); ++m) {
-    const wide_kernel::Bend<Number> bend{Number(hn::LoadU(tag, bends + 2 * m * poses + at)),
-                                         Number(hn::LoadU(tag, bends + (2 * m + 1) * poses + at))};
+    const wide_kernel::Bend<Number> bend{load(bends + 2 * m * poses + at),
+                                         load(bends + (2 * m + 1) * poses + at)};
     sum = sum + wide_kernel::pull<model>(wide(maps.maps[m]), bend, Number(maps.extensions[m]));
     for (int i = 0; i < maps.tendons[m]; ++i, ++tendon) {
       const auto& d = maps.directions[tendon];
       const wide_kernel::Direction<Number> direction{Number(d.cosine), Number(d.sine)};
-      hn::StoreU(wide_kernel::tendon_change(sum, direction).v, tag, changes + tendon * poses + at);
+      store(wide_kernel::tendon_change(sum, direction), changes + tendon * poses + at);
     }
   }
 }
@@ -85,7 +107,7 @@ void changes_of(const SerialWorkspace& maps, const double* bends, double* change
 template <wide_kernel::Model model>
 void sweep(const SerialWorkspace& maps, std::span<const double> bends, std::span<double> changes,
            std::size_t poses) {
-  const std::size_t lanes = hn::Lanes(tag);
+  const std::size_t lanes = 2 * hn::Lanes(tag);
   if (poses < lanes) {
     std::vector<double> padded(bends.size() / poses * lanes), out(changes.size() / poses * lanes);
     for (std::size_t k = 0; k < bends.size(); ++k) padded[k / poses * lanes + k % poses] = bends[k];

@@ -12,7 +12,7 @@
 namespace sinew::inline v0 {
 
 /// Joints that turn about one axis when a component of a bend does.
-inline double turns(const Section& section) { return section.is_twin() ? section.units() : 1; }
+inline double turns(const Section& section) { return section.is_twin() ? 0.5 * section.segments : 1; }
 
 /// Unit vector of a bend, (1, 0) of none.
 inline Bend bend_direction(const Bend& bend) {

@@ -8,7 +8,10 @@
 namespace sinew {
 namespace kernel {
 
-/// How many terms of the series a scalar needs: `few` for |β| ≤ 1/2, `most` for |β| ≤ π.
+/// Bounds of w = (β/2)²: `few` terms of the series do up to 24.3°, `most` up to half a turn.
+constexpr double few_below = 0.045, most_below = 2.4675;
+
+/// How many terms of the series a scalar needs.
 template <class S>
 struct Terms {
   static constexpr int few = 4, most = 6;
@@ -19,7 +22,7 @@ struct Terms<float> {
 };
 template <>
 struct Terms<double> {
-  static constexpr int few = 6, most = 12;
+  static constexpr int few = 5, most = 12;
 };
 
 namespace detail {
@@ -88,15 +91,15 @@ S arcsine_ratio(S y) {
 /// @implements LSK (6)
 template <class S>
 constexpr S chord_loss(S w) {
-  return !(w > S(0.0625))   ? S(w * detail::PowerSeries<S, 2, 1, Terms<S>::few>::at(w))
-         : !(w > S(2.4675)) ? S(w * detail::PowerSeries<S, 2, 1, Terms<S>::most>::at(w))
-                            : detail::chord_loss_beyond(w);
+  return !(w > S(few_below))    ? S(w * detail::PowerSeries<S, 2, 1, Terms<S>::few>::at(w))
+         : !(w > S(most_below)) ? S(w * detail::PowerSeries<S, 2, 1, Terms<S>::most>::at(w))
+                                : detail::chord_loss_beyond(w);
 }
 
 /// The same of two axes: where both are small, as they mostly are, without a branch between them.
 template <class S>
 constexpr void chord_losses(S w_x, S w_y, S& x, S& y) {
-  if (!((w_x > w_y ? w_x : w_y) > S(0.0625))) {
+  if (!((w_x > w_y ? w_x : w_y) > S(few_below))) {
     x = S(w_x * detail::PowerSeries<S, 2, 1, Terms<S>::few>::at(w_x));
     y = S(w_y * detail::PowerSeries<S, 2, 1, Terms<S>::few>::at(w_y));
   } else {
