@@ -1,0 +1,180 @@
+/// @file chain.hpp
+/// Robots whose links are pseudo-rigid chains: what they are made of, and their equilibria under tendons and
+/// a wrench, subject to the closures. Theory: docs/theory/chain_equilibrium.md
+#pragma once
+#include <limits>
+#include <variant>
+#include <vector>
+
+#include "sinew/base/error.hpp"
+#include "sinew/leg/space.hpp"
+#include "sinew/link/pseudo_rigid.hpp"
+#include "sinew/robot/any_robot.hpp"
+#include "sinew/solve/report.hpp"
+
+namespace sinew::inline v0 {
+
+/// A leg whose link is a chain. Without a strut it turns freely at both ends and keeps its chord; with one
+/// (in the plane) its base is held, +y of the base frame being the base tangent of a clamped chain and the
+/// first link of a pinned one, and the strut leads from its tip to the platform.
+template <class SpaceT>
+struct ChainLeg {
+  using Space = SpaceT;
+  typename Space::template Frame<double> base;
+  PseudoRigid chain;
+  double bending_stiffness = 0;  ///< EI [N m²], > 0
+  double tendon_offset = 0;      ///< d [m], > 0
+  double strut = 0;              ///< its length [m]; 0: there is none
+  Vec<double, Space::dimension> platform_point = Vec<double, Space::dimension>::Zero();
+
+  bool has_strut() const { return strut > 0; }
+  /// Stiffness of a joint [N m/rad].
+  double spring(int joint) const { return bending_stiffness / chain.link_length() * chain.spring(joint); }
+};
+
+template <class SpaceT>
+struct ChainRobot {
+  using Space = SpaceT;
+  std::vector<ChainLeg<SpaceT>> legs;
+  double platform_radius = 0;  ///< homogenises moments [m], > 0
+  /// Base motors turn the first links: the directions of the base frames are inputs.
+  bool has_base_motors = false;
+};
+using AnyChainRobot = std::variant<ChainRobot<Planar>, ChainRobot<Spatial>>;
+
+/// The robot with its arcs replaced by chains of as many joints as its file gives (n of a spatial leg counts
+/// both axes of its universal joint, [TDPCR] section 4.1). An error names what a leg lacks: `joints`,
+/// `material` or `diameter`, or that there are no chains of its kind.
+SINEW_API Expected<AnyChainRobot> chain_robot(const AnyRobot& robot, ChainModel model = ChainModel::weighted);
+
+/// What the motors of a leg hold: tensions, or the length of one tendon.
+struct ChainHold {
+  int length_of = -1;               ///< the tendon whose length is held, 0 or 1; −1: neither
+  double length = 0;                ///< of that one [m]
+  std::array<double, 2> tension{};  ///< of those whose length is not held [N]
+};
+
+/// What a chain and its tendons do.
+struct ChainLegState {
+  std::array<double, max_chain_joints> angles{};  ///< of the sprung joints [rad]
+  double force = 0;                               ///< of the chord or the strut [N]; > 0 pulls the platform
+  std::array<double, 2> tension{};                ///< of tendons 1 and 2 [N]
+  std::array<double, 2> tendon_length{};          ///< [m]
+
+  std::span<const double> of(const PseudoRigid& chain) const {
+    return {angles.data(), static_cast<std::size_t>(chain.joints())};
+  }
+};
+
+/// An equilibrium, with what holds it: a solver starts from one and leaves another.
+template <class SpaceT>
+struct ChainState {
+  typename SpaceT::Pose pose;
+  std::vector<ChainLegState> legs;
+  std::vector<ChainHold> hold;
+  Vec<double, SpaceT::dof> wrench = Vec<double, SpaceT::dof>::Zero();
+};
+
+/// Chains at a pose without a wrench bend evenly, as under a moment: to these angles, by the tension of one
+/// tendon a leg, the inner one; the other is loose. Their lengths are held, or their tensions.
+/// @param curvature of each leg [1/m], near it: of a leg without a strut its sign is enough
+/// @return `unreachable` where a leg has no such shape near it
+template <class Space>
+SINEW_API Report rest(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
+                      std::span<const double> curvature, bool holds_lengths, ChainState<Space>& state);
+
+struct ChainOptions {
+  int max_iterations = 2000;  ///< Newton steps of the whole path
+  /// Every chain bends evenly, as a constant-curvature link: one freedom a leg.
+  bool evenly_bent = false;
+};
+
+/// Memory of a solver, one per thread. Sized on first use with a robot; then nothing allocates.
+struct ChainWork {
+  std::vector<double> moves;           ///< of each leg's unknowns, constant and by the platform
+  std::vector<ChainLegState> legs;     ///< iterates
+  std::vector<ChainHold> first, hold;  ///< of the path, and on it
+};
+
+/// The equilibrium under this wrench with the motors holding that, on a straight path of both from the one in
+/// `state`, which is replaced. One Newton iteration on pose, angles, forces and tensions together, the legs
+/// eliminated within each step. Residual: the largest of closure error, of what joints are out of balance by,
+/// as angles times ℓ, and of the platform's imbalance over the stiffness EI/ℓ³ [m].
+///
+/// Not converged, with the last equilibrium on the path in `state`: `stalled` where the path folds, or is
+/// lost; `iteration_limit`. `slack` (all fields are valid) where a tendon would have to push.
+template <class Space>
+SINEW_API Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
+                             const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
+                             const ChainOptions& options = {});
+
+/// Tensions of the inner tendons that hold the platform there under this wrench, from the equilibrium in
+/// `state`, of that pose. `unreachable` where legs and freedoms are not as many, or the path to the wrench is
+/// lost.
+template <class Space>
+SINEW_API Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& wrench,
+                           ChainState<Space>& state, ChainWork& work, const ChainOptions& options = {});
+
+/// What a growing load comes to.
+enum class ChainLoadEnd { limit, fold, bifurcation, slack, iterations };
+SINEW_API std::string_view to_string(ChainLoadEnd end) noexcept;
+
+struct ChainLoadPath {
+  ChainLoadEnd end = ChainLoadEnd::limit;
+  double load = 0;  ///< times the direction that was added
+};
+
+/// Adds `direction` times a growing factor to the wrench until it is `limit`, or the path folds, an
+/// equilibrium beside it takes its place, or a tendon goes slack. `state` is the last one. Allocates.
+template <class Space>
+SINEW_API ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& direction,
+                                    double limit, ChainState<Space>& state, ChainWork& work,
+                                    const ChainOptions& options = {});
+
+/// Smallest eigenvalue of the energy's Hessian in pose and angles along what the closures, and lengths that
+/// are held, leave free: > 0 where the equilibrium holds by itself. Allocates.
+template <class Space>
+SINEW_API double least_curvature(const ChainRobot<Space>& robot, const ChainState<Space>& state);
+
+/// ∂(pose)/∂(wrench) with everything held: twist order.
+template <class Space>
+SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainRobot<Space>& robot,
+                                                         const ChainState<Space>& state, ChainWork& work);
+
+/// Springs, tendons that are held at tensions, and the wrench [J]: Σ ½ k θ² + Σ T l − W·x. Rotations in space
+/// bear no potential of a moment: NaN where there is one.
+template <class Space>
+SINEW_API double potential(const ChainRobot<Space>& robot, const ChainState<Space>& state);
+
+/// Rows of the velocity equations of chains, J·t = K·θ̇ as [TDPCR] has them: row i of J is ρ or the strut's
+/// length times the leg's line, row i of K has columns of leg i alone.
+template <class Space>
+struct ChainRates {
+  Mat<double, Space::dof, Space::dof> J;
+  std::array<std::array<double, max_chain_joints + 1>, Space::dof> K;  ///< of each leg
+  int columns = 0;  ///< of a leg: its sprung joints, after the base motor's angle where there is one
+  double closure_error = 0;
+};
+/// @implements TDPCR (34)
+template <class Space>
+SINEW_API ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
+                                        std::span<const ChainLegState> legs);
+
+/// The paper's linear model of a load: ∂(pose)/∂(wrench) = U k⁻¹ Uᵀ with U = J⁻¹ K of the unloaded robot. It
+/// leaves out the geometric stiffness; where lengths are held, motions that keep them. @implements TDPCR
+/// (44), (45), (46)
+template <class Space>
+SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& robot,
+                                                                const ChainState<Space>& state);
+
+/// Force and moment at a link's tip that joint torques tell of, in base axes, by least squares of τ = J_pᵀ
+/// F; `misfit` of the torques, relative. @implements TDPCR (54), (55)
+struct TipWrench {
+  Vec2<double> force;  ///< in the chain's plane: beside and along the first link [N]
+  double moment;       ///< [N m]
+  double misfit;
+};
+SINEW_API TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,
+                               std::span<const double> angles);
+
+}  // namespace sinew::inline v0

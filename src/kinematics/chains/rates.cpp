@@ -1,0 +1,101 @@
+/// Velocity equations of robots on chains, and what the paper's linear statics make of them.
+#include <cmath>
+
+#include "kinematics/chains/elimination.hpp"
+#include "kinematics/chains/leg_system.hpp"
+#include "sinew/math/linalg.hpp"
+
+namespace sinew::inline v0 {
+
+template <class Space>
+ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
+                              std::span<const ChainLegState> legs) {
+  SINEW_EXPECTS(legs.size() == robot.legs.size() && legs.size() == static_cast<std::size_t>(Space::dof));
+  ChainRates<Space> rates;
+  const auto platform = Space::frame(pose);
+  ChainClosure<Space> at;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const auto& leg = robot.legs[i];
+    close_chain(leg, platform, legs[i].of(leg.chain), at);
+    rates.closure_error = std::max(rates.closure_error, std::abs(at.c));
+    rates.J.row(static_cast<Eigen::Index>(i)) = at.distance * at.c_x.transpose();
+    auto column = rates.K[i].begin();
+    if constexpr (Space::dimension == 2)
+      if (robot.has_base_motors) {  // the whole chain turns about the base
+        const Vec2<double> u = leg.base.rotate(leg.chain.tip(legs[i].of(leg.chain)).position);
+        const Vec2<double> line = at.distance * Vec2<double>(at.c_x[0], at.c_x[1]);
+        *column++ = line[1] * u[0] - line[0] * u[1];
+      }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(leg.chain.joints()); ++j)
+      *column++ = -at.distance * at.c_q[j];
+    rates.columns = std::max(rates.columns, static_cast<int>(column - rates.K[i].begin()));
+  }
+  return rates;
+}
+
+template <class Space>
+Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& robot,
+                                                      const ChainState<Space>& state) {
+  constexpr int dof = Space::dof;
+  const ChainRates<Space> rates = chain_rates(robot, state.pose, state.legs);
+  const std::size_t motors = robot.has_base_motors ? 1 : 0;
+  Eigen::Matrix<double, dof, dof, Eigen::RowMajor> J = rates.J, inverse = Mat<double, dof, dof>::Identity();
+  eliminate(J.data(), dof, dof, inverse.data(), dof);
+  Mat<double, dof, dof> C = Mat<double, dof, dof>::Zero();
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    const auto& leg = robot.legs[i];
+    const int held = state.hold[i].length_of;
+    double soft = 0, along = 0, tendon = 0;  // K k⁻¹ Kᵀ is diagonal: a row has joints of its own leg only
+    for (int j = 0; j < leg.chain.joints(); ++j) {
+      const double slope = rates.K[i][static_cast<std::size_t>(j) + motors], k = leg.spring(j);
+      soft += slope * slope / k;
+      if (held < 0) continue;
+      const double pull = leg.chain
+                              .tendon_bend(j, state.legs[i].angles[static_cast<std::size_t>(j)],
+                                           leg.tendon_offset, held == 0 ? 1 : -1)
+                              .rate;
+      along += slope * pull / k;
+      tendon += pull * pull / k;
+    }
+    if (held >= 0) soft -= along * along / tendon;  // what would change the length is not left
+    for (int k = 0; k < dof; ++k)
+      for (int l = 0; l < dof; ++l)
+        C(k, l) += soft * inverse(k, static_cast<Eigen::Index>(i)) * inverse(l, static_cast<Eigen::Index>(i));
+  }
+  return C;
+}
+
+TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,
+                     std::span<const double> angles) {
+  const auto tip = chain.tip(angles);
+  const double unit = chain.length;  // forces as moments, so that columns compare
+  Mat<double, 3, 3> normal = Mat<double, 3, 3>::Zero();
+  Vec3<double> right = Vec3<double>::Zero(), found;
+  const auto row = [&](std::size_t j) {
+    return Vec3<double>(tip.rate[j][0] / unit, tip.rate[j][1] / unit, 1);
+  };
+  double size = 0, miss = 0;
+  for (std::size_t j = 0; j < torques.size(); ++j) {
+    const Vec3<double> one = row(j);
+    normal += one * one.transpose();
+    right += torques[j] * one;
+    size += torques[j] * torques[j];
+  }
+  least_norm(MatrixView(normal.data(), 3, 3), std::span(right.data(), 3), std::span(found.data(), 3), 1e-14);
+  for (std::size_t j = 0; j < torques.size(); ++j) {
+    const double gap = dot(row(j), found) - torques[j];
+    miss += gap * gap;
+  }
+  return {Vec2<double>(found[0], found[1]) / unit, found[2], size > 0 ? std::sqrt(miss / size) : 0};
+}
+
+#define SINEW_OF(Space)                                                                              \
+  template SINEW_API ChainRates<Space> chain_rates(const ChainRobot<Space>&, const Space::Pose&,     \
+                                                   std::span<const ChainLegState>);                  \
+  template SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>&, \
+                                                                           const ChainState<Space>&);
+SINEW_OF(Planar)
+SINEW_OF(Spatial)
+#undef SINEW_OF
+
+}  // namespace sinew::inline v0
