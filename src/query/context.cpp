@@ -98,6 +98,8 @@ std::string_view model_of(const AnyRobot& robot) {
   return bears_load(robot) ? "rod" : has_arc(robot) ? "cc" : "rigid";
 }
 
+bool has_chain_model(const AnyRobot& robot) { return model_of(robot) == "cc"; }
+
 std::string_view meaning_of(std::string_view model) {
   return model == "cc" ? " (constant curvature)" : model == "rod" ? " (Kirchhoff rods)" : " (rigid links)";
 }

@@ -77,8 +77,10 @@ struct Solved {
   std::vector<double> coordinates;
 };
 
-/// The one model this version has for a robot: `cc`, `rigid` or `rod`.
+/// The model a robot is taken for where a query says nothing: `cc`, `rigid` or `rod`.
 std::string_view model_of(const AnyRobot& robot);
+/// Whether its links may be taken as pseudo-rigid chains instead: `prb`.
+bool has_chain_model(const AnyRobot& robot);
 std::string_view meaning_of(std::string_view model);  ///< ` (constant curvature)`
 
 Configuration read_configuration(Context& context);
@@ -90,6 +92,7 @@ Json to_json(const AnyPose& pose);
 Json to_json(std::span<const double> values);
 Json to_json(const MatrixView& matrix);
 Json to_json(const Indices& indices);
+Json type_two_json(const TypeTwo& type, bool is_planar);
 template <int D>
 Json to_json(const Vec<double, D>& point) {
   return to_json(std::span<const double>(point.data(), D));

@@ -19,6 +19,12 @@ void refuse_if_asked(Context& context, std::string_view key, std::string_view wh
   if (const auto asked = context.query.optional(key)) asked->fail("not_available", why);
 }
 
+std::string_view no_load(const Context& context) {
+  return has_chain_model(context.robot)
+             ? "constant curvature bears no load; add model: prb, or ask statics, or leave it out"
+             : "this robot's legs bear no load; leave it out";
+}
+
 Json all_working_modes(Context& context, const AnyPose& pose, const Branch& branch) {
   const WorkingModes modes = working_modes(context.robot, pose, branch.options(), context.work);
   Json solutions = Json::array();
@@ -45,17 +51,6 @@ Json trace_json(std::span<const TraceStep> trace, int iterations) {
   for (const TraceStep& step : trace.first(std::min(trace.size(), static_cast<std::size_t>(iterations) + 1)))
     list.push_back({{"iteration", step.iteration}, {"residual", step.residual}, {"step", step.step}});
   return list;
-}
-
-Json type_two_json(const TypeTwo& type, bool is_planar) {
-  Json object{{"singular", type.singular}, {"class", to_string(type.kind)}, {"rank", type.rank}};
-  if (type.point)
-    object["point"] = is_planar ? to_json(Vec2<double>(type.point->head<2>())) : to_json(*type.point);
-  if (type.screw) {
-    put_number(object, "pitch", type.screw->pitch);
-    object["axis"] = {{"point", to_json(type.screw->point)}, {"direction", to_json(type.screw->direction)}};
-  }
-  return object;
 }
 
 void put_rates(Context& context, const Velocity& result, std::span<const double> twist) {
@@ -109,6 +104,17 @@ void answer_all_modes(Context& context, const std::vector<double>& inputs, const
 
 }  // namespace
 
+Json type_two_json(const TypeTwo& type, bool is_planar) {
+  Json object{{"singular", type.singular}, {"class", to_string(type.kind)}, {"rank", type.rank}};
+  if (type.point)
+    object["point"] = is_planar ? to_json(Vec2<double>(type.point->head<2>())) : to_json(*type.point);
+  if (type.screw) {
+    put_number(object, "pitch", type.screw->pitch);
+    object["axis"] = {{"point", to_json(type.screw->point)}, {"direction", to_json(type.screw->direction)}};
+  }
+  return object;
+}
+
 void put_shape(Json& answer, const AnyShape& picture) {
   std::visit([&](const auto& one) { put_shape_of(answer, one); }, picture);
 }
@@ -126,8 +132,8 @@ void answer_forward(Context& context) {
   const bool want_all = all && all->boolean();
   refuse_if_asked(context, "want",
                   "this robot's legs bear no load; velocity has its indices, leave want out");
-  refuse_if_asked(context, "wrench", "this robot's legs bear no load; leave the wrench out");
-  refuse_if_asked(context, "until", "this robot's legs bear no load; leave until out");
+  refuse_if_asked(context, "wrench", no_load(context));
+  refuse_if_asked(context, "until", no_load(context));
   if (!context.ready()) return;
 
   if (want_all) return answer_all_modes(context, inputs, options.start.value_or(home(context.robot)));
@@ -153,7 +159,7 @@ void answer_inverse(Context& context) {
   const bool want_all = all && all->boolean();
   refuse_if_asked(context, "want",
                   "this robot's legs bear no load; velocity has its indices, leave want out");
-  refuse_if_asked(context, "wrench", "this robot's legs bear no load; leave the wrench out");
+  refuse_if_asked(context, "wrench", no_load(context));
   std::vector<double> start;
   if (const auto given = context.query.optional("start")) start = read_inputs(context, *given);
   if (!context.ready()) return;
@@ -180,8 +186,9 @@ void answer_velocity(Context& context) {
   if (const auto asked = context.query.optional("twist"))
     twist = asked->quantities(Dimension::number, {}, static_cast<std::size_t>(dof(context.robot)));
   const std::optional<Along> along = read_along(context);
-  refuse_if_asked(context, "angles",
-                  "a constant-curvature model has no joint angles; give inputs or a branch");
+  refuse_if_asked(
+      context, "angles",
+      "a constant-curvature model has no joint angles; add model: prb, or give inputs or a branch");
   if (!context.ready()) return;
   const Solved at = solve_configuration(context, given);
   if (!context.errors.empty()) return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "query/chains.hpp"
 #include "query/context.hpp"
 #include "query/serial.hpp"
 #include "sinew/io/parse.hpp"
@@ -17,24 +18,25 @@ struct Kind {
   std::string_view name;
   void (*handler)(Context&);
   void (*serial_handler)(SerialContext&);
+  void (*chain_handler)(Context&);  ///< of links taken as pseudo-rigid chains
 };
 
 constexpr std::array kinds{
-    Kind{"forward", answer_forward, answer_serial_forward},
-    Kind{"inverse", answer_inverse, answer_serial_inverse},
-    Kind{"velocity", answer_velocity, answer_serial_velocity},
-    Kind{"shape", answer_shape, answer_serial_shape},
-    Kind{"describe", answer_describe, answer_serial_describe},
-    Kind{"statics", nullptr, nullptr},
-    Kind{"track", answer_track, nullptr},
-    Kind{"diagram", nullptr, answer_serial_diagram},
+    Kind{"forward", answer_forward, answer_serial_forward, answer_chains_forward},
+    Kind{"inverse", answer_inverse, answer_serial_inverse, answer_chains_inverse},
+    Kind{"velocity", answer_velocity, answer_serial_velocity, answer_chains_velocity},
+    Kind{"shape", answer_shape, answer_serial_shape, nullptr},
+    Kind{"describe", answer_describe, answer_serial_describe, nullptr},
+    Kind{"statics", answer_statics, nullptr, answer_statics},
+    Kind{"track", answer_track, nullptr, nullptr},
+    Kind{"diagram", nullptr, answer_serial_diagram, nullptr},
 };
 
 const Kind& read_kind(Reader& query, bool is_serial) {
   std::vector<std::string_view> names;
   for (const Kind& kind : kinds) names.push_back(kind.name);
-  const Reader word =
-      query.required("query", "what is asked: forward, inverse, velocity, track, diagram, shape or describe");
+  const Reader word = query.required(
+      "query", "what is asked: forward, inverse, velocity, statics, track, diagram, shape or describe");
   const Kind& kind = kinds[word.choice_index(names)];
   if (is_serial ? !kind.serial_handler : !kind.handler)
     word.fail("not_available", std::string(kind.name) + " is not available " +
@@ -54,12 +56,23 @@ Json read_id(Reader& query) {
   return id->text();
 }
 
-void read_model(Reader& query, const AnyRobot& robot) {
+/// Whether the robot's links are to be taken as chains.
+bool reads_chains(Reader& query, const AnyRobot& robot, const Kind& kind) {
   const auto model = query.optional("model");
+  if (!model) return false;
   const std::string_view own = model_of(robot);
-  if (model && model->choice({"cc", "prb", "rod", "rigid"}) != own)
-    model->refuse("not_available",
-                  "this robot's model in this version is " + std::string(own) + std::string(meaning_of(own)));
+  const std::string word = model->choice({"cc", "prb", "rod", "rigid"});
+  if (word == "prb" && has_chain_model(robot)) {
+    if (kind.chain_handler) return true;
+    model->refuse("not_available", std::string(kind.name) + " has no pseudo-rigid chains in this version");
+  } else if (word != own) {
+    model->refuse("not_available", "this robot's model is " + std::string(own) +
+                                       std::string(meaning_of(own)) +
+                                       (has_chain_model(robot) ? ", or prb (pseudo-rigid chains)" : ""));
+  } else if (kind.handler == answer_statics) {
+    model->refuse("not_available", "a load needs links that yield: give prb, or leave model out");
+  }
+  return false;
 }
 
 std::string error_text(const Json& id, const Errors& errors) {
@@ -170,7 +183,8 @@ std::string Session::answer(std::string_view text) {
   const bool is_chain = std::holds_alternative<Chain>(state_->opened);
   const Kind& kind = read_kind(query, is_chain);
   if (!errors.empty()) return error_text(id, errors);
-  if (const auto* platform = std::get_if<Platform>(&state_->opened)) read_model(query, platform->robot);
+  const auto* own = std::get_if<Platform>(&state_->opened);
+  const bool on_chains = own && reads_chains(query, own->robot, kind);
   std::optional<Opened> other = altered(state_->document, query, errors);
   if (!errors.empty()) return error_text(id, errors);
   Opened& opened = other ? *other : state_->opened;
@@ -188,7 +202,7 @@ std::string Session::answer(std::string_view text) {
   } else {
     auto& platform = std::get<Platform>(opened);
     Context context{question, platform.robot, platform.work};
-    kind.handler(context);
+    (on_chains ? kind.chain_handler : kind.handler)(context);
   }
   if (!errors.empty()) return error_text(id, errors);
   return answer.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -284,6 +284,8 @@ TEST(ChainEquilibrium, EvenlyBentChainsStoreMore) {
     const auto robot = three_rfr(model_of(c));
     ChainState<Planar> state = base_state(robot), even = state;
     ChainWork work;
+    EXPECT_NEAR(evenness_gap(robot, state, vector<3>(c["W"])), c["CC_energy_gap_estimate"].get<double>(),
+                1e-16);
     ASSERT_TRUE(equilibrium(robot, hold_of(c), vector<3>(c["W"]), state, work).ok());
     const Report report =
         equilibrium(robot, hold_of(c), vector<3>(c["W"]), even, work, {.evenly_bent = true});

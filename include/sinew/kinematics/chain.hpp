@@ -109,8 +109,8 @@ SINEW_API Report equilibrium(const ChainRobot<Space>& robot, std::span<const Cha
                              const ChainOptions& options = {});
 
 /// Tensions of the inner tendons that hold the platform there under this wrench, from the equilibrium in
-/// `state`, of that pose. `unreachable` where legs and freedoms are not as many, or the path to the wrench is
-/// lost.
+/// `state`, of that pose; what its motors hold, tensions or lengths, is what they then have. `unreachable`
+/// where legs and freedoms are not as many, or the path to the wrench is lost.
 template <class Space>
 SINEW_API Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& wrench,
                            ChainState<Space>& state, ChainWork& work, const ChainOptions& options = {});
@@ -167,8 +167,15 @@ template <class Space>
 SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& robot,
                                                                 const ChainState<Space>& state);
 
+/// How much more energy the unloaded robot's chains would store under this wrench if they bent evenly [J], to
+/// first order in the chord forces: what constant curvature misses. Theory: docs/theory/chain_equilibrium.md
+template <class Space>
+SINEW_API double evenness_gap(const ChainRobot<Space>& robot, const ChainState<Space>& unloaded,
+                              const Vec<double, Space::dof>& wrench);
+
 /// Force and moment at a link's tip that joint torques tell of, in base axes, by least squares of τ = J_pᵀ
-/// F; `misfit` of the torques, relative. @implements TDPCR (54), (55)
+/// F, whose last row is what the tip turns by (of M0w each joint's weight); `misfit` of the torques,
+/// relative: 0 where the tendons' moment is that of M0 or M0w. @implements TDPCR (54), (55)
 struct TipWrench {
   Vec2<double> force;  ///< in the chain's plane: beside and along the first link [N]
   double moment;       ///< [N m]

@@ -347,10 +347,10 @@ Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& 
     return report;
   }
   Solver<Space> solver(robot, work, options, Free::tensions);
-  std::vector<ChainHold> hold;  // whatever tensions come out
-  for (const ChainLegState& leg : state.legs) hold.push_back({-1, 0, leg.tension});
-  Report report = follow(solver, robot, hold, wrench, state, work);
-  for (std::size_t i = 0; i < hold.size(); ++i) state.hold[i].tension = state.legs[i].tension;
+  const std::vector<ChainHold> held = state.hold;
+  const std::vector<ChainHold> hold(held.size());  // whatever tensions come out
+  const Report report = follow(solver, robot, hold, wrench, state, work);
+  for (std::size_t i = 0; i < hold.size(); ++i) state.hold[i] = present(state.legs[i], held[i]);
   return report;
 }
 

@@ -65,6 +65,38 @@ Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& r
   return C;
 }
 
+template <class Space>
+double evenness_gap(const ChainRobot<Space>& robot, const ChainState<Space>& unloaded,
+                    const Vec<double, Space::dof>& wrench) {
+  constexpr int dof = Space::dof;
+  const auto platform = Space::frame(unloaded.pose);
+  ChainClosure<Space> at;
+  Eigen::Matrix<double, dof, dof, Eigen::RowMajor> lines;
+  std::array<double, max_rows> excess{};
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    const auto& leg = robot.legs[i];
+    close_chain(leg, platform, unloaded.legs[i].of(leg.chain), at);
+    double soft = 0, along = 0, stiff = 0;
+    for (int j = 0; j < leg.chain.joints(); ++j) {
+      const double slope = at.c_q[static_cast<std::size_t>(j)], w = even_bend(leg.chain, j),
+                   k = leg.spring(j);
+      soft += slope * slope / k;
+      along += slope * w;
+      stiff += w * k * w;
+    }
+    excess[i] = soft - along * along / stiff;
+    lines.col(static_cast<Eigen::Index>(i)) = at.c_x;
+  }
+  Vec<double, dof> force = wrench;
+  eliminate(lines.data(), dof, dof, force.data(), 1);
+  double gap = 0;
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    const double f = force[static_cast<Eigen::Index>(i)];
+    gap += 0.5 * f * f * excess[i];
+  }
+  return gap;
+}
+
 TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,
                      std::span<const double> angles) {
   const auto tip = chain.tip(angles);
@@ -72,7 +104,7 @@ TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,
   Mat<double, 3, 3> normal = Mat<double, 3, 3>::Zero();
   Vec3<double> right = Vec3<double>::Zero(), found;
   const auto row = [&](std::size_t j) {
-    return Vec3<double>(tip.rate[j][0] / unit, tip.rate[j][1] / unit, 1);
+    return Vec3<double>(tip.rate[j][0] / unit, tip.rate[j][1] / unit, chain.turn_weight(static_cast<int>(j)));
   };
   double size = 0, miss = 0;
   for (std::size_t j = 0; j < torques.size(); ++j) {
@@ -89,11 +121,13 @@ TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,
   return {Vec2<double>(found[0], found[1]) / unit, found[2], size > 0 ? std::sqrt(miss / size) : 0};
 }
 
-#define SINEW_OF(Space)                                                                              \
-  template SINEW_API ChainRates<Space> chain_rates(const ChainRobot<Space>&, const Space::Pose&,     \
-                                                   std::span<const ChainLegState>);                  \
-  template SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>&, \
-                                                                           const ChainState<Space>&);
+#define SINEW_OF(Space)                                                                               \
+  template SINEW_API ChainRates<Space> chain_rates(const ChainRobot<Space>&, const Space::Pose&,      \
+                                                   std::span<const ChainLegState>);                   \
+  template SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>&,  \
+                                                                           const ChainState<Space>&); \
+  template SINEW_API double evenness_gap(const ChainRobot<Space>&, const ChainState<Space>&,          \
+                                         const Vec<double, Space::dof>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

@@ -13,18 +13,28 @@ template <class LegT>
 concept CanBeChain = HasArc<typename LegT::Link> &&
     (std::same_as<typename LegT::Closure, Chord> || std::same_as<typename LegT::Closure, Strut>);
 
+/// What keeps a leg from being a chain.
 template <class LegT>
 Errors lacks(const LegT& leg, std::size_t index) {
   Errors errors;
   const auto need = [&](bool has, std::string_view key, std::string_view meaning) {
+    const std::string where = fmt::format("legs[{}].link", index);
     if (!has)
       errors.push_back(
-          {"missing_key", fmt::format("legs[{}].link.{}", index, key),
-           fmt::format("is {}: chains need it; write it under the leg's link, or under defaults", meaning)});
+          {"missing_key", where,
+           fmt::format("missing key \"{}\" in {} ({}): pseudo-rigid chains need it.", key, where, meaning)});
   };
-  need(leg.backbone.joints.has_value(), "joints", "the number n of joints of the pseudo-rigid model");
-  need(leg.backbone.youngs_modulus.has_value(), "material", "what the backbone is made of, {E: 60 GPa}");
-  need(leg.backbone.diameter.has_value(), "diameter", "the diameter of the round backbone");
+  need(leg.backbone.joints.has_value(), "joints", "how many joints the model has");
+  need(leg.backbone.youngs_modulus.has_value(), "material", "of the backbone, {E: 60 GPa}");
+  need(leg.backbone.diameter.has_value(), "diameter", "of the round backbone");
+  const int least = LegT::is_clamped ? 1 : LegT::dimension == 3 ? 3 : 2;
+  if (errors.empty() && *leg.backbone.joints < least) {
+    const std::string where = fmt::format("legs[{}].link.joints", index);
+    errors.push_back(
+        {"out_of_range", where,
+         fmt::format("{} = {}; a chain of this leg needs {} or more, or it has none with a spring.", where,
+                     *leg.backbone.joints, least)});
+  }
   return errors;
 }
 
@@ -53,32 +63,28 @@ Expected<AnyChainRobot> chain_robot_of(const ParallelRobot<LegT>& robot, ChainMo
   std::size_t motors = 0;
   for (std::size_t i = 0; i < robot.legs.size(); ++i)
     with_leg(robot.legs[i], [&]<class One>(const One& leg) {
+      if (!errors.empty()) return;  // of the first leg; the others mostly lack the same
       if constexpr (CanBeChain<One>) {
-        const Errors missing = lacks(leg, i);
-        errors.insert(errors.end(), missing.begin(), missing.end());
-        if (!missing.empty()) return;
-        const int least = One::is_clamped ? 1 : Space::dimension == 3 ? 3 : 2;
-        if (*leg.backbone.joints < least) {
-          errors.push_back({"out_of_range", fmt::format("legs[{}].link.joints", i),
-                            fmt::format("is {}: a chain of this leg bends at {} joints or more",
-                                        *leg.backbone.joints, least)});
-          return;
-        }
+        errors = lacks(leg, i);
+        if (!errors.empty()) return;
         chains.legs.push_back(chain_leg<Space>(leg, model));
         if (One::Link::has_own_turn) ++motors;
       } else {
         errors.push_back(
             {"not_available", fmt::format("legs[{}]", i),
-             "has no chain model: chains stand for tendon-driven links with a chord or a strut"});
+             fmt::format("legs[{}] has no model prb: chains stand for tendon-driven links with a "
+                         "chord or a strut.",
+                         i)});
       }
     });
   if (errors.empty() && chains.legs.size() != static_cast<std::size_t>(Space::dof))
-    errors.push_back({"not_available", "legs",
-                      fmt::format("are {}: chain models need as many legs as the platform has freedoms, {}",
-                                  chains.legs.size(), Space::dof)});
-  if (errors.empty() && motors != 0 && motors != chains.legs.size())
     errors.push_back(
-        {"not_available", "legs", "either all have a motor at the base, or none, in chain models"});
+        {"not_available", "legs",
+         fmt::format("the robot has {} legs; model prb needs as many as the platform has freedoms, {}.",
+                     chains.legs.size(), Space::dof)});
+  if (errors.empty() && motors != 0 && motors != chains.legs.size())
+    errors.push_back({"not_available", "legs",
+                      "some legs have a motor at the base and some have none; model prb needs all or none."});
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   chains.has_base_motors = motors > 0;
   return AnyChainRobot(std::move(chains));
@@ -90,7 +96,8 @@ Expected<AnyChainRobot> chain_robot(const AnyRobot& robot, ChainModel model) {
   return visit_closing(
       robot, [&](const auto& r) { return chain_robot_of(r, model); },
       []() -> Expected<AnyChainRobot> {
-        return failure("not_available", "legs", "are rods, which have a model of their own: leave model out");
+        return failure("not_available", "legs",
+                       "the legs are rods, which have a model of their own: leave model out.");
       });
 }
 

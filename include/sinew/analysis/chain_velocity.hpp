@@ -1,0 +1,35 @@
+/// @file chain_velocity.hpp
+/// Velocity equations, sensitivities and singularities of robots on pseudo-rigid chains. Theory:
+/// docs/theory/chain_velocity.md
+#pragma once
+#include "sinew/analysis/velocity.hpp"
+#include "sinew/kinematics/chain.hpp"
+
+namespace sinew::inline v0 {
+
+/// U = J⁻¹K has a column for each joint, but a row of K only those of one leg: U = R·diag(|gᵢ|)·Q with
+/// orthonormal rows Q, so that its norms are those of a square matrix of the platform's size, however many
+/// joints there are.
+template <class Space>
+struct ChainVelocity {
+  Report report;  ///< singular where J is; residual: closure error [m]
+  ChainRates<Space> rates;
+  Mat<double, Space::dof, Space::dof> inverse;  ///< J⁻¹; not to be used where singular
+  double determinant = 0;                       ///< of J
+  Indices indices{};
+  std::array<double, Space::dof> drive{};  ///< |gᵢ|, the norm of the leg's row of K
+  std::array<int, Space::dof> type_1_legs{};
+  int type_1_count = 0;  ///< legs whose joints move their chord in no direction: straight or folded
+  TypeTwo type_2;
+
+  std::span<const int> type_1() const { return {type_1_legs.data(), static_cast<std::size_t>(type_1_count)}; }
+};
+
+/// At a pose and angles that close the legs. No heap.
+/// @implements TDPCR (35), (40)
+template <class Space>
+SINEW_API ChainVelocity<Space> chain_velocity(const ChainRobot<Space>& robot,
+                                              const typename Space::Pose& pose,
+                                              std::span<const ChainLegState> legs);
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,440 @@
+/// Handlers of statics, forward and inverse on pseudo-rigid chains.
+#include "query/chains.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sinew/kinematics/forward.hpp"
+
+namespace sinew::inline v0 {
+namespace chains {
+
+ChainModel read_law(Context& context) {
+  const auto law = context.query.optional("law");
+  if (!law) return ChainModel::weighted;
+  return law->choice_of<ChainModel>(
+      {{"M0w", ChainModel::weighted}, {"M0", ChainModel::even}, {"M1", ChainModel::discs}});
+}
+
+std::optional<AnyChainRobot> read_robot(Context& context, ChainModel law) {
+  auto robot = chain_robot(context.robot, law);
+  if (robot) return std::move(*robot);
+  context.errors.insert(context.errors.end(), robot.error().begin(), robot.error().end());
+  return {};
+}
+
+Arcs arcs_at(Context& context, const AnyPose& pose, const Branch& branch) {
+  Arcs arcs;
+  const Inverse solved = inverse(context.robot, pose, branch.options(), context.work);
+  arcs.report = solved.report;
+  if (!solved.ok()) return arcs;
+  const std::vector<double> coordinates(solved.coordinates.begin(), solved.coordinates.end());
+  for (const LegState& leg : leg_states(context.robot, pose, coordinates, context.work)) {
+    arcs.curvature.push_back(leg.curvature);
+    arcs.base_tangent.push_back(std::atan2(leg.base_tangent.y(), leg.base_tangent.x()));
+  }
+  return arcs;
+}
+
+void aim_bases(ChainRobot<Planar>& robot, const Arcs& arcs) {
+  if (!robot.has_base_motors) return;
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    ChainLeg<Planar>& leg = robot.legs[i];
+    const double first_link = arcs.base_tangent[i] - 0.5 * arcs.curvature[i] * leg.chain.link_length();
+    leg.base = SE2<double>::from(leg.base.p.x(), leg.base.p.y(), first_link - std::numbers::pi / 2);
+  }
+}
+
+}  // namespace chains
+
+namespace {
+
+using namespace chains;
+
+template <class Space>
+using Wrench = Vec<double, Space::dof>;
+
+/// Forces, then moments.
+template <class Space>
+Wrench<Space> read_wrench(const Reader& list) {
+  Wrench<Space> wrench = Wrench<Space>::Zero();
+  const auto items = list.items(static_cast<std::size_t>(Space::dof));
+  for (std::size_t k = 0; k < items.size() && k < static_cast<std::size_t>(Space::dof); ++k)
+    wrench[static_cast<Eigen::Index>(k)] =
+        items[k].quantity(static_cast<int>(k) < Space::dimension ? Dimension::force : Dimension::moment);
+  return wrench;
+}
+
+template <class Space>
+struct Until {
+  Wrench<Space> direction;
+  double limit;
+};
+
+/// What every question about loaded chains may say.
+template <class Space>
+struct Load {
+  Wrench<Space> wrench = Wrench<Space>::Zero();
+  std::optional<Until<Space>> until;
+  std::optional<double> threshold;  ///< of joints, beyond which the linear model is not to be trusted [rad]
+  ChainOptions options;
+};
+
+template <class Space>
+Load<Space> read_load(Context& context) {
+  Load<Space> load;
+  if (const auto wrench = context.query.optional("wrench")) load.wrench = read_wrench<Space>(*wrench);
+  if (auto asked = context.query.optional("until")) {
+    const Reader wrench = asked->required("wrench", "the load that is added");
+    Until<Space> until{read_wrench<Space>(wrench), 0};
+    if (context.errors.empty() && until.direction == Wrench<Space>::Zero())
+      wrench.fail("out_of_range", "is the load that is added; not all of its numbers may be zero");
+    until.limit =
+        asked->required("limit", "how many times the wrench is added at most").number(Range::positive());
+    asked->close();
+    load.until = until;
+  }
+  if (const auto threshold = context.query.optional("posture_threshold"))
+    load.threshold = threshold->quantity(Dimension::angle, Range::positive());
+  if (context.max_iterations) load.options.max_iterations = *context.max_iterations;
+  return load;
+}
+
+/// Tensions [[T₁, T₂], ...].
+std::vector<ChainHold> read_tensions(const Reader& list, std::size_t legs) {
+  std::vector<ChainHold> hold(legs);
+  const auto items = list.items(legs);
+  for (std::size_t i = 0; i < std::min(items.size(), legs); ++i)
+    hold[i].tension = items[i].array<2>(Dimension::force, Range::not_negative());
+  return hold;
+}
+
+/// Lengths [[l₁ or null, l₂ or null], ...]; a tendon without a length is loose.
+std::vector<ChainHold> read_lengths(const Reader& list, std::size_t legs) {
+  std::vector<ChainHold> hold(legs);
+  const auto items = list.items(legs);
+  for (std::size_t i = 0; i < std::min(items.size(), legs); ++i) {
+    const auto pair = items[i].items(2);
+    for (std::size_t k = 0; k < std::min<std::size_t>(pair.size(), 2); ++k) {
+      if (pair[k].is(Node::Kind::null)) continue;
+      if (hold[i].length_of >= 0)
+        items[i].fail(
+            "not_available",
+            "gives the lengths of both tendons, which contradict one another, or say the same; null "
+            "leaves the outer one loose");
+      hold[i].length_of = static_cast<int>(k);
+      hold[i].length = pair[k].quantity(Dimension::length, Range::positive());
+    }
+  }
+  return hold;
+}
+
+Json to_list(std::span<const double> values) { return to_json(values); }
+
+/// Force and moment at the tip in base axes, and the frame they are turned by.
+template <class Space>
+Json tip_wrench_json(const ChainLeg<Space>& leg, const ChainLegState& state,
+                     const typename Space::template Frame<double>& platform) {
+  const auto angles = state.of(leg.chain);
+  std::vector<double> torques;
+  for (int j = 0; j < leg.chain.joints(); ++j)
+    torques.push_back(leg.spring(j) * angles[static_cast<std::size_t>(j)]);
+  const TipWrench at_tip = tip_wrench(leg.chain, torques, angles);
+  const Vec2<double> u = leg.chain.tip(angles).position;
+  const auto r = (platform.point(leg.platform_point) - leg.base.p).eval();
+  if constexpr (Space::dimension == 2) {
+    const auto frame = leg.has_strut() ? leg.base : Space::aimed(leg.base, r, u);
+    const Vec2<double> force = frame.rotate(at_tip.force);
+    return {force.x(), force.y(), at_tip.moment};
+  } else {
+    const auto frame = Space::aimed(leg.base, r, u);
+    const Vec3<double> force = frame.rotate(Vec3<double>(at_tip.force.x(), at_tip.force.y(), 0));
+    const Vec3<double> moment = frame.rotate(Vec3<double>(0, 0, at_tip.moment));
+    return {force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z()};
+  }
+}
+
+template <class Space>
+Json chain_legs_json(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+  const auto platform = Space::frame(state.pose);
+  Json legs = Json::array();
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    const ChainLegState& leg = state.legs[i];
+    legs.push_back({{"angles", to_list(leg.of(robot.legs[i].chain))},
+                    {"chord_force", leg.force},
+                    {"tendon_lengths", leg.tendon_length},
+                    {"tensions", leg.tension},
+                    {"tip_wrench", tip_wrench_json(robot.legs[i], leg, platform)}});
+  }
+  return legs;
+}
+
+template <class Space>
+Json matrix_json(const Mat<double, Space::dof, Space::dof>& matrix) {
+  const Eigen::Matrix<double, Space::dof, Space::dof, Eigen::RowMajor> rows = matrix;
+  return to_json(MatrixView(rows.data(), Space::dof, Space::dof));
+}
+
+Vec<double, 3> moved(const PlanarPose& from, const PlanarPose& to) {
+  return {to.x - from.x, to.y - from.y, to.phi - from.phi};
+}
+Vec<double, 6> moved(const SpatialPose& from, const SpatialPose& to) {
+  const SE3<double> a = SE3<double>::from(from), b = SE3<double>::from(to);
+  const Vec3<double> turn = b.R.compose(a.R.inverse()).log();
+  Vec<double, 6> twist;
+  twist << to.position - from.position, turn;
+  return twist;
+}
+
+/// The paper's linear model and constant curvature, beside the answer.
+template <class Space>
+void put_simpler_models(Context& context, const ChainRobot<Space>& robot, const ChainState<Space>& unloaded,
+                        const ChainState<Space>& loaded, const Load<Space>& load, ChainWork& work) {
+  Json& answer = context.answer;
+  const Vec<double, Space::dof> change = linear_compliance(robot, unloaded) * loaded.wrench,
+                                actual = moved(unloaded.pose, loaded.pose);
+  answer["linear"] = to_json<Space::dof>(change);
+  double scale = 0, gap = 0;
+  for (int k = 0; k < Space::dof; ++k) {
+    const double unit = k < Space::dimension ? 1 : robot.platform_radius;
+    scale += std::pow(unit * actual[k], 2);
+    gap += std::pow(unit * (change[k] - actual[k]), 2);
+  }
+  if (scale > 0 && loaded.wrench != unloaded.wrench) answer["linear_error"] = std::sqrt(gap / scale);
+  double posture = 0;
+  for (std::size_t i = 0; i < robot.legs.size(); ++i)
+    for (std::size_t j = 0; j < static_cast<std::size_t>(robot.legs[i].chain.joints()); ++j)
+      posture = std::max(posture, std::abs(loaded.legs[i].angles[j] - unloaded.legs[i].angles[j]));
+  answer["posture_error"] = posture;
+  if (load.threshold) answer["linear_valid"] = posture <= *load.threshold;
+
+  std::size_t held = 0;
+  for (const ChainHold& hold : loaded.hold) held += hold.length_of >= 0 ? 1 : 0;
+  ChainState<Space> even = unloaded;
+  if (held == 0) {
+    ChainOptions options = load.options;
+    options.evenly_bent = true;
+    if (!equilibrium(robot, loaded.hold, loaded.wrench, even, work, options).ok()) return;
+  } else if (held == loaded.hold.size()) {
+    even.wrench = loaded.wrench;  // whose curvature a length holds does not yield
+    even.hold = loaded.hold;
+  } else {
+    return;
+  }
+  put_number(answer, "cc_gap", potential(robot, even) - potential(robot, loaded));
+  answer["cc_gap_estimate"] = evenness_gap(robot, unloaded, loaded.wrench);
+  answer["cc_pose"] = to_json(AnyPose(even.pose));
+}
+
+/// @param unloaded what simpler models start from, if it is known
+template <class Space>
+void put_equilibrium(Context& context, const ChainRobot<Space>& robot, const ChainState<Space>& state,
+                     Report report, const ChainState<Space>* unloaded, const Load<Space>& load,
+                     ChainWork& work) {
+  Json& answer = context.answer;
+  const bool is_solved = report.ok() || report.status == Status::slack;
+  double least = 0;
+  if (is_solved) {
+    least = least_curvature(robot, state);
+    if (report.ok() && !(least > 0)) {
+      report.status = Status::unstable;
+      report.message.append("the equilibrium does not hold by itself: smallest_eigenvalue is not above 0");
+    }
+  }
+  context.report(report);
+  answer["iterations"] = report.iterations;
+  put_number(answer, "residual", report.residual);
+  if (!is_solved) return;
+  answer["pose"] = to_json(AnyPose(Space::tidy(state.pose)));
+  answer["legs"] = chain_legs_json(robot, state);
+  answer["wrench"] = to_json<Space::dof>(state.wrench);
+  answer["compliance"] = matrix_json<Space>(compliance(robot, state, work));
+  answer["stable"] = least > 0;
+  answer["smallest_eigenvalue"] = least;
+  put_number(answer, "potential", potential(robot, state));
+  if (unloaded) put_simpler_models(context, robot, *unloaded, state, load, work);
+}
+
+/// Rests at a pose; the report says if the arcs, or the chains, do not reach.
+template <class Space>
+Report rest_at(Context& context, ChainRobot<Space>& robot, const AnyPose& pose, const Branch& branch,
+               bool holds_lengths, ChainState<Space>& state) {
+  const Arcs arcs = arcs_at(context, pose, branch);
+  if (!arcs.report.ok()) return arcs.report;
+  aim_bases(robot, arcs);
+  return rest(robot, std::get<typename Space::Pose>(pose), arcs.curvature, holds_lengths, state);
+}
+
+/// To the load, and on until it grows no more.
+template <class Space>
+void load_and_answer(Context& context, const ChainRobot<Space>& robot, ChainState<Space>& state,
+                     const ChainState<Space>& unloaded, const Load<Space>& load) {
+  ChainWork work;
+  const std::vector<ChainHold> hold = state.hold;
+  Report report = equilibrium(robot, hold, load.wrench, state, work, load.options);
+  if (report.ok() && load.until) {
+    const ChainLoadPath path =
+        follow_load(robot, load.until->direction, load.until->limit, state, work, load.options);
+    context.answer["load"] = path.load;
+    context.answer["why"] = to_string(path.end);
+  }
+  put_equilibrium(context, robot, state, report, &unloaded, load, work);
+}
+
+/// Lengths that would fold a joint upon itself.
+template <class Space>
+Report check_lengths(const ChainRobot<Space>& robot, std::span<const ChainHold> hold) {
+  Report report;
+  for (std::size_t i = 0; i < hold.size() && report.ok(); ++i) {
+    if (hold[i].length_of < 0) continue;
+    const ChainLeg<Space>& leg = robot.legs[i];
+    double most = 0;
+    for (int j = 0; j < leg.chain.joints(); ++j)
+      most += std::numbers::pi * leg.tendon_offset * leg.chain.turn_weight(j);
+    if (std::abs(hold[i].length - leg.chain.length) < most) continue;
+    report.status = Status::left_domain;
+    report.message.append(fmt::format(
+        "legs[{}]: a tendon {:.6g} mm long would fold every joint by half a turn; "
+        "between {:.6g} and {:.6g} mm it does not",
+        i, 1e3 * hold[i].length, 1e3 * (leg.chain.length - most), 1e3 * (leg.chain.length + most)));
+  }
+  return report;
+}
+
+/// Where the search for an equilibrium with given tensions or lengths begins.
+template <class Space>
+void answer_held(Context& context, ChainRobot<Space>& robot, const AnyPose& start, const Branch& branch,
+                 const std::vector<ChainHold>& hold, const Load<Space>& load) {
+  ChainState<Space> state;
+  Report report = check_lengths(robot, hold);
+  if (!report.ok()) return context.report(report);
+  report = rest_at(context, robot, start, branch, false, state);
+  ChainWork work;
+  if (report.ok()) report = equilibrium(robot, hold, Wrench<Space>::Zero().eval(), state, work, load.options);
+  if (!report.ok() && report.status != Status::slack)
+    return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
+  const ChainState<Space> unloaded = state;
+  load_and_answer(context, robot, state, unloaded, load);
+}
+
+template <class Space>
+void answer_statics_of(Context& context, ChainRobot<Space>& robot) {
+  Reader& query = context.query;
+  const std::size_t legs = robot.legs.size();
+  const Branch branch = read_branch(context);
+  const Load<Space> load = read_load<Space>(context);
+  const auto tensions = query.optional("tensions"), lengths = query.optional("lengths"),
+             is_inverse = query.optional("inverse"), hold_word = query.optional("hold");
+  auto set_at = query.optional("set_at"), pose = query.optional("pose"), start = query.optional("start");
+  const bool inverse_asked = is_inverse && is_inverse->boolean();
+  const int ways = (tensions ? 1 : 0) + (lengths ? 1 : 0) + (set_at ? 1 : 0) + (inverse_asked ? 1 : 0);
+  if (ways == 0)
+    query.fail(
+        "missing_key",
+        "give tensions, lengths or set_at: a pose at which the tendons are set without load; or inverse: "
+        "true with a pose");
+  if (ways > 1)
+    query.fail("ambiguous", "tensions, lengths, set_at and inverse each say what holds the robot; keep one");
+  if (inverse_asked && !pose) query.required("pose", "that the loaded platform is to have");
+  if (pose && !inverse_asked) pose->fail("no_effect", "is asked of inverse statics only; add inverse: true");
+  if (hold_word && !set_at && !inverse_asked)
+    hold_word->fail("no_effect", "says what set_at or inverse leaves held; remove it");
+  if (start && !tensions && !lengths)
+    start->fail("no_effect", "is where tensions or lengths begin from; remove it");
+  if (load.until && inverse_asked)
+    query.fail("ambiguous", "until follows a load, inverse holds a pose; keep one");
+  const bool holds_lengths = hold_word && hold_word->choice({"tension", "length"}) == "length";
+  std::vector<ChainHold> hold;
+  if (tensions) hold = read_tensions(*tensions, legs);
+  if (lengths) hold = read_lengths(*lengths, legs);
+  AnyPose at = home(context.robot);
+  for (auto* given : {&set_at, &pose, &start})
+    if (*given) at = read_pose(context, std::move(**given));
+  if (!context.ready()) return;
+  if (!hold.empty()) return answer_held(context, robot, at, branch, hold, load);
+
+  ChainState<Space> state;
+  const Report report = rest_at(context, robot, at, branch, holds_lengths, state);
+  ChainWork work;
+  if (!report.ok()) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
+  const ChainState<Space> unloaded = state;
+  if (!inverse_asked) return load_and_answer(context, robot, state, unloaded, load);
+  const Report held = hold_pose(robot, load.wrench, state, work, load.options);
+  put_equilibrium<Space>(context, robot, state, held, nullptr, load, work);
+}
+
+/// Base motors turn first links, inputs of arcs their tangents or chords: no chain has these.
+bool refuse_motors(Context& context, bool has_base_motors) {
+  if (has_base_motors)
+    context.query.fail(
+        "not_available",
+        "model prb has no inputs for legs with a motor at the base; ask velocity with angles, or "
+        "statics with set_at");
+  return has_base_motors;
+}
+
+/// Tendon 1 of the arcs' lengths; where it is the outer one the inner is held, whose length is as much
+/// shorter.
+template <class Space>
+void answer_forward_of(Context& context, ChainRobot<Space>& robot) {
+  const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
+  const Load<Space> load = read_load<Space>(context);
+  ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
+  if (auto start = context.query.optional("start")) options.start = read_pose(context, std::move(*start));
+  if (refuse_motors(context, robot.has_base_motors) || !context.ready()) return;
+  const Forward arcs = forward(context.robot, inputs, options, context.work);
+  if (!arcs.ok()) return context.report(arcs.report);
+  Branch branch;
+  const std::vector<double> coordinates = {arcs.coordinates.begin(), arcs.coordinates.end()};
+  std::vector<ChainHold> hold;
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    branch.curvature.push_back(coordinates[i]);
+    const double rest_length = robot.legs[i].chain.length;
+    const bool is_inner = inputs[i] <= rest_length;
+    hold.push_back({is_inner ? 0 : 1, is_inner ? inputs[i] : 2 * rest_length - inputs[i], {}});
+  }
+  answer_held(context, robot, arcs.pose, branch, hold, load);
+}
+
+template <class Space>
+void answer_inverse_of(Context& context, ChainRobot<Space>& robot) {
+  auto pose = context.query.required("pose", "pose of the platform");
+  const AnyPose at = read_pose(context, std::move(pose));
+  const Branch branch = read_branch(context);
+  const Load<Space> load = read_load<Space>(context);
+  if (load.until)
+    context.query.fail("ambiguous", "until follows a load, inverse holds a pose; leave until out");
+  if (refuse_motors(context, robot.has_base_motors) || !context.ready()) return;
+  ChainState<Space> state;
+  Report report = rest_at(context, robot, at, branch, true, state);
+  ChainWork work;
+  if (report.ok()) report = hold_pose(robot, load.wrench, state, work, load.options);
+  put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
+  if (!report.ok() && report.status != Status::slack) return;
+  Json inputs = Json::array();
+  for (const ChainLegState& leg : state.legs) inputs.push_back(leg.tendon_length[0]);
+  context.answer["inputs"] = std::move(inputs);
+}
+
+template <class Handler>
+void on_chains(Context& context, ChainModel law, Handler&& handler) {
+  auto robot = read_robot(context, law);
+  if (robot) std::visit(handler, *robot);
+}
+
+}  // namespace
+
+void answer_statics(Context& context) {
+  on_chains(context, read_law(context), [&](auto& robot) { answer_statics_of(context, robot); });
+}
+
+void answer_chains_forward(Context& context) {
+  on_chains(context, ChainModel::weighted, [&](auto& robot) { answer_forward_of(context, robot); });
+}
+
+void answer_chains_inverse(Context& context) {
+  on_chains(context, ChainModel::weighted, [&](auto& robot) { answer_inverse_of(context, robot); });
+}
+
+}  // namespace sinew::inline v0
