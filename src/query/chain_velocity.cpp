@@ -1,34 +1,16 @@
-/// Handler of velocity on pseudo-rigid chains.
+/// Handlers of velocity and track on pseudo-rigid chains.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "query/chains.hpp"
 #include "sinew/analysis/chain_velocity.hpp"
+#include "sinew/kinematics/chain_motion.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
 using namespace chains;
-
-/// Angles per leg, from the first sprung joint; before them the direction of the first link where a motor
-/// turns it.
-template <class Space>
-std::vector<ChainLegState> read_angles(const Reader& list, ChainRobot<Space>& robot) {
-  std::vector<ChainLegState> legs(robot.legs.size());
-  const auto items = list.items(robot.legs.size());
-  for (std::size_t i = 0; i < std::min(items.size(), legs.size()); ++i) {
-    auto& leg = robot.legs[i];
-    const auto joints = static_cast<std::size_t>(leg.chain.joints());
-    const std::size_t motors = robot.has_base_motors ? 1 : 0;
-    const auto angles = items[i].quantities(Dimension::angle, Range::turn(), joints + motors);
-    std::copy(angles.begin() + static_cast<std::ptrdiff_t>(motors), angles.end(), legs[i].angles.begin());
-    if constexpr (Space::dimension == 2)
-      if (motors > 0)
-        leg.base = SE2<double>::from(leg.base.p.x(), leg.base.p.y(), angles[0] - std::numbers::pi / 2);
-  }
-  return legs;
-}
 
 template <class Space>
 Json K_json(const ChainRates<Space>& rates) {
@@ -95,8 +77,7 @@ void put_velocity(Context& context, const ChainRobot<Space>& robot, const ChainV
     }
   }
   Json list = Json::array();
-  for (std::size_t i = 0; i < legs.size(); ++i)
-    list.push_back({{"angles", to_json(legs[i].of(robot.legs[i].chain))}});
+  for (Json& angles : angles_json(robot, legs)) list.push_back({{"angles", std::move(angles)}});
   answer["legs"] = std::move(list);
 }
 
@@ -114,15 +95,9 @@ void answer_velocity_of(Context& context, ChainRobot<Space>& robot) {
   if (angles && !branch.is_default())
     query.fail("ambiguous", "bending, curvature and elbow choose among solutions; the angles are given");
   if (!context.ready()) return;
-  if (!angles) {
-    const Arcs arcs = arcs_at(context, pose, branch);
-    if (!arcs.report.ok()) return context.report(arcs.report);
-    aim_bases(robot, arcs);
-    ChainState<Space> state;
-    const Report report = rest(robot, std::get<typename Space::Pose>(pose), arcs.curvature, false, state);
-    if (!report.ok()) return context.report(report);
-    legs = state.legs;
-  }
+  if (!angles)
+    if (const Report report = configure(context, robot, pose, branch, legs); !report.ok())
+      return context.report(report);
   const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
   if (!(velocity.rates.closure_error <= 1e-9))
     return query.fail("not_closed",
@@ -133,7 +108,63 @@ void answer_velocity_of(Context& context, ChainRobot<Space>& robot) {
   put_velocity(context, robot, velocity, legs, twist);
 }
 
+template <class Space>
+Json row_json(const ChainRobot<Space>& robot, const AnyPose& pose, std::span<const ChainLegState> legs) {
+  const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
+  Json row{{"pose", to_json(pose)},
+           {"angles", angles_json(robot, legs)},
+           {"closure_error", velocity.rates.closure_error},
+           {"indices", to_json(velocity.indices)}};
+  if (velocity.type_1_count > 0)
+    row["type_1"] = std::vector<int>(velocity.type_1().begin(), velocity.type_1().end());
+  if (velocity.type_2.singular) row["singular"] = true;
+  return row;
+}
+
+template <class Space>
+void answer_track_of(Context& context, ChainRobot<Space>& robot) {
+  Reader& query = context.query;
+  const std::vector<AnyPose> poses = read_path(context);
+  const Branch branch = read_branch(context);
+  ChainMotionOptions options;
+  options.objective = read_objective(query);
+  if (const auto steps = query.optional("rk4_steps"))
+    options.rk4_steps = steps->integer(Range::between(1, 1000));
+  const auto angles = query.optional("angles");
+  std::vector<ChainLegState> legs;
+  if (angles) legs = read_angles(*angles, robot);
+  if (angles && !branch.is_default())
+    query.fail("ambiguous", "bending, curvature and elbow choose among solutions; the angles are given");
+  if (!context.ready()) return;
+  Report report;
+  if (!angles) report = configure(context, robot, poses.front(), branch, legs);
+  Json rows = Json::array();
+  double worst = 0;
+  for (std::size_t k = 0; k < poses.size() && report.ok(); ++k) {
+    const auto& pose = std::get<typename Space::Pose>(poses[k]);
+    if (k > 0)
+      report = follow_least_norm(robot, std::get<typename Space::Pose>(poses[k - 1]), pose, legs, options);
+    if (!report.ok()) break;
+    rows.push_back(row_json(robot, poses[k], legs));
+    worst = std::max(worst, rows.back()["closure_error"].get<double>());
+    if (k == 0 && !(worst <= 1e-9))
+      return query.fail("not_closed",
+                        fmt::format("the first pose and the angles contradict each other: a leg misses "
+                                    "by {:.3g} m; leave the angles out to have them solved",
+                                    worst));
+  }
+  context.report(report);
+  if (!report.ok()) context.answer["reached"] = {{"rows", rows.size()}};
+  context.answer["residual"] = worst;
+  context.answer["rows"] = std::move(rows);
+}
+
 }  // namespace
+
+void answer_chains_track(Context& context) {
+  auto robot = read_robot(context, read_law(context));
+  if (robot) std::visit([&](auto& chains) { answer_track_of(context, chains); }, *robot);
+}
 
 void answer_chains_velocity(Context& context) {
   auto robot = read_robot(context, read_law(context));

@@ -8,7 +8,7 @@
 #include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/io/reader.hpp"
-#include "sinew/kinematics/inverse.hpp"
+#include "sinew/kinematics/track.hpp"
 #include "sinew/robot/workspace.hpp"
 
 namespace sinew::inline v0 {
@@ -110,6 +110,10 @@ std::optional<Along> read_along(Context& context);
 /// Writes `type_2_distance`. Uses the workspace.
 void put_type_2_distance(Context& context, const Along& along, const Configuration& given,
                          const AnyPose& pose);
+
+/// Poses of a path: a list, or samples of a straight line.
+std::vector<AnyPose> read_path(Context& context);
+Objective read_objective(Reader& query);
 
 void put_shape(Json& answer, const AnyShape& picture);
 

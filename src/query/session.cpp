@@ -28,7 +28,7 @@ constexpr std::array kinds{
     Kind{"shape", answer_shape, answer_serial_shape, nullptr},
     Kind{"describe", answer_describe, answer_serial_describe, nullptr},
     Kind{"statics", answer_statics, nullptr, answer_statics},
-    Kind{"track", answer_track, nullptr, nullptr},
+    Kind{"track", answer_track, nullptr, answer_chains_track},
     Kind{"diagram", nullptr, answer_serial_diagram, nullptr},
 };
 

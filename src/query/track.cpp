@@ -30,6 +30,8 @@ std::vector<AnyPose> straight_path(const AnyRobot& robot, const AnyPose& from, c
   return poses;
 }
 
+}  // namespace
+
 std::vector<AnyPose> read_path(Context& context) {
   Reader& query = context.query;
   if (const auto list = query.optional("poses")) {
@@ -62,6 +64,8 @@ Objective read_objective(Reader& query) {
                                           {"smooth", Objective::smooth},
                                           {"none", Objective::none}});
 }
+
+namespace {
 
 Json row_json(Context& context, const Track& track) {
   Json row{{"pose", to_json(track.pose())},

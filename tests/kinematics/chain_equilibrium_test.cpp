@@ -363,7 +363,7 @@ void expect_rates(const char* name, const Json& pose, const typename Space::Pose
   }
 }
 
-TEST(ChainRates, AreTheirs) {  // @verifies TDPCR (34)
+TEST(ChainRates, AreTheirs) {  // @verifies TDPCR (34), (36)-(38), (60)-(62)
   const Json& all = reference_file("data/tdpcr/poses.json");
   for (const auto& [name, file] :
        {std::pair("3-RFR", "3-rfr.yaml"), {"3-FRR", "3-frr.yaml"}, {"3-RFRR", "3-rfrr.yaml"}})

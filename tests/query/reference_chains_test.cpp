@@ -51,7 +51,7 @@ void expect_velocity(const char* robot, const Json& c, const Json& pose) {
               1e-11 * theirs["Ur"].get<double>());
 }
 
-TEST(ChainQuery, VelocityOfAllRobotsIsTheirs) {  // @verifies TDPCR (34), (35), (40)
+TEST(ChainQuery, VelocityOfAllRobotsIsTheirs) {  // @verifies TDPCR (34)-(38), (40), (60)-(62)
   const Json& all = poses();
   for (const auto& [name, robot] :
        {std::pair("3-RFR", "3-rfr"), std::pair("3-FRR", "3-frr"), std::pair("3-RFRR", "3-rfrr")})

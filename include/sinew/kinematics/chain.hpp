@@ -155,7 +155,7 @@ struct ChainRates {
   int columns = 0;  ///< of a leg: its sprung joints, after the base motor's angle where there is one
   double closure_error = 0;
 };
-/// @implements TDPCR (34)
+/// @implements TDPCR (34), (36)-(38), (60)-(62)
 template <class Space>
 SINEW_API ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
                                         std::span<const ChainLegState> legs);
