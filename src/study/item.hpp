@@ -14,6 +14,9 @@ using StudyFunction = Expected<Reproduction> (*)(const StudyItem& item, const st
 Expected<Reproduction> tdpcr_fig8(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tdpcr_fig9(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tdpcr_fig10(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> tdpcr_fig11(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> tdpcr_fig12(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> tdpcr_chains(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tripod_fig4(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tripod_fig5(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tripod_fig6(const StudyItem& item, const std::filesystem::path& folder);

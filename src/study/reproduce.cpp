@@ -14,6 +14,11 @@ constexpr std::array items{
               "Performance indices of the 3-RFR along the trajectory of section 5.1, constant curvature"},
     StudyItem{"tdpcr/fig10",
               "Last pose of the trajectory of section 5.1: the lines of the 3-RFR meet in one point"},
+    StudyItem{"tdpcr/fig11",
+              "Performance indices of the 3-RFR along the trajectory of section 5.1, pseudo-rigid chains"},
+    StudyItem{"tdpcr/fig12", "Last pose of the trajectory of section 5.1 on pseudo-rigid chains"},
+    StudyItem{"tdpcr/chains",
+              "Pseudo-rigid chains of n links against the elastica: orders of chord and turn"},
     StudyItem{"3pfs/fig4", "Parasitic motions of the rigid tripod 3PRS over its tilts"},
     StudyItem{"3pfs/fig5",
               "Singularity loci of the 3PRS over its tilts: of inverse and of forward kinematics"},
@@ -27,8 +32,8 @@ constexpr std::array items{
     StudyItem{"lsk/numbers", "Numbers derived in the text: sizes, travel, evaluations, errors, misprints"},
 };
 constexpr std::array<StudyFunction, items.size()> functions{
-    tdpcr_fig8, tdpcr_fig9, tdpcr_fig10, tripod_fig4, tripod_fig5, tripod_fig6, tripod_fig7,
-    lsk_fig3,   lsk_fig4,   lsk_fig5,    lsk_fig6,    lsk_fig7,    lsk_numbers};
+    tdpcr_fig8,  tdpcr_fig9,  tdpcr_fig10, tdpcr_fig11, tdpcr_fig12, tdpcr_chains, tripod_fig4, tripod_fig5,
+    tripod_fig6, tripod_fig7, lsk_fig3,    lsk_fig4,    lsk_fig5,    lsk_fig6,     lsk_fig7,    lsk_numbers};
 
 /// A bar would end the cell, and a line break the table.
 std::string cell(const std::string& text) {

@@ -99,7 +99,57 @@ TEST(Fig10, LegsHaveTheLengthsOfTheLastPose) {  // ρ = (2/κ) sin(κℓ/2), TDP
 
 class TdpcrFigure : public testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(Both, TdpcrFigure, testing::Values("fig8", "fig10"),
+const Made& fig11() {
+  static const Made made = make("fig11");
+  return made;
+}
+
+TEST(Fig11, CurvesAreTheirs) {
+  ASSERT_EQ(fig11().table.row_count(), 60U);
+  for (const auto& row : test::reference_file("data/tdpcr/example51.json")["PRB"]) {
+    const std::size_t k = row["k"];
+    const double condition = row["cond"], position = row["Up"], rotation = row["Ur"];
+    EXPECT_NEAR(value(fig11(), "condition", k), condition, 1e-9 * condition) << k;
+    EXPECT_NEAR(value(fig11(), "position", k), position, 1e-9 * position) << k;
+    EXPECT_NEAR(value(fig11(), "rotation", k), rotation, 1e-9 * rotation) << k;
+    EXPECT_NEAR(value(fig11(), "theta_24", k), row["theta"][1][2].get<double>(), 1e-13) << k;
+  }
+  EXPECT_TRUE(std::isnan(value(fig11(), "rotation", 59)));
+}
+
+/// What the paper concludes of its curves hangs on units, and is said so.
+TEST(Fig11, SaysWhatIsTrueOfTheClaim) {
+  const auto& findings = fig11().reproduction.findings;
+  ASSERT_EQ(findings.size(), 11U);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(findings[i].verdict, "holds") << findings[i].quantity;
+  EXPECT_EQ(findings[6].verdict, "agree");
+  EXPECT_EQ(findings[7].verdict, "unit artefact");
+  EXPECT_EQ(findings[8].verdict, "a factor of units");
+  EXPECT_EQ(findings[9].verdict, "fails");
+  EXPECT_NE(findings[8].ours.find("73.09 → 71.59"), std::string::npos) << findings[8].ours;
+  EXPECT_NE(findings[9].ours.find("55.23 against × 54.10"), std::string::npos) << findings[9].ours;
+}
+
+TEST(Fig12, LastPoseIsTypeTwo) {
+  const Made made = make("fig12");
+  ASSERT_EQ(made.table.row_count(), 21U);  // three legs of a base point, five joints and a tip
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(made.reproduction.findings[i].verdict, "holds");
+  for (std::size_t row = 0; row < 20; ++row) {  // links of 1/30 m
+    if (row % 7 == 6) continue;
+    EXPECT_NEAR(std::hypot(value(made, "x", row + 1) - value(made, "x", row),
+                           value(made, "y", row + 1) - value(made, "y", row)),
+                0.2 / 6, 1e-15);
+  }
+}
+
+TEST(Chains, ApproachTheElasticaAtTheirOrders) {
+  const Made made = make("chains");
+  EXPECT_EQ(made.reproduction.findings.size(), 12U);
+  for (const Finding& finding : made.reproduction.findings)
+    EXPECT_EQ(finding.verdict, "holds") << finding.quantity << ": " << finding.ours;
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, TdpcrFigure, testing::Values("fig8", "fig10", "fig11", "fig12", "chains"),
                          [](const auto& given) { return std::string(given.param); });
 
 TEST_P(TdpcrFigure, FilesAreValidAndTheSameBytesTheSecondTime) {

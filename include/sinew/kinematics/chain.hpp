@@ -47,6 +47,12 @@ using AnyChainRobot = std::variant<ChainRobot<Planar>, ChainRobot<Spatial>>;
 /// `material` or `diameter`, or that there are no chains of its kind.
 SINEW_API Expected<AnyChainRobot> chain_robot(const AnyRobot& robot, ChainModel model = ChainModel::weighted);
 
+/// Base point, joints and tip of a chain, base axes, where it leads to the platform. Allocates.
+template <class Space>
+SINEW_API std::vector<Vec<double, Space::dimension>> chain_points(
+    const ChainLeg<Space>& leg, std::span<const double> angles,
+    const typename Space::template Frame<double>& platform);
+
 /// What the motors of a leg hold: tensions, or the length of one tendon.
 struct ChainHold {
   int length_of = -1;               ///< the tendon whose length is held, 0 or 1; −1: neither

@@ -1,6 +1,7 @@
 /// Robots of a file with chains for links.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "sinew/kinematics/chain.hpp"
@@ -100,5 +101,35 @@ Expected<AnyChainRobot> chain_robot(const AnyRobot& robot, ChainModel model) {
                        "the legs are rods, which have a model of their own: leave model out.");
       });
 }
+
+template <class Space>
+std::vector<Vec<double, Space::dimension>> chain_points(
+    const ChainLeg<Space>& leg, std::span<const double> angles,
+    const typename Space::template Frame<double>& platform) {
+  constexpr int dimension = Space::dimension;
+  const auto r = (platform.point(leg.platform_point) - leg.base.p).eval();
+  const auto frame = leg.has_strut() ? leg.base : Space::aimed(leg.base, r, leg.chain.tip(angles).position);
+  std::vector<Vec<double, dimension>> points;
+  Vec2<double> at(0, 0);
+  double turn = 0;
+  const auto add = [&] {
+    Vec<double, dimension> local = Vec<double, dimension>::Zero();
+    local[0] = at[0], local[1] = at[1];
+    points.push_back(frame.point(local));
+  };
+  add();
+  std::size_t joint = 0;
+  for (int link = 0; link < leg.chain.links; ++link) {
+    if (link > 0 || leg.chain.base == ChainBase::clamped) turn += angles[joint++];
+    at += leg.chain.link_length() * Vec2<double>(-std::sin(turn), std::cos(turn));
+    add();
+  }
+  return points;
+}
+
+template SINEW_API std::vector<Vec2<double>> chain_points(const ChainLeg<Planar>&, std::span<const double>,
+                                                          const SE2<double>&);
+template SINEW_API std::vector<Vec3<double>> chain_points(const ChainLeg<Spatial>&, std::span<const double>,
+                                                          const SE3<double>&);
 
 }  // namespace sinew::inline v0

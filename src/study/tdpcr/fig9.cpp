@@ -15,6 +15,7 @@
 #include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/tdpcr/example51.hpp"
+#include "study/tdpcr/index_panel.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -183,51 +184,23 @@ Series curve(std::string label, Index index, Colour colour, const Samples& sampl
   return series;
 }
 
-Panel index_panel(Axis y, std::vector<Series> curves, double limit) {
-  Series rate{.label = "derived: " + fmt::format("{:.4g}", limit) + " / (π/3 − φ)",
-              .x = {},
-              .y = {},
-              .mark = Mark::dashed,
-              .colour = Colour::black,
-              .width = 1.5};
-  for (int i = 0; i <= 400; ++i) {
-    const double eta = 0.9985 * i / 400;
-    rate.x.push_back(eta);
-    rate.y.push_back(limit / (pi / 3 * (1 - eta)));
-  }
-  Series end{.label = "last pose: type II singular",
-             .x = {1, 1},
-             .y = {*y.low, *y.high},
-             .mark = Mark::dotted,
-             .colour = Colour::vermillion};
-  curves.push_back(std::move(rate));
-  curves.push_back(std::move(end));
-  return {.title = "",
-          .x = {.label = "", .unit = "", .low = 0, .high = 1.02},
-          .y = std::move(y),
-          .series = std::move(curves)};
-}
-
 Figure indices_figure(const Samples& samples) {
   const example51::Rates limit = example51::rates(samples.back());
-  const auto log_axis = [](const char* label, const char* unit, double low, double high) {
-    return Axis{.label = label, .unit = unit, .log = true, .low = low, .high = high};
-  };
   Figure figure{.title = "3-RFR, constant curvature: towards a type II singularity",
                 .panels = {},
                 .width = 760,
                 .height = 1000,
                 .comments = provenance("Fig. 9")};
-  figure.panels.push_back(
-      index_panel(log_axis("condition number of J", "", 1, 3000),
-                  {curve("as the paper has it (m and m²)", &Indices::condition, Colour::blue, samples),
-                   curve("homogenised", &Indices::condition_homogenised, Colour::orange, samples)},
-                  limit.condition));
-  figure.panels.push_back(index_panel(
-      log_axis("‖Uₚ‖", "m/m", 0.3, 300),
+  figure.panels.push_back(example51::index_panel(
+      example51::log_axis("condition number of J", "", 1, 3000),
+      {curve("as the paper has it (m and m²)", &Indices::condition, Colour::blue, samples),
+       curve("homogenised", &Indices::condition_homogenised, Colour::orange, samples)},
+      limit.condition));
+  figure.panels.push_back(example51::index_panel(
+      example51::log_axis("‖Uₚ‖", "m/m", 0.3, 300),
       {curve("position sensitivity", &Indices::position, Colour::blue, samples)}, limit.position));
-  figure.panels.push_back(index_panel(
-      log_axis("‖Uᵣ‖", "rad/m", 30, 30000),
+  figure.panels.push_back(example51::index_panel(
+      example51::log_axis("‖Uᵣ‖", "rad/m", 30, 30000),
       {curve("rotation sensitivity", &Indices::rotation, Colour::blue, samples)}, limit.rotation));
   figure.panels.back().x.label = "η, along the trajectory";
   return figure;

@@ -1,0 +1,59 @@
+#include "study/tdpcr/example51_chains.hpp"
+
+#include "sinew/kinematics/chain_motion.hpp"
+
+namespace sinew::inline v0::example51 {
+namespace {
+
+tl::unexpected<Errors> failed(std::string_view where, const Report& report) {
+  return failure("no_solution", where, to_string(report));
+}
+
+}  // namespace
+
+Expected<ChainRobot<Planar>> chains(const AnyRobot& robot) {
+  auto any = chain_robot(robot, ChainModel::even);
+  if (!any) return tl::unexpected(std::move(any.error()));
+  return std::get<ChainRobot<Planar>>(*any);
+}
+
+Expected<std::vector<ChainLegState>> evenly_bent(const ChainRobot<Planar>& robot, const PlanarPose& pose) {
+  ChainState<Planar> state;
+  const std::vector<double> towards_plus(robot.legs.size(), 1);
+  const Report report = rest(robot, pose, towards_plus, false, state);
+  if (!report.ok()) return failed("evenly bent chains", report);
+  return std::move(state.legs);
+}
+
+Expected<std::vector<ChainSample>> trajectory(ChainRobot<Planar> robot, int rk4_steps) {
+  constexpr int last = 59;
+  std::vector<ChainSample> samples;
+  auto legs = evenly_bent(robot, pose(0));
+  if (!legs) return tl::unexpected(std::move(legs.error()));
+  for (int k = 0; k <= last; ++k) {
+    const double eta = static_cast<double>(k) / last;
+    if (k > 0) {
+      const Report report =
+          follow_least_norm(robot, samples.back().pose, pose(eta), *legs, {.rk4_steps = rk4_steps});
+      if (!report.ok()) return failed("least-norm motion", report);
+    }
+    samples.push_back({eta, pose(eta), *legs, chain_velocity(robot, pose(eta), *legs)});
+  }
+  return samples;
+}
+
+Expected<ChainSample> sample(ChainRobot<Planar> robot, double eta) {
+  auto legs = evenly_bent(robot, pose(0));
+  if (!legs) return tl::unexpected(std::move(legs.error()));
+  const Report report = follow_least_norm(robot, pose(0), pose(eta), *legs);
+  if (!report.ok()) return failed("least-norm motion", report);
+  return ChainSample{eta, pose(eta), *legs, chain_velocity(robot, pose(eta), *legs)};
+}
+
+Rates rates(const Sample& last, const ChainSample& chains) {
+  Sample driven = last;
+  driven.input_rate.assign(chains.velocity.drive.begin(), chains.velocity.drive.end());
+  return rates(driven);
+}
+
+}  // namespace sinew::inline v0::example51
