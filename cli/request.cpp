@@ -65,6 +65,13 @@ std::string json_pose(std::span<const double> values) {
                      json_list(quaternion));
 }
 
+/// `set_at` of the option `set-at`.
+std::string member_name(std::string_view option) {
+  std::string name(option);
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
 /// A value of `--set` as YAML reads it.
 Expected<Node> value_of(std::string_view text) {
   if (!text.starts_with('[') && !text.starts_with('{')) return plain_scalar(text);
@@ -98,6 +105,7 @@ class Request {
   void quantity(std::string_view option, Dimension dimension);
   void vector(std::string_view option, Dimension dimension);
   void lengths(std::string_view option);
+  void per_leg(std::string_view option, Dimension dimension);
   void signs(std::string_view key);
   void curvature();
   void word(std::string_view option, std::string_view key);
@@ -189,7 +197,7 @@ void Request::pose(std::string_view key, const Robot& robot) {
   const auto dimensions = count == 3   ? lengths_then(2, Dimension::angle, 1)
                           : count == 6 ? lengths_then(3, Dimension::angle, 3)
                                        : lengths_then(3, Dimension::number, 4);
-  member(key, json_pose(values(key, parts, dimensions)));
+  member(member_name(key), json_pose(values(key, parts, dimensions)));
 }
 
 void Request::independent() {
@@ -317,7 +325,7 @@ void Request::quantity(std::string_view option, Dimension dimension) {
   const std::string* given = arguments_.text(option);
   if (!given) return;
   const Expected<double> value = parse_quantity(*given, dimension);
-  if (value) return member(option, si_text(*value));
+  if (value) return member(member_name(option), si_text(*value));
   fail(value.error().front().code, option, value.error().front().message);
 }
 
@@ -326,6 +334,26 @@ void Request::lengths(std::string_view option) {
   if (!given) return;
   const auto parts = split(*given);
   member(option, json_list(values(option, parts, std::vector<Dimension>(parts.size(), Dimension::length))));
+}
+
+/// Two values for each leg, legs apart by semicolons; `-` where there is none.
+void Request::per_leg(std::string_view option, Dimension dimension) {
+  const std::string* given = arguments_.text(option);
+  if (!given) return;
+  std::string list;
+  std::string_view rest = *given;
+  for (bool more = true; more;) {
+    const std::size_t end = rest.find(';');
+    std::string pair;
+    for (const std::string_view part : split(rest.substr(0, end))) {
+      const std::string value = part == "-" ? "null" : json_list(values(option, {&part, 1}, {&dimension, 1}));
+      pair += (pair.empty() ? "" : ", ") + (part == "-" ? value : value.substr(1, value.size() - 2));
+    }
+    list += fmt::format("{}[{}]", list.empty() ? "" : ", ", pair);
+    more = end != std::string_view::npos;
+    if (more) rest.remove_prefix(end + 1);
+  }
+  member(option, "[" + list + "]");
 }
 
 void Request::vector(std::string_view option, Dimension dimension) {
@@ -446,6 +474,14 @@ std::string at_home(const Robot& robot) {
 Expected<std::string> request(std::string_view query, const Arguments& arguments, const Robot& robot) {
   Request request(query, arguments);
   for (const std::string_view key : {"pose", "from", "to"}) request.pose(key, robot);
+  request.pose("set-at", robot);
+  if (query == "statics" && arguments.has("pose")) request.member("inverse", "true");
+  request.per_leg("tensions", Dimension::force);
+  request.per_leg("lengths", Dimension::length);
+  request.word("hold", "hold");
+  request.word("law", "law");
+  request.quantity("posture-threshold", Dimension::angle);
+  request.whole_number("rk4-steps", "rk4_steps");
   request.independent();
   request.poses(robot);
   request.inputs("inputs", robot);

@@ -189,14 +189,16 @@ std::string show_path(const Node& rows, const Robot& robot) {
   const auto columns = pose_columns(robot.is_spatial);
   std::vector<std::string> header{"sample"};
   add_headings(header, columns);
-  add_headings(header, robot.inputs);
+  const Node* first = rows.items.front().find("angles");
+  const auto moved = first ? angle_columns(*first, robot) : robot.inputs;
+  add_headings(header, moved);
   header.emplace_back("condition");
   TextTable table(std::move(header));
   for (std::size_t k = 0; k < rows.items.size(); ++k) {
     const Node& from = rows.items[k];
     std::vector<std::string> row{fmt::format("{}", k + 1)};
     add_cells(row, pose_values(*from.find("pose")), columns);
-    add_cells(row, numbers(from.find("inputs")), robot.inputs);
+    add_cells(row, first ? angle_values(*from.find("angles")) : numbers(from.find("inputs")), moved);
     const Node* condition = at(from, "indices.condition");
     row.push_back(condition ? six_digits(condition->number) : "-");
     table.add(std::move(row));

@@ -41,6 +41,17 @@ std::string show_equilibria(const Answer& answer);
 std::string show_rod_velocity(const Answer& answer, const Robot& robot);
 /// @}
 
+/// @name Robots on pseudo-rigid chains
+/// @{
+bool is_on_chains(const Answer& answer);
+/// Pose, tendons, joints, energies, simpler models.
+std::string show_chains(const Answer& answer, const Robot& robot);
+std::string show_chain_velocity(const Answer& answer, const Robot& robot);
+/// Joints of a row of a path: `legs[0].theta_2`.
+std::vector<Input> angle_columns(const Node& angles, const Robot& robot);
+std::vector<double> angle_values(const Node& angles);
+/// @}
+
 /// @name Serial robots
 /// @{
 bool is_serial(const Robot& robot);

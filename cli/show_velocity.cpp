@@ -158,6 +158,7 @@ std::string show_singularities(const Answer& answer) {
 
 std::string show_velocity(const Answer& answer, const Robot& robot) {
   if (is_on_rods(answer)) return show_rod_velocity(answer, robot);
+  if (is_on_chains(answer)) return show_chain_velocity(answer, robot);
   std::string text = show_pose(*answer.find("pose")) + '\n' + show_equations(answer, robot) + '\n';
   if (const Node* U = answer.find("U")) text += show_sensitivity("U", *U, robot) + '\n';
   text += show_indices(answer, robot) + '\n' + show_singularities(answer);

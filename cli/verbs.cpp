@@ -48,7 +48,18 @@ constexpr std::array options{
     Option{"twist", "\"VX, VY, W\"",
            "velocity and turning rate of the platform, in space three each; answers the rates of the inputs"},
     Option{"wrench", "\"FX, FY, FZ, MX, MY, MZ\"",
-           "force and moment on the platform of a robot on rods, about its reference point, in base axes"},
+           "force and moment on the platform, about its reference point, in base axes (in the plane FX, FY, "
+           "M); of rods and of pseudo-rigid chains"},
+    Option{"set-at", "\"X, Y, PHI\"",
+           "of statics the pose at which the tendons are set without load, the outer ones loose"},
+    Option{"hold", "NAME", "what stays after --set-at or with --pose: tension (default) or length"},
+    Option{"tensions", "\"A, B; ...\"", "of statics, of both tendons of each leg"},
+    Option{"lengths", "\"A, -; ...\"", "of statics, the tendon of each leg whose length is held; - is loose"},
+    Option{"law", "NAME",
+           "of chains: M0w (default, ends weighted), M0 (the paper's), M1 (tendons straight between discs)"},
+    Option{"posture-threshold", "ANGLE", "turn of a joint up to which the linear model counts as valid"},
+    Option{"rk4-steps", "N",
+           "of track with --model prb: Runge-Kutta steps between poses; default the flow itself"},
     Option{"want", "NAME,NAME", "of a robot on rods: stiffness, stability, margins, sensitivity"},
     Option{"until", "\"FX, FY, FZ, MX, MY, MZ\"",
            "add this wrench again and again until the robot buckles, or --limit is reached"},
@@ -56,9 +67,9 @@ constexpr std::array options{
     Option{"all", "", "every solution, not only the one wanted"},
     Option{"max-iterations", "N", "most iterations of the solver; default 100, of rods 4000"},
     Option{"model", "NAME",
-           "model of the legs: cc (constant curvature), rigid, rod (Kirchhoff); a robot has one. Of the "
-           "tendons of a serial "
-           "robot: pcc (exact) or lsk (linearised)"},
+           "model of the legs: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, "
+           "rigid, "
+           "rod (Kirchhoff). Of the tendons of a serial robot: pcc (exact) or lsk (linearised)"},
     Option{"set", "PATH=VALUE", "change the robot, e.g. \"legs[0].link.length=180 mm\"; may be repeated", 0,
            true},
     Option{"output", "FILE",
@@ -120,11 +131,26 @@ const std::array table{
         "0, 1\"",
         "sinew inverse 3-rfr --pose \"10 mm, -5 mm, 10 deg\" --bending \"+,-,+\"",
         run_question},
+    Verb{"statics",
+         "ROBOT",
+         "a tendon-driven robot under a load, its links pseudo-rigid chains",
+         {"set-at", "hold", "tensions", "lengths", "pose", "bending", "elbow", "curvature", "start", "wrench",
+          "until", "limit", "law", "posture-threshold", "max-iterations", "set", "json", "quiet", "help"},
+         {"set-at", "tensions", "lengths", "pose"},
+         "Tendons are set at a pose, or their tensions or lengths given; or --pose is held under the load, "
+         "and "
+         "their\ntensions answered. Beside the equilibrium: whether it is stable, the paper's linear model, "
+         "and "
+         "links that\nbend evenly. A tendon that would have to push is slack, exit code 3. How much a robot "
+         "bears:\n  sinew statics 3-rfr --set-at \"10 mm, 0, 20 deg\" --until \"0, 0, 1 mN m\" --limit 100",
+         "sinew statics 3-rfr --set-at \"10 mm, 0, 20 deg\" --wrench \"30 mN, -20 mN, 0.5 mN m\"",
+         run_question},
     Verb{"analyse",
          "ROBOT",
          "velocity equations, sensitivities and singularities at a configuration",
          {"pose", "independent", "bending", "elbow", "curvature", "inputs", "configuration", "changes",
-          "start", "wrench", "twist", "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
+          "start", "wrench", "twist", "law", "theta-is", "max-iterations", "model", "set", "json", "quiet",
+          "help"},
          {"pose", "independent", "inputs", "configuration", "changes"},
          "Give a pose, or inputs, or both. J·(platform velocity) = K·(input rates) is printed in SI as in "
          "the paper,\n"
@@ -155,7 +181,7 @@ const std::array table{
         "ROBOT",
         "inputs along a path of the platform",
         {"from", "to", "samples", "poses", "objective", "bending", "elbow", "curvature", "start", "theta-is",
-         "output", "model", "set", "json", "quiet", "help"},
+         "law", "rk4-steps", "output", "model", "set", "json", "quiet", "help"},
         {"from", "poses"},
         "The path is straight, or that of a .csv file with the columns x[m], y[m], phi[rad] (in space x[m], "
         "y[m], "

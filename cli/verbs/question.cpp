@@ -1,4 +1,4 @@
-/// forward, inverse, analyse: one query, a table for people or the answer as it is.
+/// forward, inverse, statics, analyse: one query, a table for people or the answer as it is.
 #include "question.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +12,7 @@ std::string show(const Answer& answer, const Robot& robot) {
   if (is_serial(robot)) return show_serial(answer, robot);
   const std::string query = answer.text("query");
   if (query == "velocity") return show_velocity(answer, robot);
+  if (is_on_chains(answer)) return show_chains(answer, robot);
   const bool is_forward = query == "forward";
   std::string text = is_forward ? "" : show_inputs("value", numbers(answer.find("inputs")), robot);
   if (is_forward || is_on_rods(answer)) text += (text.empty() ? "" : "\n") + show_pose(*answer.find("pose"));
@@ -54,12 +55,12 @@ Expected<Answer> put(std::string_view query, const Arguments& arguments, Robot& 
 }
 
 int run_question(const Arguments& arguments) {
-  auto robot = open(arguments);
+  auto robot = arguments.verb == "statics" ? open_with_platform(arguments) : open(arguments);
   if (!robot) return refuse_question(arguments, robot.error());
   const auto answer = put(arguments.verb == "analyse" ? "velocity" : arguments.verb, arguments, *robot);
   if (!answer) return refuse_question(arguments, answer.error());
   const bool can_show = answer->converged() || answer->text("status") == "unstable" || answer->find("J") ||
-                        answer->find("configuration");
+                        answer->find("configuration") || is_on_chains(*answer);
   return conclude(*answer, arguments, can_show ? show(*answer, *robot) : "");
 }
 

@@ -12,14 +12,15 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<Input> columns_of(const Robot& robot) {
+std::vector<Input> columns_of(const Answer& answer, const Robot& robot) {
   std::vector<Input> columns{{"sample", ""}};
   const auto add = [&](const std::vector<Input>& more) {
     columns.insert(columns.end(), more.begin(), more.end());
   };
   add(pose_columns(robot.is_spatial));
-  add(robot.inputs);
-  for (std::size_t i = 0; i < robot.description.find("legs")->items.size(); ++i)
+  const Node* angles = answer.find("rows[0].angles");
+  add(angles ? angle_columns(*angles, robot) : robot.inputs);
+  for (std::size_t i = 0; !angles && i < robot.description.find("legs")->items.size(); ++i)
     add({{fmt::format("legs[{}].curvature", i), "1/m"}});
   add({{"condition", ""}, {"condition_homogenised", ""}, {"closure_error", "m"}});
   return columns;
@@ -29,7 +30,8 @@ std::vector<Input> columns_of(const Robot& robot) {
 Table table_of(const Answer& answer, const Robot& robot) {
   Table table;
   table.comments = {fmt::format("sinew {}: track {}", version(), answer.text("robot"))};
-  for (const Input& column : columns_of(robot)) table.columns.push_back({column.name, column.unit, {}});
+  for (const Input& column : columns_of(answer, robot))
+    table.columns.push_back({column.name, column.unit, {}});
   const auto& rows = answer.find("rows")->items;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     std::vector<double> row{static_cast<double>(k + 1)};
@@ -37,8 +39,12 @@ Table table_of(const Answer& answer, const Robot& robot) {
       row.insert(row.end(), more.begin(), more.end());
     };
     add(pose_values(*rows[k].find("pose")));
-    add(numbers(rows[k].find("inputs")));
-    add(numbers(rows[k].find("curvature")));
+    if (const Node* angles = rows[k].find("angles")) {
+      add(angle_values(*angles));
+    } else {
+      add(numbers(rows[k].find("inputs")));
+      add(numbers(rows[k].find("curvature")));
+    }
     for (const char* path : {"indices.condition", "indices.condition_homogenised", "closure_error"}) {
       const Node* value = at(rows[k], path);
       row.push_back(value ? value->number : missing);
