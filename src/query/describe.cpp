@@ -1,6 +1,7 @@
 /// Handler of `describe`: what a robot has.
 #include "query/context.hpp"
 #include "sinew/io/quantity.hpp"
+#include "sinew/kinematics/chain.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -117,7 +118,9 @@ void answer_describe(Context& context) {
                         {"constraints", row_count(context.robot)},
                         {"actuators", input_count(context.robot)}};
   answer["legs"] = legs;
-  answer["models"] = {model_of(context.robot)};
+  Json models = Json::array({model_of(context.robot)});
+  if (chain_robot(context.robot)) models.push_back("prb");
+  answer["models"] = std::move(models);
   answer["model"] = model_of(context.robot);
   answer["geometry"] = context.robot.geometry_inferred ? "inferred" : "given";
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
