@@ -249,6 +249,7 @@ void put_equilibrium(Context& context, const ChainRobot<Space>& robot, const Cha
   answer["pose"] = to_json(AnyPose(Space::tidy(state.pose)));
   answer["legs"] = chain_legs_json(robot, state);
   answer["wrench"] = to_json<Space::dof>(state.wrench);
+  answer["stiffness"] = matrix_json<Space>(stiffness(robot, state, work));
   answer["compliance"] = matrix_json<Space>(compliance(robot, state, work));
   answer["stable"] = least > 0;
   answer["smallest_eigenvalue"] = least;

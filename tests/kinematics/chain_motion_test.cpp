@@ -61,6 +61,47 @@ TEST(ChainMotion, AlongTheExampleIsTheirs) {
   expect_angles(reference["PRB_theta_at_k59"]);
 }
 
+/// Tendon lengths of least-norm shapes, and chord forces that (54) reads from them, are not those of statics.
+TEST(ChainMotion, LeastNormShapesAreNoEquilibria) {  // @verifies TDPCR (54)
+  const nlohmann::json& statics = reference_file("data/tdpcr/statics.json");
+  const nlohmann::json& lengths =
+      reference_file("data/tdpcr/statics2.json")["tendon_lengths_min_norm_vs_static"];
+  auto robot = chains_of<Planar>("3-rfr.yaml");
+  const std::array<double, 3> towards_plus{1, 1, 1};
+  for (const nlohmann::json& row : lengths) {
+    auto legs = at_start(robot);
+    const int k = row["k"];
+    ASSERT_TRUE(follow_least_norm(robot, pose_of(0), pose_of(k), legs).ok());
+    ChainState<Planar> even, weighted;
+    ASSERT_TRUE(rest(robot, pose_of(k), towards_plus, false, even).ok());
+    ASSERT_TRUE(
+        rest(chains_of<Planar>("3-rfr.yaml", ChainModel::weighted), pose_of(k), towards_plus, false, weighted)
+            .ok());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const PseudoRigid& chain = robot.legs[i].chain;
+      EXPECT_NEAR(chain.tendon_length(legs[i].of(chain), 0.005, 1), row["l1_min_norm"][i].get<double>(),
+                  1e-13);
+      EXPECT_NEAR(even.legs[i].tendon_length[0], row["l1_static"][i].get<double>(), 1e-13);
+      EXPECT_NEAR(weighted.legs[i].tendon_length[0], row["l1_static_tributary"][i].get<double>(), 1e-13);
+    }
+    for (const nlohmann::json& c : statics["eq54_on_min_norm_shapes"]) {
+      if (c["k"] != k) continue;
+      const auto i = c["leg"].get<std::size_t>() - 1;
+      const PseudoRigid& chain = robot.legs[i].chain;
+      const auto angles = legs[i].of(chain);
+      std::vector<double> torques;
+      for (std::size_t j = 0; j < 5; ++j)
+        torques.push_back(robot.legs[i].spring(static_cast<int>(j)) * angles[j]);
+      const TipWrench found = tip_wrench(chain, torques, angles);
+      const Vec2<double> u = chain.tip(angles).position;
+      EXPECT_NEAR(dot(found.force, u) / u.norm(), c["chord_force"].get<double>(), 1e-10);
+      EXPECT_NEAR(cross(found.force, u), 0, 1e-10);
+      EXPECT_NEAR(found.moment, c["Ft"][2].get<double>(), 1e-12);
+      EXPECT_NEAR(found.misfit, c["rel_residual"].get<double>(), 1e-10);
+    }
+  }
+}
+
 TEST(ChainMotion, DependsOnTheChordsAlone) {
   auto robot = chains_of<Planar>("3-rfr.yaml");
   auto straight = at_start(robot), around = straight;

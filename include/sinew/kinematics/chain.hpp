@@ -142,7 +142,11 @@ SINEW_API ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<do
 template <class Space>
 SINEW_API double least_curvature(const ChainRobot<Space>& robot, const ChainState<Space>& state);
 
-/// ∂(pose)/∂(wrench) with everything held: twist order.
+/// ∂(wrench)/∂(pose) and ∂(pose)/∂(wrench) with everything held: twist order. Under a moment in space not
+/// symmetric.
+template <class Space>
+SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainRobot<Space>& robot,
+                                                        const ChainState<Space>& state, ChainWork& work);
 template <class Space>
 SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainRobot<Space>& robot,
                                                          const ChainState<Space>& state, ChainWork& work);

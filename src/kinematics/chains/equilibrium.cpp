@@ -355,10 +355,16 @@ Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& 
 }
 
 template <class Space>
+Mat<double, Space::dof, Space::dof> stiffness(const ChainRobot<Space>& robot, const ChainState<Space>& state,
+                                              ChainWork& work) {
+  Solver<Space> solver(robot, work, {});
+  return solver.reduce(state.pose, state.legs, state.hold, state.wrench).S;
+}
+
+template <class Space>
 Mat<double, Space::dof, Space::dof> compliance(const ChainRobot<Space>& robot, const ChainState<Space>& state,
                                                ChainWork& work) {
-  Solver<Space> solver(robot, work, {});
-  const auto S = solver.reduce(state.pose, state.legs, state.hold, state.wrench).S;
+  const auto S = stiffness(robot, state, work);
   Mat<double, Space::dof, Space::dof> C;
   for (int k = 0; k < Space::dof; ++k)
     C.col(k) = Solver<Space>::solution(S, Vec<double, Space::dof>::Unit(k));
@@ -427,6 +433,8 @@ ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Spac
                                         const ChainOptions&);                                              \
   template SINEW_API Report hold_pose(const ChainRobot<Space>&, const Vec<double, Space::dof>&,            \
                                       ChainState<Space>&, ChainWork&, const ChainOptions&);                \
+  template SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainRobot<Space>&,               \
+                                                                   const ChainState<Space>&, ChainWork&);  \
   template SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainRobot<Space>&,              \
                                                                     const ChainState<Space>&, ChainWork&); \
   template SINEW_API ChainLoadPath follow_load(const ChainRobot<Space>&, const Vec<double, Space::dof>&,   \

@@ -139,6 +139,25 @@ void add_artefact(std::vector<Finding>& findings, const std::vector<Sample>& arc
                       "no less sensitive"});
 }
 
+/// What (54), put right, reads from shapes of least norm: without a wrench no chord bears a force.
+Finding chord_forces(const Chains& chains, const ChainRobot<Planar>& robot) {
+  double low = 0, high = -std::numeric_limits<double>::infinity();
+  const ChainSample& s = chains[last];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ChainLeg<Planar>& leg = robot.legs[i];
+    const auto angles = s.legs[i].of(leg.chain);
+    std::vector<double> torques;
+    for (std::size_t j = 0; j < angles.size(); ++j)
+      torques.push_back(leg.spring(static_cast<int>(j)) * angles[j]);
+    const Vec2<double> u = leg.chain.tip(angles).position;
+    const double force = dot(tip_wrench(leg.chain, torques, angles).force, u) / std::sqrt(squared_norm(u));
+    low = std::min(low, force), high = std::max(high, force);
+  }
+  return {fmt::format("chord forces that (54) reads from these shapes, k = {}, no wrench", last),
+          "section 3.2: tendon lengths from (54)", fmt::format("{:.3f} to {:.3f} N", low, high), "true: 0",
+          "inconsistent; ask inverse statics"};
+}
+
 Series curve(std::string label, Index index, const Chains& chains) {
   Series series{
       .label = std::move(label), .x = {}, .y = {}, .mark = Mark::line_points, .colour = Colour::blue};
@@ -215,6 +234,7 @@ Expected<Reproduction> tdpcr_fig11(const StudyItem& item, const std::filesystem:
   findings.push_back(rate("‖U_θr‖", end.rotation, limit.rotation, near_end->eta));
   findings.push_back(closure(*chains, *runge_kutta));
   add_artefact(findings, *arcs, *chains, *on_chains);
+  findings.push_back(chord_forces(*chains, *on_chains));
 
   result.files.push_back(folder / "fig11.csv");
   if (auto done = write_csv(table_of(*chains), result.files.back()); !done)
