@@ -133,7 +133,8 @@ void compare_statics(bool holds_lengths) {
   for (int k = 0; k < 512; ++k) {
     ours->solve();
     baseline();
-    gap = std::max({gap, std::abs(ours->state.pose.x - (*z)[0]), std::abs(ours->state.pose.y - (*z)[1])});
+    gap = std::max({gap, std::abs(ours->state.pose.x - (*z)[0]), std::abs(ours->state.pose.y - (*z)[1]),
+                    0.05 * std::abs(ours->state.pose.phi - (*z)[2])});  // at the platform's points
   }
   compare({fmt::format("3-RFR, n = 6: statics, {} held, warm", holds_lengths ? "lengths" : "tensions"),
            "all equations at once, by differences", [ours] { ours->solve(); }, baseline,
@@ -197,7 +198,7 @@ void compare_rates() {
       one->gap = std::max(one->gap, std::abs(theirs[i][j] - one->rates.K[i][j]));
   compare({"3-RFR, n = 6: J + K_theta", "K_theta by central differences", run,
            [differences] { differences(); }, fmt::format("differences are off by {:.0e} m", one->gap)});
-  compare({"3-RFR, n = 6: least-norm motion, 1 mm", "16 Runge-Kutta steps on differences",
+  compare({"3-RFR, n = 6: least-norm motion, 1 mm", "differences of 16 Runge-Kutta steps",
            [one, legs = one->state.legs]() mutable {
              legs = one->state.legs;
              const PlanarPose to{one->state.pose.x + 0.001, one->state.pose.y, one->state.pose.phi};
@@ -234,7 +235,7 @@ void compare_six_legs() {
   for (int k = 0; k < 512; ++k) one->solve();
   auto theirs = std::make_shared<Walk>(true);
   auto z = std::make_shared<Unknowns>(unknowns_of(theirs->state, theirs->robot, true));
-  compare({"6-UFS, n = 6: statics, lengths held, warm", "3-RFR, all equations at once, by differences",
+  compare({"6-UFS, n = 6: statics, lengths held, warm", "half as many legs, all equations at once",
            [one] { one->solve(); },
            [theirs, z] {
              Dense{theirs->robot, theirs->hold, theirs->next(), true}.solve(*z);

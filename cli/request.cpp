@@ -336,7 +336,7 @@ void Request::lengths(std::string_view option) {
   member(option, json_list(values(option, parts, std::vector<Dimension>(parts.size(), Dimension::length))));
 }
 
-/// Two values for each leg, legs apart by semicolons; `-` where there is none.
+/// Two values for each leg, legs apart by semicolons; `-` where no length is held.
 void Request::per_leg(std::string_view option, Dimension dimension) {
   const std::string* given = arguments_.text(option);
   if (!given) return;
@@ -346,8 +346,9 @@ void Request::per_leg(std::string_view option, Dimension dimension) {
     const std::size_t end = rest.find(';');
     std::string pair;
     for (const std::string_view part : split(rest.substr(0, end))) {
-      const std::string value = part == "-" ? "null" : json_list(values(option, {&part, 1}, {&dimension, 1}));
-      pair += (pair.empty() ? "" : ", ") + (part == "-" ? value : value.substr(1, value.size() - 2));
+      const bool is_loose = part == "-" && dimension == Dimension::length;
+      const std::string value = is_loose ? "" : json_list(values(option, {&part, 1}, {&dimension, 1}));
+      pair += (pair.empty() ? "" : ", ") + (is_loose ? "null" : value.substr(1, value.size() - 2));
     }
     list += fmt::format("{}[{}]", list.empty() ? "" : ", ", pair);
     more = end != std::string_view::npos;

@@ -1,6 +1,7 @@
 /// Robots on pseudo-rigid chains, as people read them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "show.hpp"
@@ -25,16 +26,35 @@ std::vector<const Node*> angles_of(const Node& legs) {
 std::string per_joint(const std::string& title, const std::vector<std::vector<double>>& legs,
                       const Robot& robot, std::string_view unit) {
   std::vector<std::string> header{title};
-  const int first = first_joint(robot, 0, legs.front().size());
-  for (std::size_t j = 0; j < legs.front().size(); ++j)
-    header.push_back(heading(fmt::format("theta_{}", first + static_cast<int>(j)), unit));
+  int first = first_joint(robot, 0, legs.front().size()), last = 0;
+  for (std::size_t i = 0; i < legs.size(); ++i) {  // legs may be of unlike chains
+    const int own = first_joint(robot, i, legs[i].size());
+    first = std::min(first, own);
+    last = std::max(last, own + static_cast<int>(legs[i].size()) - 1);
+  }
+  for (int j = first; j <= last; ++j) header.push_back(heading(fmt::format("theta_{}", j), unit));
   TextTable table(std::move(header));
   for (std::size_t i = 0; i < legs.size(); ++i) {
     std::vector<std::string> row{fmt::format("legs[{}]", i)};
+    const int own = first_joint(robot, i, legs[i].size());
+    row.resize(static_cast<std::size_t>(1 + own - first), "-");
     for (const double value : legs[i]) row.push_back(unit == "rad" ? cell(value, unit) : six_digits(value));
+    row.resize(static_cast<std::size_t>(2 + last - first), "-");
     table.add(std::move(row));
   }
   return table.text();
+}
+
+/// Numbers of all joints, leg by leg.
+std::vector<std::vector<double>> per_leg(const Node& legs, const std::vector<double>& all) {
+  std::vector<std::vector<double>> split;
+  auto from = all.begin();
+  for (const Node* angles : angles_of(legs)) {
+    const auto to = from + static_cast<std::ptrdiff_t>(angles->items.size());
+    split.emplace_back(from, to);
+    from = to;
+  }
+  return split;
 }
 
 std::string show_angles(const Node& legs, const Robot& robot) {
@@ -131,10 +151,7 @@ std::string show_chain_velocity(const Answer& answer, const Robot& robot) {
   std::vector<std::vector<double>> own;
   for (std::size_t i = 0; i < legs.items.size(); ++i) {
     rows.push_back(fmt::format("legs[{}]", i));
-    const std::size_t count = K.items[i].items.size() / legs.items.size();
-    const auto row = numbers(&K.items[i]);
-    own.emplace_back(row.begin() + static_cast<std::ptrdiff_t>(i * count),
-                     row.begin() + static_cast<std::ptrdiff_t>((i + 1) * count));
+    own.push_back(per_leg(legs, numbers(&K.items[i]))[i]);
   }
   std::string text =
       show_pose(*answer.find("pose")) + '\n' + show_angles(legs, robot) + '\n' +
@@ -152,13 +169,7 @@ std::string show_chain_velocity(const Answer& answer, const Robot& robot) {
   add("rotation[deg/deg]", "indices.rotation", 1);
   text += table.text() + '\n' + show_singularities(answer);
   if (const Node* rates = answer.find("rates")) {
-    std::vector<std::vector<double>> per_leg;
-    const auto all = numbers(rates);
-    const std::size_t count = all.size() / legs.items.size();
-    for (std::size_t i = 0; i < legs.items.size(); ++i)
-      per_leg.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(i * count),
-                           all.begin() + static_cast<std::ptrdiff_t>((i + 1) * count));
-    text += '\n' + per_joint("rates, rad/s", per_leg, robot, "");
+    text += '\n' + per_joint("rates, rad/s", per_leg(legs, numbers(rates)), robot, "");
   }
   return text;
 }

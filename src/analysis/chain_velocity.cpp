@@ -35,7 +35,7 @@ ChainVelocity<Space> chain_velocity(const ChainRobot<Space>& robot, const typena
   for (int i = 0; i < dof; ++i) {
     const auto leg = static_cast<std::size_t>(i);
     double squares = 0;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(velocity.rates.columns); ++j)
+    for (std::size_t j = 0; j < static_cast<std::size_t>(velocity.rates.columns[leg]); ++j)
       squares += velocity.rates.K[leg][j] * velocity.rates.K[leg][j];
     velocity.drive[leg] = std::sqrt(squares);
     const double distance = std::sqrt(

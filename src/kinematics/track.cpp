@@ -7,14 +7,6 @@
 #include "sinew/leg/project.hpp"
 
 namespace sinew::inline v0 {
-namespace {
-
-/// Newton's steps may shrink no slower: then the branch found is the one begun on.
-constexpr double contraction_limit = 0.25;
-constexpr double shortest_part = 1e-7;  // of the way between two poses
-constexpr int most_steps = 20000;       // between two poses
-constexpr int null_steps = 4;           // at a pose
-
 Vec<double, 3> twist_between(const PlanarPose& from, const PlanarPose& to) {
   return {to.x - from.x, to.y - from.y, to.phi - from.phi};  // as the numbers say: turns count
 }
@@ -24,6 +16,14 @@ Vec<double, 6> twist_between(const SpatialPose& from, const SpatialPose& to) {
   twist << b.p - a.p, b.R.compose(a.R.inverse()).log();
   return twist;
 }
+
+namespace {
+
+/// Newton's steps may shrink no slower: then the branch found is the one begun on.
+constexpr double contraction_limit = 0.25;
+constexpr double shortest_part = 1e-7;  // of the way between two poses
+constexpr int most_steps = 20000;       // between two poses
+constexpr int null_steps = 4;           // at a pose
 
 /// Projector onto the motions that leave a leg closed, in scaled coordinates.
 template <class LegT>

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "query/chains.hpp"
 #include "sinew/analysis/chain_velocity.hpp"
@@ -15,10 +16,12 @@ using namespace chains;
 template <class Space>
 Json K_json(const ChainRates<Space>& rates) {
   Json rows = Json::array();
-  const auto columns = static_cast<std::size_t>(rates.columns), legs = rates.K.size();
-  for (std::size_t i = 0; i < legs; ++i) {
-    std::vector<double> row(columns * legs);
-    std::copy_n(rates.K[i].begin(), columns, row.begin() + static_cast<std::ptrdiff_t>(columns * i));
+  const auto all = std::accumulate(rates.columns.begin(), rates.columns.end(), std::size_t{0});
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < rates.K.size(); ++i) {
+    std::vector<double> row(all);
+    std::copy_n(rates.K[i].begin(), rates.columns[i], row.begin() + static_cast<std::ptrdiff_t>(first));
+    first += static_cast<std::size_t>(rates.columns[i]);
     rows.push_back(to_json(row));
   }
   return rows;
@@ -30,7 +33,7 @@ Json U_json(const ChainVelocity<Space>& velocity) {
   for (int k = 0; k < Space::dof; ++k) {
     std::vector<double> row;
     for (std::size_t i = 0; i < velocity.rates.K.size(); ++i)
-      for (std::size_t j = 0; j < static_cast<std::size_t>(velocity.rates.columns); ++j)
+      for (std::size_t j = 0; j < static_cast<std::size_t>(velocity.rates.columns[i]); ++j)
         row.push_back(velocity.inverse(k, static_cast<Eigen::Index>(i)) * velocity.rates.K[i][j]);
     rows.push_back(to_json(row));
   }
@@ -46,7 +49,7 @@ Json rates_json(const ChainVelocity<Space>& velocity, std::span<const double> tw
     for (int k = 0; k < Space::dof; ++k)
       needed += velocity.rates.J(static_cast<Eigen::Index>(i), k) * twist[static_cast<std::size_t>(k)];
     const double share = needed / (velocity.drive[i] * velocity.drive[i]);
-    for (std::size_t j = 0; j < static_cast<std::size_t>(velocity.rates.columns); ++j)
+    for (std::size_t j = 0; j < static_cast<std::size_t>(velocity.rates.columns[i]); ++j)
       rates.push_back(share * velocity.rates.K[i][j]);
   }
   return rates;
@@ -95,9 +98,12 @@ void answer_velocity_of(Context& context, ChainRobot<Space>& robot) {
   if (angles && !branch.is_default())
     query.fail("ambiguous", "bending, curvature and elbow choose among solutions; the angles are given");
   if (!context.ready()) return;
-  if (!angles)
-    if (const Report report = configure(context, robot, pose, branch, legs); !report.ok())
-      return context.report(report);
+  if (!angles) {
+    ChainState<Space> state;
+    const Report report = rest_at(context, robot, pose, branch, false, state);
+    if (!report.ok()) return context.report(report);
+    legs = std::move(state.legs);
+  }
   const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
   if (!(velocity.rates.closure_error <= 1e-9))
     return query.fail("not_closed",
@@ -137,7 +143,11 @@ void answer_track_of(Context& context, ChainRobot<Space>& robot) {
     query.fail("ambiguous", "bending, curvature and elbow choose among solutions; the angles are given");
   if (!context.ready()) return;
   Report report;
-  if (!angles) report = configure(context, robot, poses.front(), branch, legs);
+  if (!angles) {
+    ChainState<Space> state;
+    report = rest_at(context, robot, poses.front(), branch, false, state);
+    legs = std::move(state.legs);
+  }
   Json rows = Json::array();
   double worst = 0;
   for (std::size_t k = 0; k < poses.size() && report.ok(); ++k) {

@@ -130,8 +130,6 @@ std::vector<ChainHold> read_lengths(const Reader& list, std::size_t legs) {
   return hold;
 }
 
-Json to_list(std::span<const double> values) { return to_json(values); }
-
 /// Force and moment at the tip in base axes, and the frame they are turned by.
 template <class Space>
 Json tip_wrench_json(const ChainLeg<Space>& leg, const ChainLegState& state,
@@ -158,10 +156,10 @@ Json tip_wrench_json(const ChainLeg<Space>& leg, const ChainLegState& state,
 template <class Space>
 Json chain_legs_json(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
   const auto platform = Space::frame(state.pose);
-  Json legs = Json::array();
+  Json legs = Json::array(), angles = angles_json<Space>(robot, state.legs);
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     const ChainLegState& leg = state.legs[i];
-    legs.push_back({{"angles", to_list(leg.of(robot.legs[i].chain))},
+    legs.push_back({{"angles", std::move(angles[i])},
                     {"chord_force", leg.force},
                     {"tendon_lengths", leg.tendon_length},
                     {"tensions", leg.tension},
@@ -170,21 +168,11 @@ Json chain_legs_json(const ChainRobot<Space>& robot, const ChainState<Space>& st
   return legs;
 }
 
+/// Left out where it is not finite.
 template <class Space>
-Json matrix_json(const Mat<double, Space::dof, Space::dof>& matrix) {
+void put_matrix(Json& answer, const char* key, const Mat<double, Space::dof, Space::dof>& matrix) {
   const Eigen::Matrix<double, Space::dof, Space::dof, Eigen::RowMajor> rows = matrix;
-  return to_json(MatrixView(rows.data(), Space::dof, Space::dof));
-}
-
-Vec<double, 3> moved(const PlanarPose& from, const PlanarPose& to) {
-  return {to.x - from.x, to.y - from.y, to.phi - from.phi};
-}
-Vec<double, 6> moved(const SpatialPose& from, const SpatialPose& to) {
-  const SE3<double> a = SE3<double>::from(from), b = SE3<double>::from(to);
-  const Vec3<double> turn = b.R.compose(a.R.inverse()).log();
-  Vec<double, 6> twist;
-  twist << to.position - from.position, turn;
-  return twist;
+  if (rows.allFinite()) answer[key] = to_json(MatrixView(rows.data(), Space::dof, Space::dof));
 }
 
 /// The paper's linear model and constant curvature, beside the answer.
@@ -193,15 +181,15 @@ void put_simpler_models(Context& context, const ChainRobot<Space>& robot, const 
                         const ChainState<Space>& loaded, const Load<Space>& load, ChainWork& work) {
   Json& answer = context.answer;
   const Vec<double, Space::dof> change = linear_compliance(robot, unloaded) * loaded.wrench,
-                                actual = moved(unloaded.pose, loaded.pose);
-  answer["linear"] = to_json<Space::dof>(change);
+                                actual = twist_between(unloaded.pose, loaded.pose);
+  if (change.allFinite()) answer["linear"] = to_json<Space::dof>(change);
   double scale = 0, gap = 0;
   for (int k = 0; k < Space::dof; ++k) {
     const double unit = k < Space::dimension ? 1 : robot.platform_radius;
     scale += std::pow(unit * actual[k], 2);
     gap += std::pow(unit * (change[k] - actual[k]), 2);
   }
-  if (scale > 0) answer["linear_error"] = std::sqrt(gap / scale);
+  if (scale > 0) put_number(answer, "linear_error", std::sqrt(gap / scale));
   double posture = 0;
   for (std::size_t i = 0; i < robot.legs.size(); ++i)
     for (std::size_t j = 0; j < static_cast<std::size_t>(robot.legs[i].chain.joints()); ++j)
@@ -223,8 +211,8 @@ void put_simpler_models(Context& context, const ChainRobot<Space>& robot, const 
     return;
   }
   put_number(answer, "cc_gap", potential(robot, even) - potential(robot, loaded));
-  answer["cc_gap_estimate"] = evenness_gap(robot, unloaded, loaded.wrench);
-  answer["cc_pose"] = to_json(AnyPose(even.pose));
+  put_number(answer, "cc_gap_estimate", evenness_gap(robot, unloaded, loaded.wrench));
+  answer["cc_pose"] = to_json(AnyPose(Space::tidy(even.pose)));
 }
 
 /// @param unloaded what simpler models start from, if it is known
@@ -249,23 +237,13 @@ void put_equilibrium(Context& context, const ChainRobot<Space>& robot, const Cha
   answer["pose"] = to_json(AnyPose(Space::tidy(state.pose)));
   answer["legs"] = chain_legs_json(robot, state);
   answer["wrench"] = to_json<Space::dof>(state.wrench);
-  answer["stiffness"] = matrix_json<Space>(stiffness(robot, state, work));
-  answer["compliance"] = matrix_json<Space>(compliance(robot, state, work));
+  put_matrix<Space>(answer, "stiffness", stiffness(robot, state, work));
+  put_matrix<Space>(answer, "compliance", compliance(robot, state, work));
   answer["stable"] = least > 0;
-  answer["smallest_eigenvalue"] = least;
+  put_number(answer, "smallest_eigenvalue", least);
   put_number(answer, "potential", potential(robot, state));
   if (unloaded && state.wrench != unloaded->wrench)
     put_simpler_models(context, robot, *unloaded, state, load, work);
-}
-
-/// Rests at a pose; the report says if the arcs, or the chains, do not reach.
-template <class Space>
-Report rest_at(Context& context, ChainRobot<Space>& robot, const AnyPose& pose, const Branch& branch,
-               bool holds_lengths, ChainState<Space>& state) {
-  const Arcs arcs = arcs_at(context, pose, branch);
-  if (!arcs.report.ok()) return arcs.report;
-  aim_bases(robot, arcs);
-  return rest(robot, std::get<typename Space::Pose>(pose), arcs.curvature, holds_lengths, state);
 }
 
 /// To the load, and on until it grows no more.
@@ -280,6 +258,7 @@ void load_and_answer(Context& context, const ChainRobot<Space>& robot, ChainStat
         follow_load(robot, load.until->direction, load.until->limit, state, work, load.options);
     context.answer["load"] = path.load;
     context.answer["why"] = to_string(path.end);
+    report = path.report;
   }
   put_equilibrium(context, robot, state, report, &unloaded, load, work);
 }
@@ -320,6 +299,11 @@ void answer_held(Context& context, ChainRobot<Space>& robot, const AnyPose& star
   load_and_answer(context, robot, state, unloaded, load);
 }
 
+/// Of a pose that is held there is no unloaded one to compare with.
+void refuse_threshold(Context& context) {
+  context.query.fail("no_effect", "posture_threshold judges a load that moves the platform; remove it");
+}
+
 template <class Space>
 void answer_statics_of(Context& context, ChainRobot<Space>& robot) {
   Reader& query = context.query;
@@ -346,6 +330,7 @@ void answer_statics_of(Context& context, ChainRobot<Space>& robot) {
     start->fail("no_effect", "is where tensions or lengths begin from; remove it");
   if (load.until && inverse_asked)
     query.fail("ambiguous", "until follows a load, inverse holds a pose; keep one");
+  if (load.threshold && inverse_asked) refuse_threshold(context);
   const bool holds_lengths = hold_word && hold_word->choice({"tension", "length"}) == "length";
   std::vector<ChainHold> hold;
   if (tensions) hold = read_tensions(*tensions, legs);
@@ -407,6 +392,7 @@ void answer_inverse_of(Context& context, ChainRobot<Space>& robot) {
   const Load<Space> load = read_load<Space>(context);
   if (load.until)
     context.query.fail("ambiguous", "until follows a load, inverse holds a pose; leave until out");
+  if (load.threshold) refuse_threshold(context);
   if (refuse_motors(context, robot.has_base_motors) || !context.ready()) return;
   ChainState<Space> state;
   Report report = rest_at(context, robot, at, branch, true, state);

@@ -66,17 +66,14 @@ Json angles_json(const ChainRobot<Space>& robot, std::span<const ChainLegState> 
   return list;
 }
 
-/// Angles given, or those at rest at the pose on a branch, by the law; the report says whether there are any.
+/// Rests at a pose on a branch; the report says if the arcs, or the chains, do not reach.
 template <class Space>
-Report configure(Context& context, ChainRobot<Space>& robot, const AnyPose& pose, const Branch& branch,
-                 std::vector<ChainLegState>& legs) {
+Report rest_at(Context& context, ChainRobot<Space>& robot, const AnyPose& pose, const Branch& branch,
+               bool holds_lengths, ChainState<Space>& state) {
   const Arcs arcs = arcs_at(context, pose, branch);
   if (!arcs.report.ok()) return arcs.report;
   aim_bases(robot, arcs);
-  ChainState<Space> state;
-  const Report report = rest(robot, std::get<typename Space::Pose>(pose), arcs.curvature, false, state);
-  legs = state.legs;
-  return report;
+  return rest(robot, std::get<typename Space::Pose>(pose), arcs.curvature, holds_lengths, state);
 }
 
 }  // namespace chains

@@ -261,6 +261,48 @@ TEST(ChainEquilibrium, ComplianceIsTheDerivative) {  // for every model, closure
     }
 }
 
+TEST(ChainEquilibrium, RestIsOneForEveryLawAndClosure) {
+  for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs}) {
+    const auto robot = three_frr(model);
+    const std::array<double, 3> curvature{5, 5, 5};
+    ChainState<Planar> state;
+    const Report report = rest(robot, PlanarPose{0.01, 0, 0.1}, curvature, false, state);
+    ASSERT_TRUE(report.ok()) << to_string(report);
+    const ChainState<Planar> at_rest = state;
+    ChainWork work;
+    ASSERT_TRUE(equilibrium(robot, at_rest.hold, Vec<double, 3>::Zero().eval(), state, work).ok());
+    EXPECT_NEAR(state.pose.x, at_rest.pose.x, 1e-13);
+    EXPECT_NEAR(state.pose.phi, at_rest.pose.phi, 1e-12);
+  }
+}
+
+TEST(ChainEquilibrium, OfTooFewJointsAndAtTypeTwoIsSingular) {
+  const auto robot = three_rfr(ChainModel::even, 3);
+  ChainState<Planar> state = [&] {
+    ChainState<Planar> at_rest;
+    EXPECT_TRUE(rest(robot, PlanarPose{0.01, 0, 0.3}, towards_plus, true, at_rest).ok());
+    return at_rest;
+  }();
+  ChainWork work;
+  EXPECT_EQ(equilibrium(robot, std::vector(state.hold), {0.01, 0, 0}, state, work).status, Status::singular);
+  EXPECT_GT(least_curvature(robot, state), 0);  // what little is left is stiff
+
+  const auto six = three_rfr(ChainModel::even);
+  ASSERT_TRUE(rest(six, PlanarPose{0.03, 0, std::numbers::pi / 3}, towards_plus, false, state).ok());
+  EXPECT_EQ(equilibrium(six, std::vector(state.hold), {0.01, 0, 0}, state, work).status, Status::singular);
+}
+
+/// Where the fold is does not depend on the unit that the load is counted in.
+TEST(ChainEquilibrium, AFoldIsFoundWhateverTheLimit) {
+  for (const double limit : {0.02, 20.0, 1e8}) {
+    ChainState<Planar> state;
+    const auto path = path_to(ChainModel::even, {0, 0, 1}, limit, state);
+    EXPECT_EQ(path.end, ChainLoadEnd::fold);
+    EXPECT_NEAR(path.load, 6.3236e-3, 1e-6) << limit;
+    EXPECT_LT(path.report.residual, 1e-13);
+  }
+}
+
 TEST(ChainEquilibrium, LegsOutOfReachAreNamed) {
   const auto robot = three_rfr(ChainModel::even);
   ChainState<Planar> state;
@@ -354,7 +396,7 @@ void expect_rates(const char* name, const Json& pose, const typename Space::Pose
     for (int k = 0; k < Space::dof; ++k)
       EXPECT_NEAR(found.J(static_cast<Eigen::Index>(i), k), J[i][static_cast<std::size_t>(k)].get<double>(),
                   1e-13);
-    const auto columns = static_cast<std::size_t>(found.columns);
+    const auto columns = static_cast<std::size_t>(found.columns[i]);
     for (std::size_t j = 0; j < columns; ++j)
       EXPECT_NEAR(
           found.K[i][j],

@@ -108,7 +108,9 @@ struct ChainWork {
 /// as angles times ℓ, and of the platform's imbalance over the stiffness EI/ℓ³ [m].
 ///
 /// Not converged, with the last equilibrium on the path in `state`: `stalled` where the path folds, or is
-/// lost; `iteration_limit`. `slack` (all fields are valid) where a tendon would have to push.
+/// lost; `iteration_limit`; `singular` where the platform can move with everything held (type II), or a leg
+/// has so few joints that a tendon's length and its closure leave none to yield. `slack` (all fields are
+/// valid) where a tendon would have to push.
 template <class Space>
 SINEW_API Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
                              const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
@@ -128,6 +130,7 @@ SINEW_API std::string_view to_string(ChainLoadEnd end) noexcept;
 struct ChainLoadPath {
   ChainLoadEnd end = ChainLoadEnd::limit;
   double load = 0;  ///< times the direction that was added
+  Report report;    ///< of the last equilibrium, iterations of all; `iteration_limit` where these ended it
 };
 
 /// Adds `direction` times a growing factor to the wrench until it is `limit`, or the path folds, an
@@ -138,7 +141,8 @@ SINEW_API ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<do
                                     const ChainOptions& options = {});
 
 /// Smallest eigenvalue of the energy's Hessian in pose and angles along what the closures, and lengths that
-/// are held, leave free: > 0 where the equilibrium holds by itself. Allocates.
+/// are held, leave free: > 0 where the equilibrium holds by itself, infinite where they leave nothing.
+/// Allocates.
 template <class Space>
 SINEW_API double least_curvature(const ChainRobot<Space>& robot, const ChainState<Space>& state);
 
@@ -161,9 +165,10 @@ SINEW_API double potential(const ChainRobot<Space>& robot, const ChainState<Spac
 template <class Space>
 struct ChainRates {
   Mat<double, Space::dof, Space::dof> J;
-  std::array<std::array<double, max_chain_joints + 1>, Space::dof> K;  ///< of each leg
-  int columns = 0;  ///< of a leg: its sprung joints, after the base motor's angle where there is one
-  double closure_error = 0;
+  std::array<std::array<double, max_chain_joints + 1>, Space::dof> K{};  ///< of each leg
+  /// Of each leg: its sprung joints, after the base motor's angle where there is one.
+  std::array<int, Space::dof> columns{};
+  double closure_error = 0;  ///< largest [m]; NaN where one is
 };
 /// @implements TDPCR (34), (36)-(38), (60)-(62)
 template <class Space>
@@ -178,7 +183,8 @@ SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot
                                                                 const ChainState<Space>& state);
 
 /// How much more energy the unloaded robot's chains would store under this wrench if they bent evenly [J], to
-/// first order in the chord forces: what constant curvature misses. Theory: docs/theory/chain_equilibrium.md
+/// first order in the chord forces: what constant curvature misses. Of springs alone: low under M1, whose
+/// tendons soften them. Theory: docs/theory/chain_equilibrium.md
 template <class Space>
 SINEW_API double evenness_gap(const ChainRobot<Space>& robot, const ChainState<Space>& unloaded,
                               const Vec<double, Space::dof>& wrench);

@@ -11,8 +11,9 @@ struct ChainMotionOptions {
   /// Classical Runge-Kutta steps from one pose to the next, as [TDPCR] section 5.1 has them. 0: the flow
   /// itself, to rounding.
   int rk4_steps = 0;
-  /// What the null space is used for: `smooth` lessens the energy of the springs (an evenly bent chain has
-  /// the least), `limits` the largest angles, `singularity` increases |∂ρ/∂θ|, the distance from type I.
+  /// What the null space is used for: `smooth` lessens the energy of the springs (of one chord the least is
+  /// that of a column bent by its chord alone), `limits` the largest angles, `singularity` increases |∂ρ/∂θ|,
+  /// the distance from type I.
   Objective objective = Objective::none;
   double null_step = 0.2;  ///< longest null-space motion of a leg from one pose to the next [rad]
 };
@@ -23,8 +24,9 @@ struct ChainMotionOptions {
 /// went.
 ///
 /// Base motors move too: their frames in `robot` turn. Residual: closure error [m], put right after the exact
-/// flow, left as it is after Runge-Kutta. `singular` where a leg is straight, `unreachable` where the flow
-/// runs away.
+/// flow, left as it is after Runge-Kutta. Not converged, with robot and legs as they were: `singular` where a
+/// leg is straight; `unreachable` where the flow runs away, does not reach the pose, or passes through
+/// straight. Allocates.
 template <class Space>
 SINEW_API Report follow_least_norm(ChainRobot<Space>& robot, const typename Space::Pose& from,
                                    const typename Space::Pose& to, std::span<ChainLegState> legs,

@@ -52,7 +52,8 @@ SINEW_API void extend(const SerialRobot& robot, std::span<const double> extensio
 SINEW_API void tendon_changes(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
 
 /// The same of many poses at once, in SIMD lanes: `bends` is 2M rows, `changes` a row for each tendon, both
-/// with one number a pose. Bends that are not finite give changes that are not.
+/// with one number a pose. Bends that are not finite give changes that are not. The last bits of a pose may
+/// depend on those computed beside it, and on the processor.
 SINEW_API void tendon_changes_batch(std::span<const double> bends, kernel::Model model,
                                     std::span<double> changes, const SerialWorkspace& work);
 

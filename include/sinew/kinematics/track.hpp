@@ -57,4 +57,8 @@ class SINEW_API Track {
 /// shortest way, φ in the plane as the numbers say (so that a path may turn by more than half a turn).
 SINEW_API AnyPose between(const AnyPose& from, const AnyPose& to, double part);
 
+/// The constant twist that leads from one to the other in unit time, base axes.
+SINEW_API Vec<double, 3> twist_between(const PlanarPose& from, const PlanarPose& to);
+SINEW_API Vec<double, 6> twist_between(const SpatialPose& from, const SpatialPose& to);
+
 }  // namespace sinew::inline v0

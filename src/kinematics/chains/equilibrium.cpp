@@ -4,13 +4,10 @@
 
 #include "kinematics/chains/elimination.hpp"
 #include "kinematics/chains/leg_system.hpp"
+#include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v0 {
 namespace {
-
-constexpr double absent = std::numeric_limits<double>::quiet_NaN();
-
-double worse(double a, double b) { return std::isfinite(b) ? std::max(a, std::abs(b)) : absent; }
 
 /// One tendon's tension moves, or the platform does: unknowns beside those of the legs.
 enum class Free { platform, tensions };
@@ -35,6 +32,17 @@ class Solver {
       size_ = std::max(size_, leg.chain.length);
       stiffness_ = std::max(stiffness_, leg.bending_stiffness / std::pow(leg.chain.length, 3));
     }
+  }
+
+  /// Smallest over largest singular value of the platform's stiffness, as forces and lengths.
+  double regularity(const ChainState<Space>& state) {
+    Eigen::Matrix<double, dof, dof, Eigen::RowMajor> S =
+        reduce(state.pose, state.legs, state.hold, state.wrench).S;
+    for (int k = Space::dimension; k < dof; ++k) S.row(k) /= size_, S.col(k) /= size_;
+    if (!S.allFinite()) return 0;
+    std::array<double, max_rows> sigma;
+    singular_values(MatrixView(S.data(), dof, dof), sigma);
+    return sigma[dof - 1] / sigma[0];
   }
 
   double residual() const { return residual_; }  ///< unbalance as a length [m]
@@ -179,15 +187,6 @@ void measure_tendons(const ChainRobot<Space>& robot, ChainState<Space>& state) {
   for (std::size_t i = 0; i < robot.legs.size(); ++i) measure_tendons(robot.legs[i], state.legs[i]);
 }
 
-void say_leg(Report& report, Status status, std::size_t leg, std::string_view what) {
-  report.status = status;
-  report.message = {};
-  report.message.append("legs[");
-  append_number(report.message, static_cast<int>(leg));
-  report.message.append("]");
-  report.message.append(what);
-}
-
 template <class Space>
 void name_slack(const ChainState<Space>& state, Report& report) {
   for (std::size_t i = 0; i < state.legs.size(); ++i)
@@ -197,18 +196,21 @@ void name_slack(const ChainState<Space>& state, Report& report) {
                        k == 0 ? ": tendon 1 would have to push" : ": tendon 2 would have to push");
 }
 
-/// Tries points ever farther on a path from 0 to 1, in smaller steps where one fails; the last one reached.
+/// Tries points ever farther on a path from 0 to `to`, in smaller steps where one fails; the last one
+/// reached.
+/// @param finest shortest step, relative to what was reached, or to the first one
 template <class Attempt>
-double walk(double stride, double shortest, Attempt&& attempt) {
+double walk(double to, double stride, double finest, Attempt&& attempt) {
+  const double first = stride;
   double done = 0;
-  while (done < 1) {
-    const double next = std::min(1.0, done + stride);
+  while (done < to) {
+    const double next = stride < to - done ? done + stride : to;
     if (attempt(next)) {
       done = next;
       stride *= 2;
     } else {
-      stride = std::min(stride, 1 - done) / 4;
-      if (!(stride > shortest)) break;
+      stride = std::min(stride, to - done) / 4;
+      if (!(stride > finest * std::max(done, first))) break;
     }
   }
   return done;
@@ -228,13 +230,41 @@ ChainHold present(const ChainLegState& leg, const ChainHold& to) {
   return hold;
 }
 
-void say_how_far(Report& report, double done, std::string_view what) {
-  report.message.append(what);
+void say_how_far(Report& report, double done) {
+  report.message.append(report.status == Status::iteration_limit ? "the iterations ran out at "
+                                                                 : "the path of equilibria ends at ");
   const int per_mille = static_cast<int>(1000 * done);
   append_number(report.message, per_mille / 10);
   report.message.append(".");
   append_number(report.message, per_mille % 10);
-  report.message.append(" % of the way to these inputs and this wrench: it folds, or is lost");
+  report.message.append(" % of the way to these inputs and this wrench");
+  if (report.status != Status::iteration_limit)
+    report.message.append(": it folds, or is lost; another branch (bending) or start may lead on");
+}
+
+/// Whether a length that is held leaves a leg's joints nothing: one equation for the length, one for the
+/// closure, which of evenly bent free ends are the same where there are but two joints.
+template <class Space>
+bool is_rigid(const ChainLeg<Space>& leg, const ChainHold& hold) {
+  return hold.length_of >= 0 && leg.chain.joints() <= (leg.has_strut() ? 1 : 2);
+}
+
+/// Why no path can begin at the state; ok where it can.
+template <class Space>
+Report check_start(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
+                   const ChainState<Space>& state, bool is_free) {
+  Report report;
+  for (std::size_t i = 0; i < hold.size(); ++i)
+    if (is_rigid(robot.legs[i], hold[i])) {
+      say_leg(report, Status::singular, i,
+              " has so few joints that none can yield while its tendon's length is held; give the link more "
+              "joints, or hold tensions");
+      return report;
+    }
+  if (!is_free || solver.regularity(state) > 1e-10) return report;
+  report.status = Status::singular;
+  report.message.append("the platform can move with everything held: a type II singularity, see velocity");
+  return report;
 }
 
 /// A path to a wrench, and to what is held where the platform is free.
@@ -248,7 +278,7 @@ Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<c
   const auto put = [&](double part) {
     for (std::size_t i = 0; i < hold.size(); ++i) work.hold[i] = between(work.first[i], hold[i], part);
   };
-  const double done = walk(1, 1e-6, [&](double next) {
+  const double done = walk(1, 1, 1e-6, [&](double next) {
     if (!solver.has_budget()) return false;
     put(next);
     const Vec<double, Space::dof> load = first + next * (wrench - first);
@@ -269,10 +299,25 @@ Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<c
   report.iterations = solver.iterations();
   if (done < 1) {
     report.status = solver.has_budget() ? Status::stalled : Status::iteration_limit;
-    say_how_far(report, done, "the path of equilibria ends at ");
+    say_how_far(report, done);
   } else {
     name_slack(state, report);
   }
+  return report;
+}
+
+/// Tensions and shapes that hold the pose without a wrench, from nearly so.
+template <class Space>
+Report settle(const ChainRobot<Space>& robot, ChainState<Space>& state) {
+  ChainWork work;
+  Solver<Space> solver(robot, work, {}, Free::tensions);
+  Report report;
+  if (!solver.solve(state.pose, state.legs, state.hold, state.wrench)) {
+    report.status = Status::unreachable;
+    report.message.append("no tensions hold the chains at this pose");
+  }
+  report.residual = solver.residual();
+  measure_tendons(robot, state);
   return report;
 }
 
@@ -289,6 +334,7 @@ Report rest(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
   Report report;
   const auto platform = Space::frame(pose);
   ChainClosure<Space> at;
+  bool is_even = true;
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     const auto& leg = robot.legs[i];
     ChainLegState& own = state.legs[i];
@@ -314,7 +360,7 @@ Report rest(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
       if (std::abs(step) < 1e-15) break;
     }
     bend(angle);
-    report.residual = std::max(report.residual, std::abs(at.c));
+    report.residual = worse(report.residual, at.c);
     if (!(std::abs(at.c) < 1e-11 * leg.chain.length) && report.ok())
       say_leg(report, Status::unreachable, i, " has no even bend at this pose near the curvature given");
     const std::size_t inner = inner_tendon(own, leg.chain), last = n - 1;
@@ -322,8 +368,14 @@ Report rest(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
                                             inner == 0 ? 1 : -1);
     own.tension[inner] = std::abs(leg.spring(static_cast<int>(last)) * own.angles[last] / pull.rate);
     measure_tendons(leg, own);
-    state.hold[i] = present(own, {holds_lengths ? static_cast<int>(inner) : -1, 0, {}});
+    // straight tendons pull less at a clamped first joint than at the others: even is no rest there
+    is_even = is_even && !(leg.chain.model == ChainModel::discs && leg.chain.base == ChainBase::clamped);
   }
+  if (report.ok() && !is_even) report = settle(robot, state);
+  for (std::size_t i = 0; i < robot.legs.size(); ++i)
+    state.hold[i] = present(
+        state.legs[i],
+        {holds_lengths ? static_cast<int>(inner_tendon(state.legs[i], robot.legs[i].chain)) : -1, 0, {}});
   return report;
 }
 
@@ -333,7 +385,8 @@ Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> ho
                    const ChainOptions& options) {
   SINEW_EXPECTS(hold.size() == robot.legs.size() && state.legs.size() == robot.legs.size());
   Solver<Space> solver(robot, work, options);
-  return follow(solver, robot, hold, wrench, state, work);
+  const Report report = check_start(solver, robot, hold, state, !options.evenly_bent);
+  return report.ok() ? follow(solver, robot, hold, wrench, state, work) : report;
 }
 
 template <class Space>
@@ -393,35 +446,56 @@ bool answers(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& dire
          0.01 * C.norm() * std::sqrt(squared_norm(load));
 }
 
+/// A load that moves the platform by about a hundredth of a leg's length.
+template <class Space>
+double first_stride(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& direction,
+                    const ChainState<Space>& state, ChainWork& work) {
+  double size = 0;
+  for (const auto& leg : robot.legs) size = std::max(size, leg.chain.length);
+  Vec<double, Space::dof> motion = compliance(robot, state, work) * direction;
+  for (int k = Space::dimension; k < Space::dof; ++k) motion[k] *= size;
+  return 0.01 * size / std::sqrt(squared_norm(motion));
+}
+
 template <class Space>
 ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& direction,
                           double limit, ChainState<Space>& state, ChainWork& work,
                           const ChainOptions& options) {
+  ChainLoadPath path;
   Solver<Space> solver(robot, work, options);
+  path.report = check_start(solver, robot, state.hold, state, true);
+  if (!path.report.ok()) return path;
+  solver.set_reach(0.1);
   const bool was_stable = least_curvature(robot, state) > 0;
   const Vec<double, Space::dof> first = state.wrench;
   ChainState<Space> ahead = state;
-  ChainLoadPath path;
-  solver.set_reach(0.1);
-  const double done = walk(1.0 / 16, 1e-7, [&](double next) {
-    ahead = state;
-    ahead.wrench = first + next * limit * direction;
-    path.end = solver.has_budget() ? ChainLoadEnd::fold : ChainLoadEnd::iterations;
-    if (!solver.solve(ahead.pose, ahead.legs, ahead.hold, ahead.wrench)) return false;
-    measure_tendons(robot, ahead);
-    path.end = ChainLoadEnd::slack;
-    Report report;
-    name_slack(ahead, report);
-    if (!report.ok()) return false;
-    path.end = ChainLoadEnd::fold;
-    if (was_stable && !(least_curvature(robot, ahead) > 0)) return false;
-    std::swap(state, ahead);
-    path.end = ChainLoadEnd::limit;
-    return true;
-  });
-  path.load = done * limit;
+  const double done =
+      walk(limit, std::min(limit, first_stride(robot, direction, state, work)), 1e-8, [&](double next) {
+        ahead = state;
+        ahead.wrench = first + next * direction;
+        path.end = solver.has_budget() ? ChainLoadEnd::fold : ChainLoadEnd::iterations;
+        if (!solver.solve(ahead.pose, ahead.legs, ahead.hold, ahead.wrench)) return false;
+        measure_tendons(robot, ahead);
+        path.end = ChainLoadEnd::slack;
+        Report report;
+        name_slack(ahead, report);
+        if (!report.ok()) return false;
+        path.end = ChainLoadEnd::fold;
+        if (was_stable && !(least_curvature(robot, ahead) > 0)) return false;
+        std::swap(state, ahead);
+        path.end = ChainLoadEnd::limit;
+        return true;
+      });
+  path.load = done;
   if (path.end == ChainLoadEnd::fold && !answers(robot, direction, state, work))
     path.end = ChainLoadEnd::bifurcation;
+  solver.reduce(state.pose, state.legs, state.hold, state.wrench);
+  path.report.residual = solver.residual();
+  path.report.iterations = solver.iterations();
+  if (path.end == ChainLoadEnd::iterations) {
+    path.report.status = Status::iteration_limit;
+    path.report.message.append("the iterations ran out before the load stopped growing");
+  }
   return path;
 }
 

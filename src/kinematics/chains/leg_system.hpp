@@ -1,13 +1,30 @@
 /// @file leg_system.hpp
 /// Equations of one leg on a chain, with their derivatives. Theory: docs/theory/chain_equilibrium.md
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sinew/kinematics/chain.hpp"
 
 namespace sinew::inline v0 {
 
 inline constexpr int most_unknowns = max_chain_joints + 2;  ///< angles, force, tension
+
+/// The larger size; NaN stays.
+inline double worse(double a, double b) {
+  return std::isfinite(b) ? std::max(a, std::abs(b)) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// `legs[2]`, then what is wrong there.
+inline void say_leg(Report& report, Status status, std::size_t leg, std::string_view what) {
+  report.status = status;
+  report.message = {};
+  report.message.append("legs[");
+  append_number(report.message, static_cast<int>(leg));
+  report.message.append("]");
+  report.message.append(what);
+}
 
 /// A leg's closure c = 0 [m] in its angles q and the pose x, with first and second derivatives. Those by the
 /// pose are of the force's line, so that turns keep the order in which they are made.

@@ -22,7 +22,7 @@ class LegMotion {
         to_(to),
         motors_(has_motor ? 1 : 0),
         size_(static_cast<std::size_t>(leg.chain.joints()) + motors_),
-        twist_(twist(from, to)) {}
+        twist_(twist_between(from, to)) {}
 
   std::size_t size() const { return size_; }
   std::size_t motors() const { return motors_; }
@@ -57,16 +57,6 @@ class LegMotion {
   }
 
  private:
-  static Vec<double, 3> twist(const PlanarPose& a, const PlanarPose& b) {
-    return {b.x - a.x, b.y - a.y, b.phi - a.phi};
-  }
-  static Vec<double, 6> twist(const SpatialPose& a, const SpatialPose& b) {
-    const SE3<double> from = SE3<double>::from(a), to = SE3<double>::from(b);
-    Vec<double, 6> all;
-    all << b.position - a.position, to.R.compose(from.R.inverse()).log();
-    return all;
-  }
-
   /// Downhill on the objective in what g leaves free, no faster than the options allow.
   void add_null_motion(const Angles& angles, const Angles& g, double squares,
                        const ChainMotionOptions& options, Angles& rate) const {
@@ -139,11 +129,11 @@ bool flow(LegMotion<Space>& motion, const ChainMotionOptions& options, Angles& a
       if (!std::isfinite(extrapolated)) return false;
       best[j] = extrapolated;
     }
-    if (change < 1e-14 || (steps > 64 && change < 1e-12)) break;
+    angles = best;
+    if (change < 1e-14 || (steps > 64 && change < 1e-12)) return true;
     coarse = fine;
   }
-  angles = best;
-  return true;
+  return false;
 }
 
 /// The shortest way back onto the closure.
@@ -151,7 +141,7 @@ template <class Space>
 double put_right(LegMotion<Space>& motion, Angles& angles) {
   Angles g;
   double c = motion.slope(1, angles, g);
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < 10 && std::isfinite(c); ++round) {
     double squares = 0;
     for (std::size_t j = 0; j < motion.size(); ++j) squares += g[j] * g[j];
     for (std::size_t j = 0; j < motion.size(); ++j) angles[j] -= g[j] * (c / squares);
@@ -169,8 +159,11 @@ Report follow_least_norm(ChainRobot<Space>& robot, const typename Space::Pose& f
                          const ChainMotionOptions& options) {
   SINEW_EXPECTS(legs.size() == robot.legs.size());
   Report report;
+  std::vector<ChainLegState> moved(legs.begin(), legs.end());
+  auto bases = robot.legs;
   for (std::size_t i = 0; i < legs.size(); ++i) {
-    LegMotion<Space> motion(robot.legs[i], robot.has_base_motors, from, to);
+    const ChainLeg<Space>& leg = robot.legs[i];
+    LegMotion<Space> motion(leg, robot.has_base_motors, from, to);
     Angles angles{}, g;
     const std::size_t motors = motion.motors(), joints = motion.size() - motors;
     std::copy_n(legs[i].angles.begin(), joints, angles.begin() + static_cast<std::ptrdiff_t>(motors));
@@ -178,25 +171,30 @@ Report follow_least_norm(ChainRobot<Space>& robot, const typename Space::Pose& f
     double squares = 0;
     for (std::size_t j = 0; j < motion.size(); ++j) squares += g[j] * g[j];
     const auto refuse = [&](Status status, std::string_view why) {
-      report.status = status;
-      report.message.append("legs[");
-      append_number(report.message, static_cast<int>(i));
-      report.message.append(why);
+      say_leg(report, status, i, why);
       return report;
     };
-    if (!(squares > 1e-16 * robot.legs[i].chain.length * robot.legs[i].chain.length))
-      return refuse(Status::singular, "] is straight or folded: no motion of its joints is the shortest");
-    if (options.rk4_steps > 0)
-      runge_kutta(motion, options.rk4_steps, options, angles);
+    if (!(squares > 1e-16 * leg.chain.length * leg.chain.length))
+      return refuse(Status::singular, " is straight or folded: no motion of its joints is the shortest");
+    const double turn = leg.chain.turn(legs[i].of(leg.chain));
+    const bool is_exact = options.rk4_steps == 0;
+    if (!is_exact || options.objective != Objective::none)
+      // an objective's motion need not be exact: only the closure counts
+      runge_kutta(motion, is_exact ? 16 : options.rk4_steps, options, angles);
     else if (!flow(motion, options, angles))
-      return refuse(Status::unreachable, "] cannot follow: its angles grow without bound");
-    const double error = options.rk4_steps > 0 ? motion.slope(1, angles, g) : put_right(motion, angles);
-    if (!std::isfinite(error) || !(std::abs(error) < 0.1 * robot.legs[i].chain.length))
-      return refuse(Status::unreachable, "] cannot follow: it does not reach the pose");
+      return refuse(Status::unreachable, " cannot follow: its joints would have to move without bound");
+    const double error = is_exact ? put_right(motion, angles) : motion.slope(1, angles, g);
+    // what rounding leaves, or Runge-Kutta's own error: more means that the pose is out of reach
+    if (!(std::abs(error) < (is_exact ? 1e-12 : 1e-2) * leg.chain.length))
+      return refuse(Status::unreachable, " cannot follow: it does not reach the pose");
     report.residual = std::max(report.residual, std::abs(error));
-    if (motors > 0) robot.legs[i].base = motion.leg().base;
-    std::copy_n(angles.begin() + static_cast<std::ptrdiff_t>(motors), joints, legs[i].angles.begin());
+    if (motors > 0) bases[i].base = motion.leg().base;
+    std::copy_n(angles.begin() + static_cast<std::ptrdiff_t>(motors), joints, moved[i].angles.begin());
+    if (!leg.has_strut() && turn * leg.chain.turn(moved[i].of(leg.chain)) < 0)
+      return refuse(Status::unreachable, " cannot follow: it would have to pass through straight");
   }
+  std::copy(moved.begin(), moved.end(), legs.begin());
+  robot.legs = std::move(bases);
   return report;
 }
 

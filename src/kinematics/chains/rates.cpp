@@ -17,7 +17,7 @@ ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Spa
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const auto& leg = robot.legs[i];
     close_chain(leg, platform, legs[i].of(leg.chain), at);
-    rates.closure_error = std::max(rates.closure_error, std::abs(at.c));
+    rates.closure_error = worse(rates.closure_error, at.c);
     rates.J.row(static_cast<Eigen::Index>(i)) = at.distance * at.c_x.transpose();
     auto column = rates.K[i].begin();
     if constexpr (Space::dimension == 2)
@@ -28,7 +28,7 @@ ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Spa
       }
     for (std::size_t j = 0; j < static_cast<std::size_t>(leg.chain.joints()); ++j)
       *column++ = -at.distance * at.c_q[j];
-    rates.columns = std::max(rates.columns, static_cast<int>(column - rates.K[i].begin()));
+    rates.columns[i] = static_cast<int>(column - rates.K[i].begin());
   }
   return rates;
 }

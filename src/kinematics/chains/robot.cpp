@@ -78,6 +78,9 @@ Expected<AnyChainRobot> chain_robot_of(const ParallelRobot<LegT>& robot, ChainMo
                          i)});
       }
     });
+  if (errors.empty() && robot.has_ties())
+    errors.push_back({"not_available", "legs",
+                      "some legs share their inputs (tied); model prb needs each leg to have its own."});
   if (errors.empty() && chains.legs.size() != static_cast<std::size_t>(Space::dof))
     errors.push_back(
         {"not_available", "legs",

@@ -10,10 +10,13 @@ namespace {
 
 using Eigen::MatrixXd;
 
-/// Smallest eigenvalue of H where C is 0.
+/// Smallest eigenvalue of H where C is 0; infinite where that leaves nothing.
 double least_on_null_space(const MatrixXd& H, const MatrixXd& C) {
-  const MatrixXd Q = Eigen::HouseholderQR<MatrixXd>(C.transpose()).householderQ();
-  const MatrixXd Z = Q.rightCols(H.cols() - C.rows()), reduced = Z.transpose() * H * Z;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(C.transpose());  // rows may say the same twice
+  qr.setThreshold(1e-12);
+  if (qr.rank() >= H.cols()) return std::numeric_limits<double>::infinity();
+  const MatrixXd Q = qr.householderQ();
+  const MatrixXd Z = Q.rightCols(H.cols() - qr.rank()), reduced = Z.transpose() * H * Z;
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(reduced, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
