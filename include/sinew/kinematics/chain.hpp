@@ -81,8 +81,9 @@ struct ChainState {
   Vec<double, SpaceT::dof> wrench = Vec<double, SpaceT::dof>::Zero();
 };
 
-/// Chains at a pose without a wrench bend evenly, as under a moment: to these angles, by the tension of one
-/// tendon a leg, the inner one; the other is loose. Their lengths are held, or their tensions.
+/// Chains at a pose without a wrench, held by the tension of one tendon a leg, the inner one; the other is
+/// loose. They bend evenly, as under a moment, but for straight tendons on a clamped base (M1). Lengths of
+/// the inner tendons are held, or tensions. Allocates.
 /// @param curvature of each leg [1/m], near it: of a leg without a strut its sign is enough
 /// @return `unreachable` where a leg has no such shape near it
 template <class Space>

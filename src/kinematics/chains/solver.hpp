@@ -1,0 +1,253 @@
+/// @file solver.hpp
+/// Newton's method for platforms on chains, legs eliminated, and paths of its solutions. Theory:
+/// docs/theory/chain_equilibrium.md
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "kinematics/chains/elimination.hpp"
+#include "kinematics/chains/leg_system.hpp"
+#include "sinew/math/linalg.hpp"
+
+namespace sinew::inline v0 {
+
+/// One tendon's tension moves, or the platform does: unknowns beside those of the legs.
+enum class Free { platform, tensions };
+
+/// Newton's method at one point of the path.
+template <class Space>
+class Solver {
+ public:
+  static constexpr int dof = Space::dof, sides = dof + 1;
+  using Pose = typename Space::Pose;
+  using Motion = Vec<double, dof>;
+  using State = ChainState<Space>;
+
+  Solver(const ChainRobot<Space>& robot, ChainWork& work, const ChainOptions& options,
+         Free free = Free::platform)
+      : robot_(robot),
+        work_(work),
+        options_(options),
+        free_(free) {
+    work.moves.resize(robot.legs.size() * most_unknowns * sides);
+    for (const auto& leg : robot.legs) {
+      size_ = std::max(size_, leg.chain.length);
+      stiffness_ = std::max(stiffness_, leg.bending_stiffness / std::pow(leg.chain.length, 3));
+    }
+  }
+
+  /// What is left for the platform with the legs eliminated: S y = −g, y its motion, or the tensions.
+  struct Reduced {
+    Mat<double, dof, dof> S;
+    Motion g;
+  };
+
+  /// Smallest over largest singular value of what is left for the platform, as forces and lengths: 0 where
+  /// nothing says how it moves.
+  double regularity(const Reduced& reduced) const {
+    Eigen::Matrix<double, dof, dof, Eigen::RowMajor> S = reduced.S;
+    for (int k = Space::dimension; k < dof; ++k) {
+      S.row(k) /= size_;
+      if (free_ == Free::platform) S.col(k) /= size_;
+    }
+    if (!S.allFinite()) return 0;
+    std::array<double, max_rows> sigma;
+    singular_values(MatrixView(S.data(), dof, dof), sigma);
+    return sigma[dof - 1] / sigma[0];
+  }
+
+  double residual() const { return residual_; }  ///< unbalance as a length [m]
+  int iterations() const { return iterations_; }
+  bool has_budget() const { return iterations_ < options_.max_iterations; }
+
+  Reduced reduce(const Pose& pose, std::span<const ChainLegState> legs, std::span<const ChainHold> hold,
+                 const Motion& wrench) {
+    const auto platform = Space::frame(pose);
+    Reduced reduced{Mat<double, dof, dof>::Zero(), -wrench};
+    Motion balance = -wrench;
+    residual_ = 0;
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      const auto& leg = robot_.legs[i];
+      form(leg, platform, legs[i], hold[i], system_);
+      if (options_.evenly_bent) bend_evenly(leg.chain, system_);
+      const auto size = static_cast<std::size_t>(system_.size),
+                 joints = static_cast<std::size_t>(system_.joints);
+      const int columns = free_ == Free::platform ? sides : 2;
+      double* const moves = moves_of(i);
+      for (std::size_t j = 0; j < size; ++j) {
+        double* const row = moves + j * static_cast<std::size_t>(columns);
+        row[0] = -system_.r[j];
+        if (free_ == Free::platform)
+          for (int k = 0; k < dof; ++k) row[k + 1] = -system_.B[j][k];
+        else
+          row[1] = j < joints ? -system_.per_tension[j] : 0;
+        const double measure = j < joints ? size_ / leg.spring(static_cast<int>(j)) : 1;
+        residual_ = worse(residual_, system_.r[j] * measure);
+      }
+      eliminate(system_.A[0].data(), system_.size, most_unknowns, moves, columns);
+      const Motion pull = legs[i].force * system_.closure.c_x;
+      balance += pull;
+      reduced.g += pull;
+      for (std::size_t j = 0; j < size; ++j) {
+        const double* const row = moves + j * static_cast<std::size_t>(columns);
+        reduced.g += row[0] * system_.B[j];
+        if (free_ == Free::platform)
+          for (int k = 0; k < dof; ++k) reduced.S.col(k) += row[k + 1] * system_.B[j];
+        else
+          reduced.S.col(static_cast<Eigen::Index>(i)) += row[1] * system_.B[j];
+      }
+      if (free_ == Free::platform) reduced.S += legs[i].force * system_.closure.c_xx;
+    }
+    for (int k = 0; k < dof; ++k)
+      residual_ = worse(residual_, balance[k] / stiffness_ / (k >= Space::dimension ? size_ : 1));
+    return reduced;
+  }
+
+  /// A solve that turns a joint by more [rad] fails: it would be on another branch.
+  void set_reach(double reach) { reach_ = reach; }
+
+  /// From where pose and legs are; false where it does not get there.
+  bool solve(Pose& pose, std::vector<ChainLegState>& legs, std::span<const ChainHold> hold,
+             const Motion& wrench) {
+    for (std::size_t i = 0; i < legs.size(); ++i)
+      for (int k = 0; k < 2; ++k)
+        if (hold[i].length_of != k && free_ == Free::platform)
+          legs[i].tension[static_cast<std::size_t>(k)] = hold[i].tension[static_cast<std::size_t>(k)];
+    double walked = 0;
+    for (int round = 0; round < 25 && has_budget(); ++round) {
+      Reduced reduced = reduce(pose, legs, hold, wrench);
+      if (!std::isfinite(residual_)) return false;
+      ++iterations_;
+      const Motion motion = solution(reduced.S, -reduced.g);
+      const double step = move(legs, hold, motion);
+      if (free_ == Free::platform) pose = Space::moved(pose, motion);
+      walked += step;
+      if (!(walked < reach_)) return false;
+      if (step < 1e-11 || (residual_ < 1e-13 * size_ && step < 1e-9)) {
+        reduce(pose, legs, hold, wrench);
+        return residual_ < 1e-11 * size_;
+      }
+    }
+    return false;
+  }
+
+  static Motion solution(Mat<double, dof, dof> S, Motion right) {
+    Eigen::Matrix<double, dof, dof, Eigen::RowMajor> rows = S;
+    eliminate(rows.data(), dof, dof, right.data(), 1);
+    return right;
+  }
+
+ private:
+  double* moves_of(std::size_t leg) { return work_.moves.data() + leg * most_unknowns * sides; }
+
+  /// The largest turn of a joint.
+  double move(std::vector<ChainLegState>& legs, std::span<const ChainHold> hold, const Motion& motion) {
+    double step = 0;
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      const PseudoRigid& chain = robot_.legs[i].chain;
+      const std::size_t inner = inner_tendon(legs[i], chain);
+      const double* const moves = moves_of(i);
+      const auto change = [&](std::size_t j) {
+        if (free_ == Free::tensions)
+          return moves[2 * j] + moves[2 * j + 1] * motion[static_cast<Eigen::Index>(i)];
+        double sum = moves[sides * j];
+        for (std::size_t k = 0; k < dof; ++k)
+          sum += moves[sides * j + k + 1] * motion[static_cast<Eigen::Index>(k)];
+        return sum;
+      };
+      std::size_t next = 0;
+      const double even = options_.evenly_bent ? change(next++) : 0;
+      for (std::size_t j = 0; j < static_cast<std::size_t>(chain.joints()); ++j) {
+        const double turn =
+            options_.evenly_bent ? even * even_bend(chain, static_cast<int>(j)) : change(next++);
+        legs[i].angles[j] += turn;
+        step = worse(step, turn);
+      }
+      legs[i].force += change(next);
+      if (free_ == Free::tensions)
+        legs[i].tension[inner] += motion[static_cast<Eigen::Index>(i)];
+      else if (hold[i].length_of >= 0)
+        legs[i].tension[static_cast<std::size_t>(hold[i].length_of)] += change(next + 1);
+    }
+    return step;
+  }
+
+  const ChainRobot<Space>& robot_;
+  ChainWork& work_;
+  ChainOptions options_;
+  Free free_;
+  LegSystem<Space> system_;
+  double size_ = 0, stiffness_ = 0, residual_ = 0, reach_ = 0.5;
+  int iterations_ = 0;
+};
+
+void measure_tendons(const auto& leg, ChainLegState& state) {
+  for (const int side : {1, -1})
+    state.tendon_length[side > 0 ? 0 : 1] =
+        leg.chain.tendon_length(state.of(leg.chain), leg.tendon_offset, side);
+}
+
+template <class Space>
+void measure_tendons(const ChainRobot<Space>& robot, ChainState<Space>& state) {
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) measure_tendons(robot.legs[i], state.legs[i]);
+}
+
+template <class Space>
+void name_slack(const ChainState<Space>& state, Report& report) {
+  for (std::size_t i = 0; i < state.legs.size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k)
+      if (state.legs[i].tension[k] < -1e-9)
+        return say_leg(report, Status::slack, i,
+                       k == 0 ? ": tendon 1 would have to push" : ": tendon 2 would have to push");
+}
+
+/// Tries points ever farther on a path from 0 to `to`, in smaller steps where one fails; the last one
+/// reached.
+/// @param finest shortest step, relative to what was reached, or to the first one
+template <class Attempt>
+double walk(double to, double stride, double finest, Attempt&& attempt) {
+  const double first = stride;
+  double done = 0;
+  while (done < to) {
+    const double next = stride < to - done ? done + stride : to;
+    if (attempt(next)) {
+      done = next;
+      stride *= 2;
+    } else {
+      stride = std::min(stride, to - done) / 4;
+      if (!(stride > finest * std::max(done, first))) break;
+    }
+  }
+  return done;
+}
+
+/// Whether a length that is held leaves a leg's joints nothing: one equation for the length, one for the
+/// closure, which of evenly bent free ends are the same where there are but two joints.
+template <class Space>
+bool is_rigid(const ChainLeg<Space>& leg, const ChainHold& hold) {
+  return hold.length_of >= 0 && leg.chain.joints() <= (leg.has_strut() ? 1 : 2);
+}
+
+/// Why no path can lead to that; ok where one may.
+template <class Space>
+Report check_hold(const ChainRobot<Space>& robot, std::span<const ChainHold> hold) {
+  Report report;
+  for (std::size_t i = 0; i < hold.size() && report.ok(); ++i)
+    if (is_rigid(robot.legs[i], hold[i]))
+      say_leg(report, Status::singular, i,
+              " has so few joints that none can yield while its tendon's length is held; give the link more "
+              "joints, or hold tensions");
+  return report;
+}
+
+/// `singular` where the platform is not held at all.
+template <class Space>
+void check_regularity(const Solver<Space>& solver, const typename Solver<Space>::Reduced& reduced,
+                      Report& report) {
+  if (solver.regularity(reduced) > 1e-10) return;
+  report.status = Status::singular;
+  report.message = {};
+  report.message.append("the platform can move with everything held: a type II singularity, see velocity");
+}
+
+}  // namespace sinew::inline v0
