@@ -8,6 +8,7 @@
 /// chords add up to one of half the bend again, as do waves of equal phase differences. All are entire
 /// functions of w = (a/2)²: no angle is divided by, no root is taken of a small one, and the direction of a
 /// straight joint is never asked for.
+/// Where each of several joints bends by nearly a full turn, which none does, D loses digits.
 ///
 /// Numbers one by one, and all inlined: as matrices of Eigen's the same takes ten times as long, because they
 /// go through memory in parts of other sizes than they are read back in.
