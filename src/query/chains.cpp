@@ -189,7 +189,8 @@ void put_simpler_models(Context& context, const ChainRobot<Space>& robot, const 
     scale += std::pow(unit * actual[k], 2);
     gap += std::pow(unit * (change[k] - actual[k]), 2);
   }
-  if (scale > 0) put_number(answer, "linear_error", std::sqrt(gap / scale));
+  if (scale > 0 && loaded.wrench != unloaded.wrench)
+    put_number(answer, "linear_error", std::sqrt(gap / scale));
   double posture = 0;
   for (std::size_t i = 0; i < robot.legs.size(); ++i)
     for (std::size_t j = 0; j < static_cast<std::size_t>(robot.legs[i].chain.joints()); ++j)
@@ -242,8 +243,7 @@ void put_equilibrium(Context& context, const ChainRobot<Space>& robot, const Cha
   answer["stable"] = least > 0;
   put_number(answer, "smallest_eigenvalue", least);
   put_number(answer, "potential", potential(robot, state));
-  if (unloaded && state.wrench != unloaded->wrench)
-    put_simpler_models(context, robot, *unloaded, state, load, work);
+  if (unloaded) put_simpler_models(context, robot, *unloaded, state, load, work);
 }
 
 /// To the load, and on until it grows no more.
