@@ -72,6 +72,21 @@ ChainVelocity<Space> chain_velocity(const ChainRobot<Space>& robot, const typena
   return velocity;
 }
 
+template <class Space>
+std::vector<double> least_norm_rates(const ChainVelocity<Space>& velocity,
+                                     const Vec<double, Space::dof>& twist) {
+  std::vector<double> rates;
+  const Vec<double, Space::dof> needed = velocity.rates.J * twist;
+  for (std::size_t i = 0; i < velocity.drive.size(); ++i) {
+    const double share = needed[static_cast<Eigen::Index>(i)] / (velocity.drive[i] * velocity.drive[i]);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(velocity.rates.columns[i]); ++j)
+      rates.push_back(share * velocity.rates.K[i][j]);
+  }
+  return rates;
+}
+
+template SINEW_API std::vector<double> least_norm_rates(const ChainVelocity<Planar>&, const Vec<double, 3>&);
+template SINEW_API std::vector<double> least_norm_rates(const ChainVelocity<Spatial>&, const Vec<double, 6>&);
 template SINEW_API ChainVelocity<Planar> chain_velocity(const ChainRobot<Planar>&, const PlanarPose&,
                                                         std::span<const ChainLegState>);
 template SINEW_API ChainVelocity<Spatial> chain_velocity(const ChainRobot<Spatial>&, const SpatialPose&,

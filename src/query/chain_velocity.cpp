@@ -40,21 +40,6 @@ Json U_json(const ChainVelocity<Space>& velocity) {
   return rows;
 }
 
-/// The shortest rates of all joints for a twist, leg by leg: θ̇ = g (J t)ᵢ / |g|².
-template <class Space>
-Json rates_json(const ChainVelocity<Space>& velocity, std::span<const double> twist) {
-  Json rates = Json::array();
-  for (std::size_t i = 0; i < velocity.rates.K.size(); ++i) {
-    double needed = 0;
-    for (int k = 0; k < Space::dof; ++k)
-      needed += velocity.rates.J(static_cast<Eigen::Index>(i), k) * twist[static_cast<std::size_t>(k)];
-    const double share = needed / (velocity.drive[i] * velocity.drive[i]);
-    for (std::size_t j = 0; j < static_cast<std::size_t>(velocity.rates.columns[i]); ++j)
-      rates.push_back(share * velocity.rates.K[i][j]);
-  }
-  return rates;
-}
-
 template <class Space>
 void put_velocity(Context& context, const ChainRobot<Space>& robot, const ChainVelocity<Space>& velocity,
                   const std::vector<ChainLegState>& legs, std::span<const double> twist) {
@@ -71,7 +56,7 @@ void put_velocity(Context& context, const ChainRobot<Space>& robot, const ChainV
   answer["residual"] = velocity.report.residual;
   if (!twist.empty()) {
     if (velocity.type_1_count == 0)
-      answer["rates"] = rates_json(velocity, twist);
+      answer["rates"] = to_json(least_norm_rates(velocity, Vec<double, Space::dof>(twist.data())));
     else if (velocity.report.ok()) {
       Report report;
       report.status = Status::singular;
@@ -84,26 +69,48 @@ void put_velocity(Context& context, const ChainRobot<Space>& robot, const ChainV
   answer["legs"] = std::move(list);
 }
 
+/// Angles as given, or a branch on which chains are at rest.
+template <class Space>
+class Joints {
+ public:
+  Joints(Context& context, ChainRobot<Space>& robot) : branch_(read_branch(context)) {
+    const auto angles = context.query.optional("angles");
+    if (!angles) return;
+    given_ = read_angles(*angles, robot);
+    if (!branch_.is_default())
+      context.query.fail("ambiguous",
+                         "bending, curvature and elbow choose among solutions; the angles are given");
+  }
+
+  Report at(Context& context, ChainRobot<Space>& robot, const AnyPose& pose,
+            std::vector<ChainLegState>& legs) const {
+    if (given_) {
+      legs = *given_;
+      return {};
+    }
+    ChainState<Space> state;
+    const Report report = rest_at(context, robot, pose, branch_, false, state);
+    legs = std::move(state.legs);
+    return report;
+  }
+
+ private:
+  Branch branch_;
+  std::optional<std::vector<ChainLegState>> given_;
+};
+
 template <class Space>
 void answer_velocity_of(Context& context, ChainRobot<Space>& robot) {
   Reader& query = context.query;
   const AnyPose pose = read_pose(context, query.required("pose", "pose of the platform"));
-  const Branch branch = read_branch(context);
+  const Joints joints(context, robot);
   std::vector<double> twist;
   if (const auto asked = query.optional("twist"))
     twist = asked->quantities(Dimension::number, {}, static_cast<std::size_t>(Space::dof));
-  const auto angles = query.optional("angles");
-  std::vector<ChainLegState> legs;
-  if (angles) legs = read_angles(*angles, robot);
-  if (angles && !branch.is_default())
-    query.fail("ambiguous", "bending, curvature and elbow choose among solutions; the angles are given");
   if (!context.ready()) return;
-  if (!angles) {
-    ChainState<Space> state;
-    const Report report = rest_at(context, robot, pose, branch, false, state);
-    if (!report.ok()) return context.report(report);
-    legs = std::move(state.legs);
-  }
+  std::vector<ChainLegState> legs;
+  const Report report = joints.at(context, robot, pose, legs);
+  if (!report.ok()) return context.report(report);
   const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
   if (!(velocity.rates.closure_error <= 1e-9))
     return query.fail("not_closed",
@@ -131,23 +138,14 @@ template <class Space>
 void answer_track_of(Context& context, ChainRobot<Space>& robot) {
   Reader& query = context.query;
   const std::vector<AnyPose> poses = read_path(context);
-  const Branch branch = read_branch(context);
+  const Joints joints(context, robot);
   ChainMotionOptions options;
   options.objective = read_objective(query);
   if (const auto steps = query.optional("rk4_steps"))
     options.rk4_steps = steps->integer(Range::between(1, 1000));
-  const auto angles = query.optional("angles");
-  std::vector<ChainLegState> legs;
-  if (angles) legs = read_angles(*angles, robot);
-  if (angles && !branch.is_default())
-    query.fail("ambiguous", "bending, curvature and elbow choose among solutions; the angles are given");
   if (!context.ready()) return;
-  Report report;
-  if (!angles) {
-    ChainState<Space> state;
-    report = rest_at(context, robot, poses.front(), branch, false, state);
-    legs = std::move(state.legs);
-  }
+  std::vector<ChainLegState> legs;
+  Report report = joints.at(context, robot, poses.front(), legs);
   Json rows = Json::array();
   double worst = 0;
   for (std::size_t k = 0; k < poses.size() && report.ok(); ++k) {

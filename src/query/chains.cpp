@@ -130,29 +130,6 @@ std::vector<ChainHold> read_lengths(const Reader& list, std::size_t legs) {
   return hold;
 }
 
-/// Force and moment at the tip in base axes, and the frame they are turned by.
-template <class Space>
-Json tip_wrench_json(const ChainLeg<Space>& leg, const ChainLegState& state,
-                     const typename Space::template Frame<double>& platform) {
-  const auto angles = state.of(leg.chain);
-  std::vector<double> torques;
-  for (int j = 0; j < leg.chain.joints(); ++j)
-    torques.push_back(leg.spring(j) * angles[static_cast<std::size_t>(j)]);
-  const TipWrench at_tip = tip_wrench(leg.chain, torques, angles);
-  const Vec2<double> u = leg.chain.tip(angles).position;
-  const auto r = (platform.point(leg.platform_point) - leg.base.p).eval();
-  if constexpr (Space::dimension == 2) {
-    const auto frame = leg.has_strut() ? leg.base : Space::aimed(leg.base, r, u);
-    const Vec2<double> force = frame.rotate(at_tip.force);
-    return {force.x(), force.y(), at_tip.moment};
-  } else {
-    const auto frame = Space::aimed(leg.base, r, u);
-    const Vec3<double> force = frame.rotate(Vec3<double>(at_tip.force.x(), at_tip.force.y(), 0));
-    const Vec3<double> moment = frame.rotate(Vec3<double>(0, 0, at_tip.moment));
-    return {force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z()};
-  }
-}
-
 template <class Space>
 Json chain_legs_json(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
   const auto platform = Space::frame(state.pose);
@@ -163,7 +140,8 @@ Json chain_legs_json(const ChainRobot<Space>& robot, const ChainState<Space>& st
                     {"chord_force", leg.force},
                     {"tendon_lengths", leg.tendon_length},
                     {"tensions", leg.tension},
-                    {"tip_wrench", tip_wrench_json(robot.legs[i], leg, platform)}});
+                    {"tip_wrench",
+                     to_json<Space::dof>(tip_wrench(robot.legs[i], leg.of(robot.legs[i].chain), platform))}});
   }
   return legs;
 }
@@ -263,34 +241,12 @@ void load_and_answer(Context& context, const ChainRobot<Space>& robot, ChainStat
   put_equilibrium(context, robot, state, report, &unloaded, load, work);
 }
 
-/// Lengths that would fold a joint upon itself.
-template <class Space>
-Report check_lengths(const ChainRobot<Space>& robot, std::span<const ChainHold> hold) {
-  Report report;
-  for (std::size_t i = 0; i < hold.size() && report.ok(); ++i) {
-    if (hold[i].length_of < 0) continue;
-    const ChainLeg<Space>& leg = robot.legs[i];
-    double most = 0;
-    for (int j = 0; j < leg.chain.joints(); ++j)
-      most += std::numbers::pi * leg.tendon_offset * leg.chain.turn_weight(j);
-    if (std::abs(hold[i].length - leg.chain.length) < most) continue;
-    report.status = Status::left_domain;
-    report.message.append(fmt::format(
-        "legs[{}]: a tendon {:.6g} mm long would fold every joint by half a turn; "
-        "between {:.6g} and {:.6g} mm it does not",
-        i, 1e3 * hold[i].length, 1e3 * (leg.chain.length - most), 1e3 * (leg.chain.length + most)));
-  }
-  return report;
-}
-
 /// Where the search for an equilibrium with given tensions or lengths begins.
 template <class Space>
 void answer_held(Context& context, ChainRobot<Space>& robot, const AnyPose& start, const Branch& branch,
                  const std::vector<ChainHold>& hold, const Load<Space>& load) {
   ChainState<Space> state;
-  Report report = check_lengths(robot, hold);
-  if (!report.ok()) return context.report(report);
-  report = rest_at(context, robot, start, branch, false, state);
+  Report report = rest_at(context, robot, start, branch, false, state);
   ChainWork work;
   if (report.ok()) report = equilibrium(robot, hold, Wrench<Space>::Zero().eval(), state, work, load.options);
   if (!report.ok() && report.status != Status::slack)

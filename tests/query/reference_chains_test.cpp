@@ -66,14 +66,19 @@ TEST(ChainQuery, VelocityOfAllRobotsIsTheirs) {  // @verifies TDPCR (34)-(38), (
 
 Json at_base() { return planar(statics()["about"]["base_pose"]); }
 
+/// The case's robot, set at the base pose and loaded.
+Json loaded(const Json& c) {
+  return ask("3-rfr", {{{"query", "statics"},
+                        {"set_at", at_base()},
+                        {"law", c["model"]},
+                        {"hold", c["mode"]},
+                        {"wrench", c["W"]}}})
+      .front();
+}
+
 TEST(ChainQuery, EquilibriaAreTheirs) {
   for (const Json& c : statics()["equilibria"]) {
-    const Json answer = ask("3-rfr", {{{"query", "statics"},
-                                       {"set_at", at_base()},
-                                       {"law", c["model"]},
-                                       {"hold", c["mode"]},
-                                       {"wrench", c["W"]}}})
-                            .front();
+    const Json answer = loaded(c);
     ASSERT_EQ(answer["status"], "converged") << answer.dump();
     EXPECT_LT(pose_gap(answer["pose"], c["pose"]), 1e-10);
     EXPECT_LT(answer["residual"].get<double>(), 1e-13);
@@ -129,12 +134,7 @@ TEST(ChainQuery, LoadsGrowUntilWhereTheirsEnd) {
 
 TEST(ChainQuery, ComplianceIsTheirs) {
   for (const Json& c : statics2()["tangent_compliance"]) {
-    const Json answer = ask("3-rfr", {{{"query", "statics"},
-                                       {"set_at", at_base()},
-                                       {"law", c["model"]},
-                                       {"hold", c["mode"]},
-                                       {"wrench", c["W"]}}})
-                            .front();
+    const Json answer = loaded(c);
     EXPECT_LT(gap_of(answer["compliance"], c["compliance"]),
               1e-9 * std::abs(c["compliance"][2][2].get<double>()));
   }

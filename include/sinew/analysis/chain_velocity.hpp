@@ -32,4 +32,10 @@ SINEW_API ChainVelocity<Space> chain_velocity(const ChainRobot<Space>& robot,
                                               const typename Space::Pose& pose,
                                               std::span<const ChainLegState> legs);
 
+/// The shortest rates of all joints for a twist, leg by leg: θ̇ = g (J t)ᵢ/|g|². Not finite where a leg is of
+/// type I. Allocates.
+template <class Space>
+SINEW_API std::vector<double> least_norm_rates(const ChainVelocity<Space>& velocity,
+                                               const Vec<double, Space::dof>& twist);
+
 }  // namespace sinew::inline v0

@@ -47,6 +47,16 @@ using AnyChainRobot = std::variant<ChainRobot<Planar>, ChainRobot<Spatial>>;
 /// `material` or `diameter`, or that there are no chains of its kind.
 SINEW_API Expected<AnyChainRobot> chain_robot(const AnyRobot& robot, ChainModel model = ChainModel::weighted);
 
+/// The chain's own frame, x beside its first link and y along it: held by the base where there is a strut,
+/// else turned so that the tip lies towards the platform point.
+template <class Space>
+typename Space::template Frame<double> chain_frame(const ChainLeg<Space>& leg, std::span<const double> angles,
+                                                   const typename Space::template Frame<double>& platform) {
+  if (leg.has_strut()) return leg.base;
+  const auto r = (platform.point(leg.platform_point) - leg.base.p).eval();
+  return Space::aimed(leg.base, r, leg.chain.tip(angles).position);
+}
+
 /// Base point, joints and tip of a chain, base axes, where it leads to the platform. Allocates.
 template <class Space>
 SINEW_API std::vector<Vec<double, Space::dimension>> chain_points(
@@ -110,7 +120,8 @@ struct ChainWork {
 ///
 /// Not converged, with the last equilibrium on the path in `state`: `stalled` where the path folds, or is
 /// lost; `iteration_limit`; `singular` where the platform can move with everything held (type II), or a leg
-/// has so few joints that a tendon's length and its closure leave none to yield. `slack` (all fields are
+/// has so few joints that a tendon's length and its closure leave none to yield; `left_domain` for a length
+/// that asks joints for half a turn. `slack` (all fields are
 /// valid) where a tendon would have to push.
 template <class Space>
 SINEW_API Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
@@ -200,5 +211,10 @@ struct TipWrench {
 };
 SINEW_API TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,
                                std::span<const double> angles);
+
+/// The same of a leg whose springs are bent so, in base axes: force, then moment. Allocates.
+template <class Space>
+SINEW_API Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>& leg, std::span<const double> angles,
+                                             const typename Space::template Frame<double>& platform);
 
 }  // namespace sinew::inline v0

@@ -121,6 +121,13 @@ void close_chain(const ChainLeg<Space>& leg, const typename Space::template Fram
   }
 }
 
+/// ∂c/∂θ of a motor at the base, which turns the whole chain.
+inline double motor_slope(const ChainLeg<Planar>& leg, std::span<const double> angles,
+                          const ChainClosure<Planar>& at) {
+  const Vec2<double> u = leg.base.rotate(leg.chain.tip(angles).position);
+  return at.c_x[0] * u[1] - at.c_x[1] * u[0];
+}
+
 /// Linearised: A δz + B δx = −r in z = angles, force and, of a length that is held, its tension.
 template <class Space>
 struct LegSystem {

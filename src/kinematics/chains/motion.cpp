@@ -37,10 +37,7 @@ class LegMotion {
     const std::span<const double> joints(angles.data() + motors_, size_ - motors_);
     close_chain(leg_, platform, joints, at_);
     if constexpr (Space::dimension == 2)
-      if (motors_ > 0) {
-        const Vec2<double> u = leg_.base.rotate(leg_.chain.tip(joints).position);
-        g[0] = -(at_.c_x[1] * u[0] - at_.c_x[0] * u[1]);
-      }
+      if (motors_ > 0) g[0] = motor_slope(leg_, joints, at_);
     for (std::size_t j = motors_; j < size_; ++j) g[j] = at_.c_q[j - motors_];
     return at_.c;
   }

@@ -21,11 +21,7 @@ ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Spa
     rates.J.row(static_cast<Eigen::Index>(i)) = at.distance * at.c_x.transpose();
     auto column = rates.K[i].begin();
     if constexpr (Space::dimension == 2)
-      if (robot.has_base_motors) {  // the whole chain turns about the base
-        const Vec2<double> u = leg.base.rotate(leg.chain.tip(legs[i].of(leg.chain)).position);
-        const Vec2<double> line = at.distance * Vec2<double>(at.c_x[0], at.c_x[1]);
-        *column++ = line[1] * u[0] - line[0] * u[1];
-      }
+      if (robot.has_base_motors) *column++ = -at.distance * motor_slope(leg, legs[i].of(leg.chain), at);
     for (std::size_t j = 0; j < static_cast<std::size_t>(leg.chain.joints()); ++j)
       *column++ = -at.distance * at.c_q[j];
     rates.columns[i] = static_cast<int>(column - rates.K[i].begin());
@@ -121,12 +117,31 @@ TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,
   return {Vec2<double>(found[0], found[1]) / unit, found[2], size > 0 ? std::sqrt(miss / size) : 0};
 }
 
-#define SINEW_OF(Space)                                                                               \
-  template SINEW_API ChainRates<Space> chain_rates(const ChainRobot<Space>&, const Space::Pose&,      \
-                                                   std::span<const ChainLegState>);                   \
-  template SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>&,  \
-                                                                           const ChainState<Space>&); \
-  template SINEW_API double evenness_gap(const ChainRobot<Space>&, const ChainState<Space>&,          \
+template <class Space>
+Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>& leg, std::span<const double> angles,
+                                   const typename Space::template Frame<double>& platform) {
+  std::vector<double> torques;
+  for (int j = 0; j < leg.chain.joints(); ++j)
+    torques.push_back(leg.spring(j) * angles[static_cast<std::size_t>(j)]);
+  const TipWrench own = tip_wrench(leg.chain, torques, angles);
+  const auto frame = chain_frame(leg, angles, platform);
+  Vec<double, Space::dof> wrench;
+  if constexpr (Space::dimension == 2)
+    wrench << frame.rotate(own.force), own.moment;
+  else
+    wrench << frame.rotate(Vec3<double>(own.force.x(), own.force.y(), 0)),
+        frame.rotate(Vec3<double>(0, 0, own.moment));
+  return wrench;
+}
+
+#define SINEW_OF(Space)                                                                                  \
+  template SINEW_API ChainRates<Space> chain_rates(const ChainRobot<Space>&, const Space::Pose&,         \
+                                                   std::span<const ChainLegState>);                      \
+  template SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>&,     \
+                                                                           const ChainState<Space>&);    \
+  template SINEW_API Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>&, std::span<const double>, \
+                                                        const Space::Frame<double>&);                    \
+  template SINEW_API double evenness_gap(const ChainRobot<Space>&, const ChainState<Space>&,             \
                                          const Vec<double, Space::dof>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)

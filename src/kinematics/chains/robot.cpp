@@ -110,8 +110,7 @@ std::vector<Vec<double, Space::dimension>> chain_points(
     const ChainLeg<Space>& leg, std::span<const double> angles,
     const typename Space::template Frame<double>& platform) {
   constexpr int dimension = Space::dimension;
-  const auto r = (platform.point(leg.platform_point) - leg.base.p).eval();
-  const auto frame = leg.has_strut() ? leg.base : Space::aimed(leg.base, r, leg.chain.tip(angles).position);
+  const auto frame = chain_frame(leg, angles, platform);
   std::vector<Vec<double, dimension>> points;
   Vec2<double> at(0, 0);
   double turn = 0;

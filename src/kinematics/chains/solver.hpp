@@ -4,6 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "kinematics/chains/elimination.hpp"
 #include "kinematics/chains/leg_system.hpp"
@@ -228,15 +229,33 @@ bool is_rigid(const ChainLeg<Space>& leg, const ChainHold& hold) {
   return hold.length_of >= 0 && leg.chain.joints() <= (leg.has_strut() ? 1 : 2);
 }
 
+/// The largest change of a tendon's length that no joint needs half a turn for [m].
+template <class Space>
+double most_change(const ChainLeg<Space>& leg) {
+  double most = 0;
+  for (int j = 0; j < leg.chain.joints(); ++j)
+    most += std::numbers::pi * leg.tendon_offset * leg.chain.turn_weight(j);
+  return most;
+}
+
 /// Why no path can lead to that; ok where one may.
 template <class Space>
 Report check_hold(const ChainRobot<Space>& robot, std::span<const ChainHold> hold) {
   Report report;
-  for (std::size_t i = 0; i < hold.size() && report.ok(); ++i)
-    if (is_rigid(robot.legs[i], hold[i]))
+  for (std::size_t i = 0; i < hold.size() && report.ok(); ++i) {
+    const ChainLeg<Space>& leg = robot.legs[i];
+    if (is_rigid(leg, hold[i])) {
       say_leg(report, Status::singular, i,
               " has so few joints that none can yield while its tendon's length is held; give the link more "
               "joints, or hold tensions");
+    } else if (hold[i].length_of >= 0 && !(std::abs(hold[i].length - leg.chain.length) < most_change(leg))) {
+      say_leg(report, Status::left_domain, i, ": a tendon that is ");
+      append_mm(report.message, hold[i].length);
+      report.message.append(
+          " long would fold every joint by half a turn; its length at rest changes by at most ");
+      append_mm(report.message, most_change(leg));
+    }
+  }
   return report;
 }
 
