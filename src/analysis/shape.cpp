@@ -1,7 +1,7 @@
 #include "sinew/analysis/shape.hpp"
 
 #include "robot/pose.hpp"
-#include "robot/rod_system.hpp"
+#include "robot/tangent_system.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -58,15 +58,11 @@ void add_leg(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const ty
 }
 
 /// Rods as their coordinates shape them, between the base and the platform.
-AnyShape rods_shape(const ParallelRobot<RodLeg>& robot, const SpatialPose& pose, Numbers coordinates,
-                    int samples) {
+template <class System>
+AnyShape rods_shape(System system, const SpatialPose& pose, Numbers coordinates, int samples) {
   SpatialShape shape;
-  RodSystem system(robot);
   system.set_platform(SE3<double>::from(pose));
-  for (int k = 0; k < system.rods(); ++k)
-    system.set_rod(
-        k, coordinates.subspan(static_cast<std::size_t>(k * RodLeg::coordinates), RodLeg::coordinates),
-        system.aim(k).lateral);
+  system.set_rods(coordinates);
   system.evaluate();
   for (int k = 0; k < system.rods(); ++k) {
     shape.backbones.push_back(system.centreline(k, samples));
@@ -95,8 +91,10 @@ AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinat
         return shape;
       },
       [&] {
-        return rods_shape(std::get<ParallelRobot<RodLeg>>(robot.model), std::get<SpatialPose>(pose),
-                          coordinates, samples);
+        const auto& rods = std::get<ParallelRobot<RodLeg>>(robot.model);
+        const SpatialPose& place = std::get<SpatialPose>(pose);
+        return bend_in_planes(rods) ? rods_shape(RodSystem(rods), place, coordinates, samples)
+                                    : rods_shape(TangentSystem(rods), place, coordinates, samples);
       });
 }
 

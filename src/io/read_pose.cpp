@@ -28,4 +28,9 @@ SpatialPose read_spatial_pose(Reader pose) {
   return spatial_pose(SE3<double>::from(result));
 }
 
+Vec3<double> read_gravity(const Reader& gravity) {
+  const auto [x, y, z] = gravity.array<3>(Dimension::acceleration, Range::between(-1e6, 1e6));
+  return {x, y, z};
+}
+
 }  // namespace sinew::inline v0

@@ -149,7 +149,26 @@ SE3<double> guide_frame(const Vec3<double>& point, const Vec3<double>& ahead) {
   return {point, SO3<double>::from(axes)};
 }
 
-RodLeg read_rod(Reader& leg, Reader& link) {
+/// E, and what shear, stretch and weight need.
+void read_rod_material(Rod& rod, Reader& link) {
+  if (const auto law = link.optional("law"))
+    rod.is_cosserat = law->choice({"kirchhoff", "cosserat"}) == "cosserat";
+  Reader material = link.required("material", "{E: Young's modulus}");
+  rod.youngs_modulus = material.required("E").quantity(Dimension::pressure, Range::positive());
+  const auto shear = material.optional("G"), poisson = material.optional("poisson");
+  if (shear) rod.shear_modulus = shear->quantity(Dimension::pressure, Range::positive());
+  if (poisson)
+    rod.shear_modulus =
+        rod.youngs_modulus / (2 + 2 * poisson->number({.low = -1, .high = 0.5, .low_excluded = true}));
+  if (shear && poisson) poisson->refuse("ambiguous", "G and poisson both say how it shears; keep one");
+  if (rod.is_cosserat && !shear && !poisson)
+    material.fail("missing_key", "law: cosserat, which shears, needs G, or poisson: Poisson's ratio");
+  if (const auto density = material.optional("density"))
+    rod.density = density->quantity(Dimension::density, Range::not_negative());
+  material.close();
+}
+
+RodLeg read_rod(Reader& leg, Reader& link, Reader& closure, bool is_clamped) {
   RodLeg result;
   Reader base = leg.required("base", "{point, ...}");
   const auto point = read_point<Spatial>(base.required("point", "where the rod leaves its guide"));
@@ -157,9 +176,11 @@ RodLeg read_rod(Reader& leg, Reader& link) {
   if (const auto shared = base.optional("shared")) shared->boolean();  // asked again by check_base_points
   base.close();
   Rod::fields(result.link, FieldReader(link));
-  Reader material = link.required("material", "{E: Young's modulus}");
-  result.link.youngs_modulus = material.required("E").quantity(Dimension::pressure, Range::positive());
-  material.close();
+  read_rod_material(result.link, link);
+  result.is_clamped = is_clamped;
+  if (is_clamped)
+    if (const auto direction = closure.optional("direction"))
+      result.platform_tangent = read_direction(*direction);
   result.platform_point =
       read_point<Spatial>(leg.required("platform_point", "where the leg meets the platform"));
   read_actuated<RodLeg>(leg);
@@ -182,14 +203,6 @@ LegT read_closing_leg(Reader& leg, Reader& link, Reader& closure) {
   return result;
 }
 
-template <class LegT>
-LegT read_leg_of(Reader& leg, Reader& link, Reader& closure) {
-  if constexpr (BearsLoad<LegT>)
-    return read_rod(leg, link);
-  else
-    return read_closing_leg<LegT>(leg, link, closure);
-}
-
 /// The kind of leg that link and closure name, out of all kinds of one space; none where there is no such
 /// kind.
 template <class... Legs>
@@ -200,23 +213,31 @@ std::optional<AnyLeg<Legs...>> read_leg(Reader& leg, TypeList<Legs...>) {
     names.erase(std::unique(names.begin(), names.end()), names.end());
     return names[part.required("type").choice_index(names)];
   };
-  const std::string_view link_name = kind(link, {Legs::Link::name...});
-  const std::string_view closure_name = kind(closure, {Legs::Closure::name...});
   AnyLeg<Legs...> result{};
-  const auto read_if = [&]<class LegT>(std::type_identity<LegT>) {
-    if (LegT::Link::name != link_name || LegT::Closure::name != closure_name) return false;
-    result.kind = read_leg_of<LegT>(leg, link, closure);
-    return true;
-  };
-  const auto pairs = std::array{fmt::format("{} with {}", Legs::Link::name, Legs::Closure::name)...};
-  if (!(read_if(std::type_identity<Legs>{}) || ...)) {
-    leg.fail("no_such_leg", fmt::format("no leg joins link {} to closure {}; there are {}", link_name,
-                                        closure_name, fmt::join(pairs, ", ")));
-    return {};
+  if constexpr ((BearsLoad<Legs> && ...)) {
+    kind(link, {Rod::name});
+    result.kind = read_rod(leg, link, closure, kind(closure, {Ball::name, Clamp::name}) == Clamp::name);
+    link.close();
+    closure.close();
+    return result;
+  } else {
+    const std::string_view link_name = kind(link, {Legs::Link::name...});
+    const std::string_view closure_name = kind(closure, {Legs::Closure::name...});
+    const auto read_if = [&]<class LegT>(std::type_identity<LegT>) {
+      if (LegT::Link::name != link_name || LegT::Closure::name != closure_name) return false;
+      result.kind = read_closing_leg<LegT>(leg, link, closure);
+      return true;
+    };
+    const auto pairs = std::array{fmt::format("{} with {}", Legs::Link::name, Legs::Closure::name)...};
+    if (!(read_if(std::type_identity<Legs>{}) || ...)) {
+      leg.fail("no_such_leg", fmt::format("no leg joins link {} to closure {}; there are {}", link_name,
+                                          closure_name, fmt::join(pairs, ", ")));
+      return {};
+    }
+    link.close();
+    closure.close();
+    return result;
   }
-  link.close();
-  closure.close();
-  return result;
 }
 
 /// The legs of a file, and what is tied.
@@ -346,9 +367,19 @@ double largest_platform_point(const std::vector<Any>& legs) {
   return radius;
 }
 
+/// What weighs on rods; on legs that bear no load nothing does.
+template <class Any>
+void read_mass(Reader& platform, Weight& weight) {
+  const auto mass = platform.optional("mass");
+  if (!mass) return;
+  if (!std::is_same_v<Any, AnyLoadedLeg>)
+    mass->refuse("no_effect", "the legs bear no load, so that nothing depends on it; leave it out");
+  weight.platform_mass = mass->quantity(Dimension::mass, Range::not_negative());
+}
+
 /// Legs, platform and home of one space.
 template <class Any, class Kinds>
-std::optional<RobotModel> read_model(Reader& robot, Kinds kinds) {
+std::optional<RobotModel> read_model(Reader& robot, Kinds kinds, Weight& weight) {
   const Legs<Any> read = read_legs<Any>(robot, kinds);
   double radius = largest_platform_point(read.legs);
   typename Any::Space::Pose home;
@@ -356,6 +387,7 @@ std::optional<RobotModel> read_model(Reader& robot, Kinds kinds) {
     home = read_home<typename Any::Space>(*platform);
     if (const auto given = platform->optional("radius"))
       radius = given->quantity(Dimension::length, Range::size());
+    read_mass<Any>(*platform, weight);
     platform->close();
   } else if (Any::Space::dimension == 3) {
     robot.required("platform", "{home: {position, quaternion}}");
@@ -408,11 +440,16 @@ bool has_misplaced_rods(Reader& robot, bool is_spatial) {
   return true;
 }
 
-std::optional<RobotModel> read_model_of_space(Reader& robot, bool is_spatial) {
-  if (is_spatial && std::ranges::count(link_types(robot), Rod::name) > 0)
-    return read_model<AnyLoadedLeg>(robot, LoadedLegs{});
-  if (is_spatial) return read_model<AnySpatialLeg>(robot, SpatialLegs{});
-  return read_model<AnyPlanarLeg>(robot, PlanarLegs{});
+std::optional<RobotModel> read_model_of_space(Reader& robot, bool is_spatial, Weight& weight) {
+  const bool has_rods = is_spatial && std::ranges::count(link_types(robot), Rod::name) > 0;
+  if (const auto gravity = robot.optional("gravity")) {
+    if (!has_rods)
+      gravity->refuse("no_effect", "the legs bear no load, so that nothing depends on it; leave it out");
+    weight.gravity = read_gravity(*gravity);
+  }
+  if (has_rods) return read_model<AnyLoadedLeg>(robot, LoadedLegs{}, weight);
+  if (is_spatial) return read_model<AnySpatialLeg>(robot, SpatialLegs{}, weight);
+  return read_model<AnyPlanarLeg>(robot, PlanarLegs{}, weight);
 }
 
 /// Reads a document that lists its legs.
@@ -426,7 +463,7 @@ AnyRobot read_listed(Reader& robot) {
   const auto space = robot.optional("space");
   const bool is_spatial = space && space->choice({"planar", "spatial"}) == "spatial";
   if (has_misplaced_rods(robot, is_spatial)) return result;
-  auto model = read_model_of_space(robot, is_spatial);
+  auto model = read_model_of_space(robot, is_spatial, result.weight);
   robot.close();
   if (model) result.model = std::move(*model);
   return result;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "kinematics/rods/batch.hpp"
+#include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/inverse.hpp"
 
 namespace sinew::inline v0 {
@@ -24,9 +25,29 @@ Equilibrium refused() {
   return answer;
 }
 
-RodQuestion question_of(const EquilibriumOptions& options) {
+/// Calls `use(rods)` with what the workspace keeps of rods, of the one kind or the other.
+template <class Use>
+decltype(auto) with_rods(Workspace& work, Use&& use) {
+  return work.rods ? use(static_cast<RodWorkOf<RodSystem>&>(*work.rods))
+                   : use(static_cast<RodWorkOf<TangentSystem>&>(*work.spatial_rods));
+}
+
+/// What weighs on rods; a state at rest under another gravity is none.
+void set_gravity(RodWorkOf<RodSystem>&, const Vec3<double>&) {}  // rods without weight
+void set_gravity(RodWorkOf<TangentSystem>& rods, const Vec3<double>& gravity) {
+  if (rods.system.gravity() == gravity) return;
+  rods.system.set_gravity(gravity);
+  rods.knows_home = rods.is_solved = false;
+}
+
+/// The question with the weight of the platform in its wrench.
+template <class Work>
+RodQuestion question_of(const AnyRobot& robot, const EquilibriumOptions& options, Work& rods) {
   RodQuestion question;
+  const Vec3<double> gravity = options.gravity.value_or(robot.weight.gravity);
+  set_gravity(rods, gravity);
   question.wrench = options.wrench;
+  question.wrench.head<3>() += robot.weight.platform_mass * gravity;
   if (options.start) question.start = SE3<double>::from(*options.start);
   question.resume = options.resume;
   question.max_iterations = options.max_iterations;
@@ -35,8 +56,8 @@ RodQuestion question_of(const EquilibriumOptions& options) {
 }
 
 /// The state of the system into the workspace, and what is seen of it.
-Equilibrium answer_of(const Report& report, Workspace& work, bool with_coordinates) {
-  const RodSystem& system = work.rods->system;
+template <class System>
+Equilibrium answer_of(const Report& report, const System& system, Workspace& work, bool with_coordinates) {
   Equilibrium answer;
   answer.report = report;
   answer.pose = spatial_pose(system.platform());
@@ -58,41 +79,64 @@ double largest_singular_value(const double* rows, int columns) {
   return sigma[0];
 }
 
-std::vector<RodReading> readings_of(const RodSystem& system) {
+template <class System>
+std::vector<RodReading> readings_of(const System& system) {
   std::vector<RodReading> rods;
   for (int k = 0; k < system.rods(); ++k) rods.push_back(system.rod(k));
   return rods;
 }
 
-double energy_of(const RodSystem& system) {
+template <class System>
+double energy_of(const System& system) {
   double energy = 0;
   for (int k = 0; k < system.rods(); ++k) energy += system.rod(k).energy;
   return energy;
 }
 
+double weight_of(const RodSystem&) { return 0; }
+double weight_of(const TangentSystem& system) { return system.weight_energy(); }
+
 /// A moment that keeps its axes has no potential.
-double potential_of(const RodSystem& system) {
-  if (system.wrench().tail<3>() != Vec3<double>::Zero()) return std::numeric_limits<double>::quiet_NaN();
-  return energy_of(system) - dot(Vec3<double>(system.wrench().head<3>()), system.platform().p);
+template <class System>
+double potential_of(const System& system) {
+  if (system.wrench().template tail<3>() != Vec3<double>::Zero())
+    return std::numeric_limits<double>::quiet_NaN();
+  return energy_of(system) + weight_of(system) -
+         dot(Vec3<double>(system.wrench().template head<3>()), system.platform().p);
+}
+
+/// Calls `solve(rods, home, question)` and answers with what it found.
+template <class Solve>
+Equilibrium solved(const AnyRobot& robot, const EquilibriumOptions& options, Workspace& work, Solve&& solve) {
+  const auto* loaded = rods_of(robot);
+  if (!loaded) return refused();
+  return with_rods(work, [&](auto& rods) {
+    const Report report = solve(rods, SE3<double>::from(loaded->home), question_of(robot, options, rods));
+    return answer_of(report, rods.system, work, options.judge);
+  });
 }
 
 }  // namespace
 
 Equilibrium equilibrium(const AnyRobot& robot, Numbers inputs, const EquilibriumOptions& options,
                         Workspace& work) {
-  const auto* rods = rods_of(robot);
-  if (!rods) return refused();
-  const Report report = solve_rods(*work.rods, SE3<double>::from(rods->home), inputs, question_of(options));
-  return answer_of(report, work, options.judge);
+  return solved(robot, options, work, [&](auto& rods, const SE3<double>& home, const RodQuestion& question) {
+    return solve_rods(rods, home, inputs, question);
+  });
 }
 
 Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
                                 const EquilibriumOptions& options, Workspace& work) {
-  const auto* rods = rods_of(robot);
-  if (!rods) return refused();
-  const Report report = solve_rods_at(*work.rods, SE3<double>::from(rods->home),
-                                      {wanted.z, wanted.e1, wanted.e2}, question_of(options));
-  return answer_of(report, work, options.judge);
+  return solved(robot, options, work, [&](auto& rods, const SE3<double>& home, const RodQuestion& question) {
+    return solve_rods_at(rods, home, {wanted.z, wanted.e1, wanted.e2}, question);
+  });
+}
+
+Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted,
+                                const EquilibriumOptions& options, Workspace& work) {
+  return solved(robot, options, work, [&](auto& rods, const SE3<double>& home, const RodQuestion& question) {
+    return hold_rods(rods, home, SE3<double>::from(wanted), question);
+  });
 }
 
 void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
@@ -100,16 +144,27 @@ void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench&
   std::fill(statuses.begin(), statuses.end(), Status::left_domain);
   const auto* rods = rods_of(robot);
   if (!rods || statuses.size() != poses.size() || rows.size() != poses.size() * at(rods->total.input)) return;
-  std::vector<SE3<double>> found(poses.size());
-  RodBatch(*work.rods, SE3<double>::from(rods->home)).solve(rows, wrench, found, statuses);
-  std::transform(found.begin(), found.end(), poses.begin(), spatial_pose);
+  if (work.rods) {
+    std::vector<SE3<double>> found(poses.size());
+    const SpatialWrench whole = question_of(robot, {.wrench = wrench}, *work.rods).wrench;
+    RodBatch(*work.rods, SE3<double>::from(rods->home)).solve(rows, whole, found, statuses);
+    std::transform(found.begin(), found.end(), poses.begin(), spatial_pose);
+    return;
+  }
+  for (std::size_t k = 0; k < poses.size(); ++k) {  // one after the other
+    const EquilibriumOptions options{.wrench = wrench, .resume = true, .judge = false};
+    const Equilibrium found =
+        equilibrium(robot, rows.subspan(k * at(rods->total.input), at(rods->total.input)), options, work);
+    poses[k] = found.pose;
+    statuses[k] = found.is_solved() ? Status::converged : found.report.status;
+  }
 }
 
-RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
+namespace {
+
+template <class System>
+RodAnalysis analysis_of(const ParallelRobot<RodLeg>& robot, System& system) {
   RodAnalysis analysis;
-  const auto* loaded = rods_of(robot);
-  if (!loaded) return analysis;
-  RodSystem& system = work.rods->system;
   system.evaluate();
   system.linearise();
   std::copy_n(system.stiffness().data(), 36, analysis.stiffness.begin());
@@ -118,7 +173,7 @@ RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
   analysis.sensitivity.resize(6 * inputs);
   analysis.feed.resize(6 * inputs);
   for (std::size_t k = 0; k < inputs; ++k) {
-    const RodSystem::Wrench feed = -system.feed_wrench(static_cast<int>(k));
+    const SpatialWrench feed = -system.feed_wrench(static_cast<int>(k));
     std::array<double, 6> twist;
     factors.solve(feed.data(), twist.data());
     for (std::size_t r = 0; r < 6; ++r) {
@@ -139,7 +194,7 @@ RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
   for (int k = 0; k < system.rods(); ++k) {
     analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
     analysis.largest_strain = std::max(analysis.largest_strain, analysis.rods[at(k)].largest_curvature *
-                                                                    loaded->legs[at(k)].link.diameter / 2);
+                                                                    robot.legs[at(k)].link.diameter / 2);
   }
   analysis.position_index = largest_singular_value(&analysis.sensitivity[0], system.inputs());
   analysis.rotation_index = largest_singular_value(&analysis.sensitivity[3 * inputs], system.inputs());
@@ -147,6 +202,14 @@ RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
   analysis.potential = potential_of(system);
   analysis.smallest_pivot = factors.smallest_pivot();
   return analysis;
+}
+
+}  // namespace
+
+RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
+  const auto* loaded = rods_of(robot);
+  if (!loaded) return {};
+  return with_rods(work, [&](auto& rods) { return analysis_of(*loaded, rods.system); });
 }
 
 std::string_view to_string(LoadEnd end) noexcept {
@@ -162,17 +225,20 @@ std::string_view to_string(LoadEnd end) noexcept {
 }
 
 LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit, Workspace& work) {
-  if (!rods_of(robot) || !work.rods->is_solved || !direction.allFinite() || !(limit > 0)) return {};
-  RodSystem& system = work.rods->system;
-  system.evaluate();
-  system.linearise();
-  RodTarget target = present(system);
-  target.wrench += limit * direction;
-  const RodPathEnd end = follow(system, target, {.stop_at_instability = true}, work.rods->spare);
-  const LoadEnd why = end.arrived           ? LoadEnd::limit
-                      : end.became_unstable ? LoadEnd::bifurcation
-                                            : LoadEnd::fold;
-  return {limit * end.progress, why, spatial_pose(system.platform()), system.evaluate()};
+  if (!rods_of(robot) || !direction.allFinite() || !(limit > 0)) return {};
+  return with_rods(work, [&](auto& rods) -> LoadPath {
+    if (!rods.is_solved) return {};
+    auto& system = rods.system;
+    system.evaluate();
+    system.linearise();
+    RodTarget target = present(system);
+    target.wrench += limit * direction;
+    const RodPathEnd end = follow(system, target, {.stop_at_instability = true}, rods.spare);
+    const LoadEnd why = end.arrived           ? LoadEnd::limit
+                        : end.became_unstable ? LoadEnd::bifurcation
+                                              : LoadEnd::fold;
+    return {limit * end.progress, why, spatial_pose(system.platform()), system.evaluate()};
+  });
 }
 
 namespace {
@@ -205,26 +271,27 @@ std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs, 
                                          Workspace& work) {
   constexpr int starts = 160;
   std::vector<FoundEquilibrium> found;
-  const auto* rods = rods_of(robot);
-  if (!rods) return found;
-  const SE3<double> home = SE3<double>::from(rods->home);
-  RodSystem& system = work.rods->system;
+  const auto* loaded = rods_of(robot);
+  if (!loaded) return found;
+  const SE3<double> home = SE3<double>::from(loaded->home);
   const double size = home.p.norm();
-  for (int k = -1; k < starts; ++k) {
-    RodQuestion question;
-    question.wrench = wrench;
-    if (k >= 0) question.start = scattered(home, size, k);
-    const Report report = solve_rods(*work.rods, home, inputs, question);
-    if (!report.ok() && report.status != Status::unstable) continue;
-    if (!is_new(found, system.platform(), size)) continue;
-    FoundEquilibrium one;
-    one.pose = spatial_pose(system.platform());
-    one.rods = readings_of(system);
-    one.residual = report.residual;
-    one.potential = potential_of(system);
-    one.unstable_directions = unstable_directions(system);
-    found.push_back(std::move(one));
-  }
+  with_rods(work, [&](auto& rods) {
+    const auto& system = rods.system;
+    RodQuestion question = question_of(robot, {.wrench = wrench}, rods);
+    for (int k = -1; k < starts; ++k) {
+      if (k >= 0) question.start = scattered(home, size, k);
+      const Report report = solve_rods(rods, home, inputs, question);
+      if (!report.ok() && report.status != Status::unstable) continue;
+      if (!is_new(found, system.platform(), size)) continue;
+      FoundEquilibrium one;
+      one.pose = spatial_pose(system.platform());
+      one.rods = readings_of(system);
+      one.residual = report.residual;
+      one.potential = potential_of(system);
+      one.unstable_directions = unstable_directions(system);
+      found.push_back(std::move(one));
+    }
+  });
   std::ranges::sort(found, {}, [](const FoundEquilibrium& one) {
     return std::isfinite(one.potential) ? one.potential : one.pose.position[2];
   });

@@ -4,23 +4,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
+
+#include "link/interpolation.hpp"
 
 namespace sinew::inline v0 {
 namespace {
-
-using Real = long double;
-
-/// Legendre polynomials of degree n − 1 and n at x.
-std::pair<Real, Real> legendre(std::size_t n, Real x) {
-  Real before = 1, value = x;
-  for (std::size_t k = 2; k <= n; ++k) {
-    const Real next = (Real(2 * k - 1) * x * value - Real(k - 1) * before) / Real(k);
-    before = value;
-    value = next;
-  }
-  return {before, value};
-}
 
 /// Gauss nodes and weights of (0, 1), ascending: Newton's method on the Legendre polynomial.
 template <std::size_t N>
@@ -45,24 +33,6 @@ Real lagrange(const std::array<Real, M>& z, std::size_t j, Real s) {
   for (std::size_t m = 0; m < M; ++m)
     if (m != j) value *= (s - z[m]) / (z[j] - z[m]);
   return value;
-}
-/// ℓⱼ′ at zᵢ, for all i and j: by barycentric weights, as every program that links this waits for it.
-template <std::size_t M>
-std::array<std::array<Real, M>, M> lagrange_slopes(const std::array<Real, M>& z) {
-  std::array<Real, M> weight;
-  for (std::size_t j = 0; j < M; ++j) {
-    weight[j] = 1;
-    for (std::size_t m = 0; m < M; ++m)
-      if (m != j) weight[j] /= z[j] - z[m];
-  }
-  std::array<std::array<Real, M>, M> slope{};
-  for (std::size_t i = 0; i < M; ++i)
-    for (std::size_t j = 0; j < M; ++j) {
-      if (i == j) continue;
-      slope[i][j] = weight[j] / (weight[i] * (z[i] - z[j]));
-      slope[i][i] += 1 / (z[i] - z[j]);
-    }
-  return slope;
 }
 
 }  // namespace

@@ -53,9 +53,14 @@ Json leg_json(const RodLeg& leg, const LegPlace& place) {
   Json link{{"type", Rod::name}};
   Rod::fields(leg.link, FieldWriter{link});
   link["material"] = {{"E", leg.link.youngs_modulus}};
+  if (leg.link.shear_modulus > 0) link["material"]["G"] = leg.link.shear_modulus;
+  if (leg.link.density > 0) link["material"]["density"] = leg.link.density;
+  link["law"] = leg.link.is_cosserat ? "cosserat" : "kirchhoff";
+  Json closure{{"type", leg.is_clamped ? Clamp::name : Ball::name}};
+  if (leg.is_clamped) closure["direction"] = to_json(leg.platform_tangent);
   return {{"base", {{"point", to_json(leg.base.p)}, {"direction", to_json(leg.tangent())}}},
           {"link", link},
-          {"closure", {{"type", Ball::name}}},
+          {"closure", closure},
           {"platform_point", to_json(leg.platform_point)},
           {"actuated", {RodFeeder::input_kinds[0].name}},
           {"input", place.input}};
@@ -114,6 +119,10 @@ void answer_describe(Context& context) {
   answer["pose"] = pose_json(is_planar);
   answer["home"] = to_json(home(context.robot));
   answer["platform"] = {{"radius", radius}};
+  if (bears_load(context.robot)) {
+    answer["platform"]["mass"] = context.robot.weight.platform_mass;
+    answer["gravity"] = to_json(context.robot.weight.gravity);
+  }
   answer["freedoms"] = {{"platform", dof(context.robot)},
                         {"constraints", row_count(context.robot)},
                         {"actuators", input_count(context.robot)}};

@@ -45,6 +45,11 @@ SpatialWrench read_wrench(const Reader& list) {
 EquilibriumOptions read_options(Context& context) {
   EquilibriumOptions options;
   if (const auto wrench = context.query.optional("wrench")) options.wrench = read_wrench(*wrench);
+  if (const auto gravity = context.query.optional("gravity")) {
+    options.gravity = read_gravity(*gravity);
+    if (!has_weight(context.robot))
+      gravity->refuse("no_effect", "nothing of this robot has a mass; give its rods a density, or its platform one");
+  }
   if (context.max_iterations) options.max_iterations = *context.max_iterations;
   return options;
 }
@@ -76,7 +81,8 @@ Json rods_json(std::span<const RodReading> rods) {
     legs.push_back({{"length", rod.length},
                     {"chord", rod.chord},
                     {"force", to_json(rod.force)},
-                    {"force_0", to_json(rod.force)},
+                    {"force_0", to_json(rod.force_0)},
+                    {"moment", to_json(rod.moment)},
                     {"moment_0", to_json(moment)},
                     {"curvature_0", {rod.curvature_0.x(), rod.curvature_0.y()}},
                     {"tip", to_json(rod.tip)},
@@ -126,18 +132,29 @@ IndependentPose read_independent(const Context& context, Reader& asked) {
   return pose;
 }
 
+constexpr int pose_inputs = 6;  ///< so many lengths hold a pose
+
 /// Questions of other robots that have no meaning here, each with its way out.
 void refuse_what_rods_lack(Context& context) {
-  if (const auto pose = context.query.optional("pose"))
+  const auto pose = context.query.optional("pose");
+  if (pose && input_count(context.robot) != pose_inputs)
     pose->fail(
         "not_available",
         "on rods the rest of a pose follows from lengths and load; give independent: {z, e1, e2}, or inputs");
   read_branch(context);  // refuses bending, curvature and elbow
 }
 
-/// Where a robot of rods is asked to be: at inputs, or at coordinates that lengths are found for.
+/// A pose that six lengths hold.
+std::optional<SpatialPose> read_held_pose(const Context& context) {
+  auto pose = context.query.optional("pose");
+  if (!pose || input_count(context.robot) != pose_inputs) return {};
+  return read_spatial_pose(std::move(*pose));
+}
+
+/// Where a robot of rods is asked to be: at inputs, or at a pose or coordinates that lengths are found for.
 struct RodQuery {
   std::vector<double> inputs;
+  std::optional<SpatialPose> pose;
   std::optional<IndependentPose> independent;
   EquilibriumOptions options;
 };
@@ -152,17 +169,26 @@ RodQuery read_configuration_of_rods(Context& context) {
   auto independent = context.query.optional("independent");
   if (inputs) asked.inputs = read_inputs(context, *inputs);
   if (independent) asked.independent = read_independent(context, *independent);
-  if (!inputs && !independent && !context.query.has("pose"))
-    context.query.fail("missing_key", "give inputs (rod lengths, in leg order), or independent: {z, e1, e2}");
-  if (inputs && independent)
-    context.query.fail("ambiguous", "inputs and independent both say where the platform is; keep one");
-  if (independent && start)
+  asked.pose = read_held_pose(context);
+  const bool has_pose = context.query.has("pose");
+  if (!inputs && !independent && !has_pose)
+    context.query.fail("missing_key",
+                       input_count(context.robot) == pose_inputs
+                           ? "give inputs (rod lengths, in leg order), or pose"
+                           : "give inputs (rod lengths, in leg order), or independent: {z, e1, e2}");
+  if (inputs && (independent || asked.pose))
+    context.query.fail("ambiguous", fmt::format("inputs and {} both say where the platform is; keep one",
+                                                asked.pose ? "pose" : "independent"));
+  if ((independent || asked.pose) && start)
     context.query.fail(
-        "ambiguous", "start is where a search with given inputs begins; that of independent begins at home");
+        "ambiguous",
+        fmt::format("start is where a search with given inputs begins; that of {} begins at home",
+                    asked.pose ? "pose" : "independent"));
   return asked;
 }
 
 Equilibrium solve(Context& context, const RodQuery& asked) {
+  if (asked.pose) return inverse_equilibrium(context.robot, *asked.pose, asked.options, context.work);
   return asked.independent
              ? inverse_equilibrium(context.robot, *asked.independent, asked.options, context.work)
              : equilibrium(context.robot, asked.inputs, asked.options, context.work);
@@ -235,7 +261,10 @@ void answer_rods_forward(Context& context) {
 void answer_rods_inverse(Context& context) {
   RodQuery asked;
   refuse_what_rods_lack(context);
-  if (!context.query.has("pose") || context.query.has("independent")) {
+  asked.pose = read_held_pose(context);
+  if (input_count(context.robot) == pose_inputs && !context.query.has("independent"))
+    context.query.required("pose", "{position, quaternion}: what six rod lengths hold");
+  else if (!context.query.has("pose") || context.query.has("independent")) {
     auto independent = context.query.required("independent", "{z, e1, e2}: what three rod lengths hold");
     asked.independent = read_independent(context, independent);
   }

@@ -84,22 +84,21 @@ Report command_robot(const ParallelRobot<LegT>& robot, Numbers inputs, Workspace
 
 /// Balance of the platform on rods: J its stiffness, K what feeding them does to the wrench, s what is
 /// missing.
-Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, Workspace& work) {
-  RodSystem& system = work.rods->system;
+template <class System>
+Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, RodWorkOf<System>& rods,
+                      Workspace& work) {
+  System& system = rods.system;
   system.set_platform(SE3<double>::from(pose));
-  for (int k = 0; k < system.rods(); ++k)
-    system.set_rod(
-        k, coordinates.subspan(static_cast<std::size_t>(k * RodLeg::coordinates), RodLeg::coordinates),
-        system.aim(k).lateral);
-  work.rods->is_solved = false;
+  system.set_rods(coordinates);
+  rods.is_solved = false;
   system.evaluate();
   system.linearise();
   const int inputs = system.inputs();
   std::copy_n(system.stiffness().data(), 36, work.J.begin());
-  const RodSystem::Wrench missing = system.missing();
+  const Vec<double, 6> missing = system.missing();
   std::copy(missing.begin(), missing.end(), work.s.begin());
   for (int j = 0; j < inputs; ++j) {
-    const RodSystem::Wrench feed = system.feed_wrench(j);
+    const Vec<double, 6> feed = system.feed_wrench(j);
     for (int i = 0; i < 6; ++i) work.K[at(i, j, inputs)] = -feed[i];
   }
   return {MatrixView(work.J.data(), 6, 6), MatrixView(work.K.data(), 6, inputs), work.s, system.rod_error(),
@@ -111,7 +110,11 @@ Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, Workspace& w
 Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
   return visit_closing(
       robot, [&](const auto& r) { return assemble_robot(r, pose, coordinates, work); },
-      [&] { return assemble_rods(std::get<SpatialPose>(pose), coordinates, work); });
+      [&] {
+        const SpatialPose& place = std::get<SpatialPose>(pose);
+        return work.rods ? assemble_rods(place, coordinates, *work.rods, work)
+                         : assemble_rods(place, coordinates, *work.spatial_rods, work);
+      });
 }
 
 MatrixView homogenise(const AnyRobot& robot, const Reduced& reduced, Workspace& work) {
@@ -230,8 +233,12 @@ Workspace::Workspace(const AnyRobot& robot) {
   const auto rows_ = static_cast<std::size_t>(row_count(robot));
   const auto inputs_ = static_cast<std::size_t>(input_count(robot));
   const auto dof_ = static_cast<std::size_t>(sinew::dof(robot));
-  if (const auto* loaded = std::get_if<ParallelRobot<RodLeg>>(&robot.model))
-    rods = std::make_unique<RodWork>(*loaded);
+  if (const auto* loaded = std::get_if<ParallelRobot<RodLeg>>(&robot.model)) {
+    if (bend_in_planes(*loaded))
+      rods = std::make_unique<RodWork>(*loaded);
+    else
+      spatial_rods = std::make_unique<TangentWork>(*loaded);
+  }
   coordinates.resize(static_cast<std::size_t>(coordinate_count(robot)));
   inputs.resize(inputs_);
   J.resize(rows_ * dof_);

@@ -179,6 +179,10 @@ Vec3<double> RodSystem::platform_point(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) { return vector_of(rods.platform_point, i); });
 }
 
+double RodSystem::stiffness(int rod) const {
+  return with_rod(rod, [](const auto& rods, int i) { return 1 / rods.flexibility[i]; });
+}
+
 double RodSystem::length(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) { return rods.length[i]; });
 }
@@ -367,6 +371,7 @@ void RodSystem::get_rod(int index, std::span<double> coordinates) const {
     coordinates[fine_nodes] = sign * rods.force_d[i];
     coordinates[fine_nodes + 1] = rods.force_w[i];
     coordinates[fine_nodes + 2] = rods.length[i];
+    std::ranges::fill(coordinates.subspan(fine_nodes + 3), 0.0);
   });
 }
 
@@ -380,6 +385,11 @@ void RodSystem::set_rod(int index, std::span<const double> coordinates, const Ve
   rods.length[i] = coordinates[fine_nodes + 2];
   put(lateral, rods.lateral, i);
   fill_idle_lanes(fine_.back());
+}
+
+void RodSystem::set_rods(std::span<const double> coordinates) {
+  for (int k = 0; k < rods_; ++k)
+    set_rod(k, coordinates.subspan(at(k * RodLeg::coordinates), RodLeg::coordinates), aim(k).lateral);
 }
 
 RodReading RodSystem::rod(int index) const {
@@ -399,6 +409,7 @@ RodReading RodSystem::rod(int index) const {
     reading.lateral_force = sign * rods.force_d[i];
     reading.axial_force = rods.force_w[i];
     reading.force = h * rods.force_d[i] + t * rods.force_w[i];
+    reading.force_0 = reading.force;
     reading.moment_0 = cross(t, h) * moment;
     reading.curvature_0 = reading.moment_0 / stiffness;
     reading.tip = vector_of(rods.base, i) + h * rods.tip_d[i] + t * rods.tip_w[i];

@@ -36,6 +36,10 @@ class RodSystem {
   using Twist = Vec<double, 6>;
   explicit RodSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
 
+  /// Estimated error from which an answer that is not resumed takes the fine nodes: stiff robots turn it into
+  /// forces.
+  static constexpr double best_truncation = 1e-17;
+
   /// A state to return to.
   struct Snapshot {
     std::vector<RodState<coarse_nodes>> coarse;
@@ -56,6 +60,7 @@ class RodSystem {
   double radius() const { return radius_; }  ///< of the platform [m]: makes moments comparable with forces
   Vec3<double> base(int rod) const;
   Vec3<double> platform_point(int rod) const;
+  double stiffness(int rod) const;  ///< EI [N m²]
   double length(int rod) const;
   void set_length(int rod, double length);
   void set_inputs(std::span<const double> inputs);  ///< the lengths of all rods [m]
@@ -64,8 +69,10 @@ class RodSystem {
   Wrench wrench() const { return Eigen::Map<const Wrench>(held_.wrench); }  ///< of the world, base axes
   void set_wrench(const Wrench& wrench) { Eigen::Map<Wrench>(held_.wrench) = wrench; }
   bool is_fine() const { return is_fine_; }
-  void refine();   ///< to the fine nodes, the same shapes
-  void coarsen();  ///< to the coarse nodes, the shapes interpolated
+  bool is_finest() const { return is_fine_; }
+  void refine();                                       ///< to the fine nodes, the same shapes
+  void coarsen();                                      ///< to the coarse nodes, the shapes interpolated
+  bool can_coarsen(double) const { return is_fine_; }  ///< whether it is worth a try
   /// @}
 
   /// @name Newton's method
@@ -104,10 +111,12 @@ class RodSystem {
   /// Polyline, `samples` ≥ 2 points in base axes [m]. Allocates.
   std::vector<Vec3<double>> centreline(int index, int samples) const;
 
-  /// State as the coordinates of the leg (see RodLeg), on the side the tip lies.
+  /// State as the coordinates of the leg (see RodLeg), on the side the tip lies ...
   void get_rod(int index, std::span<double> coordinates) const;
-  /// The same back, with the lateral direction it bends to; refines first.
+  /// ... the same back, with the lateral direction it bends to; refines first ...
   void set_rod(int index, std::span<const double> coordinates, const Vec3<double>& lateral);
+  /// ... and that of all rods, each towards its tip.
+  void set_rods(std::span<const double> coordinates);
 
   /// Where the platform holds the tip: lateral and axial distance, lateral direction, and EI. Needs no
   /// evaluation.

@@ -1,21 +1,34 @@
 /// @file rod_work.hpp
 /// What a workspace keeps for a robot of rods.
 #pragma once
-#include "robot/rod_system.hpp"
+#include "robot/tangent_system.hpp"
 
 namespace sinew::inline v0 {
 
-struct RodWork {
-  explicit RodWork(const ParallelRobot<RodLeg>& robot)
+/// @tparam System RodSystem or TangentSystem
+template <class System>
+struct RodWorkOf {
+  explicit RodWorkOf(const ParallelRobot<RodLeg>& robot)
       : system(robot),
         home(system.snapshot()),
         before(home),
         spare(home) {}
 
-  RodSystem system;
-  RodSystem::Snapshot home, before, spare;
+  System system;
+  typename System::Snapshot home, before, spare;
   bool knows_home = false;  ///< `home` is in equilibrium
   bool is_solved = false;   ///< `system` is in equilibrium and linearised there
+  Lu6 feeding;              ///< factors of what the inputs do to the wrench, of the last pose that was held
+  bool knows_feeding = false;
+};
+
+/// Rods that bend in one plane each ...
+struct RodWork : RodWorkOf<RodSystem> {
+  using RodWorkOf::RodWorkOf;
+};
+/// ... and others.
+struct TangentWork : RodWorkOf<TangentSystem> {
+  using RodWorkOf::RodWorkOf;
 };
 
 }  // namespace sinew::inline v0

@@ -107,18 +107,26 @@ TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
   for (const std::string& name : builtin_robots(true)) {
     const AnyRobot robot = load(name).value();
     Workspace work(robot);
-    ASSERT_TRUE(inverse_equilibrium(robot, {std::get<SpatialPose>(home(robot)).position[2], 0, 0}, {}, work)
+    const SpatialPose at_home = std::get<SpatialPose>(home(robot));
+    const bool is_hexapod = input_count(robot) == 6;
+    SpatialPose beside = at_home;
+    beside.position += Vec3<double>(0.01, 0.02, 0.03);
+    ASSERT_TRUE((is_hexapod ? inverse_equilibrium(robot, at_home, {}, work)
+                            : inverse_equilibrium(robot, IndependentPose{at_home.position[2], 0, 0}, {}, work))
                     .is_solved());
     std::vector<double> inputs = values(work.inputs);
     SpatialWrench load = SpatialWrench::Zero(), down = SpatialWrench::Zero();
     load << 1, -0.5, -5, 0.2, 0.1, -0.1;
+    if (is_hexapod) load *= 0.02;
     down[2] = -1;
     const auto none = [&](auto&& run) { EXPECT_EQ(allocations_of(run), 0) << name; };
     none([&] { EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load}, work).is_solved()); });
     inputs[0] += 1e-3;
     none(
         [&] { EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load, .resume = true}, work).is_solved()); });
-    none([&] { inverse_equilibrium(robot, {0.3, 0.1, 0}, {}, work); });
+    none([&] { inverse_equilibrium(robot, IndependentPose{0.3, 0.1, 0}, {}, work); });
+    none([&] { inverse_equilibrium(robot, beside, {}, work); });
+    none([&] { inverse_equilibrium(robot, at_home, {.resume = true, .judge = false}, work); });
     none([&] { equilibrium(robot, inputs, {.start = std::get<SpatialPose>(home(robot))}, work); });
     none([&] { follow_load(robot, down, 500, work); });
     none([&] { EXPECT_FALSE(equilibrium(robot, inputs, {.wrench = 1000 * down}, work).is_solved()); });

@@ -118,20 +118,22 @@ class RodRandom {
 /// @{
 
 /// Newton's method on the rods alone, the platform held, down to rounding.
-inline bool close_rods(RodSystem& system) {
+template <class System>
+bool close_rods(System& system) {
   for (int k = 0; k < 12; ++k) {
     system.evaluate();
     if (!(system.rod_error() < 1e3)) return false;
     if (system.rod_error() < 1e-14) break;
     system.linearise();
-    system.move(RodSystem::Twist::Zero());
+    system.move(System::Twist::Zero());
   }
   system.evaluate();
   return system.rod_error() <= 1e-11;
 }
 
 /// Evaluated and linearised under the wrench that holds this state.
-inline bool balance(RodSystem& system) {
+template <class System>
+bool balance(System& system) {
   system.set_wrench(Wrench6::Zero());
   system.evaluate();
   system.set_wrench(-system.missing());
@@ -167,8 +169,9 @@ inline bool lay(RodSystem& system, const SE3<double>& pose, RodRandom& random) {
 }
 
 /// What the world must exert on the platform at a pose displaced by (δp, δφ), the rods following.
-inline Wrench6 wrench_beside(RodSystem& system, const RodSystem::Snapshot& from, const Vec<double, 6>& by,
-                             std::span<const double> fed = {}) {
+template <class System>
+Wrench6 wrench_beside(System& system, const typename System::Snapshot& from, const Vec<double, 6>& by,
+                      std::span<const double> fed = {}) {
   system.restore(from);
   const SO3<double> turn = SO3<double>::exp(Vec3<double>(by.tail<3>()));
   system.set_platform({from.platform.p + by.head<3>(), turn.compose(from.platform.R)});

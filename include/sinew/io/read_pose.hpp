@@ -13,4 +13,7 @@ SINEW_API PlanarPose read_planar_pose(Reader pose);
 /// where it is left out.
 SINEW_API SpatialPose read_spatial_pose(Reader pose);
 
+/// `[x, y, z]`: what falls falls so [m/s²], base axes.
+SINEW_API Vec3<double> read_gravity(const Reader& gravity);
+
 }  // namespace sinew::inline v0

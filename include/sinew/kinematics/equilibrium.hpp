@@ -16,6 +16,7 @@ using SpatialWrench = Vec<double, 6>;
 
 struct EquilibriumOptions {
   SpatialWrench wrench = SpatialWrench::Zero();
+  std::optional<Vec3<double>> gravity = {};  ///< [m/s²]; default: the robot's
   /// Where the search begins: the rods are laid to this pose, then let go. Default: the robot's home.
   std::optional<SpatialPose> start = {};
   /// Begin from the equilibrium the workspace holds, as a controller does whose inputs change a little. What
@@ -57,6 +58,10 @@ struct IndependentPose {
 SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
+/// Lengths of six inputs that hold the platform at a pose.
+SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted,
+                                          const EquilibriumOptions& options, Workspace& work);
+
 /// Many equilibria under one wrench: `rows` holds the inputs of each, one after the other, `poses` and
 /// `statuses` have one entry each. Neighbouring rows should be near each other: eight stretches of them are
 /// walked at once in SIMD lanes, and a row that does not come at once, or whose rods bend more sharply than
@@ -75,7 +80,7 @@ struct RodAnalysis {
   std::vector<std::array<int, 2>> unstable_rods;  ///< tip held: in the rod's plane, out of it
   std::vector<RodReading> rods;
   double energy = 0;          ///< of all rods [J]
-  double potential = 0;       ///< energy − F·p [J]; with a moment on the platform there is none: NaN
+  double potential = 0;       ///< of rods and load [J]; with a moment on the platform there is none: NaN
   double smallest_pivot = 0;  ///< of the platform's stiffness, over the largest: 0 at a fold
   double largest_strain = 0;  ///< of bending, κ d/2, anywhere on a rod
   /// Kinematic sensitivities: 2-norms of the blocks of `sensitivity`, position [m/m], rotation [rad/m].

@@ -16,6 +16,11 @@ struct Ball {
   static constexpr std::string_view name = "ball";
 };
 
+/// The tip's tangent is held by the platform. The rod spins freely in its guide, so that there is no torque.
+struct Clamp {
+  static constexpr std::string_view name = "clamp";
+};
+
 /// The input of a rod.
 struct RodFeeder {
   static constexpr int inputs = 1;
@@ -35,15 +40,21 @@ struct RodLeg {
   static constexpr int rows = 0;  ///< it constrains nothing; the platform's six balances are the robot's
   static constexpr int driven_rows = 0;
   static constexpr int inputs = 1;
-  /// θ at the nodes [rad], lateral and axial tip force [N], length [m].
-  static constexpr int coordinates = rod_nodes + 3;
+  /// Of a rod that bends in one plane: θ at the nodes [rad], lateral and axial tip force [N], length [m];
+  /// then zeros. Of another: tangents at rod_tangents points, base to tip, tip force [N], length [m].
+  static constexpr int coordinates = 3 * rod_tangents + 4;
   using Coordinates = Vec<double, coordinates>;
 
   Frame base;  ///< base point; +y along the base tangent
   Link link;
   Point platform_point = Point::Zero();  ///< in the platform's frame [m]
+  bool is_clamped = false;               ///< at the tip: a Clamp, else a Ball
+  /// Where the tip points at a clamp, away from the rod: unit vector in the platform's frame.
+  Vec3<double> platform_tangent = Vec3<double>(0, 0, 1);
 
   Vec3<double> tangent() const { return base.rotate(Vec3<double>(0, 1, 0)); }
+  /// Bends in one plane whatever the load of the platform: the closed form and its fast kernels hold.
+  bool is_elastica() const { return !is_clamped && !link.is_cosserat && link.density == 0; }
 };
 
 /// Most rods of a robot.

@@ -1,6 +1,7 @@
 /// @file any_robot.hpp
 /// The one variant at the edge: any robot of this build, its name, and the pose types of both spaces.
 #pragma once
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <variant>
@@ -31,9 +32,16 @@ using RobotModel = detail::RobotsOf<PlanarLegs, SpatialLegs>::Model;
 /// A pose of the robot's space.
 using AnyPose = std::variant<PlanarPose, SpatialPose>;
 
+/// What weighs on a robot whose legs bear load.
+struct Weight {
+  Vec3<double> gravity = Vec3<double>::Zero();  ///< [m/s²], base axes
+  double platform_mass = 0;                     ///< at the platform's reference point [kg]
+};
+
 /// Any robot: what files load to and what every query is put to.
 struct AnyRobot {
   std::string name;
+  Weight weight;
   bool geometry_inferred =
       false;  ///< the source does not print the geometry; it was inferred from its results
   RobotModel model;
@@ -49,6 +57,14 @@ struct AnyRobot {
 /// closures.
 inline bool bears_load(const AnyRobot& robot) {
   return std::holds_alternative<ParallelRobot<RodLeg>>(robot.model);
+}
+
+/// Whether gravity does anything to it.
+inline bool has_weight(const AnyRobot& robot) {
+  if (robot.weight.platform_mass > 0) return true;
+  const auto* rods = std::get_if<ParallelRobot<RodLeg>>(&robot.model);
+  return rods && std::any_of(rods->legs.begin(), rods->legs.end(),
+                             [](const RodLeg& leg) { return leg.link.density > 0; });
 }
 
 /// Calls `use` with the robot behind `robot` if its legs close on the platform, and `otherwise()` if they

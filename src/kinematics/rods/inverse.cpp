@@ -28,26 +28,27 @@ std::optional<SE3<double>> with(const SE3<double>& pose, const RodCoordinates& w
 }
 
 /// The first rod that shares this rod's input.
-int first_of_input(const RodSystem& system, int rod) {
+template <class System>
+int first_of_input(const System& system, int rod) {
   int first = 0;
   while (system.input_of(first) != system.input_of(rod)) ++first;
   return first;
 }
 
 /// Newton's method on x, y, e₃ and the three lengths while z, e₁, e₂ are held.
+template <class System>
 class Inverse {
  public:
-  Inverse(RodSystem& system, int& iterations) : system_(system), iterations_(iterations) {}
+  Inverse(System& system, int& iterations) : system_(system), iterations_(iterations) {}
 
   /// From a state near by. False where it does not contract.
   bool correct(const RodCoordinates& wanted, double& residual) {
-    return contract([&] { return system_.evaluate(); },
-                    [&] { return step(wanted, RodSystem::Twist::Zero()); }, rod_tolerance, iterations_,
-                    residual);
+    return contract([&] { return system_.evaluate(); }, [&] { return step(wanted, System::Twist::Zero()); },
+                    rod_tolerance, iterations_, residual);
   }
 
   /// One step, with a given motion of the platform beside; then exactly onto the wanted coordinates.
-  bool step(const RodCoordinates& wanted, const RodSystem::Twist& given) {
+  bool step(const RodCoordinates& wanted, const Vec<double, 6>& given) {
     system_.linearise();  // the platform's own stiffness may be singular here
     const SO3<double> q = system_.platform().R.canonical();
     // de₃ at fixed e₁, e₂: q̇ = (−e₃/e₀, 0, 0, 1), ω = 2 q̇ q*
@@ -61,17 +62,17 @@ class Inverse {
       matrix[6 * r + 2] = stiffness(r, 3) * turn[0] + stiffness(r, 4) * turn[1] + stiffness(r, 5) * turn[2];
     }
     for (int input = 0; input < 3; ++input) {
-      const RodSystem::Wrench feed = system_.feed_wrench(input);
+      const Vec<double, 6> feed = system_.feed_wrench(input);
       for (int r = 0; r < 6; ++r) matrix[6 * r + 3 + input] = feed[r];
     }
     Lu6 factors;
     if (!factors.factor(matrix, system_.radius())) return false;
-    RodSystem::Wrench wanted_wrench = system_.missing();
+    Vec<double, 6> wanted_wrench = system_.missing();
     for (int r = 0; r < 6; ++r)
       for (int c = 0; c < 6; ++c) wanted_wrench[r] -= stiffness(r, c) * given[c];
     double x[6];
     factors.solve(wanted_wrench.data(), x);
-    RodSystem::Twist twist = given;
+    Vec<double, 6> twist = given;
     twist[0] += x[0];
     twist[1] += x[1];
     twist.tail<3>() += x[2] * turn;
@@ -86,15 +87,16 @@ class Inverse {
   }
 
  private:
-  RodSystem& system_;
+  System& system_;
   int& iterations_;
 };
 
 }  // namespace
 
-Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinates& wanted,
+template <class System>
+Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const RodCoordinates& wanted,
                      const RodQuestion& question) {
-  RodSystem& system = work.system;
+  System& system = work.system;
   Report report;
   if (system.inputs() != 3) {
     report = failed(Status::left_domain);
@@ -112,7 +114,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
   // home with its own lengths: the tied ones are made equal on the way
   const RodTarget from = present(system);
   const RodCoordinates begin = coordinates_of(system.platform());
-  Inverse inverse(system, report.iterations);
+  Inverse<System> inverse(system, report.iterations);
   double part = 0, stride = 0.5;
   while (part < 1 && stride > 1e-7 && report.iterations < question.max_iterations) {
     const double next = std::min(1.0, part + stride);
@@ -128,7 +130,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
     const auto ahead = with(system.platform(), now);
     bool is_reached = false;
     if (ahead && (ahead->p - system.platform().p).norm() < 0.1 * system.length(0)) {
-      RodSystem::Twist given;
+      Vec<double, 6> given;
       given << ahead->p - system.platform().p, ahead->R.compose(system.platform().R.inverse()).log();
       system.evaluate();
       is_reached =
@@ -147,11 +149,11 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
   system.linearise();
   work.is_solved = part >= 1;
   if (work.is_solved) {
-    if (system.truncation() > best_truncation && !system.is_fine()) {
+    while (work.is_solved && system.truncation() > System::best_truncation && !system.is_finest()) {
       system.refine();
       work.is_solved = inverse.correct(wanted, report.residual);
     }
-    if (work.is_solved) return settle(system, report, best_truncation);
+    if (work.is_solved) return settle(system, report, System::best_truncation);
   }
   RodPathEnd end;
   end.progress = part;
@@ -160,5 +162,10 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
   end.ran_out = report.iterations >= question.max_iterations;
   return explain(system, end, false);
 }
+
+template Report solve_rods_at(RodWorkOf<RodSystem>&, const SE3<double>&, const RodCoordinates&,
+                              const RodQuestion&);
+template Report solve_rods_at(RodWorkOf<TangentSystem>&, const SE3<double>&, const RodCoordinates&,
+                              const RodQuestion&);
 
 }  // namespace sinew::inline v0

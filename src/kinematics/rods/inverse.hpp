@@ -11,7 +11,8 @@ struct RodCoordinates {
 };
 
 /// Brings the system to rest at these coordinates; lengths and the other coordinates follow.
-Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinates& wanted,
+template <class System>
+Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const RodCoordinates& wanted,
                      const RodQuestion& question);
 
 }  // namespace sinew::inline v0

@@ -15,7 +15,8 @@ double size_of(const Vec<double, 6>& twist, double radius) {
   return std::hypot(twist.head<3>().norm(), radius * twist.tail<3>().norm());
 }
 
-void set(RodSystem& system, const RodTarget& from, const RodTarget& to, double part) {
+template <class System>
+void set(System& system, const RodTarget& from, const RodTarget& to, double part) {
   for (int k = 0; k < system.rods(); ++k)
     system.set_length(k, std::lerp(from.lengths[at(k)], to.lengths[at(k)], part));  // exact at the end
   system.set_wrench(from.wrench + part * (to.wrench - from.wrench));
@@ -23,7 +24,8 @@ void set(RodSystem& system, const RodTarget& from, const RodTarget& to, double p
 
 }  // namespace
 
-bool correct(RodSystem& system, int& iterations, double& residual, double tolerance) {
+template <class System>
+bool correct(System& system, int& iterations, double& residual, double tolerance) {
   const auto step = [&] {
     if (!system.linearise()) return false;
     system.move(system.step(true));
@@ -32,27 +34,30 @@ bool correct(RodSystem& system, int& iterations, double& residual, double tolera
   return contract([&] { return system.evaluate(); }, step, tolerance, iterations, residual);
 }
 
-bool correct_rods(RodSystem& system, int& iterations, double& residual, double tolerance) {
+template <class System>
+bool correct_rods(System& system, int& iterations, double& residual, double tolerance) {
   const auto error = [&] {
     system.evaluate();
     return system.rod_error();
   };
   const auto step = [&] {
     system.linearise();  // the platform's stiffness, which may be singular, is not asked for
-    system.move(RodSystem::Twist::Zero());
+    system.move(System::Twist::Zero());
     return true;
   };
   return contract(error, step, tolerance, iterations, residual);
 }
 
-RodTarget present(const RodSystem& system) {
+template <class System>
+RodTarget present(const System& system) {
   RodTarget target;
   for (int k = 0; k < system.rods(); ++k) target.lengths[at(k)] = system.length(k);
   target.wrench = system.wrench();
   return target;
 }
 
-int unstable_directions(const RodSystem& system) {
+template <class System>
+int unstable_directions(const System& system) {
   int count = 0;
   for (int k = 0; k < system.rods(); ++k) {
     const auto [in_plane, aside] = system.unstable_with_tip_held(k);
@@ -67,10 +72,11 @@ int unstable_directions(const RodSystem& system) {
 namespace {
 
 /// One path being followed.
+template <class System>
 class Follower {
  public:
-  Follower(RodSystem& system, const RodTarget& target, const RodPathOptions& options,
-           RodSystem::Snapshot& spare)
+  Follower(System& system, const RodTarget& target, const RodPathOptions& options,
+           typename System::Snapshot& spare)
       : system_(system),
         from_(present(system)),
         to_(target),
@@ -126,7 +132,7 @@ class Follower {
     correction << system_.platform().p - predicted.p,
         predicted.R.inverse().compose(system_.platform().R).log();
     if (size_of(correction, system_.radius()) > 0.5 * length + 1e-9) return false;
-    if (!system_.is_fine() && system_.truncation() > coarse_truncation) {
+    while (!system_.is_finest() && system_.truncation() > coarse_truncation) {
       system_.refine();
       if (!correct(system_, end_.iterations, residual, options_.tolerance)) return false;
     }
@@ -142,11 +148,11 @@ class Follower {
     system_.linearise();
   }
 
-  RodSystem& system_;
+  System& system_;
   RodTarget from_;
   const RodTarget& to_;
   const RodPathOptions& options_;
-  RodSystem::Snapshot& spare_;
+  typename System::Snapshot& spare_;
   RodPathEnd end_;
   bool quick_ = false;
   double unstable_from_ = std::numeric_limits<double>::infinity();  ///< the path goes on here, unstable
@@ -155,10 +161,21 @@ class Follower {
 
 }  // namespace
 
-RodPathEnd follow(RodSystem& system, const RodTarget& target, const RodPathOptions& options,
-                  RodSystem::Snapshot& spare) {
-  return Follower(system, target, options, spare).run();
+template <class System>
+RodPathEnd follow(System& system, const RodTarget& target, const RodPathOptions& options,
+                  typename System::Snapshot& spare) {
+  return Follower<System>(system, target, options, spare).run();
 }
+
+#define SINEW_FOR(System)                                                                          \
+  template bool correct(System&, int&, double&, double);                                           \
+  template bool correct_rods(System&, int&, double&, double);                                      \
+  template RodPathEnd follow(System&, const RodTarget&, const RodPathOptions&, System::Snapshot&); \
+  template RodTarget present(const System&);                                                       \
+  template int unstable_directions(const System&);
+SINEW_FOR(RodSystem)
+SINEW_FOR(TangentSystem)
+#undef SINEW_FOR
 
 namespace {
 
@@ -222,6 +239,33 @@ bool rest_at(RodSystem& system, const SE3<double>& platform) {
   }
   system.set_wrench(RodSystem::Wrench::Zero());
   system.evaluate();
+  system.set_wrench(-system.missing());
+  system.evaluate();
+  return system.linearise();
+}
+
+/// From the cubics between guides and tips.
+bool rest_at(TangentSystem& system, const SE3<double>& platform) {
+  system.set_platform(platform);
+  if (!system.draw_rods()) return false;
+  constexpr double near = 1e-6;
+  system.evaluate();
+  for (int k = 0; k < 20 && !(system.rod_error() < near); ++k) {
+    system.linearise();
+    system.move_to_rest(0.1);
+    system.evaluate();
+  }
+  int iterations = 0;
+  double residual = 0;
+  if (!(system.rod_error() < near) || !correct_rods(system, iterations, residual, rod_tolerance))
+    return false;
+  while (!system.is_finest() && system.truncation() > coarse_truncation) {
+    system.refine();
+    if (!correct_rods(system, iterations, residual, rod_tolerance)) return false;
+  }
+  system.set_wrench(TangentSystem::Wrench::Zero());
+  system.evaluate();
+  system.linearise();
   system.set_wrench(-system.missing());
   system.evaluate();
   return system.linearise();

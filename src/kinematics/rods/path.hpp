@@ -4,7 +4,7 @@
 #pragma once
 #include <limits>
 
-#include "robot/rod_system.hpp"
+#include "robot/tangent_system.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v0 {
@@ -16,11 +16,13 @@ inline constexpr double coarse_truncation = 1e-12;
 /// Where a path leads: a length a rod, and the wrench on the platform.
 struct RodTarget {
   std::array<double, max_rods> lengths{};
-  RodSystem::Wrench wrench = RodSystem::Wrench::Zero();
+  Vec<double, 6> wrench = Vec<double, 6>::Zero();
 };
 
 /// On RodSystem::evaluate: what counts as solved, and below which Newton's method can only lose to rounding.
 inline constexpr double rod_tolerance = 1e-12, rod_rounding = 2e-13;
+/// ... of a pose held by lengths, in an answer that is to be quick.
+inline constexpr double rod_quick_tolerance = 1e-10;
 
 struct RodPathOptions {
   double tolerance = rod_tolerance;
@@ -57,25 +59,32 @@ bool contract(Error&& error, Step&& step, double tolerance, int& iterations, dou
 }
 
 /// At fixed lengths and wrench, pose and rods together ...
-bool correct(RodSystem& system, int& iterations, double& residual, double tolerance = rod_tolerance);
+/// @tparam System RodSystem or TangentSystem
+template <class System>
+bool correct(System& system, int& iterations, double& residual, double tolerance = rod_tolerance);
 /// ... or the rods alone, the platform held.
-bool correct_rods(RodSystem& system, int& iterations, double& residual, double tolerance);
+template <class System>
+bool correct_rods(System& system, int& iterations, double& residual, double tolerance);
 
 /// From the state of `system`, which must be in equilibrium and linearised, to `target`. Afterwards the
 /// system is at the last equilibrium found, linearised there. `spare` is memory.
-RodPathEnd follow(RodSystem& system, const RodTarget& target, const RodPathOptions& options,
-                  RodSystem::Snapshot& spare);
+template <class System>
+RodPathEnd follow(System& system, const RodTarget& target, const RodPathOptions& options,
+                  typename System::Snapshot& spare);
 
 /// What the system is now, as a target.
-RodTarget present(const RodSystem& system);
+template <class System>
+RodTarget present(const System& system);
 
 /// Unstable directions of the whole robot: the second variation with every rod free to move. After
 /// `linearise`.
-int unstable_directions(const RodSystem& system);
+template <class System>
+int unstable_directions(const System& system);
 
-/// Every rod as it rests at a pose that nothing but the ball joints' side forces holds: the length at which
-/// it neither pulls nor pushes along its guide. False where a rod's tip lies on its guide's line or behind
-/// it.
+/// Every rod as it rests at a pose that nothing but the joints' side forces holds: the length at which it
+/// neither pulls nor pushes, along its guide or, of those that do not bend in one plane, along the line to
+/// its tip. False where a rod's tip lies on its guide's line or behind it.
 bool rest_at(RodSystem& system, const SE3<double>& platform);
+bool rest_at(TangentSystem& system, const SE3<double>& platform);
 
 }  // namespace sinew::inline v0

@@ -11,7 +11,8 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Report check_inputs(const RodSystem& system, Numbers inputs) {
+template <class System>
+Report check_inputs(const System& system, Numbers inputs) {
   Report report = failed(Status::left_domain);
   if (inputs.size() != at(system.inputs())) {
     report.message.append("the robot has ");
@@ -32,7 +33,8 @@ Report check_inputs(const RodSystem& system, Numbers inputs) {
 }
 
 /// Two guides farther apart than their rods and the platform between them reach: no pose exists.
-Report check_reach(const RodSystem& system, Numbers inputs) {
+template <class System>
+Report check_reach(const System& system, Numbers inputs) {
   Report report;
   for (int j = 1; j < system.rods(); ++j)
     for (int k = 0; k < j; ++k) {
@@ -57,7 +59,8 @@ Report check_reach(const RodSystem& system, Numbers inputs) {
 /// Newton's method from the state before: a step or two with the factors kept from there, until new ones
 /// would end it at once, then with new ones, and with those kept as long as they gain as much as newer ones
 /// would. False, with the state lost, where it does not contract.
-bool solve_warm(RodSystem& system, Report& report) {
+template <class System>
+bool solve_warm(System& system, Report& report) {
   constexpr double worth_starting = 1e-6, worth_renewing = 3e-9;
   double error = system.evaluate(false);
   int renewals = 0;
@@ -77,8 +80,9 @@ bool solve_warm(RodSystem& system, Report& report) {
 }
 
 /// Back to the coarse nodes where they resolve the shapes. `before` holds the state.
-void lighten(RodWork& work, double truncation) {
-  RodSystem& system = work.system;
+template <class System>
+void lighten(RodWorkOf<System>& work, double truncation) {
+  System& system = work.system;
   system.coarsen();
   system.evaluate();
   if (system.truncation() > truncation) {
@@ -88,7 +92,8 @@ void lighten(RodWork& work, double truncation) {
   system.linearise();
 }
 
-Report begin(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& question) {
+template <class System>
+Report begin(RodWorkOf<System>& work, const SE3<double>& home, Numbers inputs, const RodQuestion& question) {
   if (question.resume && work.is_solved) return {};
   if (!question.start) return go_home(work, home);
   if (lay_rods(work, *question.start, inputs) || work.is_solved) return {};
@@ -100,8 +105,9 @@ Report begin(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQu
 }
 
 /// First the lengths, then the load; where the unloaded lengths fail, both together.
-Report travel(RodWork& work, Numbers inputs, const RodQuestion& question) {
-  RodSystem& system = work.system;
+template <class System>
+Report travel(RodWorkOf<System>& work, Numbers inputs, const RodQuestion& question) {
+  System& system = work.system;
   system.save(work.before);
   const RodPathOptions options{.max_iterations = question.max_iterations};
   const auto arrived = [&](const RodPathEnd& end) {
@@ -110,7 +116,7 @@ Report travel(RodWork& work, Numbers inputs, const RodQuestion& question) {
     report.residual = end.residual;
     return report;
   };
-  const bool is_loaded = question.wrench != RodSystem::Wrench::Zero();
+  const bool is_loaded = question.wrench != System::Wrench::Zero();
   // from a pose that was asked for, and on a way that is resumed, lengths and load go together
   const bool at_once = question.start || question.resume || !is_loaded;
   RodTarget target = target_of(system, inputs, question.wrench);
@@ -137,8 +143,9 @@ Report travel(RodWork& work, Numbers inputs, const RodQuestion& question) {
 
 /// Newton's method from a start at once: whoever gives a pose wants what is near it. False, with the state as
 /// it was, where it does not contract or leads away.
-bool jump(RodWork& work, Numbers inputs, const RodQuestion& question, Report& report) {
-  RodSystem& system = work.system;
+template <class System>
+bool jump(RodWorkOf<System>& work, Numbers inputs, const RodQuestion& question, Report& report) {
+  System& system = work.system;
   system.save(work.before);
   const SE3<double> start = system.platform();
   system.set_inputs(inputs);
@@ -146,7 +153,7 @@ bool jump(RodWork& work, Numbers inputs, const RodQuestion& question, Report& re
   double error = system.evaluate();
   for (int k = 0; k < 15 && !(error <= 1e-6); ++k) {
     if (!system.linearise()) break;
-    const RodSystem::Twist twist = system.step(true);
+    const Vec<double, 6> twist = system.step(true);
     if (!(twist.head<3>().norm() + system.radius() * twist.tail<3>().norm() < 0.2 * system.length(0))) break;
     system.move(twist);
     ++report.iterations;
@@ -164,7 +171,9 @@ bool jump(RodWork& work, Numbers inputs, const RodQuestion& question, Report& re
 
 }  // namespace
 
-Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& asked) {
+template <class System>
+Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inputs,
+                  const RodQuestion& asked) {
   RodQuestion question = asked;
   question.resume = asked.resume && work.is_solved;  // else it begins like any other
   if (const Report checked = check_inputs(work.system, inputs); !checked.ok()) return checked;
@@ -173,11 +182,11 @@ Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const 
     report.message.append("the wrench is not a number");
     return report;
   }
-  RodSystem& system = work.system;
+  System& system = work.system;
   if (question.resume) {
     system.save(work.before);
     const double truncation = question.judge ? coarse_truncation : quick_truncation;
-    if (system.is_fine()) lighten(work, truncation);
+    if (system.can_coarsen(truncation)) lighten(work, truncation);
     system.set_inputs(inputs);
     system.set_wrench(question.wrench);
     Report report;
@@ -199,9 +208,12 @@ Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const 
   if (!question.start || !jump(work, inputs, question, report)) report = travel(work, inputs, question);
   work.is_solved = report.ok();
   if (!work.is_solved) return report;
-  const Report settled = settle(system, report, best_truncation);
+  const Report settled = settle(system, report, System::best_truncation);
   work.is_solved = settled.ok() || settled.status == Status::unstable;
   return settled;
 }
+
+template Report solve_rods(RodWorkOf<RodSystem>&, const SE3<double>&, Numbers, const RodQuestion&);
+template Report solve_rods(RodWorkOf<TangentSystem>&, const SE3<double>&, Numbers, const RodQuestion&);
 
 }  // namespace sinew::inline v0

@@ -11,7 +11,7 @@ namespace sinew::inline v0 {
 
 /// What is asked; see EquilibriumOptions.
 struct RodQuestion {
-  RodSystem::Wrench wrench = RodSystem::Wrench::Zero();
+  Vec<double, 6> wrench = Vec<double, 6>::Zero();
   std::optional<SE3<double>> start = {};
   bool resume = false;
   int max_iterations = 4000;
@@ -19,6 +19,8 @@ struct RodQuestion {
 };
 
 /// Brings the system to rest at these inputs.
-Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& question);
+template <class System>
+Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inputs,
+                  const RodQuestion& question);
 
 }  // namespace sinew::inline v0

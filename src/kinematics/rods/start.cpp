@@ -12,14 +12,16 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-RodTarget target_of(const RodSystem& system, Numbers inputs, const RodSystem::Wrench& wrench) {
+template <class System>
+RodTarget target_of(const System& system, Numbers inputs, const Vec<double, 6>& wrench) {
   RodTarget target;
   for (int k = 0; k < system.rods(); ++k) target.lengths[at(k)] = inputs[at(system.input_of(k))];
   target.wrench = wrench;
   return target;
 }
 
-Report go_home(RodWork& work, const SE3<double>& home) {
+template <class System>
+Report go_home(RodWorkOf<System>& work, const SE3<double>& home) {
   if (!work.knows_home) {
     if (!rest_at(work.system, home)) {
       Report report = failed(Status::singular);
@@ -38,8 +40,9 @@ Report go_home(RodWork& work, const SE3<double>& home) {
   return {};
 }
 
-bool lay_rods(RodWork& work, const SE3<double>& pose, Numbers inputs) {
-  RodSystem& system = work.system;
+template <class System>
+bool lay_rods(RodWorkOf<System>& work, const SE3<double>& pose, Numbers inputs) {
+  System& system = work.system;
   work.is_solved = false;
   if (!pose.p.allFinite() || !rest_at(system, pose)) return false;
   work.is_solved = true;
@@ -63,12 +66,20 @@ bool lay_rods(RodWork& work, const SE3<double>& pose, Numbers inputs) {
     }
   }
   if (part < 1) system.restore(work.before);
-  system.set_wrench(RodSystem::Wrench::Zero());
+  system.set_wrench(System::Wrench::Zero());
   system.evaluate();
   system.set_wrench(-system.missing());
   system.evaluate();
   work.is_solved = system.linearise();
   return part >= 1 && work.is_solved;
 }
+
+#define SINEW_FOR(System)                                                      \
+  template RodTarget target_of(const System&, Numbers, const Vec<double, 6>&); \
+  template Report go_home(RodWorkOf<System>&, const SE3<double>&);             \
+  template bool lay_rods(RodWorkOf<System>&, const SE3<double>&, Numbers);
+SINEW_FOR(RodSystem)
+SINEW_FOR(TangentSystem)
+#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

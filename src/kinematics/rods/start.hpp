@@ -8,13 +8,16 @@
 namespace sinew::inline v0 {
 
 /// Lengths of all rods from the inputs.
-RodTarget target_of(const RodSystem& system, Numbers inputs, const RodSystem::Wrench& wrench);
+template <class System>
+RodTarget target_of(const System& system, Numbers inputs, const Vec<double, 6>& wrench);
 
 /// To the home state, in equilibrium under some wrench.
-Report go_home(RodWork& work, const SE3<double>& home);
+template <class System>
+Report go_home(RodWorkOf<System>& work, const SE3<double>& home);
 
 /// Lays the rods to a pose at these lengths and finds the wrench that holds them so; false where a rod cannot
 /// be laid, the state is then at rest with lengths of its own. See rest_at for what it needs.
-bool lay_rods(RodWork& work, const SE3<double>& pose, Numbers inputs);
+template <class System>
+bool lay_rods(RodWorkOf<System>& work, const SE3<double>& pose, Numbers inputs);
 
 }  // namespace sinew::inline v0

@@ -11,13 +11,14 @@ struct Straightest {
   int rod = 0;
   double slack = 1, tension = 0;  ///< 1 − chord/length; axial force in EI/L²
 };
-Straightest straightest(const RodSystem& system) {
+template <class System>
+Straightest straightest(const System& system) {
   Straightest found;
   for (int k = 0; k < system.rods(); ++k) {
     const RodReading rod = system.rod(k);
     const double slack = 1 - rod.chord / rod.length;
     if (slack >= found.slack) continue;
-    found = {k, slack, rod.axial_force * rod.length * rod.length / system.aim(k).stiffness};
+    found = {k, slack, rod.axial_force * rod.length * rod.length / system.stiffness(k)};
   }
   return found;
 }
@@ -30,7 +31,8 @@ Report failed(Status status) {
   return report;
 }
 
-Report explain(const RodSystem& system, const RodPathEnd& end, bool is_load) {
+template <class System>
+Report explain(const System& system, const RodPathEnd& end, bool is_load) {
   Report report = failed(Status::singular);
   report.iterations = end.iterations;
   report.residual = end.residual;
@@ -43,7 +45,7 @@ Report explain(const RodSystem& system, const RodPathEnd& end, bool is_load) {
     append_number(report.message, static_cast<int>(100 * end.progress));
     report.message.append(" % of the way");
   };
-  if (system.truncation() > worst_truncation) {
+  if (system.is_finest() && system.truncation() > worst_truncation) {
     report.status = Status::left_domain;
     report.message.append("the rods bend too sharply to be resolved at ");
     percent();
@@ -80,8 +82,9 @@ Report explain(const RodSystem& system, const RodPathEnd& end, bool is_load) {
   return report;
 }
 
-bool resolve(RodSystem& system, Report& report, double truncation) {
-  if (!system.is_fine() && system.truncation() > truncation) {
+template <class System>
+bool resolve(System& system, Report& report, double truncation) {
+  while (!system.is_finest() && system.truncation() > truncation) {
     system.refine();
     if (!correct(system, report.iterations, report.residual)) {
       report.status = Status::stalled;
@@ -91,13 +94,14 @@ bool resolve(RodSystem& system, Report& report, double truncation) {
   }
   if (!(system.truncation() <= worst_truncation)) {
     report.status = Status::left_domain;
-    report.message.append("the rods bend more sharply than their 24 nodes resolve");
+    report.message.append("the rods bend more sharply than their nodes resolve");
     return false;
   }
   return true;
 }
 
-Report settle(RodSystem& system, Report report, double truncation) {
+template <class System>
+Report settle(System& system, Report report, double truncation) {
   if (!resolve(system, report, truncation)) return report;
   system.linearise();
   const int unstable = unstable_directions(system);
@@ -108,5 +112,13 @@ Report settle(RodSystem& system, Report report, double truncation) {
                                       : " directions in which the robot does not hold by itself");
   return report;
 }
+
+#define SINEW_FOR(System)                                          \
+  template Report explain(const System&, const RodPathEnd&, bool); \
+  template bool resolve(System&, Report&, double);                 \
+  template Report settle(System&, Report, double);
+SINEW_FOR(RodSystem)
+SINEW_FOR(TangentSystem)
+#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -8,22 +8,23 @@ namespace sinew::inline v0 {
 /// Estimated error of a shape at its tip, over the length, beyond which an answer is refused.
 inline constexpr double worst_truncation = 1e-10;
 /// ... from which one that is to be quick takes the fine nodes (poses were then within 2e-13 m of exact
-/// ones),
+/// ones).
 inline constexpr double quick_truncation = 1e-10;
-/// ... and from which an answer that is not resumed takes them: stiff robots turn it into forces.
-inline constexpr double best_truncation = 1e-17;
 
 /// A report of nothing but its status.
 Report failed(Status status);
 
 /// Why a path ended early; the system is at its last equilibrium.
-Report explain(const RodSystem& system, const RodPathEnd& end, bool is_load);
+template <class System>
+Report explain(const System& system, const RodPathEnd& end, bool is_load);
 
 /// The shapes of a solved state to this estimate of their error, by the fine nodes where it takes them. False
 /// where those do not do it.
-bool resolve(RodSystem& system, Report& report, double truncation);
+template <class System>
+bool resolve(System& system, Report& report, double truncation);
 
 /// What holds of a solved state: shapes resolved, platform's stiffness known there, stability.
-Report settle(RodSystem& system, Report report, double truncation);
+template <class System>
+Report settle(System& system, Report report, double truncation);
 
 }  // namespace sinew::inline v0

@@ -1,0 +1,196 @@
+/// Hexapods of rods: lengths for a pose, warm along a walk and cold from home, and poses for lengths.
+/// Run: build/dev/bin/bench_hexapod. The baseline is the field's own way: 36 unknowns, Cosserat rods by RK4 with
+/// 40 steps, Jacobian by differences that integrate the one rod they touch.
+#include <fmt/format.h>
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <random>
+
+#include "report.hpp"
+#include "shooting_hexapod.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
+
+namespace sinew::bench {
+namespace {
+
+struct InstructionSet {
+  const char* name;
+  std::int64_t target;
+};
+constexpr InstructionSet instruction_sets[] = {
+    {"AVX-512", HWY_AVX3}, {"AVX2", HWY_AVX2}, {"SSSE3", HWY_SSSE3}};
+
+SpatialPose pose_of(const Vec3<double>& p, const SO3<double>& R) { return spatial_pose(SE3<double>{p, R}); }
+
+/// A platform that wanders between ±0.1 m and 0.37 to 0.58 m in steps of one size, a new direction every 50.
+struct Walk {
+  AnyRobot robot;
+  Workspace work;
+  std::vector<SpatialPose> poses;
+  std::vector<std::vector<double>> lengths;
+  std::size_t at = 0;
+
+  Walk(const char* name, double stride)
+      : robot(load(name).value()),
+        work(robot) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Vec3<double> p(0, 0, 0.42), direction(0, 0, 1);
+    const auto turn = [&] {
+      const double x = uniform(random), y = uniform(random);
+      direction = Vec3<double>(x, y, uniform(random)).normalized() * stride;
+    };
+    for (int k = 0; k < 2048; ++k) {
+      if (k % 50 == 0) turn();
+      const auto is_inside = [](const Vec3<double>& q) {
+        return std::abs(q[0]) < 0.1 && std::abs(q[1]) < 0.1 && q[2] > 0.37 && q[2] < 0.58;
+      };
+      while (!is_inside(p + direction)) turn();
+      p += direction;
+      poses.push_back(pose_of(p, SO3<double>::identity()));
+    }
+    poses.insert(poses.end(), poses.rbegin(), poses.rend());  // there and back
+  }
+  Equilibrium inverse() {
+    at = (at + 1) % poses.size();
+    return inverse_equilibrium(robot, poses[at], {.resume = true, .judge = false}, work);
+  }
+  Equilibrium forward() {
+    at = (at + 1) % poses.size();
+    return equilibrium(robot, lengths[at], {.resume = true, .judge = false}, work);
+  }
+};
+
+/// The field's way along the same walk, warm.
+struct FieldWalk {
+  std::shared_ptr<Walk> walk;
+  test::ShootingHexapod hexapod;
+  test::ShootingHexapod::Unknowns state;
+  std::size_t at = 0;
+  double residual = 0;
+
+  explicit FieldWalk(std::shared_ptr<Walk> same)
+      : walk(std::move(same)),
+        hexapod(std::get<ParallelRobot<RodLeg>>(walk->robot.model), Vec3<double>::Zero(), 40),
+        state(hexapod.straight(0.42)) {
+    hexapod.solve(state, SE3<double>::from(walk->poses[0]), Vec<double, 6>::Zero(), 1e-10, 60);
+  }
+  void next() {
+    at = (at + 1) % walk->poses.size();
+    residual = hexapod.solve(state, SE3<double>::from(walk->poses[at]), Vec<double, 6>::Zero(), 1e-6);
+  }
+};
+
+/// Largest difference of warm lengths from cold ones of more elements; worst residual, mean iterations.
+std::string judge_inverse(const std::shared_ptr<Walk>& walk) {
+  Workspace cold(walk->robot);
+  double worst = 0, residual = 0, iterations = 0;
+  int failures = 0;
+  for (std::size_t k = 0; k < walk->poses.size(); ++k) {
+    const Equilibrium warm = walk->inverse();
+    iterations += warm.report.iterations / static_cast<double>(walk->poses.size());
+    failures += !warm.is_solved();
+    residual = std::max(residual, warm.report.residual);
+    if (k % 64 != 0) continue;
+    const Equilibrium exact = inverse_equilibrium(walk->robot, walk->poses[walk->at], {}, cold);
+    for (std::size_t i = 0; i < 6; ++i) worst = std::max(worst, std::abs(warm.inputs[i] - exact.inputs[i]));
+  }
+  return fmt::format("residual {:.0e}, lengths to {:.0e} m, {:.1f} iterations, {} failures", residual, worst,
+                     iterations, failures);
+}
+
+void compare_inverse(const char* name, double stride, const InstructionSet& isa) {
+  hwy::SetSupportedTargetsForTest(isa.target);
+  auto walk = std::make_shared<Walk>(name, stride);
+  inverse_equilibrium(walk->robot, walk->poses[0], {}, walk->work);
+  const std::string accuracy = judge_inverse(walk);
+  auto field = std::make_shared<FieldWalk>(walk);
+  compare({fmt::format("{} inverse {:.1f} mm {}", name, 1e3 * stride, isa.name), "36 unknowns",
+           [walk, isa] {
+             hwy::SetSupportedTargetsForTest(isa.target);
+             benchmark::DoNotOptimize(walk->inverse().report.residual);
+           },
+           [field] {
+             field->next();
+             benchmark::DoNotOptimize(field->residual);
+           },
+           accuracy});
+}
+
+void compare_forward(const char* name, double stride, const InstructionSet& isa) {
+  hwy::SetSupportedTargetsForTest(isa.target);
+  auto walk = std::make_shared<Walk>(name, stride);
+  inverse_equilibrium(walk->robot, walk->poses[0], {}, walk->work);
+  for (const SpatialPose& pose : walk->poses) {
+    const Equilibrium held = inverse_equilibrium(walk->robot, pose, {.resume = true, .judge = false}, walk->work);
+    walk->lengths.emplace_back(held.inputs.begin(), held.inputs.end());
+  }
+  equilibrium(walk->robot, walk->lengths[0], {.start = walk->poses[0]}, walk->work);
+  double worst = 0, iterations = 0;
+  int failures = 0;
+  for (std::size_t k = 0; k < walk->poses.size(); ++k) {
+    const Equilibrium found = walk->forward();
+    iterations += found.report.iterations / static_cast<double>(walk->poses.size());
+    failures += !found.is_solved();
+    worst = std::max(worst, (found.pose.position - walk->poses[walk->at].position).norm());
+  }
+  auto field = std::make_shared<FieldWalk>(walk);
+  compare({fmt::format("{} forward {:.1f} mm {}", name, 1e3 * stride, isa.name), "36 unknowns (inverse)",
+           [walk, isa] {
+             hwy::SetSupportedTargetsForTest(isa.target);
+             benchmark::DoNotOptimize(walk->forward().report.residual);
+           },
+           [field] {
+             field->next();
+             benchmark::DoNotOptimize(field->residual);
+           },
+           fmt::format("position to {:.0e} m, {:.1f} iterations, {} failures", worst, iterations, failures)});
+}
+
+/// Random poses from home, every one a new start.
+void print_cold(const char* name, double tilt) {
+  const AnyRobot robot = load(name).value();
+  Workspace work(robot);
+  std::mt19937 random(7);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  std::vector<double> times;
+  int solved = 0, stable = 0, folds = 0;
+  constexpr int count = 1000;
+  for (int k = 0; k < count; ++k) {
+    const double x = uniform(-0.12, 0.12), y = uniform(-0.12, 0.12), z = uniform(0.35, 0.6);
+    const double a = uniform(-tilt, tilt), b = uniform(-tilt, tilt), c = uniform(-tilt, tilt);
+    const SpatialPose wanted = pose_of({x, y, z}, SO3<double>::exp(Vec3<double>(a, b, c)));
+    const auto begin = std::chrono::steady_clock::now();
+    const Equilibrium found = inverse_equilibrium(robot, wanted, {}, work);
+    times.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+    solved += found.is_solved();
+    stable += found.report.ok();
+    folds += found.report.status == Status::singular;
+  }
+  std::ranges::sort(times);
+  fmt::print("{} cold from home, tilt up to {:.2f} rad: {} of {} held ({} stable), {} folds named; median {:.0f} us, "
+             "95 % {:.0f} us\n",
+             name, tilt, solved, count, stable, folds, times[count / 2], times[count * 95 / 100]);
+}
+
+}  // namespace
+}  // namespace sinew::bench
+
+int main(int argc, char** argv) {
+  using namespace sinew::bench;
+  const auto has = hwy::SupportedTargets();
+  for (const InstructionSet& isa : instruction_sets)
+    if (has & isa.target) {
+      for (const double stride : {0.5e-3, 1e-3, 2e-3}) compare_inverse("hexapod", stride, isa);
+      compare_inverse("hexapod-self-weight", 1e-3, isa);
+      compare_forward("hexapod", 1e-3, isa);
+    }
+  hwy::SetSupportedTargetsForTest(0);
+  for (const double tilt : {0.0, 0.35}) print_cold("hexapod", tilt);
+  return sinew::bench::main(argc, argv);
+}
