@@ -72,13 +72,13 @@ Mat<S, 3, 3> matrix(const Vec<S, 4>& q) {
   return R;
 }
 
-/// q′ = ½ q ∘ u: of numbers, or of rows of derivatives.  @implements 3PFS (23), torsion included
+/// q ∘ u, twice q′: of numbers, or of lanes of derivatives.  @implements 3PFS (23), torsion included
 template <class Q, class U, class Out>
-void half_product(const Q& q, const U& u, Out& out) {
-  out[0] = -0.5 * (q[1] * u[0] + q[2] * u[1] + q[3] * u[2]);
-  out[1] = 0.5 * (q[0] * u[0] + q[2] * u[2] - q[3] * u[1]);
-  out[2] = 0.5 * (q[0] * u[1] + q[3] * u[0] - q[1] * u[2]);
-  out[3] = 0.5 * (q[0] * u[2] + q[1] * u[1] - q[2] * u[0]);
+void product(const Q& q, const U& u, Out& out) {
+  out[0] = -(q[1] * u[0] + q[2] * u[1] + q[3] * u[2]);
+  out[1] = q[0] * u[0] + q[2] * u[2] - q[3] * u[1];
+  out[2] = q[0] * u[1] + q[3] * u[0] - q[1] * u[2];
+  out[3] = q[0] * u[2] + q[1] * u[1] - q[2] * u[0];
 }
 
 /// The equations at one stage, with what their derivatives need again.
@@ -97,7 +97,7 @@ void evaluate(const Law<S>& law, const S& s, Stage<S>& at) {
   at.R = matrix(at.q);
   const Vec3<S> moment = at.R.transpose() * at.m, bend = law.bend.cwiseProduct(moment);
   at.u = law.precurvature + bend;
-  half_product(at.q, at.u, at.rate.q);
+  product(at.q, Vec3<S>(at.u * S(0.5)), at.rate.q);
   S energy = dot(moment, bend);
   at.rate.p = at.R.col(2);
   if (law.stretches) {
