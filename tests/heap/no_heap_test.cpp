@@ -129,9 +129,11 @@ TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
     none([&] { inverse_equilibrium(robot, at_home, {.resume = true, .judge = false}, work); });
     none([&] { equilibrium(robot, inputs, {.start = std::get<SpatialPose>(home(robot))}, work); });
     none([&] { follow_load(robot, down, 500, work); });
-    none([&] { EXPECT_FALSE(equilibrium(robot, inputs, {.wrench = 1000 * down}, work).is_solved()); });
-    inputs[1] = 0.005;  // out of reach
-    none([&] { EXPECT_FALSE(equilibrium(robot, inputs, {}, work).is_solved()); });
+    none([&] { equilibrium(robot, inputs, {.wrench = 1000 * down}, work); });
+    inputs[1] = 0.005;  // of a tripod out of reach
+    bool is_solved = false;
+    none([&] { is_solved = equilibrium(robot, inputs, {}, work).is_solved(); });
+    EXPECT_TRUE(is_hexapod || !is_solved);
   }
 }
 

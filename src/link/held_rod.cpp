@@ -1,0 +1,476 @@
+#include "sinew/link/held_rod.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sinew/math/inverse_sinc.hpp"
+#include "sinew/math/linalg.hpp"
+#include "sinew/solve/newton.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+using Turn = SO3<double>;
+using Point = Vec3<double>;
+constexpr double path_tolerance = 1e-6;  // of the length, on the way
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Any unit vector at right angles.
+Point beside(const Point& v) {
+  Eigen::Index least = 0;
+  v.cwiseAbs().minCoeff(&least);
+  return cross(v, Point(Point::Unit(least))).normalized();
+}
+
+/// The least turn from one unit vector to another.
+Point turn_between(const Point& from, const Point& to) {
+  const Point axis = cross(from, to);
+  const double sine = axis.norm(), angle = std::atan2(sine, dot(from, to));
+  if (sine > 1e-12) return axis * (angle / sine);
+  return dot(from, to) > 0 ? axis : Point(beside(from) * angle);
+}
+
+Point z_axis(const Turn& R) { return R.rotate(Point(0, 0, 1)); }
+
+/// The equations of one rod between two ends, for Newton's method. Unknowns: force at the base in EI/L²,
+/// base axes; moment there in EI/L, in the section's axes, where the last is the spin instead if it matters.
+struct HoldProblem {
+  static constexpr int unknowns = 6;
+  using Point = Vec<double, 6>;
+
+  SpatialRod rod;
+  SE3<double> base, tip;
+  double length = 0, stiffness = 0;
+  RodEnds ends;
+  Vec3<double> tip_moment{0, 0, 0};  // wanted of a ball, in EI/L: not 0 on the way
+  bool seeks_spin = false;
+  int steps = 0;
+
+  double force_unit() const { return stiffness / (length * length); }
+  double moment_unit() const { return stiffness / length; }
+
+  RodState<double> base_state(const Point& x) const {
+    const double spin = seeks_spin ? x[5] : 0, torque = seeks_spin ? 0 : x[5];
+    const Turn R = base.R.compose(Turn::exp({0, 0, spin}));
+    return {base.p, R, Vec3<double>(x.head<3>() * force_unit()),
+            R.rotate(Vec3<double>(x[3], x[4], torque)) * moment_unit()};
+  }
+
+  Point unknowns_of(const RodState<double>& state, double spin) const {
+    Point x;
+    x.head<3>() = state.n / force_unit();
+    x.tail<3>() = state.R.rotate_back(state.m) / moment_unit();
+    if (seeks_spin) x[5] = spin;
+    return x;
+  }
+
+  /// What an unknown changes at the base, as columns of RodTangent.
+  Mat<double, 8, 6> base_columns(const RodState<double>& state) const {
+    Mat<double, 8, 6> columns = Mat<double, 8, 6>::Zero();
+    columns.topLeftCorner<3, 3>() = Mat<double, 3, 3>::Identity() * force_unit();
+    columns.block<3, 3>(RodTangent::moment, 3) = state.R.matrix() * moment_unit();
+    if (seeks_spin) {  // the moment goes with the frame
+      columns.block<3, 1>(RodTangent::moment, 5) = cross(state.tangent(), state.m);
+      columns(RodTangent::spin, 5) = 1;
+    }
+    return columns;
+  }
+
+  /// The residual's rows of derivatives of the tip.
+  template <int columns>
+  Mat<double, 6, columns> rows(const RodState<double>& at, const Mat<double, 12, columns>& rate) const {
+    Mat<double, 6, columns> out;
+    const auto turned = rate.template middleRows<3>(RodTangent::rotation);
+    const auto moment = rate.template middleRows<3>(RodTangent::tip_moment);
+    out.template topRows<3>() = rate.template middleRows<3>(RodTangent::position) / length;
+    if (ends.tip == RodEnds::Tip::ball) {
+      out.template bottomRows<3>() = moment / moment_unit();
+    } else if (ends.tip == RodEnds::Tip::clamp) {
+      out.template bottomRows<3>() = Turn::left_jacobian_inverse(turn_error(at)) * turned;
+    } else {
+      const Mat<double, 3, 3> axes = tip.R.matrix();
+      const Vec3<double> t = at.tangent();
+      const double cosine = 1 + dot(t, axes.col(2));
+      for (int i = 0; i < 2; ++i) {
+        const Vec3<double> lever =
+            (axes.col(i) - axes.col(2) * (dot(t, axes.col(i)) / cosine)) * (2 / cosine);
+        out.row(3 + i) = cross(t, lever).transpose() * turned;
+      }
+      out.row(5) = axes.col(2).transpose() * moment / moment_unit();
+    }
+    return out;
+  }
+
+  Vec<double, 6> residual(const RodState<double>& at) const {
+    Vec<double, 6> out;
+    out.head<3>() = (at.p - tip.p) / length;
+    if (ends.tip == RodEnds::Tip::ball) {
+      out.tail<3>() = at.m / moment_unit() - tip_moment;
+    } else if (ends.tip == RodEnds::Tip::clamp) {
+      out.tail<3>() = turn_error(at);
+    } else {  // 2 tan(angle/2): zero at the wanted direction, but not at its opposite
+      const Mat<double, 3, 3> axes = tip.R.matrix();
+      const Vec3<double> t = at.tangent();
+      const double cosine = 1 + dot(t, axes.col(2));
+      out[3] = 2 * dot(t, axes.col(0)) / cosine;
+      out[4] = 2 * dot(t, axes.col(1)) / cosine;
+      out[5] = dot(at.m, axes.col(2)) / moment_unit();
+    }
+    return out;
+  }
+
+  Vec3<double> turn_error(const RodState<double>& at) const { return at.R.compose(tip.R.inverse()).log(); }
+
+  bool linearise(const Point& x, Linearised<6>& system) const {
+    const RodState<double> state = base_state(x);
+    const RodTangent tangent = integrate_tangent(rod, length, state, {steps, 0});
+    if (tangent.tip.status != Status::converged) return false;
+    const Mat<double, 12, 6> rate = tangent.rate * base_columns(state);
+    system.residual = residual(tangent.tip.state);
+    system.jacobian = rows<6>(tangent.tip.state, rate);
+    system.error = length * system.residual.lpNorm<Eigen::Infinity>();
+    return system.jacobian.allFinite();
+  }
+  Point moved(const Point& x, const Point& step) const { return x + step; }
+  /// A rod in higher and higher modes also meets the ends: no more than a fraction of a mode a step.
+  double shortened(const Point& step) const {
+    const double turn = seeks_spin ? 4 * std::abs(step[5]) : std::abs(step[5]);
+    return 1 / std::max({1.0, step.head<3>().norm() / 20, step.segment<2>(3).norm() / 4, turn / 4});
+  }
+
+  /// The residual's derivative by a motion of the tip (at a solution).
+  Mat<double, 6, 6> by_tip(const RodState<double>& at) const {
+    Mat<double, 6, 6> out = Mat<double, 6, 6>::Zero();
+    out.topLeftCorner<3, 3>() = -Mat<double, 3, 3>::Identity() / length;
+    if (ends.tip == RodEnds::Tip::clamp) out.bottomRightCorner<3, 3>() = -Mat<double, 3, 3>::Identity();
+    if (ends.tip == RodEnds::Tip::tangent) {
+      const Mat<double, 3, 3> axes = tip.R.matrix();
+      const Vec3<double> t = axes.col(2);
+      for (int i = 0; i < 2; ++i) out.block<1, 3>(3 + i, 3) = cross(Vec3<double>(axes.col(i)), t).transpose();
+      out.block<1, 3>(5, 3) = cross(t, at.m).transpose() / moment_unit();
+    }
+    return out;
+  }
+};
+
+/// The exactly known rod that has the wanted chord: an arc of an even, straight, unloaded rod; where the
+/// chord is longer than the rod, the stretched rod.
+struct ArcStart {
+  Turn base, tip;
+  Point force{0, 0, 0}, moment{0, 0, 0};
+};
+
+/// @param side 0: the arc whose ends have least to turn; 1: its mirror image; 2, 3: at right angles to both
+ArcStart arc_start(const HoldProblem& problem, int side) {
+  const Point way = problem.tip.p - problem.base.p;
+  const double chord = way.norm(), ratio = chord / problem.length;
+  const Point t0 = z_axis(problem.base.R), t1 = z_axis(problem.tip.R);
+  const Point along = chord > 1e-9 * problem.length ? Point(way / chord) : t0;
+  ArcStart start;
+  Point first = along, last = along;
+  if (ratio < 1) {
+    Point away = problem.ends.tip == RodEnds::Tip::ball ? t0 : Point(t0 - t1);
+    away -= along * dot(along, away);
+    if (away.norm() < 1e-6) away = t0 - along * dot(along, t0);
+    if (away.norm() < 1e-6) away = beside(along);
+    away.normalize();
+    if (side >= 2) away = cross(along, away);
+    if (side % 2 == 1) away = -away;
+    const double half = inverse_sinc(ratio);
+    first = std::cos(half) * along + std::sin(half) * away;
+    last = std::cos(half) * along - std::sin(half) * away;
+    const Point axis = cross(away, along);
+    start.moment = axis * (2 * half);  // in EI/L
+    start.base = Turn::exp(turn_between(t0, first)).compose(problem.base.R);
+    start.tip = Turn::exp(Point(axis * (2 * half))).compose(start.base);
+  } else {
+    start.base = Turn::exp(turn_between(t0, along)).compose(problem.base.R);
+    start.tip = start.base;
+    const double compliance = problem.rod.extension_compliance;
+    if (compliance > 0) start.force = along * ((ratio - 1) / compliance);
+  }
+  return start;
+}
+
+/// Steps that the tolerance asks for at x; the estimated error of those taken.
+int steps_at(const HoldProblem& problem, const Vec<double, 6>& x, double tolerance, double& error) {
+  const RodTip tip = integrate(problem.rod, problem.length, problem.base_state(x), {0, tolerance});
+  error = tip.error;
+  return std::max(tip.steps, 2);
+}
+
+/// On the way a few will do; but a taut rod that came out longer or shorter would be another task.
+int path_steps(const HoldProblem& problem, const Vec<double, 6>& x) {
+  const double slack = 1 - (problem.tip.p - problem.base.p).norm() / problem.length;
+  double error = 0;
+  return std::max(8, steps_at(problem, x, std::clamp(0.003 * std::abs(slack), 1e-9, 1e-5), error));
+}
+
+/// Follows the equilibrium from the arc to the rod as it is.
+class Way {
+ public:
+  Way(const HoldProblem& goal, int side, const HoldOptions& options)
+      : goal_(goal),
+        options_(options),
+        arc_(arc_start(goal, side)),
+        base_turn_(arc_.base.compose(goal.base.R.inverse()).log()) {
+    tip_turn_ = goal.ends.tip == RodEnds::Tip::clamp ? arc_.tip.compose(goal.tip.R.inverse()).log()
+                                                     : turn_between(z_axis(goal.tip.R), z_axis(arc_.tip));
+  }
+
+  /// The problem at λ in 0 … 1.
+  HoldProblem at(double lambda) const {
+    HoldProblem problem = goal_;
+    const double left = 1 - lambda;
+    problem.base.R = Turn::exp(Point(base_turn_ * left)).compose(goal_.base.R);
+    problem.tip.R = Turn::exp(Point(tip_turn_ * left)).compose(goal_.tip.R);
+    problem.tip_moment = arc_.moment * left;
+    problem.rod.load *= lambda;
+    problem.rod.precurvature *= lambda;
+    for (int i = 0; i < 2; ++i)
+      problem.rod.bending_stiffness[i] = lambda * goal_.rod.bending_stiffness[i] + left * goal_.stiffness;
+    return problem;
+  }
+
+  /// False where the path is lost; x is then that of the last point on it.
+  bool follow(Vec<double, 6>& x, int& iterations) {
+    RodState<double> state{goal_.base.p, arc_.base, arc_.force, Point(arc_.moment * goal_.moment_unit())};
+    x = at(0).unknowns_of(state, 0);
+    Vec<double, 6> before = x;
+    double step = 0.2, last = 0;
+    for (int solves = 0; solves < 100 && done_ < 1; ++solves) {
+      const double next = std::min(1.0, done_ + step);
+      Vec<double, 6> ahead = x;
+      if (last > 0) ahead += (x - before) * ((next - done_) / last);
+      const Vec<double, 6> predicted = ahead;
+      HoldProblem problem = at(next);
+      if (options_.steps == 0) problem.steps = path_steps(problem, x);
+      const Report report =
+          newton(problem, ahead, {path_tolerance * goal_.length, std::min(12, options_.max_iterations)});
+      iterations += report.iterations;
+      const double miss = (ahead - predicted).norm();
+      if (report.ok() && miss < 1 + 0.3 * x.norm()) {
+        before = x;
+        x = ahead;
+        last = next - done_;
+        done_ = next;
+        if (report.iterations <= 4) step *= 1.7;
+      } else {
+        step *= 0.4;
+        if (step < 1e-4) return false;
+      }
+    }
+    return done_ == 1;
+  }
+
+ private:
+  const HoldProblem& goal_;
+  const HoldOptions& options_;
+  ArcStart arc_;
+  Point base_turn_, tip_turn_;
+  double done_ = 0;
+};
+
+/// Stiffness and feed by the implicit function theorem; false where the equations are singular.
+bool differentiate(const HoldProblem& problem, const RodTangent& tangent, HeldRod& held) {
+  const Mat<double, 12, 6> rate = tangent.rate * problem.base_columns(held.base);
+  const Mat<double, 12, 1> fed = tangent.rate.col(RodTangent::length);
+  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> jacobian = problem.rows<6>(tangent.tip.state, rate);
+  Eigen::Matrix<double, 6, 7, Eigen::RowMajor> right, steps;
+  right << -problem.by_tip(tangent.tip.state), -problem.rows<1>(tangent.tip.state, fed);
+  const bool regular = solve(MatrixView(jacobian.data(), 6, 6), MatrixView(right.data(), 6, 7),
+                             {steps.data(), static_cast<std::size_t>(steps.size())});
+  if (!regular) return false;
+  const Mat<double, 6, 7> wrench = rate.bottomRows<6>() * steps;
+  held.stiffness = wrench.leftCols<6>();
+  held.feed = wrench.col(6) + fed.tail<6>();
+  if (problem.ends.tip == RodEnds::Tip::ball) {
+    held.stiffness.bottomRows<3>().setZero();
+    held.stiffness.rightCols<3>().setZero();
+    held.feed.tail<3>().setZero();
+  }
+  return true;
+}
+
+/// Newton's method to the last digits, and as many steps of integration as these ask for.
+bool polish(HoldProblem& problem, Vec<double, 6>& x, const HoldOptions& options, HeldRod& held) {
+  for (int round = 0; round < 4; ++round) {
+    const NewtonOptions newton_options{0.1 * options.tolerance * problem.length, options.max_iterations};
+    const Report report = newton(problem, x, newton_options);
+    held.report.status = report.status;
+    held.report.residual = report.residual;
+    held.report.iterations += report.iterations;
+    if (!report.ok() || report.residual > options.tolerance * problem.length) return false;
+    const int wanted = steps_at(problem, x, options.tolerance, held.error);
+    if (options.steps > 0 || wanted <= problem.steps) return true;
+    problem.steps = wanted;
+  }
+  return true;
+}
+
+HoldProblem stated(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
+                   const SE3<double>& tip, const HoldOptions& options) {
+  HoldProblem problem;
+  problem.rod = rod;
+  problem.base = base;
+  problem.tip = tip;
+  problem.length = length;
+  problem.stiffness = std::sqrt(rod.bending_stiffness[0]) * std::sqrt(rod.bending_stiffness[1]);
+  problem.ends = ends;
+  const bool matters = ends.tip == RodEnds::Tip::clamp || !rod.is_isotropic();
+  problem.seeks_spin = ends.base == RodEnds::Base::spins && matters;
+  problem.steps = options.steps;
+  return problem;
+}
+
+bool is_frame(const SE3<double>& x) {
+  return x.p.allFinite() && std::abs(x.R.w * x.R.w + x.R.v.squaredNorm() - 1) < 1e-6;
+}
+
+/// Whether there is anything to solve; otherwise the report says why not.
+bool is_answerable(const SpatialRod& rod, const SE3<double>& base, double length, const SE3<double>& tip,
+                   Report& report) {
+  report.status = Status::left_domain;
+  if (!rod.is_valid()) {
+    report.message.append("the rod's stiffnesses must be positive, its compliances not negative, all finite");
+  } else if (!(std::isfinite(length) && length > 0)) {
+    report.message.append("the rod's length must be positive");
+  } else if (!is_frame(base) || !is_frame(tip)) {
+    report.message.append("base and tip must be frames of finite numbers");
+  } else {
+    const double excess = (tip.p - base.p).norm() - length;
+    if (!rod.is_kirchhoff() || excess <= 1e-12 * length) return true;
+    report.status = Status::unreachable;
+    report.residual = excess;
+    report.message.append("the tip is farther away than the rod is long, by ");
+    append_mm(report.message, excess);
+  }
+  return false;
+}
+
+HeldRod unanswered() {
+  HeldRod held;
+  held.stiffness.setConstant(nan);
+  held.feed.setConstant(nan);
+  return held;
+}
+
+/// Where the ends do not say how the base frame spins: from an equilibrium with its spin held, on to where
+/// the base has to hold no torque, downhill: dE/dψ = −m(0)·t(0). x is that of the problem with spin
+/// afterwards.
+bool turn_downhill(const HoldProblem& problem, bool fixed_steps, Vec<double, 6>& x, int& iterations) {
+  HoldProblem held = problem;
+  held.seeks_spin = false;
+  double spin = 0, step = std::copysign(0.2, x[5]);
+  for (int solves = 0; solves < 100; ++solves) {
+    held.base.R = problem.base.R.compose(Turn::exp({0, 0, spin + step}));
+    Vec<double, 6> ahead = x;
+    if (!fixed_steps) held.steps = path_steps(held, x);
+    const Report report = newton(held, ahead, {path_tolerance * problem.length, 10});
+    iterations += report.iterations;
+    if (report.ok() && (ahead - x).norm() < 1 + 0.3 * x.norm()) {
+      const bool passed = ahead[5] * x[5] <= 0;
+      const double share = passed ? x[5] / (x[5] - ahead[5]) : 1;
+      x += share * (ahead - x);
+      spin += share * step;
+      if (passed) {
+        x[5] = spin;
+        return x.allFinite();
+      }
+    } else {
+      step *= 0.4;
+      if (std::abs(step) < 1e-4) return false;
+    }
+  }
+  return false;
+}
+
+/// From one arc to the equilibrium, to the last digits.
+bool from_arc(HoldProblem& problem, int side, Vec<double, 6>& x, const HoldOptions& options, HeldRod& held) {
+  HoldProblem first = problem;
+  const bool turns_free = problem.seeks_spin && problem.ends.tip != RodEnds::Tip::clamp;
+  if (turns_free) first.seeks_spin = false;
+  Way way(first, side, options);
+  if (!way.follow(x, held.report.iterations)) return false;
+  if (turns_free && !turn_downhill(problem, options.steps > 0, x, held.report.iterations)) return false;
+  if (options.steps == 0) problem.steps = steps_at(problem, x, options.tolerance, held.error);
+  return polish(problem, x, options, held);
+}
+
+/// Of four arcs the first that leads to a stable equilibrium; otherwise the first that leads to any.
+bool from_arcs(HoldProblem& problem, Vec<double, 6>& x, const HoldOptions& options, HeldRod& held) {
+  bool found = false;
+  for (int side = 0; side < 4; ++side) {
+    HoldProblem attempt = problem;
+    attempt.steps = options.steps;
+    HeldRod answer = held;
+    Vec<double, 6> end = x;
+    const bool arrived = from_arc(attempt, side, end, options, answer);
+    held.report.iterations = answer.report.iterations;
+    const RodState<double> base = attempt.base_state(end);
+    const bool stable = arrived && unstable_directions(problem.rod, problem.length, base, problem.ends) == 0;
+    if (stable || !found) {
+      problem.steps = attempt.steps;
+      x = end;
+      held = answer;
+    }
+    if (stable) return true;
+    found = found || arrived;
+  }
+  return found;
+}
+
+/// The numbers of the last iterate, whatever it is worth.
+void conclude(HoldProblem& problem, const Vec<double, 6>& x, bool found, HeldRod& held) {
+  if (problem.steps == 0) problem.steps = path_steps(problem, x);  // nothing was found
+  held.base = problem.base_state(x);
+  held.spin = problem.seeks_spin ? x[5] : 0;
+  const RodTangent tangent = integrate_tangent(problem.rod, problem.length, held.base, {problem.steps, 0});
+  held.tip = tangent.tip.state;
+  held.energy = tangent.tip.energy;
+  held.steps = tangent.tip.steps;
+  if (found && !differentiate(problem, tangent, held)) {
+    held.report.status = Status::singular;
+    held.report.message.append("the ends do not determine the forces: the rod is straight, or about to jump");
+  }
+  if (!found) {
+    held.report.residual = problem.length * problem.residual(held.tip).lpNorm<Eigen::Infinity>();
+    held.report.status = Status::stalled;
+    held.report.message.append("no equilibrium was found with these ends");
+  }
+}
+
+}  // namespace
+
+HeldRod hold(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
+             const SE3<double>& tip, const HoldOptions& options) {
+  HeldRod held = unanswered();
+  if (!is_answerable(rod, base, length, tip, held.report)) return held;
+  HoldProblem problem = stated(rod, base, length, ends, tip, options);
+  Vec<double, 6> x = Vec<double, 6>::Zero();
+  const bool found = from_arcs(problem, x, options, held);
+  conclude(problem, x, found, held);
+  return held;
+}
+
+HeldRod hold(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
+             const SE3<double>& tip, const RodStart& start, const HoldOptions& options) {
+  HeldRod held = unanswered();
+  if (!is_answerable(rod, base, length, tip, held.report)) return held;
+  HoldProblem problem = stated(rod, base, length, ends, tip, options);
+  const Turn R = base.R.compose(Turn::exp({0, 0, problem.seeks_spin ? start.spin : 0}));
+  Vec<double, 6> x = problem.unknowns_of({base.p, R, start.force, start.moment}, start.spin);
+  bool found = x.allFinite();
+  if (found && options.steps == 0) {  // coarsely first
+    problem.steps = path_steps(problem, x);
+    held.report.iterations = newton(problem, x, {path_tolerance * length, options.max_iterations}).iterations;
+    problem.steps = steps_at(problem, x, options.tolerance, held.error);
+  }
+  if (found) found = polish(problem, x, options, held);
+  if (!found) found = from_arcs(problem, x, options, held);
+  conclude(problem, x, found, held);
+  return held;
+}
+
+}  // namespace sinew::inline v0
