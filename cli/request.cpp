@@ -104,7 +104,7 @@ class Request {
   void per_section(std::string_view key, Dimension dimension);
   void quantity(std::string_view option, Dimension dimension);
   void vector(std::string_view option, Dimension dimension);
-  void lengths(std::string_view option);
+  void list(std::string_view option, std::string_view key, Dimension dimension);
   void per_leg(std::string_view option, Dimension dimension);
   void signs(std::string_view key);
   void curvature();
@@ -329,11 +329,11 @@ void Request::quantity(std::string_view option, Dimension dimension) {
   fail(value.error().front().code, option, value.error().front().message);
 }
 
-void Request::lengths(std::string_view option) {
+void Request::list(std::string_view option, std::string_view key, Dimension dimension) {
   const std::string* given = arguments_.text(option);
   if (!given) return;
   const auto parts = split(*given);
-  member(option, json_list(values(option, parts, std::vector<Dimension>(parts.size(), Dimension::length))));
+  member(key, json_list(values(option, parts, std::vector<Dimension>(parts.size(), dimension))));
 }
 
 /// Two values for each leg, legs apart by semicolons; `-` where no length is held.
@@ -466,7 +466,7 @@ Expected<Robot> open_with_platform(const Arguments& arguments) {
 std::string at_home(const Robot& robot) {
   if (is_serial(robot)) return R"("configuration": [])";  // straight
   const Node& home = *robot.description.find("home");
-  if (!robot.is_on_rods) return fmt::format(R"("pose": {})", as_json(home));
+  if (!robot.is_on_rods || robot.inputs.size() == 6) return fmt::format(R"("pose": {})", as_json(home));
   const auto number_at = [&](std::string_view path) { return si_text(number(home, path)); };
   return fmt::format(R"("independent": {{"z": {}, "e1": {}, "e2": {}}})", number_at("position[2]"),
                      number_at("quaternion[1]"), number_at("quaternion[2]"));
@@ -508,7 +508,9 @@ Expected<std::string> request(std::string_view query, const Arguments& arguments
   request.per_section("configuration", Dimension::angle);
   request.per_section("changes", Dimension::length);
   request.per_section("measured", Dimension::length);
-  request.lengths("slack");
+  request.list("slack", "slack", Dimension::length);
+  request.list("axial-forces", "axial_forces", Dimension::force);
+  request.quantity("deviation", Dimension::force);
   request.quantity("tolerance", Dimension::length);
   request.vector("position", Dimension::length);
   request.vector("direction", Dimension::number);

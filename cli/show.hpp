@@ -39,6 +39,8 @@ std::string show_equilibrium(const Answer& answer, const Robot& robot);
 /// One row an equilibrium of the same inputs and load.
 std::string show_equilibria(const Answer& answer);
 std::string show_rod_velocity(const Answer& answer, const Robot& robot);
+/// Pose, and the wrench that the rods' forces tell.
+std::string show_sensed(const Answer& answer);
 /// @}
 
 /// @name Robots on pseudo-rigid chains

@@ -142,4 +142,18 @@ std::string show_rod_velocity(const Answer& answer, const Robot& robot) {
               : "\ntype II: none, the stiffness is regular\n");
 }
 
+std::string show_sensed(const Answer& answer) {
+  const auto wrench = numbers(answer.find("wrench"));
+  const Node* covariance = answer.find("covariance");
+  std::vector<std::string> header{"wrench", "value"};
+  if (covariance) header.emplace_back("deviation");
+  TextTable table(std::move(header));
+  for (std::size_t k = 0; k < wrench.size(); ++k) {
+    std::vector<std::string> row{wrench_rows[k], six_digits(wrench[k])};
+    if (covariance) row.push_back(six_digits(std::sqrt(covariance->items[k].items[k].number)));
+    table.add(std::move(row));
+  }
+  return show_pose(*answer.find("pose")) + '\n' + table.text();
+}
+
 }  // namespace sinew::cli

@@ -55,6 +55,9 @@ constexpr std::array options{
     Option{"hold", "NAME", "what stays after --set-at or with --pose: tension (default) or length"},
     Option{"tensions", "\"A, B; ...\"", "of statics, of both tendons of each leg"},
     Option{"lengths", "\"A, -; ...\"", "of statics, the tendon of each leg whose length is held; - is loose"},
+    Option{"axial-forces", "\"A, B, ...\"",
+           "of statics, what each of six rods pulls at its guide; answers the wrench on the platform"},
+    Option{"deviation", "FORCE", "standard deviation of these; answers how well the wrench is known"},
     Option{"law", "NAME",
            "of chains: M0w (default, ends weighted), M0 (the paper's), M1 (tendons straight between discs)"},
     Option{"posture-threshold", "ANGLE", "turn of a joint up to which the linear model counts as valid"},
@@ -133,16 +136,20 @@ const std::array table{
         run_question},
     Verb{"statics",
          "ROBOT",
-         "a tendon-driven robot under a load, its links pseudo-rigid chains",
+         "a tendon-driven robot under a load, its links pseudo-rigid chains; the load on rods, sensed",
          {"set-at", "hold", "tensions", "lengths", "pose", "bending", "elbow", "curvature", "start", "wrench",
-          "until", "limit", "law", "posture-threshold", "max-iterations", "set", "json", "quiet", "help"},
-         {"set-at", "tensions", "lengths", "pose"},
+          "until", "limit", "law", "posture-threshold", "inputs", "axial-forces", "deviation",
+          "max-iterations", "set", "json", "quiet", "help"},
+         {"set-at", "tensions", "lengths", "pose", "axial-forces"},
          "Tendons are set at a pose, or their tensions or lengths given; or --pose is held under the load, "
          "and "
          "their\ntensions answered. Beside the equilibrium: whether it is stable, the paper's linear model, "
          "and "
          "links that\nbend evenly. A tendon that would have to push is slack, exit code 3. How much a robot "
-         "bears:\n  sinew statics 3-rfr --set-at \"10 mm, 0, 20 deg\" --until \"0, 0, 1 mN m\" --limit 100",
+         "bears:\n  sinew statics 3-rfr --set-at \"10 mm, 0, 20 deg\" --until \"0, 0, 1 mN m\" --limit 100\n"
+         "What acts on a platform of six rods, from load cells at their guides:\n  sinew statics hexapod --inputs "
+         "\"410 mm, 410 mm, 405 mm, 405 mm, 405 mm, 405 mm\"\n    --axial-forces \"0.1 N, -0.2 N, 0, 0, 0.1 N, 0\" "
+         "--deviation \"10 mN\"",
          "sinew statics 3-rfr --set-at \"10 mm, 0, 20 deg\" --wrench \"30 mN, -20 mN, 0.5 mN m\"",
          run_question},
     Verb{"analyse",

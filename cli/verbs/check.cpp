@@ -64,6 +64,8 @@ std::string both_ways(std::string_view key, const Node& value) {
   if (is_one_of({"length", "tendon_offset", "diameter"}))
     return fmt::format("{} {} m = {}", key, si_text(value.number), human(value.number, Dimension::length));
   if (key == "E") return fmt::format("E {} Pa = {:.6g} GPa", si_text(value.number), value.number / 1e9);
+  if (key == "G") return fmt::format("G {} Pa = {:.6g} GPa", si_text(value.number), value.number / 1e9);
+  if (value.kind == Node::Kind::list) return fmt::format("{} [{}]", key, fmt::join(numbers(&value), ", "));
   return fmt::format("{} {}", key, value.text);
 }
 

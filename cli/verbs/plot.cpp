@@ -153,7 +153,7 @@ std::optional<Figure> robot_figure(const Arguments& arguments, int& exit) {
   }
   if (!arguments.has("pose") && !arguments.has("independent") && !arguments.has("inputs") &&
       !arguments.has("configuration") && !arguments.has("changes")) {
-    if (robot->is_on_rods && robot->inputs.size() != 3) {
+    if (robot->is_on_rods && robot->inputs.size() != 3 && robot->inputs.size() != 6) {
       exit = refuse(
           "plot",
           {{"missing_option", "",

@@ -7,6 +7,9 @@
 #include "kinematics/rods/batch.hpp"
 #include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/inverse.hpp"
+#include "kinematics/rods/sense.hpp"
+#include "kinematics/rods/verdict.hpp"
+#include "sinew/kinematics/force_sensing.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -296,6 +299,54 @@ std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs, 
     return std::isfinite(one.potential) ? one.potential : one.pose.position[2];
   });
   return found;
+}
+
+namespace {
+
+/// A Σ Aᵀ of independent deviations.
+std::array<double, 36> covariance_of(const std::array<double, 36>& rows, Numbers deviations) {
+  std::array<double, 36> covariance;
+  for (std::size_t r = 0; r < 6; ++r)
+    for (std::size_t c = 0; c < 6; ++c) {
+      double sum = 0;
+      for (std::size_t k = 0; k < 6; ++k)
+        sum += rows[6 * r + k] * rows[6 * c + k] * deviations[k] * deviations[k];
+      covariance[6 * r + c] = sum;
+    }
+  return covariance;
+}
+
+}  // namespace
+
+SensedWrench sense_wrench(const AnyRobot& robot, Numbers inputs, Numbers axial, Numbers deviations,
+                          const EquilibriumOptions& options, Workspace& work) {
+  SensedWrench sensed{};
+  const auto* loaded = rods_of(robot);
+  const auto is_number = [](double x) { return std::isfinite(x); };
+  if (!loaded || loaded->leg_count() != 6 || axial.size() != 6 || deviations.size() != 6 ||
+      !std::ranges::all_of(axial, is_number) || !std::ranges::all_of(deviations, is_number)) {
+    sensed.report = failed(Status::left_domain);
+    sensed.report.message.append("a wrench has six parts: six rods are needed, with a force of each");
+    return sensed;
+  }
+  EquilibriumOptions unloaded = options;
+  unloaded.wrench.setZero();
+  const Equilibrium begun = equilibrium(robot, inputs, unloaded, work);
+  sensed.report = begun.report;
+  if (!begun.is_solved()) return sensed;
+  with_rods(work, [&](auto& rods) {
+    RodSensing sensing;
+    std::ranges::copy(axial, sensing.axial.begin());
+    const SpatialWrench weight = rods.system.wrench();
+    sensed.report = sense_rods(rods, sensing);
+    if (!sensed.report.ok()) return;
+    sensed.report = settle(rods.system, sensed.report, 1.0);
+    sensed.pose = spatial_pose(rods.system.platform());
+    sensed.wrench = rods.system.wrench() - weight;
+    sensed.sensitivity = sensing.rows;
+    sensed.covariance = covariance_of(sensing.rows, deviations);
+  });
+  return sensed;
 }
 
 }  // namespace sinew::inline v0

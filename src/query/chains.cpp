@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "query/rods.hpp"
 #include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v0 {
@@ -370,6 +371,7 @@ void on_chains(Context& context, ChainModel law, Handler&& handler) {
 }  // namespace
 
 void answer_statics(Context& context) {
+  if (bears_load(context.robot)) return answer_rods_statics(context);
   on_chains(context, read_law(context), [&](auto& robot) { answer_statics_of(context, robot); });
 }
 

@@ -9,5 +9,6 @@ void answer_rods_forward(Context& context);
 void answer_rods_inverse(Context& context);
 void answer_rods_velocity(Context& context);
 void answer_rods_shape(Context& context);
+void answer_rods_statics(Context& context);
 
 }  // namespace sinew::inline v0

@@ -392,6 +392,22 @@ void RodSystem::set_rods(std::span<const double> coordinates) {
     set_rod(k, coordinates.subspan(at(k * RodLeg::coordinates), RodLeg::coordinates), aim(k).lateral);
 }
 
+double RodSystem::axial_force(int rod) const {
+  return with_rod(rod, [](const auto& rods, int i) { return rods.force_w[i]; });
+}
+double RodSystem::closing_axial_force(int rod) const {
+  return with_rod(rod, [](const auto& rods, int i) { return rods.force_w[i] + rods.fix_w[i]; });
+}
+RodSystem::Twist RodSystem::axial_row(int rod) const {
+  return with_rod(rod, [](const auto& rods, int i) {
+    const Vec3<double> by_tip =
+        vector_of(rods.lateral, i) * rods.stiff_dw[i] + vector_of(rods.tangent, i) * rods.stiff_ww[i];
+    Twist row;
+    row << by_tip, cross(vector_of(rods.arm, i), by_tip);
+    return row;
+  });
+}
+
 RodReading RodSystem::rod(int index) const {
   return with_rod(index, [](const auto& rods, int i) {
     const double length = rods.length[i], stiffness = 1 / rods.flexibility[i];

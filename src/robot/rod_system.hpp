@@ -104,6 +104,11 @@ class RodSystem {
   /// @{
 
   RodReading rod(int index) const;
+  double axial_force(int rod) const;  ///< at its guide, pull > 0 [N]
+  /// The same once the rod's gaps are closed at a resting platform, and its change by the platform's twist at
+  /// fixed lengths; after `linearise`.
+  double closing_axial_force(int rod) const;
+  Twist axial_row(int rod) const;
   /// Unstable directions with the tip held, in the rod's plane and out of it; after `linearise`.
   std::array<int, 2> unstable_with_tip_held(int index) const;
   /// Estimated error of the shapes' polynomials at the tips, over the length: the worst rod's.

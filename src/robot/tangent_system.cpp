@@ -338,6 +338,32 @@ double TangentSystem::weight_energy() const {
   return energy;
 }
 
+double TangentSystem::axial_force(int rod) const {
+  return with_rod(rod, [](const TangentRods& rods, int i) {
+    const Vec3<double> force = vector_of(rods.force, i) + vector_of(rods.weight, i) * rods.length[i];
+    return dot(vector_of(rods.tangent[0], i), force);
+  });
+}
+double TangentSystem::closing_axial_force(int rod) const {
+  return axial_force(rod) + with_rod(rod, [](const TangentRods& rods, int i) {
+           return dot(vector_of(rods.tangent[0], i), vector_of(rods.fix, i));
+         });
+}
+TangentSystem::Twist TangentSystem::axial_row(int rod) const {
+  return with_rod(rod, [](const TangentRods& rods, int i) {
+    constexpr int symmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+    const Vec3<double> t = vector_of(rods.tangent[0], i);
+    Vec3<double> by_tip = Vec3<double>::Zero();
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) by_tip[r] += rods.stiffness[symmetric[r][c]][i] * t[c];
+    Twist row;
+    row << by_tip, cross(vector_of(rods.arm, i), by_tip) +
+                       vector_of(rods.turned[0], i) * dot(t, vector_of(rods.coupling[0], i)) +
+                       vector_of(rods.turned[1], i) * dot(t, vector_of(rods.coupling[1], i));
+    return row;
+  });
+}
+
 RodReading TangentSystem::rod(int index) const {
   return with_rod(index, [&](const TangentRods& rods, int i) {
     const double length = rods.length[i], stiffness = 1 / rods.flexibility[i];

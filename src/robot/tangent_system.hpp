@@ -79,6 +79,9 @@ class TangentSystem {
   /// @name Single rods, after `evaluate`
   /// @{
   RodReading rod(int index) const;
+  double axial_force(int rod) const;  ///< at its guide, pull > 0 [N]
+  double closing_axial_force(int rod) const;
+  Twist axial_row(int rod) const;
   /// Unstable directions with the tip held; after `linearise`. The second number is 0.
   std::array<int, 2> unstable_with_tip_held(int index) const;
   /// Estimated error of the shapes' polynomials at the tips, over the length: the worst rod's.

@@ -1,0 +1,26 @@
+/// @file force_sensing.hpp
+/// The load on a platform from the axial forces of its six rods, as load cells at the guides measure them.
+/// Theory: docs/theory/rod_robot.md
+#pragma once
+#include "sinew/kinematics/equilibrium.hpp"
+
+namespace sinew::inline v0 {
+
+struct SensedWrench {
+  Report report;
+  SpatialPose pose;
+  SpatialWrench wrench;  ///< of the world on the platform, base axes; what gravity does is taken off
+  std::array<double, 36> sensitivity;  ///< ∂wrench/∂axial, rows first: 1, and m
+  std::array<double, 36> covariance;   ///< of the wrench, by that of the measured forces, rows first
+};
+
+/// The wrench under which the rods of these lengths pull so at their guides. In the place of the wrench the pose is
+/// the unknown: at fixed lengths it makes all forces, and the wrench is what they leave over. `singular` where the
+/// forces do not tell (or no pose near the unloaded one makes them).
+/// @param axial of each of six rods, pull > 0 [N]
+/// @param deviations standard deviations of these, independent of each other [N]
+/// @param options of the unloaded platform, from which the search begins; its wrench is not asked
+SINEW_API SensedWrench sense_wrench(const AnyRobot& robot, Numbers inputs, Numbers axial, Numbers deviations,
+                                    const EquilibriumOptions& options, Workspace& work);
+
+}  // namespace sinew::inline v0

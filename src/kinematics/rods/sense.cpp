@@ -1,0 +1,128 @@
+#include "kinematics/rods/sense.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinematics/rods/verdict.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+constexpr int count = 6;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The platform's pose by the axial forces, at fixed lengths.
+template <class System>
+class Sensor {
+ public:
+  explicit Sensor(System& system) : system_(system) {}
+
+  /// Largest of the rods' own errors and of what is missing in force, over EI/L².
+  double error(const std::array<double, 6>& wanted) {
+    system_.evaluate();
+    double worst = system_.rod_error();
+    for (int k = 0; k < count; ++k) {
+      const double length = system_.length(k), unit = system_.stiffness(k) / (length * length);
+      const double missing = std::abs(system_.axial_force(k) - wanted[at(k)]) / unit;
+      worst = std::max(worst, missing) + missing * 0;
+    }
+    return worst;
+  }
+
+  /// ∂axial/∂(p, r φ), r the platform's radius, at the point last evaluated.
+  std::array<double, 36> rows() {
+    system_.linearise();  // the platform's own stiffness is not asked for
+    std::array<double, 36> rows;
+    for (int k = 0; k < count; ++k) {
+      const Vec<double, 6> row = system_.axial_row(k);
+      for (int c = 0; c < 6; ++c) rows[at(6 * k + c)] = row[c] / (c < 3 ? 1 : system_.radius());
+    }
+    return rows;
+  }
+
+  /// Newton's step, no further than a linearisation can be trusted.
+  bool step(const std::array<double, 6>& wanted) {
+    const std::array<double, 36> matrix = rows();
+    std::array<double, 6> missing, moved;
+    for (int k = 0; k < count; ++k) missing[at(k)] = wanted[at(k)] - system_.closing_axial_force(k);
+    if (!solve(MatrixView(matrix.data(), 6, 6), MatrixView(missing.data(), 6, 1), moved)) return false;
+    Vec<double, 6> twist;
+    for (int c = 0; c < 6; ++c) twist[c] = moved[at(c)] / (c < 3 ? 1 : system_.radius());
+    if (!(std::hypot(twist.head<3>().norm(), system_.radius() * twist.tail<3>().norm()) <
+          0.3 * system_.length(0)))
+      return false;
+    system_.move(twist);
+    return true;
+  }
+
+ private:
+  System& system_;
+};
+
+/// ∂wrench/∂axial = ∂wrench/∂twist (∂axial/∂twist)⁻¹. False where the forces do not fix the pose.
+template <class System>
+bool differentiate(System& system, RodSensing& sensing) {
+  Sensor<System> sensor(system);
+  const std::array<double, 36> rows = sensor.rows();
+  std::array<double, 36> inverse, identity{};
+  for (std::size_t k = 0; k < 6; ++k) identity[7 * k] = 1;
+  if (!solve(MatrixView(rows.data(), 6, 6), MatrixView(identity.data(), 6, 6), inverse)) return false;
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 6; ++c) {
+      double sum = 0;
+      for (int k = 0; k < 6; ++k)
+        sum += system.stiffness()(r, k) * inverse[at(6 * k + c)] / (k < 3 ? 1 : system.radius());
+      sensing.rows[at(6 * r + c)] = sum;
+    }
+  return true;
+}
+
+}  // namespace
+
+template <class System>
+Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
+  System& system = work.system;
+  Report report;
+  Sensor<System> sensor(system);
+  std::array<double, 6> from, wanted;
+  sensor.error(sensing.axial);
+  for (int k = 0; k < count; ++k) from[at(k)] = system.axial_force(k);
+  double part = 0, stride = 1;
+  constexpr double shortest = 1e-4;
+  while (part < 1 && stride > shortest) {
+    const double next = std::min(1.0, part + stride);
+    for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k] = std::lerp(from[k], sensing.axial[k], next);
+    system.save(work.spare);
+    if (contract([&] { return sensor.error(wanted); }, [&] { return sensor.step(wanted); }, rod_tolerance,
+                 report.iterations, report.residual)) {
+      part = next;
+      stride *= 2;
+    } else {
+      system.restore(work.spare);
+      stride = (next - part) / 4;
+    }
+  }
+  while (part >= 1 && !system.is_finest() && system.truncation() > System::best_truncation) {
+    system.refine();
+    if (!contract([&] { return sensor.error(sensing.axial); }, [&] { return sensor.step(sensing.axial); },
+                  rod_tolerance, report.iterations, report.residual))
+      part = 0;
+  }
+  if (part < 1 || !differentiate(system, sensing)) {
+    report = failed(Status::singular);
+    report.message.append(
+        "no wrench near the unloaded platform makes the rods pull so; check signs (pull > 0) and lengths");
+    work.is_solved = false;
+    return report;
+  }
+  system.set_wrench(system.wrench() - system.missing());
+  system.evaluate();
+  system.linearise();
+  return report;
+}
+
+template Report sense_rods(RodWorkOf<RodSystem>&, RodSensing&);
+template Report sense_rods(RodWorkOf<TangentSystem>&, RodSensing&);
+
+}  // namespace sinew::inline v0

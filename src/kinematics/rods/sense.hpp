@@ -1,0 +1,19 @@
+/// @file sense.hpp
+/// The wrench on a platform from the axial forces of its six rods.
+#pragma once
+#include "kinematics/rods/solve.hpp"
+
+namespace sinew::inline v0 {
+
+/// What is measured at the guides, and what it says.
+struct RodSensing {
+  std::array<double, 6> axial{};  ///< of each rod at its guide, pull > 0 [N]
+  std::array<double, 36> rows{};  ///< ∂wrench/∂axial, rows first
+};
+
+/// From a solved state near by: moves the platform, at fixed lengths, to where the rods pull as `sensing` says.
+/// The wrench that is left over is what acts there. Fills `rows`.
+template <class System>
+Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing);
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,64 @@
+/// `statics` of robots on rods: the wrench from axial forces.
+#include <cmath>
+
+#include "query/rods.hpp"
+#include "sinew/io/read_pose.hpp"
+#include "sinew/kinematics/force_sensing.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+/// One number for all, or one each.
+std::vector<double> read_forces(const Reader& given, std::size_t count, const Range& range, bool one_for_all) {
+  if (one_for_all && !given.is(Node::Kind::list))
+    return std::vector<double>(count, given.quantity(Dimension::force, range));
+  std::vector<double> forces;
+  for (const Reader& item : given.items(count)) forces.push_back(item.quantity(Dimension::force, range));
+  return forces;
+}
+
+struct SensingQuery {
+  std::vector<double> inputs, axial, deviations;
+  EquilibriumOptions options;
+  bool has_deviations = false;
+};
+
+SensingQuery read_sensing(Context& context) {
+  constexpr std::size_t rods = 6;
+  SensingQuery asked;
+  asked.inputs = read_inputs(context, context.query.required("inputs", "rod lengths, in leg order"));
+  const Reader axial = context.query.required("axial_forces", "what each rod pulls at its guide: six forces");
+  if (leg_count(context.robot) != static_cast<int>(rods))
+    axial.fail("not_available", "a wrench has six parts: it is read from six rods");
+  asked.axial = read_forces(axial, rods, Range::between(-1e9, 1e9), false);
+  const auto deviation = context.query.optional("deviation");
+  asked.has_deviations = deviation.has_value();
+  asked.deviations =
+      deviation ? read_forces(*deviation, rods, Range::not_negative(), true) : std::vector<double>(rods, 0.0);
+  if (const auto gravity = context.query.optional("gravity")) asked.options.gravity = read_gravity(*gravity);
+  if (auto start = context.query.optional("start")) asked.options.start = read_spatial_pose(std::move(*start));
+  if (context.max_iterations) asked.options.max_iterations = *context.max_iterations;
+  return asked;
+}
+
+Json rows_json(const std::array<double, 36>& numbers) { return to_json(MatrixView(numbers.data(), 6, 6)); }
+
+}  // namespace
+
+void answer_rods_statics(Context& context) {
+  const SensingQuery asked = read_sensing(context);
+  if (!context.ready()) return;
+  const SensedWrench sensed =
+      sense_wrench(context.robot, asked.inputs, asked.axial, asked.deviations, asked.options, context.work);
+  context.report(sensed.report);
+  if (!sensed.report.ok() && sensed.report.status != Status::unstable) return;
+  Json& answer = context.answer;
+  answer["iterations"] = sensed.report.iterations;
+  answer["residual"] = sensed.report.residual;
+  answer["pose"] = to_json(sensed.pose);
+  answer["wrench"] = to_json(std::span<const double>(sensed.wrench.data(), 6));
+  answer["wrench_sensitivity"] = rows_json(sensed.sensitivity);
+  if (asked.has_deviations) answer["covariance"] = rows_json(sensed.covariance);
+}
+
+}  // namespace sinew::inline v0
