@@ -1,6 +1,6 @@
 /// Hexapods of rods: lengths for a pose, warm along a walk and cold from home, and poses for lengths.
-/// Run: build/dev/bin/bench_hexapod. The baseline is the field's own way: 36 unknowns, Cosserat rods by RK4 with
-/// 40 steps, Jacobian by differences that integrate the one rod they touch.
+/// Run: build/dev/bin/bench_hexapod. The baseline is the field's own way: 36 unknowns, Cosserat rods by RK4
+/// with 40 steps, Jacobian by differences that integrate the one rod they touch.
 #include <fmt/format.h>
 
 #include <hwy/highway.h>
@@ -11,6 +11,7 @@
 #include <random>
 
 #include "report.hpp"
+#include "robot/tangent_system.hpp"
 #include "shooting_hexapod.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
@@ -27,8 +28,8 @@ constexpr InstructionSet instruction_sets[] = {
 
 SpatialPose pose_of(const Vec3<double>& p, const SO3<double>& R) { return spatial_pose(SE3<double>{p, R}); }
 
-/// A platform that wanders `range` to the sides and from 0.37 to 0.58 m, or half as far upwards, in steps of one size,
-/// a new direction every 50. Heavy rods, and free platforms, meet folds further out.
+/// A platform that wanders `range` to the sides and from 0.37 to 0.58 m, or half as far upwards, in steps of
+/// one size, a new direction every 50. Heavy rods, and free platforms, meet folds further out.
 struct Walk {
   AnyRobot robot;
   Workspace work;
@@ -36,9 +37,7 @@ struct Walk {
   std::vector<std::vector<double>> lengths;
   std::size_t at = 0;
 
-  Walk(const char* name, double stride, double range)
-      : robot(load(name).value()),
-        work(robot) {
+  Walk(const char* name, double stride, double range) : robot(load(name).value()), work(robot) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(-1, 1);
     Vec3<double> p(0, 0, 0.4), direction(0, 0, 1);
@@ -128,7 +127,8 @@ void compare_forward(const char* name, double stride, const InstructionSet& isa)
   auto walk = std::make_shared<Walk>(name, stride, 0.05);
   inverse_equilibrium(walk->robot, walk->poses[0], {}, walk->work);
   for (const SpatialPose& pose : walk->poses) {
-    const Equilibrium held = inverse_equilibrium(walk->robot, pose, {.resume = true, .judge = false}, walk->work);
+    const Equilibrium held =
+        inverse_equilibrium(walk->robot, pose, {.resume = true, .judge = false}, walk->work);
     walk->lengths.emplace_back(held.inputs.begin(), held.inputs.end());
   }
   equilibrium(walk->robot, walk->lengths[0], {.start = walk->poses[0]}, walk->work);
@@ -153,12 +153,48 @@ void compare_forward(const char* name, double stride, const InstructionSet& isa)
            fmt::format("position to {:.0e} m, {:.1f} iterations, {} failures", worst, iterations, failures)});
 }
 
+/// What one evaluation and one linearisation cost: against the number of rods, eight of which share the
+/// lanes, and of elements, whose polynomials are of order 8.
+void print_costs() {
+  fmt::print("{:>6} {:>9} {:>7} {:>14} {:>16}\n", "rods", "elements", "order", "evaluation[ns]",
+             "linearised[ns]");
+  const AnyRobot hexapod = load("hexapod").value();
+  const auto& six = std::get<ParallelRobot<RodLeg>>(hexapod.model);
+  const auto median = [](auto&& run) {
+    std::vector<double> times;
+    for (int k = 0; k < 101; ++k) {
+      const auto begin = std::chrono::steady_clock::now();
+      for (int i = 0; i < 20; ++i) run();
+      times.push_back(
+          std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count() / 20);
+    }
+    std::ranges::nth_element(times, times.begin() + 50);
+    return times[50];
+  };
+  for (const int rods : {1, 6, 8, 12, 24}) {
+    std::vector<RodLeg> legs;
+    for (int k = 0; k < rods; ++k) legs.push_back(six.legs[static_cast<std::size_t>(k % 6)]);
+    TangentSystem system(ParallelRobot<RodLeg>(legs, six.home, six.platform_radius));
+    system.set_platform(SE3<double>::from(six.home));
+    system.draw_rods();
+    for (;; system.refine()) {
+      const double evaluation = median([&] { system.evaluate(); });
+      const double linearised = median([&] { system.linearise(); });
+      fmt::print("{:>6} {:>9} {:>7} {:>14.0f} {:>16.0f}\n", rods, system.elements(), TangentState::degree,
+                 evaluation, linearised);
+      if (system.is_finest()) break;
+    }
+  }
+}
+
 /// Random poses from home, every one a new start.
 void print_cold(const char* name, double tilt) {
   const AnyRobot robot = load(name).value();
   Workspace work(robot);
   std::mt19937 random(7);
-  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution(low, high)(random);
+  };
   std::vector<double> times;
   int solved = 0, stable = 0, folds = 0;
   constexpr int count = 1000;
@@ -168,15 +204,18 @@ void print_cold(const char* name, double tilt) {
     const SpatialPose wanted = pose_of({x, y, z}, SO3<double>::exp(Vec3<double>(a, b, c)));
     const auto begin = std::chrono::steady_clock::now();
     const Equilibrium found = inverse_equilibrium(robot, wanted, {}, work);
-    times.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+    times.push_back(
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
     solved += found.is_solved();
     stable += found.report.ok();
     folds += found.report.status == Status::singular;
   }
   std::ranges::sort(times);
-  fmt::print("{} cold from home, tilt up to {:.2f} rad: {} of {} held ({} stable), {} folds named; median {:.0f} us, "
-             "95 % {:.0f} us\n",
-             name, tilt, solved, count, stable, folds, times[count / 2], times[count * 95 / 100]);
+  fmt::print(
+      "{} cold from home, tilt up to {:.2f} rad: {} of {} held ({} stable), {} folds named; median {:.0f} "
+      "us, "
+      "95 % {:.0f} us\n",
+      name, tilt, solved, count, stable, folds, times[count / 2], times[count * 95 / 100]);
 }
 
 }  // namespace
@@ -193,5 +232,6 @@ int main(int argc, char** argv) {
     }
   hwy::SetSupportedTargetsForTest(0);
   for (const double tilt : {0.0, 0.35}) print_cold("hexapod", tilt);
+  print_costs();
   return sinew::bench::main(argc, argv);
 }

@@ -137,9 +137,10 @@ const std::array table{
     Verb{"statics",
          "ROBOT",
          "a tendon-driven robot under a load, its links pseudo-rigid chains; the load on rods, sensed",
-         {"set-at", "hold", "tensions", "lengths", "pose", "bending", "elbow", "curvature", "start", "wrench",
-          "until", "limit", "law", "posture-threshold", "inputs", "axial-forces", "deviation",
-          "max-iterations", "set", "json", "quiet", "help"},
+         {"set-at",    "hold",         "tensions",  "lengths",        "pose",  "bending", "elbow",
+          "curvature", "start",        "wrench",    "until",          "limit", "law",     "posture-threshold",
+          "inputs",    "axial-forces", "deviation", "max-iterations", "set",   "json",    "quiet",
+          "help"},
          {"set-at", "tensions", "lengths", "pose", "axial-forces"},
          "Tendons are set at a pose, or their tensions or lengths given; or --pose is held under the load, "
          "and "
@@ -147,8 +148,10 @@ const std::array table{
          "and "
          "links that\nbend evenly. A tendon that would have to push is slack, exit code 3. How much a robot "
          "bears:\n  sinew statics 3-rfr --set-at \"10 mm, 0, 20 deg\" --until \"0, 0, 1 mN m\" --limit 100\n"
-         "What acts on a platform of six rods, from load cells at their guides:\n  sinew statics hexapod --inputs "
-         "\"410 mm, 410 mm, 405 mm, 405 mm, 405 mm, 405 mm\"\n    --axial-forces \"0.1 N, -0.2 N, 0, 0, 0.1 N, 0\" "
+         "What acts on a platform of six rods, from load cells at their guides:\n  sinew statics hexapod "
+         "--inputs "
+         "\"410 mm, 410 mm, 405 mm, 405 mm, 405 mm, 405 mm\"\n    --axial-forces \"0.1 N, -0.2 N, 0, 0, 0.1 "
+         "N, 0\" "
          "--deviation \"10 mN\"",
          "sinew statics 3-rfr --set-at \"10 mm, 0, 20 deg\" --wrench \"30 mN, -20 mN, 0.5 mN m\"",
          run_question},

@@ -13,7 +13,7 @@ std::string show(const Answer& answer, const Robot& robot) {
   const std::string query = answer.text("query");
   if (query == "velocity") return show_velocity(answer, robot);
   if (is_on_chains(answer)) return show_chains(answer, robot);
-  if (answer.find("wrench")) return show_sensed(answer);
+  if (answer.find("wrench_sensitivity")) return show_sensed(answer);
   const bool is_forward = query == "forward";
   std::string text = is_forward ? "" : show_inputs("value", numbers(answer.find("inputs")), robot);
   if (is_forward || is_on_rods(answer)) text += (text.empty() ? "" : "\n") + show_pose(*answer.find("pose"));
@@ -61,7 +61,8 @@ int run_question(const Arguments& arguments) {
   const auto answer = put(arguments.verb == "analyse" ? "velocity" : arguments.verb, arguments, *robot);
   if (!answer) return refuse_question(arguments, answer.error());
   const bool can_show = answer->converged() || answer->text("status") == "unstable" || answer->find("J") ||
-                        answer->find("configuration") || answer->find("wrench") || is_on_chains(*answer);
+                        answer->find("configuration") || answer->find("wrench_sensitivity") ||
+                        is_on_chains(*answer);
   return conclude(*answer, arguments, can_show ? show(*answer, *robot) : "");
 }
 

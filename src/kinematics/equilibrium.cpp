@@ -340,7 +340,7 @@ SensedWrench sense_wrench(const AnyRobot& robot, Numbers inputs, Numbers axial, 
     const SpatialWrench weight = rods.system.wrench();
     sensed.report = sense_rods(rods, sensing);
     if (!sensed.report.ok()) return;
-    sensed.report = settle(rods.system, sensed.report, 1.0);
+    sensed.report = settle(rods.system, sensed.report, rods.system.best_truncation);
     sensed.pose = spatial_pose(rods.system.platform());
     sensed.wrench = rods.system.wrench() - weight;
     sensed.sensitivity = sensing.rows;

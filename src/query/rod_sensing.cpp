@@ -9,7 +9,8 @@ namespace sinew::inline v0 {
 namespace {
 
 /// One number for all, or one each.
-std::vector<double> read_forces(const Reader& given, std::size_t count, const Range& range, bool one_for_all) {
+std::vector<double> read_forces(const Reader& given, std::size_t count, const Range& range,
+                                bool one_for_all) {
   if (one_for_all && !given.is(Node::Kind::list))
     return std::vector<double>(count, given.quantity(Dimension::force, range));
   std::vector<double> forces;
@@ -36,7 +37,8 @@ SensingQuery read_sensing(Context& context) {
   asked.deviations =
       deviation ? read_forces(*deviation, rods, Range::not_negative(), true) : std::vector<double>(rods, 0.0);
   if (const auto gravity = context.query.optional("gravity")) asked.options.gravity = read_gravity(*gravity);
-  if (auto start = context.query.optional("start")) asked.options.start = read_spatial_pose(std::move(*start));
+  if (auto start = context.query.optional("start"))
+    asked.options.start = read_spatial_pose(std::move(*start));
   if (context.max_iterations) asked.options.max_iterations = *context.max_iterations;
   return asked;
 }

@@ -48,7 +48,8 @@ EquilibriumOptions read_options(Context& context) {
   if (const auto gravity = context.query.optional("gravity")) {
     options.gravity = read_gravity(*gravity);
     if (!has_weight(context.robot))
-      gravity->refuse("no_effect", "nothing of this robot has a mass; give its rods a density, or its platform one");
+      gravity->refuse("no_effect",
+                      "nothing of this robot has a mass; give its rods a density, or its platform one");
   }
   if (context.max_iterations) options.max_iterations = *context.max_iterations;
   return options;

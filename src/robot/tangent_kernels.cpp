@@ -45,9 +45,23 @@ HWY_INLINE void turn_node(TangentRods& rods, int node, int i, const Pack3& to) {
   store3(to, rods.tangent[node], i);
 }
 
+/// A node's tangent pushed aside by d across it, to ((1 − q) t + d)/(1 + q) with q = |d|²/4: of length 1 and,
+/// to second order, t + d. Its frame by the same rotation. One division serves all.
+HWY_INLINE void push_node(TangentRods& rods, int node, int i, const Pack3& d) {
+  const Pack3 t = load3(rods.tangent[node], i), middle = plus(t, d, all(0.5));
+  const Pack q = all(0.25) * dot(d, d), inverse = all(1) / (all(1) + q);
+  for (auto& axis : rods.across[node]) {
+    const Pack3 e = load3(axis, i);
+    store3(plus(e, middle, hn::Neg(dot(e, d) * inverse)), axis, i);
+  }
+  store3(plus(scaled(t, (all(1) - q) * inverse), d, inverse), rods.tangent[node], i);
+}
+
 /// A frame from t alone (Duff et al. 2017), so that what factors say does not depend on the way there.
 HWY_INLINE void frame_node(TangentRods& rods, int node, int i) {
-  const Pack3 t = load3(rods.tangent[node], i);
+  Pack3 t = load3(rods.tangent[node], i);
+  t = scaled(t, minus(all(1.5), all(0.5), dot(t, t)));  // steps round its length
+  store3(t, rods.tangent[node], i);
   const Pack sign = hn::CopySign(all(1), t.z), a = all(-1) / (sign + t.z), b = t.x * t.y * a;
   store3({plus(all(1), sign * t.x * t.x, a), sign * b, hn::Neg(sign * t.x)}, rods.across[node][0], i);
   store3({b, plus(sign, t.y * t.y, a), hn::Neg(t.y)}, rods.across[node][1], i);
@@ -305,10 +319,12 @@ HWY_INLINE void factor(TangentRods& rods, int i, int elements) {
       store(d12, rods.tip_pivot[1] + i);
       store(d22, rods.tip_pivot[2] + i);
     } else {
-      const Pack inverse = all(1) / d11, inner = d12 * inverse;
+      // 1/d₁₁ and d₁₁/det by one division
+      const Pack det = minus(d11 * d22, d12, d12), both = all(1) / (d11 * det);
+      const Pack inverse = det * both, inner = d12 * inverse;
       store(inverse, rods.pivot[node][0] + i);
       store(inner, rods.inner[node] + i);
-      store(all(1) / minus(d22, inner, d12), rods.pivot[node][1] + i);
+      store(d11 * d11 * both, rods.pivot[node][1] + i);
       for (int c = 0; c < 4; ++c) column[1][c] = minus(column[1][c], inner, column[0][c]);
     }
     for (int c = 0; c < 4; ++c) {
@@ -602,11 +618,8 @@ HWY_INLINE void carry_on(TangentRods& rods, int i, int elements, const Pack3& sh
     }
   }
   for (int node = 1; node <= tip; ++node) {
-    const Pack3 t = load3(rods.tangent[node], i);
-    Pack3 to =
-        plus(plus(t, load3(rods.across[node][0], i), x[node][0]), load3(rods.across[node][1], i), x[node][1]);
-    to = scaled(to, all(1) / hn::Sqrt(dot(to, to)));
-    turn_node(rods, node, i, to);
+    const auto& across = rods.across[node];
+    push_node(rods, node, i, plus(scaled(load3(across[0], i), x[node][0]), load3(across[1], i), x[node][1]));
   }
 }
 

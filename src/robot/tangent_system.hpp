@@ -109,6 +109,8 @@ class TangentSystem {
   /// Estimated error from which an answer that is not resumed takes more elements: forces are then good to
   /// 1e-12 of themselves.
   static constexpr double best_truncation = 1e-15;
+  /// ... and one that is to be quick: lengths to 1e-9 of themselves.
+  static constexpr double quick_truncation = 1e-9;
 
  private:
   std::span<TangentRods> groups() { return groups_; }

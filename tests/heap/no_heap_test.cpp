@@ -111,8 +111,9 @@ TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
     const bool is_hexapod = input_count(robot) == 6;
     SpatialPose beside = at_home;
     beside.position += Vec3<double>(0.01, 0.02, 0.03);
-    ASSERT_TRUE((is_hexapod ? inverse_equilibrium(robot, at_home, {}, work)
-                            : inverse_equilibrium(robot, IndependentPose{at_home.position[2], 0, 0}, {}, work))
+    ASSERT_TRUE((is_hexapod
+                     ? inverse_equilibrium(robot, at_home, {}, work)
+                     : inverse_equilibrium(robot, IndependentPose{at_home.position[2], 0, 0}, {}, work))
                     .is_solved());
     std::vector<double> inputs = values(work.inputs);
     SpatialWrench load = SpatialWrench::Zero(), down = SpatialWrench::Zero();

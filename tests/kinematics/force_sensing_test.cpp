@@ -13,9 +13,7 @@ namespace {
 
 /// A platform under a load, and what its rods pull.
 struct Loaded {
-  explicit Loaded(const char* name)
-      : robot(load(name).value()),
-        work(robot) {}
+  explicit Loaded(const char* name) : robot(load(name).value()), work(robot) {}
 
   /// Lengths that hold it a little beside home without load.
   bool begin(RodRandom& random) {
@@ -23,8 +21,8 @@ struct Loaded {
     const Equilibrium held =
         input_count(robot) == 6
             ? inverse_equilibrium(robot, pose_of(random.near(home, 0.02, 0.1)), {}, work)
-            : inverse_equilibrium(robot, IndependentPose{home.p[2] + 0.01, random.uniform(-0.05, 0.05), 0.03}, {},
-                                  work);
+            : inverse_equilibrium(robot, IndependentPose{home.p[2] + 0.01, random.uniform(-0.05, 0.05), 0.03},
+                                  {}, work);
     inputs.assign(held.inputs.begin(), held.inputs.end());
     return held.report.ok();
   }
@@ -77,7 +75,8 @@ TEST_P(ForceSensing, SensitivityAndCovarianceAreThoseOfTheForces) {
   ASSERT_TRUE(platform.begin(random));
   ASSERT_TRUE(platform.press(random.wrench(0.1, 0.005)));
   Workspace other(platform.robot);
-  const SensedWrench at = sense_wrench(platform.robot, platform.inputs, platform.axial, deviations, {}, other);
+  const SensedWrench at =
+      sense_wrench(platform.robot, platform.inputs, platform.axial, deviations, {}, other);
   ASSERT_TRUE(at.report.ok());
   double size = 0;
   for (const double x : at.sensitivity) size = std::max(size, std::abs(x));
@@ -105,7 +104,8 @@ TEST_P(ForceSensing, SaysWhyNot) {
   ASSERT_TRUE(platform.begin(random));
   ASSERT_TRUE(platform.press(SpatialWrench::Zero()));
   const auto status = [&](std::vector<double> axial) {
-    const SensedWrench found = sense_wrench(platform.robot, platform.inputs, axial, deviations, {}, platform.work);
+    const SensedWrench found =
+        sense_wrench(platform.robot, platform.inputs, axial, deviations, {}, platform.work);
     EXPECT_FALSE(found.report.message.view().empty());
     return found.report.status;
   };
@@ -115,7 +115,8 @@ TEST_P(ForceSensing, SaysWhyNot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, ForceSensing,
-                         testing::Values("hexapod", "hexapod-heavy", "hexapod-self-weight", "6pfs", "3pfs-g2"),
+                         testing::Values("hexapod", "hexapod-heavy", "hexapod-self-weight", "6pfs",
+                                         "3pfs-g2"),
                          [](const auto& robot) {
                            std::string name = robot.param;
                            std::ranges::replace(name, '-', '_');

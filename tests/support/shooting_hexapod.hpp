@@ -1,8 +1,8 @@
 /// @file shooting_hexapod.hpp
-/// Hexapods of rods the way the field solves them: every rod a Cosserat rod with a rotation along it, integrated
-/// from its guide by Runge-Kutta, 36 unknowns (base force, the moment's part across the guide, length), Newton's
-/// method with a Jacobian by differences. Shares nothing with the library but the robot's numbers: it judges
-/// and is the baseline of the benchmark.
+/// Hexapods of rods the way the field solves them: every rod a Cosserat rod with a rotation along it,
+/// integrated from its guide by Runge-Kutta, 36 unknowns (base force, the moment's part across the guide,
+/// length), Newton's method with a Jacobian by differences. Shares nothing with the library but the robot's
+/// numbers: it judges and is the baseline of the benchmark.
 #pragma once
 #include <Eigen/Dense>
 #include <vector>
@@ -70,8 +70,7 @@ class ShootingHexapod {
       const Eigen::Matrix3d across = frame(pose.R.rotate(leg.platform_tangent));
       // a ball joint has no moment across the tangent, a clamp has the tangent
       const Eigen::Vector3d off = leg.is_clamped ? Eigen::Vector3d(rod.R.col(2)) : rod.m;
-      gap.segment<2>(5 * k + 3) =
-          (leg.is_clamped ? across : rod.R).leftCols<2>().transpose() * off;
+      gap.segment<2>(5 * k + 3) = (leg.is_clamped ? across : rod.R).leftCols<2>().transpose() * off;
       gap.segment<3>(30) -= rod.n;
       gap.segment<3>(33) -= arm.cross(rod.n) + (leg.is_clamped ? rod.m : Eigen::Vector3d::Zero().eval());
     }
@@ -121,7 +120,8 @@ class ShootingHexapod {
   Rod rate(const RodLeg& leg, const Rod& at) const {
     const double EI = leg.link.bending_stiffness();
     const double shear = leg.link.shear_compliance(), axial = shear + leg.link.stretch_compliance();
-    const double GJ = leg.link.shear_modulus > 0 ? 4 * EI * leg.link.shear_modulus / (2 * leg.link.youngs_modulus) : EI;
+    const double GJ =
+        leg.link.shear_modulus > 0 ? 4 * EI * leg.link.shear_modulus / (2 * leg.link.youngs_modulus) : EI;
     const Eigen::Vector3d n = at.R.transpose() * at.n, m = at.R.transpose() * at.m;
     const Eigen::Vector3d v(shear * n[0], shear * n[1], 1 + axial * n[2]), u(m[0] / EI, m[1] / EI, m[2] / GJ);
     Eigen::Matrix3d turn;

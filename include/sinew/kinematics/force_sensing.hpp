@@ -14,9 +14,9 @@ struct SensedWrench {
   std::array<double, 36> covariance;   ///< of the wrench, by that of the measured forces, rows first
 };
 
-/// The wrench under which the rods of these lengths pull so at their guides. In the place of the wrench the pose is
-/// the unknown: at fixed lengths it makes all forces, and the wrench is what they leave over. `singular` where the
-/// forces do not tell (or no pose near the unloaded one makes them).
+/// The wrench under which the rods of these lengths pull so at their guides. In the place of the wrench the
+/// pose is the unknown: at fixed lengths it makes all forces, and the wrench is what they leave over.
+/// `singular` where the forces do not tell (or no pose near the unloaded one makes them).
 /// @param axial of each of six rods, pull > 0 [N]
 /// @param deviations standard deviations of these, independent of each other [N]
 /// @param options of the unloaded platform, from which the search begins; its wrench is not asked

@@ -118,7 +118,7 @@ void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wren
     for (int lane = 0; lane < rod_lanes; ++lane) {
       Status status = Status::converged;
       if (!knows_[at(lane)] || !(poses_.error[lane] <= rod_tolerance) ||
-          !(truncation[lane] <= quick_truncation)) {
+          !(truncation[lane] <= RodSystem::quick_truncation)) {
         is_renewed = true;
         if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), status)) {
           statuses[row(lane)] = status;

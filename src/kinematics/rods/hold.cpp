@@ -238,15 +238,15 @@ Report hold_rods(RodWorkOf<System>& work, const SE3<double>& home, const SE3<dou
     system.set_wrench(question.wrench);
     Holder<System> holder(work);
     bool is_near = true;
-    const bool is_lighter = system.can_coarsen(quick_truncation);
+    const bool is_lighter = system.can_coarsen(System::quick_truncation);
     if (is_lighter) system.coarsen();
     if (is_lighter || !work.knows_feeding) {
       system.evaluate();
       is_near = holder.renew();
     }
     if (is_near && holder.follow(wanted, report, question.judge ? rod_tolerance : rod_quick_tolerance)) {
-      if (question.judge || (system.truncation() > quick_truncation && !system.is_finest()))
-        report = finish(work, wanted, report, question.judge ? coarse_truncation : quick_truncation);
+      if (question.judge || (system.truncation() > System::quick_truncation && !system.is_finest()))
+        report = finish(work, wanted, report, question.judge ? coarse_truncation : System::quick_truncation);
       work.is_solved = report.ok() || report.status == Status::unstable;
       return report;
     }

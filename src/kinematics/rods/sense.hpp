@@ -11,8 +11,8 @@ struct RodSensing {
   std::array<double, 36> rows{};  ///< ∂wrench/∂axial, rows first
 };
 
-/// From a solved state near by: moves the platform, at fixed lengths, to where the rods pull as `sensing` says.
-/// The wrench that is left over is what acts there. Fills `rows`.
+/// From a solved state near by: moves the platform, at fixed lengths, to where the rods pull as `sensing`
+/// says. The wrench that is left over is what acts there. Fills `rows`.
 template <class System>
 Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing);
 

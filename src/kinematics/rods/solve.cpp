@@ -185,7 +185,7 @@ Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inpu
   System& system = work.system;
   if (question.resume) {
     system.save(work.before);
-    const double truncation = question.judge ? coarse_truncation : quick_truncation;
+    const double truncation = question.judge ? coarse_truncation : System::quick_truncation;
     if (system.can_coarsen(truncation)) lighten(work, truncation);
     system.set_inputs(inputs);
     system.set_wrench(question.wrench);

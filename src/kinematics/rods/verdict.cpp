@@ -92,7 +92,7 @@ bool resolve(System& system, Report& report, double truncation) {
       return false;
     }
   }
-  if (!(system.truncation() <= worst_truncation)) {
+  if (!(system.truncation() <= std::max(worst_truncation, truncation))) {
     report.status = Status::left_domain;
     report.message.append("the rods bend more sharply than their nodes resolve");
     return false;

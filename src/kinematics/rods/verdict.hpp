@@ -7,9 +7,6 @@ namespace sinew::inline v0 {
 
 /// Estimated error of a shape at its tip, over the length, beyond which an answer is refused.
 inline constexpr double worst_truncation = 1e-10;
-/// ... from which one that is to be quick takes the fine nodes (poses were then within 2e-13 m of exact
-/// ones).
-inline constexpr double quick_truncation = 1e-10;
 
 /// A report of nothing but its status.
 Report failed(Status status);
