@@ -196,7 +196,7 @@ void print_cold(const char* name, double tilt) {
     return std::uniform_real_distribution(low, high)(random);
   };
   std::vector<double> times;
-  int solved = 0, stable = 0, folds = 0;
+  int solved = 0, stable = 0, folds = 0, elsewhere = 0;
   constexpr int count = 1000;
   for (int k = 0; k < count; ++k) {
     const double x = uniform(-0.12, 0.12), y = uniform(-0.12, 0.12), z = uniform(0.35, 0.6);
@@ -209,13 +209,16 @@ void print_cold(const char* name, double tilt) {
     solved += found.is_solved();
     stable += found.report.ok();
     folds += found.report.status == Status::singular;
+    elsewhere +=
+        found.is_solved() && found.report.message.view().find("another branch") != std::string_view::npos;
   }
   std::ranges::sort(times);
   fmt::print(
-      "{} cold from home, tilt up to {:.2f} rad: {} of {} held ({} stable), {} folds named; median {:.0f} "
+      "{} cold from home, tilt up to {:.2f} rad: {} of {} held ({} stable; {} on another branch than "
+      "home's), {} folds named; median {:.0f} "
       "us, "
       "95 % {:.0f} us\n",
-      name, tilt, solved, count, stable, folds, times[count / 2], times[count * 95 / 100]);
+      name, tilt, solved, count, stable, elsewhere, folds, times[count / 2], times[count * 95 / 100]);
 }
 
 }  // namespace

@@ -497,6 +497,7 @@ Expected<std::string> request(std::string_view query, const Arguments& arguments
   request.curvature();
   request.twist(robot);
   request.wrench(robot);
+  request.vector("gravity", Dimension::acceleration);
   if (query == "diagram") {
     request.word("envelope", "envelope");
     const std::string* envelope = arguments.text("envelope");

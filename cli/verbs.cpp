@@ -50,6 +50,7 @@ constexpr std::array options{
     Option{"wrench", "\"FX, FY, FZ, MX, MY, MZ\"",
            "force and moment on the platform, about its reference point, in base axes (in the plane FX, FY, "
            "M); of rods and of pseudo-rigid chains"},
+    Option{"gravity", "\"X, Y, Z\"", "of rods and platforms that have a mass [m/s2]; default the file's"},
     Option{"set-at", "\"X, Y, PHI\"",
            "of statics the pose at which the tendons are set without load, the outer ones loose"},
     Option{"hold", "NAME", "what stays after --set-at or with --pose: tension (default) or length"},
@@ -100,8 +101,8 @@ const std::array table{
         "forward",
         "ROBOT",
         "pose of the platform from the inputs",
-        {"inputs", "configuration", "changes", "slack", "start", "wrench", "want", "until", "limit", "all",
-         "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
+        {"inputs", "configuration", "changes", "slack", "start", "wrench", "gravity", "want", "until",
+         "limit", "all", "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
         {"inputs", "configuration", "changes"},
         "Newton's method from the start; --all finds the other assembly modes too. Exit code 3 where the\n"
         "legs do not close, 4 where the iterations ran out. A platform on rods comes to rest under a load:\n"
@@ -120,7 +121,7 @@ const std::array table{
         "ROBOT",
         "inputs from the pose of the platform",
         {"pose", "independent", "position", "direction", "bending", "elbow", "curvature", "start", "wrench",
-         "want", "all", "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
+         "gravity", "want", "all", "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
         {"pose", "independent", "position"},
         "Of several solutions the one that bends least is taken, positive where both signs do; with --start "
         "the "
@@ -137,10 +138,14 @@ const std::array table{
     Verb{"statics",
          "ROBOT",
          "a tendon-driven robot under a load, its links pseudo-rigid chains; the load on rods, sensed",
-         {"set-at",    "hold",         "tensions",  "lengths",        "pose",  "bending", "elbow",
-          "curvature", "start",        "wrench",    "until",          "limit", "law",     "posture-threshold",
-          "inputs",    "axial-forces", "deviation", "max-iterations", "set",   "json",    "quiet",
-          "help"},
+         {"set-at",         "hold",         "tensions",
+          "lengths",        "pose",         "bending",
+          "elbow",          "curvature",    "start",
+          "wrench",         "gravity",      "until",
+          "limit",          "law",          "posture-threshold",
+          "inputs",         "axial-forces", "deviation",
+          "max-iterations", "set",          "json",
+          "quiet",          "help"},
          {"set-at", "tensions", "lengths", "pose", "axial-forces"},
          "Tendons are set at a pose, or their tensions or lengths given; or --pose is held under the load, "
          "and "
@@ -158,9 +163,9 @@ const std::array table{
     Verb{"analyse",
          "ROBOT",
          "velocity equations, sensitivities and singularities at a configuration",
-         {"pose", "independent", "bending", "elbow", "curvature", "inputs", "configuration", "changes",
-          "start", "wrench", "twist", "law", "theta-is", "max-iterations", "model", "set", "json", "quiet",
-          "help"},
+         {"pose",           "independent", "bending", "elbow",   "curvature", "inputs", "configuration",
+          "changes",        "start",       "wrench",  "gravity", "twist",     "law",    "theta-is",
+          "max-iterations", "model",       "set",     "json",    "quiet",     "help"},
          {"pose", "independent", "inputs", "configuration", "changes"},
          "Give a pose, or inputs, or both. J·(platform velocity) = K·(input rates) is printed in SI as in "
          "the paper,\n"
@@ -253,9 +258,9 @@ const std::array table{
     Verb{"plot",
          "RESULT|ROBOT",
          "a figure of a table of results, or of a robot",
-         {"output",  "x",        "y",         "log-y",  "title",         "pose",    "independent",
-          "bending", "elbow",    "curvature", "inputs", "configuration", "changes", "start",
-          "wrench",  "theta-is", "model",     "set",    "quiet",         "help"},
+         {"output",  "x",       "y",         "log-y",  "title",         "pose",    "independent",
+          "bending", "elbow",   "curvature", "inputs", "configuration", "changes", "start",
+          "wrench",  "gravity", "theta-is",  "model",  "set",           "quiet",   "help"},
          {"output"},
          "RESULT is a .csv file with headings like x[m]. A robot is drawn at a pose or at inputs, default "
          "its home;\n"

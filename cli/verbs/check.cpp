@@ -64,6 +64,7 @@ std::string both_ways(std::string_view key, const Node& value) {
   if (is_one_of({"length", "tendon_offset", "diameter"}))
     return fmt::format("{} {} m = {}", key, si_text(value.number), human(value.number, Dimension::length));
   if (key == "E") return fmt::format("E {} Pa = {:.6g} GPa", si_text(value.number), value.number / 1e9);
+  if (key == "density") return fmt::format("density {} kg/m^3", si_text(value.number));
   if (key == "G") return fmt::format("G {} Pa = {:.6g} GPa", si_text(value.number), value.number / 1e9);
   if (value.kind == Node::Kind::list) return fmt::format("{} [{}]", key, fmt::join(numbers(&value), ", "));
   return fmt::format("{} {}", key, value.text);
@@ -168,6 +169,12 @@ std::string show_home(const Checked& checked) {
          show_singularities(checked.velocity);
 }
 
+double norm_of(const Node& vector) {
+  double square = 0;
+  for (const double part : numbers(&vector)) square += part * part;
+  return std::sqrt(square);
+}
+
 std::string show(const Checked& checked) {
   const Answer& about = checked.robot.description;
   const Node &legs = *about.find("legs"), &inputs = *about.find("inputs");
@@ -189,6 +196,10 @@ std::string show(const Checked& checked) {
   parts.each([&](const std::string& who, const std::string& what) { text += who + ": " + what + '\n'; });
   if (const auto radius = about.number("platform.radius"))
     text += fmt::format("platform: radius {} m = {}\n", si_text(*radius), human(*radius, Dimension::length));
+  if (const auto mass = about.number("platform.mass"); mass && *mass > 0)
+    text += fmt::format("platform: mass {} kg\n", si_text(*mass));
+  if (const Node* gravity = about.find("gravity"); gravity && norm_of(*gravity) > 0)
+    text += fmt::format("gravity: [{}] m/s^2\n", fmt::join(numbers(gravity), ", "));
   return text + '\n' + show_limits(inputs) + '\n' + show_points(legs) + '\n' + show_home(checked);
 }
 

@@ -59,7 +59,7 @@ void add_leg(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const ty
 
 /// Rods as their coordinates shape them, between the base and the platform.
 template <class System>
-AnyShape rods_shape(System system, const SpatialPose& pose, Numbers coordinates, int samples) {
+AnyShape rods_shape(System& system, const SpatialPose& pose, Numbers coordinates, int samples) {
   SpatialShape shape;
   system.set_platform(SE3<double>::from(pose));
   system.set_rods(coordinates);
@@ -93,8 +93,13 @@ AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinat
       [&] {
         const auto& rods = std::get<ParallelRobot<RodLeg>>(robot.model);
         const SpatialPose& place = std::get<SpatialPose>(pose);
-        return bend_in_planes(rods) ? rods_shape(RodSystem(rods), place, coordinates, samples)
-                                    : rods_shape(TangentSystem(rods), place, coordinates, samples);
+        if (bend_in_planes(rods)) {
+          RodSystem system(rods);
+          return rods_shape(system, place, coordinates, samples);
+        }
+        TangentSystem system(rods);
+        system.set_gravity(robot.weight.gravity);
+        return rods_shape(system, place, coordinates, samples);
       });
 }
 

@@ -373,7 +373,7 @@ void read_mass(Reader& platform, Weight& weight) {
   const auto mass = platform.optional("mass");
   if (!mass) return;
   if (!std::is_same_v<Any, AnyLoadedLeg>)
-    mass->refuse("no_effect", "the legs bear no load, so that nothing depends on it; leave it out");
+    mass->fail("no_effect", "has no effect: the legs bear no load; leave it out");
   weight.platform_mass = mass->quantity(Dimension::mass, Range::not_negative());
 }
 
@@ -443,8 +443,7 @@ bool has_misplaced_rods(Reader& robot, bool is_spatial) {
 std::optional<RobotModel> read_model_of_space(Reader& robot, bool is_spatial, Weight& weight) {
   const bool has_rods = is_spatial && std::ranges::count(link_types(robot), Rod::name) > 0;
   if (const auto gravity = robot.optional("gravity")) {
-    if (!has_rods)
-      gravity->refuse("no_effect", "the legs bear no load, so that nothing depends on it; leave it out");
+    if (!has_rods) gravity->fail("no_effect", "has no effect: the legs bear no load; leave it out");
     weight.gravity = read_gravity(*gravity);
   }
   if (has_rods) return read_model<AnyLoadedLeg>(robot, LoadedLegs{}, weight);

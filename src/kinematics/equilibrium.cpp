@@ -7,55 +7,18 @@
 #include "kinematics/rods/batch.hpp"
 #include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/inverse.hpp"
-#include "kinematics/rods/sense.hpp"
-#include "kinematics/rods/verdict.hpp"
-#include "sinew/kinematics/force_sensing.hpp"
+#include "kinematics/rods/question.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// The robot of rods behind any robot; null where its legs bear no load.
-const ParallelRobot<RodLeg>* rods_of(const AnyRobot& robot) {
-  return std::get_if<ParallelRobot<RodLeg>>(&robot.model);
-}
-
 Equilibrium refused() {
   Equilibrium answer;
   answer.report.status = Status::left_domain;
   answer.report.message.append("the legs of this robot bear no load: it has no equilibrium to find");
   return answer;
-}
-
-/// Calls `use(rods)` with what the workspace keeps of rods, of the one kind or the other.
-template <class Use>
-decltype(auto) with_rods(Workspace& work, Use&& use) {
-  return work.rods ? use(static_cast<RodWorkOf<RodSystem>&>(*work.rods))
-                   : use(static_cast<RodWorkOf<TangentSystem>&>(*work.spatial_rods));
-}
-
-/// What weighs on rods; a state at rest under another gravity is none.
-void set_gravity(RodWorkOf<RodSystem>&, const Vec3<double>&) {}  // rods without weight
-void set_gravity(RodWorkOf<TangentSystem>& rods, const Vec3<double>& gravity) {
-  if (rods.system.gravity() == gravity) return;
-  rods.system.set_gravity(gravity);
-  rods.knows_home = rods.is_solved = false;
-}
-
-/// The question with the weight of the platform in its wrench.
-template <class Work>
-RodQuestion question_of(const AnyRobot& robot, const EquilibriumOptions& options, Work& rods) {
-  RodQuestion question;
-  const Vec3<double> gravity = options.gravity.value_or(robot.weight.gravity);
-  set_gravity(rods, gravity);
-  question.wrench = options.wrench;
-  question.wrench.head<3>() += robot.weight.platform_mass * gravity;
-  if (options.start) question.start = SE3<double>::from(*options.start);
-  question.resume = options.resume;
-  question.max_iterations = options.max_iterations;
-  question.judge = options.judge;
-  return question;
 }
 
 /// The state of the system into the workspace, and what is seen of it.
@@ -270,8 +233,8 @@ bool is_new(const std::vector<FoundEquilibrium>& found, const SE3<double>& pose,
 
 }  // namespace
 
-std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs, const SpatialWrench& wrench,
-                                         Workspace& work) {
+std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
+                                         const EquilibriumOptions& options, Workspace& work) {
   constexpr int starts = 160;
   std::vector<FoundEquilibrium> found;
   const auto* loaded = rods_of(robot);
@@ -280,7 +243,9 @@ std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs, 
   const double size = home.p.norm();
   with_rods(work, [&](auto& rods) {
     const auto& system = rods.system;
-    RodQuestion question = question_of(robot, {.wrench = wrench}, rods);
+    RodQuestion question = question_of(robot, options, rods);
+    question.resume = false;
+    question.start.reset();
     for (int k = -1; k < starts; ++k) {
       if (k >= 0) question.start = scattered(home, size, k);
       const Report report = solve_rods(rods, home, inputs, question);
@@ -299,54 +264,6 @@ std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs, 
     return std::isfinite(one.potential) ? one.potential : one.pose.position[2];
   });
   return found;
-}
-
-namespace {
-
-/// A Σ Aᵀ of independent deviations.
-std::array<double, 36> covariance_of(const std::array<double, 36>& rows, Numbers deviations) {
-  std::array<double, 36> covariance;
-  for (std::size_t r = 0; r < 6; ++r)
-    for (std::size_t c = 0; c < 6; ++c) {
-      double sum = 0;
-      for (std::size_t k = 0; k < 6; ++k)
-        sum += rows[6 * r + k] * rows[6 * c + k] * deviations[k] * deviations[k];
-      covariance[6 * r + c] = sum;
-    }
-  return covariance;
-}
-
-}  // namespace
-
-SensedWrench sense_wrench(const AnyRobot& robot, Numbers inputs, Numbers axial, Numbers deviations,
-                          const EquilibriumOptions& options, Workspace& work) {
-  SensedWrench sensed{};
-  const auto* loaded = rods_of(robot);
-  const auto is_number = [](double x) { return std::isfinite(x); };
-  if (!loaded || loaded->leg_count() != 6 || axial.size() != 6 || deviations.size() != 6 ||
-      !std::ranges::all_of(axial, is_number) || !std::ranges::all_of(deviations, is_number)) {
-    sensed.report = failed(Status::left_domain);
-    sensed.report.message.append("a wrench has six parts: six rods are needed, with a force of each");
-    return sensed;
-  }
-  EquilibriumOptions unloaded = options;
-  unloaded.wrench.setZero();
-  const Equilibrium begun = equilibrium(robot, inputs, unloaded, work);
-  sensed.report = begun.report;
-  if (!begun.is_solved()) return sensed;
-  with_rods(work, [&](auto& rods) {
-    RodSensing sensing;
-    std::ranges::copy(axial, sensing.axial.begin());
-    const SpatialWrench weight = rods.system.wrench();
-    sensed.report = sense_rods(rods, sensing);
-    if (!sensed.report.ok()) return;
-    sensed.report = settle(rods.system, sensed.report, rods.system.best_truncation);
-    sensed.pose = spatial_pose(rods.system.platform());
-    sensed.wrench = rods.system.wrench() - weight;
-    sensed.sensitivity = sensing.rows;
-    sensed.covariance = covariance_of(sensing.rows, deviations);
-  });
-  return sensed;
 }
 
 }  // namespace sinew::inline v0

@@ -101,7 +101,7 @@ std::string_view model_of(const AnyRobot& robot) {
 bool has_chain_model(const AnyRobot& robot) { return model_of(robot) == "cc"; }
 
 std::string_view meaning_of(std::string_view model) {
-  return model == "cc" ? " (constant curvature)" : model == "rod" ? " (Kirchhoff rods)" : " (rigid links)";
+  return model == "cc" ? " (constant curvature)" : model == "rod" ? " (elastic rods)" : " (rigid links)";
 }
 
 Configuration read_configuration(Context& context) {

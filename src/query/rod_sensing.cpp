@@ -36,7 +36,7 @@ SensingQuery read_sensing(Context& context) {
   asked.has_deviations = deviation.has_value();
   asked.deviations =
       deviation ? read_forces(*deviation, rods, Range::not_negative(), true) : std::vector<double>(rods, 0.0);
-  if (const auto gravity = context.query.optional("gravity")) asked.options.gravity = read_gravity(*gravity);
+  asked.options.gravity = read_gravity_of(context);
   if (auto start = context.query.optional("start"))
     asked.options.start = read_spatial_pose(std::move(*start));
   if (context.max_iterations) asked.options.max_iterations = *context.max_iterations;

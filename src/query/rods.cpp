@@ -42,15 +42,24 @@ SpatialWrench read_wrench(const Reader& list) {
   return wrench;
 }
 
+}  // namespace
+
+std::optional<Vec3<double>> read_gravity_of(Context& context) {
+  const auto gravity = context.query.optional("gravity");
+  if (!gravity) return {};
+  if (!has_weight(context.robot))
+    gravity->fail("no_effect",
+                  "has no effect: nothing of this robot has a mass; give its rods a density, or its "
+                  "platform a mass");
+  return read_gravity(*gravity);
+}
+
+namespace {
+
 EquilibriumOptions read_options(Context& context) {
   EquilibriumOptions options;
   if (const auto wrench = context.query.optional("wrench")) options.wrench = read_wrench(*wrench);
-  if (const auto gravity = context.query.optional("gravity")) {
-    options.gravity = read_gravity(*gravity);
-    if (!has_weight(context.robot))
-      gravity->refuse("no_effect",
-                      "nothing of this robot has a mass; give its rods a density, or its platform one");
-  }
+  options.gravity = read_gravity_of(context);
   if (context.max_iterations) options.max_iterations = *context.max_iterations;
   return options;
 }
@@ -128,8 +137,8 @@ IndependentPose read_independent(const Context& context, Reader& asked) {
   if (asked.is(Node::Kind::map)) asked.close();
   if (input_count(context.robot) != 3)
     asked.fail("not_available",
-               fmt::format("z, e1 and e2 are held by three rod lengths, this robot has {}; ask with inputs",
-                           input_count(context.robot)));
+               fmt::format("z, e1 and e2 are held by three rod lengths, this robot has {}; ask with {}inputs",
+                           input_count(context.robot), input_count(context.robot) == 6 ? "pose, or " : ""));
   return pose;
 }
 
@@ -138,10 +147,14 @@ constexpr int pose_inputs = 6;  ///< so many lengths hold a pose
 /// Questions of other robots that have no meaning here, each with its way out.
 void refuse_what_rods_lack(Context& context) {
   const auto pose = context.query.optional("pose");
-  if (pose && input_count(context.robot) != pose_inputs)
+  if (pose && input_count(context.robot) == 3)
     pose->fail(
         "not_available",
         "on rods the rest of a pose follows from lengths and load; give independent: {z, e1, e2}, or inputs");
+  else if (pose && input_count(context.robot) != pose_inputs)
+    pose->fail("not_available",
+               fmt::format("a pose is held by six rod lengths, this robot has {}; ask forward with inputs",
+                           input_count(context.robot)));
   read_branch(context);  // refuses bending, curvature and elbow
 }
 
@@ -214,7 +227,7 @@ void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& w
 
 void put_all(Context& context, std::span<const double> inputs, const EquilibriumOptions& options) {
   Json solutions = Json::array();
-  for (const FoundEquilibrium& one : equilibria(context.robot, inputs, options.wrench, context.work)) {
+  for (const FoundEquilibrium& one : equilibria(context.robot, inputs, options, context.work)) {
     Json solution{{"pose", to_json(one.pose)},
                   {"residual", one.residual},
                   {"stable", one.unstable_directions == 0},

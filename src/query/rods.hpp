@@ -5,6 +5,9 @@
 
 namespace sinew::inline v0 {
 
+/// Gravity of the question; refused where nothing has a mass.
+std::optional<Vec3<double>> read_gravity_of(Context& context);
+
 void answer_rods_forward(Context& context);
 void answer_rods_inverse(Context& context);
 void answer_rods_velocity(Context& context);

@@ -237,7 +237,7 @@ Workspace::Workspace(const AnyRobot& robot) {
     if (bend_in_planes(*loaded))
       rods = std::make_unique<RodWork>(*loaded);
     else
-      spatial_rods = std::make_unique<TangentWork>(*loaded);
+      spatial_rods = std::make_unique<TangentWork>(*loaded, robot.weight.gravity);
   }
   coordinates.resize(static_cast<std::size_t>(coordinate_count(robot)));
   inputs.resize(inputs_);

@@ -28,7 +28,10 @@ struct RodWork : RodWorkOf<RodSystem> {
 };
 /// ... and others.
 struct TangentWork : RodWorkOf<TangentSystem> {
-  using RodWorkOf::RodWorkOf;
+  explicit TangentWork(const ParallelRobot<RodLeg>& robot, const Vec3<double>& gravity = Vec3<double>::Zero())
+      : RodWorkOf(robot) {
+    system.set_gravity(gravity);
+  }
 };
 
 }  // namespace sinew::inline v0

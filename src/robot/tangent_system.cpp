@@ -152,6 +152,10 @@ void TangentSystem::set_gravity(const Vec3<double>& gravity) {
   fill_idle_lanes();
 }
 
+bool TangentSystem::has_mass() const {
+  return std::ranges::any_of(mass_, [](double mass) { return mass > 0; });
+}
+
 /// The tangent at a place of [0, 1]: interpolated and put back to length 1.
 Vec3<double> TangentSystem::tangent_at(const RodLane (*tangents)[3], int lane, double along) const {
   const int element = std::min(static_cast<int>(along * elements_), elements_ - 1);
@@ -456,7 +460,7 @@ std::vector<Vec3<double>> TangentSystem::centreline(int index, int samples) cons
       return t * (1 + rods.stretch[i] * dot(n, t)) + n * rods.shear[i];
     };
     std::vector<Vec3<double>> points{vector_of(rods.base, i)};
-    const int panels = 1 + 24 / samples;  // between two points; 24 in all give the tip to rounding
+    const int panels = 1 + 64 / (samples - 1);  // between two points; 64 in all give the tip to 1e-12
     const double step = 1.0 / (panels * (samples - 1)), offset = std::sqrt(3.0 / 5) / 2;
     Vec3<double> p = points.front();
     for (int k = 0; k < panels * (samples - 1); ++k) {  // three-point Gauss

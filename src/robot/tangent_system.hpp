@@ -54,6 +54,7 @@ class TangentSystem {
   void set_wrench(const Wrench& wrench) { Eigen::Map<Wrench>(held_.wrench) = wrench; }
   const Vec3<double>& gravity() const { return gravity_; }  ///< on the rods [m/s²]
   void set_gravity(const Vec3<double>& gravity);
+  bool has_mass() const;
   double weight_energy() const;  ///< of all rods, after `evaluate` [J]; 0 with the rods in their bases
   int elements() const { return elements_; }
   bool is_fine() const { return elements_ > coarse_elements; }

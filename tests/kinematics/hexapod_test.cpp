@@ -6,6 +6,7 @@
 #include "kinematics/rods/hold.hpp"
 #include "rod_robots.hpp"
 #include "shooting_hexapod.hpp"
+#include "sinew/analysis/shape.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 
@@ -37,6 +38,35 @@ TEST(Hexapod, EveryUntiltedPoseIsHeldFromHome) {
     EXPECT_LT(found.report.residual, 1e-12);
     EXPECT_LT(distance(found.pose, wanted), 1e-15);
   }
+}
+
+/// A tilted pose is held, or it is said where the way from home folds and that other ways do not lead there.
+TEST(Hexapod, EveryTiltedPoseIsHeldOrDiagnosed) {
+  const AnyRobot robot = builtin("hexapod");
+  Workspace work(robot), other(robot);
+  RodRandom random(12);
+  int straight = 0, elsewhere = 0, folds = 0;
+  for (int k = 0; k < 100; ++k) {
+    const SpatialPose wanted = pose_at(random, 0.35);
+    const Equilibrium found = inverse_equilibrium(robot, wanted, {}, work);
+    const std::string_view message = found.report.message.view();
+    if (found.is_solved()) {
+      EXPECT_LT(found.report.residual, 1e-12);
+      EXPECT_LT(distance(found.pose, wanted), 1e-14);
+      ++(message.find("another branch") == std::string_view::npos ? straight : elsewhere);
+      continue;
+    }
+    ++folds;
+    const bool is_fold = found.report.status == Status::singular;
+    EXPECT_TRUE(is_fold || found.report.status == Status::stalled) << message;
+    EXPECT_NE(message.find(is_fold ? "pass a fold at" : "stop following at"), std::string_view::npos)
+        << message;
+    EXPECT_TRUE(message.ends_with("do not lead to it either")) << message;
+    EXPECT_TRUE(inverse_equilibrium(robot, pose_of(level(0.45)), {}, other).is_solved());
+  }
+  EXPECT_GE(straight, 45);
+  EXPECT_GE(elsewhere, 1);
+  EXPECT_EQ(straight + elsewhere + folds, 100);
 }
 
 TEST(Hexapod, ForwardFindsThePoseThatWasHeld) {
@@ -149,6 +179,50 @@ TEST(Hexapod, SaysWhyAPoseIsNotHeld) {
   EXPECT_EQ(status(pose_of({Vec3<double>(0.1, 0, 0.5), SO3<double>::identity()}), {.max_iterations = 2}),
             Status::iteration_limit);
   EXPECT_TRUE(inverse_equilibrium(robot, pose_of(level(0.45)), {}, work).is_solved());  // none of it stays
+}
+
+/// A pose needs each rod's own length: tied rods are refused, and stay as they are fed.
+TEST(Hexapod, TiedRodsHoldNoPose) {
+  const RodRobot six = std::get<ParallelRobot<RodLeg>>(builtin("hexapod").model);
+  std::vector<RodLeg> legs = six.legs;
+  RodLeg more = legs[0];
+  more.base.p += Vec3<double>(0, 0.02, 0);
+  legs.push_back(more);
+  const std::array<int, 7> tied = {-1, -1, -1, -1, -1, -1, 0};
+  const AnyRobot robot("seven", RodRobot(legs, six.home, six.platform_radius, tied));
+  Workspace work(robot);
+  EXPECT_EQ(inverse_equilibrium(robot, pose_of(level(0.41)), {}, work).report.status, Status::left_domain);
+  const std::vector<double> inputs(6, 0.41);
+  ASSERT_TRUE(equilibrium(robot, inputs, {}, work).is_solved());
+  EXPECT_EQ(analyse_equilibrium(robot, work).rods[6].length, 0.41);
+}
+
+TEST(Hexapod, SeveralEquilibriaAreOfTheQuestionsGravity) {
+  const AnyRobot robot = builtin("hexapod-heavy");
+  Workspace work(robot);
+  const std::vector<double> inputs(6, 0.45);
+  EquilibriumOptions none;
+  none.gravity = Vec3<double>::Zero();
+  const Equilibrium one = equilibrium(robot, inputs, none, work);
+  ASSERT_TRUE(one.is_solved());
+  double nearest = 1;
+  for (const FoundEquilibrium& found : equilibria(robot, inputs, none, work))
+    nearest = std::min(nearest, distance(found.pose, one.pose));
+  EXPECT_LT(nearest, 1e-9);
+}
+
+/// What the workspace and pictures are given of a solved state is that state.
+TEST(Hexapod, CoordinatesHoldWhatWasSolved) {
+  const AnyRobot robot = builtin("hexapod-heavy");
+  Workspace work(robot), other(robot);
+  const Equilibrium held = inverse_equilibrium(robot, pose_of(level(0.43)), {}, work);
+  ASSERT_TRUE(held.is_solved());
+  const std::vector<double> coordinates(held.coordinates.begin(), held.coordinates.end());
+  const RodAnalysis analysis = analyse_equilibrium(robot, work);
+  EXPECT_LT(assemble(robot, held.pose, coordinates, other).closure_error, 1e-8);  // of other elements
+  const auto shape = std::get<SpatialShape>(any_shape(robot, held.pose, coordinates, 9));
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_LT((shape.backbones[k].back() - analysis.rods[k].tip).norm(), 1e-11);
 }
 
 TEST(Hexapod, GravityOfAQuestionIsItsOwn) {

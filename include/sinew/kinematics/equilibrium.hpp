@@ -59,15 +59,17 @@ struct IndependentPose {
 SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
-/// Lengths of six inputs that hold the platform at a pose.
+/// Lengths of six inputs that hold the platform at a pose. Begins at home, or from the last answer: `start`
+/// is not asked, here and above.
 SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
 /// Many equilibria under one wrench: `rows` holds the inputs of each, one after the other, `poses` and
 /// `statuses` have one entry each. Neighbouring rows should be near each other: eight stretches of them are
 /// walked at once in SIMD lanes, and a row that does not come at once, or whose rods bend more sharply than
-/// the lanes resolve, is solved alone. Shapes to an estimated 1e-10 of the length, as resumed answers;
-/// stability is not asked. Where a status is not `converged` the pose is not one. Allocates once a call.
+/// the lanes resolve, is solved alone; rods that do not bend in one plane go row by row. Shapes to the
+/// estimate of quick resumed answers; stability is not asked. Gravity is the robot's. Where a status is not
+/// `converged` the pose is not one. Allocates once a call.
 SINEW_API void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work);
 
@@ -125,7 +127,8 @@ struct FoundEquilibrium {
 
 /// Equilibria found from many starts around home, in ascending order of energy: a lower bound of their
 /// number, never proven to be all. Allocates; takes tens of milliseconds.
+/// @param options of every search; its start is not asked
 SINEW_API std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
-                                                   const SpatialWrench& wrench, Workspace& work);
+                                                   const EquilibriumOptions& options, Workspace& work);
 
 }  // namespace sinew::inline v0

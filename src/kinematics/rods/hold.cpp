@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string_view>
 
 #include "kinematics/rods/start.hpp"
 #include "kinematics/rods/verdict.hpp"
@@ -166,42 +168,95 @@ RodPathEnd follow_poses(RodWorkOf<System>& work, const HoldPath& path, int max_i
 
 /// Why the lengths do not follow the platform further: the system is where they still do.
 template <class System>
-Report explain_hold(RodWorkOf<System>& work, const RodPathEnd& end) {
+Report explain_hold(RodWorkOf<System>& work, const RodPathEnd& end, std::string_view from) {
   System& system = work.system;
   system.linearise();
   Holder<System> holder(work);
   holder.renew();
   constexpr double singular = 0.02;  // with the square root of what is left of the path
-  if (end.ran_out || work.feeding.smallest_pivot() > singular) return explain(system, end, false);
-  Report report = failed(Status::singular);
+  if (end.ran_out) return explain(system, end, false);
+  const bool is_fold = work.feeding.smallest_pivot() <= singular;
+  Report report = failed(is_fold ? Status::singular : Status::stalled);
   report.iterations = end.iterations;
   report.residual = end.residual;
-  report.message.append("the lengths pass a fold at ");
+  report.message.append(is_fold ? "the lengths pass a fold at " : "the lengths stop following at ");
   append_number(report.message, static_cast<int>(100 * end.progress));
-  report.message.append(" % of the way from home, where the platform is at ");
+  report.message.append(" % of the straight way from ");
+  report.message.append(from);
+  report.message.append(", at ");
   for (int k = 0; k < 3; ++k) {
     append_mm(report.message, system.platform().p[k]);
     report.message.append(k < 2 ? ", " : "");
   }
-  report.message.append(", turned by ");
+  report.message.append(", turned ");
   append_degrees(report.message, system.platform().R.log().norm());
-  report.message.append(": no lengths nearby hold it beyond");
   return report;
 }
 
 template <class System>
 Report check(const System& system, const SE3<double>& wanted, const RodQuestion& question) {
   Report report;
-  if (system.inputs() != 6) {
+  if (system.inputs() != 6 || system.rods() != 6) {
     report = failed(Status::left_domain);
-    report.message.append("a pose is held by six rod lengths, this robot has ");
+    report.message.append("a pose is held by the lengths of six rods, each fed by itself; this robot has ");
+    append_number(report.message, system.rods());
+    report.message.append(" rods and ");
     append_number(report.message, system.inputs());
+    report.message.append(" inputs");
   } else if (!wanted.p.allFinite() || !wanted.R.v.allFinite() || !std::isfinite(wanted.R.w) ||
              !question.wrench.allFinite()) {
     report = failed(Status::left_domain);
     report.message.append("the pose or the wrench is not a number");
   }
   return report;
+}
+
+/// From where the system is along these poses, one after the other.
+template <class System>
+RodPathEnd approach(RodWorkOf<System>& work, std::span<const SE3<double>> poses,
+                    const RodQuestion& question) {
+  System& system = work.system;
+  work.knows_feeding = false;
+  RodPathEnd end;
+  int iterations = 0;
+  for (const SE3<double>& pose : poses) {
+    const HoldPath path{system.platform(), pose, between(system.platform(), pose), system.wrench(),
+                        question.wrench};
+    end = follow_poses(work, path, question.max_iterations - iterations);
+    iterations = end.iterations += iterations;
+    if (!end.arrived) break;
+  }
+  return end;
+}
+
+/// Where the straight way from home folds, others may lead to another branch that holds the pose. If so, and
+/// the system is there, true; the message of `report`, which says where it folds, then says by which way.
+template <class System>
+bool detour(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>& wanted,
+            const RodQuestion& question, Report& report) {
+  constexpr double lower = 7.0 / 8;  // short rods are the stiffer ones
+  const SE3<double> level{wanted.p, home.R}, turned{home.p, wanted.R};
+  SE3<double> low = level, low_turned = wanted;
+  low.p[2] = low_turned.p[2] = lower * home.p[2];
+  struct Way {
+    const char* name;
+    std::array<SE3<double>, 3> poses;
+  };
+  const Way ways[] = {{"held on another branch: move first, then turn", {level, wanted, wanted}},
+                      {"held on another branch: turn first, then move", {turned, wanted, wanted}},
+                      {"held on another branch: turn at a lower height", {low, low_turned, wanted}}};
+  for (const Way& way : ways) {
+    if (!go_home(work, home).ok()) return false;
+    const RodPathEnd end = approach(work, way.poses, question);
+    if (!end.arrived) continue;
+    report.status = Status::converged;
+    report.iterations += end.iterations;
+    report.message.append("; ");
+    report.message.append(way.name);
+    return true;
+  }
+  report.message.append("; moving first, turning first, turning lower down do not lead to it either");
+  return false;
 }
 
 /// The last digits, on elements that resolve the shapes.
@@ -255,15 +310,15 @@ Report hold_rods(RodWorkOf<System>& work, const SE3<double>& home, const SE3<dou
   } else if (const Report begun = go_home(work, home); !begun.ok()) {
     return begun;
   }
-  work.knows_feeding = false;
-  const HoldPath path{system.platform(), wanted, between(system.platform(), wanted), system.wrench(),
-                      question.wrench};
-  const RodPathEnd end = follow_poses(work, path, question.max_iterations);
+  const bool is_from_home = !(question.resume && work.is_solved);
+  const RodPathEnd end = approach(work, std::span(&wanted, 1), question);
   report.iterations = end.iterations;
-  work.is_solved = end.arrived;
   if (!end.arrived) {
-    work.is_solved = false;
-    return explain_hold(work, end);
+    report = explain_hold(work, end, is_from_home ? "home" : "the last pose");
+    if (!is_from_home || end.ran_out || !detour(work, home, wanted, question, report)) {
+      work.is_solved = false;
+      return report;
+    }
   }
   report = finish(work, wanted, report, System::best_truncation);
   work.is_solved = report.ok() || report.status == Status::unstable;

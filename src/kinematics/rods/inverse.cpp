@@ -97,6 +97,7 @@ template <class System>
 Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const RodCoordinates& wanted,
                      const RodQuestion& question) {
   System& system = work.system;
+  work.knows_feeding = false;
   Report report;
   if (system.inputs() != 3) {
     report = failed(Status::left_domain);
@@ -153,7 +154,11 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
       system.refine();
       work.is_solved = inverse.correct(wanted, report.residual);
     }
-    if (work.is_solved) return settle(system, report, System::best_truncation);
+    if (work.is_solved) {
+      report = settle(system, report, System::best_truncation);
+      work.is_solved = report.ok() || report.status == Status::unstable;
+      return report;
+    }
   }
   RodPathEnd end;
   end.progress = part;

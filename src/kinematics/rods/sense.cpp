@@ -83,6 +83,7 @@ bool differentiate(System& system, RodSensing& sensing) {
 template <class System>
 Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
   System& system = work.system;
+  work.knows_feeding = false;
   Report report;
   Sensor<System> sensor(system);
   std::array<double, 6> from, wanted;
@@ -90,7 +91,7 @@ Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
   for (int k = 0; k < count; ++k) from[at(k)] = system.axial_force(k);
   double part = 0, stride = 1;
   constexpr double shortest = 1e-4;
-  while (part < 1 && stride > shortest) {
+  while (part < 1 && stride > shortest && report.iterations < sensing.max_iterations) {
     const double next = std::min(1.0, part + stride);
     for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k] = std::lerp(from[k], sensing.axial[k], next);
     system.save(work.spare);
@@ -103,17 +104,29 @@ Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
       stride = (next - part) / 4;
     }
   }
-  while (part >= 1 && !system.is_finest() && system.truncation() > System::best_truncation) {
-    system.refine();
-    if (!contract([&] { return sensor.error(sensing.axial); }, [&] { return sensor.step(sensing.axial); },
-                  rod_tolerance, report.iterations, report.residual))
-      part = 0;
+  work.is_solved = false;
+  if (part < 1) {
+    const bool ran_out = report.iterations >= sensing.max_iterations;
+    report.status = ran_out ? Status::iteration_limit : Status::singular;
+    report.message.append(ran_out
+                              ? "the way to these forces takes more steps than max_iterations; raise it"
+                              : "no wrench near the unloaded platform makes the rods pull so; check signs "
+                                "(pull > 0) and lengths");
+    return report;
   }
-  if (part < 1 || !differentiate(system, sensing)) {
-    report = failed(Status::singular);
+  while (!system.is_finest() && system.truncation() > System::best_truncation) {
+    system.refine();
+    if (contract([&] { return sensor.error(sensing.axial); }, [&] { return sensor.step(sensing.axial); },
+                 rod_tolerance, report.iterations, report.residual))
+      continue;
+    report.status = Status::stalled;
+    report.message.append("the rods bend too sharply to be resolved");
+    return report;
+  }
+  if (!differentiate(system, sensing)) {
+    report.status = Status::singular;
     report.message.append(
-        "no wrench near the unloaded platform makes the rods pull so; check signs (pull > 0) and lengths");
-    work.is_solved = false;
+        "here the rods' axial forces do not tell the wrench: some motion changes none of them");
     return report;
   }
   system.set_wrench(system.wrench() - system.missing());

@@ -9,6 +9,7 @@ namespace sinew::inline v0 {
 struct RodSensing {
   std::array<double, 6> axial{};  ///< of each rod at its guide, pull > 0 [N]
   std::array<double, 36> rows{};  ///< ∂wrench/∂axial, rows first
+  int max_iterations = 4000;      ///< Newton steps
 };
 
 /// From a solved state near by: moves the platform, at fixed lengths, to where the rods pull as `sensing`

@@ -174,6 +174,7 @@ bool jump(RodWorkOf<System>& work, Numbers inputs, const RodQuestion& question, 
 template <class System>
 Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inputs,
                   const RodQuestion& asked) {
+  work.knows_feeding = false;
   RodQuestion question = asked;
   question.resume = asked.resume && work.is_solved;  // else it begins like any other
   if (const Report checked = check_inputs(work.system, inputs); !checked.ok()) return checked;

@@ -23,11 +23,13 @@ RodTarget target_of(const System& system, Numbers inputs, const Vec<double, 6>& 
 template <class System>
 Report go_home(RodWorkOf<System>& work, const SE3<double>& home) {
   if (!work.knows_home) {
+    work.is_solved = false;
     if (!rest_at(work.system, home)) {
       Report report = failed(Status::singular);
       report.message.append(
-          "at home a rod's tip lies on the line of its guide, or behind it: the direction in which it bends "
-          "is not determined; give a start, or another home");
+          "the rods cannot be laid to home: a tip lies on the line of its guide, so that where it bends is "
+          "not "
+          "determined, or behind it, or the rods' weight is too much for them; choose another home");
       return report;
     }
     work.system.save(work.home);

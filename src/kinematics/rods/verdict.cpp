@@ -107,6 +107,7 @@ Report settle(System& system, Report report, double truncation) {
   const int unstable = unstable_directions(system);
   if (unstable == 0) return report;
   report.status = Status::unstable;
+  if (!report.message.view().empty()) report.message.append("; ");
   append_number(report.message, unstable);
   report.message.append(unstable == 1 ? " direction in which the robot does not hold by itself"
                                       : " directions in which the robot does not hold by itself");

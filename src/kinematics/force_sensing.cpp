@@ -1,0 +1,61 @@
+#include "sinew/kinematics/force_sensing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinematics/rods/question.hpp"
+#include "kinematics/rods/sense.hpp"
+#include "kinematics/rods/verdict.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+/// A Σ Aᵀ of independent deviations.
+std::array<double, 36> covariance_of(const std::array<double, 36>& rows, Numbers deviations) {
+  std::array<double, 36> covariance;
+  for (std::size_t r = 0; r < 6; ++r)
+    for (std::size_t c = 0; c < 6; ++c) {
+      double sum = 0;
+      for (std::size_t k = 0; k < 6; ++k)
+        sum += rows[6 * r + k] * rows[6 * c + k] * deviations[k] * deviations[k];
+      covariance[6 * r + c] = sum;
+    }
+  return covariance;
+}
+
+}  // namespace
+
+SensedWrench sense_wrench(const AnyRobot& robot, Numbers inputs, Numbers axial, Numbers deviations,
+                          const EquilibriumOptions& options, Workspace& work) {
+  SensedWrench sensed{};
+  const auto* loaded = rods_of(robot);
+  const auto is_number = [](double x) { return std::isfinite(x); };
+  if (!loaded || loaded->leg_count() != 6 || axial.size() != 6 || deviations.size() != 6 ||
+      !std::ranges::all_of(axial, is_number) || !std::ranges::all_of(deviations, is_number)) {
+    sensed.report = failed(Status::left_domain);
+    sensed.report.message.append("a wrench has six parts: six rods are needed, with a force of each");
+    return sensed;
+  }
+  EquilibriumOptions unloaded = options;
+  unloaded.wrench.setZero();
+  const Equilibrium begun = equilibrium(robot, inputs, unloaded, work);
+  sensed.report = begun.report;
+  if (!begun.is_solved()) return sensed;
+  with_rods(work, [&](auto& rods) {
+    RodSensing sensing;
+    std::ranges::copy(axial, sensing.axial.begin());
+    sensing.max_iterations = options.max_iterations;
+    const SpatialWrench weight = rods.system.wrench();
+    sensed.report = sense_rods(rods, sensing);
+    if (sensed.report.ok()) sensed.report = settle(rods.system, sensed.report, rods.system.best_truncation);
+    rods.is_solved = sensed.report.ok() || sensed.report.status == Status::unstable;
+    if (!rods.is_solved) return;
+    sensed.pose = spatial_pose(rods.system.platform());
+    sensed.wrench = rods.system.wrench() - weight;
+    sensed.sensitivity = sensing.rows;
+    sensed.covariance = covariance_of(sensing.rows, deviations);
+  });
+  return sensed;
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,45 @@
+/// @file question.hpp
+/// From a question of the public face to the rods of a workspace.
+#pragma once
+#include "kinematics/rods/solve.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
+
+namespace sinew::inline v0 {
+
+/// The robot of rods behind any robot; null where its legs bear no load.
+inline const ParallelRobot<RodLeg>* rods_of(const AnyRobot& robot) {
+  return std::get_if<ParallelRobot<RodLeg>>(&robot.model);
+}
+
+/// Calls `use(rods)` with what the workspace keeps of rods, of the one kind or the other.
+template <class Use>
+decltype(auto) with_rods(Workspace& work, Use&& use) {
+  return work.rods ? use(static_cast<RodWorkOf<RodSystem>&>(*work.rods))
+                   : use(static_cast<RodWorkOf<TangentSystem>&>(*work.spatial_rods));
+}
+
+/// What weighs on rods; a state at rest under another gravity is none.
+inline void set_gravity(RodWorkOf<RodSystem>&, const Vec3<double>&) {}  // rods without weight
+inline void set_gravity(RodWorkOf<TangentSystem>& rods, const Vec3<double>& gravity) {
+  if (rods.system.gravity() == gravity) return;
+  rods.system.set_gravity(gravity);
+  if (!rods.system.has_mass()) return;
+  rods.knows_home = rods.is_solved = false;
+}
+
+/// The question with the weight of the platform in its wrench.
+template <class Work>
+RodQuestion question_of(const AnyRobot& robot, const EquilibriumOptions& options, Work& rods) {
+  RodQuestion question;
+  const Vec3<double> gravity = options.gravity.value_or(robot.weight.gravity);
+  set_gravity(rods, gravity);
+  question.wrench = options.wrench;
+  question.wrench.head<3>() += robot.weight.platform_mass * gravity;
+  if (options.start) question.start = SE3<double>::from(*options.start);
+  question.resume = options.resume;
+  question.max_iterations = options.max_iterations;
+  question.judge = options.judge;
+  return question;
+}
+
+}  // namespace sinew::inline v0
