@@ -114,7 +114,6 @@ class TangentSystem {
   static constexpr double quick_truncation = 1e-9;
 
  private:
-  std::span<TangentRods> groups() { return groups_; }
   template <class Use>
   decltype(auto) with_rod(int rod, Use&& use) const {
     return use(groups_[static_cast<std::size_t>(rod / rod_lanes)], rod % rod_lanes);
