@@ -1,7 +1,7 @@
 #include "sinew/analysis/shape.hpp"
 
 #include "robot/pose.hpp"
-#include "robot/tangent_system.hpp"
+#include "robot/rod_work.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -91,15 +91,12 @@ AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinat
         return shape;
       },
       [&] {
-        const auto& rods = std::get<ParallelRobot<RodLeg>>(robot.model);
-        const SpatialPose& place = std::get<SpatialPose>(pose);
-        if (bend_in_planes(rods)) {
-          RodSystem system(rods);
-          return rods_shape(system, place, coordinates, samples);
-        }
-        TangentSystem system(rods);
-        system.set_gravity(robot.weight.gravity);
-        return rods_shape(system, place, coordinates, samples);
+        RodWorks rods(robot);
+        return std::visit(
+            [&](auto& kind) {
+              return rods_shape(kind.system, std::get<SpatialPose>(pose), coordinates, samples);
+            },
+            rods.kind);
       });
 }
 

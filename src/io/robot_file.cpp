@@ -214,30 +214,28 @@ std::optional<AnyLeg<Legs...>> read_leg(Reader& leg, TypeList<Legs...>) {
     return names[part.required("type").choice_index(names)];
   };
   AnyLeg<Legs...> result{};
-  if constexpr ((BearsLoad<Legs> && ...)) {
-    kind(link, {Rod::name});
-    result.kind = read_rod(leg, link, closure, kind(closure, {Ball::name, Clamp::name}) == Clamp::name);
-    link.close();
-    closure.close();
-    return result;
-  } else {
-    const std::string_view link_name = kind(link, {Legs::Link::name...});
-    const std::string_view closure_name = kind(closure, {Legs::Closure::name...});
-    const auto read_if = [&]<class LegT>(std::type_identity<LegT>) {
+  const std::string_view link_name = kind(link, {Legs::Link::name...});
+  std::string_view closure_name;
+  const auto read_if = [&]<class LegT>(std::type_identity<LegT>) {
+    if constexpr (BearsLoad<LegT>) {
+      if (LegT::Link::name != link_name) return false;
+      result.kind = read_rod(leg, link, closure, kind(closure, {Ball::name, Clamp::name}) == Clamp::name);
+    } else {
+      if (closure_name.empty()) closure_name = kind(closure, {Legs::Closure::name...});
       if (LegT::Link::name != link_name || LegT::Closure::name != closure_name) return false;
       result.kind = read_closing_leg<LegT>(leg, link, closure);
-      return true;
-    };
-    const auto pairs = std::array{fmt::format("{} with {}", Legs::Link::name, Legs::Closure::name)...};
-    if (!(read_if(std::type_identity<Legs>{}) || ...)) {
-      leg.fail("no_such_leg", fmt::format("no leg joins link {} to closure {}; there are {}", link_name,
-                                          closure_name, fmt::join(pairs, ", ")));
-      return {};
     }
-    link.close();
-    closure.close();
-    return result;
+    return true;
+  };
+  const auto pairs = std::array{fmt::format("{} with {}", Legs::Link::name, Legs::Closure::name)...};
+  if (!(read_if(std::type_identity<Legs>{}) || ...)) {
+    leg.fail("no_such_leg", fmt::format("no leg joins link {} to closure {}; there are {}", link_name,
+                                        closure_name, fmt::join(pairs, ", ")));
+    return {};
   }
+  link.close();
+  closure.close();
+  return result;
 }
 
 /// The legs of a file, and what is tied.
@@ -263,6 +261,8 @@ int read_tie(Reader& leg, const std::vector<Any>& legs, std::size_t i) {
   };
   if (input_count(legs[i]) != 1 || input_count(legs[static_cast<std::size_t>(other)]) != 1)
     tied->refuse("not_available", "only legs with one actuator each can share it");
+  else if (legs[i].kind.index() != legs[static_cast<std::size_t>(other)].kind.index())
+    tied->refuse("not_available", "only legs of one kind can share an actuator");
   return other;
 }
 
@@ -419,24 +419,16 @@ std::vector<std::string_view> link_types(const Reader& robot) {
   return types;
 }
 
-/// Whether rods are where none can be: in the plane, or among legs that bear no load. One error says so.
+/// Whether rods are in the plane, where none can be. One error says so.
 bool has_misplaced_rods(Reader& robot, bool is_spatial) {
   const auto types = link_types(robot);
   const auto rod = std::ranges::find(types, Rod::name);
-  const auto other = std::ranges::find_if(types, [](std::string_view type) {
-    return type == Arc::name || type == Swivel<Arc>::name || type == Rail::name;
-  });
-  if (rod == types.end() || (is_spatial && other == types.end())) return false;
-  const auto type_of = [&](auto place) {
-    return robot.required("legs")
-        .items()[static_cast<std::size_t>(place - types.begin())]
-        .required("link")
-        .required("type");
-  };
-  if (is_spatial)
-    type_of(other).refuse("no_such_leg", "other legs are rods, which bear load: then all legs must be rods");
-  else
-    type_of(rod).refuse("no_such_leg", "rods are for robots in space; write space: spatial");
+  if (rod == types.end() || is_spatial) return false;
+  robot.required("legs")
+      .items()[static_cast<std::size_t>(rod - types.begin())]
+      .required("link")
+      .required("type")
+      .refuse("no_such_leg", "rods are for robots in space; write space: spatial");
   return true;
 }
 

@@ -31,7 +31,7 @@ Equilibrium answer_of(const Report& report, const System& system, Workspace& wor
     work.inputs[at(system.input_of(k))] = system.length(k);
     if (with_coordinates)
       system.get_rod(k,
-                     std::span(work.coordinates).subspan(at(k) * RodLeg::coordinates, RodLeg::coordinates));
+                     std::span(work.coordinates).subspan(at(system.coordinate_of(k)), RodLeg::coordinates));
   }
   answer.inputs = work.inputs;
   if (with_coordinates) answer.coordinates = work.coordinates;
@@ -74,10 +74,9 @@ double potential_of(const System& system) {
 /// Calls `solve(rods, home, question)` and answers with what it found.
 template <class Solve>
 Equilibrium solved(const AnyRobot& robot, const EquilibriumOptions& options, Workspace& work, Solve&& solve) {
-  const auto* loaded = rods_of(robot);
-  if (!loaded) return refused();
+  if (!bears_load(robot)) return refused();
   return with_rods(work, [&](auto& rods) {
-    const Report report = solve(rods, SE3<double>::from(loaded->home), question_of(robot, options, rods));
+    const Report report = solve(rods, home_of(robot), question_of(robot, options, rods));
     return answer_of(report, rods.system, work, options.judge);
   });
 }
@@ -108,19 +107,19 @@ Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted
 void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
                        std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work) {
   std::fill(statuses.begin(), statuses.end(), Status::left_domain);
-  const auto* rods = rods_of(robot);
-  if (!rods || statuses.size() != poses.size() || rows.size() != poses.size() * at(rods->total.input)) return;
-  if (work.rods) {
+  const std::size_t inputs = at(input_count(robot));
+  if (!bears_load(robot) || statuses.size() != poses.size() || rows.size() != poses.size() * inputs) return;
+  if (auto* plane = std::get_if<RodWork>(&work.rods->kind)) {
     std::vector<SE3<double>> found(poses.size());
-    const SpatialWrench whole = question_of(robot, {.wrench = wrench}, *work.rods).wrench;
-    RodBatch(*work.rods, SE3<double>::from(rods->home)).solve(rows, whole, found, statuses);
+    const SpatialWrench whole = question_of(robot, {.wrench = wrench}, *plane).wrench;
+    RodBatch(*plane, home_of(robot)).solve(rows, whole, found, statuses);
     std::transform(found.begin(), found.end(), poses.begin(), spatial_pose);
     return;
   }
   for (std::size_t k = 0; k < poses.size(); ++k) {  // one after the other
     const EquilibriumOptions options{.wrench = wrench, .resume = true, .judge = false};
     const Equilibrium found =
-        equilibrium(robot, rows.subspan(k * at(rods->total.input), at(rods->total.input)), options, work);
+        equilibrium(robot, rows.subspan(k * inputs, inputs), options, work);
     poses[k] = found.pose;
     statuses[k] = found.is_solved() ? Status::converged : found.report.status;
   }
@@ -129,7 +128,7 @@ void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench&
 namespace {
 
 template <class System>
-RodAnalysis analysis_of(const ParallelRobot<RodLeg>& robot, System& system) {
+RodAnalysis analysis_of(const AnyRobot& robot, System& system) {
   RodAnalysis analysis;
   system.evaluate();
   system.linearise();
@@ -157,11 +156,12 @@ RodAnalysis analysis_of(const ParallelRobot<RodLeg>& robot, System& system) {
   }
   analysis.unstable_directions = unstable_directions(system);
   analysis.rods = readings_of(system);
-  for (int k = 0; k < system.rods(); ++k) {
+  for (int k = 0; k < system.rods(); ++k)
     analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
-    analysis.largest_strain = std::max(analysis.largest_strain, analysis.rods[at(k)].largest_curvature *
-                                                                    robot.legs[at(k)].link.diameter / 2);
-  }
+  for_each_rod(robot, [&, k = std::size_t{0}](const RodLeg& leg, const LegPlace&, int) mutable {
+    analysis.largest_strain = std::max(analysis.largest_strain,
+                                       analysis.rods[k++].largest_curvature * leg.link.half_thickness());
+  });
   analysis.position_index = largest_singular_value(&analysis.sensitivity[0], system.inputs());
   analysis.rotation_index = largest_singular_value(&analysis.sensitivity[3 * inputs], system.inputs());
   analysis.energy = energy_of(system);
@@ -173,9 +173,8 @@ RodAnalysis analysis_of(const ParallelRobot<RodLeg>& robot, System& system) {
 }  // namespace
 
 RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
-  const auto* loaded = rods_of(robot);
-  if (!loaded) return {};
-  return with_rods(work, [&](auto& rods) { return analysis_of(*loaded, rods.system); });
+  if (!bears_load(robot)) return {};
+  return with_rods(work, [&](auto& rods) { return analysis_of(robot, rods.system); });
 }
 
 std::string_view to_string(LoadEnd end) noexcept {
@@ -191,7 +190,7 @@ std::string_view to_string(LoadEnd end) noexcept {
 }
 
 LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit, Workspace& work) {
-  if (!rods_of(robot) || !direction.allFinite() || !(limit > 0)) return {};
+  if (!bears_load(robot) || !direction.allFinite() || !(limit > 0)) return {};
   return with_rods(work, [&](auto& rods) -> LoadPath {
     if (!rods.is_solved) return {};
     auto& system = rods.system;
@@ -237,9 +236,8 @@ std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
                                          const EquilibriumOptions& options, Workspace& work) {
   constexpr int starts = 160;
   std::vector<FoundEquilibrium> found;
-  const auto* loaded = rods_of(robot);
-  if (!loaded) return found;
-  const SE3<double> home = SE3<double>::from(loaded->home);
+  if (!bears_load(robot)) return found;
+  const SE3<double> home = home_of(robot);
   const double size = home.p.norm();
   with_rods(work, [&](auto& rods) {
     const auto& system = rods.system;

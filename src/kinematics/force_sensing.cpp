@@ -28,9 +28,8 @@ std::array<double, 36> covariance_of(const std::array<double, 36>& rows, Numbers
 SensedWrench sense_wrench(const AnyRobot& robot, Numbers inputs, Numbers axial, Numbers deviations,
                           const EquilibriumOptions& options, Workspace& work) {
   SensedWrench sensed{};
-  const auto* loaded = rods_of(robot);
   const auto is_number = [](double x) { return std::isfinite(x); };
-  if (!loaded || loaded->leg_count() != 6 || axial.size() != 6 || deviations.size() != 6 ||
+  if (!bears_load(robot) || rod_count(robot) != 6 || leg_count(robot) != 6 || axial.size() != 6 || deviations.size() != 6 ||
       !std::ranges::all_of(axial, is_number) || !std::ranges::all_of(deviations, is_number)) {
     sensed.report = failed(Status::left_domain);
     sensed.report.message.append("a wrench has six parts: six rods are needed, with a force of each");

@@ -112,8 +112,7 @@ Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates
       robot, [&](const auto& r) { return assemble_robot(r, pose, coordinates, work); },
       [&] {
         const SpatialPose& place = std::get<SpatialPose>(pose);
-        return work.rods ? assemble_rods(place, coordinates, *work.rods, work)
-                         : assemble_rods(place, coordinates, *work.spatial_rods, work);
+        return with_rods(work, [&](auto& rods) { return assemble_rods(place, coordinates, rods, work); });
       });
 }
 
@@ -233,12 +232,7 @@ Workspace::Workspace(const AnyRobot& robot) {
   const auto rows_ = static_cast<std::size_t>(row_count(robot));
   const auto inputs_ = static_cast<std::size_t>(input_count(robot));
   const auto dof_ = static_cast<std::size_t>(sinew::dof(robot));
-  if (const auto* loaded = std::get_if<ParallelRobot<RodLeg>>(&robot.model)) {
-    if (bend_in_planes(*loaded))
-      rods = std::make_unique<RodWork>(*loaded);
-    else
-      spatial_rods = std::make_unique<TangentWork>(*loaded, robot.weight.gravity);
-  }
+  if (bears_load(robot)) rods = std::make_unique<RodWorks>(robot);
   coordinates.resize(static_cast<std::size_t>(coordinate_count(robot)));
   inputs.resize(inputs_);
   J.resize(rows_ * dof_);

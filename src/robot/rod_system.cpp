@@ -110,7 +110,10 @@ RodSystem::RodSystem(const ParallelRobot<RodLeg>& robot)
       inputs_(robot.total.input),
       platform_(SE3<double>::from(robot.home)),
       radius_(robot.platform_radius) {
-  for (const LegPlace& place : robot.places) input_of_.push_back(place.input);
+  for (const LegPlace& place : robot.places) {
+    input_of_.push_back(place.input);
+    coordinate_of_.push_back(place.coordinate);
+  }
   const auto fill = [&](auto& groups) {
     for (auto& rods : groups) rods = {};
     for (int k = 0; k < rods_; ++k) {
@@ -389,7 +392,7 @@ void RodSystem::set_rod(int index, std::span<const double> coordinates, const Ve
 
 void RodSystem::set_rods(std::span<const double> coordinates) {
   for (int k = 0; k < rods_; ++k)
-    set_rod(k, coordinates.subspan(at(k * RodLeg::coordinates), RodLeg::coordinates), aim(k).lateral);
+    set_rod(k, coordinates.subspan(at(coordinate_of(k)), RodLeg::coordinates), aim(k).lateral);
 }
 
 double RodSystem::axial_force(int rod) const {

@@ -59,6 +59,8 @@ class RodSystem {
   int rods() const { return rods_; }
   int inputs() const { return inputs_; }
   int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
+  /// Where a rod's coordinates begin among the robot's.
+  int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
   double radius() const { return radius_; }  ///< of the platform [m]: makes moments comparable with forces
   Vec3<double> base(int rod) const;
   Vec3<double> platform_point(int rod) const;
@@ -163,7 +165,7 @@ class RodSystem {
   std::vector<CoarseRods> coarse_;
   std::vector<FineRods> fine_;
   std::vector<RodFeed> fed_;
-  std::vector<int> input_of_;
+  std::vector<int> input_of_, coordinate_of_;
   int rods_ = 0, inputs_ = 0;
   bool is_fine_ = false;
   SE3<double> platform_;

@@ -1,7 +1,10 @@
 /// @file rod_work.hpp
 /// What a workspace keeps for a robot of rods.
 #pragma once
+#include <variant>
+
 #include "robot/tangent_system.hpp"
+#include "sinew/robot/workspace.hpp"
 
 namespace sinew::inline v0 {
 
@@ -22,16 +25,32 @@ struct RodWorkOf {
   bool knows_feeding = false;
 };
 
+/// The rods of a robot alone, in the order of its legs; their places are those in the whole robot. Allocates.
+ParallelRobot<RodLeg> rods_of(const AnyRobot& robot);
+
 /// Rods that bend in one plane each ...
 struct RodWork : RodWorkOf<RodSystem> {
   using RodWorkOf::RodWorkOf;
 };
-/// ... and others.
+/// ... others without torque ...
 struct TangentWork : RodWorkOf<TangentSystem> {
   explicit TangentWork(const ParallelRobot<RodLeg>& robot, const Vec3<double>& gravity = Vec3<double>::Zero())
       : RodWorkOf(robot) {
     system.set_gravity(gravity);
   }
 };
+
+/// What a workspace keeps of rods: of the quickest kind that holds for all of them.
+struct RodWorks {
+  explicit RodWorks(const AnyRobot& robot);  ///< of a robot that bears load
+  std::variant<RodWork, TangentWork> kind;
+};
+
+/// Calls `use(rods)` with a RodWorkOf, of the one kind or the other.
+template <class Use>
+decltype(auto) with_rods(Workspace& work, Use&& use) {
+  return std::visit([&]<class System>(RodWorkOf<System>& rods) -> decltype(auto) { return use(rods); },
+                    work.rods->kind);
+}
 
 }  // namespace sinew::inline v0

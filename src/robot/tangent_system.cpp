@@ -53,7 +53,10 @@ TangentSystem::TangentSystem(const ParallelRobot<RodLeg>& robot)
       inputs_(robot.total.input),
       platform_(SE3<double>::from(robot.home)),
       radius_(robot.platform_radius) {
-  for (const LegPlace& place : robot.places) input_of_.push_back(place.input);
+  for (const LegPlace& place : robot.places) {
+    input_of_.push_back(place.input);
+    coordinate_of_.push_back(place.coordinate);
+  }
   for (TangentRods& rods : groups_) rods = {};
   for (int k = 0; k < rods_; ++k) {
     const RodLeg& leg = robot.legs[at(k)];
@@ -70,6 +73,8 @@ TangentSystem::TangentSystem(const ParallelRobot<RodLeg>& robot)
     rods.active[i] = 1;
     rods.length[i] = 1;
     mass_.push_back(leg.link.mass_per_length());
+    load_.push_back(leg.link.load);
+    put(leg.link.load, rods.weight, i);
   }
   fill_idle_lanes();
 }
@@ -148,7 +153,7 @@ void TangentSystem::set_inputs(std::span<const double> inputs) {
 void TangentSystem::set_gravity(const Vec3<double>& gravity) {
   gravity_ = gravity;
   for (int k = 0; k < rods_; ++k)
-    put(gravity * mass_[at(k)], groups_[at(k / rod_lanes)].weight, k % rod_lanes);
+    put(gravity * mass_[at(k)] + load_[at(k)], groups_[at(k / rod_lanes)].weight, k % rod_lanes);
   fill_idle_lanes();
 }
 
@@ -189,7 +194,7 @@ void TangentSystem::get_rod(int index, std::span<double> coordinates) const {
 
 void TangentSystem::set_rods(std::span<const double> coordinates) {
   elements_ = coordinate_elements;
-  auto from = coordinates.begin();
+  std::span<const double>::iterator from;
   const auto next = [&] {
     const Vec3<double> v(from[0], from[1], from[2]);
     from += 3;
@@ -198,6 +203,7 @@ void TangentSystem::set_rods(std::span<const double> coordinates) {
   for (int k = 0; k < rods_; ++k) {
     TangentRods& rods = groups_[at(k / rod_lanes)];
     const int i = k % rod_lanes;
+    from = coordinates.begin() + coordinate_of(k);
     for (int node = 0; node < rod_tangents; ++node) put(next().normalized(), rods.tangent[node], i);
     put(next(), rods.force, i);
     rods.length[i] = *from++;

@@ -41,6 +41,8 @@ class TangentSystem {
   int rods() const { return rods_; }
   int inputs() const { return inputs_; }
   int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
+  /// Where a rod's coordinates begin among the robot's.
+  int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
   double radius() const { return radius_; }  ///< of the platform [m]
   Vec3<double> base(int rod) const;
   Vec3<double> platform_point(int rod) const;
@@ -53,7 +55,7 @@ class TangentSystem {
   Wrench wrench() const { return Eigen::Map<const Wrench>(held_.wrench); }  ///< of the world, base axes
   void set_wrench(const Wrench& wrench) { Eigen::Map<Wrench>(held_.wrench) = wrench; }
   const Vec3<double>& gravity() const { return gravity_; }  ///< on the rods [m/s²]
-  void set_gravity(const Vec3<double>& gravity);
+  void set_gravity(const Vec3<double>& gravity);             ///< beside the rods' own load
   bool has_mass() const;
   double weight_energy() const;  ///< of all rods, after `evaluate` [J]; 0 with the rods in their bases
   int elements() const { return elements_; }
@@ -125,8 +127,9 @@ class TangentSystem {
 
   std::vector<TangentRods> groups_;
   std::vector<RodFeed> fed_;
-  std::vector<int> input_of_;
-  std::vector<double> mass_;  ///< of each rod along its length [kg/m]
+  std::vector<int> input_of_, coordinate_of_;
+  std::vector<double> mass_;        ///< of each rod along its length [kg/m]
+  std::vector<Vec3<double>> load_;  ///< beside its weight [N/m]
   int rods_ = 0, inputs_ = 0, elements_ = coarse_elements;
   SE3<double> platform_;
   Vec3<double> gravity_ = Vec3<double>::Zero();

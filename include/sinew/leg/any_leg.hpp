@@ -7,11 +7,18 @@
 
 namespace sinew::inline v0 {
 
+/// A leg whose force depends on where its tip is held.
+template <class LegT>
+concept BearsLoad = requires {
+  requires LegT::bears_load;
+};
+
 /// The kinds share their space.
 template <class First, class... Rest>
 struct AnyLeg {
   using Space = typename First::Space;
   static_assert((std::same_as<Space, typename Rest::Space> && ...));
+  static constexpr bool bears_load = (BearsLoad<First> || ... || BearsLoad<Rest>);  ///< a kind does
 
   std::variant<First, Rest...> kind;
 };

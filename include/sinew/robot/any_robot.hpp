@@ -19,14 +19,15 @@ template <class... P, class... S>
 struct RobotsOf<TypeList<P...>, TypeList<S...>> {
   using PlanarLeg = AnyLeg<P...>;
   using SpatialLeg = AnyLeg<S...>;
+  using LoadedLeg = AnyLeg<RodLeg, S...>;
   using Model = std::variant<ParallelRobot<P>..., ParallelRobot<PlanarLeg>, ParallelRobot<S>...,
-                             ParallelRobot<SpatialLeg>, ParallelRobot<RodLeg>>;
+                             ParallelRobot<SpatialLeg>, ParallelRobot<RodLeg>, ParallelRobot<LoadedLeg>>;
 };
 }  // namespace detail
 
 using AnyPlanarLeg = detail::RobotsOf<PlanarLegs, SpatialLegs>::PlanarLeg;
 using AnySpatialLeg = detail::RobotsOf<PlanarLegs, SpatialLegs>::SpatialLeg;
-using AnyLoadedLeg = AnyLeg<RodLeg>;
+using AnyLoadedLeg = detail::RobotsOf<PlanarLegs, SpatialLegs>::LoadedLeg;
 using RobotModel = detail::RobotsOf<PlanarLegs, SpatialLegs>::Model;
 
 /// A pose of the robot's space.
@@ -53,21 +54,37 @@ struct AnyRobot {
         model(std::move(robot)) {}
 };
 
-/// Whether the legs of this robot bear load: it then has equilibria (kinematics/equilibrium.hpp) and no
-/// closures.
+/// Calls `use(leg, place, i)` with each rod of a robot, in the order of its legs.
+template <class Use>
+void for_each_rod(const AnyRobot& robot, Use&& use) {
+  std::visit(
+      [&](const auto& r) {
+        r.for_each_leg([&]<class L>(const L& leg, const LegPlace& place, int i) {
+          if constexpr (BearsLoad<L>) use(leg, place, i);
+        });
+      },
+      robot.model);
+}
+
+inline int rod_count(const AnyRobot& robot) {
+  int count = 0;
+  for_each_rod(robot, [&](const RodLeg&, const LegPlace&, int) { ++count; });
+  return count;
+}
+
+/// Whether legs of this robot bear load: it then has equilibria (kinematics/equilibrium.hpp).
 inline bool bears_load(const AnyRobot& robot) {
-  return std::holds_alternative<ParallelRobot<RodLeg>>(robot.model);
+  return std::visit([]<class LegT>(const ParallelRobot<LegT>&) { return BearsLoad<LegT>; }, robot.model);
 }
 
 /// Whether gravity does anything to it.
 inline bool has_weight(const AnyRobot& robot) {
-  if (robot.weight.platform_mass > 0) return true;
-  const auto* rods = std::get_if<ParallelRobot<RodLeg>>(&robot.model);
-  return rods && std::any_of(rods->legs.begin(), rods->legs.end(),
-                             [](const RodLeg& leg) { return leg.link.density > 0; });
+  bool has = robot.weight.platform_mass > 0;
+  for_each_rod(robot, [&](const RodLeg& leg, const LegPlace&, int) { has = has || leg.link.density > 0; });
+  return has;
 }
 
-/// Calls `use` with the robot behind `robot` if its legs close on the platform, and `otherwise()` if they
+/// Calls `use` with the robot behind `robot` if its legs close on the platform, and `otherwise()` if some
 /// bear load.
 template <class Use, class Otherwise>
 decltype(auto) visit_closing(const AnyRobot& robot, Use&& use, Otherwise&& otherwise) {

@@ -33,8 +33,15 @@ using PlanarLegs =
 using SpatialLegs =
     TypeList<Leg<Spatial, Arc, TendonPair, Chord>, Leg<Spatial, Rail, SlideDrive, HingedStrut>>;
 
-/// Every kind of leg that bears load. They are not mixed with others.
-using LoadedLegs = TypeList<RodLeg>;
+/// Every kind of leg that bears load: of rods at least one leg is. Closing legs beside them bear whatever it
+/// takes to keep them closed.
+template <class List>
+struct WithRods;
+template <class... Ts>
+struct WithRods<TypeList<Ts...>> {
+  using type = TypeList<RodLeg, Ts...>;
+};
+using LoadedLegs = WithRods<SpatialLegs>::type;
 
 /// A named architecture: legs all alike around the base and the platform.
 struct Architecture {

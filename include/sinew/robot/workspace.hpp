@@ -9,8 +9,7 @@
 
 namespace sinew::inline v0 {
 
-struct RodWork;
-struct TangentWork;
+struct RodWorks;
 
 struct Workspace {
   /// Most solutions of one leg that are kept; an arc within a full turn either way has fewer.
@@ -30,8 +29,7 @@ struct Workspace {
   std::vector<int> solution_count;     ///< a leg; 1 for a leg whose inputs are another's
   std::vector<int> type_1;             ///< legs
   std::vector<LegState> legs;
-  std::unique_ptr<RodWork> rods;              ///< of a robot whose rods bend in one plane each; else null
-  std::unique_ptr<TangentWork> spatial_rods;  ///< of a robot of other rods; else null
+  std::unique_ptr<RodWorks> rods;      ///< of a robot that bears load; else null
 };
 
 }  // namespace sinew::inline v0

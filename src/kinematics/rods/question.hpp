@@ -2,20 +2,14 @@
 /// From a question of the public face to the rods of a workspace.
 #pragma once
 #include "kinematics/rods/solve.hpp"
+#include "sinew/robot/assembly.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 
 namespace sinew::inline v0 {
 
-/// The robot of rods behind any robot; null where its legs bear no load.
-inline const ParallelRobot<RodLeg>* rods_of(const AnyRobot& robot) {
-  return std::get_if<ParallelRobot<RodLeg>>(&robot.model);
-}
-
-/// Calls `use(rods)` with what the workspace keeps of rods, of the one kind or the other.
-template <class Use>
-decltype(auto) with_rods(Workspace& work, Use&& use) {
-  return work.rods ? use(static_cast<RodWorkOf<RodSystem>&>(*work.rods))
-                   : use(static_cast<RodWorkOf<TangentSystem>&>(*work.spatial_rods));
+/// Home of a robot in space.
+inline SE3<double> home_of(const AnyRobot& robot) {
+  return SE3<double>::from(std::get<SpatialPose>(home(robot)));
 }
 
 /// What weighs on rods; a state at rest under another gravity is none.
