@@ -94,13 +94,15 @@ class Request {
     errors_.push_back({std::string(code), fmt::format("--{}", option), std::string(message)});
   }
 
-  void pose(std::string_view key, const Robot& robot);
+  void pose(std::string_view option, const Robot& robot, std::string_view key = {});
   void independent();
   void poses(const Robot& robot);
-  void inputs(std::string_view key, const Robot& robot);
+  void inputs(std::string_view option, const Robot& robot, std::string_view key = {});
   void twist(const Robot& robot);
   void wrench(const Robot& robot);
   void until(const Robot& robot);
+  void target(const Robot& robot);
+  void range();
   void per_section(std::string_view key, Dimension dimension);
   void quantity(std::string_view option, Dimension dimension);
   void vector(std::string_view option, Dimension dimension);
@@ -178,26 +180,26 @@ void Request::poses(const Robot& robot) {
   member("poses", "[" + list + "]");
 }
 
-void Request::pose(std::string_view key, const Robot& robot) {
-  const std::string* given = arguments_.text(key);
+void Request::pose(std::string_view option, const Robot& robot, std::string_view key) {
+  const std::string* given = arguments_.text(option);
   if (!given) return;
   const auto parts = split(*given);
   const std::size_t count = parts.size();
   if (robot.is_spatial ? count != 6 && count != 7 : count != 3)
-    return fail("wrong_length", key,
+    return fail("wrong_length", option,
                 fmt::format("{}; {}.", counted(*given, count),
                             robot.is_spatial
                                 ? fmt::format("a spatial pose has six, x, y, z and its rotation vector, or "
                                               "seven, x, y, z and its quaternion w, x, y, z: --{} \"0, 0, "
                                               "180 mm, 0, 10 deg, 0\"",
-                                              key)
+                                              option)
                                 : fmt::format("a planar pose has three, x, y, phi: --{} \"10 mm, -5 mm, 10 "
                                               "deg\"",
-                                              key)));
+                                              option)));
   const auto dimensions = count == 3   ? lengths_then(2, Dimension::angle, 1)
                           : count == 6 ? lengths_then(3, Dimension::angle, 3)
                                        : lengths_then(3, Dimension::number, 4);
-  member(member_name(key), json_pose(values(key, parts, dimensions)));
+  member(key.empty() ? member_name(option) : std::string(key), json_pose(values(option, parts, dimensions)));
 }
 
 void Request::independent() {
@@ -220,8 +222,8 @@ void Request::independent() {
                                     si_text(values_of[1]), si_text(values_of[2]), mode));
 }
 
-void Request::inputs(std::string_view key, const Robot& robot) {
-  const std::string* given = arguments_.text(key);
+void Request::inputs(std::string_view option, const Robot& robot, std::string_view key) {
+  const std::string* given = arguments_.text(option);
   if (!given) return;
   const auto parts = split(*given);
   std::vector<std::string_view> names;
@@ -231,10 +233,10 @@ void Request::inputs(std::string_view key, const Robot& robot) {
     dimensions.push_back(dimension_of(input.unit));
   }
   if (parts.size() != names.size())
-    return fail("wrong_length", key,
+    return fail("wrong_length", option,
                 fmt::format("{}; this robot has {} input{}: {}.", counted(*given, parts.size()), names.size(),
                             names.size() == 1 ? "" : "s", fmt::join(names, ", ")));
-  member(key, json_list(values(key, parts, dimensions, {}, names)));
+  member(key.empty() ? option : key, json_list(values(option, parts, dimensions, {}, names)));
 }
 
 void Request::twist(const Robot& robot) {
@@ -280,6 +282,29 @@ std::string Request::wrench(std::string_view option, const Robot& robot) {
 void Request::wrench(const Robot& robot) {
   if (!arguments_.has("wrench")) return;
   if (const std::string list = wrench("wrench", robot); !list.empty()) member("wrench", list);
+}
+
+/// What changes along a curve of equilibria: `to` and its members.
+void Request::target(const Robot& robot) {
+  std::string outer;
+  std::swap(outer, text_);
+  inputs("to-inputs", robot, "inputs");
+  if (arguments_.has("to-wrench")) member("wrench", wrench("to-wrench", robot));
+  pose("to", robot, "pose");
+  std::swap(outer, text_);
+  if (!outer.empty()) member("to", "{" + outer + "}");
+}
+
+/// Of the parameter along a curve: LOW, HIGH.
+void Request::range() {
+  const std::string* given = arguments_.text("range");
+  if (!given) return;
+  const auto parts = split(*given);
+  if (parts.size() != 2)
+    return fail("wrong_length", "range",
+                fmt::format("{}; it has two, the lowest and the highest: --range \"-1, 2\".",
+                            counted(*given, parts.size())));
+  member("range", json_list(values("range", parts, std::vector<Dimension>(2, Dimension::number))));
 }
 
 /// A load that grows, and how far.
@@ -474,7 +499,15 @@ std::string at_home(const Robot& robot) {
 
 Expected<std::string> request(std::string_view query, const Arguments& arguments, const Robot& robot) {
   Request request(query, arguments);
-  for (const std::string_view key : {"pose", "from", "to"}) request.pose(key, robot);
+  const bool is_curve = arguments.verb == "branches";
+  request.pose("pose", robot);
+  request.pose("from", robot);
+  if (is_curve)
+    request.target(robot);
+  else
+    request.pose("to", robot);
+  request.range();
+  if (arguments.has("backward")) request.member("backward", "true");
   request.pose("set-at", robot);
   if (query == "statics" && arguments.has("pose")) request.member("inverse", "true");
   request.per_leg("tensions", Dimension::force);
@@ -488,7 +521,7 @@ Expected<std::string> request(std::string_view query, const Arguments& arguments
   request.inputs("inputs", robot);
   if (is_serial(robot))
     request.per_section("start", Dimension::angle);
-  else if (query == "inverse" || query == "track")
+  else if (query == "inverse" || (query == "track" && !is_curve))
     request.inputs("start", robot);
   else
     request.pose("start", robot);
@@ -521,7 +554,7 @@ Expected<std::string> request(std::string_view query, const Arguments& arguments
   request.word("theta-is", "theta_is");
   request.whole_number("samples", "samples");
   request.whole_number("max-iterations", "max_iterations");
-  if (arguments.has("all")) request.member("all", "true");
+  if (arguments.has("all")) request.member(is_curve ? "branches" : "all", "true");
   request.set();
   return request.done();
 }

@@ -34,8 +34,14 @@ constexpr std::array options{
     Option{"envelope", "NAME", "bends a section is allowed: square, disc or actuator; default its limit"},
     Option{"from", "\"X, Y, PHI\"", "first pose of a path, written like --pose"},
     Option{"to", "\"X, Y, PHI\"", "last pose of a path"},
+    Option{"to-inputs", "\"A, B, ...\"", "of branches the inputs where the curve leads"},
+    Option{"to-wrench", "\"FX, FY, FZ, MX, MY, MZ\"", "of branches the wrench where the curve leads"},
+    Option{"range", "\"LOW, HIGH\"",
+           "of branches how far: 0 is the beginning, 1 what is led to; default \"0, 1\""},
+    Option{"backward", "", "of branches: set out the other way"},
     Option{"poses", "FILE", "the path as a table: a .csv file of poses"},
-    Option{"samples", "N", "poses on a path; default 60"},
+    Option{"samples", "N",
+           "poses on a path; default 60; of branches points on a curve, at most; default 500"},
     Option{"objective", "NAME",
            "what redundant legs do with their freedom: limits, singularity, smooth or none"},
     Option{"start", "\"A, B, ...\"",
@@ -204,6 +210,21 @@ const std::array table{
         "Where the path\ncannot be followed to its end the poses reached are shown, and the exit code is 3.",
         "sinew track 3-rfr --from \"0, 0, 0\" --to \"10 mm, 5 mm, 20 deg\" --samples 11",
         run_track},
+    Verb{"branches",
+         "ROBOT",
+         "the curve of equilibria of a robot on rods along inputs, a load or a pose, through folds",
+         {"inputs", "pose", "independent", "wrench", "gravity", "start", "to-inputs", "to-wrench", "to",
+          "range", "backward", "samples", "all", "max-iterations", "output", "set", "json", "quiet", "help"},
+         {"to-inputs", "to-wrench", "to"},
+         "The curve begins at the inputs, pose or independent coordinates given, and is followed by its arc\n"
+         "length: where the load or the inputs cannot go further, a fold, it turns back, on another branch.\n"
+         "Bifurcations are found as well; with --all the curves that leave them are followed. Shown are the\n"
+         "special points and all equilibria met with the inputs and the load led to, stable or not. -o\n"
+         "FILE.csv has all points, an .svg, .png or .pdf the diagram. Where a pose is led to, the inputs\n"
+         "that hold it are followed: sinew branches hexapod --pose \"0, 0, 400 mm, 0, 0, 0\" --to \"50 mm,\n"
+         "77 mm, 490 mm, 20 deg, -12 deg, -11 deg\". Exit code 3 where the curve does not come to 1.",
+         "sinew branches 3pfs-g2 --independent \"0.4 m, 0, 0\" --to-wrench \"0, 0, -150 N, 0, 0, 0\" --all",
+         run_branches},
     Verb{
         "map",
         "ROBOT",

@@ -62,6 +62,7 @@ std::string help_units();
 int run_question(const Arguments& arguments);  ///< forward, inverse, analyse
 int run_diagram(const Arguments& arguments);
 int run_track(const Arguments& arguments);
+int run_branches(const Arguments& arguments);
 int run_map(const Arguments& arguments);
 int run_query(const Arguments& arguments);
 int run_check(const Arguments& arguments);

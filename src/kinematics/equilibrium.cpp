@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "kinematics/rods/batch.hpp"
+#include "kinematics/rods/energy.hpp"
 #include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/inverse.hpp"
 #include "kinematics/rods/question.hpp"
@@ -43,32 +44,6 @@ double largest_singular_value(const double* rows, int columns) {
   std::array<double, 3> sigma;
   singular_values(MatrixView(rows, 3, columns), std::span(sigma).first(at(std::min(3, columns))));
   return sigma[0];
-}
-
-template <class System>
-std::vector<RodReading> readings_of(const System& system) {
-  std::vector<RodReading> rods;
-  for (int k = 0; k < system.rods(); ++k) rods.push_back(system.rod(k));
-  return rods;
-}
-
-template <class System>
-double energy_of(const System& system) {
-  double energy = 0;
-  for (int k = 0; k < system.rods(); ++k) energy += system.rod(k).energy;
-  return energy;
-}
-
-double weight_of(const RodSystem&) { return 0; }
-double weight_of(const TangentSystem& system) { return system.weight_energy(); }
-
-/// A moment that keeps its axes has no potential.
-template <class System>
-double potential_of(const System& system) {
-  if (system.wrench().template tail<3>() != Vec3<double>::Zero())
-    return std::numeric_limits<double>::quiet_NaN();
-  return energy_of(system) + weight_of(system) -
-         dot(Vec3<double>(system.wrench().template head<3>()), system.platform().p);
 }
 
 /// Calls `solve(rods, home, question)` and answers with what it found.
@@ -118,8 +93,7 @@ void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench&
   }
   for (std::size_t k = 0; k < poses.size(); ++k) {  // one after the other
     const EquilibriumOptions options{.wrench = wrench, .resume = true, .judge = false};
-    const Equilibrium found =
-        equilibrium(robot, rows.subspan(k * inputs, inputs), options, work);
+    const Equilibrium found = equilibrium(robot, rows.subspan(k * inputs, inputs), options, work);
     poses[k] = found.pose;
     statuses[k] = found.is_solved() ? Status::converged : found.report.status;
   }
@@ -156,11 +130,10 @@ RodAnalysis analysis_of(const AnyRobot& robot, System& system) {
   }
   analysis.unstable_directions = unstable_directions(system);
   analysis.rods = readings_of(system);
-  for (int k = 0; k < system.rods(); ++k)
-    analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
+  for (int k = 0; k < system.rods(); ++k) analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
   for_each_rod(robot, [&, k = std::size_t{0}](const RodLeg& leg, const LegPlace&, int) mutable {
-    analysis.largest_strain = std::max(analysis.largest_strain,
-                                       analysis.rods[k++].largest_curvature * leg.link.half_thickness());
+    analysis.largest_strain =
+        std::max(analysis.largest_strain, analysis.rods[k++].largest_curvature * leg.link.half_thickness());
   });
   analysis.position_index = largest_singular_value(&analysis.sensitivity[0], system.inputs());
   analysis.rotation_index = largest_singular_value(&analysis.sensitivity[3 * inputs], system.inputs());

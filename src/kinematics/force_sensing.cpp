@@ -29,8 +29,9 @@ SensedWrench sense_wrench(const AnyRobot& robot, Numbers inputs, Numbers axial, 
                           const EquilibriumOptions& options, Workspace& work) {
   SensedWrench sensed{};
   const auto is_number = [](double x) { return std::isfinite(x); };
-  if (!bears_load(robot) || rod_count(robot) != 6 || leg_count(robot) != 6 || axial.size() != 6 || deviations.size() != 6 ||
-      !std::ranges::all_of(axial, is_number) || !std::ranges::all_of(deviations, is_number)) {
+  if (!bears_load(robot) || rod_count(robot) != 6 || leg_count(robot) != 6 || axial.size() != 6 ||
+      deviations.size() != 6 || !std::ranges::all_of(axial, is_number) ||
+      !std::ranges::all_of(deviations, is_number)) {
     sensed.report = failed(Status::left_domain);
     sensed.report.message.append("a wrench has six parts: six rods are needed, with a force of each");
     return sensed;

@@ -33,7 +33,8 @@ Wanted read_want(Context& context) {
   return wanted;
 }
 
-/// [fx, fy, fz, mx, my, mz].
+}  // namespace
+
 SpatialWrench read_wrench(const Reader& list) {
   SpatialWrench wrench = SpatialWrench::Zero();
   const auto items = list.items(6);
@@ -41,8 +42,6 @@ SpatialWrench read_wrench(const Reader& list) {
     wrench[static_cast<Eigen::Index>(k)] = items[k].quantity(k < 3 ? Dimension::force : Dimension::moment);
   return wrench;
 }
-
-}  // namespace
 
 std::optional<Vec3<double>> read_gravity_of(Context& context) {
   const auto gravity = context.query.optional("gravity");
@@ -165,13 +164,7 @@ std::optional<SpatialPose> read_held_pose(const Context& context) {
   return read_spatial_pose(std::move(*pose));
 }
 
-/// Where a robot of rods is asked to be: at inputs, or at a pose or coordinates that lengths are found for.
-struct RodQuery {
-  std::vector<double> inputs;
-  std::optional<SpatialPose> pose;
-  std::optional<IndependentPose> independent;
-  EquilibriumOptions options;
-};
+}  // namespace
 
 RodQuery read_configuration_of_rods(Context& context) {
   RodQuery asked;
@@ -207,6 +200,8 @@ Equilibrium solve(Context& context, const RodQuery& asked) {
              ? inverse_equilibrium(context.robot, *asked.independent, asked.options, context.work)
              : equilibrium(context.robot, asked.inputs, asked.options, context.work);
 }
+
+namespace {
 
 /// The equilibrium the workspace holds, as both questions answer it.
 void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& wanted) {

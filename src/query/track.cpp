@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "query/context.hpp"
+#include "query/rods.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
@@ -112,12 +113,7 @@ void put_end(Context& context, const Track& track, std::size_t rows, std::size_t
 }  // namespace
 
 void answer_track(Context& context) {
-  if (bears_load(context.robot)) {
-    context.query.fail("not_available",
-                       "track follows robots whose legs close on the platform; this one's bear load; ask "
-                       "inverse with independent, pose by pose");
-    return;
-  }
+  if (bears_load(context.robot)) return answer_rods_track(context);
   const std::vector<AnyPose> poses = read_path(context);
   const Branch branch = read_branch(context);
   TrackOptions options{.branch = branch.options(), .objective = read_objective(context.query)};

@@ -28,7 +28,6 @@ std::variant<RodWork, TangentWork> make_work(const AnyRobot& robot) {
 
 }  // namespace
 
-RodWorks::RodWorks(const AnyRobot& robot)
-    : kind(make_work(robot)) {}
+RodWorks::RodWorks(const AnyRobot& robot) : kind(make_work(robot)) {}
 
 }  // namespace sinew::inline v0

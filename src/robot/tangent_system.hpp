@@ -55,7 +55,7 @@ class TangentSystem {
   Wrench wrench() const { return Eigen::Map<const Wrench>(held_.wrench); }  ///< of the world, base axes
   void set_wrench(const Wrench& wrench) { Eigen::Map<Wrench>(held_.wrench) = wrench; }
   const Vec3<double>& gravity() const { return gravity_; }  ///< on the rods [m/s²]
-  void set_gravity(const Vec3<double>& gravity);             ///< beside the rods' own load
+  void set_gravity(const Vec3<double>& gravity);            ///< beside the rods' own load
   bool has_mass() const;
   double weight_energy() const;  ///< of all rods, after `evaluate` [J]; 0 with the rods in their bases
   int elements() const { return elements_; }

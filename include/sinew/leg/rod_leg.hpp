@@ -47,7 +47,7 @@ struct RodLeg {
   static constexpr int coordinates = 3 * rod_tangents + 4;
   using Coordinates = Vec<double, coordinates>;
 
-  Frame base;  ///< base point; +y along the base tangent, +x that of the section
+  Frame base;                 ///< base point; +y along the base tangent, +x that of the section
   bool is_spin_held = false;  ///< the guide holds the rod's section; else the rod spins freely in it
   Link link;
   Point platform_point = Point::Zero();  ///< in the platform's frame [m]

@@ -19,11 +19,11 @@ inline constexpr int rod_tangents = 33;
 struct Rod {
   static constexpr std::string_view name = "rod";
 
-  double youngs_modulus = 0;  ///< E [Pa]; in a file under `material`
-  double diameter = 0;        ///< of the round solid section [m]; 0 where it is a strip
+  double youngs_modulus = 0;     ///< E [Pa]; in a file under `material`
+  double diameter = 0;           ///< of the round solid section [m]; 0 where it is a strip
   double width = 0, height = 0;  ///< of a strip, a rectangular solid section: along its x and its y [m]
   double shear_modulus = 0;      ///< G [Pa]; asked for only where the rod twists, or shears and stretches
-  double density = 0;         ///< [kg/m³]; 0: the rod weighs nothing
+  double density = 0;            ///< [kg/m³]; 0: the rod weighs nothing
   /// The section's law: Cosserat's, which shears and stretches, or Kirchhoff's, which only bends.
   bool is_cosserat = false;
   /// u* of the rod at rest: curvature about the section's x and y, twist about its z, the tangent [1/m].
@@ -42,7 +42,7 @@ struct Rod {
   double area() const { return is_round() ? std::numbers::pi * diameter * diameter / 4 : width * height; }
   /// From the neutral axis to the surface, at most [m]: times curvature the strain.
   double half_thickness() const { return (is_round() ? diameter : width > height ? width : height) / 2; }
-  double mass_per_length() const { return density * area(); }                 ///< [kg/m]
+  double mass_per_length() const { return density * area(); }  ///< [kg/m]
   /// 1/GA and 1/EA − 1/GA [1/N]: p′ = t (1 + β n·t) + n/GA. Both 0 under Kirchhoff's law.
   double shear_compliance() const { return is_cosserat ? 1 / (shear_modulus * area()) : 0; }
   double stretch_compliance() const {

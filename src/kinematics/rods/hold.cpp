@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "kinematics/rods/start.hpp"
+#include "kinematics/rods/trace.hpp"
 #include "kinematics/rods/verdict.hpp"
 
 namespace sinew::inline v0 {
@@ -168,28 +169,27 @@ RodPathEnd follow_poses(RodWorkOf<System>& work, const HoldPath& path, int max_i
 
 /// Why the lengths do not follow the platform further: the system is where they still do.
 template <class System>
-Report explain_hold(RodWorkOf<System>& work, const RodPathEnd& end, std::string_view from) {
-  System& system = work.system;
-  system.linearise();
-  Holder<System> holder(work);
-  holder.renew();
-  constexpr double singular = 0.02;  // with the square root of what is left of the path
+Report explain_hold(const System& system, const RodPathEnd& end, const RodFold& fold, std::string_view from) {
   if (end.ran_out) return explain(system, end, false);
-  const bool is_fold = work.feeding.smallest_pivot() <= singular;
-  Report report = failed(is_fold ? Status::singular : Status::stalled);
+  Report report = failed(fold.is_found ? Status::singular : Status::stalled);
+  if (!fold.is_found && system.truncation() > worst_truncation) report.status = Status::left_domain;
   report.iterations = end.iterations;
   report.residual = end.residual;
-  report.message.append(is_fold ? "the lengths pass a fold at " : "the lengths stop following at ");
-  append_number(report.message, static_cast<int>(100 * end.progress));
+  report.message.append(fold.is_found ? "the lengths pass a fold at "
+                        : report.status == Status::left_domain
+                            ? "the rods bend too sharply to be resolved at "
+                            : "the lengths stop following at ");
+  append_number(report.message, static_cast<int>(100 * (fold.is_found ? fold.parameter : end.progress)));
   report.message.append(" % of the straight way from ");
   report.message.append(from);
   report.message.append(", at ");
+  const SE3<double>& there = fold.is_found ? fold.platform : system.platform();
   for (int k = 0; k < 3; ++k) {
-    append_mm(report.message, system.platform().p[k]);
+    append_mm(report.message, there.p[k]);
     report.message.append(k < 2 ? ", " : "");
   }
   report.message.append(", turned ");
-  append_degrees(report.message, system.platform().R.log().norm());
+  append_degrees(report.message, there.R.log().norm());
   return report;
 }
 
@@ -229,8 +229,8 @@ RodPathEnd approach(RodWorkOf<System>& work, std::span<const SE3<double>> poses,
   return end;
 }
 
-/// Where the straight way from home folds, others may lead to another branch that holds the pose. If so, and
-/// the system is there, true; the message of `report`, which says where it folds, then says by which way.
+/// Where the straight way from home ends, others may lead to another branch that holds the pose. If so, and
+/// the system is there, true; the message of `report`, which says where it ends, then says by which way.
 template <class System>
 bool detour(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>& wanted,
             const RodQuestion& question, Report& report) {
@@ -251,11 +251,25 @@ bool detour(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>&
     if (!end.arrived) continue;
     report.status = Status::converged;
     report.iterations += end.iterations;
-    report.message.append("; ");
-    report.message.append(way.name);
+    say(report, way.name);
     return true;
   }
-  report.message.append("; moving first, turning first, turning lower down do not lead to it either");
+  return false;
+}
+
+/// Another branch that holds the pose, by another way or through the fold. Says so.
+template <class System>
+bool reach_otherwise(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>& wanted,
+                     const RodQuestion& question, const RodWay& way, const RodPathEnd& end, Report& report) {
+  auto stopped = work.system.snapshot();
+  if (detour(work, home, wanted, question, report)) return true;
+  work.system.restore(stopped);
+  if (report.status == Status::singular && pass_fold(work, way, end.progress)) {
+    report.status = Status::converged;
+    say(report, "held on another branch: on through the fold");
+    return true;
+  }
+  say(report, "moving first, turning first, turning lower down, going through it do not lead to it either");
   return false;
 }
 
@@ -274,7 +288,7 @@ Report finish(RodWorkOf<System>& work, const SE3<double>& wanted, Report report,
   }
   if (!is_solved) {
     report.status = Status::stalled;
-    report.message.append("the pose is reached, but not to the last digits; the rods bend too sharply");
+    say(report, "the pose is reached, but not to the last digits; the rods bend too sharply");
     return report;
   }
   return settle(system, report, truncation);
@@ -311,13 +325,23 @@ Report hold_rods(RodWorkOf<System>& work, const SE3<double>& home, const SE3<dou
     return begun;
   }
   const bool is_from_home = !(question.resume && work.is_solved);
-  const RodPathEnd end = approach(work, std::span(&wanted, 1), question);
+  const RodTarget begin = present(system);
+  RodWay way{begin, begin, true, system.platform(), wanted};
+  way.target.wrench = question.wrench;
+  RodPathEnd end = approach(work, std::span(&wanted, 1), question);
   report.iterations = end.iterations;
   if (!end.arrived) {
-    report = explain_hold(work, end, is_from_home ? "home" : "the last pose");
-    if (!is_from_home || end.ran_out || !detour(work, home, wanted, question, report)) {
-      work.is_solved = false;
-      return report;
+    RodFold fold = end.ran_out ? RodFold{} : find_fold(work, way, end.progress);
+    if (!end.ran_out && !fold.is_found && !fold.arrived && is_from_home && go_home(work, home).ok()) {
+      end.progress = 0;  // what was followed had left the branch
+      fold = find_fold(work, way, 0);
+    }
+    if (!fold.arrived) {
+      report = explain_hold(system, end, fold, is_from_home ? "home" : "the last pose");
+      if (!is_from_home || end.ran_out || !reach_otherwise(work, home, wanted, question, way, end, report)) {
+        work.is_solved = false;
+        return report;
+      }
     }
   }
   report = finish(work, wanted, report, System::best_truncation);

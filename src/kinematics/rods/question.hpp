@@ -2,8 +2,8 @@
 /// From a question of the public face to the rods of a workspace.
 #pragma once
 #include "kinematics/rods/solve.hpp"
-#include "sinew/robot/assembly.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
+#include "sinew/robot/assembly.hpp"
 
 namespace sinew::inline v0 {
 

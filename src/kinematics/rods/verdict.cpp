@@ -23,12 +23,25 @@ Straightest straightest(const System& system) {
   return found;
 }
 
+/// Axial force in EI/L² beyond which a rod counts as straight.
+constexpr double most_tension = 60;
+
 }  // namespace
+
+template <class System>
+bool is_pulled_straight(const System& system) {
+  return straightest(system).tension > most_tension;
+}
 
 Report failed(Status status) {
   Report report;
   report.status = status;
   return report;
+}
+
+void say(Report& report, std::string_view text) {
+  if (!report.message.empty()) report.message.append("; ");
+  report.message.append(text);
 }
 
 template <class System>
@@ -52,7 +65,7 @@ Report explain(const System& system, const RodPathEnd& end, bool is_load) {
     return report;
   }
   const Straightest tight = straightest(system);
-  if (tight.tension > 60) {
+  if (tight.tension > most_tension) {
     report.status = Status::unreachable;
     report.message.append("legs[");
     append_number(report.message, tight.rod);
@@ -88,13 +101,13 @@ bool resolve(System& system, Report& report, double truncation) {
     system.refine();
     if (!correct(system, report.iterations, report.residual)) {
       report.status = Status::stalled;
-      report.message.append("the rods bend too sharply to be resolved");
+      say(report, "the rods bend too sharply to be resolved");
       return false;
     }
   }
   if (!(system.truncation() <= std::max(worst_truncation, truncation))) {
     report.status = Status::left_domain;
-    report.message.append("the rods bend more sharply than their nodes resolve");
+    say(report, "the rods bend more sharply than their nodes resolve");
     return false;
   }
   return true;
@@ -107,7 +120,7 @@ Report settle(System& system, Report report, double truncation) {
   const int unstable = unstable_directions(system);
   if (unstable == 0) return report;
   report.status = Status::unstable;
-  if (!report.message.view().empty()) report.message.append("; ");
+  say(report, "");
   append_number(report.message, unstable);
   report.message.append(unstable == 1 ? " direction in which the robot does not hold by itself"
                                       : " directions in which the robot does not hold by itself");
@@ -117,7 +130,8 @@ Report settle(System& system, Report report, double truncation) {
 #define SINEW_FOR(System)                                          \
   template Report explain(const System&, const RodPathEnd&, bool); \
   template bool resolve(System&, Report&, double);                 \
-  template Report settle(System&, Report, double);
+  template Report settle(System&, Report, double);                 \
+  template bool is_pulled_straight(const System&);
 SINEW_FOR(RodSystem)
 SINEW_FOR(TangentSystem)
 #undef SINEW_FOR

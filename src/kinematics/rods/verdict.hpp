@@ -11,6 +11,13 @@ inline constexpr double worst_truncation = 1e-10;
 /// A report of nothing but its status.
 Report failed(Status status);
 
+/// Appends to the message, after what stands there already.
+void say(Report& report, std::string_view text);
+
+/// Whether a rod is about to be pulled straight.
+template <class System>
+bool is_pulled_straight(const System& system);
+
 /// Why a path ended early; the system is at its last equilibrium.
 template <class System>
 Report explain(const System& system, const RodPathEnd& end, bool is_load);

@@ -1,0 +1,83 @@
+#include "sinew/kinematics/equilibrium_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinematics/rods/question.hpp"
+#include "kinematics/rods/start.hpp"
+#include "kinematics/rods/trace.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+bool is_answerable(const AnyRobot& robot, const CurveOptions& how) {
+  const auto is_length = [](double x) { return x > 0 && std::isfinite(x); };
+  const auto inputs = static_cast<std::size_t>(input_count(robot));
+  if (!how.inputs.empty() && (how.inputs.size() != inputs || !std::ranges::all_of(how.inputs, is_length)))
+    return false;
+  if (how.pose && (inputs != 6 || rod_count(robot) != 6 || !how.inputs.empty())) return false;
+  if (how.pose && !SE3<double>::from(*how.pose).p.allFinite()) return false;
+  return how.added_wrench.allFinite() && how.lowest <= 0 && how.highest >= 0 && how.max_points > 0;
+}
+
+}  // namespace
+
+std::string_view to_string(CurveEvent event) noexcept {
+  switch (event) {
+    case CurveEvent::none:
+      return "none";
+    case CurveEvent::begin:
+      return "begin";
+    case CurveEvent::target:
+      return "target";
+    case CurveEvent::fold:
+      return "fold";
+    case CurveEvent::bifurcation:
+      return "bifurcation";
+    case CurveEvent::rod_bifurcation:
+      return "rod_bifurcation";
+    case CurveEvent::stability:
+      return "stability";
+  }
+  return "";
+}
+
+std::string_view to_string(CurveEnd end) noexcept {
+  switch (end) {
+    case CurveEnd::left_range:
+      return "left_range";
+    case CurveEnd::closed:
+      return "closed";
+    case CurveEnd::max_points:
+      return "max_points";
+    case CurveEnd::straight:
+      return "straight";
+    case CurveEnd::sharp:
+      return "sharp";
+    case CurveEnd::far:
+      return "far";
+    case CurveEnd::stalled:
+      return "stalled";
+  }
+  return "";
+}
+
+std::vector<EquilibriumCurve> equilibrium_curves(const AnyRobot& robot, const CurveOptions& how,
+                                                 Workspace& work) {
+  if (!bears_load(robot) || !is_answerable(robot, how)) return {};
+  return with_rods(work, [&](auto& rods) -> std::vector<EquilibriumCurve> {
+    if (!rods.is_solved) return {};
+    auto& system = rods.system;
+    RodWay way{present(system), present(system), how.pose.has_value(), system.platform(), system.platform()};
+    if (!how.inputs.empty()) way.target = target_of(system, how.inputs, system.wrench());
+    way.target.wrench += how.added_wrench;
+    if (how.pose) way.to = SE3<double>::from(*how.pose);
+    const bool moves =
+        (way.to.p - way.from.p).norm() > 0 || way.to.R.compose(way.from.R.inverse()).log().norm() > 0;
+    if (!moves && way.target.lengths == way.begin.lengths && how.added_wrench.isZero(0)) return {};
+    rods.is_solved = rods.knows_feeding = false;
+    return trace_rods(rods, way, how);
+  });
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,373 @@
+#include "kinematics/rods/trace.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kinematics/rods/energy.hpp"
+#include "kinematics/rods/tracer.hpp"
+#include "kinematics/rods/verdict.hpp"
+#include "robot/pose.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+using Step = Vec<double, 7>;
+using Signs = CurveSigns;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Follows curves and writes down what is met.
+template <class System>
+class CurveWriter {
+ public:
+  CurveWriter(RodWorkOf<System>& work, const RodWay& way, const CurveOptions& how)
+      : system_(work.system),
+        how_(how),
+        tracer_(work, way, 0),
+        first_{system_.snapshot(), 0, Step::Zero()} {}
+
+  std::vector<EquilibriumCurve> run() {
+    tracer_.save(first_);
+    if (how_.is_backward) first_.tangent = -first_.tangent;
+    std::vector<EquilibriumCurve> curves(1);
+    tracer_.restore(first_);
+    write(curves[0], CurveEvent::begin);
+    follow(curves[0], true);
+    if (!how_.follows_branches) return curves;
+    std::vector<Branching> found;
+    found.swap(branchings_);
+    for (Branching& one : found) leave(one, curves);
+    return curves;
+  }
+
+ private:
+  using Place = Tracer<System>::Place;
+  /// Where other curves cross the first: the state, directions square to it, and which point it is.
+  struct Branching {
+    Place place;
+    std::vector<Step> directions;
+    int point;
+  };
+
+  static constexpr double first_stride = 0.01, longest_stride = 0.05, shortest_stride = 1e-7;
+  static constexpr double longest_rod = 10, null_tolerance = 0.1;
+  static constexpr int most_curves = 64;
+
+  /// Where the tracer is. @param unstable directions; −1: those there
+  CurvePoint point(CurveEvent event, int unstable = -1) const {
+    CurvePoint point;
+    point.parameter = tracer_.lambda();
+    point.event = event;
+    point.pose = spatial_pose(system_.platform());
+    point.inputs.resize(at(system_.inputs()));
+    for (int k = 0; k < system_.rods(); ++k) point.inputs[at(system_.input_of(k))] = system_.length(k);
+    point.unstable_directions = unstable >= 0 ? unstable : unstable_directions(system_);
+    point.residual = tracer_.residual();
+    point.potential = potential_of(system_);
+    return point;
+  }
+  void write(EquilibriumCurve& curve, CurveEvent event, int unstable = -1) {
+    curve.points.push_back(point(event, unstable));
+  }
+
+  /// On from where the tracer is, until the curve ends.
+  void follow(EquilibriumCurve& curve, bool notes_branchings) {
+    double stride = first_stride * tracer_.size();
+    const double longest = longest_stride * tracer_.size();
+    Place& before = tracer_.before();
+    Signs last = tracer_.signs();
+    curve.end = CurveEnd::max_points;
+    while (static_cast<int>(curve.points.size()) < how_.max_points) {
+      tracer_.save(before);
+      const Step ahead = before.tangent;
+      const bool is_reached = tracer_.advance(ahead, stride) && dot(tracer_.tangent(), ahead) > 0.9;
+      if (!is_reached) {
+        tracer_.restore(before);
+        stride /= 3;
+        if (stride > shortest_stride * tracer_.size()) continue;
+        curve.end = why_stuck();
+        return;
+      }
+      begun_ = before;
+      const bool is_last = tracer_.lambda() > how_.highest || tracer_.lambda() < how_.lowest;
+      if (is_last) {
+        const double bound = tracer_.lambda() > how_.highest ? how_.highest : how_.lowest;
+        curve.end = CurveEnd::left_range;
+        const auto there = tracer_.locate(ahead, stride, [&] { return tracer_.lambda() - bound; });
+        if (!there || !tracer_.settle_at(bound)) return;
+        stride = *there;
+      }
+      const Signs next = tracer_.signs();
+      tracer_.save(reached_);
+      note_events(curve, last, next, stride, notes_branchings);
+      tracer_.restore(reached_);
+      write(curve, mark_of(reached_.lambda), next.unstable);
+      if (is_last || curve.end == CurveEnd::closed) return;
+      last = next;
+      if (is_far()) {
+        curve.end = CurveEnd::far;
+        return;
+      }
+      if (tracer_.corrections() <= 3) stride = std::min(1.6 * stride, longest);
+    }
+  }
+
+  bool is_far() const {
+    for (int k = 0; k < system_.rods(); ++k)
+      if (system_.length(k) > longest_rod * tracer_.size()) return true;
+    return false;
+  }
+
+  CurveEnd why_stuck() const {
+    if (system_.is_finest() && system_.truncation() > coarse_truncation) return CurveEnd::sharp;
+    return is_pulled_straight(system_) ? CurveEnd::straight : CurveEnd::stalled;
+  }
+
+  /// What happened between the place before and the one reached, in its order.
+  void note_events(EquilibriumCurve& curve, const Signs& last, const Signs& next, double stride,
+                   bool notes_branchings) {
+    found_.clear();
+    note_fold(last, next, stride);
+    note_crossings(last, next, stride, notes_branchings);
+    note_marks(curve, stride);
+    std::ranges::stable_sort(found_, {}, &Found::along);
+    for (Found& one : found_) {
+      if (one.branching) {
+        one.branching->point = static_cast<int>(curve.points.size());
+        branchings_.push_back(std::move(*one.branching));
+      }
+      curve.points.push_back(std::move(one.point));
+    }
+  }
+
+  void note_fold(const Signs& last, const Signs& next, double stride) {
+    if ((last.along > 0) == (next.along > 0)) return;
+    tracer_.before() = begun_;
+    if (const auto there = tracer_.locate(begun_.tangent, stride, [&] { return tracer_.tangent()[6]; }))
+      found_.push_back({*there, point(CurveEvent::fold, last.unstable), {}});
+  }
+
+  /// Where other curves cross, or stability changes without a fold.
+  void note_crossings(Signs last, const Signs& next, double stride, bool notes_branchings) {
+    const bool is_fold = (last.along > 0) != (next.along > 0);
+    tracer_.before() = begun_;
+    double along = 0;
+    constexpr int most = 12;
+    for (int k = 0; k < most && along < stride; ++k) {
+      const int gained = next.unstable - last.unstable;
+      const bool crosses = last.is_odd != next.is_odd;
+      // a fold alone changes one direction of a robot whose inputs are held
+      if (!crosses && (gained == 0 || (is_fold && std::abs(gained) == 1))) break;
+      const auto sign = [&] {
+        const Signs here = tracer_.signs();
+        return here.is_odd != last.is_odd || here.unstable != last.unstable ? 1.0 : -1.0;
+      };
+      const auto there = tracer_.locate(begun_.tangent, stride - along, sign, false);
+      if (!there) break;
+      along += *there;
+      const Signs beyond = tracer_.signs();
+      if (const auto event = event_of(last, beyond, is_fold); event != CurveEvent::none) {
+        Found one{along, point(event, last.unstable), {}};
+        if (event == CurveEvent::bifurcation && notes_branchings && how_.follows_branches)
+          one.branching = branching();
+        found_.push_back(std::move(one));
+      }
+      tracer_.save(tracer_.before());
+      last = beyond;
+    }
+  }
+
+  CurveEvent event_of(const Signs& last, const Signs& beyond, bool is_fold) const {
+    if (tracer_.null_space(null_tolerance).multiplicity > 0 && (last.along > 0) == (beyond.along > 0))
+      return CurveEvent::bifurcation;
+    if (beyond.own != last.own) return CurveEvent::rod_bifurcation;
+    if (beyond.is_odd != last.is_odd) return CurveEvent::bifurcation;
+    return is_fold && std::abs(beyond.unstable - last.unstable) == 1 ? CurveEvent::none  // the fold itself
+                                                                     : CurveEvent::stability;
+  }
+
+  /// Of the point where the tracer is: directions in which other curves may leave.
+  Branching branching() {
+    const auto [vectors, multiplicity] = tracer_.null_space(null_tolerance);
+    Branching one{{system_.snapshot(), 0, Step::Zero()}, {}, 0};
+    tracer_.save(one.place);
+    // of the null space what is square to the curve
+    const Step along = tracer_.before().tangent;
+    std::vector<Step> basis;
+    for (int k = 6; k >= 6 - multiplicity && static_cast<int>(basis.size()) < multiplicity; --k) {
+      Step v = vectors.col(k) - along * dot(along, Step(vectors.col(k)));
+      for (const Step& other : basis) v -= other * dot(other, v);
+      if (v.norm() > 0.1) basis.push_back(v.normalized());
+    }
+    constexpr int around = 24;  // directions in a plane of them: more than symmetry has branches
+    for (int k = 0; k < (basis.size() < 2 ? 2 : around) && !basis.empty(); ++k) {
+      const double angle = 2 * std::numbers::pi * k / (basis.size() < 2 ? 2 : around);
+      one.directions.push_back(basis.size() < 2
+                                   ? Step(k == 0 ? basis[0] : Step(-basis[0]))
+                                   : Step(std::cos(angle) * basis[0] + std::sin(angle) * basis[1]));
+    }
+    return one;
+  }
+
+  /// From a bifurcation onto another curve: a step of one length or another leads there.
+  bool step_aside(const Place& place, const Step& direction) {
+    for (const double stride : {1.0, 2.0, 0.5, 4.0, 0.25}) {
+      tracer_.restore(place);
+      if (tracer_.advance(direction, stride * first_stride * tracer_.size(), 2)) return true;
+    }
+    return false;
+  }
+
+  /// The curves that leave the first one there.
+  void leave(Branching& one, std::vector<EquilibriumCurve>& curves) {
+    std::vector<Vec<double, 6>> begun;
+    for (const Step& direction : one.directions) {
+      if (curves.size() >= most_curves) return;
+      if (!step_aside(one.place, direction)) continue;
+      const SE3<double> from = one.place.state.platform, here = system_.platform();
+      Vec<double, 6> way;
+      way << here.p - from.p, system_.radius() * here.R.compose(from.R.inverse()).log();
+      way.normalize();
+      constexpr double same = 0.95;  // cosine; by symmetry they are 60 degrees apart or more
+      if (std::ranges::any_of(begun, [&](const auto& other) { return dot(other, way) > same; })) continue;
+      begun.push_back(way);
+      EquilibriumCurve curve;
+      curve.from_curve = 0;
+      curve.from_point = one.point;
+      write(curve, CurveEvent::none);
+      follow(curve, false);
+      curves.push_back(std::move(curve));
+    }
+  }
+
+  static CurveEvent mark_of(double parameter) {
+    return parameter == 1 ? CurveEvent::target : parameter == 0 ? CurveEvent::begin : CurveEvent::none;
+  }
+
+  /// The equilibria with the parameter of the beginning and of the target.
+  void note_marks(EquilibriumCurve& curve, double stride) {
+    for (const double mark : {0.0, 1.0}) {
+      if ((begun_.lambda < mark) == (reached_.lambda < mark) || begun_.lambda == mark ||
+          reached_.lambda == mark)
+        continue;
+      tracer_.before() = begun_;
+      const auto there = tracer_.locate(begun_.tangent, stride, [&] { return tracer_.lambda() - mark; });
+      if (!there || !tracer_.settle_at(mark)) continue;
+      found_.push_back({*there, point(mark_of(mark), -1), {}});
+      const CurvePoint &begin = curve.points.front(), &now = found_.back().point;
+      double apart = (begin.pose.position - now.pose.position).norm();
+      for (std::size_t k = 0; k < begin.inputs.size(); ++k)
+        apart = std::max(apart, std::abs(begin.inputs[k] - now.inputs[k]));
+      if (mark == begin.parameter && apart < 1e-8 * tracer_.size()) curve.end = CurveEnd::closed;
+    }
+  }
+
+  System& system_;
+  const CurveOptions& how_;
+  Tracer<System> tracer_;
+  Place first_, reached_{first_}, begun_{first_};  ///< `begun_`: where a step began
+  std::vector<Branching> branchings_;
+  /// Met within one step, so far along it.
+  struct Found {
+    double along;
+    CurvePoint point;
+    std::optional<Branching> branching;
+  };
+  std::vector<Found> found_;
+};
+
+}  // namespace
+
+RodTarget RodWay::at(double parameter, int rods) const {
+  RodTarget now;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(rods); ++k)
+    now.lengths[k] = std::lerp(begin.lengths[k], target.lengths[k], parameter);
+  now.wrench = begin.wrench + parameter * (target.wrench - begin.wrench);
+  return now;
+}
+
+SE3<double> RodWay::pose(double parameter) const {
+  if (parameter == 1) return to;
+  const Vec3<double> turn = to.R.compose(from.R.inverse()).log();
+  return {from.p + parameter * (to.p - from.p), SO3<double>::exp(parameter * turn).compose(from.R)};
+}
+
+template <class System>
+std::vector<EquilibriumCurve> trace_rods(RodWorkOf<System>& work, const RodWay& way,
+                                         const CurveOptions& how) {
+  return CurveWriter<System>(work, way, how).run();
+}
+
+namespace {
+
+/// Steps along the curve until `is_done(direction, stride)` after one of them, or no step succeeds; false
+/// then.
+template <class System, class IsDone>
+bool walk(Tracer<System>& tracer, int most, IsDone&& is_done) {
+  double stride = 1e-3 * tracer.size();
+  for (int k = 0; k < most && stride > 1e-8 * tracer.size();) {
+    tracer.save(tracer.before());
+    const Step ahead = tracer.before().tangent;
+    if (!tracer.advance(ahead, stride) || !(dot(tracer.tangent(), ahead) > 0.9)) {
+      tracer.restore(tracer.before());
+      stride /= 3;
+      continue;
+    }
+    if (is_done(ahead, stride)) return true;
+    if (tracer.corrections() <= 3) stride = std::min(1.6 * stride, 0.05 * tracer.size());
+    ++k;
+  }
+  return false;
+}
+
+}  // namespace
+
+template <class System>
+RodFold find_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) {
+  Tracer<System> tracer(work, way, parameter);
+  auto start = tracer.before();
+  RodFold fold;
+  const auto is_beyond = [&](const Step& ahead, double stride) {
+    if (tracer.tangent()[6] > 0 && tracer.lambda() < 1) return false;
+    if (tracer.tangent()[6] > 0) {
+      fold.arrived = tracer.locate(ahead, stride, [&] { return tracer.lambda() - 1; }) && tracer.settle_at(1);
+      return true;
+    }
+    fold.is_found = tracer.locate(ahead, stride, [&] { return tracer.tangent()[6]; }).has_value();
+    fold.parameter = tracer.lambda();
+    fold.platform = work.system.platform();
+    return true;
+  };
+  walk(tracer, 200, is_beyond);
+  if (!fold.arrived) tracer.restore(start);
+  return fold;
+}
+
+template <class System>
+bool pass_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) {
+  constexpr double longest_rod = 3;
+  Tracer<System> tracer(work, way, parameter);
+  auto start = tracer.before();
+  bool arrives = false;
+  const auto is_done = [&](const Step& ahead, double stride) {
+    for (int k = 0; k < work.system.rods(); ++k)
+      if (work.system.length(k) > longest_rod * tracer.size()) return true;
+    if (tracer.lambda() < 1) return false;
+    arrives = tracer.locate(ahead, stride, [&] { return tracer.lambda() - 1; }) && tracer.settle_at(1);
+    return true;
+  };
+  walk(tracer, 200, is_done);
+  if (!arrives) tracer.restore(start);
+  return arrives;
+}
+
+#define SINEW_FOR(System)                                                                                    \
+  template std::vector<EquilibriumCurve> trace_rods(RodWorkOf<System>&, const RodWay&, const CurveOptions&); \
+  template RodFold find_fold(RodWorkOf<System>&, const RodWay&, double);                                     \
+  template bool pass_fold(RodWorkOf<System>&, const RodWay&, double);
+SINEW_FOR(RodSystem)
+SINEW_FOR(TangentSystem)
+#undef SINEW_FOR
+
+}  // namespace sinew::inline v0
