@@ -68,9 +68,11 @@ const Node* number_of(const Node& leg, const LegColumn& column) {
 
 /// Those that at least one of the legs has.
 std::vector<LegColumn> leg_columns(const Node& legs) {
-  if (!legs.items.empty() && legs.items.front().find("tip_angle"))
-    return {rod_columns.begin(), rod_columns.end()};
   std::vector<LegColumn> columns;
+  const auto rods =
+      std::ranges::count_if(legs.items, [](const Node& leg) { return leg.find("tip_angle") != nullptr; });
+  if (rods > 0) columns.assign(rod_columns.begin(), rod_columns.end());
+  if (rods == std::ssize(legs.items)) return columns;
   std::ranges::copy_if(all_leg_columns, std::back_inserter(columns), [&](const LegColumn& column) {
     return std::ranges::any_of(legs.items, [&](const Node& leg) { return number_of(leg, column); });
   });

@@ -88,7 +88,10 @@ std::string show_load(const Answer& answer) {
 
 }  // namespace
 
-bool is_on_rods(const Answer& answer) { return answer.find("legs[0].tip_angle") != nullptr; }
+bool is_on_rods(const Answer& answer) {
+  const Node* legs = answer.find("legs");
+  return legs && std::ranges::any_of(legs->items, [](const Node& leg) { return leg.find("tip_angle") != nullptr; });
+}
 
 std::string show_equilibrium(const Answer& answer, const Robot& robot) {
   std::string text = show_energies(answer);

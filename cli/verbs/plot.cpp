@@ -59,20 +59,25 @@ Panel picture(const Answer& shape, const View& view, const Node& legs) {
     return at(legs.items[i], "link.type")->text == link;
   };
   const auto& lines = shape.find("lines")->items;
+  std::size_t line = 0;
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!is(i, "rod"))  // its tip is on the platform
-      add(lines[i], Mark::dashed, Colour::vermillion, 1.5, once(i, "line of the leg"));
+      add(lines[i], Mark::dashed, Colour::vermillion, 1.5, once(line++, "line of the leg"));
   const auto& tendons = shape.find("tendons")->items;
   for (std::size_t i = 0; i < tendons.size(); ++i)
     for (std::size_t k = 0; k < tendons[i].items.size(); ++k)
       if (!tendons[i].items[k].items.empty())  // rails and rods have none
         add(tendons[i].items[k], Mark::dashed, Colour::grey, 1, once(i + k, "tendon"));
   const auto& backbones = shape.find("backbones")->items;
-  for (std::size_t i = 0; i < backbones.size(); ++i)
-    add(backbones[i], Mark::line, Colour::blue, 3,
-        once(i, is(i, "rail")  ? "rail"
-                : is(i, "rod") ? "rod"
-                               : "backbone"));
+  std::vector<std::string> named;
+  for (std::size_t i = 0; i < backbones.size(); ++i) {
+    std::string name = is(i, "rail") ? "rail" : is(i, "rod") ? "rod" : "backbone";
+    if (std::ranges::find(named, name) != named.end())
+      name.clear();  // in the legend once
+    else
+      named.push_back(name);
+    add(backbones[i], Mark::line, Colour::blue, 3, name);
+  }
   add(*shape.find("base"), Mark::circles, Colour::black, 1.5);
   add(platform, Mark::circles, Colour::black, 1.5);
   return panel;

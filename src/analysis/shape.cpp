@@ -57,21 +57,29 @@ void add_leg(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const ty
   shape.base.push_back(leg.base.p);
 }
 
-/// Rods as their coordinates shape them, between the base and the platform.
+/// Rods as their coordinates shape them, between the base and the platform, and closing legs among them.
 template <class System>
-AnyShape rods_shape(System& system, const SpatialPose& pose, Numbers coordinates, int samples) {
+AnyShape loaded_shape(const AnyRobot& robot, System& system, const SpatialPose& pose, Numbers coordinates,
+                      int samples) {
   SpatialShape shape;
-  system.set_platform(SE3<double>::from(pose));
+  const SE3<double> platform = SE3<double>::from(pose);
+  system.set_platform(platform);
   system.set_rods(coordinates);
   system.evaluate();
-  for (int k = 0; k < system.rods(); ++k) {
-    shape.backbones.push_back(system.centreline(k, samples));
-    shape.tendons.emplace_back();
-    const Vec3<double> tip = system.rod(k).tip;
-    shape.lines.push_back({tip, tip});
-    shape.platform.push_back(tip);
-    shape.base.push_back(system.base(k));
-  }
+  int rod = 0;
+  const auto add = [&]<class L>(const L& leg, const LegPlace& place, int) {
+    if constexpr (BearsLoad<L>) {
+      shape.backbones.push_back(system.centreline(rod, samples));
+      shape.tendons.emplace_back();
+      const Vec3<double> tip = system.rod(rod++).tip;
+      shape.lines.push_back({tip, tip});
+      shape.platform.push_back(tip);
+      shape.base.push_back(leg.base.p);
+    } else if constexpr (L::dimension == 3) {
+      add_leg(shape, leg, platform, own_coordinates(leg, place, coordinates), samples);
+    }
+  };
+  std::visit([&](const auto& whole) { whole.for_each_leg(add); }, robot.model);
   return shape;
 }
 
@@ -94,7 +102,7 @@ AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinat
         RodWorks rods(robot);
         return std::visit(
             [&](auto& kind) {
-              return rods_shape(kind.system, std::get<SpatialPose>(pose), coordinates, samples);
+              return loaded_shape(robot, kind.system, std::get<SpatialPose>(pose), coordinates, samples);
             },
             rods.kind);
       });

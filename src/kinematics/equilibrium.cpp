@@ -28,8 +28,10 @@ Equilibrium answer_of(const Report& report, const System& system, Workspace& wor
   Equilibrium answer;
   answer.report = report;
   answer.pose = spatial_pose(system.platform());
+  for (int k = 0; k < system.feeds(); ++k) work.inputs[at(system.input_of(k))] = system.length(k);
+  if constexpr (requires { system.closing_legs(); })
+    if (with_coordinates) system.get_closing(work.coordinates);
   for (int k = 0; k < system.rods(); ++k) {
-    work.inputs[at(system.input_of(k))] = system.length(k);
     if (with_coordinates)
       system.get_rod(k,
                      std::span(work.coordinates).subspan(at(system.coordinate_of(k)), RodLeg::coordinates));
@@ -106,15 +108,20 @@ RodAnalysis analysis_of(const AnyRobot& robot, System& system) {
   RodAnalysis analysis;
   system.evaluate();
   system.linearise();
-  std::copy_n(system.stiffness().data(), 36, analysis.stiffness.begin());
+  const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness = system.platform_stiffness();
+  std::copy_n(stiffness.data(), 36, analysis.stiffness.begin());
+  if constexpr (requires { system.closing_legs(); })
+    for (std::size_t k = 0; k < system.closing_legs().size(); ++k)
+      analysis.closing_forces.push_back(system.closing_force(static_cast<int>(k)));
   const Lu6 factors = system.factors();
   const auto inputs = at(system.inputs());
   analysis.sensitivity.resize(6 * inputs);
   analysis.feed.resize(6 * inputs);
   for (std::size_t k = 0; k < inputs; ++k) {
-    const SpatialWrench feed = -system.feed_wrench(static_cast<int>(k));
+    const SpatialWrench moving = -system.feed_wrench(static_cast<int>(k));
+    const SpatialWrench feed = -system.platform_feed(static_cast<int>(k));
     std::array<double, 6> twist;
-    factors.solve(feed.data(), twist.data());
+    factors.solve(moving.data(), twist.data());
     for (std::size_t r = 0; r < 6; ++r) {
       analysis.sensitivity[r * inputs + k] = twist[r];
       analysis.feed[r * inputs + k] = feed[static_cast<Eigen::Index>(r)];

@@ -15,7 +15,7 @@ bool is_answerable(const AnyRobot& robot, const CurveOptions& how) {
   const auto inputs = static_cast<std::size_t>(input_count(robot));
   if (!how.inputs.empty() && (how.inputs.size() != inputs || !std::ranges::all_of(how.inputs, is_length)))
     return false;
-  if (how.pose && (inputs != 6 || rod_count(robot) != 6 || !how.inputs.empty())) return false;
+  if (how.pose && (inputs != 6 || has_ties(robot) || !how.inputs.empty())) return false;
   if (how.pose && !SE3<double>::from(*how.pose).p.allFinite()) return false;
   return how.added_wrench.allFinite() && how.lowest <= 0 && how.highest >= 0 && how.max_points > 0;
 }

@@ -24,8 +24,8 @@ void read_target(Context& context, CurveQuery& asked) {
   if (inputs) asked.how.inputs = read_inputs(context, *inputs);
   if (wrench) asked.wrench = read_wrench(*wrench);
   if (pose && inputs) pose->fail("ambiguous", "inputs and pose both say where the curve leads; keep one");
-  if (pose && (input_count(context.robot) != 6 || rod_count(context.robot) != 6))
-    pose->fail("not_available", "a pose is held by the lengths of six rods; give inputs");
+  if (pose && (input_count(context.robot) != 6 || has_ties(context.robot)))
+    pose->fail("not_available", "a pose is held by six inputs, each of one leg; give inputs");
   if (pose) asked.how.pose = read_spatial_pose(std::move(*pose));
   if (to.is(Node::Kind::map)) {
     if (!inputs && !wrench && !asked.how.pose)

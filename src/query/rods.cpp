@@ -101,6 +101,21 @@ Json rods_json(std::span<const RodReading> rods) {
   return legs;
 }
 
+/// All legs in order: rods, and what closes beside them.
+Json legs_of(Context& context, const Equilibrium& found, const RodAnalysis& analysis) {
+  Json legs = rods_json(analysis.rods);
+  if (analysis.closing_forces.empty()) return legs;
+  Json all = legs_json(context.robot, found.pose, found.coordinates, context.work);
+  std::vector<bool> is_rod(all.size(), false);
+  for_each_rod(context.robot, [&, k = std::size_t{0}](const RodLeg&, const LegPlace&, int i) mutable {
+    all[static_cast<std::size_t>(i)] = legs[k++];
+    is_rod[static_cast<std::size_t>(i)] = true;
+  });
+  for (std::size_t i = 0, k = 0; i < all.size(); ++i)
+    if (!is_rod[i]) all[i]["force"] = to_json(analysis.closing_forces[k++]);
+  return all;
+}
+
 Json rows_json(std::span<const double> numbers, std::size_t columns) {
   return to_json(MatrixView(numbers.data(), static_cast<Eigen::Index>(numbers.size() / columns),
                             static_cast<Eigen::Index>(columns)));
@@ -116,8 +131,10 @@ void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analy
     for (const auto& twist : analysis.unstable) twists.push_back(to_json(std::span<const double>(twist)));
     answer["unstable"] = std::move(twists);
     Json legs = Json::array();
-    for (std::size_t k = 0; k < analysis.unstable_rods.size(); ++k)
-      if (analysis.unstable_rods[k][0] + analysis.unstable_rods[k][1] > 0) legs.push_back(k);
+    for_each_rod(context.robot, [&, k = std::size_t{0}](const RodLeg&, const LegPlace&, int i) mutable {
+      const auto [in_plane, aside] = analysis.unstable_rods[k++];
+      if (in_plane + aside > 0) legs.push_back(i);
+    });
     answer["unstable_legs"] = std::move(legs);
   }
   if (wanted.margins)
@@ -214,7 +231,7 @@ void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& w
   const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
   context.answer["pose"] = to_json(found.pose);
   context.answer["inputs"] = to_json(found.inputs);
-  context.answer["legs"] = rods_json(analysis.rods);
+  context.answer["legs"] = legs_of(context, found, analysis);
   context.answer["energy"] = analysis.energy;
   put_number(context.answer, "potential", analysis.potential);
   put_wanted(context, wanted, analysis);
@@ -228,7 +245,7 @@ void put_all(Context& context, std::span<const double> inputs, const Equilibrium
                   {"stable", one.unstable_directions == 0},
                   {"unstable_directions", one.unstable_directions}};
     put_number(solution, "potential", one.potential);
-    solution["legs"] = rods_json(one.rods);
+    if (rod_count(context.robot) == leg_count(context.robot)) solution["legs"] = rods_json(one.rods);
     solutions.push_back(std::move(solution));
   }
   context.answer["count"] = solutions.size();
@@ -312,7 +329,7 @@ void answer_rods_velocity(Context& context) {
   answer["indices"] = {{"position", analysis.position_index}, {"rotation", analysis.rotation_index}};
   answer["type_2"] = {{"singular", analysis.is_singular()}};
   answer["residual"] = found.report.residual;
-  answer["legs"] = rods_json(analysis.rods);
+  answer["legs"] = legs_of(context, found, analysis);
 }
 
 void answer_rods_shape(Context& context) {

@@ -157,7 +157,14 @@ std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose,
               leg.state(platform, own_coordinates(leg, place, coordinates));
         });
       },
-      [] {});
+      [&] {  // of rods there is none; see RodReading
+        for (const ClosingLeg& one : closing_legs_of(robot))
+          with_leg(one.leg, [&](const auto& leg) {
+            work.legs[static_cast<std::size_t>(one.index)] =
+                leg.state(SE3<double>::from(std::get<SpatialPose>(pose)),
+                          own_coordinates(leg, one.place, coordinates));
+          });
+      });
   return work.legs;
 }
 
@@ -169,6 +176,9 @@ int leg_count(const AnyRobot& robot) {
 }
 int input_count(const AnyRobot& robot) {
   return std::visit([](const auto& r) { return r.total.input; }, robot.model);
+}
+bool has_ties(const AnyRobot& robot) {
+  return std::visit([](const auto& r) { return r.has_ties(); }, robot.model);
 }
 int coordinate_count(const AnyRobot& robot) {
   return std::visit([](const auto& r) { return r.total.coordinate; }, robot.model);

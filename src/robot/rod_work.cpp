@@ -18,12 +18,29 @@ ParallelRobot<RodLeg> rods_of(const AnyRobot& robot) {
   return rods;
 }
 
+std::vector<ClosingLeg> closing_legs_of(const AnyRobot& robot) {
+  std::vector<ClosingLeg> closing;
+  std::visit(
+      [&](const auto& whole) {
+        whole.for_each_leg([&]<class L>(const L& leg, const LegPlace& place, int i) {
+          if constexpr (!BearsLoad<L> && L::dimension == 3)
+            closing.push_back({AnySpatialLeg{leg}, place, i});
+        });
+      },
+      robot.model);
+  return closing;
+}
+
 namespace {
 
-std::variant<RodWork, TangentWork> make_work(const AnyRobot& robot) {
+using Kind = decltype(RodWorks::kind);
+
+Kind make_work(const AnyRobot& robot) {
   const ParallelRobot<RodLeg> rods = rods_of(robot);
-  if (bend_in_planes(rods)) return std::variant<RodWork, TangentWork>(std::in_place_type<RodWork>, rods);
-  return std::variant<RodWork, TangentWork>(std::in_place_type<TangentWork>, rods, robot.weight.gravity);
+  if (auto closing = closing_legs_of(robot); !closing.empty())
+    return Kind(std::in_place_type<MixedWork>, MixedRobot{rods, std::move(closing)}, robot.weight.gravity);
+  if (bend_in_planes(rods)) return Kind(std::in_place_type<RodWork>, rods);
+  return Kind(std::in_place_type<TangentWork>, rods, robot.weight.gravity);
 }
 
 }  // namespace

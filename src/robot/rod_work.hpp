@@ -3,6 +3,7 @@
 #pragma once
 #include <variant>
 
+#include "robot/mixed_system.hpp"
 #include "robot/tangent_system.hpp"
 #include "sinew/robot/workspace.hpp"
 
@@ -11,7 +12,8 @@ namespace sinew::inline v0 {
 /// @tparam System RodSystem or TangentSystem
 template <class System>
 struct RodWorkOf {
-  explicit RodWorkOf(const ParallelRobot<RodLeg>& robot)
+  template <class Robot>
+  explicit RodWorkOf(const Robot& robot)
       : system(robot),
         home(system.snapshot()),
         before(home),
@@ -32,7 +34,7 @@ ParallelRobot<RodLeg> rods_of(const AnyRobot& robot);
 struct RodWork : RodWorkOf<RodSystem> {
   using RodWorkOf::RodWorkOf;
 };
-/// ... others without torque ...
+/// ... others without torque, ...
 struct TangentWork : RodWorkOf<TangentSystem> {
   explicit TangentWork(const ParallelRobot<RodLeg>& robot, const Vec3<double>& gravity = Vec3<double>::Zero())
       : RodWorkOf(robot) {
@@ -40,10 +42,20 @@ struct TangentWork : RodWorkOf<TangentSystem> {
   }
 };
 
+/// ... and others with closing legs beside them.
+struct MixedWork : RodWorkOf<MixedSystem<TangentSystem>> {
+  explicit MixedWork(const MixedRobot& robot, const Vec3<double>& gravity) : RodWorkOf(robot) {
+    system.set_gravity(gravity);
+  }
+};
+
+/// The closing legs of a robot.
+std::vector<ClosingLeg> closing_legs_of(const AnyRobot& robot);
+
 /// What a workspace keeps of rods: of the quickest kind that holds for all of them.
 struct RodWorks {
   explicit RodWorks(const AnyRobot& robot);  ///< of a robot that bears load
-  std::variant<RodWork, TangentWork> kind;
+  std::variant<RodWork, TangentWork, MixedWork> kind;
 };
 
 /// Calls `use(rods)` with a RodWorkOf, of the one kind or the other.

@@ -75,13 +75,15 @@ SINEW_API void equilibrium_batch(const AnyRobot& robot, Numbers rows, const Spat
 
 /// What is known of the equilibrium a workspace holds.
 struct RodAnalysis {
-  std::array<double, 36> stiffness;  ///< ∂(F, M)/∂(p, φ) at fixed lengths, rows first, twist order
+  /// ∂(F, M)/∂(p, φ) at fixed inputs, rows first, twist order; 0 for motions that closing legs forbid.
+  std::array<double, 36> stiffness;
   std::vector<double> feed;         ///< −∂(F, M)/∂inputs at a resting platform, 6 × inputs, rows first
   std::vector<double> sensitivity;  ///< ∂(p, φ)/∂inputs at fixed load, 6 × inputs, rows first
   int unstable_directions = 0;      ///< of the second variation, all rods free to move
   std::vector<std::array<double, 6>> unstable;    ///< twists along which the platform's stiffness is negative
   std::vector<std::array<int, 2>> unstable_rods;  ///< tip held: in the rod's plane, out of it
-  std::vector<RodReading> rods;
+  std::vector<RodReading> rods;              ///< in the order of the legs
+  std::vector<Vec3<double>> closing_forces;  ///< of the platform on each closing leg, at its point, base axes [N]
   double energy = 0;          ///< of all rods [J]
   double potential = 0;       ///< of rods and load [J]; with a moment on the platform there is none: NaN
   double smallest_pivot = 0;  ///< of the platform's stiffness, over the largest: 0 at a fold

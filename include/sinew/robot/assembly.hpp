@@ -41,6 +41,7 @@ SINEW_API std::span<const LegState> leg_states(const AnyRobot& robot, const AnyP
 SINEW_API AnyPose home(const AnyRobot& robot);
 SINEW_API int leg_count(const AnyRobot& robot);
 SINEW_API int input_count(const AnyRobot& robot);
+SINEW_API bool has_ties(const AnyRobot& robot);  ///< legs share inputs
 SINEW_API int coordinate_count(const AnyRobot& robot);
 SINEW_API int row_count(const AnyRobot& robot);
 SINEW_API int dof(const AnyRobot& robot);

@@ -101,7 +101,7 @@ struct HoldPath {
 class Watch {
  public:
   template <class System>
-  explicit Watch(const System& system) : rods_(system.rods()) {
+  explicit Watch(const System& system) : feeds_(system.feeds()) {
     read(system, before_);
   }
   template <class System>
@@ -111,7 +111,7 @@ class Watch {
   template <class System>
   bool is_near(const System& system) const {
     double change = 0, correction = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(rods_); ++k) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(feeds_); ++k) {
       change = std::max(change, std::abs(predicted_[k] - before_[k]));
       correction = std::max(correction, std::abs(system.length(static_cast<int>(k)) - predicted_[k]));
     }
@@ -122,9 +122,9 @@ class Watch {
   using Lengths = std::array<double, max_rods>;
   template <class System>
   void read(const System& system, Lengths& to) const {
-    for (int k = 0; k < rods_; ++k) to[static_cast<std::size_t>(k)] = system.length(k);
+    for (int k = 0; k < feeds_; ++k) to[static_cast<std::size_t>(k)] = system.length(k);
   }
-  int rods_;
+  int feeds_;
   Lengths before_, predicted_;
 };
 
@@ -196,11 +196,11 @@ Report explain_hold(const System& system, const RodPathEnd& end, const RodFold& 
 template <class System>
 Report check(const System& system, const SE3<double>& wanted, const RodQuestion& question) {
   Report report;
-  if (system.inputs() != 6 || system.rods() != 6) {
+  if (system.inputs() != 6 || system.feeds() != 6) {
     report = failed(Status::left_domain);
-    report.message.append("a pose is held by the lengths of six rods, each fed by itself; this robot has ");
-    append_number(report.message, system.rods());
-    report.message.append(" rods and ");
+    report.message.append("a pose is held by six inputs, each feeding one leg; this robot has ");
+    append_number(report.message, system.feeds());
+    report.message.append(" legs fed and ");
     append_number(report.message, system.inputs());
     report.message.append(" inputs");
   } else if (!wanted.p.allFinite() || !wanted.R.v.allFinite() || !std::isfinite(wanted.R.w) ||
@@ -351,6 +351,8 @@ Report hold_rods(RodWorkOf<System>& work, const SE3<double>& home, const SE3<dou
 
 template Report hold_rods(RodWorkOf<RodSystem>&, const SE3<double>&, const SE3<double>&, const RodQuestion&);
 template Report hold_rods(RodWorkOf<TangentSystem>&, const SE3<double>&, const SE3<double>&,
+                          const RodQuestion&);
+template Report hold_rods(RodWorkOf<MixedSystem<TangentSystem>>&, const SE3<double>&, const SE3<double>&,
                           const RodQuestion&);
 
 }  // namespace sinew::inline v0

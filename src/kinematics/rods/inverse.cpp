@@ -123,7 +123,7 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
     const RodCoordinates now{begin.z + next * (wanted.z - begin.z), begin.e1 + next * (wanted.e1 - begin.e1),
                              begin.e2 + next * (wanted.e2 - begin.e2)};
     system.set_wrench(from.wrench + next * (question.wrench - from.wrench));
-    for (int k = 0; k < system.rods(); ++k) {
+    for (int k = 0; k < system.feeds(); ++k) {
       const int first = first_of_input(system, k);
       system.set_length(k,
                         system.length(first) + (1 - next) * (from.lengths[at(k)] - from.lengths[at(first)]));
@@ -170,6 +170,8 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
 
 template Report solve_rods_at(RodWorkOf<RodSystem>&, const SE3<double>&, const RodCoordinates&,
                               const RodQuestion&);
+template Report solve_rods_at(RodWorkOf<MixedSystem<TangentSystem>>&, const SE3<double>&,
+                              const RodCoordinates&, const RodQuestion&);
 template Report solve_rods_at(RodWorkOf<TangentSystem>&, const SE3<double>&, const RodCoordinates&,
                               const RodQuestion&);
 

@@ -17,7 +17,7 @@ double size_of(const Vec<double, 6>& twist, double radius) {
 
 template <class System>
 void set(System& system, const RodTarget& from, const RodTarget& to, double part) {
-  for (int k = 0; k < system.rods(); ++k)
+  for (int k = 0; k < system.feeds(); ++k)
     system.set_length(k, std::lerp(from.lengths[at(k)], to.lengths[at(k)], part));  // exact at the end
   system.set_wrench(from.wrench + part * (to.wrench - from.wrench));
 }
@@ -51,7 +51,7 @@ bool correct_rods(System& system, int& iterations, double& residual, double tole
 template <class System>
 RodTarget present(const System& system) {
   RodTarget target;
-  for (int k = 0; k < system.rods(); ++k) target.lengths[at(k)] = system.length(k);
+  for (int k = 0; k < system.feeds(); ++k) target.lengths[at(k)] = system.length(k);
   target.wrench = system.wrench();
   return target;
 }
@@ -175,6 +175,7 @@ RodPathEnd follow(System& system, const RodTarget& target, const RodPathOptions&
   template int unstable_directions(const System&);
 SINEW_FOR(RodSystem)
 SINEW_FOR(TangentSystem)
+SINEW_FOR(MixedSystem<TangentSystem>)
 #undef SINEW_FOR
 
 namespace {
@@ -270,5 +271,17 @@ bool rest_at(TangentSystem& system, const SE3<double>& platform) {
   system.evaluate();
   return system.linearise();
 }
+
+template <class Rods>
+bool rest_at(MixedSystem<Rods>& system, const SE3<double>& platform) {
+  if (!rest_at(static_cast<Rods&>(system), platform) || !system.close()) return false;
+  system.set_wrench(Vec<double, 6>::Zero());
+  system.evaluate();
+  system.linearise();
+  system.set_wrench(-system.missing());
+  system.evaluate();
+  return system.linearise();
+}
+template bool rest_at(MixedSystem<TangentSystem>&, const SE3<double>&);
 
 }  // namespace sinew::inline v0

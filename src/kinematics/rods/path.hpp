@@ -4,7 +4,7 @@
 #pragma once
 #include <limits>
 
-#include "robot/tangent_system.hpp"
+#include "robot/mixed_system.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v0 {
@@ -13,7 +13,7 @@ namespace sinew::inline v0 {
 /// fine nodes.
 inline constexpr double coarse_truncation = 1e-12;
 
-/// Where a path leads: a length a rod, and the wrench on the platform.
+/// Where a path leads: a length a rod, an input of each closing leg, and the wrench on the platform.
 struct RodTarget {
   std::array<double, max_rods> lengths{};
   Vec<double, 6> wrench = Vec<double, 6>::Zero();
@@ -86,5 +86,8 @@ int unstable_directions(const System& system);
 /// its tip. False where a rod's tip lies on its guide's line or behind it.
 bool rest_at(RodSystem& system, const SE3<double>& platform);
 bool rest_at(TangentSystem& system, const SE3<double>& platform);
+/// ... with the inputs that close the other legs. False also where one cannot be closed.
+template <class Rods>
+bool rest_at(MixedSystem<Rods>& system, const SE3<double>& platform);
 
 }  // namespace sinew::inline v0

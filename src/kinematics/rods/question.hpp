@@ -14,7 +14,8 @@ inline SE3<double> home_of(const AnyRobot& robot) {
 
 /// What weighs on rods; a state at rest under another gravity is none.
 inline void set_gravity(RodWorkOf<RodSystem>&, const Vec3<double>&) {}  // rods without weight
-inline void set_gravity(RodWorkOf<TangentSystem>& rods, const Vec3<double>& gravity) {
+template <class System>
+void set_gravity(RodWorkOf<System>& rods, const Vec3<double>& gravity) {
   if (rods.system.gravity() == gravity) return;
   rods.system.set_gravity(gravity);
   if (!rods.system.has_mass()) return;

@@ -137,5 +137,6 @@ Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
 
 template Report sense_rods(RodWorkOf<RodSystem>&, RodSensing&);
 template Report sense_rods(RodWorkOf<TangentSystem>&, RodSensing&);
+template Report sense_rods(RodWorkOf<MixedSystem<TangentSystem>>&, RodSensing&);
 
 }  // namespace sinew::inline v0

@@ -22,11 +22,13 @@ Report check_inputs(const System& system, Numbers inputs) {
     report.message.append(" were given");
     return report;
   }
-  for (std::size_t k = 0; k < inputs.size(); ++k) {
-    if (inputs[k] > 0 && std::isfinite(inputs[k])) continue;
+  for (int k = 0; k < system.feeds(); ++k) {
+    const int input = system.input_of(k);
+    if (system.in_domain(k, inputs[at(input)])) continue;
     report.message.append("inputs[");
-    append_number(report.message, static_cast<int>(k));
-    report.message.append("] is not a length a rod can have; it must be positive");
+    append_number(report.message, input);
+    report.message.append(k < system.rods() ? "] is not a length a rod can have; it must be positive"
+                                            : "] is beyond what its leg can do");
     return report;
   }
   return {};
@@ -216,5 +218,7 @@ Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inpu
 
 template Report solve_rods(RodWorkOf<RodSystem>&, const SE3<double>&, Numbers, const RodQuestion&);
 template Report solve_rods(RodWorkOf<TangentSystem>&, const SE3<double>&, Numbers, const RodQuestion&);
+template Report solve_rods(RodWorkOf<MixedSystem<TangentSystem>>&, const SE3<double>&, Numbers,
+                           const RodQuestion&);
 
 }  // namespace sinew::inline v0

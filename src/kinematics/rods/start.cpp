@@ -15,7 +15,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 template <class System>
 RodTarget target_of(const System& system, Numbers inputs, const Vec<double, 6>& wrench) {
   RodTarget target;
-  for (int k = 0; k < system.rods(); ++k) target.lengths[at(k)] = inputs[at(system.input_of(k))];
+  for (int k = 0; k < system.feeds(); ++k) target.lengths[at(k)] = inputs[at(system.input_of(k))];
   target.wrench = wrench;
   return target;
 }
@@ -26,10 +26,12 @@ Report go_home(RodWorkOf<System>& work, const SE3<double>& home) {
     work.is_solved = false;
     if (!rest_at(work.system, home)) {
       Report report = failed(Status::singular);
+      if constexpr (requires { work.system.closing_legs(); })
+        report.message.append("a leg beside the rods cannot close at home, or ");
       report.message.append(
           "the rods cannot be laid to home: a tip lies on the line of its guide, so that where it bends is "
-          "not "
-          "determined, or behind it, or the rods' weight is too much for them; choose another home");
+          "not determined, or behind it, or the rods' weight is too much for them");
+      report.message.append("; choose another home");
       return report;
     }
     work.system.save(work.home);
@@ -82,6 +84,7 @@ bool lay_rods(RodWorkOf<System>& work, const SE3<double>& pose, Numbers inputs) 
   template bool lay_rods(RodWorkOf<System>&, const SE3<double>&, Numbers);
 SINEW_FOR(RodSystem)
 SINEW_FOR(TangentSystem)
+SINEW_FOR(MixedSystem<TangentSystem>)
 #undef SINEW_FOR
 
 }  // namespace sinew::inline v0

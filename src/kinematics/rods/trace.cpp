@@ -61,7 +61,7 @@ class CurveWriter {
     point.event = event;
     point.pose = spatial_pose(system_.platform());
     point.inputs.resize(at(system_.inputs()));
-    for (int k = 0; k < system_.rods(); ++k) point.inputs[at(system_.input_of(k))] = system_.length(k);
+    for (int k = 0; k < system_.feeds(); ++k) point.inputs[at(system_.input_of(k))] = system_.length(k);
     point.unstable_directions = unstable >= 0 ? unstable : unstable_directions(system_);
     point.residual = tracer_.residual();
     point.potential = potential_of(system_);
@@ -368,6 +368,7 @@ bool pass_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) {
   template bool pass_fold(RodWorkOf<System>&, const RodWay&, double);
 SINEW_FOR(RodSystem)
 SINEW_FOR(TangentSystem)
+SINEW_FOR(MixedSystem<TangentSystem>)
 #undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -230,12 +230,12 @@ class Tracer {
 
   /// Lengths, wrench and held pose as λ has them: what a step moved by increments, exactly.
   void put() {
-    const RodTarget now = way_.at(lambda_, system_.rods());
+    const RodTarget now = way_.at(lambda_, system_.feeds());
     system_.set_wrench(now.wrench);
     if (way_.holds_pose)
       system_.set_platform(way_.pose(lambda_));
     else
-      for (int k = 0; k < system_.rods(); ++k) system_.set_length(k, now.lengths[at(k)]);
+      for (int k = 0; k < system_.feeds(); ++k) system_.set_length(k, now.lengths[at(k)]);
   }
 
   void move(const Step& step) {
@@ -249,7 +249,7 @@ class Tracer {
     } else {
       twist = step.head<6>();
       twist.tail<3>() /= system_.radius();
-      for (int k = 0; k < system_.rods(); ++k) fed[at(system_.input_of(k))] = change * rate(k);
+      for (int k = 0; k < system_.feeds(); ++k) fed[at(system_.input_of(k))] = change * rate(k);
     }
     lambda_ += change;
     system_.move(twist, std::span<const double>(fed).first(at(system_.inputs())));
@@ -268,7 +268,7 @@ class Tracer {
       for (int r = 0; r < 6; ++r) rows[at(7 * r + column)] = wrench[r] / (r < 3 ? per : per * radius);
     };
     const auto stiffness = system_.stiffness();
-    Twist by_parameter = way_.begin.wrench - way_.target.wrench;
+    Twist by_parameter = system_.felt(way_.begin.wrench - way_.target.wrench);
     if (way_.holds_pose) {
       for (int k = 0; k < 6; ++k) put_column(k, system_.feed_wrench(k), 1);
       Twist twist;
@@ -277,7 +277,7 @@ class Tracer {
     } else {
       for (int k = 0; k < 6; ++k) put_column(k, stiffness.col(k), k < 3 ? 1 : radius);
       for (int input = 0; input < system_.inputs(); ++input)
-        for (int rod = 0; rod < system_.rods(); ++rod)
+        for (int rod = 0; rod < system_.feeds(); ++rod)
           if (system_.input_of(rod) == input) {
             by_parameter += rate(rod) * system_.feed_wrench(input);
             break;

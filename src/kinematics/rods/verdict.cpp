@@ -134,6 +134,7 @@ Report settle(System& system, Report report, double truncation) {
   template bool is_pulled_straight(const System&);
 SINEW_FOR(RodSystem)
 SINEW_FOR(TangentSystem)
+SINEW_FOR(MixedSystem<TangentSystem>)
 #undef SINEW_FOR
 
 }  // namespace sinew::inline v0
