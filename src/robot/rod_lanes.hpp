@@ -14,7 +14,7 @@ using RodLane = double[rod_lanes];
 /// What Newton's method moves, and what a path is resumed from.
 /// @tparam N Gauss nodes a rod
 template <std::size_t N>
-struct RodState {
+struct PlaneRodState {
   RodLane length;            ///< L [m]
   RodLane theta[N];          ///< angle from the base tangent at the Gauss nodes [rad]
   RodLane force_d, force_w;  ///< of the platform on the tip: lateral and along the base tangent [N]
@@ -22,11 +22,11 @@ struct RodState {
 };
 
 template <std::size_t N>
-struct alignas(64) RodLanes : RodState<N> {
+struct alignas(64) RodLanes : PlaneRodState<N> {
   static constexpr int nodes = N;
   static constexpr std::size_t size = N;
   using Lane = RodLane;
-  using State = RodState<N>;
+  using State = PlaneRodState<N>;
 
   /// @name What the rods are. A lane without a rod repeats another and is not active.
   /// @{

@@ -45,8 +45,8 @@ class RodSystem {
 
   /// A state to return to.
   struct Snapshot {
-    std::vector<RodState<coarse_nodes>> coarse;
-    std::vector<RodState<fine_nodes>> fine;
+    std::vector<PlaneRodState<coarse_nodes>> coarse;
+    std::vector<PlaneRodState<fine_nodes>> fine;
     bool is_fine = false;
     SE3<double> platform;
     Wrench wrench = Wrench::Zero();
