@@ -1,7 +1,7 @@
 /// @file rod_steps.hpp
 /// One rod, stepped from base to tip: the explicit Runge-Kutta method of order 8 in 11 stages by Cooper and
 /// Verner (SIAM J. Numer. Anal. 9, 1972), in ℝ⁴ for the quaternion, which is normalised once, at the tip.
-/// The force is n(0) − s f. Position and energy feed nothing back, and four of the last stages carry them.
+/// The force is n(0) − s f. Position and energies feed nothing back, and four of the last stages carry them.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -55,7 +55,8 @@ struct State {
   Vec<S, 4> q;  ///< [w, x, y, z]
   Vec3<S> m;
   Vec3<S> p;
-  S energy;
+  S energy;     ///< elastic
+  S potential;  ///< ∫ s f·p′, all but f·p of that of the load
 };
 
 /// |q|² times the rotation matrix: polynomials, so that a step has the derivative of a polynomial.
@@ -106,7 +107,8 @@ void evaluate(const Law<S>& law, const S& s, Stage<S>& at) {
     energy += dot(force, stretch);
   }
   at.rate.m = cross(at.n, at.rate.p);
-  at.rate.energy = energy * S(0.5) + s * dot(law.load, at.rate.p);  // −∫f·(p − p(0)) by parts
+  at.rate.energy = energy * S(0.5);
+  at.rate.potential = s * dot(law.load, at.rate.p);  // −∫f·(p − p(0)) by parts
 }
 
 /// Sums of stages: `add(rate, factor)` where the table has a number.
@@ -126,7 +128,7 @@ struct Walk {
     y.q << base.R.w, base.R.v;
     y.m = base.m;
     y.p = Vec3<S>(S(0), S(0), S(0));  // from the base: nothing is lost far from the origin
-    y.energy = S(0);
+    y.energy = y.potential = S(0);
   }
 
   Vec3<S> force(const S& s) const { return n0 - law.load * s; }
@@ -150,6 +152,7 @@ struct Walk {
       y.m += k.rate.m * (h * b);
       y.p += k.rate.p * (h * b);
       y.energy += k.rate.energy * (h * b);
+      y.potential += k.rate.potential * (h * b);
     });
     ++taken;
   }

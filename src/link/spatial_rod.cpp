@@ -31,13 +31,19 @@ int steps_for(const SpatialRod& rod, double length, const RodState<double>& base
   return static_cast<int>(std::clamp(std::ceil(steps), 1.0, 0.5 * max_rod_steps)) * 2;
 }
 
+/// The energies of a rod that was walked to its end.
+void put_energies(const Walk& walk, double length, RodTip& tip) {
+  tip.potential = walk.y.potential - length * walk.law.load.dot(walk.y.p);
+  tip.energy = walk.y.energy + tip.potential;
+}
+
 RodTip walked(const SpatialRod& rod, double length, const RodState<double>& base, int steps) {
   Walk walk(rod, length, base, steps);
   for (int i = 0; i < steps; ++i) walk.step();
   RodTip tip;
   tip.steps = steps;
   tip.state = walk.state(base);
-  tip.energy = walk.y.energy - length * rod.load.dot(walk.y.p);
+  put_energies(walk, length, tip);
   const bool finite = tip.state.p.allFinite() && tip.state.m.allFinite() && std::isfinite(tip.state.R.w) &&
                       std::isfinite(tip.energy);
   tip.status = finite ? Status::converged : Status::left_domain;
@@ -71,6 +77,15 @@ RodTip refined(const SpatialRod& rod, double length, const RodState<double>& bas
   }
 }
 
+/// J of a rectangle [m⁴], by the series for its stress function (Timoshenko and Goodier, Theory of
+/// Elasticity, article 109): a b³/3 (1 − (192/π⁵)(b/a) Σ tanh(n π a/2b)/n⁵), n odd, a ≥ b.
+double torsion_constant(double width, double height) {
+  const double a = std::max(width, height), b = std::min(width, height), pi = std::numbers::pi;
+  double sum = 0;
+  for (int n = 801; n > 0; n -= 2) sum += std::tanh(n * pi * a / (2 * b)) / std::pow(n, 5);
+  return a * b * b * b / 3 * (1 - 192 / std::pow(pi, 5) * (b / a) * sum);
+}
+
 }  // namespace
 
 SpatialRod SpatialRod::round(double youngs_modulus, double shear_modulus, double diameter, RodLaw law) {
@@ -78,6 +93,19 @@ SpatialRod SpatialRod::round(double youngs_modulus, double shear_modulus, double
   SpatialRod rod;
   rod.bending_stiffness = Vec2<double>::Constant(youngs_modulus * inertia);
   rod.torsion_stiffness = shear_modulus * 2 * inertia;
+  if (law == RodLaw::cosserat) {
+    rod.shear_compliance = Vec2<double>::Constant(1 / (shear_modulus * area));
+    rod.extension_compliance = 1 / (youngs_modulus * area);
+  }
+  return rod;
+}
+
+SpatialRod SpatialRod::strip(double youngs_modulus, double shear_modulus, double width, double height,
+                             RodLaw law) {
+  const double area = width * height;
+  SpatialRod rod;
+  rod.bending_stiffness = Vec2<double>(height * height, width * width) * (youngs_modulus * area / 12);
+  rod.torsion_stiffness = shear_modulus * torsion_constant(width, height);
   if (law == RodLaw::cosserat) {
     rod.shear_compliance = Vec2<double>::Constant(1 / (shear_modulus * area));
     rod.extension_compliance = 1 / (youngs_modulus * area);
@@ -124,7 +152,7 @@ RodTangent integrate_tangent(const SpatialRod& rod, double length, const RodStat
   tangent.rate = columns.rate(walk);
   if (how.steps > 0) {
     tangent.tip.state = walk.state(base);
-    tangent.tip.energy = walk.y.energy - length * rod.load.dot(walk.y.p);
+    put_energies(walk, length, tangent.tip);
     tangent.tip.status = tangent.rate.allFinite() ? Status::converged : Status::left_domain;
   }
   return tangent;

@@ -298,5 +298,39 @@ TEST(SpatialRod, BadInputIsNotAnswered) {
   EXPECT_LE(tip.steps, max_rod_steps);
 }
 
+TEST(SpatialRod, StripsTwistAsTheTablesSay) {  // Timoshenko and Goodier, article 109: square, 2 : 1, thin
+  const auto constant = [](double a, double b) {
+    return SpatialRod::strip(200e9, 80e9, a, b).torsion_stiffness / (80e9 * a * b * b * b);
+  };
+  EXPECT_NEAR(constant(2e-3, 2e-3), 0.140577, 1e-6);
+  EXPECT_NEAR(constant(4e-3, 2e-3), 0.228682, 1e-6);
+  EXPECT_NEAR(constant(1, 1e-3), (1 - 0.630249e-3) / 3, 1e-9);
+  const SpatialRod strip = SpatialRod::strip(200e9, 80e9, 5e-3, 2e-3, RodLaw::cosserat);
+  const SpatialRod upright = SpatialRod::strip(200e9, 80e9, 2e-3, 5e-3);
+  EXPECT_NEAR(strip.torsion_stiffness, upright.torsion_stiffness, 1e-15);
+  EXPECT_NEAR(strip.bending_stiffness[0], 200e9 * 5e-3 * 8e-9 / 12, 1e-12);
+  EXPECT_NEAR(strip.bending_stiffness[1], 200e9 * 2e-3 * 125e-9 / 12, 1e-12);
+  EXPECT_NEAR(1 / strip.extension_compliance, 200e9 * 1e-5, 1e-3);
+  EXPECT_NEAR(1 / strip.shear_compliance[0], 80e9 * 1e-5, 1e-3);
+  EXPECT_FALSE(strip.is_isotropic());
+}
+
+TEST(SpatialRod, PotentialIsThatOfTheLoadAlone) {
+  SpatialRod rod = SpatialRod::round(200e9, 80e9, 2e-3, RodLaw::cosserat);
+  rod.load = {0.3, -0.2, 0.5};
+  RodState<double> base;
+  base.n = {0.4, 0.1, 0.3};
+  base.m = {0.02, 0.01, 0.03};
+  const RodTip tip = integrate(rod, length, base, {64, 0});
+  std::array<RodState<double>, 129> sections;  // Simpson's rule
+  ASSERT_EQ(rod_sections(rod, length, base, sections, {128, 0}), Status::converged);
+  double potential = 0;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const double weight = k == 0 || k == 128 ? 1 : k % 2 == 1 ? 4 : 2;
+    potential -= weight * dot(rod.load, sections[k].p) * length / (3 * 128);
+  }
+  EXPECT_NEAR(tip.potential, potential, 1e-10);
+}
+
 }  // namespace
 }  // namespace sinew

@@ -32,6 +32,10 @@ struct SpatialRod {
   SINEW_API static SpatialRod round(double youngs_modulus, double shear_modulus, double diameter,
                                     RodLaw law = RodLaw::kirchhoff);
 
+  /// A rectangular solid section: `width` along its x, `height` along its y [m].
+  SINEW_API static SpatialRod strip(double youngs_modulus, double shear_modulus, double width, double height,
+                                    RodLaw law = RodLaw::kirchhoff);
+
   /// Finite numbers, stiffnesses positive, compliances not negative.
   SINEW_API bool is_valid() const;
   /// Neither shears nor stretches.
@@ -68,6 +72,7 @@ struct RodTip {
   RodState<double> state;
   /// Elastic energy plus the potential of the load, −∫f·(p − p(0)) ds [J].
   double energy = 0;
+  double potential = 0;  ///< the second part alone [J]
 };
 
 /// Starts at `base`, whose n and m are those at s = 0. @param length L [m], > 0
