@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "link/tip_gaps.hpp"
 #include "sinew/math/inverse_sinc.hpp"
 #include "sinew/math/linalg.hpp"
 #include "sinew/solve/newton.hpp"
@@ -77,58 +78,15 @@ struct HoldProblem {
     return columns;
   }
 
-  /// The residual's rows of derivatives of the tip.
-  template <int columns>
-  Mat<double, 6, columns> rows(const RodState<double>& at, const Mat<double, 12, columns>& rate) const {
-    Mat<double, 6, columns> out;
-    const auto turned = rate.template middleRows<3>(RodTangent::rotation);
-    const auto moment = rate.template middleRows<3>(RodTangent::tip_moment);
-    out.template topRows<3>() = rate.template middleRows<3>(RodTangent::position) / length;
-    if (ends.tip == RodEnds::Tip::ball) {
-      out.template bottomRows<3>() = moment / moment_unit();
-    } else if (ends.tip == RodEnds::Tip::clamp) {
-      out.template bottomRows<3>() = Turn::left_jacobian_inverse(turn_error(at)) * turned;
-    } else {
-      const Mat<double, 3, 3> axes = tip.R.matrix();
-      const Vec3<double> t = at.tangent();
-      const double cosine = 1 + dot(t, axes.col(2));
-      for (int i = 0; i < 2; ++i) {
-        const Vec3<double> lever =
-            (axes.col(i) - axes.col(2) * (dot(t, axes.col(i)) / cosine)) * (2 / cosine);
-        out.row(3 + i) = cross(t, lever).transpose() * turned;
-      }
-      out.row(5) = axes.col(2).transpose() * moment / moment_unit();
-    }
-    return out;
-  }
-
-  Vec<double, 6> residual(const RodState<double>& at) const {
-    Vec<double, 6> out;
-    out.head<3>() = (at.p - tip.p) / length;
-    if (ends.tip == RodEnds::Tip::ball) {
-      out.tail<3>() = at.m / moment_unit() - tip_moment;
-    } else if (ends.tip == RodEnds::Tip::clamp) {
-      out.tail<3>() = turn_error(at);
-    } else {  // 2 tan(angle/2): zero at the wanted direction, but not at its opposite
-      const Mat<double, 3, 3> axes = tip.R.matrix();
-      const Vec3<double> t = at.tangent();
-      const double cosine = 1 + dot(t, axes.col(2));
-      out[3] = 2 * dot(t, axes.col(0)) / cosine;
-      out[4] = 2 * dot(t, axes.col(1)) / cosine;
-      out[5] = dot(at.m, axes.col(2)) / moment_unit();
-    }
-    return out;
-  }
-
-  Vec3<double> turn_error(const RodState<double>& at) const { return at.R.compose(tip.R.inverse()).log(); }
+  TipGaps gaps() const { return {ends.tip, tip, length, moment_unit(), tip_moment}; }
 
   bool linearise(const Point& x, Linearised<6>& system) const {
     const RodState<double> state = base_state(x);
     const RodTangent tangent = integrate_tangent(rod, length, state, {steps, 0});
     if (tangent.tip.status != Status::converged) return false;
     const Mat<double, 12, 6> rate = tangent.rate * base_columns(state);
-    system.residual = residual(tangent.tip.state);
-    system.jacobian = rows<6>(tangent.tip.state, rate);
+    system.residual = gaps().gap(tangent.tip.state);
+    system.jacobian = gaps().rows<6>(tangent.tip.state, rate);
     system.error = length * system.residual.lpNorm<Eigen::Infinity>();
     return system.jacobian.allFinite();
   }
@@ -137,20 +95,6 @@ struct HoldProblem {
   double shortened(const Point& step) const {
     const double turn = seeks_spin ? 4 * std::abs(step[5]) : std::abs(step[5]);
     return 1 / std::max({1.0, step.head<3>().norm() / 20, step.segment<2>(3).norm() / 4, turn / 4});
-  }
-
-  /// The residual's derivative by a motion of the tip (at a solution).
-  Mat<double, 6, 6> by_tip(const RodState<double>& at) const {
-    Mat<double, 6, 6> out = Mat<double, 6, 6>::Zero();
-    out.topLeftCorner<3, 3>() = -Mat<double, 3, 3>::Identity() / length;
-    if (ends.tip == RodEnds::Tip::clamp) out.bottomRightCorner<3, 3>() = -Mat<double, 3, 3>::Identity();
-    if (ends.tip == RodEnds::Tip::tangent) {
-      const Mat<double, 3, 3> axes = tip.R.matrix();
-      const Vec3<double> t = axes.col(2);
-      for (int i = 0; i < 2; ++i) out.block<1, 3>(3 + i, 3) = cross(Vec3<double>(axes.col(i)), t).transpose();
-      out.block<1, 3>(5, 3) = cross(t, at.m).transpose() / moment_unit();
-    }
-    return out;
   }
 };
 
@@ -276,9 +220,10 @@ class Way {
 bool differentiate(const HoldProblem& problem, const RodTangent& tangent, HeldRod& held) {
   const Mat<double, 12, 6> rate = tangent.rate * problem.base_columns(held.base);
   const Mat<double, 12, 1> fed = tangent.rate.col(RodTangent::length);
-  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> jacobian = problem.rows<6>(tangent.tip.state, rate);
+  const TipGaps gaps = problem.gaps();
+  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> jacobian = gaps.rows<6>(tangent.tip.state, rate);
   Eigen::Matrix<double, 6, 7, Eigen::RowMajor> right, steps;
-  right << -problem.by_tip(tangent.tip.state), -problem.rows<1>(tangent.tip.state, fed);
+  right << -gaps.by_tip(tangent.tip.state), -gaps.rows<1>(tangent.tip.state, fed);
   const bool regular = solve(MatrixView(jacobian.data(), 6, 6), MatrixView(right.data(), 6, 7),
                              {steps.data(), static_cast<std::size_t>(steps.size())});
   if (!regular) return false;
@@ -435,7 +380,7 @@ void conclude(HoldProblem& problem, const Vec<double, 6>& x, bool found, HeldRod
     held.report.message.append("the ends do not determine the forces: the rod is straight, or about to jump");
   }
   if (!found) {
-    held.report.residual = problem.length * problem.residual(held.tip).lpNorm<Eigen::Infinity>();
+    held.report.residual = problem.length * problem.gaps().gap(held.tip).lpNorm<Eigen::Infinity>();
     held.report.status = Status::stalled;
     held.report.message.append("no equilibrium was found with these ends");
   }
