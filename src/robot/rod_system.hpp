@@ -26,7 +26,7 @@ class Lu6 {
 
  private:
   std::array<double, 36> lu_;
-  std::array<int, 6> order_;
+  std::array<int, 6> order_{};
   double per_length_ = 1, smallest_ = 0;
 };
 

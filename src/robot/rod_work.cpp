@@ -1,5 +1,7 @@
 #include "robot/rod_work.hpp"
 
+#include <algorithm>
+
 namespace sinew::inline v0 {
 
 ParallelRobot<RodLeg> rods_of(const AnyRobot& robot) {
@@ -37,10 +39,16 @@ using Kind = decltype(RodWorks::kind);
 
 Kind make_work(const AnyRobot& robot) {
   const ParallelRobot<RodLeg> rods = rods_of(robot);
-  if (auto closing = closing_legs_of(robot); !closing.empty())
-    return Kind(std::in_place_type<MixedWork>, MixedRobot{rods, std::move(closing)}, robot.weight.gravity);
+  const Vec3<double>& gravity = robot.weight.gravity;
+  const bool is_torque_free = std::ranges::all_of(rods.legs, &RodLeg::is_torque_free);
+  if (auto closing = closing_legs_of(robot); !closing.empty()) {
+    const MixedRobot mixed{rods, std::move(closing)};
+    return is_torque_free ? Kind(std::in_place_type<MixedWork>, mixed, gravity)
+                          : Kind(std::in_place_type<MixedGeneralWork>, mixed, gravity);
+  }
   if (bend_in_planes(rods)) return Kind(std::in_place_type<RodWork>, rods);
-  return Kind(std::in_place_type<TangentWork>, rods, robot.weight.gravity);
+  return is_torque_free ? Kind(std::in_place_type<TangentWork>, rods, gravity)
+                        : Kind(std::in_place_type<GeneralWork>, rods, gravity);
 }
 
 }  // namespace

@@ -3,13 +3,12 @@
 #pragma once
 #include <variant>
 
-#include "robot/mixed_system.hpp"
-#include "robot/tangent_system.hpp"
+#include "robot/rod_systems.hpp"
 #include "sinew/robot/workspace.hpp"
 
 namespace sinew::inline v0 {
 
-/// @tparam System RodSystem or TangentSystem
+/// @tparam System one of rod_systems.hpp
 template <class System>
 struct RodWorkOf {
   template <class Robot>
@@ -34,20 +33,19 @@ ParallelRobot<RodLeg> rods_of(const AnyRobot& robot);
 struct RodWork : RodWorkOf<RodSystem> {
   using RodWorkOf::RodWorkOf;
 };
-/// ... others without torque, ...
-struct TangentWork : RodWorkOf<TangentSystem> {
-  explicit TangentWork(const ParallelRobot<RodLeg>& robot, const Vec3<double>& gravity = Vec3<double>::Zero())
-      : RodWorkOf(robot) {
-    system.set_gravity(gravity);
+/// ... and others, which may be heavy.
+template <class System>
+struct HeavyWork : RodWorkOf<System> {
+  template <class Robot>
+  explicit HeavyWork(const Robot& robot, const Vec3<double>& gravity = Vec3<double>::Zero())
+      : RodWorkOf<System>(robot) {
+    this->system.set_gravity(gravity);
   }
 };
-
-/// ... and others with closing legs beside them.
-struct MixedWork : RodWorkOf<MixedSystem<TangentSystem>> {
-  explicit MixedWork(const MixedRobot& robot, const Vec3<double>& gravity) : RodWorkOf(robot) {
-    system.set_gravity(gravity);
-  }
-};
+using TangentWork = HeavyWork<TangentSystem>;  ///< without torque
+using GeneralWork = HeavyWork<GeneralSystem>;
+using MixedWork = HeavyWork<MixedSystem<TangentSystem>>;  ///< with closing legs beside them
+using MixedGeneralWork = HeavyWork<MixedSystem<GeneralSystem>>;
 
 /// The closing legs of a robot.
 std::vector<ClosingLeg> closing_legs_of(const AnyRobot& robot);
@@ -55,10 +53,10 @@ std::vector<ClosingLeg> closing_legs_of(const AnyRobot& robot);
 /// What a workspace keeps of rods: of the quickest kind that holds for all of them.
 struct RodWorks {
   explicit RodWorks(const AnyRobot& robot);  ///< of a robot that bears load
-  std::variant<RodWork, TangentWork, MixedWork> kind;
+  std::variant<RodWork, TangentWork, GeneralWork, MixedWork, MixedGeneralWork> kind;
 };
 
-/// Calls `use(rods)` with a RodWorkOf, of the one kind or the other.
+/// Calls `use(rods)` with a RodWorkOf, of whichever kind it is.
 template <class Use>
 decltype(auto) with_rods(Workspace& work, Use&& use) {
   return std::visit([&]<class System>(RodWorkOf<System>& rods) -> decltype(auto) { return use(rods); },

@@ -100,6 +100,24 @@ TEST_P(NoHeap, Velocity) {
 INSTANTIATE_TEST_SUITE_P(Builtin, NoHeap, testing::ValuesIn(builtin_robots(false)),
                          [](const auto& robot) { return "robot_" + std::to_string(robot.index); });
 
+TEST(NoHeapOfRods, ThatBearTorque) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer owns malloc";
+#endif
+  AnyRobot robot = load("hexapod").value();
+  for (RodLeg& leg : std::get<ParallelRobot<RodLeg>>(robot.model).legs) leg.is_spin_held = true;
+  Workspace work(robot);
+  const SpatialPose at_home = std::get<SpatialPose>(home(robot));
+  SpatialPose beside = at_home;
+  beside.position += Vec3<double>(0.01, 0.02, 0.01);
+  const auto none = [&](auto&& run) { EXPECT_EQ(allocations_of(run), 0); };
+  none([&] { EXPECT_TRUE(inverse_equilibrium(robot, at_home, {}, work).is_solved()); });
+  none([&] { EXPECT_TRUE(inverse_equilibrium(robot, beside, {.resume = true}, work).is_solved()); });
+  const std::vector<double> inputs = values(work.inputs);
+  none([&] { EXPECT_TRUE(equilibrium(robot, inputs, {.resume = true, .judge = false}, work).is_solved()); });
+  none([&] { equilibrium(robot, inputs, {.start = at_home}, work); });
+}
+
 TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "AddressSanitizer owns malloc";

@@ -349,10 +349,8 @@ Report hold_rods(RodWorkOf<System>& work, const SE3<double>& home, const SE3<dou
   return report;
 }
 
-template Report hold_rods(RodWorkOf<RodSystem>&, const SE3<double>&, const SE3<double>&, const RodQuestion&);
-template Report hold_rods(RodWorkOf<TangentSystem>&, const SE3<double>&, const SE3<double>&,
-                          const RodQuestion&);
-template Report hold_rods(RodWorkOf<MixedSystem<TangentSystem>>&, const SE3<double>&, const SE3<double>&,
-                          const RodQuestion&);
+#define SINEW_FOR(System) template Report hold_rods(RodWorkOf<System>&, const SE3<double>&, const SE3<double>&, const RodQuestion&);
+SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
+#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -168,11 +168,8 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
   return explain(system, end, false);
 }
 
-template Report solve_rods_at(RodWorkOf<RodSystem>&, const SE3<double>&, const RodCoordinates&,
-                              const RodQuestion&);
-template Report solve_rods_at(RodWorkOf<MixedSystem<TangentSystem>>&, const SE3<double>&,
-                              const RodCoordinates&, const RodQuestion&);
-template Report solve_rods_at(RodWorkOf<TangentSystem>&, const SE3<double>&, const RodCoordinates&,
-                              const RodQuestion&);
+#define SINEW_FOR(System) template Report solve_rods_at(RodWorkOf<System>&, const SE3<double>&, const RodCoordinates&, const RodQuestion&);
+SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
+#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -173,9 +173,7 @@ RodPathEnd follow(System& system, const RodTarget& target, const RodPathOptions&
   template RodPathEnd follow(System&, const RodTarget&, const RodPathOptions&, System::Snapshot&); \
   template RodTarget present(const System&);                                                       \
   template int unstable_directions(const System&);
-SINEW_FOR(RodSystem)
-SINEW_FOR(TangentSystem)
-SINEW_FOR(MixedSystem<TangentSystem>)
+SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
 #undef SINEW_FOR
 
 namespace {
@@ -245,6 +243,28 @@ bool rest_at(RodSystem& system, const SE3<double>& platform) {
   return system.linearise();
 }
 
+namespace {
+
+/// Rods that are nearly in equilibrium: exactly, with their wrench. False where they do not get there.
+template <class System>
+bool settle_rods(System& system) {
+  int iterations = 0;
+  double residual = 0;
+  if (!correct_rods(system, iterations, residual, rod_tolerance)) return false;
+  while (!system.is_finest() && system.truncation() > coarse_truncation) {
+    system.refine();
+    if (!correct_rods(system, iterations, residual, rod_tolerance)) return false;
+  }
+  system.set_wrench(System::Wrench::Zero());
+  system.evaluate();
+  system.linearise();
+  system.set_wrench(-system.missing());
+  system.evaluate();
+  return system.linearise();
+}
+
+}  // namespace
+
 /// From the cubics between guides and tips.
 bool rest_at(TangentSystem& system, const SE3<double>& platform) {
   system.set_platform(platform);
@@ -256,20 +276,24 @@ bool rest_at(TangentSystem& system, const SE3<double>& platform) {
     system.move_to_rest(0.1);
     system.evaluate();
   }
-  int iterations = 0;
-  double residual = 0;
-  if (!(system.rod_error() < near) || !correct_rods(system, iterations, residual, rod_tolerance))
-    return false;
-  while (!system.is_finest() && system.truncation() > coarse_truncation) {
-    system.refine();
-    if (!correct_rods(system, iterations, residual, rod_tolerance)) return false;
+  return system.rod_error() < near && settle_rods(system);
+}
+
+/// From rods held at the lengths of those cubics, each in equilibrium by itself. Where no length is found at
+/// which nothing pulls, those are kept: any equilibrium will do.
+bool rest_at(GeneralSystem& system, const SE3<double>& platform) {
+  system.set_platform(platform);
+  if (!system.draw_rods()) return false;
+  constexpr double near = 1e-6;
+  double fed = 1;
+  system.evaluate();
+  for (int k = 0; k < 30 && !(fed < near && system.rod_error() < near); ++k) {
+    system.linearise();
+    fed = system.move_to_rest(0.02);
+    system.evaluate();
   }
-  system.set_wrench(TangentSystem::Wrench::Zero());
-  system.evaluate();
-  system.linearise();
-  system.set_wrench(-system.missing());
-  system.evaluate();
-  return system.linearise();
+  if (fed < near && system.rod_error() < near && settle_rods(system)) return true;
+  return system.draw_rods() && settle_rods(system);
 }
 
 template <class Rods>
@@ -283,5 +307,6 @@ bool rest_at(MixedSystem<Rods>& system, const SE3<double>& platform) {
   return system.linearise();
 }
 template bool rest_at(MixedSystem<TangentSystem>&, const SE3<double>&);
+template bool rest_at(MixedSystem<GeneralSystem>&, const SE3<double>&);
 
 }  // namespace sinew::inline v0

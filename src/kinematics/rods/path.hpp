@@ -4,7 +4,7 @@
 #pragma once
 #include <limits>
 
-#include "robot/mixed_system.hpp"
+#include "robot/rod_systems.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v0 {
@@ -59,7 +59,7 @@ bool contract(Error&& error, Step&& step, double tolerance, int& iterations, dou
 }
 
 /// At fixed lengths and wrench, pose and rods together ...
-/// @tparam System RodSystem or TangentSystem
+/// @tparam System RodSystem, TangentSystem or GeneralSystem
 template <class System>
 bool correct(System& system, int& iterations, double& residual, double tolerance = rod_tolerance);
 /// ... or the rods alone, the platform held.
@@ -86,6 +86,7 @@ int unstable_directions(const System& system);
 /// its tip. False where a rod's tip lies on its guide's line or behind it.
 bool rest_at(RodSystem& system, const SE3<double>& platform);
 bool rest_at(TangentSystem& system, const SE3<double>& platform);
+bool rest_at(GeneralSystem& system, const SE3<double>& platform);
 /// ... with the inputs that close the other legs. False also where one cannot be closed.
 template <class Rods>
 bool rest_at(MixedSystem<Rods>& system, const SE3<double>& platform);

@@ -135,8 +135,8 @@ Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
   return report;
 }
 
-template Report sense_rods(RodWorkOf<RodSystem>&, RodSensing&);
-template Report sense_rods(RodWorkOf<TangentSystem>&, RodSensing&);
-template Report sense_rods(RodWorkOf<MixedSystem<TangentSystem>>&, RodSensing&);
+#define SINEW_FOR(System) template Report sense_rods(RodWorkOf<System>&, RodSensing&);
+SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
+#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

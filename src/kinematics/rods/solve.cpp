@@ -216,9 +216,8 @@ Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inpu
   return settled;
 }
 
-template Report solve_rods(RodWorkOf<RodSystem>&, const SE3<double>&, Numbers, const RodQuestion&);
-template Report solve_rods(RodWorkOf<TangentSystem>&, const SE3<double>&, Numbers, const RodQuestion&);
-template Report solve_rods(RodWorkOf<MixedSystem<TangentSystem>>&, const SE3<double>&, Numbers,
-                           const RodQuestion&);
+#define SINEW_FOR(System) template Report solve_rods(RodWorkOf<System>&, const SE3<double>&, Numbers, const RodQuestion&);
+SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
+#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -82,9 +82,7 @@ bool lay_rods(RodWorkOf<System>& work, const SE3<double>& pose, Numbers inputs) 
   template RodTarget target_of(const System&, Numbers, const Vec<double, 6>&); \
   template Report go_home(RodWorkOf<System>&, const SE3<double>&);             \
   template bool lay_rods(RodWorkOf<System>&, const SE3<double>&, Numbers);
-SINEW_FOR(RodSystem)
-SINEW_FOR(TangentSystem)
-SINEW_FOR(MixedSystem<TangentSystem>)
+SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
 #undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -366,9 +366,7 @@ bool pass_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) {
   template std::vector<EquilibriumCurve> trace_rods(RodWorkOf<System>&, const RodWay&, const CurveOptions&); \
   template RodFold find_fold(RodWorkOf<System>&, const RodWay&, double);                                     \
   template bool pass_fold(RodWorkOf<System>&, const RodWay&, double);
-SINEW_FOR(RodSystem)
-SINEW_FOR(TangentSystem)
-SINEW_FOR(MixedSystem<TangentSystem>)
+SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
 #undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -132,9 +132,7 @@ Report settle(System& system, Report report, double truncation) {
   template bool resolve(System&, Report&, double);                 \
   template Report settle(System&, Report, double);                 \
   template bool is_pulled_straight(const System&);
-SINEW_FOR(RodSystem)
-SINEW_FOR(TangentSystem)
-SINEW_FOR(MixedSystem<TangentSystem>)
+SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
 #undef SINEW_FOR
 
 }  // namespace sinew::inline v0

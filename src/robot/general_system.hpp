@@ -1,0 +1,189 @@
+/// @file general_system.hpp
+/// Rods that bear torque between a base and a platform as one system of equations: held against spin at both
+/// ends, of a section that is not round, or bent when free. Each is shot from its base, and its six unknowns
+/// are eliminated in the same step. TangentSystem is the fast special case without torque and has the same
+/// face. Theory: docs/theory/spatial_rod.md
+#pragma once
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "robot/rod_system.hpp"
+#include "sinew/link/held_rod.hpp"
+
+namespace sinew::inline v0 {
+
+/// The rod as one that can bear torque. Where its material has no shear modulus nothing may depend on it.
+SpatialRod spatial_rod(const Rod& rod);
+
+/// What Newton's method moves, and what a path is resumed from: base axes.
+struct GeneralRodState {
+  Vec3<double> force = Vec3<double>::Zero();   ///< internal, at the base [N]
+  Vec3<double> moment = Vec3<double>::Zero();  ///< [N m]
+  double spin = 0;                             ///< of the section in its guide [rad]
+  double length = 1;                           ///< L, unstretched [m]
+};
+
+/// One rod with all numbers of its Newton step. Its unknowns are dimensionless: force in EI/L², moment in
+/// EI/L about the section's axes at spin 0, where the last is the spin instead if that is free and matters.
+struct GeneralRod : GeneralRodState {
+  using Matrix = Mat<double, 6, 6>;
+
+  /// @name What it is
+  /// @{
+  SpatialRod rod;     ///< its load is weight and own load
+  SE3<double> frame;  ///< of the section at the base, at spin 0
+  RodEnds ends;
+  bool seeks_spin = false;
+  Vec3<double> platform_point;
+  SO3<double> platform_section;  ///< of the section at a clamp, platform axes
+  double stiffness = 0;          ///< EI, the geometric mean of both ways [N m²]
+  /// @}
+
+  /// @name At the last evaluation
+  /// @{
+  RodState<double> from, tip;
+  double energy = 0, potential = 0;  ///< elastic; of the load, −∫f·(p − p(0)) ds [J]
+  Vec3<double> arm;                  ///< platform point from the reference point, base axes [m]
+  Vec<double, 6> gap;                ///< see TipGaps
+  /// @}
+
+  /// @name Kept from the last linearisation
+  /// @{
+  double force_unit = 0, moment_unit = 0;
+  bool is_regular = false;   ///< the gap determines the unknowns; else the rest are no numbers
+  Lu6 factors;               ///< of the gap by the unknowns
+  Matrix by_twist;           ///< the unknowns by the platform's twist, the gap held
+  Vec<double, 6> by_length;  ///< ... by the length
+  Matrix handed;             ///< force and moment on the tip by the unknowns; of a ball no moment
+  Vec<double, 6> feed;       ///< ... by the length, the gap held
+  Vec<double, 6> fix;        ///< of the unknowns: closes the gap at a resting platform
+  /// @}
+};
+
+/// All numbers of one robot's equilibrium. No function here allocates unless it says so.
+class GeneralSystem {
+ public:
+  using Wrench = Vec<double, 6>;
+  using Twist = Vec<double, 6>;
+  explicit GeneralSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
+
+  /// A state to return to.
+  struct Snapshot {
+    std::vector<GeneralRodState> rods;
+    int elements = 0;
+    SE3<double> platform;
+    Wrench wrench = Wrench::Zero();
+  };
+  Snapshot snapshot() const;  ///< allocates: take it once and `save` into it
+  void save(Snapshot& to) const;
+  void restore(const Snapshot& from);
+
+  /// @name What is held
+  /// @{
+  int rods() const { return static_cast<int>(rods_.size()); }
+  int inputs() const { return inputs_; }
+  int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
+  /// Where a rod's coordinates begin among the robot's.
+  int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
+  /// What inputs feed: each rod its length.
+  int feeds() const { return rods(); }
+  bool in_domain(int, double length) const { return length > 0 && std::isfinite(length); }
+  double radius() const { return radius_; }  ///< of the platform [m]
+  Vec3<double> base(int rod) const { return at(rod).frame.p; }
+  Vec3<double> platform_point(int rod) const { return at(rod).platform_point; }
+  double stiffness(int rod) const { return at(rod).stiffness; }  ///< EI [N m²]
+  double length(int rod) const { return at(rod).length; }
+  void set_length(int rod, double length) { at(rod).length = length; }
+  void set_inputs(std::span<const double> inputs);  ///< the lengths of all rods [m]
+  const SE3<double>& platform() const { return platform_; }
+  void set_platform(const SE3<double>& pose) { platform_ = pose; }
+  Wrench wrench() const { return wrench_; }  ///< of the world, base axes
+  void set_wrench(const Wrench& wrench) { wrench_ = wrench; }
+  const Vec3<double>& gravity() const { return gravity_; }  ///< on the rods [m/s²]
+  void set_gravity(const Vec3<double>& gravity);            ///< beside the rods' own load
+  bool has_mass() const;
+  double weight_energy() const;  ///< of all rods, after `evaluate` [J]; 0 with the rods in their bases
+  int elements() const { return elements_; }  ///< even steps of the integration along each rod
+  bool is_fine() const { return elements_ > coarse_elements; }
+  bool is_finest() const { return elements_ >= most_elements; }
+  void refine() { elements_ = is_finest() ? elements_ : 2 * elements_; }
+  void coarsen() { elements_ = is_fine() ? elements_ / 2 : elements_; }
+  bool can_coarsen(double truncation) const;  ///< and stay below this estimate of the error
+  /// @}
+
+  /// @name Newton's method, as RodSystem has it
+  /// @{
+  double evaluate(bool anew = true);
+  double rod_error() const { return rod_error_; }
+  bool linearise();
+  Twist step(bool fresh);
+  Wrench missing() const { return wrench_ - sum_; }
+  void move(const Twist& twist, std::span<const double> fed = {});
+  Lu6 factors() const { return lu_; }
+  MatrixView stiffness() const { return {stiffness_.data(), 6, 6}; }
+  Wrench feed_wrench(int input) const;
+  Mat<double, 6, 6> platform_stiffness() const { return stiffness_; }
+  Wrench platform_feed(int input) const { return feed_wrench(input); }
+  Wrench felt(const Wrench& wrench) const { return wrench; }
+  /// @}
+
+  /// @name Single rods, after `evaluate`
+  /// @{
+  /// Curvatures of a section: about its x and y, twist about its tangent; the largest is that of bending,
+  /// beyond the rod's own at rest.
+  RodReading rod(int index) const;
+  double axial_force(int rod) const;  ///< at its guide, pull > 0 [N]
+  double closing_axial_force(int rod) const;
+  Twist axial_row(int rod) const;
+  /// Unstable directions with the tip held; after `linearise`. The second number is 0.
+  std::array<int, 2> unstable_with_tip_held(int index) const;
+  /// Estimated error of the integration, of the length and in rad: the worst rod's.
+  double truncation() const;
+  /// Polyline, `samples` ≥ 2 points in base axes [m]. Allocates.
+  std::vector<Vec3<double>> centreline(int index, int samples) const;
+  /// State as the coordinates of the leg (see RodLeg) ...
+  void get_rod(int index, std::span<double> coordinates) const;
+  /// ... and that of all rods back, with the finest steps.
+  void set_rods(std::span<const double> coordinates);
+  /// @}
+
+  /// @name To lay rods to a pose
+  /// @{
+
+  /// Every rod between its guide and where the platform holds it, as long as the cubic between them: each in
+  /// equilibrium, if possible a stable one. False where that is not found. Expensive.
+  bool draw_rods();
+  /// After `linearise`: a step of the rods alone, the platform held, each fed until nothing pulls along the
+  /// line from base to tip. By at most `most` of its length; returns the largest part of a length fed.
+  double move_to_rest(double most);
+  /// @}
+
+  static constexpr int coarse_elements = 8, most_elements = 128;
+  /// Estimated error from which an answer that is not resumed takes more steps.
+  static constexpr double best_truncation = 1e-15;
+  /// ... and one that is to be quick: lengths to 1e-9 of themselves.
+  static constexpr double quick_truncation = 1e-9;
+
+ private:
+  GeneralRod& at(int rod) { return rods_[static_cast<std::size_t>(rod)]; }
+  const GeneralRod& at(int rod) const { return rods_[static_cast<std::size_t>(rod)]; }
+  void sum_closed();
+  static void move_rod(GeneralRod& rod, const Vec<double, 6>& by, double fed);
+
+  std::vector<GeneralRod> rods_;
+  std::vector<int> input_of_, coordinate_of_;
+  std::vector<double> mass_;        ///< of each rod along its length [kg/m]
+  std::vector<Vec3<double>> load_;  ///< beside its weight [N/m]
+  int inputs_ = 0, elements_ = coarse_elements;
+  SE3<double> platform_;
+  Vec3<double> gravity_ = Vec3<double>::Zero();
+  Wrench wrench_ = Wrench::Zero(), sum_ = Wrench::Zero();
+  double rod_error_ = 0;
+  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness_ = Mat<double, 6, 6>::Zero();
+  Lu6 lu_;
+  double radius_ = 1;
+};
+
+}  // namespace sinew::inline v0

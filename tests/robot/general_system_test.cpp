@@ -1,0 +1,467 @@
+/// Rods that bear torque as legs: against rods without torque, against differences, against each rod by
+/// itself, and against balances of the whole.
+#include "robot/general_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinematics/rods/hold.hpp"
+#include "kinematics/rods/solve.hpp"
+#include "rod_robots.hpp"
+
+namespace sinew::test {
+namespace {
+
+/// What a rod may do beside bending, and how its ends are held.
+struct Kind {
+  const char* name;
+  bool clamped, cosserat, heavy;
+  bool held = false, tip_turns = false, strip = false, precurved = false, loaded = false;
+};
+constexpr Kind without_torque[] = {
+    {"ball, Kirchhoff", false, false, false},
+    {"ball, Cosserat, weight", false, true, true},
+    {"clamp, Kirchhoff", true, false, false},
+    {"clamp, Kirchhoff, weight", true, false, true},
+    {"clamp, Cosserat, weight", true, true, true},
+    {"held, clamp that turns", true, false, true, true, true},
+    {"held, ball, load", false, false, false, true, false, false, false, true}};
+constexpr Kind general[] = {
+    {"held, clamp", true, false, false, true},
+    {"held, clamp, weight, Cosserat", true, true, true, true},
+    {"held, clamp, strip, load", true, false, false, true, false, true, false, true},
+    {"held, clamp, precurved", true, false, false, true, false, false, true},
+    {"held, ball, strip, Cosserat", false, true, false, true, false, true},
+    {"held, ball, precurved, load", false, false, false, true, false, false, true, true},
+    {"held, clamp that turns, strip, precurved", true, false, true, true, true, true, true},
+    {"spins, clamp, strip, load", true, false, false, false, false, true, false, true},
+    {"spins, clamp, precurved, weight", true, false, true, false, false, false, true},
+    {"spins, ball, precurved", false, false, false, false, false, false, true}};
+const Vec3<double> gravity(3, -2, -9);
+
+/// A robot with such rods, whose tips lean by up to `lean`. Shear and stretch are exaggerated, so that tests
+/// see them.
+RodRobot with_rods_of(const Kind& kind, RodRobot robot, double lean, RodRandom& random) {
+  for (RodLeg& leg : robot.legs) {
+    const double stiffness = leg.link.bending_stiffness();
+    leg.is_clamped = kind.clamped;
+    leg.is_spin_held = kind.held;
+    leg.is_tip_spin_free = kind.tip_turns;
+    leg.platform_tangent = (Vec3<double>(0, 0, 1) + random.vector(lean)).normalized();
+    const Vec3<double> across = leg.base.rotate(Vec3<double>(1, 0, 0)) + random.vector(1.5 * lean);
+    leg.platform_across = cross(cross(leg.platform_tangent, across), leg.platform_tangent).normalized();
+    leg.link.is_cosserat = kind.cosserat;
+    const double thick = kind.cosserat ? 10 : 1;  // EI stays: a thick rod of something soft
+    leg.link.diameter = kind.strip ? 0 : 3e-3 * thick;
+    if (kind.strip) leg.link.width = 5e-3 * thick, leg.link.height = 3e-3 * thick;
+    leg.link.youngs_modulus = 1;
+    leg.link.youngs_modulus = stiffness / leg.link.bending_stiffness();
+    leg.link.shear_modulus = leg.link.youngs_modulus / 2.6;
+    leg.link.density = kind.heavy ? 0.1 / (9 * leg.link.area()) : 0;  // 0.1 N/m under some 9 m/s²
+    if (kind.precurved) leg.link.precurvature = random.vector(0.8);
+    if (kind.loaded) leg.link.load = random.vector(0.1);
+  }
+  return robot;
+}
+RodRobot robot_of(const Kind& kind, RodRandom& random) {
+  return with_rods_of(kind, random.robot(6, 0.2), 0.2, random);
+}
+/// ... and one whose guides are upright and whose rods bend much: paths there do not fold.
+RodRobot upright_of(const Kind& kind, RodRandom& random) {
+  const RodRobot tripod = tripod_robot(g2);
+  return with_rods_of(kind, RodRobot(tripod.legs, tripod.home, tripod.platform_radius), 0.03, random);
+}
+
+/// A system at rest at a random pose, lengths changed a little: nothing about it is special.
+template <class System>
+bool begin(System& system, const RodRobot& robot, RodRandom& random) {
+  system.set_gravity(gravity);
+  if (!rest_at(system, random.near(home(robot), 0.03, 0.15))) return false;
+  for (int k = 0; k < system.rods(); ++k)
+    system.set_length(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
+  return close_rods(system) && balance(system);
+}
+
+template <class System>
+void finest(System& system) {
+  while (!system.is_finest()) system.refine();
+}
+
+TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
+  for (const Kind& kind : without_torque) {
+    RodRandom random(3);
+    int tried = 0;
+    for (int sample = 0; sample < 6; ++sample) {
+      const RodRobot robot = robot_of(kind, random);
+      for (const RodLeg& leg : robot.legs) ASSERT_TRUE(leg.is_torque_free());
+      TangentSystem tangents(robot);
+      GeneralSystem rods(robot);
+      if (!begin(tangents, robot, random)) continue;
+      finest(tangents);
+      if (!close_rods(tangents) || !balance(tangents)) continue;
+      rods.set_gravity(gravity);
+      ASSERT_TRUE(rest_at(rods, tangents.platform())) << kind.name;
+      for (int k = 0; k < 6; ++k) rods.set_length(k, tangents.length(k));
+      finest(rods);
+      ASSERT_TRUE(close_rods(rods) && balance(rods)) << kind.name;
+      if (unstable_directions(tangents) != 0 || unstable_directions(rods) != 0) continue;  // other shapes
+      ++tried;
+      const auto near = [&](const auto& a, const auto& b, double tolerance, const char* what) {
+        EXPECT_LT((a - b).cwiseAbs().maxCoeff(), tolerance * (1e-6 + b.cwiseAbs().maxCoeff()))
+            << kind.name << ": " << what;
+      };
+      near(rods.wrench(), tangents.wrench(), 1e-9, "wrench");
+      const Mat<double, 6, 6> a = rods.stiffness(), b = tangents.stiffness();
+      near(a, b, 1e-9, "stiffness");
+      EXPECT_NEAR(rods.weight_energy(), tangents.weight_energy(), 1e-10);
+      for (int k = 0; k < 6; ++k) {
+        near(rods.feed_wrench(k), tangents.feed_wrench(k), 1e-9, "feed");
+        near(rods.axial_row(k), tangents.axial_row(k), 1e-8, "axial row");
+        const RodReading p = rods.rod(k), q = tangents.rod(k);
+        near(p.force, q.force, 1e-9, "force");
+        near(p.force_0, q.force_0, 1e-9, "force at the base");
+        near(p.moment, q.moment, 1e-8, "moment");
+        near(p.moment_0, q.moment_0, 1e-8, "moment at the base");
+        near(p.curvature_0, q.curvature_0, 1e-8, "curvature at the base");
+        EXPECT_NEAR(p.energy, q.energy, 1e-10);
+        EXPECT_NEAR(p.tip_angle, q.tip_angle, 1e-9);
+        EXPECT_NEAR(p.lateral_force, q.lateral_force, 1e-8);
+        EXPECT_NEAR(p.axial_force, q.axial_force, 1e-8);
+        EXPECT_NEAR(rods.axial_force(k), tangents.axial_force(k), 1e-8);
+        EXPECT_NEAR(p.largest_curvature, q.largest_curvature, 1e-2 * q.largest_curvature);
+      }
+    }
+    EXPECT_GE(tried, 3) << kind.name;
+  }
+}
+
+TEST(GeneralSystem, ComesToRestWhereTheFieldOfTangentsDoes) {
+  for (const Kind& kind : without_torque) {
+    RodRandom random(7);
+    int tried = 0;
+    for (int sample = 0; sample < 4; ++sample) {
+      const RodRobot robot = robot_of(kind, random);
+      TangentWork tangents(robot, gravity);
+      GeneralWork rods(robot, gravity);
+      if (!rest_at(tangents.system, home(robot))) continue;
+      std::array<double, 6> inputs;
+      for (std::size_t k = 0; k < 6; ++k)
+        inputs[k] = tangents.system.length(int(k)) + random.uniform(0, 5e-3);
+      RodQuestion question;
+      question.wrench = random.wrench(0.1, 0.01);
+      const Report a = solve_rods(tangents, home(robot), inputs, question);
+      const Report b = solve_rods(rods, home(robot), inputs, question);
+      if (!a.ok()) continue;
+      ++tried;
+      ASSERT_TRUE(b.ok()) << kind.name << ": " << b.message.view();
+      const SE3<double>&p = tangents.system.platform(), &q = rods.system.platform();
+      EXPECT_LT((p.p - q.p).norm(), 1e-10) << kind.name;
+      EXPECT_LT((p.R.matrix() - q.R.matrix()).norm(), 1e-9) << kind.name;
+      EXPECT_EQ(unstable_directions(tangents.system), unstable_directions(rods.system)) << kind.name;
+    }
+    EXPECT_GE(tried, 2) << kind.name;
+  }
+}
+
+TEST(GeneralSystem, StiffnessAndFeedAreTheDerivativesOfTheWrench) {
+  for (const Kind& kind : general) {
+    RodRandom random(11);
+    int tried = 0;
+    for (int sample = 0; sample < 2; ++sample) {
+      const RodRobot robot = robot_of(kind, random);
+      GeneralSystem system(robot);
+      if (!begin(system, robot, random)) continue;
+      ++tried;
+      const GeneralSystem::Snapshot from = system.snapshot();
+      const Mat<double, 6, 6> stiffness = system.stiffness();
+      Mat<double, 6, 6> feed, rows;
+      for (int c = 0; c < 6; ++c) feed.col(c) = system.feed_wrench(c);
+      for (int c = 0; c < 6; ++c) rows.row(c) = system.axial_row(c);
+      Mat<double, 6, 6> by_twist, by_length, axial;
+      for (int c = 0; c < 6; ++c) {
+        const auto forces = [&] {
+          Vec<double, 6> pulls;
+          for (int k = 0; k < 6; ++k) pulls[k] = system.axial_force(k);
+          return pulls;
+        };
+        using Both = Eigen::Matrix<double, 12, 1>;
+        const auto beside = [&](double h) {
+          Both both;
+          both << wrench_beside(system, from, Vec<double, 6>(Vec<double, 6>::Unit(c) * h)), forces();
+          return both;
+        };
+        const auto fed = [&](double h) {
+          std::array<double, 6> more{};
+          more[std::size_t(c)] = h;
+          return wrench_beside(system, from, Vec<double, 6>::Zero(), more);
+        };
+        constexpr double h = 2e-5;
+        const Both slope = (8 * (beside(h) - beside(-h)) - (beside(2 * h) - beside(-2 * h))) / (12 * h);
+        by_twist.col(c) = slope.head<6>();
+        axial.col(c) = slope.tail<6>();
+        by_length.col(c) = (8 * (fed(h) - fed(-h)) - (fed(2 * h) - fed(-2 * h))) / (12 * h);
+      }
+      const double size = stiffness.cwiseAbs().maxCoeff();
+      EXPECT_LT((by_twist - stiffness).cwiseAbs().maxCoeff() / size, 1e-6) << kind.name;
+      EXPECT_LT((axial - rows).cwiseAbs().maxCoeff() / size, 1e-6) << kind.name;
+      EXPECT_LT((by_length - feed).cwiseAbs().maxCoeff() / feed.cwiseAbs().maxCoeff(), 1e-6) << kind.name;
+    }
+    EXPECT_GE(tried, 2) << kind.name;
+  }
+}
+
+/// What unloading a platform gives back: the wrench is the derivative of elastic energy and weight.
+TEST(GeneralSystem, ForcesDoTheWorkOfTheEnergy) {
+  for (const Kind& kind : general) {
+    RodRandom random(21);
+    const RodRobot robot = robot_of(kind, random);
+    GeneralSystem system(robot);
+    ASSERT_TRUE(begin(system, robot, random)) << kind.name;
+    const GeneralSystem::Snapshot from = system.snapshot();
+    const Wrench6 held = system.wrench();
+    const auto energy = [&] {
+      double sum = system.weight_energy();
+      for (int k = 0; k < system.rods(); ++k) sum += system.rod(k).energy;
+      return sum;
+    };
+    for (int c = 0; c < 6; ++c) {
+      const auto beside = [&](double h) {
+        wrench_beside(system, from, Vec<double, 6>(Vec<double, 6>::Unit(c) * h));
+        return energy();
+      };
+      constexpr double h = 2e-5;
+      const double slope = (8 * (beside(h) - beside(-h)) - (beside(2 * h) - beside(-2 * h))) / (12 * h);
+      EXPECT_NEAR(slope, held[c], 1e-6 * (1 + held.cwiseAbs().maxCoeff())) << kind.name << c;
+    }
+  }
+}
+
+/// Rods integrated anew, as finely as they ask for, from what the answer says of their bases: they meet the
+/// platform, and what they hand over is the wrench.
+TEST(GeneralSystem, RodsIntegratedAnewBalanceThePlatform) {
+  for (const Kind& kind : general) {
+    RodRandom random(31);
+    int tried = 0;
+    for (int sample = 0; sample < 3; ++sample) {
+      const RodRobot robot = upright_of(kind, random);
+      GeneralWork work(robot, gravity);
+      GeneralSystem& system = work.system;
+      if (!rest_at(system, home(robot))) continue;
+      std::array<double, 6> inputs;
+      for (std::size_t k = 0; k < 6; ++k) inputs[k] = system.length(int(k)) + random.uniform(0, 5e-3);
+      RodQuestion question;
+      question.wrench = random.wrench(0.5, 0.02);
+      const Report report = solve_rods(work, home(robot), inputs, question);
+      if (!report.ok() && report.status != Status::unstable) continue;
+      ++tried;
+      const SE3<double>& pose = system.platform();
+      Wrench6 sum = Wrench6::Zero();
+      std::vector<double> coordinates(RodLeg::coordinates);
+      for (int k = 0; k < 6; ++k) {
+        const RodLeg& leg = robot.legs[std::size_t(k)];
+        system.get_rod(k, coordinates);
+        const double spin = coordinates[6], length = coordinates[7];
+        EXPECT_EQ(length, inputs[std::size_t(k)]);
+        const Vec3<double> t0 = leg.tangent(), x0 = leg.base.rotate(Vec3<double>(1, 0, 0));
+        Mat<double, 3, 3> axes;
+        axes << x0, cross(t0, x0), t0;
+        RodState<double> base;
+        base.p = leg.base.p;
+        base.R = SO3<double>::exp(Vec3<double>(t0 * spin)).compose(SO3<double>::from(axes));
+        base.n = {coordinates[0], coordinates[1], coordinates[2]};
+        base.m = {coordinates[3], coordinates[4], coordinates[5]};
+        SpatialRod rod = spatial_rod(leg.link);
+        rod.load += gravity * leg.link.mass_per_length();
+        const RodTip tip = integrate(rod, length, base, {0, 1e-14});
+        const Vec3<double> arm = pose.R.rotate(leg.platform_point);
+        EXPECT_LT((tip.state.p - pose.p - arm).norm(), 1e-11) << kind.name;
+        if (!leg.is_spin_held) {
+          EXPECT_LT(std::abs(dot(base.m, t0)), 1e-12) << kind.name;
+        }
+        if (leg.is_clamped) {
+          EXPECT_LT((tip.state.tangent() - pose.R.rotate(leg.platform_tangent)).norm(), 1e-10) << kind.name;
+          const Vec3<double> x = tip.state.R.rotate(Vec3<double>(1, 0, 0));
+          if (leg.is_tip_spin_free) {
+            EXPECT_LT(std::abs(dot(tip.state.m, tip.state.tangent())), 1e-11) << kind.name;
+          } else {
+            EXPECT_LT((x - pose.R.rotate(leg.platform_across)).norm(), 1e-10) << kind.name;
+          }
+        } else {
+          EXPECT_LT(tip.state.m.norm(), 1e-11) << kind.name;
+        }
+        sum.head<3>() += tip.state.n;
+        sum.tail<3>() += cross(arm, tip.state.n);
+        if (leg.is_clamped) sum.tail<3>() += tip.state.m;
+      }
+      EXPECT_LT((sum - question.wrench).lpNorm<Eigen::Infinity>(), 1e-10) << kind.name;
+    }
+    EXPECT_GE(tried, 2) << kind.name;
+  }
+}
+
+TEST(GeneralSystem, EveryRodIsOneHeldByItself) {
+  for (const Kind& kind : general) {
+    RodRandom random(41);
+    const RodRobot robot = robot_of(kind, random);
+    GeneralSystem system(robot);
+    ASSERT_TRUE(begin(system, robot, random)) << kind.name;
+    finest(system);
+    ASSERT_TRUE(close_rods(system) && balance(system)) << kind.name;
+    Mat<double, 6, 6> stiffness = Mat<double, 6, 6>::Zero();
+    for (int k = 0; k < 6; ++k) {
+      const RodLeg& leg = robot.legs[std::size_t(k)];
+      const Vec3<double> t0 = leg.tangent(), x0 = leg.base.rotate(Vec3<double>(1, 0, 0));
+      Mat<double, 3, 3> base, tip;
+      base << x0, cross(t0, x0), t0;
+      tip << leg.platform_across, cross(leg.platform_tangent, leg.platform_across), leg.platform_tangent;
+      SpatialRod rod = spatial_rod(leg.link);
+      rod.load += gravity * leg.link.mass_per_length();
+      RodEnds ends;
+      ends.base = leg.is_spin_held ? RodEnds::Base::held : RodEnds::Base::spins;
+      ends.tip = !leg.is_clamped        ? RodEnds::Tip::ball
+                 : leg.is_tip_spin_free ? RodEnds::Tip::tangent
+                                        : RodEnds::Tip::clamp;
+      const RodReading reading = system.rod(k);
+      const Vec3<double> arm = system.platform().R.rotate(leg.platform_point);
+      std::vector<double> own(RodLeg::coordinates);
+      system.get_rod(k, own);
+      const HeldRod held =
+          hold(rod, {leg.base.p, SO3<double>::from(base)}, reading.length, ends,
+               {system.platform().p + arm, system.platform().R.compose(SO3<double>::from(tip))},
+               RodStart{{own[0], own[1], own[2]}, {own[3], own[4], own[5]}, own[6]}, {.tolerance = 1e-13});
+      ASSERT_TRUE(held.report.ok()) << kind.name << held.report.message.view();
+      EXPECT_LT((held.tip.n - reading.force).norm(), 1e-9 * (1 + reading.force.norm())) << kind.name;
+      EXPECT_LT((held.base.n - reading.force_0).norm(), 1e-9 * (1 + reading.force.norm())) << kind.name;
+      EXPECT_LT((held.base.m - reading.moment_0).norm(), 1e-9) << kind.name;
+      if (leg.is_clamped) {
+        EXPECT_LT((held.tip.m - reading.moment).norm(), 1e-9) << kind.name;
+      }
+      EXPECT_EQ(system.unstable_with_tip_held(k)[0],
+                unstable_directions(rod, reading.length, held.base, ends));
+      Mat<double, 6, 6> carry = Mat<double, 6, 6>::Identity();  // of the tip by the platform's twist
+      carry.topRightCorner<3, 3>() = -skew(arm);
+      stiffness += carry.transpose() * held.stiffness * carry;
+      stiffness.bottomRightCorner<3, 3>() +=
+          arm * reading.force.transpose() - dot(arm, reading.force) * Mat<double, 3, 3>::Identity();
+      Wrench6 feed = carry.transpose() * held.feed;
+      EXPECT_LT((feed - system.feed_wrench(k)).norm(), 1e-8 * feed.norm()) << kind.name;
+    }
+    const Mat<double, 6, 6> whole = system.stiffness();
+    EXPECT_LT((whole - stiffness).norm(), 1e-8 * whole.norm()) << kind.name;
+  }
+}
+
+/// A hexapod whose rods' sections are held at both ends resists the turn of its platform by torsion, too.
+TEST(GeneralSystem, HeldSpinStiffensTheTurnAboutTheAxis) {
+  RodRobot robot = tripod_robot(g2);
+  robot = RodRobot(robot.legs, robot.home, robot.platform_radius);
+  for (RodLeg& leg : robot.legs) {
+    leg.is_clamped = true;
+    leg.link.shear_modulus = leg.link.youngs_modulus / 2.6;
+    leg.platform_across = leg.base.rotate(Vec3<double>(1, 0, 0));
+  }
+  RodRobot held = robot;
+  for (RodLeg& leg : held.legs) leg.is_spin_held = true;
+  const SE3<double> turned{home(robot).p, SO3<double>::exp({0, 0, 0.4})};
+  GeneralSystem spinning(robot), resisting(held);
+  ASSERT_TRUE(rest_at(spinning, turned) && rest_at(resisting, turned));
+  for (int k = 0; k < 6; ++k) resisting.set_length(k, spinning.length(k));
+  ASSERT_TRUE(close_rods(spinning) && balance(spinning));
+  ASSERT_TRUE(close_rods(resisting) && balance(resisting));
+  const double torsion = spatial_rod(held.legs[0].link).torsion_stiffness / spinning.length(0);
+  const double torque = resisting.wrench()[5] - spinning.wrench()[5];
+  EXPECT_GT(torque, 0.5 * 6 * torsion * 0.4);  // six rods twisted by some 0.4 each
+  EXPECT_LT(torque, 2.0 * 6 * torsion * 0.4);
+  EXPECT_GT(resisting.stiffness()(5, 5), spinning.stiffness()(5, 5) + 3 * torsion);
+  for (int k = 0; k < 6; ++k) {
+    EXPECT_LT(std::abs(dot(spinning.rod(k).moment_0, robot.legs[std::size_t(k)].tangent())), 1e-9);
+    EXPECT_GT(std::abs(dot(resisting.rod(k).moment_0, robot.legs[std::size_t(k)].tangent())), 0.1 * torsion);
+  }
+}
+
+TEST(GeneralSystem, StepsConvergeAsTheEstimateSays) {
+  RodRandom random(51);
+  int compared = 0;
+  for (const Kind& kind : general) {
+    const RodRobot robot = robot_of(kind, random);
+    GeneralSystem system(robot);
+    if (!begin(system, robot, random)) continue;
+    while (system.is_fine()) system.coarsen();
+    std::vector<double> estimates;
+    std::vector<Wrench6> wrenches;
+    for (;; system.refine()) {
+      ASSERT_TRUE(close_rods(system));
+      balance(system);
+      estimates.push_back(system.truncation());
+      wrenches.push_back(system.wrench());
+      if (system.is_finest()) break;
+    }
+    const double stiffness = system.stiffness().topLeftCorner(3, 3).norm();
+    for (std::size_t k = 0; k + 1 < wrenches.size(); ++k) {
+      // an error of the tips, over the length, as forces
+      const double off =
+          (wrenches[k] - wrenches.back()).head<3>().norm() / (6 * stiffness * system.length(0));
+      EXPECT_LT(off, 2 * estimates[k] + 1e-13) << kind.name;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 30);
+}
+
+TEST(GeneralSystem, CoordinatesHoldTheState) {
+  for (const Kind& kind : general) {
+    RodRandom random(61);
+    const RodRobot robot = robot_of(kind, random);
+    GeneralSystem system(robot), other(robot);
+    ASSERT_TRUE(begin(system, robot, random)) << kind.name;
+    finest(system);
+    ASSERT_TRUE(close_rods(system) && balance(system));
+    std::vector<double> coordinates(6 * RodLeg::coordinates, 1.0);
+    for (std::size_t k = 0; k < 6; ++k)
+      system.get_rod(int(k), std::span(coordinates).subspan(k * RodLeg::coordinates, RodLeg::coordinates));
+    EXPECT_EQ(coordinates.back(), 0);
+    other.set_gravity(gravity);
+    other.set_platform(system.platform());
+    other.set_wrench(system.wrench());
+    other.set_rods(coordinates);
+    EXPECT_LT(other.evaluate(), 1e-11) << kind.name;
+    const auto line = other.centreline(3, 101);
+    EXPECT_LT((line.back() - system.rod(3).tip).norm(), 1e-10);
+    EXPECT_LT((line.front() - system.base(3)).norm(), 1e-15);
+  }
+}
+
+/// As tests/kinematics/hexapod_test.cpp does with rods without torque: lengths and pose are each other's
+/// answer.
+TEST(GeneralSystem, HoldsThePosesThatItsLengthsLeadTo) {
+  for (const Kind& kind : general) {
+    RodRandom random(71);
+    int tried = 0;
+    for (int sample = 0; sample < 3; ++sample) {
+      const RodRobot robot = upright_of(kind, random);
+      GeneralWork work(robot, gravity);
+      RodQuestion question;
+      question.wrench = random.wrench(0.05, 0.005);
+      const SE3<double> wanted = random.near(home(robot), 0.01, 0.05);
+      const Report held = hold_rods(work, home(robot), wanted, question);
+      if (!held.ok()) continue;
+      std::array<double, 6> inputs;
+      for (std::size_t k = 0; k < 6; ++k) inputs[k] = work.system.length(int(k));
+      question.resume = true;
+      for (const double more : {2e-3, 0.0}) {  // away and back
+        std::array<double, 6> there = inputs;
+        there[1] += more;
+        const Report back = solve_rods(work, home(robot), there, question);
+        ASSERT_TRUE(back.ok() || back.status == Status::unstable) << kind.name << back.message.view();
+      }
+      ++tried;
+      EXPECT_LT((work.system.platform().p - wanted.p).norm(), 1e-9) << kind.name;
+      EXPECT_LT((work.system.platform().R.matrix() - wanted.R.matrix()).norm(), 1e-8) << kind.name;
+    }
+    EXPECT_GE(tried, 1) << kind.name;
+  }
+}
+
+}  // namespace
+}  // namespace sinew::test
