@@ -61,7 +61,7 @@ std::string both_ways(std::string_view key, const Node& value) {
   const auto is_one_of = [&](std::initializer_list<std::string_view> keys) {
     return std::ranges::find(keys, key) != keys.end();
   };
-  if (is_one_of({"length", "tendon_offset", "diameter"}))
+  if (is_one_of({"length", "tendon_offset", "diameter", "width", "height"}))
     return fmt::format("{} {} m = {}", key, si_text(value.number), human(value.number, Dimension::length));
   if (key == "E") return fmt::format("E {} Pa = {:.6g} GPa", si_text(value.number), value.number / 1e9);
   if (key == "density") return fmt::format("density {} kg/m^3", si_text(value.number));

@@ -66,9 +66,10 @@ std::string help(const Verb& verb) {
 }
 
 std::string help_units() {
-  constexpr std::array dimensions{
-      Dimension::length,   Dimension::angle, Dimension::curvature, Dimension::force, Dimension::moment,
-      Dimension::pressure, Dimension::mass,  Dimension::density,   Dimension::time,  Dimension::acceleration};
+  constexpr std::array dimensions{Dimension::length,       Dimension::angle,    Dimension::curvature,
+                                  Dimension::force,        Dimension::moment,   Dimension::pressure,
+                                  Dimension::mass,         Dimension::density,  Dimension::time,
+                                  Dimension::acceleration, Dimension::line_load};
   std::string list;
   for (const Dimension dimension : dimensions) list += fmt::format("  {}\n", advice(dimension));
   return "A number without a unit is SI and radians; a number with a unit is text, in quotes where it holds "

@@ -21,7 +21,7 @@ struct Words {
   std::string_view advice;
 };
 
-constexpr std::array<Words, 12> words{{
+constexpr std::array<Words, 13> words{{
     {Dimension::number, "", "a number", "a plain number (0.5)"},
     {Dimension::count, "", "a whole number", "a whole number (3)"},
     {Dimension::length, "m", "a length", R"(a length ("0.2 m", "200 mm", or 0.2 for metres))"},
@@ -36,6 +36,8 @@ constexpr std::array<Words, 12> words{{
     {Dimension::acceleration, "m/s^2", "an acceleration",
      R"(an acceleration ("9.81 m/s^2", or 9.81 for m/s^2))"},
     {Dimension::time, "s", "a time", R"(a time ("0.5 s", "500 ms", or 0.5 for seconds))"},
+    {Dimension::line_load, "N/m", "a load by length",
+     R"(a load by length ("0.5 N/m", "500 mN/m", or 0.5 for newtons a metre))"},
 }};
 static_assert([] {
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -97,6 +99,9 @@ constexpr std::array units{
     Unit{Dimension::time, "s"},
     Unit{Dimension::time, "ms", -3},
     Unit{Dimension::time, "us", -6},
+    Unit{Dimension::line_load, "N/m"},
+    Unit{Dimension::line_load, "mN/m", -3},
+    Unit{Dimension::line_load, "N/mm", 3},
 };
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

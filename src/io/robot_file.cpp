@@ -140,13 +140,68 @@ Vec3<double> read_guide(Reader& base) {
   const auto given = base.optional("direction");
   return given ? read_direction(*given) : Vec3<double>(0, 0, 1);
 }
-SE3<double> guide_frame(const Vec3<double>& point, const Vec3<double>& ahead) {
+/// The x of a rod's section, square to where the rod goes; `otherwise` where the file does not say.
+Vec3<double> read_section_x(Reader& end, const Vec3<double>& ahead, const Vec3<double>& otherwise) {
+  const auto given = end.optional("section_x");
+  const Vec3<double> towards = given ? read_direction(*given) : otherwise;
+  const Vec3<double> aside = towards - ahead * dot(ahead, towards);
+  if (aside.norm() >= 1e-6) return aside.normalized();
+  if (given) given->fail("no_direction", "lies along the rod; the section's x is square to it");
+  return otherwise;
+}
+
+SE3<double> guide_frame(Reader& base, const Vec3<double>& point, const Vec3<double>& ahead) {
   Eigen::Index least;
   ahead.cwiseAbs().minCoeff(&least);
-  const Vec3<double> aside = cross(ahead, Vec3<double>(Vec3<double>::Unit(least))).normalized();
+  const Vec3<double> any = cross(ahead, Vec3<double>(Vec3<double>::Unit(least))).normalized();
+  const Vec3<double> aside = read_section_x(base, ahead, any);
   Mat<double, 3, 3> axes;
   axes << aside, ahead, cross(aside, ahead);
   return {point, SO3<double>::from(axes)};
+}
+
+Vec3<double> read_vector(const Reader& list, Dimension dimension) {
+  const auto [x, y, z] = list.array<3>(dimension, Range::between(-1e6, 1e6));
+  return {x, y, z};
+}
+
+/// What the rod is at rest and what weighs on it.
+void read_shape(Rod& rod, Reader& link) {
+  if (auto section = link.optional("section")) {
+    rod.width =
+        section->required("width", "along the section's x").quantity(Dimension::length, Range::positive());
+    rod.height =
+        section->required("height", "along the section's y").quantity(Dimension::length, Range::positive());
+    section->close();
+    if (const auto diameter = link.optional("diameter"))
+      diameter->refuse("ambiguous", "section and diameter both say how thick the rod is; keep one");
+  } else {
+    Rod::fields(rod, FieldReader(link));
+  }
+  if (const auto bent = link.optional("precurvature"))
+    rod.precurvature = read_vector(*bent, Dimension::curvature);
+  if (const auto load = link.optional("load")) rod.load = read_vector(*load, Dimension::line_load);
+}
+
+/// The joint that holds a clamped tip.
+void read_clamp(RodLeg& leg, Reader& closure) {
+  if (const auto direction = closure.optional("direction")) leg.platform_tangent = read_direction(*direction);
+  if (const auto spin = closure.optional("spin"))
+    leg.is_tip_spin_free = spin->choice({"held", "free"}) == "free";
+  // where the base's x points along the clamp, its third axis does not
+  const Vec3<double> x = leg.base.rotate(Vec3<double>(1, 0, 0)), &t = leg.platform_tangent;
+  const Vec3<double> z = leg.base.rotate(Vec3<double>(0, 0, 1)), aside = cross(t, x).norm() < 1e-6 ? z : x;
+  leg.platform_across = read_section_x(closure, t, Vec3<double>(aside - t * dot(t, aside)).normalized());
+}
+
+/// What torque needs, which only the whole leg tells.
+void check_torque(const RodLeg& leg, Reader& link) {
+  if (leg.link.is_cosserat || (leg.is_torque_free() && !link.has("precurvature"))) return;
+  auto material = link.optional("material");
+  if (!material || material->has("G") || material->has("poisson")) return;
+  material->fail("missing_key",
+                 "this rod bears torque: it is not round, is bent when free, or is held against spin at both "
+                 "ends; it needs G, or poisson: Poisson's ratio");
 }
 
 /// E, and what shear, stretch and weight need.
@@ -172,15 +227,15 @@ RodLeg read_rod(Reader& leg, Reader& link, Reader& closure, bool is_clamped) {
   RodLeg result;
   Reader base = leg.required("base", "{point, ...}");
   const auto point = read_point<Spatial>(base.required("point", "where the rod leaves its guide"));
-  result.base = guide_frame(point, read_guide(base));
+  result.base = guide_frame(base, point, read_guide(base));
+  if (const auto spin = base.optional("spin")) result.is_spin_held = spin->choice({"free", "held"}) == "held";
   if (const auto shared = base.optional("shared")) shared->boolean();  // asked again by check_base_points
   base.close();
-  Rod::fields(result.link, FieldReader(link));
+  read_shape(result.link, link);
   read_rod_material(result.link, link);
   result.is_clamped = is_clamped;
-  if (is_clamped)
-    if (const auto direction = closure.optional("direction"))
-      result.platform_tangent = read_direction(*direction);
+  if (is_clamped) read_clamp(result, closure);
+  check_torque(result, link);
   result.platform_point =
       read_point<Spatial>(leg.required("platform_point", "where the leg meets the platform"));
   read_actuated<RodLeg>(leg);

@@ -52,13 +52,23 @@ Json leg_json(const LegT& leg, const LegPlace& place) {
 Json leg_json(const RodLeg& leg, const LegPlace& place) {
   Json link{{"type", Rod::name}};
   Rod::fields(leg.link, FieldWriter{link});
+  if (!leg.link.is_round()) link["section"] = {{"width", leg.link.width}, {"height", leg.link.height}};
+  if (!leg.link.precurvature.isZero(0)) link["precurvature"] = to_json(leg.link.precurvature);
+  if (!leg.link.load.isZero(0)) link["load"] = to_json(leg.link.load);
   link["material"] = {{"E", leg.link.youngs_modulus}};
   if (leg.link.shear_modulus > 0) link["material"]["G"] = leg.link.shear_modulus;
   if (leg.link.density > 0) link["material"]["density"] = leg.link.density;
   link["law"] = leg.link.is_cosserat ? "cosserat" : "kirchhoff";
   Json closure{{"type", leg.is_clamped ? Clamp::name : Ball::name}};
   if (leg.is_clamped) closure["direction"] = to_json(leg.platform_tangent);
-  return {{"base", {{"point", to_json(leg.base.p)}, {"direction", to_json(leg.tangent())}}},
+  Json base{{"point", to_json(leg.base.p)}, {"direction", to_json(leg.tangent())}};
+  if (leg.is_spin_held) base["spin"] = "held";
+  if (leg.is_tip_spin_free) closure["spin"] = "free";
+  if (!leg.is_torque_free()) {  // how the section lies counts
+    base["section_x"] = to_json(leg.base.rotate(Vec3<double>(1, 0, 0)));
+    if (leg.is_clamped) closure["section_x"] = to_json(leg.platform_across);
+  }
+  return {{"base", base},
           {"link", link},
           {"closure", closure},
           {"platform_point", to_json(leg.platform_point)},

@@ -70,6 +70,9 @@ TEST(Quantity, EveryUnitIsTheSiNumber) {
       {"7.85 g/cm3", Dimension::density, 7850},
       {"9.81 m/s^2", Dimension::acceleration, 9.81},
       {"9.81 m / s2", Dimension::acceleration, 9.81},
+      {"0.5 N/m", Dimension::line_load, 0.5},
+      {"500 mN / m", Dimension::line_load, 0.5},
+      {"2 N/mm", Dimension::line_load, 2000},
       {"2 s", Dimension::time, 2},
       {"2 ms", Dimension::time, 0.002},
       {"2 us", Dimension::time, 2e-6},
@@ -174,6 +177,7 @@ TEST(Quantity, EveryDimensionHasItsWords) {
   EXPECT_EQ(unit(Dimension::count), "");
   EXPECT_EQ(noun(Dimension::acceleration), "an acceleration");
   EXPECT_EQ(noun(Dimension::time), "a time");
+  EXPECT_EQ(noun(Dimension::line_load), "a load by length");
 }
 
 }  // namespace

@@ -288,6 +288,28 @@ class Schema(unittest.TestCase):
             ("one diameter", standing({**rods, "link": {"type": "rod", "material": {"E": 1e9}}},
                                       {}, {"link": {"diameter": 1e-3}}, {})),
             ("a negative diameter", standing(rods, {}, {"link": {"diameter": -1e-3}}, {})),
+            *[(f"a rod with {link}, base {base}, closure {end}",
+               standing({"link": {"type": "rod", "material": {"E": 1e9}, **link}, "base": base, "closure": end}, *three))
+              for link in [{"diameter": 1e-3}, {"diameter": 1e-3, "material": {"E": 1e9, "poisson": 0.3}}]
+              for base in [{}, {"spin": "held"}, {"spin": "free", "section_x": [1, 0, 0]}, {"spin": "loose"}]
+              for end in [ball, {"type": "clamp"}, {"type": "clamp", "spin": "free"}, {**ball, "spin": "free"},
+                          {"type": "clamp", "spin": "held", "section_x": [0, 1, 0]}, {**ball, "section_x": axis}]],
+            *[(f"a rod with {link}",
+               standing({"link": {"type": "rod", "material": {"E": 1e9, **shear}, **link}, "closure": ball}, *three))
+              for shear in [{}, {"G": 1e8}]
+              for strip in [{"width": "4 mm", "height": "1 mm"}, {"width": "4 mm"}, {"width": "4 mm", "height": 0},
+                            {"width": "4 mm", "height": "1 mm", "depth": 1}, None, [1, 2]]
+              for link in [{"section": strip}, {"section": strip, "diameter": 1e-3},
+                           {"section": strip, "diameter": None}]],
+            *[(f"a rod with {key}: {value} of {material}",
+               standing({**rods, "link": {**rod, "material": material, key: value}}, *three))
+              for material in [{"E": 1e9}, {"E": 1e9, "G": 1e8}]
+              for key in ["precurvature", "load"]
+              for value in [None, [0, 0, 1], [0, 0], [0, 0, "1 N"], [0, 0, "1 N/m"], [0, 0, "2 1/m"], [0, 0, "2 /mm"],
+                            [0, 0, "-0.5 mN/m"], [0, 0, 1e7], 1, "1 1/m"]],
+            ("a section of an arc",
+             standing({**arc, "link": {**self.link, "section": {"width": 1, "height": 1}}}, *three)),
+            ("the spin of an arc", standing({**arc, "base": {"first_axis": axis, "spin": "held"}}, *three)),
             ("an arc among rods", standing(rods, {}, arc, {})),
             ("a rod among arcs", standing(arc, {}, rods, {})),
             ("the input of a rod", standing({**rods, "actuated": ["length"]}, *three)),

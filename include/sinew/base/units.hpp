@@ -23,6 +23,7 @@ enum class Dimension {
   density,
   acceleration,
   time,
+  line_load,  ///< force per length
 };
 
 /// An interval of allowed values; a bound may be excluded.

@@ -16,9 +16,9 @@ struct RodReading {
   Vec3<double> moment = Vec3<double>::Zero();    ///< m of the platform on the tip; 0 at a ball joint [N m]
   Vec3<double> force_0 = Vec3<double>::Zero();   ///< internal force at the base: n and the rod's weight [N]
   Vec3<double> moment_0 = Vec3<double>::Zero();  ///< internal moment at the base [N m]
-  Vec3<double> curvature_0 = Vec3<double>::Zero();  ///< at the base [1/m]
+  Vec3<double> curvature_0 = Vec3<double>::Zero();  ///< at the base, twist along the tangent [1/m]
   Vec3<double> tip = Vec3<double>::Zero();          ///< [m]
-  double largest_curvature = 0;                     ///< anywhere along the rod [1/m]
+  double largest_curvature = 0;                     ///< of bending, anywhere, beyond that at rest [1/m]
   double energy = 0;                                ///< elastic [J]
 };
 
