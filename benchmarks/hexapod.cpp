@@ -188,7 +188,7 @@ void print_costs() {
 }
 
 /// Random poses from home, every one a new start.
-void print_cold(const char* name, double tilt) {
+void print_cold(const char* name, double tilt, int count) {
   const AnyRobot robot = load(name).value();
   Workspace work(robot);
   std::mt19937 random(7);
@@ -197,7 +197,6 @@ void print_cold(const char* name, double tilt) {
   };
   std::vector<double> times;
   int solved = 0, stable = 0, folds = 0, elsewhere = 0;
-  constexpr int count = 1000;
   for (int k = 0; k < count; ++k) {
     const double x = uniform(-0.12, 0.12), y = uniform(-0.12, 0.12), z = uniform(0.35, 0.6);
     const double a = uniform(-tilt, tilt), b = uniform(-tilt, tilt), c = uniform(-tilt, tilt);
@@ -218,7 +217,27 @@ void print_cold(const char* name, double tilt) {
       "home's), {} folds named; median {:.0f} "
       "us, "
       "95 % {:.0f} us\n",
-      name, tilt, solved, count, stable, elsewhere, folds, times[count / 2], times[count * 95 / 100]);
+      name, tilt, solved, count, stable, elsewhere, folds, times[times.size() / 2], times[times.size() * 95 / 100]);
+}
+
+/// Rods that bear torque: resumed steps along a walk.
+void print_warm(const char* name) {
+  Walk walk(name, 1e-3, 0.05);
+  inverse_equilibrium(walk.robot, walk.poses[0], {}, walk.work);
+  std::vector<double> times;
+  double residual = 0;
+  int failures = 0;
+  for (int k = 0; k < 300; ++k) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Equilibrium found = walk.inverse();
+    times.push_back(
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+    residual = std::max(residual, found.report.residual);
+    failures += !found.is_solved();
+  }
+  std::ranges::sort(times);
+  fmt::print("{} inverse 1.0 mm, warm: median {:.0f} us, 95 % {:.0f} us; residual {:.0e}, {} failures\n", name,
+             times[times.size() / 2], times[times.size() * 95 / 100], residual, failures);
 }
 
 }  // namespace
@@ -234,7 +253,9 @@ int main(int argc, char** argv) {
       compare_forward("hexapod", 1e-3, isa);
     }
   hwy::SetSupportedTargetsForTest(0);
-  for (const double tilt : {0.0, 0.35}) print_cold("hexapod", tilt);
+  for (const double tilt : {0.0, 0.35}) print_cold("hexapod", tilt, 1000);
+  print_cold("hexapod-torsion", 0, 50);
+  print_warm("hexapod-torsion");
   print_costs();
   return sinew::bench::main(argc, argv);
 }

@@ -152,7 +152,7 @@ TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
     inputs[1] = 0.005;  // of a tripod out of reach
     bool is_solved = false;
     none([&] { is_solved = equilibrium(robot, inputs, {}, work).is_solved(); });
-    EXPECT_TRUE(is_hexapod || !is_solved);
+    EXPECT_TRUE(is_hexapod || rod_count(robot) < leg_count(robot) || !is_solved);
   }
 }
 

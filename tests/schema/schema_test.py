@@ -251,6 +251,7 @@ class Schema(unittest.TestCase):
     def test_rods_are_judged_alike(self):
         rod, ball, axis = {"type": "rod", "diameter": "3 mm", "material": {"E": "83 GPa"}}, {"type": "ball"}, [1, 0, 0]
         arc = {"link": self.link, "closure": {"type": "chord"}, "base": {"first_axis": axis}}
+        hinged = {"closure": {"type": "hinged_strut", "length": "350 mm"}, "base": {"hinge_axis": axis}}
         in_space = {"space": "spatial", "platform": {"home": {"position": [0, 0, "300 mm"]}}}
 
         def standing(defaults, *legs, **more):
@@ -311,7 +312,9 @@ class Schema(unittest.TestCase):
              standing({**arc, "link": {**self.link, "section": {"width": 1, "height": 1}}}, *three)),
             ("the spin of an arc", standing({**arc, "base": {"first_axis": axis, "spin": "held"}}, *three)),
             ("an arc among rods", standing(rods, {}, arc, {})),
-            ("a rod among arcs", standing(arc, {}, rods, {})),
+            ("a rod among arcs", standing({}, arc, rods, arc)),
+            ("a strut beside rods", standing({}, rods, {**hinged, "link": {"type": "rail"}}, rods)),
+            ("an arc among rods that is none", standing(rods, {}, {**arc, "link": {**self.link, "length": "-1 mm"}}, {})),
             ("the input of a rod", standing({**rods, "actuated": ["length"]}, *three)),
             ("the input of an arc", standing({**rods, "actuated": ["tendon_1"]}, *three)),
             ("tied rods", standing(rods, {}, {"tied": 0}, {"tied": 0})),

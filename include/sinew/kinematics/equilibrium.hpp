@@ -59,8 +59,8 @@ struct IndependentPose {
 SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
-/// Lengths of six inputs that hold the platform at a pose. Begins at home, or from the last answer: `start`
-/// is not asked, here and above.
+/// Six inputs that hold the platform at a pose. Begins at home, or from the last answer: `start` is not asked,
+/// here and above. Allocates where the straight way there ends early, to find the fold and other ways.
 SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
