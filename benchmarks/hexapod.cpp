@@ -217,7 +217,8 @@ void print_cold(const char* name, double tilt, int count) {
       "home's), {} folds named; median {:.0f} "
       "us, "
       "95 % {:.0f} us\n",
-      name, tilt, solved, count, stable, elsewhere, folds, times[times.size() / 2], times[times.size() * 95 / 100]);
+      name, tilt, solved, count, stable, elsewhere, folds, times[times.size() / 2],
+      times[times.size() * 95 / 100]);
 }
 
 /// Rods that bear torque: resumed steps along a walk.
@@ -236,8 +237,8 @@ void print_warm(const char* name) {
     failures += !found.is_solved();
   }
   std::ranges::sort(times);
-  fmt::print("{} inverse 1.0 mm, warm: median {:.0f} us, 95 % {:.0f} us; residual {:.0e}, {} failures\n", name,
-             times[times.size() / 2], times[times.size() * 95 / 100], residual, failures);
+  fmt::print("{} inverse 1.0 mm, warm: median {:.0f} us, 95 % {:.0f} us; residual {:.0e}, {} failures\n",
+             name, times[times.size() / 2], times[times.size() * 95 / 100], residual, failures);
 }
 
 }  // namespace

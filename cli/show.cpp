@@ -214,9 +214,10 @@ std::string show_report(const Answer& answer) {
   report.iterations = static_cast<int>(answer.number("iterations").value_or(0));
   std::string text = to_string(report);
   if (!answer.number("residual")) text = "converged";  // in closed form
-  if (is_on_rods(answer) || answer.find("wrench_sensitivity")) {
+  if (is_on_rods(answer) || answer.find("wrench_sensitivity") || answer.find("curves")) {
     text.resize(text.size() - 2);  // a residual of rods is relative, and has no unit
-    text += ", stable";            // else the answer is not a converged one
+    if (answer.find("curves")) return text + '\n';
+    text += ", stable";  // else the answer is not a converged one
   }
   return text + '\n';
 }

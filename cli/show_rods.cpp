@@ -90,7 +90,8 @@ std::string show_load(const Answer& answer) {
 
 bool is_on_rods(const Answer& answer) {
   const Node* legs = answer.find("legs");
-  return legs && std::ranges::any_of(legs->items, [](const Node& leg) { return leg.find("tip_angle") != nullptr; });
+  return legs &&
+         std::ranges::any_of(legs->items, [](const Node& leg) { return leg.find("tip_angle") != nullptr; });
 }
 
 std::string show_equilibrium(const Answer& answer, const Robot& robot) {

@@ -223,7 +223,8 @@ const std::array table{
          "FILE.csv has all points, an .svg, .png or .pdf the diagram. Where a pose is led to, the inputs\n"
          "that hold it are followed: sinew branches hexapod --pose \"0, 0, 400 mm, 0, 0, 0\" --to \"50 mm,\n"
          "77 mm, 490 mm, 20 deg, -12 deg, -11 deg\". Exit code 3 where the curve does not come to 1.",
-         "sinew branches 3pfs-g2 --independent \"0.4 m, 0.05, 0\" --to-wrench \"0, 0, -100 N, 0, 0, 0\" --range "
+         "sinew branches 3pfs-g2 --independent \"0.4 m, 0.05, 0\" --to-wrench \"0, 0, -100 N, 0, 0, 0\" "
+         "--range "
          "\"0, 2\"",
          run_branches},
     Verb{

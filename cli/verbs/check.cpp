@@ -225,12 +225,15 @@ void suspect(const Node& leg, std::size_t i, PerLeg& warnings) {
 
 /// The same of a rod, whose length is an input.
 void suspect_rod_at_home(const Node& leg, const Node& state, std::size_t i, PerLeg& warnings) {
-  const double length = number(state, "length"), diameter = number(leg, "link.diameter");
+  const Node* section = at(leg, "link.section");
+  const double length = number(state, "length"),
+               diameter = section ? std::min(number(*section, "width"), number(*section, "height"))
+                                  : number(leg, "link.diameter");
   if (diameter > length / 10)
-    warnings.add(
-        i, fmt::format("the diameter of {} is more than a tenth of its length at home, {}: too thick for "
-                       "a slender rod; is a unit wrong?",
-                       human(diameter, Dimension::length), human(length, Dimension::length)));
+    warnings.add(i, fmt::format("the {} of {} is more than a tenth of its length at home, {}: too thick for "
+                                "a slender rod; is a unit wrong?",
+                                section ? "thickness" : "diameter", human(diameter, Dimension::length),
+                                human(length, Dimension::length)));
 }
 
 /// What Nitinol recovers from; steel yields long before.

@@ -133,14 +133,18 @@ RodAnalysis analysis_of(const AnyRobot& robot, System& system) {
   for (std::size_t k = 0; k < 6; ++k) {
     if (!(values[k] < 0)) continue;
     analysis.unstable.emplace_back();
-    std::copy_n(vectors.begin() + static_cast<std::ptrdiff_t>(6 * k), 6, analysis.unstable.back().begin());
+    SpatialWrench twist(vectors.data() + 6 * k);
+    if constexpr (requires { system.free_motion(twist); }) twist = system.free_motion(twist).normalized();
+    std::ranges::copy(twist, analysis.unstable.back().begin());
   }
   analysis.unstable_directions = unstable_directions(system);
   analysis.rods = readings_of(system);
   for (int k = 0; k < system.rods(); ++k) analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
   for_each_rod(robot, [&, k = std::size_t{0}](const RodLeg& leg, const LegPlace&, int) mutable {
-    analysis.largest_strain =
-        std::max(analysis.largest_strain, analysis.rods[k++].largest_curvature * leg.link.half_thickness());
+    const RodReading& rod = analysis.rods[k++];
+    const double strain =
+        leg.link.is_round() ? rod.largest_curvature * leg.link.diameter / 2 : rod.largest_strain;
+    analysis.largest_strain = std::max(analysis.largest_strain, strain);
   });
   analysis.position_index = largest_singular_value(&analysis.sensitivity[0], system.inputs());
   analysis.rotation_index = largest_singular_value(&analysis.sensitivity[3 * inputs], system.inputs());
@@ -214,13 +218,13 @@ bool is_new(const std::vector<FoundEquilibrium>& found, const SE3<double>& pose,
 
 std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
                                          const EquilibriumOptions& options, Workspace& work) {
-  constexpr int starts = 160;
   std::vector<FoundEquilibrium> found;
   if (!bears_load(robot)) return found;
   const SE3<double> home = home_of(robot);
   const double size = home.p.norm();
   with_rods(work, [&](auto& rods) {
     const auto& system = rods.system;
+    const int starts = std::is_base_of_v<GeneralSystem, std::decay_t<decltype(rods.system)>> ? 16 : 160;
     RodQuestion question = question_of(robot, options, rods);
     question.resume = false;
     question.start.reset();

@@ -11,10 +11,8 @@ namespace sinew::inline v0 {
 namespace {
 
 bool is_answerable(const AnyRobot& robot, const CurveOptions& how) {
-  const auto is_length = [](double x) { return x > 0 && std::isfinite(x); };
   const auto inputs = static_cast<std::size_t>(input_count(robot));
-  if (!how.inputs.empty() && (how.inputs.size() != inputs || !std::ranges::all_of(how.inputs, is_length)))
-    return false;
+  if (!how.inputs.empty() && how.inputs.size() != inputs) return false;
   if (how.pose && (inputs != 6 || has_ties(robot) || !how.inputs.empty())) return false;
   if (how.pose && !SE3<double>::from(*how.pose).p.allFinite()) return false;
   return how.added_wrench.allFinite() && how.lowest <= 0 && how.highest >= 0 && how.max_points > 0;
@@ -68,6 +66,9 @@ std::vector<EquilibriumCurve> equilibrium_curves(const AnyRobot& robot, const Cu
   return with_rods(work, [&](auto& rods) -> std::vector<EquilibriumCurve> {
     if (!rods.is_solved) return {};
     auto& system = rods.system;
+    if (!how.inputs.empty())
+      for (int k = 0; k < system.feeds(); ++k)
+        if (!system.in_domain(k, how.inputs[static_cast<std::size_t>(system.input_of(k))])) return {};
     RodWay way{present(system), present(system), how.pose.has_value(), system.platform(), system.platform()};
     if (!how.inputs.empty()) way.target = target_of(system, how.inputs, system.wrench());
     way.target.wrench += how.added_wrench;

@@ -44,7 +44,7 @@ SensedWrench sense_wrench(const AnyRobot& robot, Numbers inputs, Numbers axial, 
   with_rods(work, [&](auto& rods) {
     RodSensing sensing;
     std::ranges::copy(axial, sensing.axial.begin());
-    sensing.max_iterations = options.max_iterations;
+    sensing.max_iterations = options.max_iterations.value_or(sensing.max_iterations);
     const SpatialWrench weight = rods.system.wrench();
     sensed.report = sense_rods(rods, sensing);
     if (sensed.report.ok()) sensed.report = settle(rods.system, sensed.report, rods.system.best_truncation);

@@ -47,7 +47,11 @@ CurveQuery read_curve(Context& context) {
   }
   if (const auto samples = context.query.optional("samples"))
     asked.how.max_points = samples->integer(Range::between(2, most_points));
-  if (const auto backward = context.query.optional("backward")) asked.how.is_backward = backward->boolean();
+  if (const auto backward = context.query.optional("backward")) {
+    asked.how.is_backward = backward->boolean();
+    if (asked.how.is_backward && asked.how.lowest == 0)
+      backward->fail("no_effect", "the curve would leave its range at once; give range, from below 0");
+  }
   if (const auto branches = context.query.optional("branches"))
     asked.how.follows_branches = branches->boolean();
   return asked;
@@ -117,7 +121,10 @@ void answer_rods_track(Context& context) {
   if (asked.wrench) asked.how.added_wrench = *asked.wrench - asked.begin.options.wrench;
   const auto curves = equilibrium_curves(context.robot, asked.how, context.work);
   if (curves.empty()) {
-    context.query.fail("no_effect", "nothing changes between the beginning and `to`; give other values");
+    context.query.fail(
+        "no_effect",
+        "nothing changes between the beginning and `to`, or its inputs are beyond what the legs "
+        "can do; give other values");
     return;
   }
   Json& answer = context.answer;

@@ -341,7 +341,9 @@ void answer_rods_shape(Context& context) {
   context.report(found.report);
   if (!found.is_solved()) return;
   context.answer["pose"] = to_json(found.pose);
-  put_shape(context.answer, any_shape(context.robot, found.pose, found.coordinates, count));
+  AnyRobot seen = context.robot;  // rods that bear torque are drawn from their bases, under their weight
+  seen.weight.gravity = asked.options.gravity.value_or(seen.weight.gravity);
+  put_shape(context.answer, any_shape(seen, found.pose, found.coordinates, count));
   context.answer["frames"] = Json::array({to_json(found.pose)});
 }
 

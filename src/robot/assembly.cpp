@@ -160,9 +160,8 @@ std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose,
       [&] {  // of rods there is none; see RodReading
         for (const ClosingLeg& one : closing_legs_of(robot))
           with_leg(one.leg, [&](const auto& leg) {
-            work.legs[static_cast<std::size_t>(one.index)] =
-                leg.state(SE3<double>::from(std::get<SpatialPose>(pose)),
-                          own_coordinates(leg, one.place, coordinates));
+            work.legs[static_cast<std::size_t>(one.index)] = leg.state(
+                SE3<double>::from(std::get<SpatialPose>(pose)), own_coordinates(leg, one.place, coordinates));
           });
       });
   return work.legs;

@@ -32,9 +32,7 @@ typename LegT::Coordinates coordinates(const LegT& leg, std::span<const double> 
 
 }  // namespace
 
-ClosingLegs::ClosingLegs(std::vector<ClosingLeg> legs, int inputs)
-    : legs_(std::move(legs)),
-      inputs_(inputs) {
+ClosingLegs::ClosingLegs(std::vector<ClosingLeg> legs, int inputs) : legs_(std::move(legs)), inputs_(inputs) {
   for (const ClosingLeg& one : legs_)
     with_leg(one.leg, [&]<class L>(const L&) {
       rows_ += L::rows;

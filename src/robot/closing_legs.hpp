@@ -20,16 +20,17 @@ struct ClosingLeg {
 /// Most rows of all closing legs: a platform has no more freedoms.
 inline constexpr int max_closing_rows = 6;
 
-using ClosingMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign, max_closing_rows,
-                                    max_rows>;
+using ClosingMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign, max_closing_rows, max_rows>;
 
 /// Rows and their derivatives, each divided by the length of its direction at that pose: in metres.
 struct ClosingRows {
   int count = 0;
   Vec<double, max_closing_rows> gap = Vec<double, max_closing_rows>::Zero();  ///< [m]
   Mat<double, max_closing_rows, 6> by_platform = Mat<double, max_closing_rows, 6>::Zero();
-  Vec<double, max_closing_rows> scale = Vec<double, max_closing_rows>::Zero();  ///< what each was multiplied by
-  ClosingMatrix by_input;                                                        ///< rows × the robot's inputs
+  Vec<double, max_closing_rows> scale =
+      Vec<double, max_closing_rows>::Zero();  ///< what each was multiplied by
+  ClosingMatrix by_input;                     ///< rows × the robot's inputs
 };
 
 class ClosingLegs {

@@ -163,6 +163,7 @@ GeneralSystem::GeneralSystem(const ParallelRobot<RodLeg>& robot)
     rod.platform_point = leg.platform_point;
     rod.platform_section = section_of(leg.platform_across, leg.platform_tangent);
     rod.stiffness = std::sqrt(rod.rod.bending_stiffness[0]) * std::sqrt(rod.rod.bending_stiffness[1]);
+    if (!leg.link.is_round()) rod.reach = Vec2<double>(leg.link.height, leg.link.width) / 2;
     rod.arm.setZero();
     rod.gap.setZero();
     spoil(rod);
@@ -336,8 +337,13 @@ RodReading GeneralSystem::rod(int index) const {
   reading.energy = rod.energy;
   std::array<RodState<double>, 65> sections;
   rod_sections(rod.rod, rod.length, rod.from, sections, {elements_, 0});
-  for (const RodState<double>& section : sections)
-    reading.largest_curvature = std::max(reading.largest_curvature, bend(section).head<2>().norm());
+  for (const RodState<double>& section : sections) {
+    const Vec2<double> about = bend(section).head<2>();
+    reading.largest_curvature = std::max(reading.largest_curvature, about.norm());
+    if (rod.reach[0] > 0)  // at a corner of a strip
+      reading.largest_strain =
+          std::fmax(reading.largest_strain, dot(Vec2<double>(about.cwiseAbs()), rod.reach));
+  }
   return reading;
 }
 

@@ -39,6 +39,7 @@ struct GeneralRod : GeneralRodState {
   Vec3<double> platform_point;
   SO3<double> platform_section;  ///< of the section at a clamp, platform axes
   double stiffness = 0;          ///< EI, the geometric mean of both ways [N m²]
+  Vec2<double> reach{0, 0};      ///< of a strip from its x and y axes: half its height and width [m]
   /// @}
 
   /// @name At the last evaluation
@@ -87,6 +88,7 @@ class GeneralSystem {
   int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
   /// Where a rod's coordinates begin among the robot's.
   int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
+  static int leg_of(int rod) { return rod; }  ///< which of the robot's legs it is
   /// What inputs feed: each rod its length.
   int feeds() const { return rods(); }
   bool in_domain(int, double length) const { return length > 0 && std::isfinite(length); }

@@ -46,6 +46,13 @@ class MixedSystem : public Rods {
     std::ranges::copy(from.closing, fed_.begin());
   }
 
+  int leg_of(int rod) const {
+    int leg = rod;
+    for (const ClosingLeg& other : closing_.legs()) leg += other.index <= leg;  // in ascending order
+    return leg;
+  }
+  /// Motions that the closing legs forbid, less those their own inputs drive.
+  int undriven() const { return closing_.rows() - closing_.feeds(); }
   /// @name What inputs feed: the rods, then what the closing legs are driven by
   /// @{
   int feeds() const { return Rods::rods() + closing_.feeds(); }
@@ -144,6 +151,13 @@ class MixedSystem : public Rods {
     return unscaled(Wrench(free_ * (own - inner_ * moved)));
   }
   Wrench felt(const Wrench& wrench) const { return unscaled(Wrench(free_ * scaled(wrench))); }
+  /// What of a twist they allow.
+  Twist free_motion(Twist twist) const {
+    twist.template tail<3>() *= Rods::radius();
+    twist = free_ * twist;
+    twist.template tail<3>() /= Rods::radius();
+    return twist;
+  }
   /// @}
 
   std::span<const ClosingLeg> closing_legs() const { return closing_.legs(); }

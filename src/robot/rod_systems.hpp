@@ -7,9 +7,9 @@
 #include "robot/tangent_system.hpp"
 
 /// Calls `X` with each of them: one line instantiates a template for all.
-#define SINEW_FOR_EACH_ROD_SYSTEM(X)               \
-  X(::sinew::RodSystem)                            \
-  X(::sinew::TangentSystem)                        \
-  X(::sinew::GeneralSystem)                        \
-  X(::sinew::MixedSystem<::sinew::TangentSystem>)  \
+#define SINEW_FOR_EACH_ROD_SYSTEM(X)              \
+  X(::sinew::RodSystem)                           \
+  X(::sinew::TangentSystem)                       \
+  X(::sinew::GeneralSystem)                       \
+  X(::sinew::MixedSystem<::sinew::TangentSystem>) \
   X(::sinew::MixedSystem<::sinew::GeneralSystem>)

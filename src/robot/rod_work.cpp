@@ -25,8 +25,7 @@ std::vector<ClosingLeg> closing_legs_of(const AnyRobot& robot) {
   std::visit(
       [&](const auto& whole) {
         whole.for_each_leg([&]<class L>(const L& leg, const LegPlace& place, int i) {
-          if constexpr (!BearsLoad<L> && L::dimension == 3)
-            closing.push_back({AnySpatialLeg{leg}, place, i});
+          if constexpr (!BearsLoad<L> && L::dimension == 3) closing.push_back({AnySpatialLeg{leg}, place, i});
         });
       },
       robot.model);

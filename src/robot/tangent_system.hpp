@@ -44,6 +44,7 @@ class TangentSystem {
   int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
   /// Where a rod's coordinates begin among the robot's.
   int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
+  static int leg_of(int rod) { return rod; }  ///< which of the robot's legs it is
   /// What inputs feed: each rod its length.
   int feeds() const { return rods_; }
   bool in_domain(int, double length) const { return length > 0 && std::isfinite(length); }

@@ -153,6 +153,32 @@ TEST(EquilibriumCurve, LeadsBackAndFindsOtherEquilibria) {
   EXPECT_LT(distance(curves[0].points.back().pose, pose), 1e-9);
 }
 
+/// A load just below the fold is met twice, on the way there and back, however short that way is.
+TEST(EquilibriumCurve, MeetsALoadJustBelowItsFoldTwice) {
+  const AnyRobot robot = builtin("3pfs-g2");
+  Workspace work(robot);
+  const auto begin = [&] {
+    return inverse_equilibrium(robot, IndependentPose{0.4, 0.05, 0.02}, {}, work).is_solved();
+  };
+  ASSERT_TRUE(begin());
+  CurveOptions how;
+  how.added_wrench = along_z(-150);
+  const auto whole = equilibrium_curves(robot, how, work);
+  const auto folds = events_of(whole.at(0), CurveEvent::fold);
+  ASSERT_FALSE(folds.empty());
+  const double fold = -150 * folds[0]->parameter;
+  for (const double below : {1e-2, 1e-3, 1e-4, 1e-6}) {
+    ASSERT_TRUE(begin());
+    how.added_wrench = along_z((1 - below) * fold);
+    how.highest = 1.5;
+    const auto curves = equilibrium_curves(robot, how, work);
+    const auto met = events_of(curves.at(0), CurveEvent::target);
+    ASSERT_EQ(met.size(), 2u) << below;
+    EXPECT_EQ(met[1]->unstable_directions, met[0]->unstable_directions + 1);
+    EXPECT_NEAR(events_of(curves[0], CurveEvent::fold).at(0)->parameter, 1 / (1 - below), 1e-9);
+  }
+}
+
 /// A pose on the straight way from home where the lengths fold: the tracer, which knows no path, and the cold
 /// inverse agree on where; rods then grow.
 TEST(EquilibriumCurve, FoldsOfHeldPosesAreThoseTheInverseNames) {

@@ -28,7 +28,8 @@ AnyRobot beside(const AnyRobot& closing, std::span<const std::size_t> kept, std:
         });
       },
       closing.model);
-  for (const RodLeg& rod : rods) legs.insert(legs.begin() + static_cast<std::ptrdiff_t>(legs.size() / 2), {rod});
+  for (const RodLeg& rod : rods)
+    legs.insert(legs.begin() + static_cast<std::ptrdiff_t>(legs.size() / 2), {rod});
   const std::vector<int> tied(legs.size(), -1);
   AnyRobot robot;
   robot.name = "mixed";
@@ -108,7 +109,8 @@ std::vector<Case> cases() {
   std::vector<double>& inputs = all.back().inputs;
   const auto named = inputs_of(all.back().robot);
   for (std::size_t k = 0; k < inputs.size(); ++k)
-    inputs[k] = named[k].kind.name == "length" ? height * (1 + 0.01 * static_cast<double>(k)) : legs.inputs[2];
+    inputs[k] =
+        named[k].kind.name == "length" ? height * (1 + 0.01 * static_cast<double>(k)) : legs.inputs[2];
   return all;
 }
 
@@ -256,6 +258,21 @@ TEST(MixedSystem, SaysWhatItCannotDo) {
   const Equilibrium far = equilibrium(robot, backward, {}, work);  // a slide may be negative, this is too far
   EXPECT_FALSE(far.is_solved());
   EXPECT_FALSE(far.report.message.view().empty());
+  const std::vector<double> short_rods{0.15, 0.18, 0.01};
+  EXPECT_NE(equilibrium(robot, short_rods, {}, work)
+                .report.message.view()
+                .find("legs[2] and legs[3] are too short"),
+            std::string_view::npos);
+  // six inputs, but the struts hold motions that none drives
+  const AnyRobot tripod = builtin("3prs");
+  const std::size_t two[] = {0, 1};
+  const RodLeg four[] = {rod_at(5.2, 0.25, 0.125), rod_at(5.4, 0.25, 0.12), rod_at(5.7, 0.25, 0.12),
+                         rod_at(5.9, 0.25, 0.11)};
+  const AnyRobot six = beside(tripod, two, four, std::get<SpatialPose>(sinew::home(tripod)));
+  Workspace sixth(six);
+  const Equilibrium refused = inverse_equilibrium(six, std::get<SpatialPose>(sinew::home(six)), {}, sixth);
+  EXPECT_EQ(refused.report.status, Status::left_domain);
+  EXPECT_NE(refused.report.message.view().find("no input drives"), std::string_view::npos);
   AnyRobot unreachable = robot;
   std::visit(
       [](auto& one) {

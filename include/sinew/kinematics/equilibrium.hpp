@@ -22,7 +22,8 @@ struct EquilibriumOptions {
   /// Begin from the equilibrium the workspace holds, as a controller does whose inputs change a little. What
   /// is found then depends on what was solved before.
   bool resume = false;
-  int max_iterations = 4000;  ///< Newton steps of the whole path
+  /// Newton steps of the whole path; default 4000, of rods that bear torque 400.
+  std::optional<int> max_iterations = {};
   /// A resumed answer too is asked for stability and resolution, and its coordinates are handed out. Without,
   /// it is as quick as it can be: shapes to an estimated 1e-10 of the length, of rods that do not bend in one
   /// plane 1e-9.
@@ -59,8 +60,8 @@ struct IndependentPose {
 SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
-/// Six inputs that hold the platform at a pose. Begins at home, or from the last answer: `start` is not asked,
-/// here and above. Allocates where the straight way there ends early, to find the fold and other ways.
+/// Six inputs that hold the platform at a pose. Begins at home, or from the last answer: `start` is not
+/// asked, here and above. Allocates where the straight way there ends early, to find the fold and other ways.
 SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
@@ -82,12 +83,13 @@ struct RodAnalysis {
   int unstable_directions = 0;      ///< of the second variation, all rods free to move
   std::vector<std::array<double, 6>> unstable;    ///< twists along which the platform's stiffness is negative
   std::vector<std::array<int, 2>> unstable_rods;  ///< tip held: in the rod's plane, out of it
-  std::vector<RodReading> rods;              ///< in the order of the legs
-  std::vector<Vec3<double>> closing_forces;  ///< of the platform on each closing leg, at its point, base axes [N]
+  std::vector<RodReading> rods;                   ///< in the order of the legs
+  std::vector<Vec3<double>>
+      closing_forces;         ///< of the platform on each closing leg, at its point, base axes [N]
   double energy = 0;          ///< of all rods [J]
   double potential = 0;       ///< of rods and load [J]; with a moment on the platform there is none: NaN
   double smallest_pivot = 0;  ///< of the platform's stiffness, over the largest: 0 at a fold
-  double largest_strain = 0;  ///< of bending, κ d/2, anywhere on a rod
+  double largest_strain = 0;  ///< of bending, anywhere on a rod: κ d/2, of a strip at a corner
   /// Kinematic sensitivities: 2-norms of the blocks of `sensitivity`, position [m/m], rotation [rad/m].
   double position_index = 0, rotation_index = 0;
 
@@ -128,7 +130,8 @@ struct FoundEquilibrium {
 };
 
 /// Equilibria found from many starts around home, in ascending order of energy: a lower bound of their
-/// number, never proven to be all. Allocates; takes tens of milliseconds.
+/// number, never proven to be all. Allocates; takes tens of milliseconds, of rods that bear torque, with
+/// fewer starts, seconds.
 /// @param options of every search; its start is not asked
 SINEW_API std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
                                                    const EquilibriumOptions& options, Workspace& work);

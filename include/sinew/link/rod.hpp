@@ -40,8 +40,6 @@ struct Rod {
   bool is_round() const { return !(width > 0); }
   /// Of the section [m²].
   double area() const { return is_round() ? std::numbers::pi * diameter * diameter / 4 : width * height; }
-  /// From the neutral axis to the surface, at most [m]: times curvature the strain.
-  double half_thickness() const { return (is_round() ? diameter : width > height ? width : height) / 2; }
   double mass_per_length() const { return density * area(); }  ///< [kg/m]
   /// 1/GA and 1/EA − 1/GA [1/N]: p′ = t (1 + β n·t) + n/GA. Both 0 under Kirchhoff's law.
   double shear_compliance() const { return is_cosserat ? 1 / (shear_modulus * area()) : 0; }

@@ -1,6 +1,8 @@
 /// @file rod_reading.hpp
 /// What people want to know of a rod in an equilibrium.
 #pragma once
+#include <limits>
+
 #include "sinew/math/vec.hpp"
 
 namespace sinew::inline v0 {
@@ -19,7 +21,9 @@ struct RodReading {
   Vec3<double> curvature_0 = Vec3<double>::Zero();  ///< at the base, twist along the tangent [1/m]
   Vec3<double> tip = Vec3<double>::Zero();          ///< [m]
   double largest_curvature = 0;                     ///< of bending, anywhere, beyond that at rest [1/m]
-  double energy = 0;                                ///< elastic [J]
+  /// Of bending, anywhere; NaN of round rods, whose is this curvature times half their diameter.
+  double largest_strain = std::numeric_limits<double>::quiet_NaN();
+  double energy = 0;  ///< elastic [J]
 };
 
 }  // namespace sinew::inline v0

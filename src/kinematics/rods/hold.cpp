@@ -208,6 +208,13 @@ Report check(const System& system, const SE3<double>& wanted, const RodQuestion&
     report = failed(Status::left_domain);
     report.message.append("the pose or the wrench is not a number");
   }
+  if constexpr (requires { system.undriven(); })
+    if (report.ok() && system.undriven() > 0) {
+      report = failed(Status::left_domain);
+      report.message.append(
+          "legs beside the rods hold motions that no input drives: not all of a pose can be "
+          "chosen; ask forward with inputs");
+    }
   return report;
 }
 
@@ -261,15 +268,18 @@ bool detour(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>&
 template <class System>
 bool reach_otherwise(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>& wanted,
                      const RodQuestion& question, const RodWay& way, const RodPathEnd& end, Report& report) {
+  if constexpr (std::is_base_of_v<GeneralSystem, System>) return false;  // each way would take seconds
   auto stopped = work.system.snapshot();
   if (detour(work, home, wanted, question, report)) return true;
   work.system.restore(stopped);
-  if (report.status == Status::singular && pass_fold(work, way, end.progress)) {
+  const bool has_fold = report.status == Status::singular;
+  if (has_fold && pass_fold(work, way, end.progress)) {
     report.status = Status::converged;
     say(report, "held on another branch: on through the fold");
     return true;
   }
-  say(report, "moving first, turning first, turning lower down, going through it do not lead to it either");
+  say(report, has_fold ? "through it, moving first, turning first or lower down do not lead to it either"
+                       : "moving first, turning first or lower down do not lead to it either");
   return false;
 }
 
@@ -349,7 +359,8 @@ Report hold_rods(RodWorkOf<System>& work, const SE3<double>& home, const SE3<dou
   return report;
 }
 
-#define SINEW_FOR(System) template Report hold_rods(RodWorkOf<System>&, const SE3<double>&, const SE3<double>&, const RodQuestion&);
+#define SINEW_FOR(System) \
+  template Report hold_rods(RodWorkOf<System>&, const SE3<double>&, const SE3<double>&, const RodQuestion&);
 SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
 #undef SINEW_FOR
 

@@ -168,7 +168,9 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
   return explain(system, end, false);
 }
 
-#define SINEW_FOR(System) template Report solve_rods_at(RodWorkOf<System>&, const SE3<double>&, const RodCoordinates&, const RodQuestion&);
+#define SINEW_FOR(System)                                                                      \
+  template Report solve_rods_at(RodWorkOf<System>&, const SE3<double>&, const RodCoordinates&, \
+                                const RodQuestion&);
 SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
 #undef SINEW_FOR
 

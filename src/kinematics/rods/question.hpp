@@ -22,6 +22,10 @@ void set_gravity(RodWorkOf<System>& rods, const Vec3<double>& gravity) {
   rods.knows_home = rods.is_solved = false;
 }
 
+/// A step of rods that bear torque costs some hundred times as much as one of the others.
+template <class System>
+inline constexpr int most_iterations = std::is_base_of_v<GeneralSystem, System> ? 400 : 4000;
+
 /// The question with the weight of the platform in its wrench.
 template <class Work>
 RodQuestion question_of(const AnyRobot& robot, const EquilibriumOptions& options, Work& rods) {
@@ -32,7 +36,8 @@ RodQuestion question_of(const AnyRobot& robot, const EquilibriumOptions& options
   question.wrench.head<3>() += robot.weight.platform_mass * gravity;
   if (options.start) question.start = SE3<double>::from(*options.start);
   question.resume = options.resume;
-  question.max_iterations = options.max_iterations;
+  using System = std::decay_t<decltype(rods.system)>;
+  question.max_iterations = options.max_iterations.value_or(most_iterations<System>);
   question.judge = options.judge;
   return question;
 }

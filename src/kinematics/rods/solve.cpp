@@ -46,9 +46,9 @@ Report check_reach(const System& system, Numbers inputs) {
       if (apart <= reach) continue;
       report.status = Status::unreachable;
       report.message.append("legs[");
-      append_number(report.message, k);
+      append_number(report.message, system.leg_of(k));
       report.message.append("] and legs[");
-      append_number(report.message, j);
+      append_number(report.message, system.leg_of(j));
       report.message.append("] are too short: their guides are ");
       append_mm(report.message, apart);
       report.message.append(" apart, rods and platform reach ");
@@ -216,7 +216,8 @@ Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inpu
   return settled;
 }
 
-#define SINEW_FOR(System) template Report solve_rods(RodWorkOf<System>&, const SE3<double>&, Numbers, const RodQuestion&);
+#define SINEW_FOR(System) \
+  template Report solve_rods(RodWorkOf<System>&, const SE3<double>&, Numbers, const RodQuestion&);
 SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
 #undef SINEW_FOR
 

@@ -90,21 +90,36 @@ class CurveWriter {
         return;
       }
       begun_ = before;
-      const bool is_last = tracer_.lambda() > how_.highest || tracer_.lambda() < how_.lowest;
+      const double taken = stride;
+      CurveEvent event = CurveEvent::none;
+      // a step ends at a fold at the latest, so that λ goes one way in it
+      if ((last.along > 0) != (tracer_.tangent()[6] > 0)) {
+        if (const auto there = tracer_.locate(ahead, stride, [&] { return tracer_.tangent()[6]; })) {
+          event = CurveEvent::fold;
+          stride = *there;
+        }
+      }
+      const bool is_last = ends_range(tracer_.lambda());
       if (is_last) {
-        const double bound = tracer_.lambda() > how_.highest ? how_.highest : how_.lowest;
-        curve.end = CurveEnd::left_range;
+        const double bound = tracer_.lambda() >= how_.highest ? how_.highest : how_.lowest;
+        tracer_.before() = begun_;
         const auto there = tracer_.locate(ahead, stride, [&] { return tracer_.lambda() - bound; });
-        if (!there || !tracer_.settle_at(bound)) return;
+        if (!there || !tracer_.settle_at(bound)) {
+          curve.end = CurveEnd::stalled;
+          return;
+        }
         stride = *there;
+        event = mark_of(bound);
+        curve.end = CurveEnd::left_range;
       }
       const Signs next = tracer_.signs();
       tracer_.save(reached_);
-      note_events(curve, last, next, stride, notes_branchings);
+      const int unstable = note_events(curve, last, next, stride, notes_branchings);
       tracer_.restore(reached_);
-      write(curve, mark_of(reached_.lambda), next.unstable);
+      write(curve, event, event == CurveEvent::fold ? unstable : next.unstable);
       if (is_last || curve.end == CurveEnd::closed) return;
       last = next;
+      stride = taken;
       if (is_far()) {
         curve.end = CurveEnd::far;
         return;
@@ -124,12 +139,19 @@ class CurveWriter {
     return is_pulled_straight(system_) ? CurveEnd::straight : CurveEnd::stalled;
   }
 
-  /// What happened between the place before and the one reached, in its order.
-  void note_events(EquilibriumCurve& curve, const Signs& last, const Signs& next, double stride,
-                   bool notes_branchings) {
+  /// On an end of the range and on the way out, or beyond it.
+  bool ends_range(double parameter) const {
+    const bool rises = begun_.tangent[6] > 0;
+    return parameter > how_.highest || parameter < how_.lowest ||
+           (rises ? parameter == how_.highest : parameter == how_.lowest);
+  }
+
+  /// What happened between the place before and the one reached, in its order. Unstable directions before the
+  /// latter.
+  int note_events(EquilibriumCurve& curve, const Signs& last, const Signs& next, double stride,
+                  bool notes_branchings) {
     found_.clear();
-    note_fold(last, next, stride);
-    note_crossings(last, next, stride, notes_branchings);
+    const int unstable = note_crossings(last, next, stride, notes_branchings);
     note_marks(curve, stride);
     std::ranges::stable_sort(found_, {}, &Found::along);
     for (Found& one : found_) {
@@ -139,17 +161,12 @@ class CurveWriter {
       }
       curve.points.push_back(std::move(one.point));
     }
+    return unstable;
   }
 
-  void note_fold(const Signs& last, const Signs& next, double stride) {
-    if ((last.along > 0) == (next.along > 0)) return;
-    tracer_.before() = begun_;
-    if (const auto there = tracer_.locate(begun_.tangent, stride, [&] { return tracer_.tangent()[6]; }))
-      found_.push_back({*there, point(CurveEvent::fold, last.unstable), {}});
-  }
-
-  /// Where other curves cross, or stability changes without a fold.
-  void note_crossings(Signs last, const Signs& next, double stride, bool notes_branchings) {
+  /// Where other curves cross, or stability changes without a fold. Unstable directions after the last of
+  /// them.
+  int note_crossings(Signs last, const Signs& next, double stride, bool notes_branchings) {
     const bool is_fold = (last.along > 0) != (next.along > 0);
     tracer_.before() = begun_;
     double along = 0;
@@ -167,15 +184,16 @@ class CurveWriter {
       if (!there) break;
       along += *there;
       const Signs beyond = tracer_.signs();
-      if (const auto event = event_of(last, beyond, is_fold); event != CurveEvent::none) {
-        Found one{along, point(event, last.unstable), {}};
-        if (event == CurveEvent::bifurcation && notes_branchings && how_.follows_branches)
-          one.branching = branching();
-        found_.push_back(std::move(one));
-      }
+      const auto event = event_of(last, beyond, is_fold);
+      if (event == CurveEvent::none) break;  // the fold, at the end
+      Found one{along, point(event, last.unstable), {}};
+      if (event == CurveEvent::bifurcation && notes_branchings && how_.follows_branches)
+        one.branching = branching();
+      found_.push_back(std::move(one));
       tracer_.save(tracer_.before());
       last = beyond;
     }
+    return last.unstable;
   }
 
   CurveEvent event_of(const Signs& last, const Signs& beyond, bool is_fold) const {
@@ -245,6 +263,13 @@ class CurveWriter {
     return parameter == 1 ? CurveEvent::target : parameter == 0 ? CurveEvent::begin : CurveEvent::none;
   }
 
+  bool is_same(const CurvePoint& one, const CurvePoint& other) const {
+    double apart = (one.pose.position - other.pose.position).norm();
+    for (std::size_t k = 0; k < one.inputs.size(); ++k)
+      apart = std::max(apart, std::abs(one.inputs[k] - other.inputs[k]));
+    return apart < 1e-8 * tracer_.size();
+  }
+
   /// The equilibria with the parameter of the beginning and of the target.
   void note_marks(EquilibriumCurve& curve, double stride) {
     for (const double mark : {0.0, 1.0}) {
@@ -255,11 +280,9 @@ class CurveWriter {
       const auto there = tracer_.locate(begun_.tangent, stride, [&] { return tracer_.lambda() - mark; });
       if (!there || !tracer_.settle_at(mark)) continue;
       found_.push_back({*there, point(mark_of(mark), -1), {}});
-      const CurvePoint &begin = curve.points.front(), &now = found_.back().point;
-      double apart = (begin.pose.position - now.pose.position).norm();
-      for (std::size_t k = 0; k < begin.inputs.size(); ++k)
-        apart = std::max(apart, std::abs(begin.inputs[k] - now.inputs[k]));
-      if (mark == begin.parameter && apart < 1e-8 * tracer_.size()) curve.end = CurveEnd::closed;
+      const CurvePoint& now = found_.back().point;
+      for (const CurvePoint& other : curve.points)
+        if (other.event == now.event && is_same(other, now)) curve.end = CurveEnd::closed;
     }
   }
 
@@ -329,17 +352,24 @@ RodFold find_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) 
   auto start = tracer.before();
   RodFold fold;
   const auto is_beyond = [&](const Step& ahead, double stride) {
-    if (tracer.tangent()[6] > 0 && tracer.lambda() < 1) return false;
-    if (tracer.tangent()[6] > 0) {
+    const bool turns = tracer.tangent()[6] <= 0;
+    if (!turns && tracer.lambda() < 1) return false;
+    const auto begun = tracer.before();
+    if (turns)
+      if (const auto there = tracer.locate(ahead, stride, [&] { return tracer.tangent()[6]; }))
+        stride = *there;
+    if (tracer.lambda() >= 1) {  // before it turns
+      tracer.before() = begun;
       fold.arrived = tracer.locate(ahead, stride, [&] { return tracer.lambda() - 1; }) && tracer.settle_at(1);
       return true;
     }
-    fold.is_found = tracer.locate(ahead, stride, [&] { return tracer.tangent()[6]; }).has_value();
+    fold.is_found = turns;
     fold.parameter = tracer.lambda();
     fold.platform = work.system.platform();
     return true;
   };
-  walk(tracer, 200, is_beyond);
+  constexpr int most = std::is_base_of_v<GeneralSystem, System> ? 40 : 200;
+  walk(tracer, most, is_beyond);
   if (!fold.arrived) tracer.restore(start);
   return fold;
 }

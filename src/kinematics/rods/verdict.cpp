@@ -68,7 +68,7 @@ Report explain(const System& system, const RodPathEnd& end, bool is_load) {
   if (tight.tension > most_tension) {
     report.status = Status::unreachable;
     report.message.append("legs[");
-    append_number(report.message, tight.rod);
+    append_number(report.message, system.leg_of(tight.rod));
     report.message.append("] is pulled straight at ");
     percent();
     report.message.append(is_load ? " to this load; give it less"
