@@ -142,6 +142,8 @@ class Schema(unittest.TestCase):
         for file in files():
             root = yaml.safe_load(file.read_text(encoding="utf-8"))
             for what, broken in mutations(root):
+                if file.name == "2prs-1pfs.yaml" and re.fullmatch(r"without legs\.\d+|legs: one more", what):
+                    continue  # its platform needs its three points, a leg is tied: relations, told by the reader
                 cases.setdefault(json.dumps(broken), (f"{file.parent.name}/{file.name}: {what}", broken))
         self.agree(list(cases.values()))
 
