@@ -88,11 +88,20 @@ void finest(System& system) {
   while (!system.is_finest()) system.refine();
 }
 
+/// Samples of a kind: one under AddressSanitizer, where steps take ten times as long.
+int samples(int usual) {
+#if defined(__SANITIZE_ADDRESS__)
+  return std::min(usual, 1);
+#else
+  return usual;
+#endif
+}
+
 TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
   for (const Kind& kind : without_torque) {
     RodRandom random(3);
     int tried = 0;
-    for (int sample = 0; sample < 6; ++sample) {
+    for (int sample = 0; sample < samples(6); ++sample) {
       const RodRobot robot = robot_of(kind, random);
       for (const RodLeg& leg : robot.legs) ASSERT_TRUE(leg.is_torque_free());
       TangentSystem tangents(robot);
@@ -140,7 +149,7 @@ TEST(GeneralSystem, ComesToRestWhereTheFieldOfTangentsDoes) {
   for (const Kind& kind : without_torque) {
     RodRandom random(7);
     int tried = 0;
-    for (int sample = 0; sample < 4; ++sample) {
+    for (int sample = 0; sample < samples(4); ++sample) {
       const RodRobot robot = robot_of(kind, random);
       TangentWork tangents(robot, gravity);
       GeneralWork rods(robot, gravity);
@@ -168,7 +177,7 @@ TEST(GeneralSystem, StiffnessAndFeedAreTheDerivativesOfTheWrench) {
   for (const Kind& kind : general) {
     RodRandom random(11);
     int tried = 0;
-    for (int sample = 0; sample < 2; ++sample) {
+    for (int sample = 0; sample < samples(2); ++sample) {
       const RodRobot robot = robot_of(kind, random);
       GeneralSystem system(robot);
       if (!begin(system, robot, random)) continue;
@@ -243,7 +252,7 @@ TEST(GeneralSystem, RodsIntegratedAnewBalanceThePlatform) {
   for (const Kind& kind : general) {
     RodRandom random(31);
     int tried = 0;
-    for (int sample = 0; sample < 3; ++sample) {
+    for (int sample = 0; sample < samples(3); ++sample) {
       const RodRobot robot = upright_of(kind, random);
       GeneralWork work(robot, gravity);
       GeneralSystem& system = work.system;
@@ -438,7 +447,7 @@ TEST(GeneralSystem, HoldsThePosesThatItsLengthsLeadTo) {
   for (const Kind& kind : general) {
     RodRandom random(71);
     int tried = 0;
-    for (int sample = 0; sample < 3; ++sample) {
+    for (int sample = 0; sample < samples(3); ++sample) {
       const RodRobot robot = upright_of(kind, random);
       GeneralWork work(robot, gravity);
       RodQuestion question;
