@@ -15,6 +15,7 @@
 #include "shooting_hexapod.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
+#include "sinew/link/spatial_rod.hpp"
 
 namespace sinew::bench {
 namespace {
@@ -154,6 +155,61 @@ void compare_forward(const char* name, double stride, const InstructionSet& isa)
 }
 
 /// What one evaluation and one linearisation cost: against the number of rods, eight of which share the
+/// The classical fourth-order method on p, R, m of an inextensible rod, n constant: what most codes use.
+Vec3<double> runge_kutta_tip(const SpatialRod& rod, double length, const RodState<double>& base, int steps) {
+  struct Slope {
+    Vec3<double> p, m;
+    Mat<double, 3, 3> R;
+  };
+  Vec3<double> p = base.p, m = base.m;
+  Mat<double, 3, 3> R = base.R.matrix();
+  const Vec3<double> flexibility(1 / rod.bending_stiffness[0], 1 / rod.bending_stiffness[1],
+                                 1 / rod.torsion_stiffness);
+  const auto slope = [&](const Mat<double, 3, 3>& turned, const Vec3<double>& moment) {
+    const Vec3<double> u = flexibility.cwiseProduct(turned.transpose() * moment), t = turned.col(2);
+    Mat<double, 3, 3> hat;
+    hat << 0, -u[2], u[1], u[2], 0, -u[0], -u[1], u[0], 0;
+    return Slope{t, -cross(t, base.n), turned * hat};
+  };
+  const double h = length / steps;
+  for (int k = 0; k < steps; ++k) {
+    const Slope a = slope(R, m), b = slope(R + h / 2 * a.R, m + h / 2 * a.m);
+    const Slope c = slope(R + h / 2 * b.R, m + h / 2 * b.m), d = slope(R + h * c.R, m + h * c.m);
+    p += h / 6 * (a.p + 2 * b.p + 2 * c.p + d.p);
+    m += h / 6 * (a.m + 2 * b.m + 2 * c.m + d.m);
+    R += h / 6 * (a.R + 2 * b.R + 2 * c.R + d.R);
+  }
+  return p;
+}
+
+/// One bent and twisted rod integrated along it: the general rod's method of order 8, and the fourth-order
+/// one of the baseline, each with the error of its tip.
+template <class Median>
+void print_orders(Median&& median) {
+  fmt::print("{:>6} {:>9} {:>7} {:>14} {:>16} {:>9}\n", "rod", "steps", "order", "integrated[ns]",
+             "derivatives[ns]", "error[m]");
+  const SpatialRod rod = SpatialRod::round(207e9, 79e9, 1.3e-3);
+  RodState<double> base;
+  base.n = Vec3<double>(0.4, -0.2, -0.3);
+  base.m = Vec3<double>(0.05, 0.08, 0.02);
+  constexpr double length = 0.5;
+  const Vec3<double> exact = integrate(rod, length, base, {256}).state.p;
+  for (const int steps : {4, 8, 16, 32, 64}) {
+    RodTip tip;
+    const double integrated = median([&] { tip = integrate(rod, length, base, {steps}); });
+    const double derived =
+        median([&] { benchmark::DoNotOptimize(integrate_tangent(rod, length, base, {steps})); });
+    fmt::print("{:>6} {:>9} {:>7} {:>14.0f} {:>16.0f} {:>9.0e}\n", "1", steps, 8, integrated, derived,
+               (tip.state.p - exact).norm());
+  }
+  for (const int steps : {10, 20, 40, 80, 160}) {
+    Vec3<double> tip;
+    const double integrated = median([&] { tip = runge_kutta_tip(rod, length, base, steps); });
+    fmt::print("{:>6} {:>9} {:>7} {:>14.0f} {:>16} {:>9.0e}\n", "1", steps, 4, integrated, "-",
+               (tip - exact).norm());
+  }
+}
+
 /// lanes, and of elements, whose polynomials are of order 8.
 void print_costs() {
   fmt::print("{:>6} {:>9} {:>7} {:>14} {:>16}\n", "rods", "elements", "order", "evaluation[ns]",
@@ -185,6 +241,7 @@ void print_costs() {
       if (system.is_finest()) break;
     }
   }
+  print_orders(median);
 }
 
 /// Random poses from home, every one a new start.
