@@ -14,13 +14,6 @@ namespace {
 
 using Twist = Vec<double, 6>;
 
-/// From pose to pose as one twist.
-Twist between(const SE3<double>& from, const SE3<double>& to) {
-  Twist twist;
-  twist << to.p - from.p, to.R.compose(from.R.inverse()).log();
-  return twist;
-}
-
 /// Newton's method on the lengths while the platform is put where it is wanted.
 template <class System>
 class Holder {
@@ -84,19 +77,6 @@ class Holder {
   System& system_;
 };
 
-/// The way of a platform and of the load on it, from where the system is.
-struct HoldPath {
-  SE3<double> from, to;
-  Twist turn;  ///< the rotation between, as a twist
-  Twist load_from, load_to;
-
-  SE3<double> pose(double part) const {
-    if (part >= 1) return to;
-    return {from.p + part * (to.p - from.p), SO3<double>::exp(part * turn.tail<3>()).compose(from.R)};
-  }
-  Twist load(double part) const { return load_from + part * (load_to - load_from); }
-};
-
 /// Corrections must stay small beside the prediction: else it may have found another branch.
 class Watch {
  public:
@@ -130,7 +110,7 @@ class Watch {
 
 /// Follows the path as far as it goes. The system is then there, solved to `loose`.
 template <class System>
-RodPathEnd follow_poses(RodWorkOf<System>& work, const HoldPath& path, int max_iterations) {
+RodPathEnd follow_poses(RodWorkOf<System>& work, const RodWay& way, int max_iterations) {
   constexpr double loose = 1e-5, loose_truncation = 1e-9, shortest = 1e-6;
   System& system = work.system;
   Holder<System> holder(work);
@@ -142,11 +122,11 @@ RodPathEnd follow_poses(RodWorkOf<System>& work, const HoldPath& path, int max_i
     system.evaluate();
     const bool renews = !work.knows_feeding;
     Watch watch(system);
-    system.set_wrench(path.load(next));
-    bool is_reached = (!renews || holder.renew()) && holder.step(path.pose(next), renews);
+    system.set_wrench(way.at(next, 0).wrench);
+    bool is_reached = (!renews || holder.renew()) && holder.step(way.pose(next), renews);
     watch.predicted(system);
     const int before = ++end.iterations;
-    const auto correct = [&] { return holder.correct(path.pose(next), end.iterations, end.residual, loose); };
+    const auto correct = [&] { return holder.correct(way.pose(next), end.iterations, end.residual, loose); };
     is_reached = is_reached && correct() && watch.is_near(system);
     while (is_reached && !system.is_finest() && system.truncation() > loose_truncation) {
       system.refine();
@@ -227,9 +207,9 @@ RodPathEnd approach(RodWorkOf<System>& work, std::span<const SE3<double>> poses,
   RodPathEnd end;
   int iterations = 0;
   for (const SE3<double>& pose : poses) {
-    const HoldPath path{system.platform(), pose, between(system.platform(), pose), system.wrench(),
-                        question.wrench};
-    end = follow_poses(work, path, question.max_iterations - iterations);
+    RodWay way{present(system), present(system), true, system.platform(), pose};
+    way.target.wrench = question.wrench;
+    end = follow_poses(work, way, question.max_iterations - iterations);
     iterations = end.iterations += iterations;
     if (!end.arrived) break;
   }

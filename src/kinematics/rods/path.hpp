@@ -19,6 +19,13 @@ struct RodTarget {
   Vec<double, 6> wrench = Vec<double, 6>::Zero();
 };
 
+/// From pose to pose as one twist.
+inline Vec<double, 6> between(const SE3<double>& from, const SE3<double>& to) {
+  Vec<double, 6> twist;
+  twist << to.p - from.p, to.R.compose(from.R.inverse()).log();
+  return twist;
+}
+
 /// On RodSystem::evaluate: what counts as solved, and below which Newton's method can only lose to rounding.
 inline constexpr double rod_tolerance = 1e-12, rod_rounding = 2e-13;
 /// ... of a pose held by lengths, in an answer that is to be quick.

@@ -312,8 +312,8 @@ RodTarget RodWay::at(double parameter, int rods) const {
 
 SE3<double> RodWay::pose(double parameter) const {
   if (parameter == 1) return to;
-  const Vec3<double> turn = to.R.compose(from.R.inverse()).log();
-  return {from.p + parameter * (to.p - from.p), SO3<double>::exp(parameter * turn).compose(from.R)};
+  const Vec<double, 6> way = between(from, to);
+  return {from.p + parameter * way.head<3>(), SO3<double>::exp(parameter * way.tail<3>()).compose(from.R)};
 }
 
 template <class System>
@@ -355,9 +355,11 @@ RodFold find_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) 
     const bool turns = tracer.tangent()[6] <= 0;
     if (!turns && tracer.lambda() < 1) return false;
     const auto begun = tracer.before();
-    if (turns)
-      if (const auto there = tracer.locate(ahead, stride, [&] { return tracer.tangent()[6]; }))
-        stride = *there;
+    if (turns) {
+      const auto there = tracer.locate(ahead, stride, [&] { return tracer.tangent()[6]; });
+      if (!there) return true;  // lost: none is claimed
+      stride = *there;
+    }
     if (tracer.lambda() >= 1) {  // before it turns
       tracer.before() = begun;
       fold.arrived = tracer.locate(ahead, stride, [&] { return tracer.lambda() - 1; }) && tracer.settle_at(1);

@@ -25,8 +25,7 @@ class Tracer {
   using Step = Vec<double, 7>;
 
   Tracer(RodWorkOf<System>& work, const RodWay& way, double parameter)
-      : work_(work),
-        system_(work.system),
+      : system_(work.system),
         way_(way),
         lambda_(parameter),
         before_{system_.snapshot(), parameter, Step::Zero()} {
@@ -244,8 +243,7 @@ class Tracer {
     Twist twist = Twist::Zero();
     if (way_.holds_pose) {
       for (int k = 0; k < 6; ++k) fed[at(k)] = step[k];
-      const SE3<double> to = way_.pose(lambda_ + change);
-      twist << to.p - system_.platform().p, to.R.compose(system_.platform().R.inverse()).log();
+      twist = between(system_.platform(), way_.pose(lambda_ + change));
     } else {
       twist = step.head<6>();
       twist.tail<3>() /= system_.radius();
@@ -271,9 +269,7 @@ class Tracer {
     Twist by_parameter = system_.felt(way_.begin.wrench - way_.target.wrench);
     if (way_.holds_pose) {
       for (int k = 0; k < 6; ++k) put_column(k, system_.feed_wrench(k), 1);
-      Twist twist;
-      twist << way_.to.p - way_.from.p, way_.to.R.compose(way_.from.R.inverse()).log();
-      by_parameter += stiffness * twist;
+      by_parameter += stiffness * between(way_.from, way_.to);
     } else {
       for (int k = 0; k < 6; ++k) put_column(k, stiffness.col(k), k < 3 ? 1 : radius);
       for (int input = 0; input < system_.inputs(); ++input)
@@ -322,7 +318,6 @@ class Tracer {
     scale_ = std::clamp(std::sqrt(length), 0.01 * size_, size_);
   }
 
-  RodWorkOf<System>& work_;
   System& system_;
   const RodWay& way_;
   double lambda_, scale_ = 1, size_ = 0, unit_ = 0, residual_ = 0;
