@@ -436,24 +436,34 @@ void Request::whole_number(std::string_view option, std::string_view key) {
 }
 
 void Request::set() {
-  const auto given = arguments_.options.find("set");
-  if (given == arguments_.options.end()) return;
+  const auto changes = settings(arguments_);
+  if (!changes) return fail(changes.error().front().code, "set", changes.error().front().message);
   std::string members;
-  for (const std::string& change : given->second) {
-    const std::size_t equals = change.find('=');
-    if (equals == std::string::npos || equals == 0)
-      return fail(
-          "not_a_change", "set",
-          fmt::format("{} is no path=value; write --set \"legs[0].link.length=180 mm\".", in_quotes(change)));
-    const auto value = value_of(trimmed(std::string_view(change).substr(equals + 1)));
-    if (!value) return fail(value.error().front().code, "set", value.error().front().message);
-    const std::string path = json_text(trimmed(std::string_view(change).substr(0, equals)));
-    members += fmt::format("{}{}: {}", members.empty() ? "" : ", ", path, as_json(*value));
-  }
-  member("set", "{" + members + "}");
+  for (const Member& change : *changes)
+    members +=
+        fmt::format("{}{}: {}", members.empty() ? "" : ", ", json_text(change.key), as_json(change.value));
+  if (!changes->empty()) member("set", "{" + members + "}");
 }
 
 }  // namespace
+
+Expected<std::vector<Member>> settings(const Arguments& arguments) {
+  std::vector<Member> members;
+  const auto given = arguments.options.find("set");
+  if (given == arguments.options.end()) return members;
+  for (const std::string& change : given->second) {
+    const std::size_t equals = change.find('=');
+    if (equals == std::string::npos || equals == 0)
+      return failure(
+          "not_a_change", "--set",
+          fmt::format("{} is no path=value; write --set \"legs[0].link.length=180 mm\".", in_quotes(change)));
+    auto value = value_of(trimmed(std::string_view(change).substr(equals + 1)));
+    if (!value) return failure(value.error().front().code, "--set", value.error().front().message);
+    members.push_back({.key = std::string(trimmed(std::string_view(change).substr(0, equals))),
+                       .value = std::move(*value)});
+  }
+  return members;
+}
 
 std::string Robot::input_unit() const {
   const auto is_first = [&](const Input& input) { return input.unit == inputs.front().unit; };

@@ -34,6 +34,9 @@ Expected<Robot> open_with_platform(const Arguments& arguments);
 /// on rods its `independent` coordinates.
 std::string at_home(const Robot& robot);
 
+/// What `--set` changes of the robot, `{path: value}`.
+Expected<std::vector<Member>> settings(const Arguments& arguments);
+
 /// The query that the options of a verb stand for (`--pose "10 mm, 0, 5 deg"`, `--set path=value`, ...), as
 /// JSON.
 Expected<std::string> request(std::string_view query, const Arguments& arguments, const Robot& robot);

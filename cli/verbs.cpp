@@ -84,7 +84,14 @@ constexpr std::array options{
            true},
     Option{"output", "FILE",
            "where to write: a folder for reproduce (default: out), a figure for plot, a .csv for track", 'o'},
-    Option{"list", "", "only list what there is"},
+    Option{"resume", "", "go on with what an interrupted run left; without it, begin"},
+    Option{"threads", "N", "threads of this process; default one a core"},
+    Option{
+        "isa", "NAME",
+        "instruction set: native (default), avx512, avx2, or baseline, whose results are the same bytes on "
+        "every machine"},
+    Option{"compress", "LEVEL", "of HDF5, 0 (none, default) to 9"},
+    Option{"list", "", "only list what there is; of sweep what it would do"},
     Option{"x", "COLUMN|AXIS",
            "of plot the column along x, default the first; of map a value, or FROM : TO : COUNT, default the "
            "home's"},
@@ -254,6 +261,22 @@ const std::array table{
          "whatever the answers say, 4 after a signal.",
          "echo '{\"query\": \"inverse\", \"pose\": {\"x\": 0.01, \"y\": 0, \"phi\": 0}}' | sinew query 3-rfr",
          run_query},
+    Verb{"sweep",
+         "STUDY",
+         "one query at many samples, on all cores or a cluster, into a file of results",
+         {"output", "resume", "threads", "isa", "compress", "set", "list", "quiet", "help"},
+         {},
+         "A study file names the robot, the query, the axes that vary (a grid, random or listed samples), "
+         "what\n"
+         "is kept of the answers, and what is made of it: reductions over axes, fits (docs/studies.md). -o\n"
+         "FILE.h5 or FILE.csv, default the study's name; HDF5 is what Python, MATLAB and Julia read. "
+         "Finished\n"
+         "chunks are in FILE.log until the end: after a crash or Ctrl-C --resume goes on. On a cluster:\n"
+         "mpirun -n 64 sinew sweep STUDY. The data are the same for any number of threads or ranks. Exit "
+         "code\n"
+         "4 where it was stopped; samples without a solution do not stop it, they have their status.",
+         "sinew sweep studies/3-rfr-workspace.yaml -o workspace.h5",
+         run_sweep},
     Verb{"check",
          "ROBOT",
          "read a robot file and say what it means, or everything that is wrong with it",

@@ -64,6 +64,7 @@ int run_diagram(const Arguments& arguments);
 int run_track(const Arguments& arguments);
 int run_branches(const Arguments& arguments);
 int run_map(const Arguments& arguments);
+int run_sweep(const Arguments& arguments);
 int run_query(const Arguments& arguments);
 int run_check(const Arguments& arguments);
 int run_new(const Arguments& arguments);

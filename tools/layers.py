@@ -14,8 +14,9 @@ import sys
 # each other, but for the pairs in SIBLINGS.
 ROWS = [
     ["cli", "server", "python", "firmware"],
+    ["study"],
     ["query"],
-    ["plan", "study"],
+    ["plan"],
     ["io"],
     ["analysis"],
     ["kinematics"],

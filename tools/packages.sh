@@ -5,11 +5,11 @@
 # What building the library and the command and drawing figures needs, ...
 # shellcheck disable=SC2034
 build_packages=(build-essential cmake ninja-build pkgconf libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
-                libfmt-dev libexpected-dev libhwy-dev gnuplot-nox)
+                libfmt-dev libexpected-dev libhwy-dev libtbb-dev libhdf5-dev libmd-dev libxxhash-dev gnuplot-nox)
 # ... and what the tests and benchmarks need beside it. ccache saves compiling the library again for the packaging tests.
 # shellcheck disable=SC2034
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
-               python3-yaml ccache)
+               python3-yaml python3-h5py ccache libopenmpi-dev openmpi-bin)
 
 say() { printf '%s\n' "$*" >&2; }
 

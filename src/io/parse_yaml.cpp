@@ -247,7 +247,7 @@ Expected<Document> parse_yaml(std::string_view text, std::string source) {
   return document;
 }
 
-Expected<Document> read_file(const std::string& path) {
+Expected<std::string> read_text(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -262,7 +262,12 @@ Expected<Document> read_file(const std::string& path) {
   if (!stream && !stream.eof())
     return failure("file_unreadable", path, "the file cannot be read; check its permissions.");
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  return parse_yaml(text, path);
+  return text;
+}
+
+Expected<Document> read_file(const std::string& path) {
+  const auto text = read_text(path);
+  return text ? parse_yaml(*text, path) : tl::unexpected(text.error());
 }
 
 }  // namespace sinew::inline v0

@@ -248,6 +248,14 @@ Expected<double> parse_quantity(std::string_view text, Dimension dimension) {
   return *value;
 }
 
+Expected<Quantity> parse_any_quantity(std::string_view text) {
+  const auto plain = parse_quantity(text, Dimension::number);
+  if (plain) return Quantity{*plain, Dimension::number};
+  for (const Words& word : words)
+    if (const auto value = parse_quantity(text, word.dimension)) return Quantity{*value, word.dimension};
+  return tl::unexpected(plain.error());
+}
+
 std::optional<double> parse_number(std::string_view text) {
   const std::size_t size = number_size(text);
   if (size == 0 || size != text.size()) return {};

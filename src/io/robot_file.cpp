@@ -572,15 +572,20 @@ std::vector<std::string_view> robot_template_names() {
   return names;
 }
 
-Expected<Document> read_robot_file(const std::string& path_or_name) {
+Expected<std::string> read_robot_text(const std::string& path_or_name) {
   for (const BuiltinRobot& robot : builtin_robots())
-    if (robot.name == path_or_name) return parse_yaml(robot.text, path_or_name);
-  auto document = read_file(path_or_name);
-  if (document || path_or_name.find_first_of("./") != std::string::npos) return document;
-  Errors errors = std::move(document.error());  // looks like a name, not a file
+    if (robot.name == path_or_name) return std::string(robot.text);
+  auto text = read_text(path_or_name);
+  if (text || path_or_name.find_first_of("./") != std::string::npos) return text;
+  Errors errors = std::move(text.error());  // looks like a name, not a file
   errors.front().message +=
       fmt::format(" Robots that come with sinew: {}.", fmt::join(builtin_robot_names(), ", "));
   return tl::unexpected(std::move(errors));
+}
+
+Expected<Document> read_robot_file(const std::string& path_or_name) {
+  const auto text = read_robot_text(path_or_name);
+  return text ? parse_yaml(*text, path_or_name) : tl::unexpected(text.error());
 }
 
 Expected<AnyRobot> load(const std::string& path_or_name) {

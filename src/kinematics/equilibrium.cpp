@@ -82,22 +82,23 @@ Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted
 }
 
 void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
-                       std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work) {
+                       std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
+                       bool judge) {
   std::fill(statuses.begin(), statuses.end(), Status::left_domain);
   const std::size_t inputs = at(input_count(robot));
   if (!bears_load(robot) || statuses.size() != poses.size() || rows.size() != poses.size() * inputs) return;
   if (auto* plane = std::get_if<RodWork>(&work.rods->kind)) {
     std::vector<SE3<double>> found(poses.size());
     const SpatialWrench whole = question_of(robot, {.wrench = wrench}, *plane).wrench;
-    RodBatch(*plane, home_of(robot)).solve(rows, whole, found, statuses);
+    RodBatch(*plane, home_of(robot)).solve(rows, whole, judge, found, statuses);
     std::transform(found.begin(), found.end(), poses.begin(), spatial_pose);
     return;
   }
   for (std::size_t k = 0; k < poses.size(); ++k) {  // one after the other
-    const EquilibriumOptions options{.wrench = wrench, .resume = true, .judge = false};
+    const EquilibriumOptions options{.wrench = wrench, .resume = true, .judge = judge};
     const Equilibrium found = equilibrium(robot, rows.subspan(k * inputs, inputs), options, work);
     poses[k] = found.pose;
-    statuses[k] = found.is_solved() ? Status::converged : found.report.status;
+    statuses[k] = found.is_solved() && !judge ? Status::converged : found.report.status;
   }
 }
 

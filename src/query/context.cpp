@@ -134,9 +134,10 @@ Solved solve_configuration(Context& context, const Configuration& given) {
     return {solved.report, *given.pose, {solved.coordinates.begin(), solved.coordinates.end()}};
   }
   if (!given.pose) {
-    const Forward solved =
-        forward(context.robot, *given.inputs,
-                {.start = given.start, .max_iterations = context.max_iterations.value_or(100)}, work);
+    ForwardOptions options{.start = given.start, .max_iterations = context.max_iterations.value_or(100)};
+    if (context.last && !given.start) options.start = *context.last;
+    const Forward solved = forward(context.robot, *given.inputs, options, work);
+    if (context.last) *context.last = solved.ok() ? std::optional(solved.pose) : std::nullopt;
     return {solved.report, solved.pose, {solved.coordinates.begin(), solved.coordinates.end()}};
   }
   Report report = command(context.robot, *given.inputs, work);

@@ -22,6 +22,9 @@ struct Question {
   Errors& errors;
   Json& answer;
   std::optional<int> max_iterations;
+  /// On a path of questions: the pose last answered, where the next search begins; the workspace still holds
+  /// that answer. Null for a question by itself.
+  std::optional<AnyPose>* last = nullptr;
 
   /// True when all fields are read, none is left over and none was wrong.
   bool ready() {

@@ -137,8 +137,10 @@ void answer_forward(Context& context) {
   if (!context.ready()) return;
 
   if (want_all) return answer_all_modes(context, inputs, options.start.value_or(home(context.robot)));
+  if (context.last && !options.start) options.start = *context.last;
   const Forward result = forward(context.robot, inputs, options, context.work);
   context.report(result.report);
+  if (context.last) *context.last = result.ok() ? std::optional(result.pose) : std::nullopt;
   if (result.ok()) {
     context.answer["pose"] = to_json(result.pose);
     context.answer["legs"] = legs_json(context.robot, result.pose, result.coordinates, context.work);

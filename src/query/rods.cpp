@@ -212,10 +212,14 @@ RodQuery read_configuration_of_rods(Context& context) {
 }
 
 Equilibrium solve(Context& context, const RodQuery& asked) {
-  if (asked.pose) return inverse_equilibrium(context.robot, *asked.pose, asked.options, context.work);
-  return asked.independent
-             ? inverse_equilibrium(context.robot, *asked.independent, asked.options, context.work)
-             : equilibrium(context.robot, asked.inputs, asked.options, context.work);
+  EquilibriumOptions options = asked.options;
+  options.resume = context.last && *context.last && !options.start;
+  const Equilibrium found =
+      asked.pose          ? inverse_equilibrium(context.robot, *asked.pose, options, context.work)
+      : asked.independent ? inverse_equilibrium(context.robot, *asked.independent, options, context.work)
+                          : equilibrium(context.robot, asked.inputs, options, context.work);
+  if (context.last) *context.last = found.is_solved() ? std::optional<AnyPose>(found.pose) : std::nullopt;
+  return found;
 }
 
 namespace {

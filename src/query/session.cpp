@@ -6,6 +6,7 @@
 #include "query/chains.hpp"
 #include "query/context.hpp"
 #include "query/serial.hpp"
+#include "query/tree_session.hpp"
 #include "sinew/io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
@@ -75,14 +76,14 @@ bool reads_chains(Reader& query, const AnyRobot& robot, const Kind& kind) {
   return false;
 }
 
-std::string error_text(const Json& id, const Errors& errors) {
+Json error_answer(const Json& id, const Errors& errors) {
   Json answer = Json::object();
   if (!id.is_null()) answer["id"] = id;
   std::string message = errors.front().message;
   for (std::size_t i = 1; i < errors.size(); ++i)
     message += (message.ends_with('.') ? " " : "; ") + errors[i].message;
   answer["error"] = {{"code", errors.front().code}, {"where", errors.front().where}, {"message", message}};
-  return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return answer;
 }
 
 /// A robot, and the memory for questions to it.
@@ -113,9 +114,12 @@ Expected<Opened> open_robot(const Document& document) {
 
 }  // namespace
 
-struct Session::State {
+struct TreeSession::State {
   Document document;
   Opened opened;
+};
+struct Session::State {
+  TreeSession session;
 };
 
 namespace {
@@ -158,42 +162,35 @@ std::optional<Opened> altered(const Document& document, Reader& query, Errors& e
 
 }  // namespace
 
-Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Session::Session(Session&&) noexcept = default;
-Session& Session::operator=(Session&&) noexcept = default;
-Session::~Session() = default;
+TreeSession::TreeSession(std::unique_ptr<State> state) : state_(std::move(state)) {}
+TreeSession::TreeSession(TreeSession&&) noexcept = default;
+TreeSession& TreeSession::operator=(TreeSession&&) noexcept = default;
+TreeSession::~TreeSession() = default;
 
-Expected<Session> Session::open(Document document) {
-  auto robot = open_robot(document);
-  if (!robot) return tl::unexpected(robot.error());
-  return Session(std::make_unique<State>(State{std::move(document), std::move(*robot)}));
+Expected<TreeSession> TreeSession::open(Document robot) {
+  auto opened = open_robot(robot);
+  if (!opened) return tl::unexpected(opened.error());
+  return TreeSession(std::make_unique<State>(State{std::move(robot), std::move(*opened)}));
 }
 
-Expected<Session> Session::open(const std::string& path) {
-  auto document = read_robot_file(path);
-  return document ? open(std::move(*document)) : tl::unexpected(document.error());
-}
-
-std::string Session::answer(std::string_view text) {
-  const auto document = parse_json(text, "query");
-  if (!document) return error_text({}, document.error());
+Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last) {
   Errors errors;
-  Reader query(*document, errors);
+  Reader query(document, errors);
   const Json id = read_id(query);
   const bool is_chain = std::holds_alternative<Chain>(state_->opened);
   const Kind& kind = read_kind(query, is_chain);
-  if (!errors.empty()) return error_text(id, errors);
+  if (!errors.empty()) return error_answer(id, errors);
   const auto* own = std::get_if<Platform>(&state_->opened);
   const bool on_chains = own && reads_chains(query, own->robot, kind);
   std::optional<Opened> other = altered(state_->document, query, errors);
-  if (!errors.empty()) return error_text(id, errors);
+  if (!errors.empty()) return error_answer(id, errors);
   Opened& opened = other ? *other : state_->opened;
 
   Json answer = Json::object();
   if (!id.is_null()) answer["id"] = id;
   answer["query"] = kind.name;
   answer["robot"] = std::visit([](const auto& any) -> const std::string& { return any.name(); }, opened);
-  Question question{query, errors, answer, {}};
+  Question question{query, errors, answer, {}, last};
   if (const auto limit = query.optional("max_iterations"))
     question.max_iterations = limit->integer(Range::between(0, 100000));
   if (auto* chain = std::get_if<Chain>(&opened)) {
@@ -204,7 +201,29 @@ std::string Session::answer(std::string_view text) {
     Context context{question, platform.robot, platform.work};
     (on_chains ? kind.chain_handler : kind.handler)(context);
   }
-  if (!errors.empty()) return error_text(id, errors);
+  if (!errors.empty()) return error_answer(id, errors);
+  return answer;
+}
+
+Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+Expected<Session> Session::open(Document document) {
+  auto session = TreeSession::open(std::move(document));
+  if (!session) return tl::unexpected(session.error());
+  return Session(std::make_unique<State>(State{std::move(*session)}));
+}
+
+Expected<Session> Session::open(const std::string& path) {
+  auto document = read_robot_file(path);
+  return document ? open(std::move(*document)) : tl::unexpected(document.error());
+}
+
+std::string Session::answer(std::string_view text) {
+  const auto document = parse_json(text, "query");
+  const Json answer = document ? state_->session.answer(*document) : error_answer({}, document.error());
   return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -671,11 +671,72 @@ HWY_INLINE void move_platforms(PoseLanes& poses, int i) {
   store(nr * scale, poses.quaternion[3] + i);
 }
 
+HWY_INLINE Pack one_where(hn::Mask<Tag> mask) { return hn::IfThenElseZero(mask, all(1)); }
+HWY_INLINE Pack one_if_negative(Pack x) { return one_where(x < all(0)); }
+
+/// As RodSystem::unstable_with_tip_held in the plane.
+HWY_INLINE Pack unstable_in_plane(const CoarseRods& rods, int i) {
+  Pack count = all(0);
+  for (const RodLane& pivot : rods.pivot) count = count + one_if_negative(load(pivot + i));
+  const Pack dd = load(rods.soft_dd + i), dw = load(rods.soft_dw + i),
+             determinant = minus(dd * load(rods.soft_ww + i), dw, dw);
+  return count - hn::IfThenElse(determinant < all(0), all(1), all(2) * one_if_negative(dd));
+}
+
+/// ... and out of it, see docs/theory/elastica.md: LDLᵀ of the form, and of its inverse on the constraint.
+HWY_INLINE Pack unstable_aside(const CoarseRods& rods, int i) {
+  constexpr int N = CoarseRods::nodes;
+  const auto& basis = GalerkinBasis<coarse_nodes>::get();
+  const Pack fd = load(rods.load + i) * load(rods.force_d + i),
+             fw = load(rods.load + i) * load(rods.force_w + i);
+  Pack a[N][N], x[N], negative = all(0), soft = all(0);
+  for (int j = 0; j < N; ++j) {
+    Pack slope = all(0);
+    for (int k = 0; k < N; ++k) slope = plus(slope, all(basis.slope[j][k]), load(rods.theta[k] + i));
+    Pack pivot =
+        minus(plus(plus(all(basis.bending[j][j]), fd, load(rods.sine[j] + i)), fw, load(rods.cosine[j] + i)),
+              all(basis.weight[j]) * slope, slope);
+    x[j] = all(basis.weight[j]);
+    for (int k = 0; k < j; ++k) {
+      const Pack row = a[j][k] * a[k][k];  // the diagonal holds reciprocals
+      pivot = minus(pivot, row, a[j][k]);
+      x[j] = minus(x[j], row, x[k]);
+      a[j][k] = row;
+    }
+    negative = negative + one_if_negative(pivot);
+    a[j][j] = all(1) / pivot;
+    soft = plus(soft, x[j] * x[j], a[j][j]);
+    for (int m = j + 1; m < N; ++m) {
+      a[m][j] = all(basis.bending[m][j]);
+      for (int k = 0; k < j; ++k) a[m][j] = minus(a[m][j], a[m][k], a[j][k]);
+    }
+  }
+  return negative - one_if_negative(soft);
+}
+
+/// Negative directions of the platform's stiffness, whose symmetric part is what a small motion works
+/// against.
+HWY_INLINE Pack negative_directions(const Stiffness& stiffness) {
+  Pack a[36], count = all(0);
+  stiffness.matrix(a);
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < r; ++c) a[6 * r + c] = all(0.5) * (a[6 * r + c] + a[6 * c + r]);
+  for (int k = 0; k < 6; ++k) {
+    count = count + one_if_negative(a[7 * k]);
+    const Pack inverse = all(1) / a[7 * k];
+    for (int r = k + 1; r < 6; ++r)
+      for (int c = k + 1; c <= r; ++c)
+        a[6 * r + c] = minus(a[6 * r + c], a[6 * r + k] * inverse, a[6 * c + k]);
+  }
+  return count;
+}
+
 /// What all rods of the poses in some lanes add up to.
 struct PoseSums {
   Wrench wrench, closing;  // of the forces as they are, and of those that close the gaps
   Stiffness stiffness;
   Errors errors;
+  Pack unstable = all(0);
   HWY_INLINE PoseSums() {}
 };
 
@@ -705,6 +766,7 @@ void AdvancePoses(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& p
         stiffen(rod, i);
         sum.stiffness.add(tip_stiffness(rod, i), load3(rod.arm, i), force(rod, i));
       }
+      if (step.judges) sum.unstable = sum.unstable + unstable_in_plane(rod, i) + unstable_aside(rod, i);
       close_gaps(rod, i, sum.closing);
     }
   for (int p = 0; p < packs; ++p) {
@@ -717,6 +779,7 @@ void AdvancePoses(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& p
     }
     store(errors.worst + errors.sum * all(0), poses.error + i);
     if (step.renews) factor(sum.stiffness, poses, i);
+    if (step.judges) store(sum.unstable + negative_directions(sum.stiffness), poses.unstable + i);
   }
 }
 /// @}

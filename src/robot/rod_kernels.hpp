@@ -40,6 +40,7 @@ struct alignas(64) PoseLanes {
   RodLane twist[6];     ///< the last step
   RodLane error;        ///< as RodSystem::evaluate, of each pose
   RodLane factors[36];  ///< of the platforms' stiffness
+  RodLane unstable;     ///< directions in which the pose does not hold by itself, where that was asked
 };
 
 /// What is done to eight poses in one sweep over their rods.
@@ -47,6 +48,7 @@ struct PoseStep {
   bool moves = true;    ///< else they are evaluated where they are
   bool anew = false;    ///< see RodSystem::evaluate
   bool renews = false;  ///< factors
+  bool judges = false;  ///< counts unstable directions by them
 };
 
 namespace rod_kernels {

@@ -52,7 +52,7 @@ class Layers(Tree):
         for path, include, text in [("include/sinew/leg/leg.hpp", '"sinew/robot/robot.hpp"', "leg is below robot"),
                                     ("src/link/arc.cpp", '"sinew/tendon/pair.hpp"', "siblings"),
                                     ("src/math/vec.cpp", "<sinew/solve/newton.hpp>", "siblings"),
-                                    ("src/plan/scene.cpp", '"sinew/study/sweep.hpp"', "siblings"),
+                                    ("src/query/answer.cpp", '"sinew/study/sweep.hpp"', "query is below study"),
                                     ("src/query/answer.cpp", '"cli/verbs.hpp"', "application"),
                                     ("src/io/x.cpp", '"query/private.hpp"', "io is below query"),
                                     ("src/robot/x.cpp", '"sinew/sinew.hpp"', "above all layers"),

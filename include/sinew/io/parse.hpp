@@ -23,6 +23,9 @@ SINEW_API Expected<Document> parse_yaml(std::string_view text, std::string sourc
 /// too large for a double), `not_utf8`, `too_large`, `too_deep`.
 SINEW_API Expected<Document> parse_json(std::string_view text, std::string source);
 
+/// A text file, or as much of it as tells that it is too large. Codes: `file_missing`, `file_unreadable`.
+SINEW_API Expected<std::string> read_text(const std::string& path);
+
 /// A YAML file. Codes: those of `parse_yaml`, `file_missing`, `file_unreadable`.
 SINEW_API Expected<Document> read_file(const std::string& path);
 

@@ -16,6 +16,15 @@ namespace sinew::inline v0 {
 /// `not_a_number`, `not_whole`; they have no place.
 SINEW_API Expected<double> parse_quantity(std::string_view text, Dimension dimension);
 
+/// A number and what it measures, which its unit tells.
+struct Quantity {
+  double value = 0;  ///< SI
+  Dimension dimension = Dimension::number;
+};
+
+/// Any quantity. Errors: as `parse_quantity`.
+SINEW_API Expected<Quantity> parse_any_quantity(std::string_view text);
+
 /// The whole text as a finite decimal number, else nothing (`0x10`, `inf` and `nan` are no numbers here).
 SINEW_API std::optional<double> parse_number(std::string_view text);
 

@@ -18,6 +18,9 @@ namespace sinew::inline v0 {
 /// `builtin_robot_names`).
 SINEW_API Expected<Document> read_robot_file(const std::string& path_or_name);
 
+/// Its text, as it is in the file or in the library.
+SINEW_API Expected<std::string> read_robot_text(const std::string& path_or_name);
+
 /// Names of the robots that are part of the library: those of robots/*.yaml.
 SINEW_API std::vector<std::string_view> builtin_robot_names();
 

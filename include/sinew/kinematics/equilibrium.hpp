@@ -69,10 +69,12 @@ SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPo
 /// `statuses` have one entry each. Neighbouring rows should be near each other: eight stretches of them are
 /// walked at once in SIMD lanes, and a row that does not come at once, or whose rods bend more sharply than
 /// the lanes resolve, is solved alone; rods that do not bend in one plane go row by row. Shapes to the
-/// estimate of quick resumed answers; stability is not asked. Gravity is the robot's. Where a status is not
-/// `converged` the pose is not one. Allocates once a call.
+/// estimate of quick resumed answers. Gravity is the robot's. Where a status is neither `converged` nor
+/// `unstable` the pose is not one. Allocates once a call.
+/// @param judge whether it is asked if equilibria hold by themselves; else they are all `converged`
 SINEW_API void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
-                                 std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work);
+                                 std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
+                                 bool judge = false);
 
 /// What is known of the equilibrium a workspace holds.
 struct RodAnalysis {

@@ -47,11 +47,11 @@ void RodBatch::from_lane(int lane) {
 }
 
 /// One pose alone: from where the lane was, else from home.
-bool RodBatch::solve_lane(int lane, Numbers inputs, Status& status) {
+bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Status& status) {
   RodSystem& system = work_->system;
   RodQuestion question;
   for (int k = 0; k < 6; ++k) question.wrench[k] = poses_.wrench[k][lane];
-  question.judge = false;
+  question.judge = judges;
   if (knows_[at(lane)]) {
     from_lane(lane);
     system.set_wrench(question.wrench);
@@ -67,7 +67,7 @@ bool RodBatch::solve_lane(int lane, Numbers inputs, Status& status) {
   status = report.status;
   knows_[at(lane)] = work_->is_solved;
   if (!work_->is_solved) return false;
-  if (report.status == Status::unstable) status = Status::converged;  // stability is not asked here
+  if (report.status == Status::unstable && !judges) status = Status::converged;
   if (system.is_fine()) system.coarsen();
   to_lane(lane);
   return true;
@@ -98,7 +98,7 @@ void RodBatch::walk() {
   }
 }
 
-void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wrench,
+void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wrench, bool judges,
                      std::span<SE3<double>> poses, std::span<Status> statuses) {
   const std::size_t inputs = at(work_->system.inputs()), count = poses.size();
   if (count == 0) return;
@@ -111,16 +111,19 @@ void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wren
     const auto row = [&](int lane) { return std::min(at(lane) * stretch + step, count - 1); };
     for (int lane = 0; lane < rod_lanes; ++lane)
       if (knows_[at(lane)]) set_lengths(lane, rows.subspan(row(lane) * inputs, inputs));
-    if (std::ranges::any_of(knows_, std::identity())) walk();
+    if (std::ranges::any_of(knows_, std::identity())) {
+      walk();
+      if (judges) rod_kernels::advance(rods_, {.moves = false, .renews = true, .judges = true}, poses_);
+    }
     alignas(64) RodLane truncation;
     rod_kernels::truncation(rods_, truncation);
     bool is_renewed = false;
     for (int lane = 0; lane < rod_lanes; ++lane) {
-      Status status = Status::converged;
+      Status status = judges && poses_.unstable[lane] > 0 ? Status::unstable : Status::converged;
       if (!knows_[at(lane)] || !(poses_.error[lane] <= rod_tolerance) ||
           !(truncation[lane] <= RodSystem::quick_truncation)) {
         is_renewed = true;
-        if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), status)) {
+        if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), judges, status)) {
           statuses[row(lane)] = status;
           continue;
         }

@@ -12,15 +12,16 @@ class RodBatch {
   RodBatch(RodWork& work, const SE3<double>& home);
 
   /// @param rows inputs of every pose, one after the other; @param poses, statuses one a row
-  /// Poses as those of a quick resumed answer; stability is not asked.
-  void solve(std::span<const double> rows, const RodSystem::Wrench& wrench, std::span<SE3<double>> poses,
-             std::span<Status> statuses);
+  /// @param judges whether it is asked if they hold by themselves
+  /// Poses as those of a quick resumed answer.
+  void solve(std::span<const double> rows, const RodSystem::Wrench& wrench, bool judges,
+             std::span<SE3<double>> poses, std::span<Status> statuses);
 
  private:
   void set_lengths(int lane, Numbers inputs);
   void to_lane(int lane);
   void from_lane(int lane);
-  bool solve_lane(int lane, Numbers inputs, Status& status);
+  bool solve_lane(int lane, Numbers inputs, bool judges, Status& status);
   double worst() const;
   void walk();
 

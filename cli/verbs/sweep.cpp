@@ -1,0 +1,153 @@
+/// sweep: a study run on all cores or a cluster, into a file of results.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "progress.hpp"
+#include "request.hpp"
+#include "sinew/io/parse.hpp"
+#include "sinew/io/quantity.hpp"
+#include "sinew/study/sweep.hpp"
+#include "terminal.hpp"
+#include "text_table.hpp"
+
+namespace sinew::cli {
+namespace {
+
+constexpr int most_threads = 1024;
+
+/// A whole number of an option, within bounds.
+int whole(const Arguments& arguments, std::string_view name, int least, int most, int otherwise,
+          Errors& errors) {
+  const std::string* text = arguments.text(name);
+  if (!text) return otherwise;
+  const auto value = parse_quantity(*text, Dimension::count);
+  if (value && *value >= least && *value <= most) return static_cast<int>(*value);
+  errors.push_back({"out_of_range", fmt::format("--{}", name),
+                    fmt::format("{} is no whole number from {} to {}.", in_quotes(*text), least, most)});
+  return otherwise;
+}
+
+std::string heading(const std::pair<std::string, std::string>& column) {
+  return column.second.empty() ? column.first : fmt::format("{}[{}]", column.first, column.second);
+}
+
+/// What a study will do.
+int list(const Study& study) {
+  const auto columns = sweep_columns(study);
+  if (!columns) return refuse("sweep", columns.error());
+  std::vector<std::string> axes, names;
+  for (std::size_t a = 0; a < columns->axes.size(); ++a) {
+    const bool is_grid = study.sampling == Study::Sampling::grid;
+    axes.push_back(heading(columns->axes[a]) + (is_grid ? fmt::format(" ({})", columns->dimensions[a]) : ""));
+  }
+  for (const auto& column : columns->columns) names.push_back(heading(column));
+  print(fmt::format(
+      "{}robot    {}\nsamples  {}\naxes     {}\ncolumns  {}\nsampler  {}, {} chunks of up to {}\n",
+      study.title.empty() ? "" : fmt::format("title    {}\n", study.title), study.robot, study.samples,
+      fmt::join(axes, ", "), fmt::join(names, ", "), columns->sampler, columns->chunks, columns->chunk));
+  if (!columns->warning.empty()) message(fmt::format("sinew sweep: {}", columns->warning));
+  return solved;
+}
+
+/// The command that gives the same data: without how many computed them, or where to.
+std::string command_of(const Arguments& arguments) {
+  std::string text = fmt::format("sinew sweep {}", arguments.operand());
+  if (const auto set = arguments.options.find("set"); set != arguments.options.end())
+    for (const std::string& change : set->second) text += fmt::format(" --set {}", in_quotes(change));
+  return text;
+}
+
+std::string counts(const SweepSummary& summary) {
+  std::string text;
+  for (std::size_t s = summary.statuses.size(); s-- > 0;)
+    if (summary.statuses[s] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", summary.statuses[s], sample_status_name(s));
+  return text;
+}
+
+std::string rate_of(std::uint64_t bytes, double seconds) {
+  return seconds > 0 ? short_number(static_cast<double>(bytes) / seconds) + "B/s" : "-";
+}
+
+/// For people, on stderr: the data are in the file.
+void report(const SweepSummary& summary) {
+  const auto fresh = static_cast<double>(summary.samples - summary.resumed);
+  std::string who = fmt::format("{} thread{}", summary.threads, summary.threads == 1 ? "" : "s");
+  if (summary.ranks > 1) who = fmt::format("{} ranks of {}", summary.ranks, who);
+  message(fmt::format("{} ({}; {}, {})", counts(summary), summary.sampler, who, summary.instruction_set));
+  message(fmt::format("computing {:.2f} s, {} samples/s; log {:.2f} s, {}; file {:.2f} s, {}; {} in all",
+                      summary.computing, short_number(fresh / std::max(summary.computing, 1e-9)),
+                      summary.logging, rate_of(summary.logged_bytes, summary.logging), summary.writing,
+                      rate_of(summary.written_bytes, summary.writing), short_time(summary.total)));
+}
+
+void print_fits(const SweepSummary& summary) {
+  for (const FittedTerms& fit : summary.fits) {
+    TextTable table({"term", fmt::format("coefficient of {}", heading({fit.name, fit.unit})), "deviation"});
+    for (std::size_t t = 0; t < fit.terms.size(); ++t)
+      table.add({fit.terms[t], fmt::format("{:.6g}", fit.coefficients[t]),
+                 fmt::format("{:.1e}", fit.deviations[t])});
+    print(table.text() +
+          fmt::format("rms {:.4g}, largest {:.4g}, {} samples\n\n", fit.rms, fit.largest, fit.samples));
+  }
+}
+
+}  // namespace
+
+int run_sweep(const Arguments& arguments) {
+  if (arguments.operands.empty())
+    return refuse("sweep",
+                  {{"missing_study", "",
+                    fmt::format("which study? Give a study file: {}", find_verb("sweep")->example)}});
+  auto changes = settings(arguments);
+  if (!changes) return refuse("sweep", changes.error());
+  auto study = read_study(arguments.operand(), *changes);
+  if (!study) return refuse("sweep", study.error());
+  if (arguments.has("list")) return list(*study);
+
+  Errors errors;
+  SweepOptions options;
+  options.output = arguments.has("output") ? std::filesystem::path(*arguments.text("output"))
+                                           : std::filesystem::path(arguments.operand()).stem().concat(".h5");
+  options.resume = arguments.has("resume");
+  options.threads = whole(arguments, "threads", 1, most_threads, 0, errors);
+  options.compression = whole(arguments, "compress", 0, 9, 0, errors);
+  options.command = command_of(arguments);
+  const std::string isa = arguments.has("isa") ? *arguments.text("isa") : "native";
+  if (!use_instruction_set(isa))
+    errors.push_back({"no_instruction_set", "--isa",
+                      fmt::format("{} is none this machine has; there are baseline, avx2, avx512 and native.",
+                                  in_quotes(isa))});
+  if (!errors.empty()) return refuse("sweep", errors);
+
+  finish_what_is_begun();
+  const bool is_quiet = arguments.has("quiet");
+  auto line = std::make_unique<ProgressLine>(is_quiet, "samples");
+  options.progress = [&](const SweepProgress& progress) {
+    line->show(progress.done, progress.total, progress.done - progress.resumed, progress.seconds);
+    return !interrupted();
+  };
+  const auto summary = sweep(std::move(*study), options);
+  line.reset();
+  if (!summary) return refuse("sweep", summary.error());
+  if (!summary->warning.empty()) message(fmt::format("sinew sweep: {}", summary->warning));
+  if (!summary->is_complete) {
+    message(
+        fmt::format("sinew sweep: stopped; {}.log is kept, go on with --resume", options.output.string()));
+    return stopped;
+  }
+  if (summary->was_complete) {
+    if (!is_quiet) message(fmt::format("{} is complete already", options.output.string()));
+    return solved;
+  }
+  if (!is_quiet) {
+    report(*summary);
+    print(options.output.string() + '\n');
+  }
+  print_fits(*summary);
+  return solved;
+}
+
+}  // namespace sinew::cli

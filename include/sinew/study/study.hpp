@@ -1,0 +1,90 @@
+/// @file study.hpp
+/// Study files: one query put at many samples. Axes name what varies, outputs what is kept of the answers;
+/// reductions and fits say what is made of them. Format: docs/studies.md
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sinew/base/error.hpp"
+#include "sinew/io/node.hpp"
+
+namespace sinew::inline v0 {
+
+/// What varies from sample to sample; it stands in the query as `$name`.
+struct StudyAxis {
+  enum class Kind {
+    values,   ///< of a grid, or a column of a list
+    uniform,  ///< random, from `low` to `high`
+    normal,   ///< random, of mean `low` and standard deviation `high`
+  };
+  std::string name;
+  std::string unit;  ///< SI; empty for a plain number
+  Kind kind = Kind::values;
+  std::vector<double> values;
+  double low = 0, high = 0;
+};
+
+/// A column of the results: a number of the answer.
+struct StudyOutput {
+  std::string name;
+  std::string path;           ///< in the answer: `pose.position[2]`; of a list `type_1.count` is its length
+  std::string unit;           ///< SI; empty for a plain number
+  bool is_sometimes = false;  ///< there in few answers only, so that none of a trial needs to have it
+};
+
+/// What becomes of a column when axes are left out.
+struct StudyReduction {
+  enum class Kind { max, min, mean, rms, part };  ///< `part`: of the samples that converged, no column
+  std::string name;
+  Kind kind = Kind::max;
+  std::size_t output = 0;  ///< index of the column
+};
+
+/// A product of powers of columns, with a factor.
+struct Monomial {
+  double factor = 1;
+  std::vector<std::size_t> columns;  ///< one entry a power; axes first, then outputs
+};
+
+/// One column as a sum of terms by least squares.
+struct StudyFit {
+  std::string name;
+  std::size_t column = 0;                    ///< what is fitted; axes first, then outputs
+  std::vector<std::string> texts;            ///< of the terms: `e1^2 - e2^2`
+  std::vector<std::vector<Monomial>> terms;  ///< each with one coefficient
+};
+
+struct Study {
+  enum class Sampling { grid, random, listed };
+
+  std::string title;
+  std::string source;       ///< the file
+  std::string text;         ///< what it says
+  std::string robot;        ///< built-in name or file
+  std::string robot_text;   ///< its file
+  std::string list_text;    ///< the table of the samples, if there is one
+  Document robot_document;  ///< with the study's `set`
+  Document query;           ///< with `$name` where axes go
+  Sampling sampling = Sampling::grid;
+  std::vector<StudyAxis> axes;  ///< the last runs fastest
+  std::size_t samples = 0;
+  std::uint64_t seed = 0;
+  bool is_path = true;  ///< neighbours continue each other's solution
+  std::vector<StudyOutput> outputs;
+  std::vector<StudyReduction> reductions;
+  std::size_t reduced_axes = 0;  ///< the last so many axes are left out by the reductions
+  std::vector<StudyFit> fits;
+
+  /// Samples that become one value of each reduction.
+  SINEW_API std::size_t reduced_samples() const;
+};
+
+/// A study file, with its robot and its table of samples. Everything wrong with it at once. Codes: those of
+/// `read_file` and of robot files, `unknown_axis`, `unused_axis`, `unknown_column`, `bad_term`, ...
+/// @param set changes of the robot, `{path: value}`, over the study's own
+SINEW_API Expected<Study> read_study(const std::string& path, std::span<const Member> set = {});
+
+}  // namespace sinew::inline v0

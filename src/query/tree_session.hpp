@@ -1,0 +1,29 @@
+/// @file tree_session.hpp
+/// A session whose questions and answers stay trees: what asks millions of them spares their texts.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "query/context.hpp"
+
+namespace sinew::inline v0 {
+
+/// As Session. Not for two threads at once: open one a thread.
+class SINEW_API TreeSession {
+ public:
+  static Expected<TreeSession> open(Document robot);
+
+  /// @param last where the search of a question may begin, see Question::last; it is kept up to date
+  Json answer(const Document& query, std::optional<AnyPose>* last = nullptr);
+
+  TreeSession(TreeSession&&) noexcept;
+  TreeSession& operator=(TreeSession&&) noexcept;
+  ~TreeSession();
+
+ private:
+  struct State;
+  explicit TreeSession(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sinew::inline v0

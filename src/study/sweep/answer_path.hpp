@@ -1,0 +1,33 @@
+/// @file answer_path.hpp
+/// Places in the trees of answers, `legs[0].tendon_lengths[1]`, taken apart once.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace sinew::inline v0 {
+
+class AnswerPath {
+ public:
+  using Json = nlohmann::ordered_json;
+
+  explicit AnswerPath(std::string_view path);
+
+  /// The number there; 1 and 0 for true and false; of a list under `.count` its length. Nothing where there
+  /// is none.
+  std::optional<double> number(const Json& answer) const;
+
+ private:
+  const Json* find(const Json& answer) const;
+
+  std::vector<std::variant<std::string, std::size_t>> steps_;
+  bool counts_ = false;
+};
+
+/// The SI unit of a number of an answer, as far as its place tells; empty for plain numbers.
+std::string_view unit_of_answer(std::string_view path);
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,218 @@
+#include "study/sweep/chunk_log.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/uio.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace sinew::inline v0 {
+namespace {
+
+// Little-endian as every machine this runs on; the header says so by its first number.
+constexpr std::uint64_t log_magic = 0x31676f6c77656e73U;    // "snewlog1"
+constexpr std::uint64_t chunk_magic = 0x316b6e7563776e73U;  // "snwcunk1"
+constexpr std::uint64_t bytes_between_flushes = std::uint64_t{64} << 20U;
+
+struct Header {
+  std::uint64_t magic = log_magic;
+  std::uint64_t chunks = 0;
+  Digest key{};
+  std::uint64_t checksum = 0;  ///< of what stands before it
+};
+struct Record {
+  std::uint64_t magic = chunk_magic;
+  std::uint64_t chunk = 0, size = 0;
+  std::uint64_t checksum = 0;  ///< of chunk, size and bytes
+};
+
+std::uint64_t checksum_of(const Header& header) { return XXH3_64bits(&header, offsetof(Header, checksum)); }
+
+std::uint64_t checksum_of(const Record& record, std::span<const std::byte> bytes) {
+  const std::uint64_t seed = record.chunk * 0x9e3779b97f4a7c15U + record.size;
+  return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
+}
+
+std::string reason() { return std::strerror(errno); }
+
+/// All of it, or the errno.
+bool write_all(int file, std::uint64_t at, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t done = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) return false;
+    at += static_cast<std::uint64_t>(done);
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
+  }
+  return true;
+}
+
+bool read_all(int file, std::uint64_t at, std::span<std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t done = ::pread(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) return false;
+    at += static_cast<std::uint64_t>(done);
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
+  }
+  return true;
+}
+
+template <class T>
+std::span<const std::byte> bytes_of(const T& value) {
+  return std::as_bytes(std::span(&value, 1));
+}
+
+}  // namespace
+
+ChunkLog::ChunkLog(std::filesystem::path path, int file, std::size_t chunks)
+    : path_(std::move(path)),
+      file_(file),
+      places_(chunks) {}
+
+ChunkLog::ChunkLog(ChunkLog&& other) noexcept
+    : path_(std::move(other.path_)),
+      file_(std::exchange(other.file_, -1)),
+      places_(std::move(other.places_)),
+      count_(other.count_),
+      end_(other.end_),
+      flushed_(other.flushed_) {}
+
+ChunkLog& ChunkLog::operator=(ChunkLog&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(file_, other.file_);
+  std::swap(places_, other.places_);
+  std::swap(count_, other.count_);
+  std::swap(end_, other.end_);
+  std::swap(flushed_, other.flushed_);
+  return *this;
+}
+
+ChunkLog::~ChunkLog() {
+  if (file_ >= 0) ::close(file_);
+}
+
+Expected<ChunkLog> ChunkLog::open(const std::filesystem::path& path, const Digest& key, std::size_t chunks,
+                                  Open how) {
+  if (path.has_parent_path()) {
+    std::error_code ignored;  // opening tells
+    std::filesystem::create_directories(path.parent_path(), ignored);
+  }
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0)
+    return failure("file_unwritable", path.string(),
+                   fmt::format("cannot be written: {}; give a folder you may write to", reason()));
+  ChunkLog log(path, file, chunks);
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0)
+    return failure("in_use", path.string(),
+                   "another sweep is writing it; wait for it, or give another --output");
+  struct stat status = {};
+  ::fstat(file, &status);
+  if (status.st_size < static_cast<off_t>(sizeof(Header))) {  // new, or killed while it was begun
+    if (const auto done = log.write_header(key); !done) return tl::unexpected(done.error());
+    return log;
+  }
+  if (const auto done = log.check_header(key); !done) return tl::unexpected(done.error());
+  if (const auto done = log.recover(); !done) return tl::unexpected(done.error());
+  if (how == Open::create && log.count_ > 0)
+    return failure(
+        "sweep_begun", path.string(),
+        fmt::format("holds {} of {} chunks of this sweep; go on with --resume, or remove it to begin anew",
+                    log.count_, chunks));
+  return log;
+}
+
+Expected<void> ChunkLog::write_header(const Digest& key) {
+  Header header{.chunks = places_.size(), .key = key};
+  header.checksum = checksum_of(header);
+  if (::ftruncate(file_, 0) != 0 || !write_all(file_, 0, bytes_of(header)))
+    return failure("file_unwritable", path_.string(), fmt::format("cannot be written: {}", reason()));
+  end_ = sizeof(Header);
+  return {};
+}
+
+Expected<void> ChunkLog::check_header(const Digest& key) {
+  Header header;
+  if (!read_all(file_, 0, std::as_writable_bytes(std::span(&header, 1))) || header.magic != log_magic ||
+      header.checksum != checksum_of(header))
+    return failure("not_a_log", path_.string(),
+                   "is no log of a sweep, or is damaged; remove it, or give another --output");
+  if (header.key != key || header.chunks != places_.size())
+    return failure(
+        "other_sweep", path_.string(),
+        "belongs to another sweep: study, robot, list of samples, version or instruction set differ; "
+        "remove it, or give another --output");
+  end_ = sizeof(Header);
+  return {};
+}
+
+/// Whole records from the front; what follows them was being written when the process ended.
+Expected<void> ChunkLog::recover() {
+  std::vector<std::byte> bytes;
+  struct stat status = {};
+  ::fstat(file_, &status);
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  for (Record record;;) {
+    if (!read_all(file_, end_, std::as_writable_bytes(std::span(&record, 1)))) break;
+    if (record.magic != chunk_magic || record.chunk >= places_.size() || record.size == 0 ||
+        record.size > size - end_ - sizeof(Record))
+      break;
+    bytes.resize(record.size);
+    if (!read_all(file_, end_ + sizeof(Record), bytes) || checksum_of(record, bytes) != record.checksum)
+      break;
+    count_ += !has(record.chunk);
+    places_[record.chunk] = {end_ + sizeof(Record), record.size};
+    end_ += sizeof(Record) + record.size;
+  }
+  if (::ftruncate(file_, static_cast<off_t>(end_)) != 0)
+    return failure("file_unwritable", path_.string(), fmt::format("cannot be written: {}", reason()));
+  return {};
+}
+
+Expected<void> ChunkLog::append(std::size_t chunk, std::span<const std::byte> bytes) {
+  Record record{.chunk = chunk, .size = bytes.size()};
+  record.checksum = checksum_of(record, bytes);
+  if (!write_all(file_, end_, bytes_of(record)) || !write_all(file_, end_ + sizeof(Record), bytes)) {
+    const std::string why = reason();
+    [[maybe_unused]] const int cut = ::ftruncate(file_, static_cast<off_t>(end_));  // else recovery does
+    return failure("file_unwritable", path_.string(),
+                   fmt::format("cannot be written: {}; make room and go on with --resume", why));
+  }
+  count_ += !has(chunk);
+  places_[chunk] = {end_ + sizeof(Record), bytes.size()};
+  end_ += sizeof(Record) + bytes.size();
+  if (end_ - flushed_ > bytes_between_flushes) flush();
+  return {};
+}
+
+Expected<void> ChunkLog::read(std::size_t chunk, std::vector<std::byte>& bytes) const {
+  const Place& place = places_[chunk];
+  bytes.resize(place.size);
+  Record record;
+  if (!read_all(file_, place.at - sizeof(Record), std::as_writable_bytes(std::span(&record, 1))) ||
+      !read_all(file_, place.at, bytes) || checksum_of(record, bytes) != record.checksum)
+    return failure(
+        "file_unreadable", path_.string(),
+        fmt::format("chunk {} can no longer be read as it was written; remove the file and begin anew",
+                    chunk));
+  return {};
+}
+
+void ChunkLog::flush() {
+  ::fdatasync(file_);
+  flushed_ = end_;
+}
+
+void ChunkLog::remove() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,63 @@
+/// @file chunk_log.hpp
+/// Chunks of a sweep as they are finished, in a file that only grows. Each has a checksum: of a process
+/// killed at any moment, or a disc that is full, all whole chunks are found again.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sinew/base/error.hpp"
+
+namespace sinew::inline v0 {
+
+/// SHA-256.
+using Digest = std::array<std::uint8_t, 32>;
+
+class ChunkLog {
+ public:
+  enum class Open { create, resume };
+
+  /// The log of a sweep that `key` tells apart from others. Creating, a log that holds chunks is refused;
+  /// resuming, a torn end is cut off. Codes: `sweep_begun`, `other_sweep`, `not_a_log`, `in_use`,
+  /// `file_unwritable`.
+  static Expected<ChunkLog> open(const std::filesystem::path& path, const Digest& key, std::size_t chunks,
+                                 Open how);
+
+  bool has(std::size_t chunk) const { return places_[chunk].size > 0; }
+  std::size_t count() const { return count_; }         ///< chunks there are
+  std::size_t size() const { return places_.size(); }  ///< chunks there will be
+  std::uint64_t bytes() const { return end_; }
+
+  /// Code `file_unwritable`; what was there before still is. Bytes are on the disc within some seconds.
+  Expected<void> append(std::size_t chunk, std::span<const std::byte> bytes);
+  /// Code `file_unreadable`, also where the bytes are no longer those that were written.
+  Expected<void> read(std::size_t chunk, std::vector<std::byte>& bytes) const;
+  void flush();  ///< to the disc
+  /// The log is of no more use.
+  void remove();
+
+  ChunkLog(ChunkLog&&) noexcept;
+  ChunkLog& operator=(ChunkLog&&) noexcept;
+  ~ChunkLog();
+
+ private:
+  struct Place {
+    std::uint64_t at = 0, size = 0;
+  };
+  ChunkLog(std::filesystem::path path, int file, std::size_t chunks);
+  Expected<void> write_header(const Digest& key);
+  Expected<void> check_header(const Digest& key);
+  Expected<void> recover();
+
+  std::filesystem::path path_;
+  int file_ = -1;
+  std::vector<Place> places_;
+  std::size_t count_ = 0;
+  std::uint64_t end_ = 0, flushed_ = 0;
+};
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,137 @@
+/// Results as CSV: a line a sample, the grid written out; for results that people open in a spreadsheet.
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "sinew/io/quantity.hpp"
+#include "sinew/io/table.hpp"
+#include "study/sweep/result_file.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_fact = 200;  ///< texts of whole files stay out of a table
+
+/// `# fit x[m] = 0.1 (e1^2 - e2^2) + ..., rms 1e-5, largest 3e-5, 121 samples`
+std::string fit_line(const FittedTerms& fit) {
+  std::string line = fmt::format("# fit {} =", Column{fit.name, fit.unit, {}}.heading());
+  for (std::size_t t = 0; t < fit.terms.size(); ++t)
+    line += fmt::format("{} {} ({})", t == 0 ? "" : " +", fit.coefficients[t], fit.terms[t]);
+  return line + fmt::format("; rms {}, largest {}, {} samples\n", fit.rms, fit.largest, fit.samples);
+}
+
+class CsvResult : public ResultFile {
+ public:
+  CsvResult(const fs::path& path, ResultLayout layout)
+      : path_(path),
+        part_(path.string() + ".part"),
+        layout_(std::move(layout)),
+        file_(std::fopen(part_.c_str(), "wb")) {
+    std::string head;
+    if (!layout_.title.empty()) head += "# " + layout_.title + '\n';
+    for (const Fact& fact : layout_.provenance)
+      if (fact.text.size() <= longest_fact && fact.text.find('\n') == std::string::npos)
+        head += fmt::format("# {}: {}\n", fact.name, fact.text);
+    if (layout_.has_status) {
+      head += "# status:";
+      for (SampleStatus s = 0; s < sample_statuses; ++s)
+        head += fmt::format("{} {} {}", s == 0 ? "" : ",", s, name_of(s));
+      head += '\n';
+    }
+    std::string cells;
+    const auto add = [&](const std::string& name, const std::string& unit) {
+      cells += (cells.empty() ? "" : ",") + Column{name, unit, {}}.heading();
+    };
+    for (const auto& axis : layout_.axes) add(axis.name, axis.unit);
+    for (const auto& column : layout_.columns) add(column.name, column.unit);
+    if (layout_.has_status) add("status", "");
+    put(head + cells + '\n');
+  }
+  ~CsvResult() override {
+    if (file_) std::fclose(file_);
+    std::error_code ignored;
+    if (!is_finished_) fs::remove(part_, ignored);
+  }
+
+  Expected<void> write(const ResultRows& rows) override {
+    std::string text;
+    for (std::size_t k = 0; k < rows.count; ++k) {
+      std::size_t cell = 0;
+      const auto add = [&](double value) {
+        if (cell++ > 0) text += ',';
+        if (std::isfinite(value)) fmt::format_to(std::back_inserter(text), "{}", value);
+      };
+      for (std::size_t a = 0; a < layout_.axes.size(); ++a) add(rows.axes[a * rows.count + k]);
+      for (std::size_t c = 0; c < layout_.columns.size(); ++c) add(rows.columns[c * rows.count + k]);
+      if (layout_.has_status) add(rows.statuses[k]);
+      text += '\n';
+    }
+    put(text);
+    return outcome();
+  }
+
+  Expected<void> finish(std::span<const FittedTerms> fits) override {
+    for (const FittedTerms& fit : fits) put(fit_line(fit));
+    if (file_ && std::fclose(std::exchange(file_, nullptr)) != 0) remember();
+    std::error_code code;
+    if (reason_.empty()) fs::rename(part_, path_, code);
+    if (code) reason_ = code.message();
+    is_finished_ = reason_.empty();
+    return outcome();
+  }
+
+ private:
+  void remember() {
+    if (reason_.empty()) reason_ = std::strerror(errno);
+  }
+  void put(const std::string& text) {
+    if (!file_ || std::fwrite(text.data(), 1, text.size(), file_) != text.size()) remember();
+  }
+  Expected<void> outcome() const {
+    if (reason_.empty()) return {};
+    return failure("file_unwritable", path_.string(),
+                   fmt::format("cannot be written: {}; the chunks are kept, go on with --resume", reason_));
+  }
+
+  fs::path path_, part_;
+  ResultLayout layout_;
+  std::FILE* file_;
+  std::string reason_;
+  bool is_finished_ = false;
+};
+
+}  // namespace
+
+std::string recorded_fact(const fs::path& path, const std::string& name) {
+  if (path.extension() == ".h5") return recorded_hdf5_fact(path, name);
+  std::ifstream file(path);
+  const std::string head = fmt::format("# {}: ", name);
+  for (std::string line; std::getline(file, line) && line.starts_with('#');)
+    if (line.starts_with(head)) return line.substr(head.size());
+  return {};
+}
+
+std::unique_ptr<ResultFile> create_csv(const fs::path& path, ResultLayout layout) {
+  return std::make_unique<CsvResult>(path, std::move(layout));
+}
+
+Errors refuse_result_name(const fs::path& path) {
+  if (path.extension() == ".h5" || path.extension() == ".csv") return {};
+  return {{"unknown_format", "--output",
+           fmt::format("{}: results end in .h5 or .csv: -o results.h5.", in_quotes(path.string()))}};
+}
+
+Expected<std::unique_ptr<ResultFile>> create_result(const fs::path& path, ResultLayout layout) {
+  if (Errors errors = refuse_result_name(path); !errors.empty()) return tl::unexpected(std::move(errors));
+  return path.extension() == ".csv" ? create_csv(path, std::move(layout))
+                                    : create_hdf5(path, std::move(layout));
+}
+
+}  // namespace sinew::inline v0

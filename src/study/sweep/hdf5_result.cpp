@@ -1,0 +1,287 @@
+/// Results as HDF5: of a grid each column has the grid's shape, with the axes attached as dimension scales;
+/// units are attributes, as netCDF and xarray know them.
+#include <fmt/format.h>
+#include <hdf5_hl.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include "study/sweep/hdf5.hpp"
+#include "study/sweep/result_file.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+using hdf5::Handle;
+namespace fs = std::filesystem;
+
+constexpr hsize_t elements_a_block = 65536;  ///< of compressed columns
+
+/// The boxes of an array that a stretch of its elements, in C order, is made of: calls `use(corner, sizes)`.
+class Boxes {
+ public:
+  using Use = std::function<bool(const std::vector<hsize_t>& corner, const std::vector<hsize_t>& sizes)>;
+  Boxes(const std::vector<hsize_t>& shape, const Use& use)
+      : shape_(shape),
+        use_(use),
+        corner_(shape.size(), 0) {}
+
+  bool cover(hsize_t first, hsize_t count) { return cover(0, first, count); }
+
+ private:
+  /// Within the part of the array that the coordinates before `axis` fix.
+  bool cover(std::size_t axis, hsize_t first, hsize_t count) {
+    hsize_t step = 1;
+    for (std::size_t a = axis + 1; a < shape_.size(); ++a) step *= shape_[a];
+    while (count > 0) {
+      corner_[axis] = first / step;
+      const hsize_t inside = first % step, whole = count / step;
+      const bool is_whole = inside == 0 && whole > 0;
+      const hsize_t taken = is_whole ? whole * step : std::min(count, step - inside);
+      if (is_whole ? !box(axis, whole) : !cover(axis + 1, inside, taken)) return false;
+      first += taken;
+      count -= taken;
+    }
+    return true;
+  }
+  bool box(std::size_t axis, hsize_t along) {
+    std::vector<hsize_t> sizes(shape_.size(), 1);
+    sizes[axis] = along;
+    for (std::size_t a = axis + 1; a < shape_.size(); ++a) {
+      sizes[a] = shape_[a];
+      corner_[a] = 0;
+    }
+    return use_(corner_, sizes);
+  }
+
+  const std::vector<hsize_t>& shape_;
+  const Use& use_;
+  std::vector<hsize_t> corner_;
+};
+
+class Hdf5Result : public ResultFile {
+ public:
+  Hdf5Result(const fs::path& path, ResultLayout layout)
+      : path_(path),
+        part_(path.string() + ".part"),
+        layout_(std::move(layout)) {
+    hdf5::be_quiet();
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);  // what every reader reads
+    H5Pset_obj_track_times(creation, false);                       // the same data, the same bytes
+    H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    file_ = Handle(H5Fcreate(part_.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
+    ok_ = file_.ok() && create_columns();
+  }
+  ~Hdf5Result() override {
+    if (is_finished_) return;
+    close();
+    std::error_code ignored;
+    fs::remove(part_, ignored);
+  }
+
+  Expected<void> write(const ResultRows& rows) override {
+    const std::size_t axes = layout_.is_grid ? 0 : layout_.axes.size();
+    for (std::size_t c = 0; ok_ && c < data_.size(); ++c) {
+      const bool is_axis = c < axes, is_status = c >= axes + layout_.columns.size();
+      const std::size_t at = (is_axis ? c : c - axes) * rows.count;
+      const void* values = is_status ? static_cast<const void*>(rows.statuses.data())
+                                     : (is_axis ? rows.axes : rows.columns).data() + at;
+      ok_ = put(data_[c], rows, values, is_status);
+    }
+    return outcome();
+  }
+
+  Expected<void> finish(std::span<const FittedTerms> fits) override {
+    ok_ = ok_ && put_provenance() && put_fits(fits);
+    ok_ = close() && ok_;
+    std::error_code code;
+    if (ok_) fs::rename(part_, path_, code);
+    ok_ = ok_ && !code;
+    is_finished_ = ok_;
+    return outcome();
+  }
+
+ private:
+  Expected<void> outcome() const {
+    if (ok_) return {};
+    return failure("file_unwritable", path_.string(),
+                   "cannot be written: no room on the disc, or not a folder you may write to; the chunks are "
+                   "kept, go on "
+                   "with --resume");
+  }
+
+  bool close() {
+    bool good = true;
+    for (Handle& column : data_) good = column.close() && good;
+    for (Handle& scale : scales_) good = scale.close() && good;
+    return file_.close() && good;
+  }
+
+  /// Blocks of whole rows where they fit, so that a stretch of samples touches few of them.
+  std::vector<hsize_t> block() const {
+    std::vector<hsize_t> sizes(shape_.size(), 1);
+    hsize_t room = elements_a_block;
+    for (std::size_t a = shape_.size(); a-- > 0 && room > 0;) {
+      sizes[a] = std::max<hsize_t>(1, std::min(shape_[a], room));
+      room /= sizes[a];
+    }
+    return sizes;
+  }
+
+  Handle options(bool is_column) const {
+    Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(list, false);
+    H5Pset_fill_time(list, H5D_FILL_TIME_NEVER);
+    H5Pset_attr_phase_change(list, 16, 8);
+    if (is_column && layout_.compression > 0 && layout_.rows > 0) {
+      const auto sizes = block();
+      H5Pset_chunk(list, static_cast<int>(sizes.size()), sizes.data());
+      H5Pset_shuffle(list);
+      H5Pset_deflate(list, static_cast<unsigned>(layout_.compression));
+    }
+    return list;
+  }
+
+  bool create(const std::string& name, const std::string& unit, hid_t type) {
+    const Handle space(H5Screate_simple(static_cast<int>(shape_.size()), shape_.data(), nullptr), H5Sclose);
+    Handle data(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, options(true), H5P_DEFAULT),
+                H5Dclose);
+    bool good = data.ok() && (unit.empty() || hdf5::put_attribute(data, "units", unit));
+    for (std::size_t a = 0; good && a < scales_.size(); ++a)
+      good = H5DSattach_scale(data, scales_[a], static_cast<unsigned>(a)) >= 0;
+    data_.push_back(std::move(data));
+    return good;
+  }
+
+  bool create_scale(const ResultLayout::Axis& axis) {
+    const hsize_t size = axis.values.size();
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    Handle data(
+        H5Dcreate2(file_, axis.name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, options(false), H5P_DEFAULT),
+        H5Dclose);
+    const bool good =
+        data.ok() &&
+        H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, axis.values.data()) >= 0 &&
+        H5DSset_scale(data, axis.name.c_str()) >= 0 &&
+        (axis.unit.empty() || hdf5::put_attribute(data, "units", axis.unit));
+    scales_.push_back(std::move(data));
+    return good;
+  }
+
+  bool create_columns() {
+    bool good = layout_.title.empty() || hdf5::put_attribute(file_, "title", layout_.title);
+    if (layout_.is_grid) {
+      for (const auto& axis : layout_.axes) {
+        shape_.push_back(axis.values.size());
+        good = good && create_scale(axis);
+      }
+      if (shape_.empty()) shape_.push_back(1);  // all axes were left out
+    } else {
+      shape_.push_back(layout_.rows);
+      for (const auto& axis : layout_.axes) good = good && create(axis.name, axis.unit, H5T_IEEE_F64LE);
+    }
+    for (const auto& column : layout_.columns)
+      good = good && create(column.name, column.unit, H5T_IEEE_F64LE);
+    if (layout_.has_status) good = good && create("status", "", H5T_STD_U8LE) && describe_status();
+    return good;
+  }
+
+  /// As the climate and forecast conventions have it: code k of the list of codes is word k.
+  bool describe_status() {
+    std::string words;
+    std::vector<SampleStatus> codes;
+    for (SampleStatus s = 0; s < sample_statuses; ++s) {
+      words += (s == 0 ? "" : " ") + std::string(name_of(s));
+      codes.push_back(s);
+    }
+    const hsize_t count = codes.size();
+    const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+    const Handle values(
+        H5Acreate2(data_.back(), "flag_values", H5T_STD_U8LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    return values.ok() && H5Awrite(values, H5T_NATIVE_UINT8, codes.data()) >= 0 &&
+           hdf5::put_attribute(data_.back(), "flag_meanings", words);
+  }
+
+  bool put(const Handle& data, const ResultRows& rows, const void* values, bool is_status) {
+    const hid_t type = is_status ? H5T_NATIVE_UINT8 : H5T_NATIVE_DOUBLE;
+    const std::size_t width = is_status ? sizeof(SampleStatus) : sizeof(double);
+    const Handle space(H5Dget_space(data), H5Sclose);
+    const auto* next = static_cast<const std::byte*>(values);
+    const Boxes::Use write = [&](const std::vector<hsize_t>& corner, const std::vector<hsize_t>& sizes) {
+      hsize_t count = 1;
+      for (const hsize_t size : sizes) count *= size;
+      const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
+      const void* from = next;
+      next += count * width;
+      return H5Sselect_hyperslab(space, H5S_SELECT_SET, corner.data(), nullptr, sizes.data(), nullptr) >= 0 &&
+             H5Dwrite(data, type, memory, space, H5P_DEFAULT, from) >= 0;
+    };
+    return Boxes(shape_, write).cover(rows.first, rows.count);
+  }
+
+  Handle group(const char* name) {
+    const Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+    H5Pset_obj_track_times(list, false);
+    return {H5Gcreate2(file_, name, H5P_DEFAULT, list, H5P_DEFAULT), H5Gclose};
+  }
+
+  bool put_provenance() {
+    const Handle facts = group("provenance");
+    bool good = facts.ok();
+    for (const Fact& fact : layout_.provenance)
+      good = good && hdf5::put_text(facts, fact.name.c_str(), fact.text);
+    return good;
+  }
+
+  bool put_fits(std::span<const FittedTerms> fits) {
+    if (fits.empty()) return true;
+    const Handle all = group("fits");
+    bool good = all.ok();
+    for (const FittedTerms& fit : fits) {
+      const Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+      H5Pset_obj_track_times(list, false);
+      const Handle one(H5Gcreate2(all, fit.name.c_str(), H5P_DEFAULT, list, H5P_DEFAULT), H5Gclose);
+      const hsize_t count = fit.coefficients.size();
+      const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+      for (const auto& [name, values] :
+           {std::pair{"coefficients", &fit.coefficients}, {"deviations", &fit.deviations}}) {
+        const Handle data(
+            H5Dcreate2(one, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, options(false), H5P_DEFAULT), H5Dclose);
+        good = good && data.ok() &&
+               H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values->data()) >= 0;
+      }
+      good = good && hdf5::put_attribute(one, "terms", fmt::format("{}", fmt::join(fit.terms, "; "))) &&
+             hdf5::put_attribute(one, "units", fit.unit) && hdf5::put_attribute(one, "rms", fit.rms) &&
+             hdf5::put_attribute(one, "largest", fit.largest) &&
+             hdf5::put_attribute(one, "samples", static_cast<double>(fit.samples));
+    }
+    return good;
+  }
+
+  fs::path path_, part_;
+  ResultLayout layout_;
+  std::vector<hsize_t> shape_;
+  Handle file_;
+  std::vector<Handle> scales_, data_;  ///< axes that are columns first, status last
+  bool ok_ = false, is_finished_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<ResultFile> create_hdf5(const fs::path& path, ResultLayout layout) {
+  return std::make_unique<Hdf5Result>(path, std::move(layout));
+}
+
+std::string recorded_hdf5_fact(const fs::path& path, const std::string& name) {
+  hdf5::be_quiet();
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return {};
+  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file.ok() || H5Lexists(file, "provenance", H5P_DEFAULT) <= 0) return {};
+  const Handle facts(H5Gopen2(file, "provenance", H5P_DEFAULT), H5Gclose);
+  return hdf5::text_dataset(facts, name.c_str());
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,181 @@
+#include "study/sweep/prepare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "query/tree_session.hpp"
+#include "study/sweep/answer_path.hpp"
+#include "study/sweep/placeholders.hpp"
+#include "study/sweep/samples.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+constexpr std::size_t trials = 24;
+constexpr std::size_t most_paths = 400;
+
+/// Places of all numbers of a tree.
+void collect(const Json& node, const std::string& path, std::vector<std::string>& paths) {
+  if (paths.size() >= most_paths) return;
+  if (node.is_object()) {
+    for (const auto& [key, value] : node.items()) collect(value, joined(path, key), paths);
+  } else if (node.is_array()) {
+    for (std::size_t i = 0; i < node.size(); ++i) collect(node[i], joined(path, i), paths);
+  } else if (node.is_number() || node.is_boolean()) {
+    paths.push_back(path);
+  }
+}
+
+bool is_solved(const Json& answer) {
+  const auto status = answer.find("status");
+  return status == answer.end() || *status == "converged" || *status == "unstable";
+}
+
+/// `pose.position[2]` as the name of a column: `z`; `legs[0].curvature`: `legs_0_curvature`.
+std::string column_of(std::string_view path) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> known{{
+      {"pose.position[0]", "x"},
+      {"pose.position[1]", "y"},
+      {"pose.position[2]", "z"},
+      {"pose.quaternion[0]", "e0"},
+      {"pose.quaternion[1]", "e1"},
+      {"pose.quaternion[2]", "e2"},
+      {"pose.quaternion[3]", "e3"},
+      {"pose.x", "x"},
+      {"pose.y", "y"},
+      {"pose.phi", "phi"},
+  }};
+  for (const auto& [place, name] : known)
+    if (place == path) return std::string(name);
+  std::string name;
+  for (const char c : path)
+    if (c == '.' || c == '[')
+      name += '_';
+    else if (c != ']')
+      name += c;
+  return name;
+}
+
+/// What people ask a query for.
+bool is_usual(std::string_view path, std::string_view query) {
+  const auto of = [&](std::string_view field) { return path.starts_with(field); };
+  if (query == "inverse") return of("inputs[") || of("changes[");
+  if (query == "velocity") return of("indices.") || path == "determinant";
+  if (query == "forward") return of("pose.") || of("tip.") || of("changes[");
+  return of("pose.") || of("tip.") || of("tensions[") || path == "margin" || path == "area";
+}
+
+class Trial {
+ public:
+  explicit Trial(Study& study) : study_(study) {}
+
+  Expected<std::string> run() {
+    auto session = TreeSession::open(study_.robot_document);
+    if (!session) return tl::unexpected(session.error());
+    ask(*session);
+    if (answers_.empty()) return tl::unexpected(errors_);
+    if (study_.outputs.empty()) choose_outputs();
+    if (study_.outputs.empty())
+      return failure(
+          "no_outputs", study_.source,
+          "which numbers of the answers are to be kept? Name them under outputs: {z: pose.position[2]}");
+    Errors errors = check_outputs();
+    if (!errors.empty()) return tl::unexpected(std::move(errors));
+    set_units(*session);
+    if (solved_ > 0) return std::string();
+    return fmt::format("none of {} samples tried has a solution", answers_.size());
+  }
+
+ private:
+  void ask(TreeSession& session) {
+    Document query = study_.query;
+    const auto places = placeholders(query.root, study_);
+    const std::size_t count = std::min(trials, study_.samples);
+    std::vector<double> values(study_.axes.size());
+    for (std::size_t t = 0; t < count; ++t) {
+      // first and last, and between them places that no axis repeats
+      const std::size_t k = t + 1 == count
+                                ? study_.samples - 1
+                                : static_cast<std::size_t>(static_cast<double>(study_.samples) *
+                                                           0.6180339887498949 * static_cast<double>(t)) %
+                                      study_.samples;
+      axis_values(study_, {k, 1}, false, values);
+      for (const Placeholder& place : places) put(*place.node, values[place.axis]);
+      Json answer = session.answer(query);
+      if (const auto error = answer.find("error"); error != answer.end()) {
+        const std::string where = error->value("where", "");
+        if (errors_.empty())
+          errors_ = {{error->value("code", ""),
+                      fmt::format("{}: query{}{}", study_.source, where.empty() ? "" : ".", where),
+                      error->value("message", "")}};
+        continue;
+      }
+      solved_ += is_solved(answer);
+      answers_.push_back(std::move(answer));
+    }
+  }
+
+  void choose_outputs() {
+    const auto solved = std::ranges::find_if(answers_, is_solved);
+    if (solved == answers_.end()) return;
+    std::vector<std::string> paths;
+    collect(*solved, "", paths);
+    const std::string query = solved->value("query", "");
+    for (const std::string& path : paths) {
+      const std::string name = column_of(path);
+      const bool is_axis = std::ranges::find(study_.axes, name, &StudyAxis::name) != study_.axes.end();
+      if (is_usual(path, query) && !is_axis)
+        study_.outputs.push_back({.name = name, .path = path, .unit = {}});
+    }
+  }
+
+  Errors check_outputs() {
+    Errors errors;
+    if (solved_ == 0) return errors;
+    std::vector<std::string> known;
+    for (const Json& answer : answers_)
+      if (is_solved(answer) && known.empty()) collect(answer, "", known);
+    for (const StudyOutput& output : study_.outputs) {
+      const AnswerPath path(output.path);
+      if (output.is_sometimes ||
+          std::ranges::any_of(answers_, [&](const Json& a) { return path.number(a).has_value(); }))
+        continue;
+      const std::vector<std::string_view> names(known.begin(), known.end());
+      const std::string_view hint = closest(output.path, names);
+      errors.push_back(
+          {"unknown_output", fmt::format("{}: outputs.{}", study_.source, output.name),
+           fmt::format("no answer has a number at {}{} Numbers there are: {}{}.", in_quotes(output.path),
+                       hint.empty() ? "." : fmt::format("; did you mean {}?", in_quotes(hint)),
+                       fmt::join(std::span(names).first(std::min<std::size_t>(names.size(), 12)), ", "),
+                       names.size() > 12 ? ", ..." : "")});
+    }
+    return errors;
+  }
+
+  void set_units(TreeSession& session) {
+    Document describe{"query", {}};
+    describe.root.kind = Node::Kind::map;
+    describe.root.members.push_back({.key = "query", .value = make_node("describe")});
+    const Json description = session.answer(describe);
+    for (StudyOutput& output : study_.outputs) {
+      if (!output.unit.empty()) continue;
+      output.unit = unit_of_answer(output.path);
+      if (!output.path.starts_with("inputs[") || !description.contains("inputs")) continue;
+      const Json& inputs = description["inputs"];
+      const auto index = static_cast<std::size_t>(std::atoi(output.path.c_str() + 7));
+      if (index < inputs.size()) output.unit = inputs[index].value("unit", "");
+    }
+  }
+
+  Study& study_;
+  Errors errors_;
+  std::vector<Json> answers_;
+  int solved_ = 0;
+};
+
+}  // namespace
+
+Expected<std::string> prepare(Study& study) { return Trial(study).run(); }
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,87 @@
+/// Samples by queries, one after the other.
+#include <cmath>
+#include <exception>
+#include <limits>
+
+#include "query/tree_session.hpp"
+#include "study/sweep/answer_path.hpp"
+#include "study/sweep/placeholders.hpp"
+#include "study/sweep/sampler.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+/// A query takes some microseconds to some milliseconds.
+constexpr std::size_t queries_a_chunk = 256;
+
+class QuerySampler {
+ public:
+  explicit QuerySampler(const Study& study)
+      : session_(TreeSession::open(study.robot_document).value()),
+        query_(study.query),
+        places_(placeholders(query_.root, study)),
+        is_path_(study.is_path) {
+    for (const StudyOutput& output : study.outputs) paths_.emplace_back(output.path);
+  }
+
+  void operator()(const SampleBlock& block) {
+    last_.reset();
+    for (std::size_t k = 0; k < block.count && !*block.stop; ++k, ++*block.done) {
+      for (const Placeholder& place : places_) put(*place.node, block.axis(place.axis, k));
+      block.statuses[k] = sample(block, k);
+    }
+  }
+
+ private:
+  SampleStatus sample(const SampleBlock& block, std::size_t k) {
+    for (std::size_t o = 0; o < paths_.size(); ++o) block.output(o, k) = missing;
+    try {
+      const bool continues = last_.has_value();
+      Json answer = session_.answer(query_, is_path_ ? &last_ : nullptr);
+      if (continues && !last_) answer = session_.answer(query_, &last_);  // lost on the way: anew
+      if (answer.contains("error")) return refused;
+      for (std::size_t o = 0; o < paths_.size(); ++o)
+        if (const auto value = paths_[o].number(answer)) block.output(o, k) = *value;
+      return status_of(answer);
+    } catch (const std::exception&) {
+      last_.reset();
+      return failed_inside;
+    }
+  }
+
+  static SampleStatus status_of(const Json& answer) {
+    const auto found = answer.find("status");
+    if (found == answer.end() || !found->is_string()) return converged;  // a question that is always answered
+    const auto& text = found->get_ref<const std::string&>();
+    for (SampleStatus s = 0; s < sample_statuses; ++s)
+      if (name_of(s) == text) return s;
+    return failed_inside;
+  }
+
+  TreeSession session_;
+  Document query_;
+  std::vector<Placeholder> places_;
+  std::vector<AnswerPath> paths_;
+  bool is_path_;
+  std::optional<AnyPose> last_;
+};
+
+}  // namespace
+
+SamplerKind query_sampler(const Study& study) {
+  return {.name = "query by query", .chunk = queries_a_chunk, .make = [&study]() -> Sampler {
+            // std::function copies what it holds
+            return [sampler = std::make_shared<QuerySampler>(study)](const SampleBlock& block) {
+              (*sampler)(block);
+            };
+          }};
+}
+
+std::string_view name_of(SampleStatus status) {
+  if (status == refused) return "refused";
+  if (status == failed_inside) return "failed";
+  return to_string(static_cast<Status>(status));
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,134 @@
+/// Forward kinematics of robots on rods, for studies that vary the inputs and ask for the pose.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+
+#include "sinew/io/robot_file.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
+#include "study/sweep/sampler.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+constexpr std::size_t poses_a_chunk = 8192;
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+/// A number of the query: one that stays, or an axis.
+struct Entry {
+  double value = 0;
+  std::ptrdiff_t axis = -1;
+};
+
+std::optional<Entry> entry_of(const Node& node, const Study& study) {
+  if (node.kind == Node::Kind::number) return Entry{node.number};
+  if (node.kind != Node::Kind::string || !node.text.starts_with('$')) return {};
+  const auto axis = std::ranges::find(study.axes, std::string_view(node.text).substr(1), &StudyAxis::name);
+  if (axis == study.axes.end()) return {};
+  return Entry{0, axis - study.axes.begin()};
+}
+
+constexpr std::array<std::string_view, 7> pose_paths{
+    "pose.position[0]",   "pose.position[1]",   "pose.position[2]",  "pose.quaternion[0]",
+    "pose.quaternion[1]", "pose.quaternion[2]", "pose.quaternion[3]"};
+
+/// What such a study asks, if it is one.
+struct RodStudy {
+  std::vector<Entry> inputs;
+  SpatialWrench wrench = SpatialWrench::Zero();
+  std::vector<std::size_t> outputs;  ///< which of the pose's numbers
+};
+
+std::optional<RodStudy> rod_study(const Study& study) {
+  RodStudy asked;
+  if (!study.is_path) return {};  // each from home: query by query
+  for (const Member& field : study.query.root.members) {
+    if (field.key == "query") {
+      if (field.value.text != "forward") return {};
+    } else if (field.key == "inputs") {
+      for (const Node& item : field.value.items) {
+        const auto entry = entry_of(item, study);
+        if (!entry) return {};
+        asked.inputs.push_back(*entry);
+      }
+    } else if (field.key == "wrench") {
+      if (field.value.items.size() != 6) return {};
+      for (std::size_t k = 0; k < 6; ++k) {
+        const auto entry = entry_of(field.value.items[k], study);
+        if (!entry || entry->axis >= 0) return {};
+        asked.wrench[static_cast<Eigen::Index>(k)] = entry->value;
+      }
+    } else {
+      return {};
+    }
+  }
+  for (const StudyOutput& output : study.outputs) {
+    const auto path = std::ranges::find(pose_paths, output.path);
+    if (path == pose_paths.end()) return {};
+    asked.outputs.push_back(static_cast<std::size_t>(path - pose_paths.begin()));
+  }
+  return asked;
+}
+
+class RodSampler {
+ public:
+  RodSampler(const AnyRobot& robot, const RodStudy& asked) : robot_(robot), asked_(asked), work_(robot) {}
+
+  void operator()(const SampleBlock& block) {
+    const std::size_t inputs = asked_.inputs.size();
+    rows_.resize(block.count * inputs);
+    poses_.resize(block.count);
+    statuses_.resize(block.count);
+    for (std::size_t k = 0; k < block.count; ++k)
+      for (std::size_t i = 0; i < inputs; ++i) {
+        const Entry& entry = asked_.inputs[i];
+        rows_[k * inputs + i] =
+            entry.axis < 0 ? entry.value : block.axis(static_cast<std::size_t>(entry.axis), k);
+      }
+    equilibrium_batch(robot_, rows_, asked_.wrench, poses_, statuses_, work_, true);
+    for (std::size_t k = 0; k < block.count; ++k) put(block, k);
+    *block.done += block.count;
+  }
+
+ private:
+  void put(const SampleBlock& block, std::size_t k) {
+    const SpatialPose& pose = poses_[k];
+    const bool is_solved = statuses_[k] == Status::converged || statuses_[k] == Status::unstable;
+    for (std::size_t o = 0; o < asked_.outputs.size(); ++o) {
+      const std::size_t which = asked_.outputs[o];
+      block.output(o, k) = !is_solved  ? missing
+                           : which < 3 ? pose.position[static_cast<Eigen::Index>(which)]
+                                       : pose.quaternion[which - 3];
+    }
+    block.statuses[k] = static_cast<SampleStatus>(statuses_[k]);
+  }
+
+  const AnyRobot& robot_;
+  const RodStudy& asked_;
+  Workspace work_;
+  std::vector<double> rows_;
+  std::vector<SpatialPose> poses_;
+  std::vector<Status> statuses_;
+};
+
+}  // namespace
+
+SamplerKind rod_sampler(const Study& study) {
+  const auto asked = rod_study(study);
+  if (!asked) return {};
+  auto robot = read_robot(study.robot_document);
+  if (!robot || !bears_load(*robot) || rod_count(*robot) != leg_count(*robot) ||
+      static_cast<std::size_t>(input_count(*robot)) != asked->inputs.size())
+    return {};
+  struct Shared {
+    AnyRobot robot;
+    RodStudy asked;
+  };
+  const auto shared = std::make_shared<const Shared>(Shared{std::move(*robot), *asked});
+  return {.name = "rods in lanes", .chunk = poses_a_chunk, .make = [shared]() -> Sampler {
+            return [shared, sampler = std::make_shared<RodSampler>(shared->robot, shared->asked)](
+                       const SampleBlock& block) { (*sampler)(block); };
+          }};
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,58 @@
+/// @file sampler.hpp
+/// Who computes samples. The executors know nothing else of a robot.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "sinew/solve/report.hpp"
+#include "sinew/study/study.hpp"
+
+namespace sinew::inline v0 {
+
+/// How a sample ended: a Status, or why no solver was asked.
+using SampleStatus = std::uint8_t;
+inline constexpr SampleStatus refused = 8;        ///< the query at this sample is no good one
+inline constexpr SampleStatus failed_inside = 9;  ///< an error of the program
+inline constexpr SampleStatus converged = static_cast<SampleStatus>(Status::converged);
+std::string_view name_of(SampleStatus status);
+inline constexpr int sample_statuses = 10;
+
+/// Samples of one chunk, column after column.
+struct SampleBlock {
+  std::size_t count = 0;
+  std::span<const double> axes;  ///< in the order of the study
+  std::span<double> outputs;     ///< NaN where there is no value
+  std::span<SampleStatus> statuses;
+  std::atomic<std::size_t>* done = nullptr;  ///< counts samples, for the progress
+  const std::atomic<bool>* stop = nullptr;   ///< true: the block is of no more use
+
+  double axis(std::size_t a, std::size_t k) const { return axes[a * count + k]; }
+  double& output(std::size_t o, std::size_t k) const { return outputs[o * count + k]; }
+};
+
+/// Computes a block, in its order. Not for two threads at once.
+using Sampler = std::function<void(const SampleBlock&)>;
+
+/// Makes samplers, one a thread, and says how large chunks should be.
+struct SamplerKind {
+  std::string_view name;  ///< for people: `lanes`
+  std::size_t chunk = 0;  ///< samples, about
+  std::function<Sampler()> make;
+};
+
+/// Each sample by its own query: any robot, any query, any output.
+SamplerKind query_sampler(const Study& study);
+
+/// Forward kinematics of rods, eight stretches of samples in the lanes; empty `make` where the study asks for
+/// more or less than that.
+SamplerKind rod_sampler(const Study& study);
+
+/// The quickest there is.
+SamplerKind choose_sampler(const Study& study);
+
+}  // namespace sinew::inline v0
