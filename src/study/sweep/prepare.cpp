@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "query/tree_session.hpp"
-#include "study/sweep/answer_path.hpp"
-#include "study/sweep/placeholders.hpp"
+#include "study/samplers/answer_path.hpp"
+#include "study/samplers/placeholders.hpp"
 #include "study/sweep/samples.hpp"
 
 namespace sinew::inline v0 {

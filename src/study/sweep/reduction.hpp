@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "study/sweep/sampler.hpp"
+#include "study/samplers/sampler.hpp"
 #include "study/sweep/samples.hpp"
 
 namespace sinew::inline v0 {

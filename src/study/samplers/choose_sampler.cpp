@@ -1,4 +1,4 @@
-#include "study/sweep/sampler.hpp"
+#include "study/samplers/sampler.hpp"
 
 namespace sinew::inline v0 {
 

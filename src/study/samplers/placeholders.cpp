@@ -1,4 +1,4 @@
-#include "study/sweep/placeholders.hpp"
+#include "study/samplers/placeholders.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "study/sweep/hdf5.hpp"
+#include "study/results/hdf5.hpp"
 
 namespace sinew::inline v0::hdf5 {
 namespace {

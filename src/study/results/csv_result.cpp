@@ -10,7 +10,7 @@
 
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/table.hpp"
-#include "study/sweep/result_file.hpp"
+#include "study/results/result_file.hpp"
 
 namespace sinew::inline v0 {
 namespace {

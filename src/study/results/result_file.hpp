@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sinew/study/sweep.hpp"
-#include "study/sweep/sampler.hpp"
+#include "study/samplers/sampler.hpp"
 
 namespace sinew::inline v0 {
 

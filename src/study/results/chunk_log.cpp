@@ -1,4 +1,4 @@
-#include "study/sweep/chunk_log.hpp"
+#include "study/results/chunk_log.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "study/sweep/hdf5.hpp"
-#include "study/sweep/result_file.hpp"
+#include "study/results/hdf5.hpp"
+#include "study/results/result_file.hpp"
 
 namespace sinew::inline v0 {
 namespace {

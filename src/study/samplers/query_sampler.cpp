@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "query/tree_session.hpp"
-#include "study/sweep/answer_path.hpp"
-#include "study/sweep/placeholders.hpp"
-#include "study/sweep/sampler.hpp"
+#include "study/samplers/answer_path.hpp"
+#include "study/samplers/placeholders.hpp"
+#include "study/samplers/sampler.hpp"
 
 namespace sinew::inline v0 {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
-#include "study/sweep/sampler.hpp"
+#include "study/samplers/sampler.hpp"
 
 namespace sinew::inline v0 {
 namespace {

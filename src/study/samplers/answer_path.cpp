@@ -1,4 +1,4 @@
-#include "study/sweep/answer_path.hpp"
+#include "study/samplers/answer_path.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,115 @@
+#include "study/sweep/write_results.hpp"
+
+#include "study/sweep/fit.hpp"
+#include "study/sweep/reduction.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+/// The log into the file of results.
+class Writer {
+ public:
+  Writer(const SweepPlan& plan, const ChunkLog& log, const SweepOptions& options)
+      : plan_(plan),
+        log_(log),
+        options_(options) {}
+
+  Expected<std::vector<FittedTerms>> run() {
+    auto file = create_result(options_.output, plan_.layout(options_));
+    if (!file) return tl::unexpected(file.error());
+    for (const StudyFit& fit : plan_.study().fits) fits_.emplace_back(fit);
+    const auto read = plan_.reduces() ? cells(**file) : samples(**file, true);
+    if (!read) return tl::unexpected(read.error());
+    for (StreamedFit& fit : fits_) fit.solve();
+    if (!fits_.empty())
+      if (const auto again = samples(**file, false); !again) return tl::unexpected(again.error());
+    std::vector<FittedTerms> found;
+    for (std::size_t f = 0; f < fits_.size(); ++f) {
+      found.push_back(fits_[f].result());
+      const std::size_t axes = plan_.study().axes.size(), column = plan_.study().fits[f].column;
+      found.back().unit =
+          column < axes ? plan_.study().axes[column].unit : plan_.study().outputs[column - axes].unit;
+    }
+    if (const auto done = (*file)->finish(found); !done) return tl::unexpected(done.error());
+    return found;
+  }
+
+ private:
+  /// Every chunk, in order: into the file and the fits or, in a second pass, what the fits miss.
+  Expected<void> samples(ResultFile& file, bool is_first) {
+    const Study& study = plan_.study();
+    std::vector<std::byte> bytes;
+    std::vector<double> axes, row(study.axes.size() + study.outputs.size());
+    for (std::size_t c = 0; c < plan_.chunks().count(); ++c) {
+      const Chunk chunk = plan_.chunks()[c];
+      if (const auto done = log_.read(c, bytes); !done) return done;
+      const std::span values(reinterpret_cast<const double*>(bytes.data()),
+                             study.outputs.size() * chunk.count);
+      const std::span statuses(reinterpret_cast<const SampleStatus*>(bytes.data() + values.size_bytes()),
+                               chunk.count);
+      axes.resize(study.axes.size() * chunk.count);
+      axis_values(study, chunk, false, axes);
+      if (is_first)
+        if (const auto done = file.write({chunk.first, chunk.count, axes, values, statuses}); !done)
+          return done;
+      for (std::size_t k = 0; !fits_.empty() && k < chunk.count; ++k) {
+        for (std::size_t i = 0; i < row.size(); ++i)
+          row[i] = i < study.axes.size() ? axes[i * chunk.count + k]
+                                         : values[(i - study.axes.size()) * chunk.count + k];
+        for (StreamedFit& fit : fits_) is_first ? fit.add(row) : fit.add_residual(row);
+      }
+    }
+    return {};
+  }
+
+  /// Cells that several chunks share are added up in the order of the chunks.
+  Expected<void> cells(ResultFile& file) {
+    const Study& study = plan_.study();
+    const std::size_t columns = study.reductions.size(), cell = study.reduced_samples();
+    std::vector<std::byte> bytes;
+    std::vector<CellSum> sums;
+    std::size_t first = 0;
+    for (std::size_t c = 0; c < plan_.chunks().count(); ++c) {
+      const Chunk chunk = plan_.chunks()[c];
+      if (const auto done = log_.read(c, bytes); !done) return done;
+      const std::span more(reinterpret_cast<const CellSum*>(bytes.data()), bytes.size() / sizeof(CellSum));
+      if (chunk.first % cell == 0) {
+        sums.assign(more.begin(), more.end());
+        first = chunk.first / cell;
+      } else {
+        for (std::size_t i = 0; i < columns; ++i) add(study.reductions[i].kind, sums[i], more[i]);
+      }
+      if ((chunk.first + chunk.count) % cell != 0) continue;
+      if (const auto done = write_cells(file, first, sums); !done) return done;
+    }
+    return {};
+  }
+
+  Expected<void> write_cells(ResultFile& file, std::size_t first, std::span<const CellSum> sums) {
+    const Study& study = plan_.study();
+    const std::size_t columns = study.reductions.size(), count = sums.size() / columns;
+    const std::size_t kept = study.axes.size() - study.reduced_axes;
+    std::vector<double> values(sums.size()), axes(kept * count), one(study.axes.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t i = 0; i < columns; ++i)
+        values[i * count + k] = value_of(study.reductions[i].kind, sums[k * columns + i]);
+      axis_values(study, {(first + k) * study.reduced_samples(), 1}, false, one);
+      for (std::size_t a = 0; a < kept; ++a) axes[a * count + k] = one[a];
+    }
+    return file.write({first, count, axes, values, {}});
+  }
+
+  const SweepPlan& plan_;
+  const ChunkLog& log_;
+  const SweepOptions& options_;
+  std::vector<StreamedFit> fits_;
+};
+
+}  // namespace
+
+Expected<std::vector<FittedTerms>> write_results(const SweepPlan& plan, const ChunkLog& log,
+                                                 const SweepOptions& options) {
+  return Writer(plan, log, options).run();
+}
+
+}  // namespace sinew::inline v0
