@@ -7,8 +7,8 @@
 #include "sinew/analysis/singularity_map.hpp"   // IWYU pragma: export
 #include "sinew/analysis/tendon_limits.hpp"     // IWYU pragma: export
 #include "sinew/analysis/type_2_distance.hpp"   // IWYU pragma: export
-#include "sinew/analysis/velocity.hpp"
-#include "sinew/analysis/velocity_batch.hpp"          // IWYU pragma: export
+#include "sinew/analysis/velocity.hpp"          // IWYU pragma: export
+#include "sinew/analysis/velocity_batch.hpp"    // IWYU pragma: export
 #include "sinew/io/robot_file.hpp"              // IWYU pragma: export
 #include "sinew/io/serial_file.hpp"             // IWYU pragma: export
 #include "sinew/kinematics/assembly_modes.hpp"  // IWYU pragma: export

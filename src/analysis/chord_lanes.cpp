@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "analysis/chord_lanes.hpp"
-#include "hwy/contrib/math/math-inl.h"
 #include "math/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -9,6 +9,7 @@
 #define SINEW_MATH_LANES_INL
 #endif
 
+#include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
 #include <algorithm>

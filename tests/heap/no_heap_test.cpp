@@ -7,7 +7,7 @@
 
 #include "every_robot.hpp"
 #include "serial_robots.hpp"
-#include "sinew/analysis/velocity.hpp"
+#include "sinew/analysis/velocity_batch.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/resolved_rate.hpp"
 #include "sinew/kinematics/serial_inverse.hpp"
@@ -95,6 +95,19 @@ TEST_P(NoHeap, Velocity) {
   const Velocity v = velocity(robot, pose, coordinates, work);
   const std::vector<double> twist(static_cast<std::size_t>(dof(robot)), 0.1);
   EXPECT_EQ(allocations_of([&] { rates(v, twist, work); }), 0);
+}
+
+TEST(NoHeapInBatches, InLanesOrOneByOne) {
+  const AnyRobot robot = load("3-rfr").value();
+  Workspace work(robot);
+  const std::vector<double> poses{0, 0.01, 1, 0, 0, 0, 0, 0, 0.1, 0.2, 0, std::numbers::pi / 3};  // 4
+  std::vector<double> inputs(12), position(4);
+  std::size_t left = 0;
+  EXPECT_EQ(allocations_of([&] {
+              left = velocity_batch(robot, poses, {}, {.inputs = inputs, .position = position}, work);
+            }),
+            0);
+  EXPECT_EQ(left, 1u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, NoHeap, testing::ValuesIn(builtin_robots(false)),

@@ -29,7 +29,7 @@ struct VelocityBatch {
 SINEW_API bool has_velocity_batch(const AnyRobot& robot);
 
 /// What `inverse` on the branch of `bending` (one sign a leg, or empty) and `velocity` say of each pose.
-/// Poses that are within 1e-7 of straight legs, or whose statuses rounding could turn, are put to these two
+/// Poses with a chord within 1e-7 of its backbone, or whose status rounding could turn, are put to these two
 /// one by one, with `work`; returns how many were. The answer for a pose does not depend on the others. No
 /// heap.
 /// @param poses x of all poses, then y, then φ; in space x, y, z and the quaternion w, x, y, z
