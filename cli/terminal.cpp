@@ -6,6 +6,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <vector>
 
 namespace sinew::cli {
 namespace {
@@ -39,6 +43,21 @@ int refuse(std::string_view verb, const Errors& errors) {
                         is_said ? "" : error.where + ": ", error.message, error.code));
   }
   return bad_input;
+}
+
+void restart_with(const char* variable, const std::string& word) {
+  const char* old = std::getenv(variable);
+  const std::string value = old ? old : "";
+  if (value.find(word) != std::string::npos) return;
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  const std::string line(std::istreambuf_iterator<char>(file), {});
+  std::vector<char*> arguments;
+  for (std::size_t begin = 0; begin < line.size(); begin = line.find('\0', begin) + 1)
+    arguments.push_back(const_cast<char*>(line.data()) + begin);  // execv changes none of them
+  if (arguments.empty()) return;
+  arguments.push_back(nullptr);
+  ::setenv(variable, (value.empty() ? word : value + ':' + word).c_str(), 1);
+  ::execv("/proc/self/exe", arguments.data());
 }
 
 void watch_signals() {

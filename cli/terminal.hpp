@@ -2,6 +2,7 @@
 /// What the command shares with the shell: exit codes, stdout, stderr and signals. stdout is data, stderr is
 /// messages.
 #pragma once
+#include <string>
 #include <string_view>
 
 #include "sinew/base/error.hpp"
@@ -26,6 +27,9 @@ void message(std::string_view text);  ///< a line on stderr
 /// Each error on its line of stderr; those without a place of a file are put to the verb. Exit code
 /// `bad_input`.
 int refuse(std::string_view verb, const Errors& errors);
+
+/// Starts this command again with a word in an environment variable, unless it is there already.
+void restart_with(const char* variable, const std::string& word);
 
 /// Ctrl-C and SIGTERM end the command with `stopped`; a closed pipe is an error of writing, not a signal.
 void watch_signals();

@@ -8,6 +8,7 @@
 #include "request.hpp"
 #include "sinew/io/parse.hpp"
 #include "sinew/io/quantity.hpp"
+#include "sinew/study/cluster.hpp"
 #include "sinew/study/sweep.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
@@ -116,14 +117,20 @@ int run_sweep(const Arguments& arguments) {
   options.compression = whole(arguments, "compress", 0, 9, 0, errors);
   options.command = command_of(arguments);
   const std::string isa = arguments.has("isa") ? *arguments.text("isa") : "native";
+  // The mathematical library chooses by the machine too; it is told when the process starts.
+  if (isa == "baseline") restart_with("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4");
   if (!use_instruction_set(isa))
     errors.push_back({"no_instruction_set", "--isa",
                       fmt::format("{} is none this machine has; there are baseline, avx2, avx512 and native.",
                                   in_quotes(isa))});
   if (!errors.empty()) return refuse("sweep", errors);
 
+  auto ranks = join_ranks();
+  if (!ranks) return refuse("sweep", ranks.error());
+  options.ranks = ranks->get();
   finish_what_is_begun();
-  const bool is_quiet = arguments.has("quiet");
+  const bool speaks = !options.ranks || options.ranks->rank() == 0;  // one for all
+  const bool is_quiet = arguments.has("quiet") || !speaks;
   auto line = std::make_unique<ProgressLine>(is_quiet, "samples");
   options.progress = [&](const SweepProgress& progress) {
     line->show(progress.done, progress.total, progress.done - progress.resumed, progress.seconds);
@@ -131,7 +138,8 @@ int run_sweep(const Arguments& arguments) {
   };
   const auto summary = sweep(std::move(*study), options);
   line.reset();
-  if (!summary) return refuse("sweep", summary.error());
+  if (!summary) return speaks ? refuse("sweep", summary.error()) : bad_input;
+  if (!speaks) return solved;
   if (!summary->warning.empty()) message(fmt::format("sinew sweep: {}", summary->warning));
   if (!summary->is_complete) {
     message(

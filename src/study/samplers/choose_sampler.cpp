@@ -3,7 +3,8 @@
 namespace sinew::inline v0 {
 
 SamplerKind choose_sampler(const Study& study) {
-  if (SamplerKind rods = rod_sampler(study); rods.make) return rods;
+  for (const auto& quick : {rod_sampler, pose_sampler})
+    if (SamplerKind kind = quick(study); kind.make) return kind;
   return query_sampler(study);
 }
 

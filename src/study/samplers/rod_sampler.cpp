@@ -6,7 +6,7 @@
 
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
-#include "study/samplers/sampler.hpp"
+#include "study/samplers/query_entries.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -14,27 +14,13 @@ namespace {
 constexpr std::size_t poses_a_chunk = 8192;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-/// A number of the query: one that stays, or an axis.
-struct Entry {
-  double value = 0;
-  std::ptrdiff_t axis = -1;
-};
-
-std::optional<Entry> entry_of(const Node& node, const Study& study) {
-  if (node.kind == Node::Kind::number) return Entry{node.number};
-  if (node.kind != Node::Kind::string || !node.text.starts_with('$')) return {};
-  const auto axis = std::ranges::find(study.axes, std::string_view(node.text).substr(1), &StudyAxis::name);
-  if (axis == study.axes.end()) return {};
-  return Entry{0, axis - study.axes.begin()};
-}
-
 constexpr std::array<std::string_view, 7> pose_paths{
     "pose.position[0]",   "pose.position[1]",   "pose.position[2]",  "pose.quaternion[0]",
     "pose.quaternion[1]", "pose.quaternion[2]", "pose.quaternion[3]"};
 
 /// What such a study asks, if it is one.
 struct RodStudy {
-  std::vector<Entry> inputs;
+  std::vector<QueryEntry> inputs;
   SpatialWrench wrench = SpatialWrench::Zero();
   std::vector<std::size_t> outputs;  ///< which of the pose's numbers
 };
@@ -46,18 +32,13 @@ std::optional<RodStudy> rod_study(const Study& study) {
     if (field.key == "query") {
       if (field.value.text != "forward") return {};
     } else if (field.key == "inputs") {
-      for (const Node& item : field.value.items) {
-        const auto entry = entry_of(item, study);
-        if (!entry) return {};
-        asked.inputs.push_back(*entry);
-      }
+      auto entries = query_entries(field.value, study);
+      if (!entries) return {};
+      asked.inputs = std::move(*entries);
     } else if (field.key == "wrench") {
-      if (field.value.items.size() != 6) return {};
-      for (std::size_t k = 0; k < 6; ++k) {
-        const auto entry = entry_of(field.value.items[k], study);
-        if (!entry || entry->axis >= 0) return {};
-        asked.wrench[static_cast<Eigen::Index>(k)] = entry->value;
-      }
+      const auto wrench = constant_entries(field.value, study);
+      if (!wrench || wrench->size() != 6) return {};
+      std::copy(wrench->begin(), wrench->end(), asked.wrench.begin());
     } else {
       return {};
     }
@@ -80,11 +61,7 @@ class RodSampler {
     poses_.resize(block.count);
     statuses_.resize(block.count);
     for (std::size_t k = 0; k < block.count; ++k)
-      for (std::size_t i = 0; i < inputs; ++i) {
-        const Entry& entry = asked_.inputs[i];
-        rows_[k * inputs + i] =
-            entry.axis < 0 ? entry.value : block.axis(static_cast<std::size_t>(entry.axis), k);
-      }
+      for (std::size_t i = 0; i < inputs; ++i) rows_[k * inputs + i] = asked_.inputs[i].at(block, k);
     equilibrium_batch(robot_, rows_, asked_.wrench, poses_, statuses_, work_, true);
     for (std::size_t k = 0; k < block.count; ++k) put(block, k);
     *block.done += block.count;

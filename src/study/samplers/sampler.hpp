@@ -52,6 +52,9 @@ SamplerKind query_sampler(const Study& study);
 /// more or less than that.
 SamplerKind rod_sampler(const Study& study);
 
+/// Inverse kinematics and velocity analysis of poses in lanes; likewise.
+SamplerKind pose_sampler(const Study& study);
+
 /// The quickest there is.
 SamplerKind choose_sampler(const Study& study);
 

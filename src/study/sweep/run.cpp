@@ -7,11 +7,11 @@
 #include <mutex>
 #include <thread>
 
+#include "sinew/study/cluster.hpp"
 #include "sinew/study/sweep.hpp"
 #include "study/sweep/executor.hpp"
 #include "study/sweep/plan.hpp"
 #include "study/sweep/prepare.hpp"
-#include "study/sweep/ranks.hpp"
 #include "study/sweep/reduction.hpp"
 #include "study/sweep/write_results.hpp"
 
@@ -104,7 +104,8 @@ class Sweep {
     summary_.samples = study.samples;
     summary_.sampler = plan_.kind().name;
     summary_.instruction_set = instruction_set_in_use();
-    summary_.threads = options.threads > 0 ? options.threads : core_count();
+    const int sharing = options.ranks ? options.ranks->size_here() : 1;
+    summary_.threads = options.threads > 0 ? options.threads : std::max(1, core_count() / sharing);
     summary_.ranks = options.ranks ? options.ranks->size() : 1;
   }
 

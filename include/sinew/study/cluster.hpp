@@ -1,0 +1,35 @@
+/// @file cluster.hpp
+/// The ranks of a cluster: processes that mpirun or srun started together.
+#pragma once
+#include <memory>
+#include <span>
+
+#include "sinew/base/error.hpp"
+
+namespace sinew::inline v0 {
+
+struct ChunkJob;
+
+/// The processes that run one sweep together. Rank 0 hands out the chunks and writes.
+class Ranks {
+ public:
+  virtual ~Ranks() = default;
+  virtual int rank() const = 0;
+  virtual int size() const = 0;
+  virtual int size_here() const = 0;  ///< of them on this machine
+  /// Runs a job together; of the job of another rank than 0 only the workers count.
+  virtual void run(const ChunkJob& job, int threads) = 0;
+  /// What rank 0 says, on every rank.
+  virtual int agreed(int value) = 0;
+  /// Sums to rank 0; elsewhere the own ones stay.
+  virtual void add_up(std::span<double> values) = 0;
+};
+
+/// The ranks this process is one of; null where it was started alone. To be called once, and destroyed before
+/// the process ends. Code `no_mpi`: there are several ranks, but this sinew was built without MPI.
+SINEW_API Expected<std::unique_ptr<Ranks>> join_ranks();
+
+/// Whether this sinew was built with MPI.
+SINEW_API bool has_mpi();
+
+}  // namespace sinew::inline v0

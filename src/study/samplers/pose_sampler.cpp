@@ -1,0 +1,245 @@
+/// Inverse kinematics and velocity analysis of poses in lanes, for studies that vary the pose of a robot
+/// whose legs are arcs between free joints.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "sinew/analysis/velocity_batch.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "study/samplers/query_entries.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+constexpr std::size_t poses_a_chunk = 16384;
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+/// What of a batch becomes a column.
+enum class Field {
+  inputs,
+  curvatures,
+  determinant,
+  condition,
+  homogenised,
+  position,
+  rotation,
+  type_1,
+  type_2
+};
+
+struct Output {
+  Field field;
+  std::size_t leg = 0;
+};
+
+struct PoseStudy {
+  bool is_inverse = false, is_spatial = false;
+  std::vector<QueryEntry> pose;  ///< x, y, φ; or position and quaternion
+  std::vector<int> bending;
+  std::vector<Output> outputs;
+};
+
+/// `legs[2].curvature` between `legs[` and `].curvature`.
+std::optional<std::size_t> index_in(std::string_view path, std::string_view before, std::string_view after) {
+  if (!path.starts_with(before) || !path.ends_with(after) || path.size() <= before.size() + after.size())
+    return {};
+  path = path.substr(before.size(), path.size() - before.size() - after.size());
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), index);
+  return error == std::errc() && end == path.data() + path.size() ? std::optional(index) : std::nullopt;
+}
+
+std::optional<Output> output_of(std::string_view path, const PoseStudy& asked, std::size_t legs) {
+  if (const auto leg = index_in(path, "legs[", "].curvature"); leg && *leg < legs)
+    return Output{Field::curvatures, *leg};
+  if (asked.is_inverse) {
+    const auto leg = index_in(path, "inputs[", "]");
+    return leg && *leg < legs ? std::optional(Output{Field::inputs, *leg}) : std::nullopt;
+  }
+  static constexpr std::array<std::pair<std::string_view, Field>, 7> fields{
+      {{"determinant", Field::determinant},
+       {"indices.condition", Field::condition},
+       {"indices.condition_homogenised", Field::homogenised},
+       {"indices.position", Field::position},
+       {"indices.rotation", Field::rotation},
+       {"type_1.count", Field::type_1},
+       {"type_2.singular", Field::type_2}}};
+  for (const auto& [name, field] : fields)
+    if (name == path) return Output{field};
+  return {};
+}
+
+bool read_pose(const Node& pose, const Study& study, PoseStudy& asked) {
+  const auto add = [&](const std::optional<std::vector<QueryEntry>>& entries, std::size_t size) {
+    if (!entries || entries->size() != size) return false;
+    asked.pose.insert(asked.pose.end(), entries->begin(), entries->end());
+    return true;
+  };
+  if (pose.kind != Node::Kind::map) return false;
+  if (!asked.is_spatial) {
+    if (pose.members.size() != 3) return false;
+    for (const char* name : {"x", "y", "phi"}) {
+      const Node* value = pose.find(name);
+      const auto entry = value ? query_entry(*value, study) : std::nullopt;
+      if (!entry) return false;
+      asked.pose.push_back(*entry);
+    }
+    return true;
+  }
+  const Node *position = pose.find("position"), *quaternion = pose.find("quaternion");
+  if (pose.members.size() != (quaternion ? 2U : 1U) || !position || !add(query_entries(*position, study), 3))
+    return false;
+  return quaternion ? add(query_entries(*quaternion, study), 4)
+                    : add(std::vector<QueryEntry>{{1}, {0}, {0}, {0}}, 4);
+}
+
+std::optional<PoseStudy> pose_study(const Study& study, const AnyRobot& robot) {
+  PoseStudy asked{.is_spatial = std::holds_alternative<SpatialPose>(home(robot)),
+                  .pose = {},
+                  .bending = {},
+                  .outputs = {}};
+  const auto legs = static_cast<std::size_t>(leg_count(robot));
+  for (const Member& field : study.query.root.members) {
+    if (field.key == "query") {
+      asked.is_inverse = field.value.text == "inverse";
+      if (!asked.is_inverse && field.value.text != "velocity") return {};
+    } else if (field.key == "pose") {
+      if (!read_pose(field.value, study, asked)) return {};
+    } else if (field.key == "bending") {
+      const auto signs = constant_entries(field.value, study);
+      if (!signs) return {};
+      for (const double sign : *signs) asked.bending.push_back(sign < 0 ? -1 : 1);
+    } else {
+      return {};
+    }
+  }
+  if (asked.pose.empty()) return {};
+  for (const StudyOutput& output : study.outputs) {
+    const auto found = output_of(output.path, asked, legs);
+    if (!found) return {};
+    asked.outputs.push_back(*found);
+  }
+  return asked;
+}
+
+class PoseSampler {
+ public:
+  PoseSampler(const AnyRobot& robot, const PoseStudy& asked) : robot_(robot), asked_(asked), work_(robot) {}
+
+  void operator()(const SampleBlock& block) {
+    place(block);
+    statuses_.resize(block.count);
+    VelocityBatch out{.status = statuses_};
+    for (const Output& output : asked_.outputs) choose(output, block.count, out);
+    velocity_batch(robot_, poses_, asked_.bending, out, work_);
+    for (std::size_t k = 0; k < block.count; ++k) block.statuses[k] = status(statuses_[k]);
+    for (std::size_t o = 0; o < asked_.outputs.size(); ++o) put(o, block);
+    *block.done += block.count;
+  }
+
+ private:
+  std::vector<double>& column(Field field) { return columns_[static_cast<std::size_t>(field)]; }
+
+  void place(const SampleBlock& block) {
+    const std::size_t n = block.count;
+    poses_.resize(asked_.pose.size() * n);
+    for (std::size_t c = 0; c < asked_.pose.size(); ++c)
+      for (std::size_t k = 0; k < n; ++k) poses_[c * n + k] = asked_.pose[c].at(block, k);
+    for (std::size_t k = 0; asked_.is_spatial && k < n; ++k) {
+      double square = 0;
+      for (std::size_t c = 3; c < 7; ++c) square += poses_[c * n + k] * poses_[c * n + k];
+      const double scale = 1 / std::sqrt(square);  // of zero: no finite pose, which the batch says
+      for (std::size_t c = 3; c < 7; ++c) poses_[c * n + k] *= scale;
+    }
+  }
+
+  /// Where the batch puts what an output needs.
+  void choose(const Output& output, std::size_t n, VelocityBatch& out) {
+    const std::size_t legs = static_cast<std::size_t>(leg_count(robot_));
+    const auto room = [&](std::size_t size) -> std::span<double> {
+      column(output.field).resize(size);
+      return column(output.field);
+    };
+    const auto flags = [&](std::vector<std::uint8_t>& values) -> std::span<std::uint8_t> {
+      values.resize(n);
+      return values;
+    };
+    switch (output.field) {
+      case Field::inputs:
+        out.inputs = room(legs * n);
+        return;
+      case Field::curvatures:
+        out.curvatures = room(legs * n);
+        return;
+      case Field::determinant:
+        out.determinant = room(n);
+        return;
+      case Field::condition:
+        out.condition = room(n);
+        return;
+      case Field::homogenised:
+        out.condition_homogenised = room(n);
+        return;
+      case Field::position:
+        out.position = room(n);
+        return;
+      case Field::rotation:
+        out.rotation = room(n);
+        return;
+      case Field::type_1:
+        out.type_1 = flags(type_1_);
+        return;
+      case Field::type_2:
+        out.is_type_2 = flags(type_2_);
+        return;
+    }
+  }
+
+  SampleStatus status(Status found) const {
+    return static_cast<SampleStatus>(asked_.is_inverse && found == Status::singular ? Status::converged
+                                                                                    : found);
+  }
+
+  void put(std::size_t o, const SampleBlock& block) {
+    const Output& output = asked_.outputs[o];
+    const bool is_flag = output.field == Field::type_1 || output.field == Field::type_2;
+    const std::size_t n = block.count;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Status found = statuses_[k];
+      const bool is_there = found == Status::converged || found == Status::singular;
+      block.output(o, k) = !is_there ? missing
+                           : is_flag ? (output.field == Field::type_1 ? type_1_ : type_2_)[k]
+                                     : column(output.field)[output.leg * n + k];
+    }
+  }
+
+  const AnyRobot& robot_;
+  const PoseStudy& asked_;
+  Workspace work_;
+  std::vector<double> poses_;
+  std::vector<Status> statuses_;
+  std::vector<std::uint8_t> type_1_, type_2_;
+  std::array<std::vector<double>, 9> columns_;
+};
+
+}  // namespace
+
+SamplerKind pose_sampler(const Study& study) {
+  auto robot = read_robot(study.robot_document);
+  if (!robot || !has_velocity_batch(*robot)) return {};
+  auto asked = pose_study(study, *robot);
+  if (!asked) return {};
+  struct Shared {
+    AnyRobot robot;
+    PoseStudy asked;
+  };
+  const auto shared = std::make_shared<const Shared>(Shared{std::move(*robot), std::move(*asked)});
+  return {.name = "poses in lanes", .chunk = poses_a_chunk, .make = [shared]() -> Sampler {
+            return [shared, sampler = std::make_shared<PoseSampler>(shared->robot, shared->asked)](
+                       const SampleBlock& block) { (*sampler)(block); };
+          }};
+}
+
+}  // namespace sinew::inline v0
