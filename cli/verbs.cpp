@@ -262,20 +262,22 @@ const std::array table{
          "echo '{\"query\": \"inverse\", \"pose\": {\"x\": 0.01, \"y\": 0, \"phi\": 0}}' | sinew query 3-rfr",
          run_query},
     Verb{"sweep",
-         "STUDY",
+         "[STUDY]",
          "one query at many samples, on all cores or a cluster, into a file of results",
          {"output", "resume", "threads", "isa", "compress", "set", "list", "quiet", "help"},
          {},
          "A study file names the robot, the query, the axes that vary (a grid, random or listed samples), "
          "what\n"
-         "is kept of the answers, and what is made of it: reductions over axes, fits (docs/studies.md). -o\n"
+         "is kept of the answers, and what is made of it: reductions over axes, fits (docs/studies.md); "
+         "--list\n"
+         "without a study lists those that come with sinew. -o\n"
          "FILE.h5 or FILE.csv, default the study's name; HDF5 is what Python, MATLAB and Julia read. "
          "Finished\n"
          "chunks are in FILE.log until the end: after a crash or Ctrl-C --resume goes on. On a cluster:\n"
          "mpirun -n 64 sinew sweep STUDY. The data are the same for any number of threads or ranks. Exit "
          "code\n"
          "4 where it was stopped; samples without a solution do not stop it, they have their status.",
-         "sinew sweep studies/3-rfr-workspace.yaml -o workspace.h5",
+         "sinew sweep 3-rfr-workspace -o workspace.h5",
          run_sweep},
     Verb{"check",
          "ROBOT",
@@ -287,7 +289,7 @@ const std::array table{
          run_check},
     Verb{"new",
          "[KIND]",
-         "a commented robot file to start from, on stdout",
+         "a commented robot or study file to start from, on stdout",
          {"help"},
          {},
          "Without a kind the kinds are listed. Every file works as it is; change it and check it.",

@@ -7,6 +7,7 @@
 
 #include "sinew/io/node.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "sinew/study/study.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 #include "verbs.hpp"
@@ -35,6 +36,9 @@ constexpr std::array kinds{
     Kind{"spatial", "spatial", "legs listed: six links in pairs from three shared base points"},
 };
 
+/// No robot, but a file to start from as well.
+constexpr std::string_view study = "study";
+
 /// `3-rfr` is `3-RFR`.
 bool is_same(std::string_view a, std::string_view b) {
   return std::ranges::equal(
@@ -45,12 +49,14 @@ bool is_same(std::string_view a, std::string_view b) {
 std::string list() {
   TextTable table({"kind", "what it is"});
   for (const Kind& kind : kinds) table.add({std::string(kind.name), std::string(kind.summary)});
+  table.add({std::string(study), "of a robot: what sinew sweep runs"});
   return table.text();
 }
 
 int refuse_kind(const std::string& word) {
   std::vector<std::string_view> names;
   for (const Kind& kind : kinds) names.push_back(kind.name);
+  names.push_back(study);
   const std::string_view hint = closest(word, names);
   return refuse("new", {{"unknown_choice", in_quotes(word),
                          fmt::format("no such kind{} There are: {}.",
@@ -66,6 +72,10 @@ int run_new(const Arguments& arguments) {
     return bad_input;
   }
   const std::string word = arguments.operand();
+  if (word == study) {
+    print(builtin_study("3-rfr-workspace"));
+    return solved;
+  }
   const auto kind = std::ranges::find_if(kinds, [&](const Kind& row) { return is_same(row.name, word); });
   if (kind == kinds.end()) return refuse_kind(word);
   print(robot_template(kind->file));

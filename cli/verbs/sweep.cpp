@@ -34,6 +34,15 @@ std::string heading(const std::pair<std::string, std::string>& column) {
   return column.second.empty() ? column.first : fmt::format("{}[{}]", column.first, column.second);
 }
 
+/// The studies that come with sinew.
+int list_studies() {
+  TextTable table({"study", "title"});
+  for (const std::string_view name : builtin_study_names())
+    if (const auto study = read_study(std::string(name))) table.add({std::string(name), study->title});
+  print(table.text());
+  return solved;
+}
+
 /// What a study will do.
 int list(const Study& study) {
   const auto columns = sweep_columns(study);
@@ -72,16 +81,18 @@ std::string rate_of(std::uint64_t bytes, double seconds) {
   return seconds > 0 ? short_number(static_cast<double>(bytes) / seconds) + "B/s" : "-";
 }
 
-/// For people, on stderr: the data are in the file.
-void report(const SweepSummary& summary) {
+std::string report(const SweepSummary& summary) {
   const auto fresh = static_cast<double>(summary.samples - summary.resumed);
   std::string who = fmt::format("{} thread{}", summary.threads, summary.threads == 1 ? "" : "s");
   if (summary.ranks > 1) who = fmt::format("{} ranks of {}", summary.ranks, who);
-  message(fmt::format("{} ({}; {}, {})", counts(summary), summary.sampler, who, summary.instruction_set));
-  message(fmt::format("computing {:.2f} s, {} samples/s; log {:.2f} s, {}; file {:.2f} s, {}; {} in all",
-                      summary.computing, short_number(fresh / std::max(summary.computing, 1e-9)),
-                      summary.logging, rate_of(summary.logged_bytes, summary.logging), summary.writing,
-                      rate_of(summary.written_bytes, summary.writing), short_time(summary.total)));
+  const auto line = [](const char* what, double seconds, const std::string& rate) {
+    return fmt::format("{:<9} {:>8.2f} s  {}\n", what, seconds, rate);
+  };
+  return fmt::format("{}\n{}, {}, {}\n", counts(summary), summary.sampler, who, summary.instruction_set) +
+         line("computing", summary.computing,
+              short_number(fresh / std::max(summary.computing, 1e-9)) + " samples/s") +
+         line("log", summary.logging, rate_of(summary.logged_bytes, summary.logging)) +
+         line("file", summary.writing, rate_of(summary.written_bytes, summary.writing));
 }
 
 void print_fits(const SweepSummary& summary) {
@@ -150,10 +161,7 @@ int run_sweep(const Arguments& arguments) {
     if (!is_quiet) message(fmt::format("{} is complete already", options.output.string()));
     return solved;
   }
-  if (!is_quiet) {
-    report(*summary);
-    print(options.output.string() + '\n');
-  }
+  if (!is_quiet) print(options.output.string() + '\n' + report(*summary));
   print_fits(*summary);
   return solved;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/base/error.hpp"
@@ -82,9 +83,14 @@ struct Study {
   SINEW_API std::size_t reduced_samples() const;
 };
 
-/// A study file, with its robot and its table of samples. Everything wrong with it at once. Codes: those of
-/// `read_file` and of robot files, `unknown_axis`, `unused_axis`, `unknown_column`, `bad_term`, ...
+/// Names and texts of the studies that are part of the library: those of studies/*.yaml.
+SINEW_API std::vector<std::string_view> builtin_study_names();
+SINEW_API std::string_view builtin_study(std::string_view name);  ///< empty where there is none
+
+/// A study file, or one of that name, with its robot and its table of samples. Everything wrong with it at
+/// once. Codes: those of `read_file` and of robot files, `unknown_axis`, `unused_axis`, `unknown_column`,
+/// `bad_term`, ...
 /// @param set changes of the robot, `{path: value}`, over the study's own
-SINEW_API Expected<Study> read_study(const std::string& path, std::span<const Member> set = {});
+SINEW_API Expected<Study> read_study(const std::string& path_or_name, std::span<const Member> set = {});
 
 }  // namespace sinew::inline v0

@@ -27,6 +27,9 @@ bool use_instruction_set(std::string_view name) {
   return true;
 }
 
-std::string_view instruction_set_in_use() { return rod_kernels::instruction_set(); }
+std::string_view instruction_set_in_use() {
+  const std::string_view name = rod_kernels::instruction_set();
+  return name == "AVX3" ? "AVX-512" : name;
+}
 
 }  // namespace sinew::inline v0

@@ -13,6 +13,7 @@
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/study/study.hpp"
+#include "study/builtin.hpp"
 #include "study/sweep/terms.hpp"
 
 namespace sinew::inline v0 {
@@ -395,9 +396,27 @@ std::size_t Study::reduced_samples() const {
   return product;
 }
 
+std::vector<std::string_view> builtin_study_names() {
+  std::vector<std::string_view> names;
+  for (const BuiltinFile& study : builtin_studies()) names.push_back(study.name);
+  return names;
+}
+
+std::string_view builtin_study(std::string_view name) {
+  const auto found = std::ranges::find(builtin_studies(), name, &BuiltinFile::name);
+  return found == builtin_studies().end() ? std::string_view() : found->text;
+}
+
 Expected<Study> read_study(const std::string& path, std::span<const Member> set) {
-  auto text = read_text(path);
-  if (!text) return tl::unexpected(text.error());
+  const std::string_view builtin = builtin_study(path);
+  auto text = builtin.empty() ? read_text(path) : Expected<std::string>(builtin);
+  if (!text) {
+    Errors errors = std::move(text.error());
+    if (path.find_first_of("./") == std::string::npos)  // looks like a name, not a file
+      errors.front().message +=
+          fmt::format(" Studies that come with sinew: {}.", fmt::join(builtin_study_names(), ", "));
+    return tl::unexpected(std::move(errors));
+  }
   const auto document = parse_yaml(*text, path);
   if (!document) return tl::unexpected(document.error());
   Study study;
