@@ -83,7 +83,7 @@ Expected<Node> value_of(std::string_view text) {
 /// Members of a JSON object being written, and what was wrong with the options.
 class Request {
  public:
-  Request(std::string_view query, const Arguments& arguments) : arguments_(arguments) {
+  Request(std::string_view query, const Arguments& arguments) : query_(query), arguments_(arguments) {
     member("query", json_text(query));
   }
 
@@ -125,6 +125,7 @@ class Request {
                              std::span<const std::string_view> names = {});
   std::string wrench(std::string_view option, const Robot& robot);
 
+  std::string_view query_;
   const Arguments& arguments_;
   std::string text_;
   Errors errors_;
@@ -342,7 +343,7 @@ void Request::per_section(std::string_view key, Dimension dimension) {
     more = end != std::string_view::npos;
     if (more) rest.remove_prefix(end + 1);
   }
-  const bool is_own = sections == 1 && arguments_.verb == "diagram";
+  const bool is_own = sections == 1 && query_ == "diagram";
   member(key, is_own ? list : "[" + list + "]");
 }
 

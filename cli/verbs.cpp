@@ -92,10 +92,22 @@ constexpr std::array options{
         "every machine"},
     Option{"compress", "LEVEL", "of HDF5, 0 (none, default) to 9"},
     Option{"list", "", "only list what there is; of sweep what it would do"},
+    Option{"as", "NAME",
+           "the kind of figure: of a table line, points, map or contour; of a robot sides, 3d or diagram; "
+           "default what suits"},
     Option{"x", "COLUMN|AXIS",
            "of plot the column along x, default the first; of map a value, or FROM : TO : COUNT, default the "
            "home's"},
-    Option{"y", "COLUMNS|AXIS", "of plot the columns to draw, default all the others; of map as --x"},
+    Option{"y", "COLUMNS|AXIS",
+           "of plot the columns to draw, default all the others, of a map the one upwards; of map as --x"},
+    Option{"value", "COLUMN", "what a map or contours show; default the first column that is no axis"},
+    Option{"at", "\"COLUMN=VALUE, ...\"",
+           "only the rows there, or nearest to it: where a map cuts further axes; may be repeated", 0, true},
+    Option{"colour", "COLUMN", "what colours the points"},
+    Option{"log-value", "", "logarithmic colours"},
+    Option{"view", "\"TILT, TURN\"",
+           "angles from which a robot is seen in space: from straight above, and about z; default \"60 deg, "
+           "30 deg\""},
     Option{"z", "AXIS", "a value, or FROM : TO : COUNT; default the home's"},
     Option{"phi", "AXIS", "angle of the platform: a value, or FROM : TO : COUNT; default the home's"},
     Option{"rx", "AXIS",
@@ -306,14 +318,29 @@ const std::array table{
     Verb{"plot",
          "RESULT|ROBOT",
          "a figure of a table of results, or of a robot",
-         {"output",  "x",       "y",         "log-y",  "title",         "pose",    "independent",
-          "bending", "elbow",   "curvature", "inputs", "configuration", "changes", "start",
-          "wrench",  "gravity", "theta-is",  "model",  "set",           "quiet",   "help"},
+         {"output",      "as",       "title",     "x",         "y",        "value",
+          "at",          "colour",   "log-y",     "log-value", "view",     "pose",
+          "independent", "bending",  "elbow",     "curvature", "inputs",   "configuration",
+          "changes",     "start",    "wrench",    "gravity",   "theta-is", "model",
+          "section",     "measured", "tolerance", "envelope",  "limit",    "set",
+          "quiet",       "help"},
          {"output"},
-         "RESULT is a .csv file with headings like x[m]. A robot is drawn at a pose or at inputs, default "
-         "its home;\n"
-         "a spatial one from the front and from above, a serial one from the front and from the side.\n"
-         "The figure is an .svg, .png or .pdf; the gnuplot script beside it draws it again.",
+         "RESULT is an .h5 or .csv file of sweep, track or map; lengths are drawn in mm, angles in deg. "
+         "Lines, or "
+         "points,\nare drawn over --x. A map shows --value over the grid that --x and --y form, contours "
+         "write "
+         "its values on\nlines; of a table that is a full grid a map is the default, and --at says where "
+         "further axes are cut:\n"
+         "  sinew plot map.csv --as contour --value determinant --at \"phi=30 deg\" -o map.svg\n"
+         "  sinew plot map.csv --as points --x x --y determinant --colour inverse_condition -o points.png\n"
+         "A robot is drawn at a pose or at inputs, default its home; from its sides: a spatial one from the "
+         "front\nand from above, a serial one from the front and from the side; or in space; or as the "
+         "diagram "
+         "of one section:\n"
+         "  sinew plot hexapod --as 3d -o hexapod.svg\n"
+         "  sinew plot nottingham-tpcj --section 0 --changes \"-1.1 mm, 2 mm, -0.5 mm\" -o section.svg\n"
+         "The figure is an .svg, .png or .pdf; the gnuplot script beside it is there to be edited, and draws "
+         "it again.",
          "sinew plot 3-rfr --pose \"10 mm, -5 mm, 10 deg\" -o fig.svg",
          run_plot},
     Verb{"completion",

@@ -124,7 +124,7 @@ _sinew() {{
     mapfile -t COMPREPLY < <(compgen -W "{}" -- "$word")
   elif ((COMP_CWORD == 2)); then
     local files='!*.yaml'
-    [[ $verb == plot ]] && files='!*.@(yaml|csv)'
+    [[ $verb == plot ]] && files='!*.@(yaml|csv|h5)'
     mapfile -t COMPREPLY < <(compgen -W "{}" -- "$word"; compgen -d -S / -- "$word"
                              shopt -s extglob; compgen -f -X "$files" -- "$word")
   fi

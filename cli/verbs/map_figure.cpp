@@ -28,15 +28,6 @@ std::vector<double> places(const MapAxis& axis, std::string_view unit) {
   return values;
 }
 
-/// A round distance between tics, so that there are few.
-double tic_step(const std::vector<double>& values, double most) {
-  const double least = std::abs(values.back() - values.front()) / most;
-  const double power = std::pow(10, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= least) return factor * power;
-  return 10 * power;
-}
-
 std::size_t stride(const PoseGrid& grid, std::size_t axis) {
   std::size_t product = 1;
   for (std::size_t a = 0; a < axis; ++a) product *= static_cast<std::size_t>(grid.axes[a].count);
@@ -138,8 +129,9 @@ std::string remark(const Slice& slice) {
 }
 
 Axis axis_of(const Input& axis, const std::vector<double>& values, double most_tics) {
+  const double span = std::abs(values.back() - values.front());
   return {
-      .label = axis.name, .unit = std::string(shown(axis.unit).unit), .step = tic_step(values, most_tics)};
+      .label = axis.name, .unit = std::string(shown(axis.unit).unit), .step = round_step(span, most_tics)};
 }
 
 /// So wide that with equal axes little of the page would be left to it.

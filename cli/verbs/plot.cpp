@@ -1,4 +1,5 @@
-/// plot: curves of a table of results, or the shape of a robot.
+/// plot: a table of results as lines, points, a map or contours; a robot from its sides, in space, or what
+/// the tendons of one of its sections leave it free to do.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,258 +7,208 @@
 #include <cmath>
 #include <numbers>
 
+#include "figure/diagram_figure.hpp"
+#include "figure/robot_figure.hpp"
+#include "figure/table_figure.hpp"
+#include "figure/table_grid.hpp"
 #include "figure_file.hpp"
+#include "question.hpp"
 #include "request.hpp"
 #include "show.hpp"
-#include "sinew/io/figure.hpp"
+#include "sinew/io/quantity.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/math/so3.hpp"
+#include "sinew/study/result.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {
 namespace {
 
-/// The two coordinates that a panel shows.
-struct View {
-  std::size_t x, y;
-  std::string_view x_name, y_name;
+/// One kind of figure, and the options that shape it beside those of all.
+struct Kind {
+  std::string_view name;
+  bool is_of_table;
+  std::vector<std::string_view> options;
 };
 
-/// The curve of a list of points in metres, in mm.
-Series curve(const Node& points, const View& view, Mark mark, Colour colour, double width,
-             std::string label = {}) {
-  Series series{.label = std::move(label), .x = {}, .y = {}, .mark = mark, .colour = colour, .width = width};
-  for (const Node& point : points.items) {
-    series.x.push_back(1e3 * point.items.at(view.x).number);
-    series.y.push_back(1e3 * point.items.at(view.y).number);
-  }
-  return series;
+const std::vector<Kind>& kinds() {
+  static const std::vector<std::string_view> place{
+      "pose",    "independent", "bending", "elbow",   "curvature", "inputs", "configuration",
+      "changes", "start",       "wrench",  "gravity", "theta-is",  "model",  "set"};
+  static const std::vector<Kind> all = [] {
+    std::vector<std::string_view> seen = place;
+    seen.push_back("view");
+    return std::vector<Kind>{
+        {"line", true, {"x", "y", "log-y", "at"}},
+        {"points", true, {"x", "y", "log-y", "at", "colour", "log-value"}},
+        {"map", true, {"x", "y", "at", "value", "log-value"}},
+        {"contour", true, {"x", "y", "at", "value", "log-value"}},
+        {"sides", false, place},
+        {"3d", false, seen},
+        {"diagram",
+         false,
+         {"section", "changes", "measured", "model", "tolerance", "envelope", "limit", "set"}}};
+  }();
+  return all;
 }
 
-Panel empty_panel(const View& view) {
-  return {.title = {},
-          .x = {.label = std::string(view.x_name), .unit = "mm"},
-          .y = {.label = std::string(view.y_name), .unit = "mm"},
-          .series = {},
-          .notes = {},
-          .legend = Legend::below,
-          .equal_aspect = true};
-}
-
-/// The label of the first of many alike.
-std::string once(std::size_t i, const char* label) { return i == 0 ? std::string(label) : std::string(); }
-
-/// As Fig. 10 of [TDPCR]: backbones, tendons, platform, joints, and the lines along which the closures pull.
-Panel picture(const Answer& shape, const View& view, const Node& legs) {
-  Panel panel = empty_panel(view);
-  const auto add = [&](const Node& points, Mark mark, Colour colour, double width, std::string label = {}) {
-    panel.series.push_back(curve(points, view, mark, colour, width, std::move(label)));
-  };
-  const Node& platform = *shape.find("platform");
-  add(platform, platform.items.size() > 2 ? Mark::polygon : Mark::line, Colour::green, 1.5, "platform");
-  const auto is = [&](std::size_t i, std::string_view link) {
-    return at(legs.items[i], "link.type")->text == link;
-  };
-  const auto& lines = shape.find("lines")->items;
-  std::size_t line = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    if (!is(i, "rod"))  // its tip is on the platform
-      add(lines[i], Mark::dashed, Colour::vermillion, 1.5, once(line++, "line of the leg"));
-  const auto& tendons = shape.find("tendons")->items;
-  for (std::size_t i = 0; i < tendons.size(); ++i)
-    for (std::size_t k = 0; k < tendons[i].items.size(); ++k)
-      if (!tendons[i].items[k].items.empty())  // rails and rods have none
-        add(tendons[i].items[k], Mark::dashed, Colour::grey, 1, once(i + k, "tendon"));
-  const auto& backbones = shape.find("backbones")->items;
-  std::vector<std::string> named;
-  for (std::size_t i = 0; i < backbones.size(); ++i) {
-    std::string name = is(i, "rail") ? "rail" : is(i, "rod") ? "rod" : "backbone";
-    if (std::ranges::find(named, name) != named.end())
-      name.clear();  // in the legend once
-    else
-      named.push_back(name);
-    add(backbones[i], Mark::line, Colour::blue, 3, name);
-  }
-  add(*shape.find("base"), Mark::circles, Colour::black, 1.5);
-  add(platform, Mark::circles, Colour::black, 1.5);
-  return panel;
-}
-
-/// Rim of a disc in the base frame, its proximal face and then its distal one.
-Node rim(const Node& disc) {
-  const auto p = numbers(at(disc, "pose.position")), q = numbers(at(disc, "pose.quaternion"));
-  const SO3<double> turn{q.at(0), Vec3<double>(q.at(1), q.at(2), q.at(3))};
-  Node points;
-  points.kind = Node::Kind::list;
-  constexpr int corners = 24;
-  for (const double height : {0.0, number(disc, "height")})
-    for (int k = 0; k <= corners; ++k) {
-      const double angle = 2 * std::numbers::pi * k / corners, radius = number(disc, "radius");
-      const Vec3<double> corner =
-          turn.rotate(Vec3<double>(radius * std::cos(angle), radius * std::sin(angle), height));
-      Node point;
-      point.kind = Node::Kind::list;
-      for (std::size_t i = 0; i < 3; ++i)
-        point.items.push_back(make_node(p.at(i) + corner[static_cast<Eigen::Index>(i)]));
-      points.items.push_back(std::move(point));
-    }
-  return points;
-}
-
-/// A serial robot: backbone by sections, discs, tendons.
-Panel serial_picture(const Answer& shape, const View& view) {
-  Panel panel = empty_panel(view);
-  const auto& discs = shape.find("discs")->items;
-  for (std::size_t i = 0; i < discs.size(); ++i)
-    panel.series.push_back(curve(rim(discs[i]), view, Mark::line, Colour::grey, 0.8, once(i, "disc")));
-  const auto& sections = shape.find("tendons")->items;
-  for (std::size_t m = 0; m < sections.size(); ++m)
-    for (std::size_t i = 0; i < sections[m].items.size(); ++i)
-      panel.series.push_back(
-          curve(sections[m].items[i], view, Mark::line, Colour::vermillion, 0.6, once(m + i, "tendon")));
-  const auto& backbones = shape.find("backbones")->items;
-  for (std::size_t m = 0; m < backbones.size(); ++m)
-    panel.series.push_back(curve(backbones[m], view, Mark::line, m % 2 == 0 ? Colour::blue : Colour::green,
-                                 2.5, once(m, "backbone")));
-  return panel;
-}
-
-/// A spatial robot from the front and from above; a serial one from the front and from the side.
-Figure picture(const Answer& shape, const Robot& robot) {
-  if (is_serial(robot)) {
-    Figure figure;
-    figure.title = shape.text("robot");
-    figure.panels = {serial_picture(shape, {0, 2, "x", "z"}), serial_picture(shape, {1, 2, "y", "z"})};
-    figure.columns = 2;
-    figure.width = 1400;
-    figure.height = 800;
-    return figure;
-  }
-  const Node& legs = *robot.description.find("legs");
-  Figure figure;
-  figure.title = shape.text("robot");
-  figure.width = figure.height = 700;
-  if (robot.is_spatial) {
-    figure.panels = {picture(shape, {0, 2, "x", "z"}, legs), picture(shape, {0, 1, "x", "y"}, legs)};
-    figure.columns = 2;
-    figure.width = 1400;
-  } else {
-    figure.panels = {picture(shape, {0, 1, "x", "y"}, legs)};
-  }
-  return figure;
-}
-
-/// The robot's shape at the asked configuration, default its home. Nothing where it has none; `exit` then
-/// says why. An unstable one is drawn, and `exit` says that it is none that holds.
-std::optional<Figure> robot_figure(const Arguments& arguments, int& exit) {
-  auto robot = open(arguments);
-  auto query = robot ? request("shape", arguments, *robot) : tl::unexpected(robot.error());
-  if (!query) {
-    exit = refuse("plot", query.error());
-    return {};
-  }
-  if (!arguments.has("pose") && !arguments.has("independent") && !arguments.has("inputs") &&
-      !arguments.has("configuration") && !arguments.has("changes")) {
-    if (robot->is_on_rods && robot->inputs.size() != 3 && robot->inputs.size() != 6) {
-      exit = refuse(
-          "plot",
-          {{"missing_option", "",
-            fmt::format("--inputs is missing: which lengths have the {} rods?", robot->inputs.size())}});
-      return {};
-    }
-    query->pop_back();  // its closing brace
-    *query += fmt::format(", {}}}", at_home(*robot));
-  }
-  const Answer shape = ask(robot->session, *query);
-  exit = exit_code(shape);
-  if (const Errors errors = shape.errors(); !errors.empty())
-    refuse("plot", errors);
-  else if (!shape.converged())
-    message(fmt::format("plot {}: {}: {}", shape.text("robot"), shape.text("status"), shape.text("message")));
-  if (!shape.find("backbones")) return {};
-  return picture(shape, *robot);
-}
-
-const Column* column(const Table& table, std::string_view name, std::string_view option, Errors& errors) {
-  if (const Column* found = table.find(name)) return found;
+std::string names_of_kinds(bool is_of_table) {
   std::vector<std::string_view> names;
-  for (const Column& known : table.columns) names.push_back(known.name);
-  const std::string_view hint = closest(name, names);
-  errors.push_back({"unknown_column", fmt::format("--{}", option),
-                    fmt::format("no column {}{} Columns: {}.", in_quotes(name),
-                                hint.empty() ? "." : fmt::format("; did you mean {}?", in_quotes(hint)),
-                                fmt::join(names, ", "))});
-  return nullptr;
+  for (const Kind& kind : kinds())
+    if (kind.is_of_table == is_of_table) names.push_back(kind.name);
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::vector<const Column*> columns_to_draw(const Table& table, const Column* x, const std::string* list,
-                                           Errors& errors) {
-  std::vector<const Column*> result;
-  if (!list) {
-    for (const Column& other : table.columns)
-      if (&other != x) result.push_back(&other);
-    return result;
-  }
-  for (std::string_view rest = *list;;) {
-    const std::size_t comma = rest.find(',');
-    const Column* found = column(table, rest.substr(0, comma), "y", errors);
-    if (found) result.push_back(found);
-    if (comma == std::string_view::npos) return result;
-    rest.remove_prefix(comma + 1);
-  }
+/// What is wrong with `--as`.
+Errors refuse_kind(std::string_view name, bool is_of_table) {
+  const auto found = std::ranges::find(kinds(), name, &Kind::name);
+  if (found != kinds().end() && found->is_of_table == is_of_table) return {};
+  std::vector<std::string_view> names;
+  for (const Kind& kind : kinds()) names.push_back(kind.name);
+  const std::string_view hint = found == kinds().end() ? closest(name, names) : std::string_view();
+  return {{"unknown_kind", "--as",
+           fmt::format("{} is no figure of a {}{} A table is drawn as {}; a robot as {}.", in_quotes(name),
+                       is_of_table ? "table" : "robot",
+                       hint.empty() ? "." : fmt::format("; did you mean {}?", in_quotes(hint)),
+                       names_of_kinds(true), names_of_kinds(false))}};
 }
 
-Figure curves(const Arguments& arguments, const Column& x, const std::vector<const Column*>& ys) {
-  const bool has_one_unit =
-      std::ranges::all_of(ys, [&](const Column* y) { return y->unit == ys.front()->unit; });
-  Panel panel{.title = {},
-              .x = {.label = x.name, .unit = x.unit},
-              .y = {.label = ys.size() == 1 ? ys[0]->name : "", .unit = has_one_unit ? ys[0]->unit : ""},
-              .series = {}};
-  panel.y.log = arguments.has("log-y");
-  constexpr std::array colours{Colour::blue, Colour::vermillion, Colour::green, Colour::orange,
-                               Colour::sky,  Colour::purple,     Colour::black, Colour::yellow};
-  for (std::size_t i = 0; i < ys.size(); ++i)
-    panel.series.push_back({.label = ys.size() == 1 ? ""
-                                     : has_one_unit ? ys[i]->name
-                                                    : ys[i]->heading(),
-                            .x = x.values,
-                            .y = ys[i]->values,
-                            .colour = colours[i % colours.size()]});
-  Figure figure;
-  figure.panels = {std::move(panel)};
-  return figure;
-}
-
-std::optional<Figure> table_figure(const Arguments& arguments, int& exit) {
-  const auto table = read_csv(arguments.operand());
-  if (!table) {
-    exit = refuse("plot", table.error());
-    return {};
-  }
+/// Options that shape other kinds of figures only.
+Errors refuse_idle(const Arguments& arguments, std::string_view name) {
+  constexpr std::array always{"output", "as", "title", "quiet", "help"};
+  const Kind& kind = *std::ranges::find(kinds(), name, &Kind::name);
   Errors errors;
-  const std::string* name = arguments.text("x");
-  const Column* x = name ? column(*table, *name, "x", errors) : &table->columns.front();
-  const auto ys = columns_to_draw(*table, x, arguments.text("y"), errors);
-  if (errors.empty() && ys.empty())
-    errors.push_back(
-        {"too_few_columns", arguments.operand(), "a curve needs two columns, x and y; there is one."});
-  if (errors.empty()) return curves(arguments, *x, ys);
-  exit = refuse("plot", errors);
-  return {};
+  for (const auto& [option, texts] : arguments.options) {
+    if (std::ranges::find(always, option) != always.end() ||
+        std::ranges::find(kind.options, option) != kind.options.end())
+      continue;
+    std::vector<std::string> others;
+    for (const Kind& other : kinds())
+      if (std::ranges::find(other.options, option) != other.options.end())
+        others.push_back(fmt::format("--as {}", other.name));
+    errors.push_back({"no_effect", fmt::format("--{}", option),
+                      fmt::format("without effect on --as {}; it is of {}. Leave it out, or draw that.", name,
+                                  fmt::join(others, ", "))});
+  }
+  return errors;
+}
+
+/// The answer that a figure is drawn from. Nothing where there is none; `exit` then says why. One that does
+/// not hold is drawn, and `exit` says so.
+std::optional<Answer> asked(Robot& robot, const std::string& query, std::string_view needs, int& exit) {
+  Answer answer = ask(robot.session, query);
+  exit = exit_code(answer);
+  if (const Errors errors = answer.errors(); !errors.empty())
+    refuse("plot", errors);
+  else if (!answer.converged())
+    message(
+        fmt::format("plot {}: {}: {}", answer.text("robot"), answer.text("status"), answer.text("message")));
+  if (!answer.find(needs)) return {};
+  return answer;
+}
+
+/// Angles of `--view`.
+Expected<Eye> eye_of(const Arguments& arguments) {
+  const std::string* text = arguments.text("view");
+  if (!text) return Eye{};
+  const std::size_t comma = text->find(',');
+  if (comma == std::string::npos || text->find(',', comma + 1) != std::string::npos)
+    return failure("wrong_length", "--view",
+                   fmt::format("{}; it has two angles, from straight above and about z: --view \"60 deg, 30 "
+                               "deg\".",
+                               in_quotes(*text)));
+  Eye eye;
+  for (const auto& [angle, part] :
+       {std::pair{&eye.tilt, text->substr(0, comma)}, std::pair{&eye.turn, text->substr(comma + 1)}}) {
+    const auto value = parse_quantity(part, Dimension::angle);
+    if (!value) return failure(value.error().front().code, "--view", value.error().front().message);
+    *angle = *value * 180 / std::numbers::pi;
+  }
+  if (eye.tilt < 0 || eye.tilt > 180)
+    return failure(
+        "out_of_range", "--view",
+        fmt::format("the first angle goes from 0, above, over 90 deg, the side, to 180 deg, below; "
+                    "it is {:.6g} deg.",
+                    eye.tilt));
+  eye.turn = std::fmod(std::fmod(eye.turn, 360) + 360, 360);
+  return eye;
+}
+
+/// The robot's shape at the asked configuration, default its home.
+Expected<std::string> shape_query(const Arguments& arguments, const Robot& robot) {
+  auto query = request("shape", arguments, robot);
+  constexpr std::array places{"pose", "independent", "inputs", "configuration", "changes"};
+  if (!query || std::ranges::any_of(places, [&](auto place) { return arguments.has(place); })) return query;
+  if (robot.is_on_rods && robot.inputs.size() != 3 && robot.inputs.size() != 6)
+    return failure("missing_option", "",
+                   fmt::format("--inputs is missing: which lengths have the {} rods?", robot.inputs.size()));
+  query->pop_back();  // its closing brace
+  return *query + fmt::format(", {}}}", at_home(robot));
+}
+
+std::optional<Figure> picture(const Arguments& arguments, std::string_view kind, int& exit) {
+  const auto fail = [&](const Errors& errors) {
+    exit = refuse("plot", errors);
+    return std::optional<Figure>();
+  };
+  auto robot = open(arguments);
+  if (!robot) return fail(robot.error());
+  if (kind == "diagram") {
+    const auto query = request("diagram", arguments, *robot);
+    if (!query) return fail(query.error());
+    const auto answer = asked(*robot, *query, "class", exit);
+    if (!answer) return {};
+    return diagram_figure(*answer, *robot, section_of(arguments));
+  }
+  if (kind == "3d" && !robot->is_spatial && !is_serial(*robot))
+    return fail({{"not_available", "--as",
+                  fmt::format("{} moves in a plane, and is drawn in it: leave out --as 3d.",
+                              robot->description.text("robot"))}});
+  const auto eye = eye_of(arguments);
+  if (!eye) return fail(eye.error());
+  const auto query = shape_query(arguments, *robot);
+  if (!query) return fail(query.error());
+  const auto answer = asked(*robot, *query, "backbones", exit);
+  if (!answer) return {};
+  return robot_figure(*answer, *robot, kind == "3d" ? std::optional<Eye>(*eye) : std::nullopt);
+}
+
+Expected<Figure> result(const Arguments& arguments, const std::string* kind) {
+  auto table = read_result(arguments.operand());
+  if (!table) return tl::unexpected(table.error());
+  const auto part = cut(std::move(*table), arguments);
+  if (!part) return tl::unexpected(part.error());
+  const std::string_view name = kind ? std::string_view(*kind) : table_kind(part->table, arguments);
+  if (Errors errors = refuse_idle(arguments, name); !errors.empty()) return tl::unexpected(std::move(errors));
+  auto figure = table_figure(part->table, name, arguments);
+  if (figure) figure->title = part->place;
+  return figure;
 }
 
 }  // namespace
 
 int run_plot(const Arguments& arguments) {
   if (arguments.operands.empty())
-    return refuse("plot",
-                  {{"missing_result", "RESULT|ROBOT", "what is to be drawn? Give a .csv file or a robot."}});
-  const std::string* output = arguments.text("output");
+    return refuse("plot", {{"missing_result", "RESULT|ROBOT",
+                            "what is to be drawn? Give an .h5 or .csv file, or a robot."}});
+  const std::string *output = arguments.text("output"), *kind = arguments.text("as");
   if (const Errors errors = refuse_format(*output); !errors.empty()) return refuse("plot", errors);
+  const bool is_table = arguments.operand().ends_with(".csv") || arguments.operand().ends_with(".h5");
+  if (kind)
+    if (const Errors errors = refuse_kind(*kind, is_table); !errors.empty()) return refuse("plot", errors);
   int exit = solved;
-  auto figure =
-      arguments.operand().ends_with(".csv") ? table_figure(arguments, exit) : robot_figure(arguments, exit);
+  std::optional<Figure> figure;
+  if (is_table) {
+    auto drawn = result(arguments, kind);
+    if (!drawn) return refuse("plot", drawn.error());
+    figure = std::move(*drawn);
+  } else {
+    const std::string name = kind                       ? *kind
+                             : arguments.has("section") ? "diagram"
+                             : arguments.has("view")    ? "3d"
+                                                        : "sides";
+    if (const Errors errors = refuse_idle(arguments, name); !errors.empty()) return refuse("plot", errors);
+    figure = picture(arguments, name, exit);
+  }
   if (!figure) return exit;
   if (const std::string* title = arguments.text("title")) figure->title = *title;
   const int written = write_figure_file(arguments, *figure, *output);

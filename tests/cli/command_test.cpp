@@ -1,6 +1,7 @@
 // What a shell relies on: examples that work as printed, streams that do not break, signals, files.
 #include "command.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -238,9 +239,96 @@ TEST(Plot, DrawsColumnsOfATable) {
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   const std::string script = read_text(here.path() / "out" / "fig.gp");
   EXPECT_NE(script.find("set logscale y"), std::string::npos);
-  EXPECT_NE(script.find("0 0.01\n1 0.02\n"), std::string::npos);
+  EXPECT_NE(script.find("0 10\n1 20\n"), std::string::npos);
   EXPECT_EQ(script.find("14.5"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(here.path() / "out" / "fig.svg"));
+}
+
+TEST(Plot, DrawsTextOfATableLiterally) {
+  const Scratch here;
+  write_text(here.path() / "evil.csv",
+             "\"x'; system 'touch hacked' #[m]\",`touch hacked`[rad],\"v_{2} \\n $PATH @ARG1\"\n"
+             "0,0,1\n1,0,2\n0,1,3\n1,1,5\n");
+  for (const std::string kind : {"map", "contour", "points", "line"}) {
+    const Outcome outcome = run_command(
+        {"plot", "evil.csv", "--as", kind, "-o", "fig.svg", "--title", "'; system 'touch hacked'"},
+        here.path());
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(here.path() / "hacked"));
+    EXPECT_NE(read_text(here.path() / "fig.svg").find("v_{2} \\n $PATH @ARG1"), std::string::npos) << kind;
+  }
+}
+
+TEST(Plot, DrawsAGridInAnyOrderOfRowsTheSame) {
+  const Scratch here;
+  write_text(here.path() / "a.csv", "x[m],y[rad],v\n0,0,1\n1,0,2\n0,1,\n1,1,5\n");
+  write_text(here.path() / "b.csv", "x[m],y[rad],v\n1,1,5\n0,0,1\n1,0,2\n");
+  const auto script = [&](const char* table) {
+    const Outcome outcome =
+        run_command({"plot", table, "-o", "fig.png", "--as", "map", "--x", "x", "--y", "y"}, here.path());
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    return read_text(here.path() / "fig.gp");
+  };
+  EXPECT_EQ(script("a.csv"), script("b.csv"));  // a value that is missing, and a row that is
+  EXPECT_NE(script("a.csv").find("<< EOD\n0 0 1\n1000 0 2\n1000 57.29577951308232 5\nEOD"),
+            std::string::npos);
+}
+
+TEST(Plot, DrawsACutOfATableAtTheNearestValue) {
+  const Scratch here;
+  std::string table = "x[m],y[m],phi[rad],v\n";
+  for (int k = 0; k < 27; ++k) table += fmt::format("{},{},{},{}\n", k % 3, k / 3 % 3, 0.1 * (k / 9), k);
+  write_text(here.path() / "t.csv", table);
+  const Outcome map = run_command({"plot", "t.csv", "-o", "fig.png", "--at", "phi = 5 deg"}, here.path());
+  EXPECT_EQ(map.exit, 0) << map.err;
+  const std::string script = read_text(here.path() / "fig.gp");
+  EXPECT_NE(script.find("title 'phi = 5.72958 deg'"), std::string::npos);
+  EXPECT_NE(script.find("<< EOD\n0 0 9\n1000 0 10\n"), std::string::npos);
+  const Outcome line =
+      run_command({"plot", "t.csv", "-o", "fig.png", "--at", "phi=0.2, y=1", "--y", "v"}, here.path());
+  EXPECT_EQ(line.exit, 0) << line.err;
+  EXPECT_NE(read_text(here.path() / "fig.gp").find("<< EOD\n0 21\n1000 22\n2000 23\nEOD"), std::string::npos);
+}
+
+TEST(Plot, RefusesAVectorFigureOfTooManyPoints) {
+  const Scratch here;
+  std::string table = "x,y\n";
+  for (int k = 0; k < 200001; ++k) table += "1,2\n";
+  write_text(here.path() / "t.csv", table);
+  const Outcome outcome = run_command({"plot", "t.csv", "--as", "points", "-o", "fig.svg"}, here.path());
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.err.find("200001 points; an .svg or .pdf has 200000 at most"), std::string::npos)
+      << outcome.err;
+}
+
+TEST(Plot, DrawsRobotsInSpace) {
+  const Scratch here;
+  const std::vector<std::vector<std::string>> robots{{"6-ufs"},
+                                                     {"hexapod", "--view", "80 deg, 120 deg"},
+                                                     {"nottingham-tpcj", "--configuration", "10 deg, 5 deg"}};
+  for (std::vector<std::string> words : robots) {
+    words.insert(words.begin(), "plot");
+    words.insert(words.end(), {"--as", "3d", "-o", "fig.svg"});
+    const Outcome outcome = run_command(words, here.path());
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    const std::string script = read_text(here.path() / "fig.gp");
+    for (const char* word : {"set view equal xyz", "'x [mm]'", "'y [mm]'", "'z [mm]'", "splot"})
+      EXPECT_NE(script.find(word), std::string::npos) << words[1] << ' ' << word;
+  }
+}
+
+TEST(Plot, DrawsTheDiagramOfASectionAsDiagramDoes) {
+  const Scratch here;
+  const std::vector<std::string> words{"nottingham-tpcj",        "--section", "0",      "--changes",
+                                       "-1.1 mm, 2 mm, -0.5 mm", "-o",        "fig.svg"};
+  const auto drawn = [&](std::string verb) {
+    std::vector<std::string> all{std::move(verb)};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = run_command(all, here.path());
+    EXPECT_EQ(outcome.out, "fig.gp\nfig.svg\n");
+    return read_text(here.path() / "fig.gp");
+  };
+  EXPECT_EQ(drawn("plot"), drawn("diagram"));
 }
 
 TEST(Plot, DrawsASpatialRobotFromTwoSides) {

@@ -56,8 +56,26 @@ Figure one_of_each() {
       .series = {{.label = "", .x = {-1, 1}, .y = {5, 15}}},
       .legend = Legend::none,
       .map = HeatMap{.x = {-1, 0, 1}, .y = {5, 15}, .values = {1, 2, missing, 4, 5, 6}, .label = "it's κ"}};
+  Panel space{.title = std::string(awkward),
+              .x = {.label = std::string(awkward), .unit = "mm"},
+              .y = {.label = "y", .unit = "mm"},
+              .series = {},
+              .legend = Legend::top_left,
+              .z = {.label = "it's z", .unit = "mm", .low = 0, .high = 10},
+              .eye = Eye{.tilt = 70, .turn = 40}};
+  for (const Mark mark : {Mark::line, Mark::dashed, Mark::circles, Mark::polygon, Mark::points})
+    space.series.push_back(
+        {.label = "it's", .x = {0, 1, 2, 0}, .y = {0, 1, 0, 1}, .mark = mark, .z = {0, 5, 5, 9}});
+  Panel cloud{
+      .title = "",
+      .x = {.label = "x", .unit = "mm"},
+      .y = {.label = "y", .unit = "mm"},
+      .series =
+          {{.label = "", .x = {0, 1, 2}, .y = {1, 2, 3}, .mark = Mark::points, .shades = {-5, missing, 7}}},
+      .legend = Legend::below,
+      .scale = ColourScale{.label = std::string(awkward)}};
   return {.title = "three panels",
-          .panels = {panel, square, map},
+          .panels = {panel, square, map, space, cloud},
           .columns = 3,
           .width = 900,
           .height = 450,
@@ -142,6 +160,77 @@ TEST(Figure, AMapWithoutAnyValueIsAnEmptyFrame) {
     const auto files = write_figure({.title = "", .panels = {empty}, .comments = {}}, folder.path / "f");
     EXPECT_TRUE(files) << to_string(files.error());
   }
+}
+
+TEST(Figure, QuotesOfATextEndNoString) {
+  const Folder folder;
+  for (const std::string text : {"'", "''", "'''", "a''b", "''a'", "'; system 'touch hacked'; '", "a' b' c'",
+                                 "'.system('touch hacked').'", "\\'", "\"'\"", "`touch hacked`"}) {
+    const Panel panel{.title = text,
+                      .x = {.label = text, .unit = ""},
+                      .y = {.label = "y", .unit = text},
+                      .series = {{.label = text, .x = {0, 1}, .y = {0, 1}}},
+                      .notes = {{text, 0.5, 0.5}}};
+    const auto files = write_figure({.title = text, .panels = {panel}, .comments = {}}, folder.path / "f",
+                                    {.formats = {FigureFormat::svg}});
+    ASSERT_TRUE(files) << text << to_string(files.error());
+    const std::string svg = bytes(files->back()), whole = '>' + text + '<';
+    std::size_t count = 0;  // two titles, the x axis, legend, note
+    for (std::size_t at = svg.find(whole); at != std::string::npos; at = svg.find(whole, at + 1)) ++count;
+    EXPECT_GE(count, 5U) << text;
+    EXPECT_NE(svg.find(">y [" + text + "]<"), std::string::npos) << text;
+    EXPECT_FALSE(fs::exists(folder.path / "hacked"));
+  }
+}
+
+TEST(Figure, APanelInSpaceHasOneScaleAndTakesBackWhatItSets) {
+  const std::string script = gnuplot_script(one_of_each(), "f");
+  for (const char* line :
+       {"$panel4_1 << EOD\n0 0 0\n1 1 5\n2 0 5\n0 1 9\nEOD\n", "set view equal xyz\n  set view 70,40,",
+        "set zlabel 'it''s z [mm]'", "set zrange [0:10]", "splot $panel4_1 using 1:2:3 with lines",
+        "with polygons fs transparent solid 0.2 fc rgb '#0072b2' notitle", "unset zlabel"})
+    EXPECT_NE(script.find(line), std::string::npos) << line;
+}
+
+TEST(Figure, ShadedPointsHaveAColumnMoreAndALabelledBar) {
+  const std::string script = gnuplot_script(one_of_each(), "f");
+  EXPECT_NE(script.find("$panel5_1 << EOD\n0 1 -5\n\n2 3 7\nEOD\n"), std::string::npos);
+  EXPECT_NE(script.find("plot $panel5_1 using 1:2:3 with points lc palette pt 7"), std::string::npos);
+  EXPECT_NE(script.find("set cblabel 'U_p^{2} <b> & \"q\" it''s `date` $x"), std::string::npos);
+}
+
+TEST(Figure, ManyCellsAreOneImageAndFewAreRectangles) {
+  Panel panel{.title = "",
+              .x = {.label = "x", .unit = ""},
+              .y = {.label = "y", .unit = ""},
+              .series = {},
+              .map = HeatMap{.x = {}, .y = {}, .values = {}, .label = "v"}};
+  for (int k = 0; k < 200; ++k) panel.map->x.push_back(0.5 * k), panel.map->y.push_back(k);
+  panel.map->values.assign(40000, 1.0 / 3);
+  panel.map->values[1] = std::numeric_limits<double>::quiet_NaN();
+  const auto script = [&] { return gnuplot_script({.title = {}, .panels = {panel}, .comments = {}}, "f"); };
+  EXPECT_NE(script().find("$panel1_map << EOD\n0.333333 NaN 0.333333"), std::string::npos);
+  EXPECT_NE(script().find("matrix using (0+0.5*$1):(0+1*$2):3 with image notitle"), std::string::npos);
+  EXPECT_EQ(script().find("boxxyerror"), std::string::npos);
+  const Folder folder;
+  const FigureOptions all{.formats = {FigureFormat::svg, FigureFormat::png, FigureFormat::pdf}};
+  const auto files = write_figure({.title = {}, .panels = {panel}, .comments = {}}, folder.path / "f", all);
+  ASSERT_TRUE(files) << to_string(files.error());
+  EXPECT_LT(fs::file_size((*files)[1]), 1000000U);  // an .svg that opens
+  panel.map->log = true;
+  EXPECT_TRUE(write_figure({.title = {}, .panels = {panel}, .comments = {}}, folder.path / "f", all));
+}
+
+TEST(Figure, UnequalCellsMeetHalfWay) {
+  const Panel panel{.title = "",
+                    .x = {.label = "x", .unit = ""},
+                    .y = {.label = "y", .unit = ""},
+                    .series = {},
+                    .map = HeatMap{.x = {0, 1, 3}, .y = {0, 2}, .values = {1, 2, 3, 4, 5, 6}, .label = "v"}};
+  const std::string script = gnuplot_script({.title = {}, .panels = {panel}, .comments = {}}, "f");
+  EXPECT_NE(script.find("\n1 0 2 0.47 2.03 -1.04 1.04\n"), std::string::npos) << "and a little over";
+  EXPECT_NE(script.find("set xrange [-0.5:4]"), std::string::npos);
+  EXPECT_NE(script.find("set yrange [-1:3]"), std::string::npos);
 }
 
 TEST(Figure, WithoutGnuplotTheScriptStaysAndTheMessageSaysWhatToInstall) {

@@ -369,37 +369,6 @@ HeatMap map_of(const F& f) {
   return tripod::map_of(std::move(values), "");
 }
 
-TEST(Contour, ALineLiesWhereTheValueIs) {
-  const Series line = contour::line(map_of([](double x, double y) { return x * x + 2 * y * y; }), 0.6);
-  std::size_t points = 0;
-  for (std::size_t k = 0; k < line.x.size(); ++k) {
-    if (std::isnan(line.x[k])) continue;
-    ++points;
-    EXPECT_NEAR(line.x[k] * line.x[k] + 2 * line.y[k] * line.y[k], 0.6, 3e-4);
-  }
-  EXPECT_GT(points, 300U);
-}
-
-TEST(Contour, WhereAllFourSidesAreCrossedTheCentreDecides) {
-  const auto joined = [](double centre) {  // corners − + − +, about the centre of one cell
-    const HeatMap map{.x = {0, 1}, .y = {0, 1}, .values = {-1 + centre, 1, 1, -1 + centre}, .label = {}};
-    const Series line = contour::line(map, 0);
-    EXPECT_EQ(line.x.size(), 6U);
-    return line.x[0] + line.y[0] < 1 && line.x[1] + line.y[1] < 1;  // the first piece cuts off corner (0, 0)
-  };
-  EXPECT_TRUE(joined(0.1));    // the centre is positive: the negative corners are apart
-  EXPECT_FALSE(joined(-0.1));  // negative: they are one region, and the first piece is not at (0, 0) alone
-}
-
-TEST(Contour, WhatIsNotANumberHasNoLine) {
-  const auto holed =
-      map_of([](double x, double y) { return x > 0 ? std::numeric_limits<double>::quiet_NaN() : x + 0 * y; });
-  const Series line = contour::line(holed, -0.5);
-  ASSERT_FALSE(line.x.empty());
-  for (const double x : line.x) EXPECT_TRUE(std::isnan(x) || std::abs(x + 0.5) < 1e-15) << x;
-  EXPECT_TRUE(contour::line(holed, 0.5).x.empty());
-}
-
 TEST(Contour, AValueIsWrittenOnItsLineWhichLeavesRoomForIt) {
   Panel panel = tripod::plane("");
   panel.map = map_of([](double x, double y) { return x + 0 * y; });

@@ -29,20 +29,30 @@ enum class Mark {
   outside,  ///< closed; the map where it is not inside becomes the page's white: an edge through cells
 };
 
-/// One curve. Where x or y is not finite the line is interrupted.
+/// One curve. Where a coordinate is not finite the line is interrupted.
 struct Series {
   std::string label;  ///< in the legend; empty: not there
   std::vector<double> x, y;
   Mark mark = Mark::line;
   Colour colour = Colour::blue;
-  double width = 2;  ///< of the line, or of the dots [points of the page]
+  double width = 2;                 ///< of the line, or of the dots [points of the page]
+  std::vector<double> z = {};       ///< heights, in a panel with an eye
+  std::vector<double> shades = {};  ///< of Mark::points in place of one colour, on the panel's scale
 };
 
-/// Values at the points of a regular grid, each a cell of one colour of cividis (dark blue to yellow; even
-/// steps for every colour vision). It lies below the curves. A value that is not finite leaves its cell
-/// empty.
+/// Colours of cividis (dark blue to yellow; even steps for every colour vision) and the bar that explains
+/// them.
+struct ColourScale {
+  std::string label;
+  std::optional<double> low = {}, high = {};  ///< ends of the colours; default: what the values need
+  bool log = false;
+};
+
+/// Values at the points of a grid, each a cell of one colour of cividis. It lies below the curves. A value
+/// that is not finite leaves its cell empty. Many cells a regular distance apart are drawn as one image, so
+/// that an .svg or .pdf of a million cells opens.
 struct HeatMap {
-  std::vector<double> x, y;                   ///< where the columns and rows are, a regular distance apart
+  std::vector<double> x, y;                   ///< where the columns and rows are, in order
   std::vector<double> values;                 ///< x fastest
   std::string label;                          ///< of the colour bar
   std::optional<double> low = {}, high = {};  ///< ends of the colours; default: what the values need
@@ -65,6 +75,12 @@ struct Axis {
   std::optional<double> step = {};            ///< between numbered tics; of a log axis a factor
 };
 
+/// From where a panel in space is seen, from far away: equal lengths along an axis look equal anywhere.
+struct Eye {
+  double tilt = 60;  ///< 0: from above, 90: from the side [deg]
+  double turn = 30;  ///< of the panel about z [deg]
+};
+
 enum class Legend { none, top_left, top_right, bottom_left, bottom_right, below };
 
 struct Panel {
@@ -75,7 +91,13 @@ struct Panel {
   Legend legend = Legend::top_left;
   bool equal_aspect = false;  ///< a metre is as long in y as in x
   std::optional<HeatMap> map = {};
+  std::optional<ColourScale> scale = {};  ///< of the series' shades, where there is no map
+  Axis z = {};
+  std::optional<Eye> eye = {};  ///< makes the panel one in space, x, y and z to one scale; without notes
 };
+
+/// A round distance (1, 2 or 5 times a power of ten) that is `span` / `most` or the next larger one.
+SINEW_API double round_step(double span, double most);
 
 /// Panels in a grid, row by row. Text is taken literally: no markup.
 struct Figure {

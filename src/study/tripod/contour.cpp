@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "sinew/io/contour.hpp"
+
 namespace sinew::inline v0::contour {
 namespace {
 
@@ -33,36 +35,6 @@ double interpolated(const HeatMap& map, double x, double y) {
   const double low = std::lerp(value(map, i, j), value(map, i + 1, j), across - column);
   const double high = std::lerp(value(map, i, j + 1), value(map, i + 1, j + 1), across - column);
   return std::lerp(low, high, up - row);
-}
-
-void add_segment(Series& line, const Point& from, const Point& to) {
-  line.x.insert(line.x.end(), {from[0], to[0], missing});
-  line.y.insert(line.y.end(), {from[1], to[1], missing});
-}
-
-/// The pieces of a line in the cell of four middles from column i and row j. Where all four sides are crossed
-/// the value at the centre tells which crossings belong together.
-void add_cell(const HeatMap& map, double level, std::size_t i, std::size_t j, Series& line) {
-  constexpr std::array<std::array<std::size_t, 2>, 5> ring{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}};
-  std::array<Point, 4> crossings;
-  std::size_t count = 0;
-  double sum = 0;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const auto [ai, aj] = ring[c];
-    const auto [bi, bj] = ring[c + 1];
-    const double a = value(map, i + ai, j + aj) - level, b = value(map, i + bi, j + bj) - level;
-    if (!std::isfinite(a) || !std::isfinite(b)) return;
-    sum += a;
-    if ((a < 0) == (b < 0)) continue;
-    const double part = a / (a - b);
-    crossings[count++] = {std::lerp(map.x[i + ai], map.x[i + bi], part),
-                          std::lerp(map.y[j + aj], map.y[j + bj], part)};
-  }
-  if (count == 2) add_segment(line, crossings[0], crossings[1]);
-  if (count < 4) return;
-  const bool joins_first = (sum < 0) == (value(map, i, j) - level < 0);  // the first corner with the centre
-  add_segment(line, crossings[0], crossings[joins_first ? 1 : 3]);
-  add_segment(line, crossings[2], crossings[joins_first ? 3 : 1]);
 }
 
 /// Where the map first reaches the level along a ray from its middle; NaN where it does not.
@@ -95,35 +67,13 @@ void write_on(Panel& panel, Series& line, const Point& at, double level) {
   panel.notes.push_back({std::move(text), at[0], at[1], Note::Side::centre, line.colour});
 }
 
-/// Ends of the colours.
-std::pair<double, double> range(const HeatMap& map) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const double v : map.values) {
-    if (!std::isfinite(v)) continue;
-    low = std::min(low, v);
-    high = std::max(high, v);
-  }
-  return {map.low.value_or(low), map.high.value_or(high)};
-}
-
 }  // namespace
-
-Series line(const HeatMap& map, double level) {
-  Series series{.label = {}, .x = {}, .y = {}, .mark = Mark::line, .colour = Colour::black, .width = 1};
-  for (std::size_t j = 0; j + 1 < map.y.size(); ++j)
-    for (std::size_t i = 0; i + 1 < map.x.size(); ++i) add_cell(map, level, i, j, series);
-  return series;
-}
 
 void add(Panel& panel, const std::vector<Levels>& all) {
   const HeatMap& map = *panel.map;
-  const auto [low, high] = range(map);
-  const auto shade = [&map](double v) { return map.log ? std::log(v) : v; };
-  const double dark = 0.5 * (shade(low) + shade(high));
   for (const Levels& levels : all)
     for (const double level : levels.values) {
-      Series curve = line(map, level);
-      curve.colour = shade(level) < dark ? Colour::white : Colour::black;
+      Series curve = contour_line(map, level);
       for (const double direction : levels.directions)
         write_on(panel, curve, first_on_ray(map, level, direction * std::numbers::pi / 180), level);
       panel.series.push_back(std::move(curve));

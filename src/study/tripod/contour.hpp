@@ -1,15 +1,11 @@
 /// @file contour.hpp
-/// Lines of equal value over a heat map, with their values written on them.
+/// Lines of equal value over a heat map, with their values written where a ray from its middle meets them.
 #pragma once
 #include <vector>
 
 #include "sinew/io/figure.hpp"
 
 namespace sinew::inline v0::contour {
-
-/// The lines of one value, linear between the cells' middles; a cell with a corner that is not finite has
-/// none.
-Series line(const HeatMap& map, double level);
 
 /// Lines of some values, each written where its line first crosses a ray from the middle of the map, once for
 /// each direction in which it does.

@@ -1,0 +1,15 @@
+/// @file diagram_figure.hpp
+/// What the tendons of one section leave it free to do, drawn over its two bends.
+#pragma once
+#include "request.hpp"
+#include "sinew/io/figure.hpp"
+
+namespace sinew::cli {
+
+/// Of `--section`, default the first.
+std::size_t section_of(const Arguments& arguments);
+
+/// The answer to `diagram`, one with a class.
+Figure diagram_figure(const Answer& answer, const Robot& robot, std::size_t section);
+
+}  // namespace sinew::cli

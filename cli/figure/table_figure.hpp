@@ -1,0 +1,17 @@
+/// @file table_figure.hpp
+/// Figures of a table of results.
+#pragma once
+#include "sinew/io/figure.hpp"
+#include "sinew/io/table.hpp"
+#include "verbs.hpp"
+
+namespace sinew::cli {
+
+/// What a table is drawn as where `--as` does not say: a map where its rows are a full grid over two axes or
+/// more and no columns are chosen, or where a value is; points where a colour is; else lines.
+std::string_view table_kind(const Table& table, const Arguments& arguments);
+
+/// `line`, `points`, `map` or `contour`, as the options say.
+Expected<Figure> table_figure(const Table& table, std::string_view kind, const Arguments& arguments);
+
+}  // namespace sinew::cli
