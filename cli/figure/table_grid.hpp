@@ -34,7 +34,7 @@ std::string titled(const Column& column, const Scale& scale);
 /// both; of logarithmic colours powers of ten where the values reach over less than two.
 std::array<double, 2> colour_ends(const std::vector<double>& values, bool log);
 
-/// The first columns that vary and tell the rows apart.
+/// The first columns that vary and tell the rows apart, the one that runs fastest first.
 struct GridAxes {
   std::vector<const Column*> columns;
   bool is_full = false;  ///< every combination of their values is a row

@@ -7,6 +7,7 @@
 #include "sinew/io/node.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "sinew/study/study.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -122,6 +123,9 @@ _sinew() {{
     mapfile -t COMPREPLY < <(compgen -W "bash" -- "$word")
   elif ((COMP_CWORD == 2)) && [[ $verb == reproduce ]]; then
     mapfile -t COMPREPLY < <(compgen -W "{}" -- "$word")
+  elif ((COMP_CWORD == 2)) && [[ $verb == sweep ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "{}" -- "$word"; compgen -d -S / -- "$word"
+                             shopt -s extglob; compgen -f -X '!*.yaml' -- "$word")
   elif ((COMP_CWORD == 2)); then
     local files='!*.yaml'
     [[ $verb == plot ]] && files='!*.@(yaml|csv|h5)'
@@ -132,7 +136,7 @@ _sinew() {{
 complete -o default -o nospace -F _sinew sinew
 )",
                     joined_names(' '), cases, joined_names(' '), fmt::join(study_names(), " "),
-                    fmt::join(builtin_robot_names(), " ")));
+                    fmt::join(builtin_study_names(), " "), fmt::join(builtin_robot_names(), " ")));
   return solved;
 }
 

@@ -175,12 +175,14 @@ std::optional<Figure> picture(const Arguments& arguments, std::string_view kind,
 Expected<Figure> result(const Arguments& arguments, const std::string* kind) {
   auto table = read_result(arguments.operand());
   if (!table) return tl::unexpected(table.error());
+  const bool has_title = arguments.operand().ends_with(".h5") && !table->comments.empty();
+  const std::string title = has_title ? table->comments.front() : std::string();
   const auto part = cut(std::move(*table), arguments);
   if (!part) return tl::unexpected(part.error());
   const std::string_view name = kind ? std::string_view(*kind) : table_kind(part->table, arguments);
   if (Errors errors = refuse_idle(arguments, name); !errors.empty()) return tl::unexpected(std::move(errors));
   auto figure = table_figure(part->table, name, arguments);
-  if (figure) figure->title = part->place;
+  if (figure) figure->title = title + (title.empty() || part->place.empty() ? "" : ", ") + part->place;
   return figure;
 }
 

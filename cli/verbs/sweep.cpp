@@ -109,6 +109,7 @@ void print_fits(const SweepSummary& summary) {
 }  // namespace
 
 int run_sweep(const Arguments& arguments) {
+  if (arguments.operands.empty() && arguments.has("list")) return list_studies();
   if (arguments.operands.empty())
     return refuse("sweep",
                   {{"missing_study", "",
@@ -149,7 +150,10 @@ int run_sweep(const Arguments& arguments) {
   };
   const auto summary = sweep(std::move(*study), options);
   line.reset();
-  if (!summary) return speaks ? refuse("sweep", summary.error()) : bad_input;
+  if (!summary) {
+    if (speaks) refuse("sweep", summary.error());
+    return summary.error().front().code == "write_failed" ? stopped : bad_input;
+  }
   if (!speaks) return solved;
   if (!summary->warning.empty()) message(fmt::format("sinew sweep: {}", summary->warning));
   if (!summary->is_complete) {

@@ -102,5 +102,33 @@ TEST(RodBatch, AnswersAlikeWhateverTheWorkspaceHeld) {
   }
 }
 
+/// The stability of an equilibrium is a fact of its pose, whichever way it was found.
+TEST(RodBatch, JudgesStabilityAsOneByOne) {
+  for (const auto& [name, home, load_z] :
+       {std::tuple{"3pfs-g2", 0.4347, -105.0}, {"3pfs-g1", 0.2076, -190.0}}) {
+    const AnyRobot robot = load(name).value();
+    Workspace work(robot), alone(robot);
+    SpatialWrench wrench;
+    wrench << 0.5, 0, load_z, 0, 0.1, 0;
+    const std::vector<double> rows = walked_rows(600, home, 0.02);
+    std::vector<SpatialPose> poses(600);
+    std::vector<Status> statuses(600);
+    equilibrium_batch(robot, rows, wrench, poses, statuses, work, true);
+    int compared = 0, unstable = 0;
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      if (statuses[k] != Status::converged && statuses[k] != Status::unstable) continue;
+      const Equilibrium one =
+          equilibrium(robot, std::span(rows).subspan(3 * k, 3), {.wrench = wrench, .start = poses[k]}, alone);
+      if (!one.is_solved() || (one.pose.position - poses[k].position).norm() > 1e-9)
+        continue;  // another branch
+      ++compared;
+      unstable += statuses[k] == Status::unstable;
+      EXPECT_EQ(statuses[k], one.report.status) << name << load_z << ", row " << k;
+    }
+    EXPECT_GT(compared, 40) << name << load_z;
+    EXPECT_GT(unstable, 0) << name << load_z;
+  }
+}
+
 }  // namespace
 }  // namespace sinew::test

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "kinematics/rods/path.hpp"
 #include "rod_robots.hpp"
 #include "sinew/link/elastica_map.hpp"
 
@@ -181,6 +182,52 @@ TEST(RodLanes, AgreeWhateverTheInstructionSet) {
   hwy::GetChosenTarget().DeInit();
   EXPECT_EQ(rod_kernels::instruction_set(), best_name);
   EXPECT_GT(sets, 0);
+}
+
+/// Anywhere, in equilibrium or not: what the lanes count at eight poses is what the system counts at each.
+TEST(PoseLanes, CountUnstableDirectionsAsOneByOne) {
+  RodRandom random(6);
+  const RodRobot robot = random.robot(6, 0.2);
+  std::array<int, 8> seen{};
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<CoarseRods> rods(6);
+    PoseLanes poses{};
+    std::array<int, rod_lanes> counts{};
+    for (int lane = 0; lane < rod_lanes; ++lane) {
+      RodSystem system(robot);
+      system.set_platform(random.near(home(robot), 0.1, 0.5));
+      system.set_wrench(random.wrench(5, 1));
+      for (int k = 0; k < 6; ++k) {
+        std::array<double, coarse_nodes> theta;
+        const double bend = random.uniform(-2, 2), wave = random.uniform(-1, 1);
+        for (std::size_t j = 0; j < coarse_nodes; ++j) {
+          const double s = GalerkinBasis<coarse_nodes>::get().node[j];
+          theta[j] = bend * s + wave * std::sin(6 * s);
+        }
+        const double push = (trial % 4) * 6 * system.stiffness(k);
+        system.set_shape(k, 1, theta, random.uniform(-push, push), random.uniform(-push, push),
+                         system.aim(k).lateral);
+      }
+      system.evaluate();
+      system.linearise();
+      counts[std::size_t(lane)] = unstable_directions(system);
+      for (int k = 0; k < 6; ++k) system.copy_rod(k, rods[std::size_t(k)], lane);
+      const SE3<double>& pose = system.platform();
+      for (int c = 0; c < 3; ++c) {
+        poses.position[c][lane] = pose.p[c];
+        poses.quaternion[c + 1][lane] = pose.R.v[c];
+      }
+      poses.quaternion[0][lane] = pose.R.w;
+      for (int c = 0; c < 6; ++c) poses.wrench[c][lane] = system.wrench()[c];
+    }
+    rod_kernels::advance(rods, {.moves = false, .anew = true, .renews = true, .judges = true}, poses);
+    for (std::size_t lane = 0; lane < rod_lanes; ++lane) {
+      EXPECT_EQ(poses.unstable[lane], counts[lane]) << trial;
+      ++seen[std::size_t(std::min(counts[lane], 7))];
+    }
+  }
+  for (const int count : {0, 1, 2, 3})
+    EXPECT_GT(seen[std::size_t(count)], 5) << count;  // the samples were worth it
 }
 
 }  // namespace

@@ -22,12 +22,12 @@ struct SweepProgress {
 };
 
 struct SweepOptions {
-  std::filesystem::path output;  ///< `.h5` or `.csv`; the chunks are in `output.log` until it is written
-  bool resume = false;           ///< go on with the chunks of an earlier run; without any, begin
-  int threads = 0;               ///< of this process; 0: one a core
-  int compression = 0;           ///< of HDF5, 0 (none) to 9
-  std::string command;           ///< for the provenance
-  Ranks* ranks = nullptr;        ///< of a cluster; null: this process alone
+  std::filesystem::path output = {};  ///< `.h5` or `.csv`; the chunks are in `output.log` until it is written
+  bool resume = false;                ///< go on with the chunks of an earlier run; without any, begin
+  int threads = 0;                    ///< of this process; 0: one a core
+  int compression = 0;                ///< of HDF5, 0 (none) to 9
+  std::string command = {};           ///< for the provenance
+  Ranks* ranks = nullptr;             ///< of a cluster; null: this process alone
   /// Called a few times a second, from a thread of its own; false stops the sweep.
   std::function<bool(const SweepProgress&)> progress = {};
 };
@@ -71,7 +71,8 @@ struct SweepColumns {
 SINEW_API Expected<SweepColumns> sweep_columns(Study study);
 
 /// Runs a study. Errors of the study, its file of results and its log; samples that fail are no errors but
-/// have their status.
+/// have their status. Code `write_failed`: the disc is full, say; what was computed is kept, `resume` goes
+/// on.
 SINEW_API Expected<SweepSummary> sweep(Study study, const SweepOptions& options);
 
 /// Chooses the instruction set of all that runs in lanes: `baseline` (SSSE3), `avx2`, `avx512` or `native`.

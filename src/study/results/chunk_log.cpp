@@ -182,7 +182,7 @@ Expected<void> ChunkLog::append(std::size_t chunk, std::span<const std::byte> by
   if (!write_all(file_, end_, bytes_of(record)) || !write_all(file_, end_ + sizeof(Record), bytes)) {
     const std::string why = reason();
     [[maybe_unused]] const int cut = ::ftruncate(file_, static_cast<off_t>(end_));  // else recovery does
-    return failure("file_unwritable", path_.string(),
+    return failure("write_failed", path_.string(),
                    fmt::format("cannot be written: {}; make room and go on with --resume", why));
   }
   count_ += !has(chunk);

@@ -32,7 +32,7 @@ class ChunkLog {
   std::size_t size() const { return places_.size(); }  ///< chunks there will be
   std::uint64_t bytes() const { return end_; }
 
-  /// Code `file_unwritable`; what was there before still is. Bytes are on the disc within some seconds.
+  /// Code `write_failed`; what was there before still is. Bytes are on the disc within some seconds.
   Expected<void> append(std::size_t chunk, std::span<const std::byte> bytes);
   /// Code `file_unreadable`, also where the bytes are no longer those that were written.
   Expected<void> read(std::size_t chunk, std::vector<std::byte>& bytes) const;

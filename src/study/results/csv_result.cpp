@@ -96,7 +96,7 @@ class CsvResult : public ResultFile {
   }
   Expected<void> outcome() const {
     if (reason_.empty()) return {};
-    return failure("file_unwritable", path_.string(),
+    return failure("write_failed", path_.string(),
                    fmt::format("cannot be written: {}; the chunks are kept, go on with --resume", reason_));
   }
 

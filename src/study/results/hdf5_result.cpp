@@ -106,7 +106,7 @@ class Hdf5Result : public ResultFile {
  private:
   Expected<void> outcome() const {
     if (ok_) return {};
-    return failure("file_unwritable", path_.string(),
+    return failure("write_failed", path_.string(),
                    "cannot be written: no room on the disc, or not a folder you may write to; the chunks are "
                    "kept, go on "
                    "with --resume");

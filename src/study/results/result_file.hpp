@@ -48,11 +48,11 @@ class ResultFile {
  public:
   virtual ~ResultFile() = default;
   virtual Expected<void> write(const ResultRows& rows) = 0;
-  /// Code `file_unwritable`; the file of an earlier run then is still there.
+  /// Code `write_failed`; the file of an earlier run then is still there.
   virtual Expected<void> finish(std::span<const FittedTerms> fits) = 0;
 };
 
-/// By the file's ending: `.h5` or `.csv`. Codes: `unknown_format`, `file_unwritable`.
+/// By the file's ending: `.h5` or `.csv`. Codes: `unknown_format`, `write_failed`.
 Expected<std::unique_ptr<ResultFile>> create_result(const std::filesystem::path& path, ResultLayout layout);
 Errors refuse_result_name(const std::filesystem::path& path);
 

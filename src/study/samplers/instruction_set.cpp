@@ -19,6 +19,7 @@ constexpr std::array<std::pair<std::string_view, std::uint32_t>, 3> sets{
 
 bool use_instruction_set(std::string_view name) {
   hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
   if (name == "native") return true;
   const auto found = std::ranges::find(sets, name, [](const auto& set) { return set.first; });
   if (found == sets.end() || (hwy::SupportedTargets() & found->second) == 0) return false;

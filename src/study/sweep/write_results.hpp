@@ -5,7 +5,7 @@
 
 namespace sinew::inline v0 {
 
-/// Writes the file and does the fits. The log stays. Codes: `file_unwritable`, `file_unreadable`.
+/// Writes the file and does the fits. The log stays. Codes: `write_failed`, `file_unreadable`.
 Expected<std::vector<FittedTerms>> write_results(const SweepPlan& plan, const ChunkLog& log,
                                                  const SweepOptions& options);
 

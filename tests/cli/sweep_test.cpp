@@ -1,0 +1,185 @@
+// Sweeps as people run them: killed, out of room, on ranks, read by others.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include "command.hpp"
+
+namespace {
+
+using namespace sinew::test;
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr int values = 15;  // instrumented code is slow
+#else
+constexpr int values = 53;
+#endif
+
+const std::string rods =
+    "sinew: 1\nrobot: 3pfs-g2\nquery: {query: forward, inputs: [$a, $b, $c]}\naxes:\n" + [] {
+      std::string axes;
+      for (const char* name : {"a", "b", "c"})
+        axes += std::string("  ") + name + ": {from: 400 mm, to: 460 mm, count: " + std::to_string(values) +
+                "}\n";
+      return axes;
+    }();
+const std::string queries = R"(sinew: 1
+robot: 3-frr
+query: {query: inverse, pose: {x: $x, y: $y, phi: 0.1}}
+axes:
+  y: {from: -30 mm, to: 30 mm, count: 91}
+  x: {from: -30 mm, to: 30 mm, count: 93}
+)";
+
+/// Starts the command, and kills it after a while; whether it had ended before.
+bool is_done_within(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                    std::chrono::microseconds patience) {
+  std::vector<std::string> all{SINEW_COMMAND};
+  all.insert(all.end(), words.begin(), words.end());
+  std::vector<char*> argv;
+  for (std::string& word : all) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    if (chdir(folder.c_str()) == 0) execv(SINEW_COMMAND, argv.data());
+    _exit(127);
+  }
+  const auto end = std::chrono::steady_clock::now() + patience;
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (std::chrono::steady_clock::now() >= end) {
+      kill(child, SIGKILL);
+      waitpid(child, &status, 0);
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  return true;
+}
+
+TEST(SweepCommand, SurvivesFiftyKills) {
+  const Scratch here;
+  for (const std::string& study : {rods, queries}) {
+    write_text(here.path() / "study.yaml", study);
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "-o", "whole.h5"}, here.path()).exit, 0);
+    const auto whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const std::string expected = read_text(here.path() / "whole.h5");
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> part(0.02, 0.6);
+    int kills = 0, runs = 0, finished = 0;
+    while (kills < 25) {
+      ASSERT_LT(++runs, 500);
+      const std::chrono::microseconds patience(static_cast<long>(1e6 * whole * part(random)));
+      if (is_done_within({"sweep", "study.yaml", "-q", "--resume", "-o", "parts.h5"}, here.path(),
+                         patience)) {
+        EXPECT_EQ(read_text(here.path() / "parts.h5"), expected);
+        std::filesystem::remove(here.path() / "parts.h5");  // and anew
+        ++finished;
+      } else {
+        ++kills;
+      }
+    }
+    EXPECT_GT(finished, 0);
+    ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "--resume", "-o", "parts.h5"}, here.path()).exit, 0);
+    EXPECT_EQ(read_text(here.path() / "parts.h5"), expected);
+    std::filesystem::remove(here.path() / "parts.h5");
+  }
+}
+
+TEST(SweepCommand, OutOfRoomKeepsWhatThereWas) {  // a limit on files stands for a full disc
+  const Scratch here;
+  write_text(here.path() / "study.yaml", rods);
+  ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "-o", "whole.h5"}, here.path()).exit, 0);
+  const std::string start = std::string("trap '' XFSZ; ulimit -f ");
+  const std::string run = std::string("; ") + SINEW_COMMAND + " sweep study.yaml -q --resume -o parts.h5";
+  const auto size = std::filesystem::file_size(here.path() / "whole.h5") / 1024;
+  for (const auto room : {size / 4, size / 2, size - 8}) {  // in the log, in the log, in the file
+    const Outcome full = run_shell(start + std::to_string(room) + run, here.path());
+    EXPECT_EQ(full.exit, 4) << full.err;
+    EXPECT_NE(full.err.find("--resume"), std::string::npos) << full.err;
+    EXPECT_TRUE(std::filesystem::exists(here.path() / "parts.h5.log"));
+    EXPECT_FALSE(std::filesystem::exists(here.path() / "parts.h5"));
+  }
+  ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "--resume", "-o", "parts.h5"}, here.path()).exit, 0);
+  EXPECT_EQ(read_text(here.path() / "parts.h5"), read_text(here.path() / "whole.h5"));
+}
+
+TEST(SweepCommand, BeginsNoSweepOverAnother) {
+  const Scratch here;
+  write_text(here.path() / "study.yaml", queries);
+  while (is_done_within({"sweep", "study.yaml", "-q", "-o", "out.h5"}, here.path(),
+                        std::chrono::milliseconds(30)) ||
+         std::filesystem::file_size(here.path() / "out.h5.log") < 10000)
+    for (const char* name : {"out.h5", "out.h5.log"}) std::filesystem::remove(here.path() / name);
+  const Outcome again = run_command({"sweep", "study.yaml", "-o", "out.h5"}, here.path());
+  EXPECT_EQ(again.exit, 2);
+  EXPECT_NE(again.err.find("[sweep_begun]"), std::string::npos) << again.err;
+  EXPECT_EQ(run_command({"sweep", "study.yaml", "-q", "-o", "out.h5", "--resume"}, here.path()).exit, 0);
+}
+
+TEST(SweepCommand, ThreeRanksGiveTheSameBytes) {
+  if (std::system("command -v mpirun >/dev/null") != 0) GTEST_SKIP() << "no mpirun";
+  const Scratch here;
+  for (const std::string& study : {rods, queries}) {
+    write_text(here.path() / "study.yaml", study);
+    const Outcome alone = run_command({"sweep", "study.yaml", "-q", "-o", "alone.h5"}, here.path());
+    ASSERT_EQ(alone.exit, 0) << alone.err;
+    const Outcome together =
+        run_shell(std::string("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+                              "mpirun --oversubscribe -n 3 ") +
+                      SINEW_COMMAND + " sweep study.yaml -o together.h5",
+                  here.path());
+    ASSERT_EQ(together.exit, 0) << together.err;
+    EXPECT_NE(together.out.find("3 ranks"), std::string::npos) << together.out;
+    EXPECT_EQ(read_text(here.path() / "together.h5"), read_text(here.path() / "alone.h5"));
+    const Outcome refused =
+        run_shell(std::string("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+                              "mpirun --oversubscribe -n 3 ") +
+                      SINEW_COMMAND + " sweep study.yaml -o /dev/null/all.h5",
+                  here.path());
+    EXPECT_EQ(refused.exit, 2) << refused.err;
+    EXPECT_NE(refused.err.find("[file_unwritable]"), std::string::npos) << refused.err;
+  }
+}
+
+TEST(SweepCommand, PythonReadsColumnsUnitsAndAxes) {
+  if (std::system("/usr/bin/python3 -c 'import h5py' 2>/dev/null") != 0) GTEST_SKIP() << "no h5py";
+  const Scratch here;
+  write_text(here.path() / "study.yaml", queries);
+  ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "-o", "out.h5", "--compress", "4"}, here.path()).exit,
+            0);
+  write_text(here.path() / "read.py", R"(import h5py
+with h5py.File("out.h5") as results:
+    column = results["inputs_0"]
+    assert column.shape == (91, 93) and column.attrs["units"] == b"m", column.attrs["units"]
+    assert column.dims[1][0].name == "/x" and column.dims[0][0].attrs["units"] == b"m"
+    meanings = results["status"].attrs["flag_meanings"].decode().split()
+    assert meanings[results["status"][45, 46]] == "converged"
+    assert "robot: 3-frr" in results["provenance/study"][()].decode()
+    assert results["provenance/command"][()].decode() == "sinew sweep study.yaml"
+    print(f"{results['x'][0]:.3f} {results['x'][-1]:.3f} {column[45, 46]:.6f}")
+)");
+  const Outcome read = run_shell("/usr/bin/python3 read.py", here.path());
+  EXPECT_EQ(read.exit, 0) << read.err;
+  EXPECT_TRUE(read.out.starts_with("-0.030 0.030 0.")) << read.out;
+}
+
+TEST(SweepCommand, BaselineIsTheSameWhateverTheMachineHas) {
+  const Scratch here;
+  write_text(here.path() / "study.yaml", rods);
+  ASSERT_EQ(
+      run_command({"sweep", "study.yaml", "-q", "--isa", "baseline", "-o", "one.csv"}, here.path()).exit, 0);
+  const Outcome other = run_shell(std::string("env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2 ") + SINEW_COMMAND +
+                                      " sweep study.yaml -q --isa baseline -o other.csv",
+                                  here.path());
+  ASSERT_EQ(other.exit, 0) << other.err;
+  EXPECT_EQ(read_text(here.path() / "one.csv"), read_text(here.path() / "other.csv"));
+}
+
+}  // namespace

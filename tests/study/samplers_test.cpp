@@ -1,0 +1,198 @@
+// The quick samplers say what queries say, one by one.
+#include "study/samplers/sampler.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "study/samplers/answer_path.hpp"
+#include "study/sweep/prepare.hpp"
+#include "study/sweep/samples.hpp"
+#include "study_support.hpp"
+
+namespace {
+
+using namespace sinew;
+using test::Folder;
+
+struct Computed {
+  std::vector<double> outputs;
+  std::vector<SampleStatus> statuses;
+};
+
+Computed compute(const SamplerKind& kind, const Study& study) {
+  const Chunk all{0, study.samples};
+  Computed done{std::vector<double>(study.outputs.size() * all.count), std::vector<SampleStatus>(all.count)};
+  std::vector<double> axes(study.axes.size() * all.count);
+  axis_values(study, all, study.is_path, axes);
+  std::atomic<std::size_t> count{0};
+  const std::atomic<bool> stop{false};
+  kind.make()({all.count, axes, done.outputs, done.statuses, &count, &stop});
+  EXPECT_EQ(count, all.count);
+  return done;
+}
+
+/// Largest difference of both ways, relative where values are beyond 1; statuses and missing values alike.
+double difference(const std::string& text, const char* expected_kind) {
+  const Folder folder;
+  auto study = test::study_of(folder, text);
+  if (!study) {
+    ADD_FAILURE() << to_string(study.error());
+    return 0;
+  }
+  const auto ready = prepare(*study);
+  EXPECT_TRUE(ready) << to_string(ready.error());
+  const SamplerKind quick = choose_sampler(*study);
+  EXPECT_EQ(quick.name, expected_kind);
+  const Computed one = compute(quick, *study), other = compute(query_sampler(*study), *study);
+  EXPECT_EQ(one.statuses, other.statuses);
+  double worst = 0;
+  for (std::size_t i = 0; i < one.outputs.size(); ++i) {
+    EXPECT_EQ(std::isnan(one.outputs[i]), std::isnan(other.outputs[i])) << i;
+    if (std::isnan(one.outputs[i])) continue;
+    worst = std::max(worst,
+                     std::abs(one.outputs[i] - other.outputs[i]) / std::max(1.0, std::abs(other.outputs[i])));
+  }
+  return worst;
+}
+
+TEST(Samplers, PlanarPosesInLanesAgreeWithQueries) {
+  const std::string axes = R"(axes:
+  y: {from: -110 mm, to: 110 mm, count: 12}
+  x: {from: -110 mm, to: 110 mm, count: 11}
+  phi: {from: -80 deg, to: 80 deg, count: 9}
+)";
+  EXPECT_LT(difference("sinew: 1\nrobot: 3-rfr\nquery: {query: velocity, pose: {x: $x, y: $y, phi: $phi}}\n" +
+                           axes + R"(outputs:
+  condition: indices.condition
+  homogenised: indices.condition_homogenised
+  position: indices.position
+  rotation: indices.rotation
+  determinant: determinant
+  curvature: legs[1].curvature
+  type_1: type_1.count
+  type_2: type_2.singular
+)",
+                       "poses in lanes"),
+            1e-9);
+  EXPECT_LT(difference("sinew: 1\nrobot: 3-rfr\nquery: {query: inverse, pose: {x: $x, y: $y, phi: $phi}, "
+                       "bending: [1, -1, 1]}\n" +
+                           axes,
+                       "poses in lanes"),
+            1e-13);
+}
+
+TEST(Samplers, SpatialPosesInLanesAgreeWithQueries) {
+  EXPECT_LT(difference(R"(sinew: 1
+robot: 6-ufs
+query: {query: velocity, pose: {position: [$x, 0.01, $z], quaternion: [1, $e1, 0.1, 0]}}
+axes:
+  x: {from: -80 mm, to: 80 mm, count: 5}
+  z: {from: 120 mm, to: 240 mm, count: 6}
+  e1: {from: -0.2, to: 0.2, count: 5}
+)",
+                       "poses in lanes"),
+            1e-9);
+}
+
+TEST(Samplers, RodsInLanesAgreeWithQueries) {
+  for (const char* more : {"", ", wrench: [1, -0.5, -60, 0, 0.1, 0]"})
+    EXPECT_LT(
+        difference(std::string("sinew: 1\nrobot: 3pfs-g2\nquery: {query: forward, inputs: [$a, $b, 0.43]") +
+                       more + R"(}
+axes:
+  a: {from: 380 mm, to: 480 mm, count: 9}
+  b: {from: 400 mm, to: 460 mm, count: 13}
+)",
+                   "rods in lanes"),
+        1e-9);
+}
+
+TEST(Samplers, OthersAreAskedQueryByQuery) {
+  const Folder folder;
+  for (const auto& [robot, query] :
+       {std::pair{"3-rfr", "{query: velocity, pose: {x: $x, y: 0, phi: 5 deg}}"},  // a text with a unit
+        {"3-rfr", "{query: velocity, model: prb, pose: {x: $x, y: 0, phi: 0}}"},
+        {"3-frr", "{query: inverse, pose: {x: $x, y: 0, phi: 0}}"},
+        {"3pfs-g2", "{query: forward, inputs: [0.43, 0.43, 0.43], wrench: [$x, 0, 0, 0, 0, 0]}"},
+        {"3pfs-g2", "{query: forward, inputs: [0.43, 0.43, 0.43], set: {\"legs[0].link.diameter\": $d}}"},
+        {"nottingham-tpcj", "{query: forward, configuration: [[$x, 0]]}"}}) {
+    const std::string text = std::string("sinew: 1\nrobot: ") + robot + "\nquery: " + query +
+                             (std::string(query).find("$d") == std::string::npos
+                                  ? "\naxes: {x: {from: 0, to: 0.01, count: 3}}\n"
+                                  : "\naxes: {d: {from: 1.9 mm, to: 2.1 mm, count: 3}}\n");
+    auto study = test::study_of(folder, text);
+    ASSERT_TRUE(study) << text << to_string(study.error());
+    const auto ready = prepare(*study);
+    ASSERT_TRUE(ready) << text << to_string(ready.error());
+    EXPECT_EQ(*ready, "") << text;
+    const SamplerKind kind = choose_sampler(*study);
+    EXPECT_EQ(kind.name, "query by query") << text;
+    const Computed done = compute(kind, *study);
+    for (const double value : done.outputs) EXPECT_TRUE(std::isfinite(value)) << text;
+    for (const SampleStatus status : done.statuses) EXPECT_EQ(name_of(status), "converged") << text;
+  }
+}
+
+TEST(Samplers, APathFollowsItsBranch) {  // home's branch is found anew where samples are asked alone
+  const Folder folder;
+  for (const char* path : {"continue", "anew"}) {
+    auto study = test::study_of(folder, std::string(R"(sinew: 1
+robot: 3pfs-g2
+path: )") + path + R"(
+query: {query: forward, inputs: [0.4347, 0.4347, 0.4347], wrench: [$f, 0, -50, 0, 0, 0]}
+axes: {f: {from: 0, to: 2 N, count: 5}}
+outputs: {x: "pose.position[0]", iterations: iterations}
+)");
+    ASSERT_TRUE(study) << to_string(study.error());
+    ASSERT_TRUE(prepare(*study));
+    const Computed done = compute(choose_sampler(*study), *study);
+    for (std::size_t k = 1; k < 5; ++k) {
+      EXPECT_GT(done.outputs[k], done.outputs[k - 1]);
+      const double iterations = done.outputs[5 + k];
+      EXPECT_TRUE(!study->is_path || iterations < done.outputs[5]) << "not resumed";
+    }
+  }
+}
+
+TEST(Samplers, ASampleThatIsNoGoodQueryEndsNothing) {
+  const Folder folder;
+  auto study = test::study_of(folder, R"(sinew: 1
+robot: 3-rfr
+query: {query: velocity, pose: {x: $x, y: 0, phi: 0}, set: {"legs[0].link.length": $l}}
+axes: {x: {from: 0, to: 10 mm, count: 2}, l: [-0.1, 0.2, 0.21]}
+)");
+  ASSERT_TRUE(study) << to_string(study.error());
+  ASSERT_TRUE(prepare(*study));
+  const Computed done = compute(choose_sampler(*study), *study);
+  EXPECT_EQ(name_of(done.statuses[0]), "refused");
+  EXPECT_EQ(name_of(done.statuses[1]), "converged");
+  EXPECT_TRUE(std::isnan(done.outputs[0]));
+}
+
+TEST(AnswerPath, FindsNumbersAndLengths) {
+  const auto answer = AnswerPath::Json::parse(
+      R"({"a": {"b": [[1, 2], [3, 4.5]]}, "c": true, "d": [1, 2, 3], "e": "x", "f": null})");
+  EXPECT_EQ(AnswerPath("a.b[1][1]").number(answer), 4.5);
+  EXPECT_EQ(AnswerPath("c").number(answer), 1.0);
+  EXPECT_EQ(AnswerPath("d.count").number(answer), 3.0);
+  for (const char* path :
+       {"a", "a.b", "a.b[2]", "a.b[1][7]", "e", "f", "d[9x]", "", "c.count", "d[1].x", "..", "[0]"})
+    EXPECT_FALSE(AnswerPath(path).number(answer)) << path;
+}
+
+TEST(AnswerPath, KnowsUnits) {
+  EXPECT_EQ(unit_of_answer("pose.position[2]"), "m");
+  EXPECT_EQ(unit_of_answer("pose.quaternion[2]"), "");
+  EXPECT_EQ(unit_of_answer("pose.phi"), "rad");
+  EXPECT_EQ(unit_of_answer("legs[0].tendon_lengths[1]"), "m");
+  EXPECT_EQ(unit_of_answer("legs[0].base_tangent"), "rad");
+  EXPECT_EQ(unit_of_answer("legs[0].base_tangent[1]"), "");
+  EXPECT_EQ(unit_of_answer("legs[3].force[1]"), "N");
+  EXPECT_EQ(unit_of_answer("indices.position"), "");
+  EXPECT_EQ(unit_of_answer("configuration[0][1]"), "rad");
+  EXPECT_EQ(unit_of_answer("type_1.count"), "");
+}
+
+}  // namespace
