@@ -41,12 +41,15 @@ if(TARGET sinew_command)
   add_test(NAME schema.robot COMMAND ${SYSTEM_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/schema/schema_test.py
     $<TARGET_FILE:sinew_command>)
   set_tests_properties(schema.robot PROPERTIES LABELS tools TIMEOUT 300 PROCESSORS 2)
+  add_test(NAME schema.study COMMAND ${SYSTEM_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/schema/study_schema_test.py
+    $<TARGET_FILE:sinew_command>)
+  set_tests_properties(schema.study PROPERTIES LABELS tools TIMEOUT 300)
 endif()
 
 # Every public header compiles alone.
-set_target_properties(sinew PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+set_target_properties(sinew sinew_study PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 add_test(NAME headers.public COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR}
-  --target sinew_verify_interface_header_sets --parallel 2)
+  --target all_verify_interface_header_sets --parallel 2)
 set_tests_properties(headers.public PROPERTIES LABELS tools TIMEOUT 600 PROCESSORS 2)
 
 # A user's project, with sinew installed, as a subdirectory, and as a shared library.

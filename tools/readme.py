@@ -8,12 +8,14 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 
 def run(command, folder):
-    """What a terminal shows of the command: standard output, then messages."""
-    environment = dict(os.environ, PATH=folder + os.pathsep + os.environ["PATH"])
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=environment, timeout=60)
+    """What a terminal shows of the command, in a folder of its own: standard output, then messages."""
+    environment = dict(os.environ, PATH=os.path.abspath(folder) + os.pathsep + os.environ["PATH"])
+    with tempfile.TemporaryDirectory() as here:
+        done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=environment, timeout=60, cwd=here)
     return (done.stdout + done.stderr).rstrip("\n") + "\n"
 
 

@@ -3,6 +3,7 @@
 /// killed at any moment, or a disc that is full, all whole chunks are found again.
 #pragma once
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -32,7 +33,7 @@ class ChunkLog {
   std::size_t size() const { return places_.size(); }  ///< chunks there will be
   std::uint64_t bytes() const { return end_; }
 
-  /// Code `write_failed`; what was there before still is. Bytes are on the disc within some seconds.
+  /// Code `write_failed`; what was there before still is. Bytes are on the disc within half a minute.
   Expected<void> append(std::size_t chunk, std::span<const std::byte> bytes);
   /// Code `file_unreadable`, also where the bytes are no longer those that were written.
   Expected<void> read(std::size_t chunk, std::vector<std::byte>& bytes) const;
@@ -57,7 +58,8 @@ class ChunkLog {
   int file_ = -1;
   std::vector<Place> places_;
   std::size_t count_ = 0;
-  std::uint64_t end_ = 0, flushed_ = 0;
+  std::uint64_t end_ = 0;
+  std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace sinew::inline v0

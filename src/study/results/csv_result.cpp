@@ -1,5 +1,7 @@
 /// Results as CSV: a line a sample, the grid written out; for results that people open in a spreadsheet.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
@@ -80,9 +82,7 @@ class CsvResult : public ResultFile {
   Expected<void> finish(std::span<const FittedTerms> fits) override {
     for (const FittedTerms& fit : fits) put(fit_line(fit));
     if (file_ && std::fclose(std::exchange(file_, nullptr)) != 0) remember();
-    std::error_code code;
-    if (reason_.empty()) fs::rename(part_, path_, code);
-    if (code) reason_ = code.message();
+    if (reason_.empty()) reason_ = put_in_place(part_, path_);
     is_finished_ = reason_.empty();
     return outcome();
   }
@@ -115,6 +115,22 @@ std::string recorded_fact(const fs::path& path, const std::string& name) {
   const std::string head = fmt::format("# {}: ", name);
   for (std::string line; std::getline(file, line) && line.starts_with('#');)
     if (line.starts_with(head)) return line.substr(head.size());
+  return {};
+}
+
+std::string put_in_place(const fs::path& part, const fs::path& path) {
+  const auto sync = [](const fs::path& what) {
+    const int file = ::open(what.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool good = file >= 0 && ::fsync(file) == 0;
+    const std::string why = good ? "" : std::strerror(errno);
+    if (file >= 0) ::close(file);
+    return why;
+  };
+  if (std::string why = sync(part); !why.empty()) return why;
+  std::error_code code;
+  fs::rename(part, path, code);
+  if (code) return code.message();
+  sync(path.has_parent_path() ? path.parent_path() : fs::path("."));  // the name; not every system can
   return {};
 }
 

@@ -96,9 +96,7 @@ class Hdf5Result : public ResultFile {
   Expected<void> finish(std::span<const FittedTerms> fits) override {
     ok_ = ok_ && put_provenance() && put_fits(fits);
     ok_ = close() && ok_;
-    std::error_code code;
-    if (ok_) fs::rename(part_, path_, code);
-    ok_ = ok_ && !code;
+    ok_ = ok_ && put_in_place(part_, path_).empty();
     is_finished_ = ok_;
     return outcome();
   }

@@ -21,7 +21,8 @@ namespace {
 bool is_started_together() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
     if (const char* text = std::getenv(name)) return std::atoi(text) > 1;
-  return std::getenv("PMIX_RANK") != nullptr;
+  const char* tasks = std::getenv("SLURM_NTASKS");
+  return std::getenv("PMIX_RANK") && (!tasks || std::atoi(tasks) > 1);
 }
 
 #ifdef SINEW_WITH_MPI

@@ -154,23 +154,24 @@ class StudyReader {
 
   void read_robot() {
     const Reader name = root_.required("robot", "a built-in robot or a file beside the study");
-    if (!name.is(Node::Kind::string)) {
-      name.text();  // notes it
-      return;
-    }
+    const auto set = root_.optional("set");
+    if (set) set->members();  // notes it where this is no map
     study_.robot = name.text();
+    if (!name.is(Node::Kind::string)) return;
     const auto text = read_robot_text(beside(study_.robot));
     if (!text) {
-      name.fail(text.error().front().code, text.error().front().message);
+      const bool is_word = study_.robot.find_first_of("./") == std::string::npos;
+      name.fail(text.error().front().code,
+                is_word
+                    ? fmt::format("{} is no built-in robot, and no file beside the study; built in are {}",
+                                  in_quotes(study_.robot), fmt::join(builtin_robot_names(), ", "))
+                    : text.error().front().message);
       return;
     }
     study_.robot_text = *text;
     auto document = parse_yaml(*text, study_.robot);
-    const auto set = root_.optional("set");
-    if (set && document) {
-      set->members();
+    if (set && set->is(Node::Kind::map) && document)
       document = with(*document, std::span<const Member>(set->node()->members));
-    }
     if (document) document = with(*document, set_);
     if (document)
       study_.robot_document = std::move(*document);

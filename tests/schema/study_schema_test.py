@@ -1,0 +1,119 @@
+"""schema/study.schema.json and the reader must judge study files alike.
+
+usage: study_schema_test.py SINEW_COMMAND
+
+Studies that use every key are good for both. Each is then broken in every way that a schema can see: a key left out,
+an unknown key, a value of another kind. Both must judge the broken study alike.
+"""
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+import yaml
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    import jsonschema
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COMMAND = ""
+SCHEMA = json.loads((ROOT / "schema/study.schema.json").read_text(encoding="utf-8"))
+
+RANDOM = yaml.safe_load("""
+sinew: 1
+robot: 3-rfr
+random: {count: 10, seed: 3}
+path: anew
+axes: {x: {from: -1 mm, to: 1 mm}, y: {mean: 0, deviation: 0.001, unit: m}}
+query: {query: inverse, pose: {x: $x, y: $y, phi: 0}}
+""")
+GRID = yaml.safe_load("""
+sinew: 1
+title: t
+robot: 3-rfr
+set: {platform.radius: 45 mm}
+axes: {x: {from: -1 mm, to: 1 mm, count: 3}, y: [0 mm, 1 mm]}
+query: {query: inverse, pose: {x: $x, y: $y, phi: 0}}
+outputs: {l: {path: "inputs[0]", unit: m, sometimes: false}, m: "inputs[1]"}
+fits: {l: {terms: [1, x, x*y]}, f: {of: m, terms: [x^2]}}
+""")
+VALUES = ["nonsense", -1, 0, 1.5, [1], {}, True]
+# Places whose values only the reader knows: robots, queries, terms, units, values of axes.
+BELOW = {"query", "set", "terms", "items"}
+
+
+def places(node, path=()):
+    if isinstance(node, dict):
+        for key, value in node.items():
+            yield (*path, key)
+            if key not in BELOW:
+                yield from places(value, (*path, key))
+
+
+def at(root, path):
+    for key in path:
+        root = root[key]
+    return root
+
+
+def broken(study):
+    for path in places(study):
+        without = copy.deepcopy(study)
+        del at(without, path[:-1])[path[-1]]
+        yield f"without {path}", without
+        if isinstance(at(study, path), dict) and path[-1] not in BELOW and path not in {("axes",), ("outputs",), ("fits",)}:
+            more = copy.deepcopy(study)
+            at(more, path)["unheard_of"] = 1
+            yield f"more in {path}", more
+        for value in VALUES:
+            other = copy.deepcopy(study)
+            at(other, path[:-1])[path[-1]] = value
+            yield f"{path} = {value!r}", other
+
+
+# What a schema cannot say: relations between values, files, numbers in texts. The reader alone refuses these.
+READER_ALONE = {"unknown_axis", "unused_axis", "unknown_column", "wrong_dimension", "file_missing", "bad_term", "unknown_unit",
+                "not_a_number", "unknown_path", "unknown_output", "missing_key", "out_of_range", "file_unreadable", "unknown_choice",
+                "no_outputs", "duplicate_column", "not_whole", "too_large"}
+
+
+class StudySchema(unittest.TestCase):
+    def verdict(self, study, folder):
+        file = pathlib.Path(folder) / "study.yaml"
+        file.write_text(yaml.safe_dump(study, sort_keys=False), encoding="utf-8")
+        run = subprocess.run([COMMAND, "sweep", file, "--list"], capture_output=True, text=True, check=False, timeout=60)
+        self.assertIn(run.returncode, (0, 2), run.stderr)
+        codes = {line.rsplit("[", 1)[1].rstrip("]") for line in run.stderr.splitlines() if line.endswith("]")}
+        return run.returncode == 0, codes, run.stderr
+
+    def test_the_studies_of_the_tree_are_good(self):
+        for file in sorted(ROOT.glob("studies/*.yaml")):
+            jsonschema.validate(yaml.safe_load(file.read_text(encoding="utf-8")), SCHEMA)
+            self.assertEqual(subprocess.run([COMMAND, "sweep", file, "--list"], capture_output=True, check=False).returncode, 0, file)
+
+    def test_both_judge_alike(self):
+        count = 0
+        with tempfile.TemporaryDirectory() as folder:
+            for study in (RANDOM, GRID):
+                jsonschema.validate(study, SCHEMA)
+                self.assertTrue(self.verdict(study, folder)[0], self.verdict(study, folder)[2])
+                for what, other in broken(study):
+                    by_schema = not list(jsonschema.Draft7Validator(SCHEMA).iter_errors(other))
+                    by_reader, codes, text = self.verdict(other, folder)
+                    count += 1
+                    with self.subTest(what=what):
+                        if by_schema and not by_reader:
+                            self.assertTrue(codes and codes <= READER_ALONE, f"the reader alone refuses it: {text}")
+                        else:
+                            self.assertEqual(by_schema, by_reader, text)
+        self.assertGreater(count, 150)
+
+
+if __name__ == "__main__":
+    COMMAND = sys.argv.pop(1)
+    unittest.main()
