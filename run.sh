@@ -24,7 +24,7 @@ up_to_date() {
   local -a inputs=()
   local input
   [[ -x $sinew && -e $stamp ]] || return 1
-  for input in CMakeLists.txt CMakePresets.json cmake kernel include src cli robots; do
+  for input in CMakeLists.txt CMakePresets.json cmake kernel include src cli robots studies; do
     if [[ -e $input ]]; then inputs+=("$input"); fi
   done
   [[ -z $(find "${inputs[@]}" -newer "$stamp" -print -quit) ]]
@@ -58,12 +58,17 @@ mkdir -p out
 touch -d '1 second ago' build/release/.job
 "$sinew" reproduce tdpcr/fig9 -o out
 echo
-echo "Figure:"
+echo "Its workspace, a sweep over 88 837 poses:"
+"$sinew" sweep 3-rfr-workspace -o out/3-rfr-workspace.h5
+"$sinew" plot out/3-rfr-workspace.h5 --as contour --value reached -o out/3-rfr-workspace.svg
+echo
+echo "Figures:"
 find "$root/out" -type f \( -name '*.svg' -o -name '*.png' -o -name '*.pdf' \) -newer build/release/.job |
   LC_ALL=C sort | sed 's/^/  /'
 cat <<'TEXT'
 Try next:
   ./run.sh analyse robots/3-rfr.yaml --pose "10 mm, -5 mm, 10 deg"
   ./run.sh reproduce tdpcr -o out
+  ./run.sh sweep --list
   ./run.sh --help
 TEXT

@@ -5,7 +5,6 @@
 #include <array>
 #include <utility>
 
-#include "robot/rod_kernels.hpp"
 #include "sinew/study/sweep.hpp"
 
 namespace sinew::inline v0 {
@@ -29,8 +28,10 @@ bool use_instruction_set(std::string_view name) {
 }
 
 std::string_view instruction_set_in_use() {
-  const std::string_view name = rod_kernels::instruction_set();
-  return name == "AVX3" ? "AVX-512" : name;
+  const auto has = [](std::int64_t set) {
+    return (static_cast<std::int64_t>(hwy::SupportedTargets()) & set) != 0;
+  };
+  return has(HWY_AVX3) ? "AVX-512" : has(HWY_AVX2) ? "AVX2" : "SSSE3";
 }
 
 }  // namespace sinew::inline v0
