@@ -151,7 +151,7 @@ int run_sweep(const Arguments& arguments) {
   const auto summary = sweep(std::move(*study), options);
   line.reset();
   if (!summary) {
-    if (speaks) refuse("sweep", summary.error());
+    if (speaks || summary.error().front().code != "other_rank") refuse("sweep", summary.error());
     return summary.error().front().code == "write_failed" ? stopped : bad_input;
   }
   if (!speaks) return solved;

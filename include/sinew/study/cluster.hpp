@@ -1,6 +1,7 @@
 /// @file cluster.hpp
 /// The ranks of a cluster: processes that mpirun or srun started together.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -19,8 +20,10 @@ class Ranks {
   virtual int size_here() const = 0;  ///< of them on this machine
   /// Runs a job together; of the job of another rank than 0 only the workers count.
   virtual void run(const ChunkJob& job, int threads) = 0;
-  /// What rank 0 says, on every rank.
-  virtual int agreed(int value) = 0;
+  /// On every rank, whether all say so. A rank that has nothing to say must not leave the others waiting.
+  virtual bool all_say(bool yes) = 0;
+  /// On every rank, whether all have this number.
+  virtual bool all_have(std::uint64_t number) = 0;
   /// Sums to rank 0; elsewhere the own ones stay.
   virtual void add_up(std::span<double> values) = 0;
 };

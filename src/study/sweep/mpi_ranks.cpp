@@ -55,9 +55,16 @@ class MpiRanks : public Ranks {
       follow(job, threads);
   }
 
-  int agreed(int value) override {
-    MPI_Bcast(&value, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    return value;
+  bool all_say(bool yes) override {
+    int value = yes ? 1 : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    return value != 0;
+  }
+
+  bool all_have(std::uint64_t number) override {
+    std::array<std::uint64_t, 2> ends{number, ~number};  // the largest of both is the largest and the least
+    MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD);
+    return ends[0] == ~ends[1];
   }
 
   void add_up(std::span<double> values) override {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "query/tree_session.hpp"
 #include "study/samplers/answer_path.hpp"
@@ -93,7 +94,10 @@ class Trial {
     const auto places = placeholders(query.root, study_);
     const std::size_t count = std::min(trials, study_.samples);
     std::vector<double> values(study_.axes.size());
+    const auto begin = std::chrono::steady_clock::now();
     for (std::size_t t = 0; t < count; ++t) {
+      const bool takes_long = std::chrono::steady_clock::now() - begin > std::chrono::seconds(2);
+      if (takes_long && solved_ > 0) break;  // some queries take seconds
       // first and last, and between them places that no axis repeats
       const std::size_t k = t + 1 == count
                                 ? study_.samples - 1

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstring>
 #include <mutex>
 #include <thread>
 
@@ -114,8 +115,8 @@ class Sweep {
     const bool is_first = !options_.ranks || options_.ranks->rank() == 0;
     Expected<void> opened;
     if (is_first) opened = open();
-    const bool goes = (opened.has_value() && !summary_.was_complete);
-    if (options_.ranks ? options_.ranks->agreed(goes) == 0 : !goes) {
+    const bool goes = opened.has_value() && !summary_.was_complete;
+    if (options_.ranks ? !options_.ranks->all_say(goes) : !goes) {
       if (!opened) return tl::unexpected(opened.error());
       summary_.is_complete = true;
       return summary_;
@@ -243,8 +244,32 @@ Expected<SweepColumns> sweep_columns(Study study) {
   return columns;
 }
 
+namespace {
+
+/// One study on every rank, or the error that keeps all of them from it.
+Expected<void> agree(const Expected<std::string>& prepared, const Study& study, Ranks& ranks) {
+  const bool is_well = ranks.all_say(prepared.has_value());
+  const bool is_ill_everywhere = ranks.all_say(!prepared.has_value());  // one tells for all
+  if (!prepared && (ranks.rank() == 0 || !is_ill_everywhere)) return tl::unexpected(prepared.error());
+  if (!is_well)
+    return failure("other_rank", study.source, "another rank could not begin with it; its message says why");
+  std::uint64_t start = 0;
+  const Digest key = SweepPlan(study).key();
+  std::memcpy(&start, key.data(), sizeof start);
+  if (ranks.all_have(start)) return {};
+  return failure(
+      "other_rank", study.source,
+      "the ranks do not read the same study and robot, or run on machines with other instruction sets; "
+      "choose one that all have: --isa avx2, or --isa baseline");
+}
+
+}  // namespace
+
 Expected<SweepSummary> sweep(Study study, const SweepOptions& options) {
   const auto warning = prepare(study);
+  if (options.ranks)
+    if (const auto agreed = agree(warning, study, *options.ranks); !agreed)
+      return tl::unexpected(agreed.error());
   if (!warning) return tl::unexpected(warning.error());
   auto summary = Sweep(study, options).run();
   if (summary) summary->warning = *warning;
