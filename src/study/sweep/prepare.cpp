@@ -108,16 +108,20 @@ class Trial {
       for (const Placeholder& place : places) put(*place.node, values[place.axis]);
       Json answer = session.answer(query);
       if (const auto error = answer.find("error"); error != answer.end()) {
-        const std::string where = error->value("where", "");
         if (errors_.empty())
-          errors_ = {{error->value("code", ""),
-                      fmt::format("{}: query{}{}", study_.source, where.empty() ? "" : ".", where),
-                      error->value("message", "")}};
+          errors_ = {
+              {error->value("code", ""), place_of(error->value("where", "")), error->value("message", "")}};
         continue;
       }
       solved_ += is_solved(answer);
       answers_.push_back(std::move(answer));
     }
+  }
+
+  /// Where a query is wrong: a place of the file, or a path in the query or the robot.
+  std::string place_of(const std::string& where) const {
+    if (where.empty() || where.starts_with(study_.source)) return where.empty() ? study_.source : where;
+    return fmt::format("{}: query: {}", study_.source, where);
   }
 
   void choose_outputs() {

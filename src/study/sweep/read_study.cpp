@@ -248,7 +248,7 @@ class StudyReader {
       if (query.node()) query.refuse("wrong_type", "give the fields of a query as a map");
       return;
     }
-    study_.query = {"query", *query.node()};
+    study_.query = {study_.source, *query.node()};  // errors then name its place
     std::vector<bool> is_used(study_.axes.size(), false);
     each_placeholder(study_.query.root, [&](std::string_view name, Node&) {
       const auto axis = std::ranges::find(study_.axes, name, &StudyAxis::name);
