@@ -276,7 +276,7 @@ const std::array table{
     Verb{"sweep",
          "[STUDY]",
          "one query at many samples, on all cores or a cluster, into a file of results",
-         {"output", "resume", "threads", "isa", "compress", "set", "list", "quiet", "help"},
+         {"output", "resume", "threads", "isa", "compress", "set", "list", "json", "quiet", "help"},
          {},
          "A study file names the robot, the query, the axes that vary (a grid, random or listed samples), "
          "what\n"

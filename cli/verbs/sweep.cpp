@@ -1,6 +1,7 @@
 /// sweep: a study run on all cores or a cluster, into a file of results.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -95,6 +96,41 @@ std::string report(const SweepSummary& summary) {
          line("file", summary.writing, rate_of(summary.written_bytes, summary.writing));
 }
 
+/// As JSON has it; what is not finite is null.
+std::string json_number(double value) { return std::isfinite(value) ? si_text(value) : "null"; }
+
+std::string json_list(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ",") + json_number(value);
+  return '[' + text + ']';
+}
+
+std::string json_report(const SweepSummary& summary, const std::string& file) {
+  std::string statuses, fits;
+  for (std::size_t s = 0; s < summary.statuses.size(); ++s)
+    if (summary.statuses[s] > 0)
+      statuses +=
+          fmt::format("{}\"{}\":{}", statuses.empty() ? "" : ",", sample_status_name(s), summary.statuses[s]);
+  for (const FittedTerms& fit : summary.fits) {
+    std::string terms;
+    for (const std::string& term : fit.terms) terms += (terms.empty() ? "" : ",") + json_text(term);
+    fits += fmt::format(
+        "{}{{\"name\":{},\"unit\":{},\"terms\":[{}],\"coefficients\":{},\"deviations\":{},\"rms\":{},"
+        "\"largest\":{},\"samples\":{}}}",
+        fits.empty() ? "" : ",", json_text(fit.name), json_text(fit.unit), terms, json_list(fit.coefficients),
+        json_list(fit.deviations), json_number(fit.rms), json_number(fit.largest), fit.samples);
+  }
+  return fmt::format(
+      "{{\"output\":{},\"complete\":{},\"samples\":{},\"resumed\":{},\"statuses\":{{{}}},\"sampler\":{},"
+      "\"threads\":{},\"ranks\":{},"
+      "\"instruction_set\":{},\"seconds\":{{\"computing\":{},\"log\":{},\"file\":{},\"total\":{}}},\"fits\":["
+      "{}]}}\n",
+      json_text(file), summary.is_complete, summary.samples, summary.resumed, statuses,
+      json_text(summary.sampler), summary.threads, summary.ranks, json_text(summary.instruction_set),
+      si_text(summary.computing), si_text(summary.logging), si_text(summary.writing), si_text(summary.total),
+      fits);
+}
+
 void print_fits(const SweepSummary& summary) {
   for (const FittedTerms& fit : summary.fits) {
     TextTable table({"term", fmt::format("coefficient of {}", heading({fit.name, fit.unit})), "deviation"});
@@ -160,6 +196,10 @@ int run_sweep(const Arguments& arguments) {
     message(
         fmt::format("sinew sweep: stopped; {}.log is kept, go on with --resume", options.output.string()));
     return stopped;
+  }
+  if (arguments.has("json")) {
+    print(json_report(*summary, options.output.string()));
+    return solved;
   }
   if (summary->was_complete) {
     if (!is_quiet) message(fmt::format("{} is complete already", options.output.string()));

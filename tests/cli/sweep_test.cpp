@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
@@ -168,6 +169,20 @@ with h5py.File("out.h5") as results:
   const Outcome read = run_shell("/usr/bin/python3 read.py", here.path());
   EXPECT_EQ(read.exit, 0) << read.err;
   EXPECT_TRUE(read.out.starts_with("-0.030 0.030 0.")) << read.out;
+}
+
+TEST(SweepCommand, TellsProgramsWhatItDid) {
+  const Scratch here;
+  write_text(here.path() / "study.yaml",
+             queries + "outputs:\n  l: inputs[0]\nfits: {l: {terms: [x, 2 x]}}\n");
+  const Outcome run = run_command({"sweep", "study.yaml", "--json", "-o", "out.csv"}, here.path());
+  ASSERT_EQ(run.exit, 0) << run.err;
+  const auto told = nlohmann::json::parse(run.out);
+  EXPECT_EQ(told["samples"], 91 * 93);
+  EXPECT_EQ(told["statuses"]["converged"], 91 * 93);
+  EXPECT_EQ(told["complete"], true);
+  EXPECT_TRUE(told["fits"][0]["coefficients"][0].is_null());  // not determined
+  EXPECT_GT(told["seconds"]["computing"], 0);
 }
 
 TEST(SweepCommand, BaselineIsTheSameWhateverTheMachineHas) {
