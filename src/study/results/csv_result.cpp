@@ -62,6 +62,8 @@ class CsvResult : public ResultFile {
     if (!is_finished_) fs::remove(part_, ignored);
   }
 
+  bool wants_axes() const override { return true; }
+
   Expected<void> write(const ResultRows& rows) override {
     std::string text;
     for (std::size_t k = 0; k < rows.count; ++k) {

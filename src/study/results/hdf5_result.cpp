@@ -81,6 +81,8 @@ class Hdf5Result : public ResultFile {
     fs::remove(part_, ignored);
   }
 
+  bool wants_axes() const override { return !layout_.is_grid; }  // else they are scales
+
   Expected<void> write(const ResultRows& rows) override {
     const std::size_t axes = layout_.is_grid ? 0 : layout_.axes.size();
     for (std::size_t c = 0; ok_ && c < data_.size(); ++c) {

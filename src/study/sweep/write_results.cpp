@@ -39,6 +39,7 @@ class Writer {
   Expected<void> samples(ResultFile& file, bool is_first) {
     const Study& study = plan_.study();
     std::vector<std::byte> bytes;
+    const bool wants_axes = !fits_.empty() || file.wants_axes();
     std::vector<double> axes, row(study.axes.size() + study.outputs.size());
     for (std::size_t c = 0; c < plan_.chunks().count(); ++c) {
       const Chunk chunk = plan_.chunks()[c];
@@ -47,8 +48,10 @@ class Writer {
                              study.outputs.size() * chunk.count);
       const std::span statuses(reinterpret_cast<const SampleStatus*>(bytes.data() + values.size_bytes()),
                                chunk.count);
-      axes.resize(study.axes.size() * chunk.count);
-      axis_values(study, chunk, false, axes);
+      if (wants_axes) {
+        axes.resize(study.axes.size() * chunk.count);
+        axis_values(study, chunk, false, axes);
+      }
       if (is_first)
         if (const auto done = file.write({chunk.first, chunk.count, axes, values, statuses}); !done)
           return done;
