@@ -67,6 +67,7 @@ void watch_signals() {
   sigaction(SIGTERM, &action, nullptr);
   action.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &action, nullptr);
+  sigaction(SIGXFSZ, &action, nullptr);  // as a disc that is full
 }
 
 void finish_what_is_begun() { wait_for_end_of_line = 1; }

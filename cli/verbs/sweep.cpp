@@ -64,7 +64,9 @@ int list(const Study& study) {
 
 /// The command that gives the same data: without how many computed them, or where to.
 std::string command_of(const Arguments& arguments) {
-  std::string text = fmt::format("sinew sweep {}", arguments.operand());
+  const std::string name = arguments.operand();
+  std::string text = "sinew sweep " + (name.find(' ') == std::string::npos ? name : in_quotes(name));
+  if (const std::string* isa = arguments.text("isa"); isa && *isa != "native") text += " --isa " + *isa;
   if (const auto set = arguments.options.find("set"); set != arguments.options.end())
     for (const std::string& change : set->second) text += fmt::format(" --set {}", in_quotes(change));
   return text;
@@ -89,7 +91,8 @@ std::string report(const SweepSummary& summary) {
   const auto line = [](const char* what, double seconds, const std::string& rate) {
     return fmt::format("{:<9} {:>8.2f} s  {}\n", what, seconds, rate);
   };
-  return fmt::format("{}\n{}, {}, {}\n", counts(summary), summary.sampler, who, summary.instruction_set) +
+  return fmt::format("{}{}\n{}, {}, {}\n", summary.counts_all ? "" : "since resumed: ", counts(summary),
+                     summary.sampler, who, summary.instruction_set) +
          line("computing", summary.computing,
               short_number(fresh / std::max(summary.computing, 1e-9)) + " samples/s") +
          line("log", summary.logging, rate_of(summary.logged_bytes, summary.logging)) +

@@ -81,6 +81,12 @@ Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted
   });
 }
 
+bool has_equilibrium_batch(const AnyRobot& robot) {
+  if (!bears_load(robot)) return false;
+  const Workspace work(robot);
+  return std::holds_alternative<RodWork>(work.rods->kind);
+}
+
 void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
                        std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
                        bool judge) {

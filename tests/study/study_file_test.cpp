@@ -77,6 +77,14 @@ TEST(StudyFile, SaysWhatIsWrong) {
   EXPECT_EQ(code_of(good + "fits: {a: {of: b, terms: [1]}}\n"), "unknown_column");
   EXPECT_EQ(code_of(good + "set: {no.such.path: 1}\n"), "unknown_path");
   EXPECT_EQ(code_of("- a list\n"), "wrong_type");
+  EXPECT_EQ(code_of(good + "outputs: {provenance: \"inputs[0]\"}\n"), "bad_name");
+  EXPECT_EQ(code_of(good + "outputs: {l: {path: \"inputs[0]\", unit: \"a,b\"}}\n"), "bad_unit");
+  EXPECT_EQ(code_of(good + "outputs: {l: \"inputs[0]\"}\nreduce: {over: [x], columns: {y: {max: l}}}\n"),
+            "duplicate_column");
+  EXPECT_EQ(code_of(good + "outputs: {l: \"inputs[0]\"}\nreduce: {over: [x], columns: {}}\n"), "empty_map");
+  EXPECT_EQ(code_of(good + "outputs: {l: \"inputs[0]\"}\nreduce: {over: [], columns: {m: {max: l}}}\n"),
+            "empty_list");
+  EXPECT_EQ(code_of(good + "fits: {x: {terms: []}}\n"), "empty_list");
 }
 
 TEST(StudyFile, WhatTheRobotRefusesIsRefusedBeforeTheSweep) {
@@ -157,7 +165,7 @@ TEST(Chunks, CoverEverySampleOnceAndEndWhereRowsDo) {
   for (const std::size_t row : {1U, 7U, 100U, 1000U})
     for (const std::size_t rows : {1U, 3U, 40U})
       for (const std::size_t about : {1U, 64U, 100U, 257U, 5000U}) {
-        const Chunks chunks(row * rows, row, about);
+        const Chunks chunks(row * rows, row, row, about);
         std::size_t next = 0;
         for (std::size_t k = 0; k < chunks.count(); ++k) {
           const Chunk chunk = chunks[k];
@@ -170,6 +178,21 @@ TEST(Chunks, CoverEverySampleOnceAndEndWhereRowsDo) {
         }
         EXPECT_EQ(next, row * rows);
       }
+}
+
+TEST(Chunks, CutCellsWhereRowsEnd) {
+  for (const std::size_t about : {7U, 20U, 37U, 50U, 200U, 741U}) {
+    const Chunks chunks(2 * 20 * 37, 20 * 37, 37, about);
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < chunks.count(); ++k) {
+      const Chunk chunk = chunks[k];
+      ASSERT_EQ(chunk.first, next);
+      EXPECT_TRUE(about < 37 || chunk.first % 37 == 0);
+      EXPECT_EQ(chunk.first / (20 * 37), (chunk.first + chunk.count - 1) / (20 * 37));  // of one cell
+      next += chunk.count;
+    }
+    EXPECT_EQ(next, 2U * 20 * 37);
+  }
 }
 
 TEST(Chunks, ASnakeVisitsNeighbours) {

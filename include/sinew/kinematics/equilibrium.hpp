@@ -65,6 +65,10 @@ SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const Independe
 SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
+/// Whether `equilibrium_batch` walks the robot's rods in lanes: all its legs are rods that bend in one plane
+/// each.
+SINEW_API bool has_equilibrium_batch(const AnyRobot& robot);
+
 /// Many equilibria under one wrench: `rows` holds the inputs of each, one after the other, `poses` and
 /// `statuses` have one entry each. Neighbouring rows should be near each other: eight stretches of them are
 /// walked at once in SIMD lanes, and a row that does not come at once, or whose rods bend more sharply than

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "sinew/io/node.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/table.hpp"
 #include "study/results/result_file.hpp"
@@ -37,7 +38,7 @@ class CsvResult : public ResultFile {
         layout_(std::move(layout)),
         file_(std::fopen(part_.c_str(), "wb")) {
     std::string head;
-    if (!layout_.title.empty()) head += "# " + layout_.title + '\n';
+    if (!layout_.title.empty()) head += "# " + one_line(layout_.title, 200) + '\n';
     for (const Fact& fact : layout_.provenance)
       if (fact.text.size() <= longest_fact && fact.text.find('\n') == std::string::npos)
         head += fmt::format("# {}: {}\n", fact.name, fact.text);
@@ -62,6 +63,7 @@ class CsvResult : public ResultFile {
     if (!is_finished_) fs::remove(part_, ignored);
   }
 
+  Expected<void> begun() const override { return outcome(); }
   bool wants_axes() const override { return true; }
 
   Expected<void> write(const ResultRows& rows) override {
@@ -148,8 +150,13 @@ Errors refuse_result_name(const fs::path& path) {
 
 Expected<std::unique_ptr<ResultFile>> create_result(const fs::path& path, ResultLayout layout) {
   if (Errors errors = refuse_result_name(path); !errors.empty()) return tl::unexpected(std::move(errors));
-  return path.extension() == ".csv" ? create_csv(path, std::move(layout))
-                                    : create_hdf5(path, std::move(layout));
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored))
+    return failure("file_unwritable", path.string(), "is a folder; give a file: -o results.h5");
+  auto file =
+      path.extension() == ".csv" ? create_csv(path, std::move(layout)) : create_hdf5(path, std::move(layout));
+  if (const auto begun = file->begun(); !begun) return tl::unexpected(begun.error());
+  return file;
 }
 
 }  // namespace sinew::inline v0

@@ -47,7 +47,8 @@ struct ResultRows {
 class ResultFile {
  public:
   virtual ~ResultFile() = default;
-  virtual bool wants_axes() const = 0;  ///< of rows
+  virtual Expected<void> begun() const = 0;  ///< whether it could be created
+  virtual bool wants_axes() const = 0;       ///< of rows
   virtual Expected<void> write(const ResultRows& rows) = 0;
   /// Code `write_failed`; the file of an earlier run then is still there.
   virtual Expected<void> finish(std::span<const FittedTerms> fits) = 0;

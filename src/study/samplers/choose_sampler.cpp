@@ -1,6 +1,13 @@
+#include <algorithm>
+
 #include "study/samplers/sampler.hpp"
 
 namespace sinew::inline v0 {
+
+std::size_t chunk_size(const Study& study, std::size_t least, std::size_t most) {
+  constexpr std::size_t chunks = 256;  // to share, to show progress by, and to lose one of
+  return std::clamp(study.samples / chunks, least, most);
+}
 
 SamplerKind choose_sampler(const Study& study) {
   for (const auto& quick : {rod_sampler, pose_sampler})

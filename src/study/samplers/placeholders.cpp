@@ -31,4 +31,11 @@ void put(Node& node, double value) {
   node.text = si_text(value);
 }
 
+void put(Node& node, double value, std::string_view unit) {
+  put(node, value);
+  if (unit.empty()) return;
+  node.kind = Node::Kind::string;
+  node.text += ' ' + std::string(unit);
+}
+
 }  // namespace sinew::inline v0

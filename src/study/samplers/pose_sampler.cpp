@@ -13,7 +13,6 @@
 namespace sinew::inline v0 {
 namespace {
 
-constexpr std::size_t poses_a_chunk = 16384;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// What of a batch becomes a column.
@@ -236,7 +235,7 @@ SamplerKind pose_sampler(const Study& study) {
     PoseStudy asked;
   };
   const auto shared = std::make_shared<const Shared>(Shared{std::move(*robot), std::move(*asked)});
-  return {.name = "poses in lanes", .chunk = poses_a_chunk, .make = [shared]() -> Sampler {
+  return {.name = "poses in lanes", .chunk = chunk_size(study, 2048, 16384), .make = [shared]() -> Sampler {
             return [shared, sampler = std::make_shared<PoseSampler>(shared->robot, shared->asked)](
                        const SampleBlock& block) { (*sampler)(block); };
           }};

@@ -12,13 +12,12 @@ namespace sinew::inline v0 {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-/// A query takes some microseconds to some milliseconds.
-constexpr std::size_t queries_a_chunk = 256;
 
 class QuerySampler {
  public:
   explicit QuerySampler(const Study& study)
-      : session_(TreeSession::open(study.robot_document).value()),
+      : study_(study),
+        session_(TreeSession::open(study.robot_document).value()),
         query_(study.query),
         places_(placeholders(query_.root, study)),
         is_path_(study.is_path) {
@@ -26,6 +25,8 @@ class QuerySampler {
   }
 
   void operator()(const SampleBlock& block) {
+    // anew for each block: what was solved before must not show in the last digits
+    session_ = TreeSession::open(study_.robot_document).value();
     last_.reset();
     for (std::size_t k = 0; k < block.count && !*block.stop; ++k, ++*block.done) {
       for (const Placeholder& place : places_) put(*place.node, block.axis(place.axis, k));
@@ -59,6 +60,7 @@ class QuerySampler {
     return failed_inside;
   }
 
+  const Study& study_;
   TreeSession session_;
   Document query_;
   std::vector<Placeholder> places_;
@@ -70,7 +72,7 @@ class QuerySampler {
 }  // namespace
 
 SamplerKind query_sampler(const Study& study) {
-  return {.name = "query by query", .chunk = queries_a_chunk, .make = [&study]() -> Sampler {
+  return {.name = "query by query", .chunk = chunk_size(study, 16, 256), .make = [&study]() -> Sampler {
             // std::function copies what it holds
             return [sampler = std::make_shared<QuerySampler>(study)](const SampleBlock& block) {
               (*sampler)(block);

@@ -11,7 +11,6 @@
 namespace sinew::inline v0 {
 namespace {
 
-constexpr std::size_t poses_a_chunk = 8192;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array<std::string_view, 7> pose_paths{
@@ -53,7 +52,7 @@ std::optional<RodStudy> rod_study(const Study& study) {
 
 class RodSampler {
  public:
-  RodSampler(const AnyRobot& robot, const RodStudy& asked) : robot_(robot), asked_(asked), work_(robot) {}
+  RodSampler(const AnyRobot& robot, const RodStudy& asked) : robot_(robot), asked_(asked) {}
 
   void operator()(const SampleBlock& block) {
     const std::size_t inputs = asked_.inputs.size();
@@ -62,7 +61,8 @@ class RodSampler {
     statuses_.resize(block.count);
     for (std::size_t k = 0; k < block.count; ++k)
       for (std::size_t i = 0; i < inputs; ++i) rows_[k * inputs + i] = asked_.inputs[i].at(block, k);
-    equilibrium_batch(robot_, rows_, asked_.wrench, poses_, statuses_, work_, true);
+    Workspace work(robot_);  // of this block alone: what was solved before must not show in the last digits
+    equilibrium_batch(robot_, rows_, asked_.wrench, poses_, statuses_, work, true);
     for (std::size_t k = 0; k < block.count; ++k) put(block, k);
     *block.done += block.count;
   }
@@ -82,7 +82,6 @@ class RodSampler {
 
   const AnyRobot& robot_;
   const RodStudy& asked_;
-  Workspace work_;
   std::vector<double> rows_;
   std::vector<SpatialPose> poses_;
   std::vector<Status> statuses_;
@@ -94,7 +93,7 @@ SamplerKind rod_sampler(const Study& study) {
   const auto asked = rod_study(study);
   if (!asked) return {};
   auto robot = read_robot(study.robot_document);
-  if (!robot || !bears_load(*robot) || rod_count(*robot) != leg_count(*robot) ||
+  if (!robot || !has_equilibrium_batch(*robot) ||
       static_cast<std::size_t>(input_count(*robot)) != asked->inputs.size())
     return {};
   struct Shared {
@@ -102,7 +101,7 @@ SamplerKind rod_sampler(const Study& study) {
     RodStudy asked;
   };
   const auto shared = std::make_shared<const Shared>(Shared{std::move(*robot), *asked});
-  return {.name = "rods in lanes", .chunk = poses_a_chunk, .make = [shared]() -> Sampler {
+  return {.name = "rods in lanes", .chunk = chunk_size(study, 1024, 8192), .make = [shared]() -> Sampler {
             return [shared, sampler = std::make_shared<RodSampler>(shared->robot, shared->asked)](
                        const SampleBlock& block) { (*sampler)(block); };
           }};

@@ -45,6 +45,10 @@ struct SamplerKind {
   std::function<Sampler()> make;
 };
 
+/// Samples of a chunk: so many that there are some hundred chunks, within bounds that the cost of a sample
+/// sets.
+std::size_t chunk_size(const Study& study, std::size_t least, std::size_t most);
+
 /// Each sample by its own query: any robot, any query, any output.
 SamplerKind query_sampler(const Study& study);
 

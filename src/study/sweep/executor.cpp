@@ -43,7 +43,7 @@ void run_on_threads(const ChunkJob& job, int threads) {
                 }) &
             tbb::make_filter<std::shared_ptr<Done>, void>(
                 tbb::filter_mode::serial_out_of_order,
-                [&](const std::shared_ptr<Done>& done) { job.keep(done->chunk, done->bytes); }));
+                [&](const std::shared_ptr<Done>& done) { job.keep(done->chunk, done->bytes, false); }));
   });
 }
 

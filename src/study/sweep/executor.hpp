@@ -19,8 +19,8 @@ struct ChunkJob {
   std::function<std::optional<std::size_t>()> next;
   /// A worker for one thread. Called by several threads.
   std::function<ChunkWorker()> make_worker;
-  /// Takes what was computed, in any order. Called by one thread at a time.
-  std::function<void(std::size_t chunk, std::span<const std::byte> bytes)> keep;
+  /// Takes what was computed, here or by another rank, in any order. Called by one thread at a time.
+  std::function<void(std::size_t chunk, std::span<const std::byte> bytes, bool is_from_elsewhere)> keep;
 };
 
 /// On threads of this process. Memory: two chunks a thread, however many there are.

@@ -11,6 +11,8 @@ namespace sinew::inline v0 {
 namespace {
 
 constexpr Eigen::Index rows_at_once = 256;
+/// A term that the others make up to this relative size is not determined: folding rounds a million times.
+constexpr double collinear = 1e-11;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -50,15 +52,21 @@ void StreamedFit::fold() {
 FittedTerms StreamedFit::solve() {
   fold();
   const Eigen::Index n = stacked_.cols() - 1;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(stacked_.topLeftCorner(n, n));
+  // terms may differ by many powers of ten: each column to unit length, so that the rank is that of
+  // directions
+  const Eigen::VectorXd size = stacked_.topLeftCorner(n, n).colwise().norm().transpose();
+  const Eigen::VectorXd scale = (size.array() > 0).select(size.array().inverse(), 1.0);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(n, n);
+  qr.setThreshold(collinear);
+  qr.compute(stacked_.topLeftCorner(n, n) * scale.asDiagonal());
   const double residual = std::abs(stacked_(n, n));
   const auto samples = static_cast<double>(result_.samples);
   result_.rms = samples > 0 ? residual / std::sqrt(samples) : missing;
   result_.coefficients.assign(static_cast<std::size_t>(n), missing);
   result_.deviations.assign(static_cast<std::size_t>(n), missing);
   if (qr.rank() < n || samples < static_cast<double>(n)) return result_;
-  const Eigen::VectorXd solution = qr.solve(stacked_.col(n).head(n));
-  const Eigen::MatrixXd inverse = qr.solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::VectorXd solution = scale.asDiagonal() * qr.solve(stacked_.col(n).head(n));
+  const Eigen::MatrixXd inverse = scale.asDiagonal() * qr.solve(Eigen::MatrixXd::Identity(n, n));
   const double freedom = samples - static_cast<double>(n);
   for (Eigen::Index t = 0; t < n; ++t) {
     result_.coefficients[static_cast<std::size_t>(t)] = solution[t];
@@ -73,7 +81,7 @@ void StreamedFit::add_residual(std::span<const double> columns) {
   double left = row_[row_.size() - 1];
   for (std::size_t t = 0; t < result_.coefficients.size(); ++t)
     left -= result_.coefficients[t] * row_[static_cast<Eigen::Index>(t)];
-  result_.largest = std::max(result_.largest, std::abs(left));
+  if (!(std::abs(left) <= result_.largest)) result_.largest = std::abs(left);  // NaN stays seen
 }
 
 }  // namespace sinew::inline v0

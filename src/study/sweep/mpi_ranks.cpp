@@ -79,17 +79,18 @@ class MpiRanks : public Ranks {
   /// Rank 0 computes on its threads as all do; this one serves the others, and alone speaks to MPI.
   void lead(const ChunkJob& job, int threads) {
     std::mutex mutex;
-    const ChunkJob shared{.next =
-                              [&] {
-                                const std::scoped_lock lock(mutex);
-                                return job.next();
-                              },
-                          .make_worker = job.make_worker,
-                          .keep =
-                              [&](std::size_t chunk, std::span<const std::byte> bytes) {
-                                const std::scoped_lock lock(mutex);
-                                job.keep(chunk, bytes);
-                              }};
+    const ChunkJob shared{
+        .next =
+            [&] {
+              const std::scoped_lock lock(mutex);
+              return job.next();
+            },
+        .make_worker = job.make_worker,
+        .keep =
+            [&](std::size_t chunk, std::span<const std::byte> bytes, bool is_from_elsewhere) {
+              const std::scoped_lock lock(mutex);
+              job.keep(chunk, bytes, is_from_elsewhere);
+            }};
     const std::jthread own([&] { run_on_threads(shared, threads); });
     for (int followers = size_ - 1; followers > 0;) {
       int is_there = 0;
@@ -116,7 +117,7 @@ class MpiRanks : public Ranks {
     } else if (status.MPI_TAG == tag_result) {
       std::uint64_t chunk = 0;
       std::memcpy(&chunk, message_.data(), sizeof chunk);
-      job.keep(chunk, std::span(message_).subspan(sizeof chunk));
+      job.keep(chunk, std::span(message_).subspan(sizeof chunk), true);
     }
     return status.MPI_TAG == tag_end;
   }
@@ -135,7 +136,7 @@ class MpiRanks : public Ranks {
         },
         .make_worker = job.make_worker,
         .keep =
-            [&](std::size_t chunk, std::span<const std::byte> bytes) {
+            [&](std::size_t chunk, std::span<const std::byte> bytes, bool) {
               if (bytes.empty()) return;  // broken off
               const std::scoped_lock lock(mutex);
               const std::uint64_t number = chunk;

@@ -44,7 +44,7 @@ SweepPlan::SweepPlan(const Study& study)
     : study_(study),
       kind_(choose_sampler(study)),
       chunks_(study.samples, study.reductions.empty() ? row_of(study) : study.reduced_samples(),
-              kind_.chunk) {}
+              row_of(study), kind_.chunk) {}
 
 std::string hexadecimal(const Digest& digest) {
   std::string text;

@@ -105,7 +105,8 @@ class Trial {
                                                            0.6180339887498949 * static_cast<double>(t)) %
                                       study_.samples;
       axis_values(study_, {k, 1}, false, values);
-      for (const Placeholder& place : places) put(*place.node, values[place.axis]);
+      for (const Placeholder& place : places)
+        put(*place.node, values[place.axis], study_.axes[place.axis].unit);
       Json answer = session.answer(query);
       if (const auto error = answer.find("error"); error != answer.end()) {
         if (errors_.empty())

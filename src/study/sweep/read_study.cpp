@@ -31,9 +31,19 @@ bool is_name(std::string_view text) {
 }
 
 void check_name(const Reader& place, std::string_view name) {
-  if (!is_name(name) || name == "status")
-    place.fail("bad_name", fmt::format("{} names no column; give letters, digits and _, and not status",
-                                       in_quotes(name)));
+  for (const std::string_view taken : {"status", "provenance", "fits"})
+    if (name == taken)
+      place.fail("bad_name", fmt::format("{} has its own place in the results; choose another name", name));
+  if (!is_name(name))
+    place.fail("bad_name", fmt::format("{} names no column; give letters, digits and _", in_quotes(name)));
+}
+
+/// What may stand in a heading.
+std::string read_unit(const Reader& place) {
+  std::string unit = place.text();
+  if (unit.find_first_of(",[]\"\n\r#") != std::string::npos)
+    place.fail("bad_unit", "has a character that a heading cannot hold; give a symbol like N/m");
+  return unit;
 }
 
 /// Values of one axis, whose units must agree.
@@ -248,6 +258,7 @@ class StudyReader {
       if (query.node()) query.refuse("wrong_type", "give the fields of a query as a map");
       return;
     }
+    if (study_.axes.empty()) return;                // said already
     study_.query = {study_.source, *query.node()};  // errors then name its place
     std::vector<bool> is_used(study_.axes.size(), false);
     each_placeholder(study_.query.root, [&](std::string_view name, Node&) {
@@ -288,7 +299,7 @@ class StudyReader {
       StudyOutput output{.name = name, .path = {}, .unit = {}};
       if (place.is(Node::Kind::map)) {
         output.path = place.required("path", "a place in the answer: pose.x").text();
-        if (const auto unit = place.optional("unit")) output.unit = unit->text();
+        if (const auto unit = place.optional("unit")) output.unit = read_unit(*unit);
         if (const auto sometimes = place.optional("sometimes")) output.is_sometimes = sometimes->boolean();
         place.close();
       } else {
@@ -308,7 +319,10 @@ class StudyReader {
       return;
     }
     std::vector<StudyAxis> kept = study_.axes, left_out;
-    for (const Reader& word : reduce->required("over", "axes to leave out: [phi]").items()) {
+    const Reader over = reduce->required("over", "axes to leave out: [phi]");
+    if (over.is(Node::Kind::list) && over.node()->items.empty())
+      over.fail("empty_list", "names no axis; give at least one, or remove reduce");
+    for (const Reader& word : over.items()) {
       const std::string name = word.text();
       const auto axis = std::ranges::find(kept, name, &StudyAxis::name);
       if (axis == kept.end()) {
@@ -319,7 +333,13 @@ class StudyReader {
       kept.erase(axis);
     }
     const Reader columns = reduce->required("columns", "what is kept: {worst: {max: condition}}");
-    for (auto& [name, place] : columns.members()) read_reduced(name, place);
+    for (auto& [name, place] : columns.members()) {
+      if (std::ranges::find(kept, name, &StudyAxis::name) != kept.end())
+        place.fail("duplicate_column", "is the name of an axis that is kept; give the column another");
+      read_reduced(name, place);
+    }
+    if (columns.node() && study_.reductions.empty())
+      columns.fail("empty_map", "names no column; give at least one");
     reduce->close();
     study_.reduced_axes = left_out.size();
     study_.axes = std::move(kept);  // the last run fastest: what becomes one value is computed together
@@ -377,6 +397,7 @@ class StudyReader {
         fit.texts.push_back(text);
         fit.terms.push_back(monomials ? std::move(*monomials) : std::vector<Monomial>{});
       }
+      if (fit.terms.empty()) place.fail("empty_list", "has no terms; give at least one: terms: [1]");
       place.close();
       study_.fits.push_back(std::move(fit));
     }

@@ -24,7 +24,8 @@ CellSum sum_of(const StudyReduction& reduction, const SampleBlock& block, std::s
   for (std::size_t k = first; k < first + count; ++k) {
     const double value = reduction.kind == Kind::part ? (block.statuses[k] == converged ? 1.0 : 0.0)
                                                       : block.output(reduction.output, k);
-    if (std::isfinite(value)) add(reduction.kind, sum, one(reduction.kind, value));
+    const bool counts = reduction.kind == Kind::part || block.statuses[k] == converged;
+    if (counts && std::isfinite(value)) add(reduction.kind, sum, one(reduction.kind, value));
   }
   return sum;
 }

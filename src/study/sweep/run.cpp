@@ -1,4 +1,6 @@
 /// A sweep from its study to its file of results.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -20,6 +22,9 @@ namespace sinew::inline v0 {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t most_chunks = 20'000'000;  ///< each takes 16 bytes of memory
+
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -121,6 +126,7 @@ class Sweep {
       summary_.is_complete = true;
       return summary_;
     }
+    const Ticker ticker(options_, {.total = summary_.samples, .resumed = summary_.resumed}, pulse_);
     compute();
     collect();
     if (is_first)
@@ -133,6 +139,12 @@ class Sweep {
   Expected<void> open() {
     if (Errors errors = refuse_result_name(options_.output); !errors.empty())
       return tl::unexpected(std::move(errors));
+    if (plan_.chunks().count() > most_chunks)
+      return failure(
+          "too_large", plan_.study().source,
+          fmt::format(
+              "has {} samples in {} chunks, more than a log of this version holds; make several studies",
+              plan_.study().samples, plan_.chunks().count()));
     const Digest key = plan_.key();
     const fs::path path = options_.output.string() + ".log";
     std::error_code ignored;
@@ -145,20 +157,26 @@ class Sweep {
                               options_.resume ? ChunkLog::Open::resume : ChunkLog::Open::create);
     if (!log) return tl::unexpected(log.error());
     log_ = std::move(*log);
+    // what could not be written at the end is not begun; this leaves nothing
+    if (const auto trial = create_result(options_.output, plan_.layout(options_)); !trial)
+      return tl::unexpected(trial.error());
     for (std::size_t c = 0; c < plan_.chunks().count(); ++c)
       if (log_->has(c)) summary_.resumed += plan_.chunks()[c].count;
     return {};
   }
 
   void compute() {
-    const Ticker ticker(options_, {.total = summary_.samples, .resumed = summary_.resumed}, pulse_);
     const ChunkJob job{
         .next = [this] { return next(); },
         .make_worker = [this]() -> ChunkWorker {
           return [worker = std::make_shared<Worker>(plan_, pulse_)](
                      std::size_t chunk, std::vector<std::byte>& bytes) { (*worker)(chunk, bytes); };
         },
-        .keep = [this](std::size_t chunk, std::span<const std::byte> bytes) { keep(chunk, bytes); }};
+        .keep =
+            [this](std::size_t chunk, std::span<const std::byte> bytes, bool is_from_elsewhere) {
+              if (is_from_elsewhere) pulse_.samples += plan_.chunks()[chunk].count;
+              keep(chunk, bytes);
+            }};
     if (options_.ranks)
       options_.ranks->run(job, summary_.threads);
     else
@@ -199,9 +217,12 @@ class Sweep {
       return {};
     }
     const auto begin = Clock::now();
-    auto fits = write_results(plan_, *log_, options_);
-    if (!fits) return tl::unexpected(fits.error());
-    summary_.fits = std::move(*fits);
+    auto written = write_results(plan_, *log_, options_, pulse_.stop);
+    if (!written && written.error().front().code == "stopped") return {};
+    if (!written) return tl::unexpected(written.error());
+    summary_.fits = std::move(written->fits);
+    summary_.counts_all = !plan_.reduces() || summary_.resumed == 0;
+    if (!plan_.reduces()) summary_.statuses = written->statuses;
     summary_.writing = seconds_since(begin);
     std::error_code ignored;
     summary_.written_bytes = fs::file_size(options_.output, ignored);

@@ -30,18 +30,21 @@ double random_value(const StudyAxis& axis, std::uint64_t seed, std::uint64_t cou
 
 }  // namespace
 
-Chunks::Chunks(std::size_t samples, std::size_t row, std::size_t about) : samples_(samples), row_(row) {
-  const std::size_t all_rows = samples / row;
-  if (row <= about) {
-    rows_ = std::max<std::size_t>(1, about / row);
-    count_ = (all_rows + rows_ - 1) / rows_;
-  } else {
-    rows_ = 0;
-    parts_ = (row + about - 1) / about;
-    part_ = (row + parts_ - 1) / parts_;
-    parts_ = (row + part_ - 1) / part_;
-    count_ = all_rows * parts_;
+Chunks::Chunks(std::size_t samples, std::size_t cell, std::size_t row, std::size_t about)
+    : samples_(samples),
+      row_(cell <= about || row <= about ? cell : row) {
+  const std::size_t all = samples / row_;
+  if (row_ <= about) {
+    rows_ = std::max<std::size_t>(1, about / row_);
+    count_ = (all + rows_ - 1) / rows_;
+    return;
   }
+  const std::size_t step = row <= about ? row : 1;  // pieces end where rows do
+  rows_ = 0;
+  parts_ = (row_ + about - 1) / about;
+  part_ = ((row_ + parts_ - 1) / parts_ + step - 1) / step * step;
+  parts_ = (row_ + part_ - 1) / part_;
+  count_ = all * parts_;
 }
 
 Chunk Chunks::operator[](std::size_t k) const {

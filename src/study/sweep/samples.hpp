@@ -15,19 +15,17 @@ struct Chunk {
   std::size_t first = 0, count = 0;
 };
 
-/// Samples cut into chunks of about the same size that end where rows do; rows that are longer than a chunk
-/// are cut as well. A row is what one path runs along, or what becomes one value of a reduction.
+/// Samples cut into chunks of about the same size: of whole cells, what becomes one value of a reduction; of
+/// whole rows of a cell that is too large; or of pieces of a row that is.
 class Chunks {
  public:
   Chunks() = default;
-  Chunks(std::size_t samples, std::size_t row, std::size_t about);
+  /// @param cell samples that belong together; @param row of a path, of which cells have a whole number
+  Chunks(std::size_t samples, std::size_t cell, std::size_t row, std::size_t about);
 
   std::size_t count() const { return count_; }
-  std::size_t samples() const { return samples_; }
-  std::size_t row() const { return row_; }
   Chunk operator[](std::size_t k) const;
   std::size_t largest() const { return rows_ > 0 ? rows_ * row_ : part_; }
-  bool cuts_rows() const { return rows_ == 0; }
 
  private:
   std::size_t samples_ = 0, row_ = 1, count_ = 0;

@@ -9,12 +9,14 @@ namespace {
 /// The log into the file of results.
 class Writer {
  public:
-  Writer(const SweepPlan& plan, const ChunkLog& log, const SweepOptions& options)
+  Writer(const SweepPlan& plan, const ChunkLog& log, const SweepOptions& options,
+         const std::atomic<bool>& stop)
       : plan_(plan),
         log_(log),
-        options_(options) {}
+        options_(options),
+        stop_(stop) {}
 
-  Expected<std::vector<FittedTerms>> run() {
+  Expected<WrittenResults> run() {
     auto file = create_result(options_.output, plan_.layout(options_));
     if (!file) return tl::unexpected(file.error());
     for (const StudyFit& fit : plan_.study().fits) fits_.emplace_back(fit);
@@ -31,10 +33,16 @@ class Writer {
           column < axes ? plan_.study().axes[column].unit : plan_.study().outputs[column - axes].unit;
     }
     if (const auto done = (*file)->finish(found); !done) return tl::unexpected(done.error());
-    return found;
+    return WrittenResults{std::move(found), statuses_};
   }
 
  private:
+  /// The next chunk's bytes.
+  Expected<void> read(std::size_t chunk, std::vector<std::byte>& bytes) const {
+    if (!stop_) return log_.read(chunk, bytes);
+    return failure("stopped", options_.output.string(), "was not finished");
+  }
+
   /// Every chunk, in order: into the file and the fits or, in a second pass, what the fits miss.
   Expected<void> samples(ResultFile& file, bool is_first) {
     const Study& study = plan_.study();
@@ -43,7 +51,7 @@ class Writer {
     std::vector<double> axes, row(study.axes.size() + study.outputs.size());
     for (std::size_t c = 0; c < plan_.chunks().count(); ++c) {
       const Chunk chunk = plan_.chunks()[c];
-      if (const auto done = log_.read(c, bytes); !done) return done;
+      if (const auto done = read(c, bytes); !done) return done;
       const std::span values(reinterpret_cast<const double*>(bytes.data()),
                              study.outputs.size() * chunk.count);
       const std::span statuses(reinterpret_cast<const SampleStatus*>(bytes.data() + values.size_bytes()),
@@ -52,10 +60,13 @@ class Writer {
         axes.resize(study.axes.size() * chunk.count);
         axis_values(study, chunk, false, axes);
       }
+      for (const SampleStatus status : statuses)
+        statuses_[std::min<std::size_t>(status, failed_inside)] += is_first;
       if (is_first)
         if (const auto done = file.write({chunk.first, chunk.count, axes, values, statuses}); !done)
           return done;
       for (std::size_t k = 0; !fits_.empty() && k < chunk.count; ++k) {
+        if (statuses[k] != converged) continue;
         for (std::size_t i = 0; i < row.size(); ++i)
           row[i] = i < study.axes.size() ? axes[i * chunk.count + k]
                                          : values[(i - study.axes.size()) * chunk.count + k];
@@ -74,7 +85,7 @@ class Writer {
     std::size_t first = 0;
     for (std::size_t c = 0; c < plan_.chunks().count(); ++c) {
       const Chunk chunk = plan_.chunks()[c];
-      if (const auto done = log_.read(c, bytes); !done) return done;
+      if (const auto done = read(c, bytes); !done) return done;
       const std::span more(reinterpret_cast<const CellSum*>(bytes.data()), bytes.size() / sizeof(CellSum));
       if (chunk.first % cell == 0) {
         sums.assign(more.begin(), more.end());
@@ -105,14 +116,16 @@ class Writer {
   const SweepPlan& plan_;
   const ChunkLog& log_;
   const SweepOptions& options_;
+  const std::atomic<bool>& stop_;
   std::vector<StreamedFit> fits_;
+  std::array<std::size_t, sample_statuses> statuses_{};
 };
 
 }  // namespace
 
-Expected<std::vector<FittedTerms>> write_results(const SweepPlan& plan, const ChunkLog& log,
-                                                 const SweepOptions& options) {
-  return Writer(plan, log, options).run();
+Expected<WrittenResults> write_results(const SweepPlan& plan, const ChunkLog& log,
+                                       const SweepOptions& options, const std::atomic<bool>& stop) {
+  return Writer(plan, log, options, stop).run();
 }
 
 }  // namespace sinew::inline v0
