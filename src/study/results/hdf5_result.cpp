@@ -1,7 +1,9 @@
 /// Results as HDF5: of a grid each column has the grid's shape, with the axes attached as dimension scales;
 /// units are attributes, as netCDF and xarray know them.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <hdf5_hl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -16,6 +18,7 @@ namespace {
 using hdf5::Handle;
 namespace fs = std::filesystem;
 
+constexpr std::size_t bytes_to_send = std::size_t{16} << 20U;
 constexpr hsize_t elements_a_block = 65536;  ///< of compressed columns
 
 /// The boxes of an array that a stretch of its elements, in C order, is made of: calls `use(corner, sizes)`.
@@ -92,7 +95,9 @@ class Hdf5Result : public ResultFile {
       const void* values = is_status ? static_cast<const void*>(rows.statuses.data())
                                      : (is_axis ? rows.axes : rows.columns).data() + at;
       ok_ = put(data_[c], rows, values, is_status);
+      pending_ += rows.count * (is_status ? sizeof(SampleStatus) : sizeof(double));
     }
+    if (pending_ > bytes_to_send) send();
     return outcome();
   }
 
@@ -111,6 +116,17 @@ class Hdf5Result : public ResultFile {
                    "cannot be written: no room on the disc, or not a folder you may write to; the chunks are "
                    "kept, go on "
                    "with --resume");
+  }
+
+  /// On their way to the disc while more is being written, so that the end need not wait for all of it.
+  void send() {
+    pending_ = 0;
+#ifdef SYNC_FILE_RANGE_WRITE
+    const int file = ::open(part_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) return;
+    ::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);
+    ::close(file);
+#endif
   }
 
   bool close() {
@@ -266,6 +282,7 @@ class Hdf5Result : public ResultFile {
   std::vector<hsize_t> shape_;
   Handle file_;
   std::vector<Handle> scales_, data_;  ///< axes that are columns first, status last
+  std::size_t pending_ = 0;            ///< bytes written since they were sent
   bool ok_ = false, is_finished_ = false;
 };
 
