@@ -114,10 +114,14 @@ TEST(SweepCommand, OutOfRoomKeepsWhatThereWas) {  // a limit on files stands for
 TEST(SweepCommand, BeginsNoSweepOverAnother) {
   const Scratch here;
   write_text(here.path() / "study.yaml", queries);
-  while (is_done_within({"sweep", "study.yaml", "-q", "-o", "out.h5"}, here.path(),
-                        std::chrono::milliseconds(30)) ||
-         std::filesystem::file_size(here.path() / "out.h5.log") < 10000)
+  bool has_begun = false;  // killed neither before the first chunks nor after the last
+  for (int patience = 20; !has_begun && patience < 5000; patience += 10) {
     for (const char* name : {"out.h5", "out.h5.log"}) std::filesystem::remove(here.path() / name);
+    const bool is_done = is_done_within({"sweep", "study.yaml", "-q", "-o", "out.h5"}, here.path(),
+                                        std::chrono::milliseconds(patience));
+    has_begun = !is_done && read_text(here.path() / "out.h5.log").size() > 10000;
+  }
+  ASSERT_TRUE(has_begun);
   const Outcome again = run_command({"sweep", "study.yaml", "-o", "out.h5"}, here.path());
   EXPECT_EQ(again.exit, 2);
   EXPECT_NE(again.err.find("[sweep_begun]"), std::string::npos) << again.err;
@@ -125,6 +129,9 @@ TEST(SweepCommand, BeginsNoSweepOverAnother) {
 }
 
 TEST(SweepCommand, ThreeRanksGiveTheSameBytes) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "MPI leaves memory behind, and takes over that of the process";
+#endif
   if (std::system("command -v mpirun >/dev/null") != 0) GTEST_SKIP() << "no mpirun";
   const Scratch here;
   for (const std::string& study : {rods, queries}) {
