@@ -287,6 +287,7 @@ TEST(Sweep, WhereTheFileCannotBeWrittenItSaysSo) {
   const auto done = sweep_to(folder, queries, "out.h5");
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().front().code, "file_unwritable");
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "out.h5.log"));
 }
 
 TEST(ReadResult, SaysWhatItCannotRead) {

@@ -158,8 +158,10 @@ class Sweep {
     if (!log) return tl::unexpected(log.error());
     log_ = std::move(*log);
     // what could not be written at the end is not begun; this leaves nothing
-    if (const auto trial = create_result(options_.output, plan_.layout(options_)); !trial)
+    if (const auto trial = create_result(options_.output, plan_.layout(options_)); !trial) {
+      if (log_->count() == 0) log_->remove();
       return tl::unexpected(trial.error());
+    }
     for (std::size_t c = 0; c < plan_.chunks().count(); ++c)
       if (log_->has(c)) summary_.resumed += plan_.chunks()[c].count;
     return {};
