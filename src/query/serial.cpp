@@ -33,11 +33,7 @@ namespace {
 
 bool is_straight(const Bend& bend) { return bend.norm() <= 1e-14; }
 
-/// Bend of a section from what the protocol calls its configuration, and back.
-Bend bend_of(const Section& section, const std::array<double, 2>& given) {
-  return section.is_twin() ? Bend(given[0], given[1])
-                           : Bend(given[0] * std::cos(given[1]), given[0] * std::sin(given[1]));
-}
+/// The inverse of `bend_of`.
 /// @param straight φ of a straight section, where rounding would decide it
 std::array<double, 2> configuration_of(const Section& section, const Bend& bend, double straight) {
   if (section.is_twin()) return {bend.x(), bend.y()};

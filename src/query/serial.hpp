@@ -1,6 +1,9 @@
 /// @file serial.hpp
 /// Handlers of queries to serial robots.
 #pragma once
+#include <array>
+#include <cmath>
+
 #include "query/context.hpp"
 #include "sinew/kinematics/serial.hpp"
 
@@ -11,6 +14,12 @@ struct SerialContext : Question {
   const SerialRobot& robot;
   SerialWorkspace& work;
 };
+
+/// Bend of a section from what the protocol calls its configuration.
+inline Bend bend_of(const Section& section, const std::array<double, 2>& given) {
+  return section.is_twin() ? Bend(given[0], given[1])
+                           : Bend(given[0] * std::cos(given[1]), given[0] * std::sin(given[1]));
+}
 
 /// `model`: `pcc` or `lsk`.
 kernel::Model read_tendon_model(SerialContext& context, kernel::Model otherwise);

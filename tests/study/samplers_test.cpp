@@ -96,6 +96,22 @@ axes:
             1e-9);
 }
 
+TEST(Samplers, TendonsInLanesAgreeWithQueries) {
+  for (const char* robot : {"nottingham-tpcj", "nottingham-neutral", "four-tendon-tpcj"})
+    for (const char* model : {"pcc", "lsk"})  // some bends are beyond the limit
+      EXPECT_LT(
+          difference(std::string("sinew: 1\nrobot: ") + robot +
+                         "\nquery: {query: forward, configuration: [[$a, $b], [0.1, 0.2], [$b, 0]], model: " +
+                         model + R"(}
+axes:
+  a: {from: -30 deg, to: 30 deg, count: 13}
+  b: {from: -30 deg, to: 30 deg, count: 11}
+outputs: {first: "changes[0][0]", other: "changes[2][1]", last: "changes[4][2]"}
+)",
+                     "tendons in lanes"),
+          1e-15);
+}
+
 TEST(Samplers, RodsInLanesAgreeWithQueries) {
   for (const char* more : {"", ", wrench: [1, -0.5, -60, 0, 0.1, 0]"})
     EXPECT_LT(

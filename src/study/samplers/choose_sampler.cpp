@@ -10,7 +10,7 @@ std::size_t chunk_size(const Study& study, std::size_t least, std::size_t most) 
 }
 
 SamplerKind choose_sampler(const Study& study) {
-  for (const auto& quick : {rod_sampler, pose_sampler})
+  for (const auto& quick : {rod_sampler, pose_sampler, serial_sampler})
     if (SamplerKind kind = quick(study); kind.make) return kind;
   return query_sampler(study);
 }

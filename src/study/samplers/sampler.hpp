@@ -59,6 +59,9 @@ SamplerKind rod_sampler(const Study& study);
 /// Inverse kinematics and velocity analysis of poses in lanes; likewise.
 SamplerKind pose_sampler(const Study& study);
 
+/// Tendon changes of serial robots in lanes; likewise.
+SamplerKind serial_sampler(const Study& study);
+
 /// The quickest there is.
 SamplerKind choose_sampler(const Study& study);
 
