@@ -60,12 +60,14 @@ double distance(const RodTip& a, const RodTip& b, double length) {
 RodTip refined(const SpatialRod& rod, double length, const RodState<double>& base, double tolerance) {
   int steps = steps_for(rod, length, base, tolerance);
   double before = INFINITY;
-  for (;;) {
+  for (int idle = 0;;) {
     RodTip tip = walked(rod, length, base, steps);
     const RodTip coarse = walked(rod, length, base, steps / 2);
     tip.error = distance(tip, coarse, length) / 64;
     if (tip.status == Status::converged && tip.error <= tolerance) return tip;
-    if (steps == max_rod_steps || tip.error > before / 2) {  // more steps do not help: rounding
+    idle = tip.error > before / 2 ? idle + 1 : 0;
+    if (steps == max_rod_steps ||
+        idle == 2) {  // more steps do not help: rounding, not long steps by chance alike
       if (tip.status == Status::converged)
         tip.status = steps == max_rod_steps ? Status::iteration_limit : Status::stalled;
       return tip;
