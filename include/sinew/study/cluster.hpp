@@ -32,7 +32,4 @@ class Ranks {
 /// the process ends. Code `no_mpi`: there are several ranks, but this sinew was built without MPI.
 SINEW_API Expected<std::unique_ptr<Ranks>> join_ranks();
 
-/// Whether this sinew was built with MPI.
-SINEW_API bool has_mpi();
-
 }  // namespace sinew::inline v0

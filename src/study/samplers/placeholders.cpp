@@ -7,21 +7,27 @@
 namespace sinew::inline v0 {
 namespace {
 
-void collect(Node& node, const Study& study, std::vector<Placeholder>& found) {
-  if (node.kind == Node::Kind::string && node.text.starts_with('$')) {
-    const auto axis = std::ranges::find(study.axes, std::string_view(node.text).substr(1), &StudyAxis::name);
-    if (axis != study.axes.end())
-      found.push_back({static_cast<std::size_t>(axis - study.axes.begin()), &node});
-  }
-  for (Node& item : node.items) collect(item, study, found);
-  for (Member& member : node.members) collect(member.value, study, found);
+void collect(Node& node, const std::vector<StudyAxis>& axes, std::vector<Placeholder>& found) {
+  if (const auto place = placeholder(node, axes)) found.push_back(*place);
+  for (Node& item : node.items) collect(item, axes, found);
+  for (Member& member : node.members) collect(member.value, axes, found);
 }
 
 }  // namespace
 
-std::vector<Placeholder> placeholders(Node& query, const Study& study) {
+std::optional<Placeholder> placeholder(Node& node, const std::vector<StudyAxis>& axes) {
+  if (node.kind != Node::Kind::string || !node.text.starts_with('$')) return {};
+  Placeholder found{std::string_view(node.text).substr(1), {}, &node};
+  const auto axis = std::ranges::find(axes, found.name, &StudyAxis::name);
+  if (axis == axes.end()) return found;
+  found.axis = static_cast<std::size_t>(axis - axes.begin());
+  found.name = axis->name;
+  return found;
+}
+
+std::vector<Placeholder> placeholders(Node& query, const std::vector<StudyAxis>& axes) {
   std::vector<Placeholder> found;
-  collect(query, study, found);
+  collect(query, axes, found);
   return found;
 }
 

@@ -1,6 +1,8 @@
 /// @file placeholders.hpp
-/// The places of a study's query where values of axes go.
+/// The places of a study's query where values of axes go: texts `$name`.
 #pragma once
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "sinew/study/study.hpp"
@@ -8,12 +10,16 @@
 namespace sinew::inline v0 {
 
 struct Placeholder {
-  std::size_t axis;
+  std::string_view name;            ///< without the `$`; a view into the study's axes or the node
+  std::optional<std::size_t> axis;  ///< nothing where the study has none of that name
   Node* node;
 };
 
-/// All of them; they point into the tree, whose shape must stay.
-std::vector<Placeholder> placeholders(Node& query, const Study& study);
+/// What a node stands for, if it is a placeholder.
+std::optional<Placeholder> placeholder(Node& node, const std::vector<StudyAxis>& axes);
+
+/// All of a tree; they point into it, and its shape must stay.
+std::vector<Placeholder> placeholders(Node& query, const std::vector<StudyAxis>& axes);
 
 /// Makes the node this number ...
 void put(Node& node, double value);

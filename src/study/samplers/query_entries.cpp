@@ -2,14 +2,16 @@
 
 #include <algorithm>
 
+#include "study/samplers/placeholders.hpp"
+
 namespace sinew::inline v0 {
 
 std::optional<QueryEntry> query_entry(const Node& node, const Study& study) {
   if (node.kind == Node::Kind::number) return QueryEntry{node.number};
-  if (node.kind != Node::Kind::string || !node.text.starts_with('$')) return {};
-  const auto axis = std::ranges::find(study.axes, std::string_view(node.text).substr(1), &StudyAxis::name);
-  if (axis == study.axes.end()) return {};
-  return QueryEntry{0, axis - study.axes.begin()};
+  Node copy = node;
+  const auto place = placeholder(copy, study.axes);
+  if (!place || !place->axis) return {};
+  return QueryEntry{0, static_cast<std::ptrdiff_t>(*place->axis)};
 }
 
 std::optional<std::vector<QueryEntry>> query_entries(const Node& list, const Study& study) {

@@ -17,30 +17,28 @@ class QuerySampler {
  public:
   explicit QuerySampler(const Study& study)
       : study_(study),
-        session_(TreeSession::open(study.robot_document).value()),
         query_(study.query),
-        places_(placeholders(query_.root, study)),
-        is_path_(study.is_path) {
+        places_(placeholders(query_.root, study.axes)) {
     for (const StudyOutput& output : study.outputs) paths_.emplace_back(output.path);
   }
 
   void operator()(const SampleBlock& block) {
     // anew for each block: what was solved before must not show in the last digits
-    session_ = TreeSession::open(study_.robot_document).value();
+    TreeSession session = TreeSession::open(study_.robot_document).value();
     last_.reset();
     for (std::size_t k = 0; k < block.count && !*block.stop; ++k, ++*block.done) {
-      for (const Placeholder& place : places_) put(*place.node, block.axis(place.axis, k));
-      block.statuses[k] = sample(block, k);
+      for (const Placeholder& place : places_) put(*place.node, block.axis(*place.axis, k));
+      block.statuses[k] = sample(session, block, k);
     }
   }
 
  private:
-  SampleStatus sample(const SampleBlock& block, std::size_t k) {
+  SampleStatus sample(TreeSession& session, const SampleBlock& block, std::size_t k) {
     for (std::size_t o = 0; o < paths_.size(); ++o) block.output(o, k) = missing;
     try {
       const bool continues = last_.has_value();
-      Json answer = session_.answer(query_, is_path_ ? &last_ : nullptr);
-      if (continues && !last_) answer = session_.answer(query_, &last_);  // lost on the way: anew
+      Json answer = session.answer(query_, study_.is_path ? &last_ : nullptr);
+      if (continues && !last_) answer = session.answer(query_, &last_);  // lost on the way: anew
       if (answer.contains("error")) return refused;
       for (std::size_t o = 0; o < paths_.size(); ++o)
         if (const auto value = paths_[o].number(answer)) block.output(o, k) = *value;
@@ -61,11 +59,9 @@ class QuerySampler {
   }
 
   const Study& study_;
-  TreeSession session_;
   Document query_;
   std::vector<Placeholder> places_;
   std::vector<AnswerPath> paths_;
-  bool is_path_;
   std::optional<AnyPose> last_;
 };
 

@@ -169,12 +169,4 @@ Expected<std::unique_ptr<Ranks>> join_ranks() {
 #endif
 }
 
-bool has_mpi() {
-#ifdef SINEW_WITH_MPI
-  return true;
-#else
-  return false;
-#endif
-}
-
 }  // namespace sinew::inline v0

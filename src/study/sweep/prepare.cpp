@@ -91,7 +91,7 @@ class Trial {
  private:
   void ask(TreeSession& session) {
     Document query = study_.query;
-    const auto places = placeholders(query.root, study_);
+    const auto places = placeholders(query.root, study_.axes);
     const std::size_t count = std::min(trials, study_.samples);
     std::vector<double> values(study_.axes.size());
     const auto begin = std::chrono::steady_clock::now();
@@ -106,7 +106,7 @@ class Trial {
                                       study_.samples;
       axis_values(study_, {k, 1}, false, values);
       for (const Placeholder& place : places)
-        put(*place.node, values[place.axis], study_.axes[place.axis].unit);
+        put(*place.node, values[*place.axis], study_.axes[*place.axis].unit);
       Json answer = session.answer(query);
       if (const auto error = answer.find("error"); error != answer.end()) {
         if (errors_.empty())

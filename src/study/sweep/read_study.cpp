@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 
+#include "sinew/analysis/singularity_map.hpp"
 #include "sinew/io/parse.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/reader.hpp"
@@ -14,6 +14,7 @@
 #include "sinew/io/table.hpp"
 #include "sinew/study/study.hpp"
 #include "study/builtin.hpp"
+#include "study/samplers/placeholders.hpp"
 #include "study/sweep/terms.hpp"
 
 namespace sinew::inline v0 {
@@ -82,10 +83,8 @@ void read_steps(Reader& place, AxisReader& values, StudyAxis& axis) {
   const double to = values.value(place.required("to", "last value"));
   const int count =
       place.required("count", "how many values, both ends included").integer(Range::between(1, most_values));
-  for (int k = 0; k < count; ++k)  // from both ends alike, so that -a ... a is symmetric and 0 is 0
-    axis.values.push_back(k == 0           ? from
-                          : k + 1 == count ? to
-                                           : (from * (count - 1 - k) + to * k) / (count - 1));
+  const MapAxis steps{.from = from, .to = to, .count = count};
+  for (int k = 0; k < count; ++k) axis.values.push_back(steps.at(k));
 }
 
 void read_distribution(Reader& place, AxisReader& values, StudyAxis& axis) {
@@ -119,13 +118,6 @@ StudyAxis read_axis(const std::string& name, Reader place, bool is_random) {
     read_steps(place, values, axis);
   if (place.is(Node::Kind::map)) place.close();
   return axis;
-}
-
-/// Calls `use(axis, node)` with every `$name` of a query.
-void each_placeholder(Node& node, const std::function<void(std::string_view, Node&)>& use) {
-  if (node.kind == Node::Kind::string && node.text.starts_with('$')) use(node.text.substr(1), node);
-  for (Node& item : node.items) each_placeholder(item, use);
-  for (Member& member : node.members) each_placeholder(member.value, use);
 }
 
 /// One study file being read.
@@ -252,6 +244,8 @@ class StudyReader {
   }
 
   void read_query() {
+    if (const auto path = root_.optional("path"))
+      study_.is_path = path->choice({"continue", "anew"}) == "continue";
     const Reader query =
         root_.required("query", "what is asked: {query: inverse, pose: {x: $x, y: 0, phi: 0}}");
     if (!query.is(Node::Kind::map)) {
@@ -261,20 +255,16 @@ class StudyReader {
     if (study_.axes.empty()) return;                // said already
     study_.query = {study_.source, *query.node()};  // errors then name its place
     std::vector<bool> is_used(study_.axes.size(), false);
-    each_placeholder(study_.query.root, [&](std::string_view name, Node&) {
-      const auto axis = std::ranges::find(study_.axes, name, &StudyAxis::name);
-      if (axis != study_.axes.end())
-        is_used[static_cast<std::size_t>(axis - study_.axes.begin())] = true;
+    for (const Placeholder& place : placeholders(study_.query.root, study_.axes))
+      if (place.axis)
+        is_used[*place.axis] = true;
       else
         query.fail("unknown_axis",
-                   fmt::format("${} is no axis; there are {}", name, fmt::join(axis_names(), ", ")));
-    });
+                   fmt::format("${} is no axis; there are {}", place.name, fmt::join(axis_names(), ", ")));
     for (std::size_t a = 0; a < is_used.size(); ++a)
       if (!is_used[a])
         query.fail("unused_axis", fmt::format("the axis {} is not in it; write ${} where its values go",
                                               study_.axes[a].name, study_.axes[a].name));
-    if (const auto path = root_.optional("path"))
-      study_.is_path = path->choice({"continue", "anew"}) == "continue";
   }
 
   std::vector<std::string_view> axis_names() const {
