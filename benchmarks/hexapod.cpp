@@ -10,6 +10,7 @@
 #include <memory>
 #include <random>
 
+#include "instruction_sets.hpp"
 #include "report.hpp"
 #include "robot/tangent_system.hpp"
 #include "shooting_hexapod.hpp"
@@ -19,13 +20,6 @@
 
 namespace sinew::bench {
 namespace {
-
-struct InstructionSet {
-  const char* name;
-  std::int64_t target;
-};
-constexpr InstructionSet instruction_sets[] = {
-    {"AVX-512", HWY_AVX3}, {"AVX2", HWY_AVX2}, {"SSSE3", HWY_SSSE3}};
 
 SpatialPose pose_of(const Vec3<double>& p, const SO3<double>& R) { return spatial_pose(SE3<double>{p, R}); }
 

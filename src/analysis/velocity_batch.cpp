@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
-#include "analysis/chord_lanes.hpp"
+#include "analysis/velocity_lanes.hpp"
 #include "robot/pose.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-using chord_lanes::ChordLeg, chord_lanes::ChordRobot;
+using velocity_lanes::ChordLeg, velocity_lanes::ChordRobot, velocity_lanes::HingedLeg,
+    velocity_lanes::HingedRobot, velocity_lanes::LaneRobot;
 
 constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t poses_at_a_time = 512;
@@ -21,52 +22,87 @@ concept IsChordLeg = requires {
 };
 
 template <class LegT>
-ChordLeg chord_leg(const LegT& leg, int bending) {
-  ChordLeg found{.length = leg.link.length,
-                 .offset = leg.drive.offset,
-                 .bending = bending < 0 ? -1.0 : 1.0,
-                 .domain = leg.domain(),
-                 .base = {},
-                 .point = {}};
-  std::copy(leg.base.p.begin(), leg.base.p.end(), found.base.begin());
-  std::copy(leg.platform_point.begin(), leg.platform_point.end(), found.point.begin());
+concept IsHingedLeg = requires {
+  requires std::same_as<typename LegT::Link, Rail> && std::same_as<typename LegT::Closure, HingedStrut>;
+};
+
+template <class Vector>
+std::array<double, 3> numbers(const Vector& vector) {
+  std::array<double, 3> found = {};
+  std::copy(vector.begin(), vector.end(), found.begin());
   return found;
 }
 
-/// Without legs (dof 0) where the lanes do not serve it.
-ChordRobot chord_robot(const AnyRobot& robot, std::span<const int> bending) {
+template <class LegT>
+ChordLeg chord_leg(const LegT& leg, int bending) {
+  return {.length = leg.link.length,
+          .offset = leg.drive.offset,
+          .bending = bending < 0 ? -1.0 : 1.0,
+          .domain = leg.domain(),
+          .base = numbers(leg.base.p),
+          .point = numbers(leg.platform_point)};
+}
+
+template <class LegT>
+HingedLeg hinged_leg(const LegT& leg, int elbow) {
+  const Vec3<double> hinge = Spatial::first_axis(leg.base), rail = Spatial::second_axis(leg.base);
+  return {.strut = leg.closure.length,
+          .elbow = elbow < 0 ? -1.0 : 1.0,
+          .base = numbers(leg.base.p),
+          .point = numbers(leg.platform_point),
+          .hinge = numbers(hinge),
+          .rail = numbers(rail),
+          .across = numbers(cross(hinge, rail))};
+}
+
+LaneRobot lane_robot(const AnyRobot& robot, const PoseBatch& batch) {
+  const auto sign = [](std::span<const int> signs, std::size_t i) { return signs.empty() ? 0 : signs[i]; };
   return std::visit(
-      [&]<class LegT>(const ParallelRobot<LegT>& r) {
-        ChordRobot found;
+      [&]<class LegT>(const ParallelRobot<LegT>& r) -> LaneRobot {
         if constexpr (IsChordLeg<LegT>) {
-          if (r.leg_count() != LegT::Space::dof || r.has_ties()) return found;
-          found.dof = LegT::Space::dof;
-          found.radius = r.platform_radius;
+          if (r.leg_count() != LegT::Space::dof || r.has_ties()) return {};
+          ChordRobot found{.dof = LegT::Space::dof, .radius = r.platform_radius};
           for (std::size_t i = 0; i < r.legs.size(); ++i)
-            found.legs[i] = chord_leg(r.legs[i], bending.empty() ? 0 : bending[i]);
+            found.legs[i] = chord_leg(r.legs[i], sign(batch.bending, i));
+          return found;
+        } else if constexpr (IsHingedLeg<LegT>) {
+          if (r.leg_count() != 3 || r.has_ties()) return {};
+          HingedRobot found{.radius = r.platform_radius};
+          for (std::size_t i = 0; i < r.legs.size(); ++i) {
+            found.legs[i] = hinged_leg(r.legs[i], sign(batch.elbow, i));
+            found.size = std::max(found.size, r.legs[i].size());
+          }
+          return found;
+        } else {
+          return {};
         }
-        return found;
       },
       robot.model);
+}
+
+std::size_t axes_of(const AnyRobot& robot, const PoseBatch& batch) {
+  return batch.independent || dof(robot) == Planar::dof ? 3 : 7;
 }
 
 /// One pose by the functions that the lanes stand in for.
 class OneByOne {
  public:
-  OneByOne(const AnyRobot& robot, Numbers poses, std::size_t total, std::span<const int> bending,
-           const VelocityBatch& out, Workspace& work)
+  OneByOne(const AnyRobot& robot, const PoseBatch& batch, std::size_t total, const VelocityBatch& out,
+           Workspace& work)
       : robot_(robot),
-        poses_(poses),
+        batch_(batch),
         total_(total),
-        bending_(bending),
         out_(out),
         work_(work) {}
 
   void put(std::size_t k) {
-    const AnyPose pose = pose_at(k);
-    const Inverse solved = inverse(robot_, pose, {.bending = bending_}, work_);
+    const auto [pose, found] = pose_at(k);
+    put_pose(k, pose);
+    if (found != Status::converged) return put_nothing(k, found);
+    const Inverse solved = inverse(robot_, pose, {.bending = batch_.bending, .elbow = batch_.elbow}, work_);
     if (!solved.ok()) return put_nothing(k, solved.report.status);
-    put_legs(k, solved.inputs, solved.coordinates);
+    put_legs(k, out_.inputs, solved.inputs);
+    if (has_arc(robot_)) put_legs(k, out_.curvatures, solved.coordinates);
     const Velocity at = velocity(robot_, pose, solved.coordinates, work_);
     put(out_.status, k, at.report.status);
     put(out_.determinant, k, at.determinant);
@@ -88,12 +124,21 @@ class OneByOne {
   }
 
  private:
-  double coordinate(std::size_t axis, std::size_t k) const { return poses_[axis * total_ + k]; }
+  std::pair<AnyPose, Status> pose_at(std::size_t k) const {
+    const auto c = [&](std::size_t axis) { return batch_.coordinates[axis * total_ + k]; };
+    if (batch_.independent) {
+      const ConstrainedPose found = constrained_pose(robot_, {c(0), c(1), c(2)}, *batch_.independent);
+      return {found.pose, found.report.status};
+    }
+    if (dof(robot_) == Planar::dof) return {PlanarPose{c(0), c(1), c(2)}, Status::converged};
+    return {SpatialPose{{c(0), c(1), c(2)}, {c(3), c(4), c(5), c(6)}}, Status::converged};
+  }
 
-  AnyPose pose_at(std::size_t k) const {
-    const auto c = [&](std::size_t axis) { return coordinate(axis, k); };
-    if (dof(robot_) == Planar::dof) return PlanarPose{c(0), c(1), c(2)};
-    return SpatialPose{{c(0), c(1), c(2)}, {c(3), c(4), c(5), c(6)}};
+  void put_pose(std::size_t k, const AnyPose& any) const {
+    if (!batch_.independent || out_.poses.empty()) return;
+    const SpatialPose& pose = std::get<SpatialPose>(any);
+    for (std::size_t c = 0; c < 3; ++c) out_.poses[c * total_ + k] = pose.position[static_cast<int>(c)];
+    for (std::size_t c = 0; c < 4; ++c) out_.poses[(3 + c) * total_ + k] = pose.quaternion[c];
   }
 
   template <class T>
@@ -101,15 +146,13 @@ class OneByOne {
     if (!to.empty()) to[k] = value;
   }
 
-  void put_legs(std::size_t k, std::span<const double> inputs, std::span<const double> curvatures) {
-    for (std::size_t i = 0; i < inputs.size(); ++i) put(out_.inputs, i * total_ + k, inputs[i]);
-    for (std::size_t i = 0; i < curvatures.size(); ++i) put(out_.curvatures, i * total_ + k, curvatures[i]);
+  void put_legs(std::size_t k, std::span<double> to, std::span<const double> numbers) const {
+    for (std::size_t i = 0; i < numbers.size(); ++i) put(to, i * total_ + k, numbers[i]);
   }
 
   const AnyRobot& robot_;
-  Numbers poses_;
+  const PoseBatch& batch_;
   std::size_t total_;
-  std::span<const int> bending_;
   const VelocityBatch& out_;
   Workspace& work_;
 };
@@ -117,33 +160,39 @@ class OneByOne {
 /// Whether each span is empty or of its size.
 [[maybe_unused]] bool fits(const VelocityBatch& out, std::size_t poses, std::size_t legs) {
   const auto fit = [](const auto& span, std::size_t size) { return span.empty() || span.size() == size; };
-  return fit(out.status, poses) && fit(out.type_1, poses) && fit(out.is_type_2, poses) &&
-         fit(out.inputs, legs * poses) && fit(out.curvatures, legs * poses) && fit(out.determinant, poses) &&
-         fit(out.condition, poses) && fit(out.condition_homogenised, poses) && fit(out.position, poses) &&
-         fit(out.rotation, poses);
+  return fit(out.poses, 7 * poses) && fit(out.status, poses) && fit(out.type_1, poses) &&
+         fit(out.is_type_2, poses) && fit(out.inputs, legs * poses) && fit(out.curvatures, legs * poses) &&
+         fit(out.determinant, poses) && fit(out.condition, poses) && fit(out.condition_homogenised, poses) &&
+         fit(out.position, poses) && fit(out.rotation, poses);
 }
 
 }  // namespace
 
-bool has_velocity_batch(const AnyRobot& robot) { return chord_robot(robot, {}).dof > 0; }
+bool has_velocity_batch(const AnyRobot& robot) {
+  return !std::holds_alternative<std::monostate>(lane_robot(robot, {.coordinates = {}}));
+}
 
-std::size_t velocity_batch(const AnyRobot& robot, Numbers poses, std::span<const int> bending,
-                           const VelocityBatch& out, Workspace& work) {
+std::size_t velocity_batch(const AnyRobot& robot, const PoseBatch& batch, const VelocityBatch& out,
+                           Workspace& work) {
   const auto legs = static_cast<std::size_t>(leg_count(robot));
-  const bool is_served = has_velocity_batch(robot) && (bending.empty() || bending.size() == legs);
-  const std::size_t axes = dof(robot) == Planar::dof ? 3 : 7, total = poses.size() / axes;
-  SINEW_EXPECTS(is_served && poses.size() == axes * total && fits(out, total, legs));
-  OneByOne one_by_one(robot, poses, total, bending, out, work);
+  const auto is_for_legs = [&](std::span<const int> signs) { return signs.empty() || signs.size() == legs; };
+  const bool is_served = has_velocity_batch(robot) && is_for_legs(batch.bending) &&
+                         is_for_legs(batch.elbow) && (!batch.independent || plane_count(robot) == 3);
+  const std::size_t axes = axes_of(robot, batch), total = batch.coordinates.size() / axes;
+  SINEW_EXPECTS(is_served && batch.coordinates.size() == axes * total && fits(out, total, legs));
+  OneByOne one_by_one(robot, batch, total, out, work);
   if (!is_served) {
     for (std::size_t k = 0; k < total; ++k) one_by_one.put_nothing(k, Status::left_domain);
     return 0;
   }
-  const ChordRobot lanes = chord_robot(robot, bending);
+  if (!has_arc(robot)) std::ranges::fill(out.curvatures, absent);
+  const LaneRobot lanes = lane_robot(robot, batch);
   std::size_t left = 0;
   std::array<std::uint8_t, poses_at_a_time> doubtful;
   for (std::size_t first = 0; first < total; first += poses_at_a_time) {
     const std::size_t count = std::min(poses_at_a_time, total - first);
-    chord_lanes::evaluate(lanes, {poses.data(), total, first, count}, out, doubtful.data());
+    velocity_lanes::evaluate(lanes, {batch.coordinates.data(), total, first, count, batch.independent}, out,
+                             doubtful.data());
     for (std::size_t k = 0; k < count; ++k)
       if (doubtful[k] != 0) one_by_one.put(first + k), ++left;
   }

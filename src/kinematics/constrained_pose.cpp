@@ -149,7 +149,9 @@ ConstrainedPose constrained_pose(const AnyRobot& robot, const Independent& indep
   Vec3<double> at(0, 0, mode == OperationMode::tilt ? 0 : std::numbers::pi / 2);
   ConstrainedPose answer;
   answer.report = newton(problem, at, {.tolerance = 1e-16 * planes.size});
-  answer.pose = spatial_pose(problem.pose(at));
+  // e₁ and e₂ as asked for: of a half turn, rounding would choose the sign of the quaternion
+  const auto [p, R] = problem.pose(at);
+  answer.pose = {p, {R.w, R.v[0], R.v[1], R.v[2]}};
   if (!answer.ok()) {
     answer.report.status = Status::stalled;
     answer.report.message.append(

@@ -16,6 +16,7 @@
 #include <type_traits>
 
 #include "sinew/math/entire.hpp"
+#include "sinew/math/inverse_sinc.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sinew::inline v0::lanes {
@@ -51,10 +52,8 @@ HWY_INLINE Pack sinc_slope_of_square(Pack q) {
 /// The x in (0, π) with sinc x = 1 − w, for w in (0, 1]: `inverse_sinc` of inverse_sinc.hpp without branches.
 /// One series serves the whole range: where it cancels, towards π, sinc′ is far from 0.
 HWY_INLINE Pack inverse_sinc_of_loss(Pack w) {
-  static constexpr std::array above{1.0000001492026578, -1.3387580358083788, 0.488095205674328,
-                                    -0.03515583935107598};
-  static constexpr std::array below{1.0, -1.4887501897972435, 0.654016002869334, -0.07623885905879844};
-  const Pack x = hn::Sqrt(w * all(6)) * horner(above, w) / horner(below, w);
+  using Start = InverseSincStart;
+  const Pack x = hn::Sqrt(w * all(6)) * horner(Start::above, w) / horner(Start::below, w);
   const Pack q = x * x, loss = q * sinc3_of_square(q), slope = sinc_slope_of_square(q);
   const Pack excess = w - loss, rate = hn::Neg(x * slope);    // sinc x − (1 − w), sinc′ x
   const Pack curvature = plus(loss - all(1), all(2), slope);  // sinc″ x

@@ -104,7 +104,7 @@ TEST(NoHeapInBatches, InLanesOrOneByOne) {
   std::vector<double> inputs(12), position(4);
   std::size_t left = 0;
   EXPECT_EQ(allocations_of([&] {
-              left = velocity_batch(robot, poses, {}, {.inputs = inputs, .position = position}, work);
+              left = velocity_batch(robot, {poses}, {.inputs = inputs, .position = position}, work);
             }),
             0);
   EXPECT_EQ(left, 1u);

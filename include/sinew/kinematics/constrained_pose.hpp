@@ -18,8 +18,8 @@ enum class OperationMode { tilt, half_turn };
 
 /// `pose` is the best iterate, also where the report says that it keeps not all points in their planes.
 struct ConstrainedPose {
-  Report report;  ///< residual: largest distance of a platform point from its plane [m]
-  SpatialPose pose;
+  Report report;     ///< residual: largest distance of a platform point from its plane [m]
+  SpatialPose pose;  ///< its e₁ and e₂ are those given
 
   bool ok() const noexcept { return report.ok(); }
 };

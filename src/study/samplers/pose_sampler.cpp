@@ -1,5 +1,5 @@
 /// Inverse kinematics and velocity analysis of poses in lanes, for studies that vary the pose of a robot
-/// whose legs are arcs between free joints.
+/// whose legs close in closed form.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -17,6 +17,7 @@ constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// What of a batch becomes a column.
 enum class Field {
+  poses,
   inputs,
   curvatures,
   determinant,
@@ -30,13 +31,14 @@ enum class Field {
 
 struct Output {
   Field field;
-  std::size_t leg = 0;
+  std::size_t row = 0;  ///< of several a pose: the leg, the coordinate
 };
 
 struct PoseStudy {
   bool is_inverse = false, is_spatial = false;
-  std::vector<QueryEntry> pose;  ///< x, y, φ; or position and quaternion
-  std::vector<int> bending;
+  std::vector<QueryEntry> pose;  ///< x, y, φ; position and quaternion; z, e₁, e₂
+  std::optional<OperationMode> independent;
+  std::vector<int> bending, elbow;
   std::vector<Output> outputs;
 };
 
@@ -51,6 +53,12 @@ std::optional<std::size_t> index_in(std::string_view path, std::string_view befo
 }
 
 std::optional<Output> output_of(std::string_view path, const PoseStudy& asked, std::size_t legs) {
+  if (asked.independent) {
+    const auto position = index_in(path, "pose.position[", "]"),
+               quaternion = index_in(path, "pose.quaternion[", "]");
+    if (position && *position < 3) return Output{Field::poses, *position};
+    if (quaternion && *quaternion < 4) return Output{Field::poses, 3 + *quaternion};
+  }
   if (const auto leg = index_in(path, "legs[", "].curvature"); leg && *leg < legs)
     return Output{Field::curvatures, *leg};
   if (asked.is_inverse) {
@@ -70,6 +78,34 @@ std::optional<Output> output_of(std::string_view path, const PoseStudy& asked, s
   return {};
 }
 
+/// Numbers under these keys.
+bool read_members(const Node& map, std::initializer_list<const char*> names, const Study& study,
+                  PoseStudy& asked) {
+  for (const char* name : names) {
+    const Node* value = map.find(name);
+    const auto entry = value ? query_entry(*value, study) : std::nullopt;
+    if (!entry) return false;
+    asked.pose.push_back(*entry);
+  }
+  return true;
+}
+
+bool read_independent(const Node& place, const Study& study, PoseStudy& asked) {
+  if (place.kind != Node::Kind::map) return false;
+  const Node* mode = place.find("mode");
+  if (mode && mode->text != "tilt" && mode->text != "half_turn") return false;
+  asked.independent = mode && mode->text == "half_turn" ? OperationMode::half_turn : OperationMode::tilt;
+  return place.members.size() == (mode ? 4U : 3U) && read_members(place, {"z", "e1", "e2"}, study, asked);
+}
+
+/// ±1 of each leg.
+bool read_signs(const Node& list, const Study& study, std::vector<int>& signs) {
+  const auto found = constant_entries(list, study);
+  if (!found) return false;
+  for (const double sign : *found) signs.push_back(sign < 0 ? -1 : 1);
+  return true;
+}
+
 bool read_pose(const Node& pose, const Study& study, PoseStudy& asked) {
   const auto add = [&](const std::optional<std::vector<QueryEntry>>& entries, std::size_t size) {
     if (!entries || entries->size() != size) return false;
@@ -77,16 +113,8 @@ bool read_pose(const Node& pose, const Study& study, PoseStudy& asked) {
     return true;
   };
   if (pose.kind != Node::Kind::map) return false;
-  if (!asked.is_spatial) {
-    if (pose.members.size() != 3) return false;
-    for (const char* name : {"x", "y", "phi"}) {
-      const Node* value = pose.find(name);
-      const auto entry = value ? query_entry(*value, study) : std::nullopt;
-      if (!entry) return false;
-      asked.pose.push_back(*entry);
-    }
-    return true;
-  }
+  if (!asked.is_spatial)
+    return pose.members.size() == 3 && read_members(pose, {"x", "y", "phi"}, study, asked);
   const Node *position = pose.find("position"), *quaternion = pose.find("quaternion");
   if (pose.members.size() != (quaternion ? 2U : 1U) || !position || !add(query_entries(*position, study), 3))
     return false;
@@ -97,7 +125,9 @@ bool read_pose(const Node& pose, const Study& study, PoseStudy& asked) {
 std::optional<PoseStudy> pose_study(const Study& study, const AnyRobot& robot) {
   PoseStudy asked{.is_spatial = std::holds_alternative<SpatialPose>(home(robot)),
                   .pose = {},
+                  .independent = {},
                   .bending = {},
+                  .elbow = {},
                   .outputs = {}};
   const auto legs = static_cast<std::size_t>(leg_count(robot));
   for (const Member& field : study.query.root.members) {
@@ -106,10 +136,12 @@ std::optional<PoseStudy> pose_study(const Study& study, const AnyRobot& robot) {
       if (!asked.is_inverse && field.value.text != "velocity") return {};
     } else if (field.key == "pose") {
       if (!read_pose(field.value, study, asked)) return {};
+    } else if (field.key == "independent") {
+      if (!read_independent(field.value, study, asked)) return {};
     } else if (field.key == "bending") {
-      const auto signs = constant_entries(field.value, study);
-      if (!signs) return {};
-      for (const double sign : *signs) asked.bending.push_back(sign < 0 ? -1 : 1);
+      if (!read_signs(field.value, study, asked.bending)) return {};
+    } else if (field.key == "elbow") {
+      if (!read_signs(field.value, study, asked.elbow)) return {};
     } else {
       return {};
     }
@@ -132,7 +164,7 @@ class PoseSampler {
     statuses_.resize(block.count);
     VelocityBatch out{.status = statuses_};
     for (const Output& output : asked_.outputs) choose(output, block.count, out);
-    velocity_batch(robot_, poses_, asked_.bending, out, work_);
+    velocity_batch(robot_, {poses_, asked_.bending, asked_.elbow, asked_.independent}, out, work_);
     for (std::size_t k = 0; k < block.count; ++k) block.statuses[k] = status(statuses_[k]);
     for (std::size_t o = 0; o < asked_.outputs.size(); ++o) put(o, block);
     *block.done += block.count;
@@ -146,7 +178,7 @@ class PoseSampler {
     poses_.resize(asked_.pose.size() * n);
     for (std::size_t c = 0; c < asked_.pose.size(); ++c)
       for (std::size_t k = 0; k < n; ++k) poses_[c * n + k] = asked_.pose[c].at(block, k);
-    for (std::size_t k = 0; asked_.is_spatial && k < n; ++k) {
+    for (std::size_t k = 0; asked_.pose.size() == 7 && k < n; ++k) {
       double square = 0;
       for (std::size_t c = 3; c < 7; ++c) square += poses_[c * n + k] * poses_[c * n + k];
       const double scale = 1 / std::sqrt(square);  // of zero: no finite pose, which the batch says
@@ -166,6 +198,9 @@ class PoseSampler {
       return values;
     };
     switch (output.field) {
+      case Field::poses:
+        out.poses = room(7 * n);
+        return;
       case Field::inputs:
         out.inputs = room(legs * n);
         return;
@@ -210,7 +245,7 @@ class PoseSampler {
       const bool is_there = found == Status::converged || found == Status::singular;
       block.output(o, k) = !is_there ? missing
                            : is_flag ? (output.field == Field::type_1 ? type_1_ : type_2_)[k]
-                                     : column(output.field)[output.leg * n + k];
+                                     : column(output.field)[output.row * n + k];
     }
   }
 
@@ -220,7 +255,7 @@ class PoseSampler {
   std::vector<double> poses_;
   std::vector<Status> statuses_;
   std::vector<std::uint8_t> type_1_, type_2_;
-  std::array<std::vector<double>, 9> columns_;
+  std::array<std::vector<double>, 10> columns_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sinew/io/quantity.hpp"
 #include "study/samplers/placeholders.hpp"
 
 namespace sinew::inline v0 {
@@ -10,8 +11,10 @@ std::optional<QueryEntry> query_entry(const Node& node, const Study& study) {
   if (node.kind == Node::Kind::number) return QueryEntry{node.number};
   Node copy = node;
   const auto place = placeholder(copy, study.axes);
-  if (!place || !place->axis) return {};
-  return QueryEntry{0, static_cast<std::ptrdiff_t>(*place->axis)};
+  if (place && place->axis) return QueryEntry{0, static_cast<std::ptrdiff_t>(*place->axis)};
+  if (place || node.kind != Node::Kind::string) return {};
+  const auto quantity = parse_any_quantity(node.text);  // of the right unit: a query was put on trial with it
+  return quantity ? std::optional(QueryEntry{quantity->value}) : std::nullopt;
 }
 
 std::optional<std::vector<QueryEntry>> query_entries(const Node& list, const Study& study) {

@@ -19,7 +19,7 @@ struct QueryEntry {
   }
 };
 
-/// A number or `$axis`; a text with a unit and anything else is left to the query.
+/// A number, a text that is one with its unit, or `$axis`; anything else is left to the query.
 std::optional<QueryEntry> query_entry(const Node& node, const Study& study);
 
 /// All of a list; nothing where one is something else.
