@@ -1,7 +1,11 @@
-/// Tendon changes of serial robots in lanes, for studies that vary the configuration.
+/// Configurations of serial robots, for studies that vary them: tendon changes in lanes, ends of sections one
+/// by one.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <variant>
 
 #include "query/serial.hpp"
 #include "sinew/io/serial_file.hpp"
@@ -10,24 +14,58 @@
 namespace sinew::inline v0 {
 namespace {
 
+/// A number of the pose of a section's end: x, y, z, and of the quaternion w, x, y, z.
+struct EndNumber {
+  std::size_t section, number;
+};
+using SerialOutput = std::variant<std::size_t, EndNumber>;  ///< or of the change of a tendon, among all
+
 struct SerialStudy {
   SerialRobot robot;
   std::vector<std::array<QueryEntry, 2>> configuration;  ///< of all sections; those not given are straight
   kernel::Model model = kernel::Model::exact;
-  std::vector<std::size_t> outputs;  ///< which tendon
+  std::vector<SerialOutput> outputs;
+
+  bool has_ends() const {
+    return std::ranges::any_of(outputs, [](const auto& o) { return std::holds_alternative<EndNumber>(o); });
+  }
 };
+
+/// The two numbers that a path has in the places of %u.
+std::optional<std::array<unsigned, 2>> indices_in(const std::string& path, const std::string& form) {
+  std::array<unsigned, 2> found = {};
+  int end = 0;
+  if (std::sscanf(path.c_str(), (form + "%n").c_str(), &found[0], &found[1], &end) != 2 ||
+      static_cast<std::size_t>(end) != path.size())
+    return {};
+  return found;
+}
 
 /// `changes[2][0]` as the number of the tendon among all.
 std::optional<std::size_t> tendon_of(const std::string& path, const SerialRobot& robot) {
-  unsigned section = 0, tendon = 0;
-  int end = 0;
-  if (std::sscanf(path.c_str(), "changes[%u][%u]%n", &section, &tendon, &end) != 2 ||
-      static_cast<std::size_t>(end) != path.size() || section >= robot.sections.size() ||
-      tendon >= static_cast<unsigned>(robot.sections[section].tendons))
+  const auto found = indices_in(path, "changes[%u][%u]");
+  if (!found) return {};
+  const auto [section, tendon] = *found;
+  if (section >= robot.sections.size() || tendon >= static_cast<unsigned>(robot.sections[section].tendons))
     return {};
   std::size_t first = 0;
   for (unsigned m = 0; m < section; ++m) first += static_cast<std::size_t>(robot.sections[m].tendons);
   return first + tendon;
+}
+
+/// `sections[1].position[0]`, or of the tip, the last of them: `tip.position[0]`.
+std::optional<EndNumber> end_number_of(const std::string& path, const SerialRobot& robot) {
+  const std::size_t last = robot.sections.size() - 1;
+  const std::string_view tip = "tip.";
+  const std::string of_section =
+      path.starts_with(tip) ? fmt::format("sections[{}].{}", last, path.substr(tip.size())) : path;
+  if (const auto found = indices_in(of_section, "sections[%u].position[%u]");
+      found && (*found)[0] <= last && (*found)[1] < 3)
+    return EndNumber{(*found)[0], (*found)[1]};
+  if (const auto found = indices_in(of_section, "sections[%u].quaternion[%u]");
+      found && (*found)[0] <= last && (*found)[1] < 4)
+    return EndNumber{(*found)[0], 3 + (*found)[1]};
+  return {};
 }
 
 bool read_configuration(const Node& list, const Study& study, SerialStudy& asked) {
@@ -58,9 +96,12 @@ std::optional<SerialStudy> serial_study(const Study& study) {
     }
   }
   for (const StudyOutput& output : study.outputs) {
-    const auto tendon = tendon_of(output.path, asked.robot);
-    if (!tendon) return {};
-    asked.outputs.push_back(*tendon);
+    if (const auto tendon = tendon_of(output.path, asked.robot))
+      asked.outputs.emplace_back(*tendon);
+    else if (const auto end = end_number_of(output.path, asked.robot))
+      asked.outputs.emplace_back(*end);
+    else
+      return {};
   }
   return asked.configuration.empty() ? std::nullopt : std::optional(std::move(asked));
 }
@@ -69,6 +110,7 @@ class SerialSampler {
  public:
   explicit SerialSampler(std::shared_ptr<const SerialStudy> asked)
       : asked_(std::move(asked)),
+        has_ends_(asked_->has_ends()),
         work_(asked_->robot) {}
 
   void operator()(const SampleBlock& block) {
@@ -84,16 +126,31 @@ class SerialSampler {
       }
       block.statuses[k] =
           static_cast<SampleStatus>(check_limits(asked_->robot, work_.bends, work_.extensions).status);
+      if (has_ends_) put_ends(block, k);
     }
     tendon_changes_batch(bends_, asked_->model, changes_, work_);
     for (std::size_t o = 0; o < asked_->outputs.size(); ++o)
-      std::copy_n(changes_.begin() + static_cast<std::ptrdiff_t>(asked_->outputs[o] * n), n,
-                  block.outputs.begin() + static_cast<std::ptrdiff_t>(o * n));
+      if (const auto* tendon = std::get_if<std::size_t>(&asked_->outputs[o]))
+        std::copy_n(changes_.begin() + static_cast<std::ptrdiff_t>(*tendon * n), n,
+                    block.outputs.begin() + static_cast<std::ptrdiff_t>(o * n));
     *block.done += n;
   }
 
  private:
+  /// Of the bends in the workspace.
+  void put_ends(const SampleBlock& block, std::size_t k) {
+    section_ends(work_.bends, work_);
+    for (std::size_t o = 0; o < asked_->outputs.size(); ++o) {
+      const auto* end = std::get_if<EndNumber>(&asked_->outputs[o]);
+      if (!end) continue;
+      const SpatialPose pose = spatial_pose(work_.ends[end->section]);
+      block.output(o, k) = end->number < 3 ? pose.position[static_cast<Eigen::Index>(end->number)]
+                                           : pose.quaternion[end->number - 3];
+    }
+  }
+
   std::shared_ptr<const SerialStudy> asked_;
+  bool has_ends_;
   SerialWorkspace work_;
   std::vector<double> bends_, changes_;
 };
@@ -104,7 +161,9 @@ SamplerKind serial_sampler(const Study& study) {
   auto asked = serial_study(study);
   if (!asked) return {};
   const auto shared = std::make_shared<const SerialStudy>(std::move(*asked));
-  return {.name = "tendons in lanes", .chunk = chunk_size(study, 2048, 16384), .make = [shared]() -> Sampler {
+  return {.name = shared->has_ends() ? "ends of sections" : "tendons in lanes",
+          .chunk = chunk_size(study, 2048, 16384),
+          .make = [shared]() -> Sampler {
             return [sampler = std::make_shared<SerialSampler>(shared)](const SampleBlock& block) {
               (*sampler)(block);
             };
