@@ -101,8 +101,13 @@ void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench&
     return;
   }
   for (std::size_t k = 0; k < poses.size(); ++k) {  // one after the other
-    const EquilibriumOptions options{.wrench = wrench, .resume = true, .judge = judge};
-    const Equilibrium found = equilibrium(robot, rows.subspan(k * inputs, inputs), options, work);
+    EquilibriumOptions options{.wrench = wrench, .resume = true, .judge = judge};
+    const Numbers row = rows.subspan(k * inputs, inputs);
+    Equilibrium found = equilibrium(robot, row, options, work);
+    if (judge && found.report.status == Status::unstable) {
+      options.resume = false;
+      found = equilibrium(robot, row, options, work);
+    }
     poses[k] = found.pose;
     statuses[k] = found.is_solved() && !judge ? Status::converged : found.report.status;
   }

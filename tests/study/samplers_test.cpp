@@ -142,6 +142,21 @@ outputs: {first: "changes[0][0]", other: "changes[2][1]", last: "changes[4][2]"}
           1e-15);
 }
 
+TEST(Samplers, EndsOfSectionsAgreeWithQueries) {
+  for (const char* robot : {"nottingham-tpcj", "four-tendon-neutral"})
+    EXPECT_LT(difference(std::string("sinew: 1\nrobot: ") + robot +
+                             R"(
+query: {query: forward, configuration: [[$a, $b], [0.1, 0.2], [$b, "5 deg"]]}
+axes:
+  a: {from: -30 deg, to: 30 deg, count: 13}
+  b: {from: -30 deg, to: 30 deg, count: 11}
+outputs: {x: "tip.position[0]", w: "tip.quaternion[0]", y: "sections[1].position[1]",
+          e: "sections[0].quaternion[2]", pull: "changes[1][1]"}
+)",
+                         "ends of sections"),
+              1e-14);
+}
+
 TEST(Samplers, RodsInLanesAgreeWithQueries) {
   for (const char* more : {"", ", wrench: [1, -0.5, -60, 0, 0.1, 0]"})
     EXPECT_LT(
@@ -162,7 +177,7 @@ TEST(Samplers, OthersAreAskedQueryByQuery) {
         {"3-frr", "{query: inverse, pose: {x: $x, y: 0, phi: 0}}"},
         {"3pfs-g2", "{query: forward, inputs: [0.43, 0.43, 0.43], wrench: [$x, 0, 0, 0, 0, 0]}"},
         {"3pfs-g2", "{query: forward, inputs: [0.43, 0.43, 0.43], set: {\"legs[0].link.diameter\": $d}}"},
-        {"nottingham-tpcj", "{query: forward, configuration: [[$x, 0]]}"}}) {
+        {"nottingham-tpcj", "{query: inverse, position: [0.06, $x, 0.15]}"}}) {
     const std::string text = std::string("sinew: 1\nrobot: ") + robot + "\nquery: " + query +
                              (std::string(query).find("$d") == std::string::npos
                                   ? "\naxes: {x: {from: 0, to: 0.01, count: 3}}\n"
@@ -198,6 +213,30 @@ outputs: {x: "pose.position[0]", iterations: iterations}
       const double iterations = done.outputs[5 + k];
       EXPECT_TRUE(!study->is_path || iterations < done.outputs[5]) << "not resumed";
     }
+  }
+}
+
+/// A load beyond which long rods snap: neighbours of a row may stand on other branches.
+const char* const snapping = R"(
+query: {query: forward, inputs: [$a, $b, $c], wrench: [0, 0, 0, 0, 1, 0]}
+set: {"platform.home.position[2]": 0.48, "legs[0].base.point.angle": 67 deg,
+      "legs[1].base.point.angle": 113 deg, "legs[2].base.point.angle": 187 deg,
+      "legs[3].base.point.angle": 233 deg, "legs[4].base.point.angle": 307 deg,
+      "legs[5].base.point.angle": 353 deg}
+axes:
+  a: {from: 428 mm, to: 582 mm, count: 9}
+  b: {from: 428 mm, to: 582 mm, count: 9}
+  c: {from: 428 mm, to: 582 mm, count: 9}
+outputs: {x: "pose.position[0]", y: "pose.position[1]", e2: "pose.quaternion[2]")";
+
+TEST(Samplers, APathDoesNotStayOnABranchThatDoesNotHold) {
+  const Folder folder;
+  for (const char* end : {"}\n", ", r: residual}\n"}) {  // the second is nothing that lanes say
+    auto study = test::study_of(folder, std::string("sinew: 1\nrobot: 3pfs-g2") + snapping + end);
+    ASSERT_TRUE(study) << to_string(study.error());
+    ASSERT_TRUE(prepare(*study));
+    const Computed done = compute(choose_sampler(*study), *study);
+    for (std::size_t k = 0; k < 729; ++k) EXPECT_EQ(name_of(done.statuses[k]), "converged") << k;
   }
 }
 

@@ -75,7 +75,9 @@ SINEW_API bool has_equilibrium_batch(const AnyRobot& robot);
 /// the lanes resolve, is solved alone; rods that do not bend in one plane go row by row. Shapes to the
 /// estimate of quick resumed answers. Gravity is the robot's. Where a status is neither `converged` nor
 /// `unstable` the pose is not one. Allocates once a call.
-/// @param judge whether it is asked if equilibria hold by themselves; else they are all `converged`
+/// @param judge whether it is asked if equilibria hold by themselves, and where they do not whether home
+/// leads
+///     to one that does; else they are all `converged`
 SINEW_API void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
                                  bool judge = false);

@@ -46,12 +46,30 @@ void RodBatch::from_lane(int lane) {
                        {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}});
 }
 
-/// One pose alone: from where the lane was, else from home.
-bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Status& status) {
-  RodSystem& system = work_->system;
+RodQuestion RodBatch::question_of(int lane, bool judges) const {
   RodQuestion question;
   for (int k = 0; k < 6; ++k) question.wrench[k] = poses_.wrench[k][lane];
   question.judge = judges;
+  return question;
+}
+
+/// What the system holds, its rods on the elements of the lanes.
+void RodBatch::take_system(int lane) {
+  if (work_->system.is_fine()) work_->system.coarsen();
+  to_lane(lane);
+}
+
+/// A path that leads to what does not hold by itself has missed a fold: whether home leads to what does.
+bool RodBatch::settles_from_home(int lane, Numbers inputs) {
+  if (solve_rods(*work_, home_, inputs, question_of(lane, true)).status != Status::converged) return false;
+  take_system(lane);
+  return true;
+}
+
+/// One pose alone: from where the lane was, else from home.
+bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Status& status) {
+  RodSystem& system = work_->system;
+  RodQuestion question = question_of(lane, judges);
   if (knows_[at(lane)]) {
     from_lane(lane);
     system.set_wrench(question.wrench);
@@ -68,8 +86,7 @@ bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Status& status)
   knows_[at(lane)] = work_->is_solved;
   if (!work_->is_solved) return false;
   if (report.status == Status::unstable && !judges) status = Status::converged;
-  if (system.is_fine()) system.coarsen();
-  to_lane(lane);
+  take_system(lane);
   return true;
 }
 
@@ -127,6 +144,10 @@ void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wren
           statuses[row(lane)] = status;
           continue;
         }
+      }
+      if (status == Status::unstable && settles_from_home(lane, rows.subspan(row(lane) * inputs, inputs))) {
+        is_renewed = true;
+        status = Status::converged;
       }
       const auto& p = poses_.position;
       const auto& q = poses_.quaternion;

@@ -21,6 +21,9 @@ class RodBatch {
   void set_lengths(int lane, Numbers inputs);
   void to_lane(int lane);
   void from_lane(int lane);
+  void take_system(int lane);
+  RodQuestion question_of(int lane, bool judges) const;
+  bool settles_from_home(int lane, Numbers inputs);
   bool solve_lane(int lane, Numbers inputs, bool judges, Status& status);
   double worst() const;
   void walk();

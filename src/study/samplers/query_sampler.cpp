@@ -39,6 +39,7 @@ class QuerySampler {
       const bool continues = last_.has_value();
       Json answer = session.answer(query_, study_.is_path ? &last_ : nullptr);
       if (continues && !last_) answer = session.answer(query_, &last_);  // lost on the way: anew
+      if (continues && last_ && status_of(answer) == unstable) settle(session, answer);
       if (answer.contains("error")) return refused;
       for (std::size_t o = 0; o < paths_.size(); ++o)
         if (const auto value = paths_[o].number(answer)) block.output(o, k) = *value;
@@ -47,6 +48,15 @@ class QuerySampler {
       last_.reset();
       return failed_inside;
     }
+  }
+
+  /// A path that leads to what does not hold by itself has missed a fold: home may lead to what does.
+  void settle(TreeSession& session, Json& answer) {
+    std::optional<AnyPose> from_home;
+    Json other = session.answer(query_, &from_home);
+    if (!from_home || status_of(other) != converged) return;
+    answer = std::move(other);
+    last_ = from_home;
   }
 
   static SampleStatus status_of(const Json& answer) {

@@ -19,6 +19,7 @@ using SampleStatus = std::uint8_t;
 inline constexpr SampleStatus refused = 8;        ///< the query at this sample is no good one
 inline constexpr SampleStatus failed_inside = 9;  ///< an error of the program
 inline constexpr SampleStatus converged = static_cast<SampleStatus>(Status::converged);
+inline constexpr SampleStatus unstable = static_cast<SampleStatus>(Status::unstable);
 std::string_view name_of(SampleStatus status);
 inline constexpr int sample_statuses = 10;
 
