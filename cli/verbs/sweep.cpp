@@ -74,9 +74,12 @@ std::string command_of(const Arguments& arguments) {
 
 std::string counts(const SweepSummary& summary) {
   std::string text;
-  for (std::size_t s = summary.statuses.size(); s-- > 0;)
-    if (summary.statuses[s] > 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", summary.statuses[s], sample_status_name(s));
+  const auto add = [&](std::size_t count, std::string_view what) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  };
+  const std::size_t last = summary.statuses.size() - 1;  // left out: no way that a sample ends
+  for (std::size_t s = last; s-- > 0;) add(summary.statuses[s], sample_status_name(s));
+  add(summary.statuses[last], "left out");
   return text;
 }
 

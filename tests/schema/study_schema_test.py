@@ -32,6 +32,13 @@ path: anew
 axes: {x: {from: -1 mm, to: 1 mm}, y: {mean: 0, deviation: 0.001, unit: m}}
 query: {query: inverse, pose: {x: $x, y: $y, phi: 0}}
 """)
+DERIVED = yaml.safe_load("""
+sinew: 1
+robot: 3-rfr
+axes: {x: {from: -1 mm, to: 1 mm, count: 3}}
+derived: {y: 2 x, phi: {is: 10 x, unit: rad, from: -0.5 rad, to: 0.6}}
+query: {query: inverse, pose: {x: $x, y: $y, phi: $phi}}
+""")
 GRID = yaml.safe_load("""
 sinew: 1
 title: t
@@ -66,7 +73,7 @@ def broken(study):
         without = copy.deepcopy(study)
         del at(without, path[:-1])[path[-1]]
         yield f"without {path}", without
-        if isinstance(at(study, path), dict) and path[-1] not in BELOW and path not in {("axes",), ("outputs",), ("fits",)}:
+        if isinstance(at(study, path), dict) and path[-1] not in BELOW and path not in {("axes",), ("derived",), ("outputs",), ("fits",)}:
             more = copy.deepcopy(study)
             at(more, path)["unheard_of"] = 1
             yield f"more in {path}", more
@@ -79,7 +86,7 @@ def broken(study):
 # What a schema cannot say: relations between values, files, numbers in texts. The reader alone refuses these.
 READER_ALONE = {"unknown_axis", "unused_axis", "unknown_column", "wrong_dimension", "file_missing", "bad_term", "unknown_unit",
                 "not_a_number", "unknown_path", "unknown_output", "missing_key", "out_of_range", "file_unreadable", "unknown_choice",
-                "no_outputs", "duplicate_column", "not_whole", "too_large"}
+                "no_outputs", "duplicate_column", "not_whole", "too_large", "later_column", "all_left_out"}
 
 
 class StudySchema(unittest.TestCase):
@@ -99,7 +106,7 @@ class StudySchema(unittest.TestCase):
     def test_both_judge_alike(self):
         count = 0
         with tempfile.TemporaryDirectory() as folder:
-            for study in (RANDOM, GRID):
+            for study in (RANDOM, GRID, DERIVED):
                 jsonschema.validate(study, SCHEMA)
                 self.assertTrue(self.verdict(study, folder)[0], self.verdict(study, folder)[2])
                 for what, other in broken(study):

@@ -24,7 +24,7 @@ struct Computed {
 Computed compute(const SamplerKind& kind, const Study& study) {
   const Chunk all{0, study.samples};
   Computed done{std::vector<double>(study.outputs.size() * all.count), std::vector<SampleStatus>(all.count)};
-  std::vector<double> axes(study.axes.size() * all.count);
+  std::vector<double> axes(study.variable_count() * all.count);
   axis_values(study, all, study.is_path, axes);
   std::atomic<std::size_t> count{0};
   const std::atomic<bool> stop{false};
@@ -168,6 +168,26 @@ axes:
 )",
                    "rods in lanes"),
         1e-9);
+}
+
+TEST(Samplers, DerivedValuesAgreeWithQueries) {
+  EXPECT_LT(difference(R"(sinew: 1
+robot: 3pfs-g2
+query: {query: forward, inputs: [$a, $b, $c]}
+axes: {a: {from: 400 mm, to: 440 mm, count: 9}, b: {from: 410 mm, to: 450 mm, count: 13}}
+derived: {c: 1.28 - a - b}
+)",
+                       "rods in lanes"),
+            1e-9);
+  EXPECT_LT(difference(R"(sinew: 1
+robot: 3-rfr
+query: {query: velocity, pose: {x: $x, y: $y, phi: $phi}}
+axes: {x: {from: -50 mm, to: 50 mm, count: 9}, phi: {from: -0.5, to: 0.5, count: 7, unit: rad}}
+derived: {y: 0.03 - 0.5*x}
+outputs: {condition: indices.condition, determinant: determinant}
+)",
+                       "poses in lanes"),
+            1e-9);
 }
 
 TEST(Samplers, OthersAreAskedQueryByQuery) {

@@ -151,14 +151,16 @@ TEST(Terms, AreSumsOfProductsOfColumns) {
                                     {"-a + 0.5*c_1^2", 10.5},
                                     {"a b c_1", 30.0},
                                     {" a ^ 3 ", 8.0},
+                                    {"2e-3", 2e-3},
+                                    {"1.29 - a - b", 1.29 - 2.0 - 3.0},
                                     {"3", 3.0},
                                     {"a^0", 1.0}}) {
-    const auto term = parse_term(text, names);
+    const auto term = parse_term(text, names, "column");
     ASSERT_TRUE(term) << text << to_string(term.error());
     EXPECT_EQ(value_of(*term, at), value) << text;
   }
   for (const char* text : {"", "a^", "a^-1", "a^99", "(a)", "a + ", "2..5", "a $", "d"})
-    EXPECT_FALSE(parse_term(text, names)) << text;
+    EXPECT_FALSE(parse_term(text, names, "column")) << text;
 }
 
 TEST(Chunks, CoverEverySampleOnceAndEndWhereRowsDo) {

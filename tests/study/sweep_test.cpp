@@ -12,6 +12,7 @@ namespace {
 
 using namespace sinew;
 using test::bytes;
+using test::column;
 using test::Folder;
 using test::sweep_to;
 
@@ -46,12 +47,6 @@ random: {count: 3000, seed: 4}
 query: {query: inverse, pose: {x: $x, y: $y, phi: $phi}}
 axes: {x: {from: -30 mm, to: 30 mm}, y: {mean: 0 mm, deviation: 10 mm}, phi: {from: 0, to: 1}}
 )";
-
-const Column& column(const Table& table, std::string_view name) {
-  const Column* found = table.find(name);
-  if (!found) throw std::runtime_error("no column " + std::string(name));
-  return *found;
-}
 
 TEST(Sweep, GivesTheSameBytesForAnyNumberOfThreads) {
   const Folder folder;

@@ -2,6 +2,7 @@
 /// Studies written in tests, and sweeps of them.
 #pragma once
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include "sinew/study/result.hpp"
@@ -23,6 +24,13 @@ inline Expected<SweepSummary> sweep_to(const Folder& folder, const std::string& 
   if (!study) return tl::unexpected(study.error());
   options.output = folder.path / output;
   return sweep(std::move(*study), options);
+}
+
+/// The column of that name, which there must be.
+inline const Column& column(const Table& table, std::string_view name) {
+  const Column* found = table.find(name);
+  if (!found) throw std::runtime_error("no column " + std::string(name));
+  return *found;
 }
 
 }  // namespace sinew::test

@@ -4,6 +4,8 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,7 +40,7 @@ struct StudyOutput {
 
 /// What becomes of a column when axes are left out.
 struct StudyReduction {
-  enum class Kind { max, min, mean, rms, part };  ///< `part`: of the samples that converged, no column
+  enum class Kind { max, min, mean, rms, part };  ///< `part`: of those not left out that converged, no column
   std::string name;
   Kind kind = Kind::max;
   std::size_t output = 0;  ///< index of the column
@@ -47,13 +49,22 @@ struct StudyReduction {
 /// A product of powers of columns, with a factor.
 struct Monomial {
   double factor = 1;
-  std::vector<std::size_t> columns;  ///< one entry a power; axes first, then outputs
+  std::vector<std::size_t> columns;  ///< one entry a power; numbers of columns, see Study
+};
+
+/// A polynomial of the axes, which stands in the query as `$name` like one of them.
+struct StudyDerived {
+  std::string name;
+  std::string unit;                                       ///< SI; empty for a plain number
+  std::vector<Monomial> is;                               ///< of axes and of derived values above
+  double low = -std::numeric_limits<double>::infinity();  ///< below it a sample is left out
+  double high = std::numeric_limits<double>::infinity();  ///< above it as well
 };
 
 /// One column as a sum of terms by least squares.
 struct StudyFit {
   std::string name;
-  std::size_t column = 0;                    ///< what is fitted; axes first, then outputs
+  std::size_t column = 0;                    ///< what is fitted
   std::vector<std::string> texts;            ///< of the terms: `e1^2 - e2^2`
   std::vector<std::vector<Monomial>> terms;  ///< each with one coefficient
 };
@@ -71,6 +82,7 @@ struct Study {
   Document query;           ///< with `$name` where axes go
   Sampling sampling = Sampling::grid;
   std::vector<StudyAxis> axes;  ///< the last runs fastest
+  std::vector<StudyDerived> derived;
   std::size_t samples = 0;
   std::uint64_t seed = 0;
   bool is_path = true;  ///< neighbours continue each other's solution
@@ -81,6 +93,17 @@ struct Study {
 
   /// Samples that become one value of each reduction.
   SINEW_API std::size_t reduced_samples() const;
+
+  /// @name Columns by their numbers: axes, then derived values, then outputs
+  /// @{
+  /// Axes and derived values: what `$name` may stand for.
+  std::size_t variable_count() const { return axes.size() + derived.size(); }
+  std::size_t column_count() const { return variable_count() + outputs.size(); }
+  SINEW_API const std::string& column_name(std::size_t column) const;
+  SINEW_API const std::string& column_unit(std::size_t column) const;
+  /// The axis or derived value of this name.
+  SINEW_API std::optional<std::size_t> find_variable(std::string_view name) const;
+  /// @}
 };
 
 /// Names and texts of the studies that are part of the library: those of studies/*.yaml.
@@ -89,7 +112,7 @@ SINEW_API std::string_view builtin_study(std::string_view name);  ///< empty whe
 
 /// A study file, or one of that name, with its robot and its table of samples. Everything wrong with it at
 /// once. Codes: those of `read_file` and of robot files, `unknown_axis`, `unused_axis`, `unknown_column`,
-/// `bad_term`, ...
+/// `bad_term`, `later_column`, ...
 /// @param set changes of the robot, `{path: value}`, over the study's own
 SINEW_API Expected<Study> read_study(const std::string& path_or_name, std::span<const Member> set = {});
 

@@ -45,7 +45,7 @@ struct SweepSummary {
   bool is_complete = false;   ///< else it was stopped; `resume` goes on
   bool was_complete = false;  ///< there was nothing left to do
   std::size_t samples = 0, resumed = 0;
-  std::array<std::size_t, 10> statuses{};  ///< samples a status, see `sample_status_name`
+  std::array<std::size_t, 11> statuses{};  ///< samples a status, see `sample_status_name`
   bool counts_all = true;                  ///< else they are of this run, without what was resumed
   std::vector<FittedTerms> fits;
   double computing = 0;  ///< [s] on the wall, the mean of the threads
@@ -58,7 +58,7 @@ struct SweepSummary {
   std::string warning;
 };
 
-/// `converged`, `unreachable`, ..., and `refused`, `failed`.
+/// `converged`, `unreachable`, ..., and `refused`, `failed`, `left_out`.
 SINEW_API std::string_view sample_status_name(std::size_t status);
 
 /// The columns a sweep of this study gives, with what the file leaves out filled in from a trial.

@@ -1,33 +1,29 @@
 #include "study/samplers/placeholders.hpp"
 
-#include <algorithm>
-
 #include "sinew/io/quantity.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-void collect(Node& node, const std::vector<StudyAxis>& axes, std::vector<Placeholder>& found) {
-  if (const auto place = placeholder(node, axes)) found.push_back(*place);
-  for (Node& item : node.items) collect(item, axes, found);
-  for (Member& member : node.members) collect(member.value, axes, found);
+void collect(Node& node, const Study& study, std::vector<Placeholder>& found) {
+  if (const auto place = placeholder(node, study)) found.push_back(*place);
+  for (Node& item : node.items) collect(item, study, found);
+  for (Member& member : node.members) collect(member.value, study, found);
 }
 
 }  // namespace
 
-std::optional<Placeholder> placeholder(Node& node, const std::vector<StudyAxis>& axes) {
+std::optional<Placeholder> placeholder(Node& node, const Study& study) {
   if (node.kind != Node::Kind::string || !node.text.starts_with('$')) return {};
   Placeholder found{std::string_view(node.text).substr(1), {}, &node};
-  const auto axis = std::ranges::find(axes, found.name, &StudyAxis::name);
-  if (axis == axes.end()) return found;
-  found.axis = static_cast<std::size_t>(axis - axes.begin());
-  found.name = axis->name;
+  found.axis = study.find_variable(found.name);
+  if (found.axis) found.name = study.column_name(*found.axis);
   return found;
 }
 
-std::vector<Placeholder> placeholders(Node& query, const std::vector<StudyAxis>& axes) {
+std::vector<Placeholder> placeholders(Node& query, const Study& study) {
   std::vector<Placeholder> found;
-  collect(query, axes, found);
+  collect(query, study, found);
   return found;
 }
 

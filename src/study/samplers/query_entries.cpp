@@ -10,7 +10,7 @@ namespace sinew::inline v0 {
 std::optional<QueryEntry> query_entry(const Node& node, const Study& study) {
   if (node.kind == Node::Kind::number) return QueryEntry{node.number};
   Node copy = node;
-  const auto place = placeholder(copy, study.axes);
+  const auto place = placeholder(copy, study);
   if (place && place->axis) return QueryEntry{0, static_cast<std::ptrdiff_t>(*place->axis)};
   if (place || node.kind != Node::Kind::string) return {};
   const auto quantity = parse_any_quantity(node.text);  // of the right unit: a query was put on trial with it

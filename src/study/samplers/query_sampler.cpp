@@ -18,7 +18,7 @@ class QuerySampler {
   explicit QuerySampler(const Study& study)
       : study_(study),
         query_(study.query),
-        places_(placeholders(query_.root, study.axes)) {
+        places_(placeholders(query_.root, study)) {
     for (const StudyOutput& output : study.outputs) paths_.emplace_back(output.path);
   }
 
@@ -89,6 +89,7 @@ SamplerKind query_sampler(const Study& study) {
 std::string_view name_of(SampleStatus status) {
   if (status == refused) return "refused";
   if (status == failed_inside) return "failed";
+  if (status == left_out) return "left_out";
   return to_string(static_cast<Status>(status));
 }
 

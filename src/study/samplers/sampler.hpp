@@ -18,15 +18,16 @@ namespace sinew::inline v0 {
 using SampleStatus = std::uint8_t;
 inline constexpr SampleStatus refused = 8;        ///< the query at this sample is no good one
 inline constexpr SampleStatus failed_inside = 9;  ///< an error of the program
+inline constexpr SampleStatus left_out = 10;      ///< a derived value is outside its limits; nobody asked
 inline constexpr SampleStatus converged = static_cast<SampleStatus>(Status::converged);
 inline constexpr SampleStatus unstable = static_cast<SampleStatus>(Status::unstable);
 std::string_view name_of(SampleStatus status);
-inline constexpr int sample_statuses = 10;
+inline constexpr int sample_statuses = 11;
 
 /// Samples of one chunk, column after column.
 struct SampleBlock {
   std::size_t count = 0;
-  std::span<const double> axes;  ///< in the order of the study
+  std::span<const double> axes;  ///< and derived values, in the order of the study
   std::span<double> outputs;     ///< NaN where there is no value
   std::span<SampleStatus> statuses;
   std::atomic<std::size_t>* done = nullptr;  ///< counts samples, for the progress

@@ -75,8 +75,8 @@ ResultLayout SweepPlan::layout(const SweepOptions& options) const {
     layout.columns.push_back({reduction.name, reduction.kind == StudyReduction::Kind::part
                                                   ? ""
                                                   : study_.outputs[reduction.output].unit});
-  if (!reduces())
-    for (const StudyOutput& output : study_.outputs) layout.columns.push_back({output.name, output.unit});
+  for (std::size_t c = study_.axes.size(); !reduces() && c < study_.column_count(); ++c)
+    layout.columns.push_back({study_.column_name(c), study_.column_unit(c)});
   layout.provenance = provenance(options);
   return layout;
 }

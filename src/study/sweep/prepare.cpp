@@ -8,6 +8,7 @@
 #include "query/tree_session.hpp"
 #include "study/samplers/answer_path.hpp"
 #include "study/samplers/placeholders.hpp"
+#include "study/sweep/left_out.hpp"
 #include "study/sweep/samples.hpp"
 
 namespace sinew::inline v0 {
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::size_t trials = 24;
 constexpr std::size_t most_paths = 400;
+constexpr std::size_t most_left_out = 20'000;  ///< passed over in search of one sample to try
 
 /// Places of all numbers of a tree.
 void collect(const Json& node, const std::string& path, std::vector<std::string>& paths) {
@@ -75,6 +77,9 @@ class Trial {
     auto session = TreeSession::open(study_.robot_document);
     if (!session) return tl::unexpected(session.error());
     ask(*session);
+    if (answers_.empty() && errors_.empty())
+      return failure("all_left_out", study_.source + ": derived",
+                     "every sample tried is outside the limits of a derived value; widen its from and to");
     if (answers_.empty()) return tl::unexpected(errors_);
     if (study_.outputs.empty()) choose_outputs();
     if (study_.outputs.empty())
@@ -91,22 +96,16 @@ class Trial {
  private:
   void ask(TreeSession& session) {
     Document query = study_.query;
-    const auto places = placeholders(query.root, study_.axes);
+    const auto places = placeholders(query.root, study_);
     const std::size_t count = std::min(trials, study_.samples);
-    std::vector<double> values(study_.axes.size());
+    std::vector<double> values(study_.variable_count());
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t t = 0; t < count; ++t) {
       const bool takes_long = std::chrono::steady_clock::now() - begin > std::chrono::seconds(2);
       if (takes_long && solved_ > 0) break;  // some queries take seconds
-      // first and last, and between them places that no axis repeats
-      const std::size_t k = t + 1 == count
-                                ? study_.samples - 1
-                                : static_cast<std::size_t>(static_cast<double>(study_.samples) *
-                                                           0.6180339887498949 * static_cast<double>(t)) %
-                                      study_.samples;
-      axis_values(study_, {k, 1}, false, values);
+      if (!sample(t, count, values)) continue;
       for (const Placeholder& place : places)
-        put(*place.node, values[*place.axis], study_.axes[*place.axis].unit);
+        put(*place.node, values[*place.axis], study_.column_unit(*place.axis));
       Json answer = session.answer(query);
       if (const auto error = answer.find("error"); error != answer.end()) {
         if (errors_.empty())
@@ -117,6 +116,22 @@ class Trial {
       solved_ += is_solved(answer);
       answers_.push_back(std::move(answer));
     }
+  }
+
+  /// The sample of a trial: the first and the last, and between them places that no axis repeats; of those
+  /// left out the next that is not. Whether there is one.
+  bool sample(std::size_t trial, std::size_t count, std::span<double> values) const {
+    const std::size_t n = study_.samples;
+    const std::size_t first = trial + 1 == count
+                                  ? n - 1
+                                  : static_cast<std::size_t>(static_cast<double>(n) * 0.6180339887498949 *
+                                                             static_cast<double>(trial)) %
+                                        n;
+    for (std::size_t k = 0; k < std::min(n, most_left_out); ++k) {
+      axis_values(study_, {(first + k) % n, 1}, false, values);
+      if (!is_left_out(study_, values)) return true;
+    }
+    return false;
   }
 
   /// Where a query is wrong: a place of the file, or a path in the query or the robot.
@@ -133,8 +148,7 @@ class Trial {
     const std::string query = solved->value("query", "");
     for (const std::string& path : paths) {
       const std::string name = column_of(path);
-      const bool is_axis = std::ranges::find(study_.axes, name, &StudyAxis::name) != study_.axes.end();
-      if (is_usual(path, query) && !is_axis)
+      if (is_usual(path, query) && !study_.find_variable(name))
         study_.outputs.push_back({.name = name, .path = path, .unit = {}});
     }
   }

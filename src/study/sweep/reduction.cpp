@@ -22,6 +22,7 @@ CellSum sum_of(const StudyReduction& reduction, const SampleBlock& block, std::s
                std::size_t count) {
   CellSum sum;
   for (std::size_t k = first; k < first + count; ++k) {
+    if (block.statuses[k] == left_out) continue;
     const double value = reduction.kind == Kind::part ? (block.statuses[k] == converged ? 1.0 : 0.0)
                                                       : block.output(reduction.output, k);
     const bool counts = reduction.kind == Kind::part || block.statuses[k] == converged;

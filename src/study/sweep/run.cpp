@@ -13,6 +13,7 @@
 #include "sinew/study/cluster.hpp"
 #include "sinew/study/sweep.hpp"
 #include "study/sweep/executor.hpp"
+#include "study/sweep/left_out.hpp"
 #include "study/sweep/plan.hpp"
 #include "study/sweep/prepare.hpp"
 #include "study/sweep/reduction.hpp"
@@ -42,13 +43,16 @@ struct Pulse {
 /// Computes chunks on one thread.
 class Worker {
  public:
-  Worker(const SweepPlan& plan, Pulse& pulse) : plan_(plan), pulse_(pulse), sample_(plan.kind().make()) {}
+  Worker(const SweepPlan& plan, Pulse& pulse)
+      : plan_(plan),
+        pulse_(pulse),
+        sample_(without_left_out(plan.study(), plan.kind().make())) {}
 
   void operator()(std::size_t number, std::vector<std::byte>& bytes) {
     const auto begin = Clock::now();
     const Study& study = plan_.study();
     const Chunk chunk = plan_.chunks()[number];
-    axes_.resize(study.axes.size() * chunk.count);
+    axes_.resize(study.variable_count() * chunk.count);
     outputs_.resize(study.outputs.size() * chunk.count);
     statuses_.assign(chunk.count, converged);
     axis_values(study, chunk, plan_.snakes(), axes_);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "study/sweep/terms.hpp"
+
 namespace sinew::inline v0 {
 namespace {
 
@@ -26,6 +28,20 @@ double random_value(const StudyAxis& axis, std::uint64_t seed, std::uint64_t cou
   if (axis.kind == StudyAxis::Kind::uniform) return std::lerp(axis.low, axis.high, one);
   const double turn = 2 * std::numbers::pi * uniform(seed, 2 * counter + 1);  // Box and Muller
   return axis.low + axis.high * std::sqrt(-2 * std::log1p(-one)) * std::cos(turn);
+}
+
+/// Derived values behind those of the axes.
+void derive(const Study& study, std::size_t count, std::span<double> values) {
+  if (study.derived.empty()) return;
+  const std::size_t axes = study.axes.size();
+  std::vector<double> one(study.variable_count());  // of one sample
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t a = 0; a < axes; ++a) one[a] = values[a * count + i];
+    for (std::size_t d = 0; d < study.derived.size(); ++d) {
+      one[axes + d] = value_of(study.derived[d].is, one);
+      values[(axes + d) * count + i] = one[axes + d];
+    }
+  }
 }
 
 }  // namespace
@@ -75,6 +91,7 @@ void axis_values(const Study& study, const Chunk& chunk, bool snakes, std::span<
       }
     }
   }
+  derive(study, chunk.count, values);
 }
 
 std::size_t row_of(const Study& study) {

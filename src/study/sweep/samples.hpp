@@ -33,8 +33,8 @@ class Chunks {
   std::size_t part_ = 0, parts_ = 1;  ///< of a row that is cut: samples of a piece, pieces
 };
 
-/// Values of all axes at the samples of a chunk, axis after axis. On a path every other row runs backwards,
-/// so that neighbours in the list are neighbours on the grid.
+/// Values of all axes at the samples of a chunk, axis after axis, then those of the derived values. On a path
+/// every other row runs backwards, so that neighbours in the list are neighbours on the grid.
 void axis_values(const Study& study, const Chunk& chunk, bool snakes, std::span<double> values);
 
 /// Puts what was computed in that order back into the order of the samples.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "sinew/io/quantity.hpp"
 
@@ -15,12 +16,19 @@ constexpr std::size_t highest_power = 20;
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
+double value_of(const Monomial& monomial, std::span<const double> columns) {
+  double product = monomial.factor;
+  for (const std::size_t column : monomial.columns) product *= columns[column];
+  return product;
+}
+
 class TermParser {
  public:
-  TermParser(std::string_view text, std::span<const std::string_view> columns)
+  TermParser(std::string_view text, std::span<const std::string_view> columns, std::string_view nouns)
       : whole_(text),
         rest_(text),
-        columns_(columns) {}
+        columns_(columns),
+        nouns_(nouns) {}
 
   Expected<std::vector<Monomial>> term() {
     std::vector<Monomial> sum;
@@ -75,9 +83,9 @@ class TermParser {
     if (name.empty()) return refuse();
     const auto found = std::ranges::find(columns_, name);
     if (found == columns_.end()) {
-      errors_ = {{"unknown_column", "",
-                  fmt::format("{} is no axis or output of this study; there are {}.", in_quotes(name),
-                              fmt::join(columns_, ", "))}};
+      errors_ = {
+          {"unknown_column", "",
+           fmt::format("{} is no {}; there are {}.", in_quotes(name), nouns_, fmt::join(columns_, ", "))}};
       return false;
     }
     std::size_t power = 1;
@@ -101,22 +109,27 @@ class TermParser {
 
   std::string_view whole_, rest_;
   std::span<const std::string_view> columns_;
+  std::string_view nouns_;
   Errors errors_;
 };
 
 }  // namespace
 
-Expected<std::vector<Monomial>> parse_term(std::string_view text, std::span<const std::string_view> columns) {
-  return TermParser(text, columns).term();
+Expected<std::vector<Monomial>> parse_term(std::string_view text, std::span<const std::string_view> columns,
+                                           std::string_view nouns) {
+  if (const auto number = parse_number(text)) return std::vector{Monomial{.factor = *number, .columns = {}}};
+  return TermParser(text, columns, nouns).term();
 }
 
 double value_of(std::span<const Monomial> term, std::span<const double> columns) {
   double sum = 0;
-  for (const Monomial& monomial : term) {
-    double product = monomial.factor;
-    for (const std::size_t column : monomial.columns) product *= columns[column];
-    sum += product;
-  }
+  for (const Monomial& monomial : term) sum += value_of(monomial, columns);
+  return sum;
+}
+
+double size_of(std::span<const Monomial> term, std::span<const double> columns) {
+  double sum = 0;
+  for (const Monomial& monomial : term) sum += std::abs(value_of(monomial, columns));
   return sum;
 }
 

@@ -1,5 +1,7 @@
 #include "study/sweep/write_results.hpp"
 
+#include <algorithm>
+
 #include "study/sweep/fit.hpp"
 #include "study/sweep/reduction.hpp"
 
@@ -28,9 +30,7 @@ class Writer {
     std::vector<FittedTerms> found;
     for (std::size_t f = 0; f < fits_.size(); ++f) {
       found.push_back(fits_[f].result());
-      const std::size_t axes = plan_.study().axes.size(), column = plan_.study().fits[f].column;
-      found.back().unit =
-          column < axes ? plan_.study().axes[column].unit : plan_.study().outputs[column - axes].unit;
+      found.back().unit = plan_.study().column_unit(plan_.study().fits[f].column);
     }
     if (const auto done = (*file)->finish(found); !done) return tl::unexpected(done.error());
     return WrittenResults{std::move(found), statuses_};
@@ -47,33 +47,43 @@ class Writer {
   Expected<void> samples(ResultFile& file, bool is_first) {
     const Study& study = plan_.study();
     std::vector<std::byte> bytes;
-    const bool wants_axes = !fits_.empty() || file.wants_axes();
-    std::vector<double> axes, row(study.axes.size() + study.outputs.size());
     for (std::size_t c = 0; c < plan_.chunks().count(); ++c) {
       const Chunk chunk = plan_.chunks()[c];
       if (const auto done = read(c, bytes); !done) return done;
-      const std::span values(reinterpret_cast<const double*>(bytes.data()),
-                             study.outputs.size() * chunk.count);
-      const std::span statuses(reinterpret_cast<const SampleStatus*>(bytes.data() + values.size_bytes()),
+      const std::span outputs(reinterpret_cast<const double*>(bytes.data()),
+                              study.outputs.size() * chunk.count);
+      const std::span statuses(reinterpret_cast<const SampleStatus*>(bytes.data() + outputs.size_bytes()),
                                chunk.count);
-      if (wants_axes) {
-        axes.resize(study.axes.size() * chunk.count);
-        axis_values(study, chunk, false, axes);
-      }
-      for (const SampleStatus status : statuses)
-        statuses_[std::min<std::size_t>(status, failed_inside)] += is_first;
-      if (is_first)
-        if (const auto done = file.write({chunk.first, chunk.count, axes, values, statuses}); !done)
+      tabulate(chunk, outputs, !fits_.empty() || !study.derived.empty() || file.wants_axes());
+      if (is_first) {
+        for (const SampleStatus status : statuses) ++statuses_[std::min<std::size_t>(status, left_out)];
+        const std::size_t axes = study.axes.size() * chunk.count;
+        const std::span<const double> table(table_);
+        if (const auto done =
+                file.write({chunk.first, chunk.count, table.first(axes), table.subspan(axes), statuses});
+            !done)
           return done;
-      for (std::size_t k = 0; !fits_.empty() && k < chunk.count; ++k) {
-        if (statuses[k] != converged) continue;
-        for (std::size_t i = 0; i < row.size(); ++i)
-          row[i] = i < study.axes.size() ? axes[i * chunk.count + k]
-                                         : values[(i - study.axes.size()) * chunk.count + k];
-        for (StreamedFit& fit : fits_) is_first ? fit.add(row) : fit.add_residual(row);
       }
+      if (!fits_.empty()) fit(chunk, statuses, is_first);
     }
     return {};
+  }
+
+  /// The columns of a chunk, one after the other, as the study numbers them.
+  void tabulate(const Chunk& chunk, std::span<const double> outputs, bool wants_axes) {
+    const std::size_t variables = plan_.study().variable_count() * chunk.count;
+    table_.resize(variables + outputs.size());
+    if (wants_axes) axis_values(plan_.study(), chunk, false, std::span(table_).first(variables));
+    std::ranges::copy(outputs, table_.begin() + static_cast<std::ptrdiff_t>(variables));
+  }
+
+  void fit(const Chunk& chunk, std::span<const SampleStatus> statuses, bool is_first) {
+    std::vector<double> row(plan_.study().column_count());
+    for (std::size_t k = 0; k < chunk.count; ++k) {
+      if (statuses[k] != converged) continue;
+      for (std::size_t i = 0; i < row.size(); ++i) row[i] = table_[i * chunk.count + k];
+      for (StreamedFit& one : fits_) is_first ? one.add(row) : one.add_residual(row);
+    }
   }
 
   /// Cells that several chunks share are added up in the order of the chunks.
@@ -103,7 +113,7 @@ class Writer {
     const Study& study = plan_.study();
     const std::size_t columns = study.reductions.size(), count = sums.size() / columns;
     const std::size_t kept = study.axes.size() - study.reduced_axes;
-    std::vector<double> values(sums.size()), axes(kept * count), one(study.axes.size());
+    std::vector<double> values(sums.size()), axes(kept * count), one(study.variable_count());
     for (std::size_t k = 0; k < count; ++k) {
       for (std::size_t i = 0; i < columns; ++i)
         values[i * count + k] = value_of(study.reductions[i].kind, sums[k * columns + i]);
@@ -118,6 +128,7 @@ class Writer {
   const SweepOptions& options_;
   const std::atomic<bool>& stop_;
   std::vector<StreamedFit> fits_;
+  std::vector<double> table_;  ///< of one chunk
   std::array<std::size_t, sample_statuses> statuses_{};
 };
 

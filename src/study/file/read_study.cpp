@@ -14,8 +14,11 @@
 #include "sinew/io/table.hpp"
 #include "sinew/study/study.hpp"
 #include "study/builtin.hpp"
+#include "study/file/column_name.hpp"
+#include "study/file/column_values.hpp"
+#include "study/file/read_derived.hpp"
+#include "study/file/read_fits.hpp"
 #include "study/samplers/placeholders.hpp"
-#include "study/sweep/terms.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -23,21 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double most_samples = 1e12, most_values = 1e7;
-
-bool is_name(std::string_view text) {
-  const auto is_part = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  };
-  return !text.empty() && !(text[0] >= '0' && text[0] <= '9') && std::ranges::all_of(text, is_part);
-}
-
-void check_name(const Reader& place, std::string_view name) {
-  for (const std::string_view taken : {"status", "provenance", "fits"})
-    if (name == taken)
-      place.fail("bad_name", fmt::format("{} has its own place in the results; choose another name", name));
-  if (!is_name(name))
-    place.fail("bad_name", fmt::format("{} names no column; give letters, digits and _", in_quotes(name)));
-}
 
 /// What may stand in a heading.
 std::string read_unit(const Reader& place) {
@@ -47,38 +35,8 @@ std::string read_unit(const Reader& place) {
   return unit;
 }
 
-/// Values of one axis, whose units must agree.
-class AxisReader {
- public:
-  AxisReader(StudyAxis& axis, std::string unit) : axis_(axis), unit_(std::move(unit)) {}
-
-  double value(const Reader& place) {
-    if (!place.node()) return 0;
-    if (!place.is(Node::Kind::number) && !place.is(Node::Kind::string)) {
-      place.refuse("wrong_type", "give a number or a text with a unit (60 mm, 30 deg)");
-      return 0;
-    }
-    const bool is_bare = place.is(Node::Kind::number) && !unit_.empty();
-    const auto read = parse_any_quantity(is_bare ? place.node()->text + ' ' + unit_ : place.node()->text);
-    if (!read) {
-      place.fail(read.error().front().code, read.error().front().message);
-      return 0;
-    }
-    const std::string unit(v0::unit(read->dimension));
-    if (axis_.unit.empty()) axis_.unit = unit;
-    if (!unit.empty() && unit != axis_.unit)
-      place.fail("wrong_dimension",
-                 fmt::format("is in {}, but the axis is in {}; give one unit", unit, axis_.unit));
-    return read->value;
-  }
-
- private:
-  StudyAxis& axis_;
-  std::string unit_;
-};
-
 /// `{from: -60 mm, to: 60 mm, count: 121}`, as an axis of a map has it.
-void read_steps(Reader& place, AxisReader& values, StudyAxis& axis) {
+void read_steps(Reader& place, ColumnValues& values, StudyAxis& axis) {
   const double from = values.value(place.required("from", "first value"));
   const double to = values.value(place.required("to", "last value"));
   const int count =
@@ -87,7 +45,7 @@ void read_steps(Reader& place, AxisReader& values, StudyAxis& axis) {
   for (int k = 0; k < count; ++k) axis.values.push_back(steps.at(k));
 }
 
-void read_distribution(Reader& place, AxisReader& values, StudyAxis& axis) {
+void read_distribution(Reader& place, ColumnValues& values, StudyAxis& axis) {
   if (place.has("mean") || place.has("deviation")) {
     axis.kind = StudyAxis::Kind::normal;
     axis.low = values.value(place.required("mean", "of the random values"));
@@ -104,14 +62,14 @@ StudyAxis read_axis(const std::string& name, Reader place, bool is_random) {
   StudyAxis axis{.name = name, .unit = {}, .values = {}};
   check_name(place, name);
   if (place.is(Node::Kind::list)) {
-    AxisReader values(axis, {});
+    ColumnValues values(axis.unit, {}, "axis");
     for (const Reader& item : place.items()) axis.values.push_back(values.value(item));
     if (axis.values.empty()) place.fail("empty_list", "has no values; give at least one");
     if (is_random) place.fail("not_random", "is a list; a random axis is {from, to} or {mean, deviation}");
     return axis;
   }
   const auto unit = place.optional("unit");
-  AxisReader values(axis, unit ? unit->text() : std::string());
+  ColumnValues values(axis.unit, unit ? unit->text() : std::string(), "axis");
   if (is_random)
     read_distribution(place, values, axis);
   else
@@ -136,10 +94,11 @@ class StudyReader {
     if (const auto title = root_.optional("title")) study_.title = title->text();
     read_robot();
     read_samples();
+    if (const auto derived = root_.optional("derived")) read_derived(*derived, study_);
     read_query();
     read_outputs();
     read_reduction();
-    read_fits();
+    if (const auto fits = root_.optional("fits")) read_fits(*fits, study_);
     root_.close();
     return std::move(errors_);
   }
@@ -254,14 +213,17 @@ class StudyReader {
     }
     if (study_.axes.empty()) return;                // said already
     study_.query = {study_.source, *query.node()};  // errors then name its place
-    std::vector<bool> is_used(study_.axes.size(), false);
-    for (const Placeholder& place : placeholders(study_.query.root, study_.axes))
+    std::vector<bool> is_used(study_.variable_count(), false);
+    for (const Placeholder& place : placeholders(study_.query.root, study_))
       if (place.axis)
         is_used[*place.axis] = true;
       else
-        query.fail("unknown_axis",
-                   fmt::format("${} is no axis; there are {}", place.name, fmt::join(axis_names(), ", ")));
-    for (std::size_t a = 0; a < is_used.size(); ++a)
+        query.fail("unknown_axis", fmt::format("${} is no axis; there are {}", place.name,
+                                               fmt::join(variable_names(), ", ")));
+    for (const StudyDerived& derived : study_.derived)  // an axis may stand in one of them alone
+      for (const Monomial& monomial : derived.is)
+        for (const std::size_t column : monomial.columns) is_used[column] = true;
+    for (std::size_t a = 0; a < study_.axes.size(); ++a)
       if (!is_used[a])
         query.fail("unused_axis", fmt::format("the axis {} is not in it; write ${} where its values go",
                                               study_.axes[a].name, study_.axes[a].name));
@@ -273,9 +235,10 @@ class StudyReader {
     return names;
   }
 
-  std::vector<std::string_view> column_names() const {
+  /// Of axes and derived values.
+  std::vector<std::string_view> variable_names() const {
     std::vector<std::string_view> names = axis_names();
-    for (const StudyOutput& output : study_.outputs) names.push_back(output.name);
+    for (const StudyDerived& derived : study_.derived) names.push_back(derived.name);
     return names;
   }
 
@@ -284,8 +247,8 @@ class StudyReader {
     if (!outputs) return;
     for (auto& [name, place] : outputs->members()) {
       check_name(place, name);
-      if (std::ranges::find(study_.axes, name, &StudyAxis::name) != study_.axes.end())
-        place.fail("duplicate_column", "is the name of an axis; give the output another");
+      if (study_.find_variable(name))
+        place.fail("duplicate_column", "is the name of an axis or derived value; give the output another");
       StudyOutput output{.name = name, .path = {}, .unit = {}};
       if (place.is(Node::Kind::map)) {
         output.path = place.required("path", "a place in the answer: pose.x").text();
@@ -332,8 +295,19 @@ class StudyReader {
       columns.fail("empty_map", "names no column; give at least one");
     reduce->close();
     study_.reduced_axes = left_out.size();
-    study_.axes = std::move(kept);  // the last run fastest: what becomes one value is computed together
-    study_.axes.insert(study_.axes.end(), left_out.begin(), left_out.end());
+    kept.insert(kept.end(), left_out.begin(), left_out.end());
+    order_axes(std::move(kept));  // the last run fastest: what becomes one value is computed together
+  }
+
+  /// The axes in another order; derived values know them by number.
+  void order_axes(std::vector<StudyAxis> axes) {
+    for (StudyDerived& derived : study_.derived)
+      for (Monomial& monomial : derived.is)
+        for (std::size_t& column : monomial.columns)
+          if (column < axes.size())
+            column = static_cast<std::size_t>(
+                std::ranges::find(axes, study_.axes[column].name, &StudyAxis::name) - axes.begin());
+    study_.axes = std::move(axes);
   }
 
   void read_reduced(const std::string& name, Reader& place) {
@@ -364,35 +338,6 @@ class StudyReader {
     study_.reductions.push_back(std::move(reduction));
   }
 
-  void read_fits() {
-    const auto fits = root_.optional("fits");
-    if (!fits) return;
-    if (!study_.reductions.empty())
-      fits->fail("not_available", "are of samples, and reduce keeps none; make two studies");
-    const auto names = column_names();
-    for (auto& [name, place] : fits->members()) {
-      check_name(place, name);
-      StudyFit fit{.name = name, .texts = {}, .terms = {}};
-      const auto of = place.optional("of");
-      const std::string column = of ? of->text() : name;
-      const auto found = std::ranges::find(names, std::string_view(column));
-      if (found == names.end())
-        place.fail("unknown_column",
-                   fmt::format("{} is no axis or output; name it under outputs", in_quotes(column)));
-      fit.column = static_cast<std::size_t>(found - names.begin());
-      for (const Reader& term : place.required("terms", "what it is a sum of: [1, e1, e1^2]").items()) {
-        const std::string text = term.node()->text;
-        auto monomials = parse_term(text, names);
-        if (!monomials) term.fail(monomials.error().front().code, monomials.error().front().message);
-        fit.texts.push_back(text);
-        fit.terms.push_back(monomials ? std::move(*monomials) : std::vector<Monomial>{});
-      }
-      if (fit.terms.empty()) place.fail("empty_list", "has no terms; give at least one: terms: [1]");
-      place.close();
-      study_.fits.push_back(std::move(fit));
-    }
-  }
-
   Errors errors_;
   Reader root_;
   fs::path folder_;
@@ -401,12 +346,6 @@ class StudyReader {
 };
 
 }  // namespace
-
-std::size_t Study::reduced_samples() const {
-  std::size_t product = 1;
-  for (std::size_t a = axes.size() - reduced_axes; a < axes.size(); ++a) product *= axes[a].values.size();
-  return product;
-}
 
 std::vector<std::string_view> builtin_study_names() {
   std::vector<std::string_view> names;
