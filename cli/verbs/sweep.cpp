@@ -111,21 +111,29 @@ std::string json_list(const std::vector<double>& values) {
   return '[' + text + ']';
 }
 
+std::string json_fit(const FittedTerms& fit) {
+  std::string terms, columns;
+  for (const std::string& term : fit.terms) terms += (terms.empty() ? "" : ",") + json_text(term);
+  for (const FittedColumn& column : fit.columns)
+    columns += fmt::format(
+        "{}{{\"name\":{},\"unit\":{},\"formula\":{},\"rms\":{},\"largest\":{},\"relative\":{}}}",
+        columns.empty() ? "" : ",", json_text(column.name), json_text(column.unit), json_text(column.text),
+        json_number(column.rms), json_number(column.largest), json_number(column.relative));
+  return fmt::format(
+      "{{\"name\":{},\"unit\":{},\"terms\":[{}],\"coefficients\":{},\"deviations\":{},\"given\":{},\"rms\":{}"
+      ","
+      "\"largest\":{},\"samples\":{},\"columns\":[{}]}}",
+      json_text(fit.name), json_text(fit.unit), terms, json_list(fit.coefficients), json_list(fit.deviations),
+      fit.is_given, json_number(fit.rms), json_number(fit.largest), fit.samples, columns);
+}
+
 std::string json_report(const SweepSummary& summary, const std::string& file) {
   std::string statuses, fits;
   for (std::size_t s = 0; s < summary.statuses.size(); ++s)
     if (summary.statuses[s] > 0)
       statuses +=
           fmt::format("{}\"{}\":{}", statuses.empty() ? "" : ",", sample_status_name(s), summary.statuses[s]);
-  for (const FittedTerms& fit : summary.fits) {
-    std::string terms;
-    for (const std::string& term : fit.terms) terms += (terms.empty() ? "" : ",") + json_text(term);
-    fits += fmt::format(
-        "{}{{\"name\":{},\"unit\":{},\"terms\":[{}],\"coefficients\":{},\"deviations\":{},\"rms\":{},"
-        "\"largest\":{},\"samples\":{}}}",
-        fits.empty() ? "" : ",", json_text(fit.name), json_text(fit.unit), terms, json_list(fit.coefficients),
-        json_list(fit.deviations), json_number(fit.rms), json_number(fit.largest), fit.samples);
-  }
+  for (const FittedTerms& fit : summary.fits) fits += (fits.empty() ? "" : ",") + json_fit(fit);
   return fmt::format(
       "{{\"output\":{},\"complete\":{},\"samples\":{},\"resumed\":{},\"statuses\":{{{}}},\"sampler\":{},"
       "\"threads\":{},\"ranks\":{},"
@@ -137,15 +145,29 @@ std::string json_report(const SweepSummary& summary, const std::string& file) {
       fits);
 }
 
-void print_fits(const SweepSummary& summary) {
-  for (const FittedTerms& fit : summary.fits) {
-    TextTable table({"term", fmt::format("coefficient of {}", heading({fit.name, fit.unit})), "deviation"});
-    for (std::size_t t = 0; t < fit.terms.size(); ++t)
-      table.add({fit.terms[t], fmt::format("{:.6g}", fit.coefficients[t]),
-                 fmt::format("{:.1e}", fit.deviations[t])});
-    print(table.text() +
-          fmt::format("rms {:.4g}, largest {:.4g}, {} samples\n\n", fit.rms, fit.largest, fit.samples));
+std::string residuals(const FittedColumn& column) {
+  return fmt::format("rms {:.4g}, largest {:.4g}, relative {:.4g}", column.rms, column.largest,
+                     column.relative);
+}
+
+void print_fit(const FittedTerms& fit) {
+  const bool is_sum = fit.columns.front().text.empty();  // of terms, to one column
+  TextTable table({is_sum ? "term" : "coefficient",
+                   is_sum ? fmt::format("coefficient of {}", heading({fit.name, fit.unit})) : fit.name,
+                   "deviation"});
+  for (std::size_t t = 0; t < fit.terms.size(); ++t)
+    table.add({fit.terms[t], fmt::format("{:.6g}", fit.coefficients[t]),
+               fit.is_given ? "given" : fmt::format("{:.1e}", fit.deviations[t])});
+  std::string text = table.text();
+  if (is_sum) {
+    text += fmt::format("{}, {} samples\n", residuals(fit.columns.front()), fit.samples);
+  } else {
+    for (const FittedColumn& column : fit.columns)
+      text +=
+          fmt::format("{} = {}\n  {}\n", heading({column.name, column.unit}), column.text, residuals(column));
+    text += fmt::format("{} samples\n", fit.samples);
   }
+  print(text + '\n');
 }
 
 }  // namespace
@@ -212,7 +234,7 @@ int run_sweep(const Arguments& arguments) {
     return solved;
   }
   if (!is_quiet) print(options.output.string() + '\n' + report(*summary));
-  print_fits(*summary);
+  for (const FittedTerms& fit : summary->fits) print_fit(fit);
   return solved;
 }
 

@@ -32,12 +32,14 @@ path: anew
 axes: {x: {from: -1 mm, to: 1 mm}, y: {mean: 0, deviation: 0.001, unit: m}}
 query: {query: inverse, pose: {x: $x, y: $y, phi: 0}}
 """)
-DERIVED = yaml.safe_load("""
+JOINT = yaml.safe_load("""
 sinew: 1
 robot: 3-rfr
 axes: {x: {from: -1 mm, to: 1 mm, count: 3}}
 derived: {y: 2 x, phi: {is: 10 x, unit: rad, from: -0.5 rad, to: 0.6}}
 query: {query: inverse, pose: {x: $x, y: $y, phi: $phi}}
+outputs: {l: "inputs[0]", m: "inputs[1]"}
+fits: {f: {coefficients: [a, b], of: {l: a*x + b*x^2, m: a*x}}, g: {known: {c: 0.1}, of: {l: c*phi}}}
 """)
 GRID = yaml.safe_load("""
 sinew: 1
@@ -86,7 +88,7 @@ def broken(study):
 # What a schema cannot say: relations between values, files, numbers in texts. The reader alone refuses these.
 READER_ALONE = {"unknown_axis", "unused_axis", "unknown_column", "wrong_dimension", "file_missing", "bad_term", "unknown_unit",
                 "not_a_number", "unknown_path", "unknown_output", "missing_key", "out_of_range", "file_unreadable", "unknown_choice",
-                "no_outputs", "duplicate_column", "not_whole", "too_large", "later_column", "all_left_out"}
+                "no_outputs", "duplicate_column", "not_whole", "too_large", "later_column", "unused_coefficient", "all_left_out"}
 
 
 class StudySchema(unittest.TestCase):
@@ -106,7 +108,7 @@ class StudySchema(unittest.TestCase):
     def test_both_judge_alike(self):
         count = 0
         with tempfile.TemporaryDirectory() as folder:
-            for study in (RANDOM, GRID, DERIVED):
+            for study in (RANDOM, GRID, JOINT):
                 jsonschema.validate(study, SCHEMA)
                 self.assertTrue(self.verdict(study, folder)[0], self.verdict(study, folder)[2])
                 for what, other in broken(study):

@@ -61,12 +61,19 @@ struct StudyDerived {
   double high = std::numeric_limits<double>::infinity();  ///< above it as well
 };
 
-/// One column as a sum of terms by least squares.
+/// A column as a sum of terms, each with a coefficient of its fit.
+struct FitEquation {
+  std::size_t column = 0;
+  std::string text;                          ///< as written; empty where the coefficients say all
+  std::vector<std::vector<Monomial>> terms;  ///< one a coefficient; empty where that is not in it
+};
+
+/// One column or several by least squares, with the same coefficients.
 struct StudyFit {
   std::string name;
-  std::size_t column = 0;                    ///< what is fitted
-  std::vector<std::string> texts;            ///< of the terms: `e1^2 - e2^2`
-  std::vector<std::vector<Monomial>> terms;  ///< each with one coefficient
+  std::vector<std::string> coefficients;  ///< names, or where there is one column its terms: `e1^2 - e2^2`
+  std::vector<double> known;              ///< their values where they are given; empty where they are fitted
+  std::vector<FitEquation> equations;     ///< one a column
 };
 
 struct Study {
@@ -112,7 +119,7 @@ SINEW_API std::string_view builtin_study(std::string_view name);  ///< empty whe
 
 /// A study file, or one of that name, with its robot and its table of samples. Everything wrong with it at
 /// once. Codes: those of `read_file` and of robot files, `unknown_axis`, `unused_axis`, `unknown_column`,
-/// `bad_term`, `later_column`, ...
+/// `bad_term`, `later_column`, `unused_coefficient`, ...
 /// @param set changes of the robot, `{path: value}`, over the study's own
 SINEW_API Expected<Study> read_study(const std::string& path_or_name, std::span<const Member> set = {});
 

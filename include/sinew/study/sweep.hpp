@@ -32,13 +32,23 @@ struct SweepOptions {
   std::function<bool(const SweepProgress&)> progress = {};
 };
 
+/// What a fit leaves of one of its columns.
+struct FittedColumn {
+  std::string name, unit;
+  std::string text;             ///< what it was taken for; empty where the terms say all
+  double rms = 0, largest = 0;  ///< residuals
+  double relative = 0;          ///< `rms` over the root mean square of the column itself
+};
+
 /// A fit, done.
 struct FittedTerms {
-  std::string name, unit;  ///< of the column fitted
+  std::string name, unit;  ///< of the columns fitted; empty where they differ
   std::vector<std::string> terms;
-  std::vector<double> coefficients, deviations;  ///< standard deviations of the coefficients
-  double rms = 0, largest = 0;                   ///< residuals
+  std::vector<double> coefficients, deviations;  ///< standard deviations; NaN where coefficients were given
+  bool is_given = false;                         ///< coefficients of the study, nothing fitted
+  double rms = 0, largest = 0;                   ///< residuals of all columns
   std::size_t samples = 0;                       ///< with all columns
+  std::vector<FittedColumn> columns;
 };
 
 struct SweepSummary {

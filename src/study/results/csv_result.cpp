@@ -22,12 +22,25 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t longest_fact = 200;  ///< texts of whole files stay out of a table
 
-/// `# fit x[m] = 0.1 (e1^2 - e2^2) + ..., rms 1e-5, largest 3e-5, 121 samples`
-std::string fit_line(const FittedTerms& fit) {
-  std::string line = fmt::format("# fit {} =", Column{fit.name, fit.unit, {}}.heading());
+/// `# fit x[m] = 0.1 (e1^2 - e2^2) + ...; rms 1e-5, largest 3e-5, relative 0.01, 121 samples`, or
+/// `# fit parasitic: c1 = 0.1, ...; 121 samples` and a line of its residuals a column.
+std::string fit_lines(const FittedTerms& fit) {
+  const auto residuals = [](const FittedColumn& column) {
+    return fmt::format("rms {}, largest {}, relative {}", column.rms, column.largest, column.relative);
+  };
+  const FittedColumn& first = fit.columns.front();
+  const bool is_sum = first.text.empty();
+  std::string text = is_sum ? fmt::format("# fit {} =", Column{fit.name, fit.unit, {}}.heading())
+                            : fmt::format("# fit {}:", fit.name);
   for (std::size_t t = 0; t < fit.terms.size(); ++t)
-    line += fmt::format("{} {} ({})", t == 0 ? "" : " +", fit.coefficients[t], fit.terms[t]);
-  return line + fmt::format("; rms {}, largest {}, {} samples\n", fit.rms, fit.largest, fit.samples);
+    text += is_sum ? fmt::format("{} {} ({})", t == 0 ? "" : " +", fit.coefficients[t], fit.terms[t])
+                   : fmt::format("{} {} = {}", t == 0 ? "" : ",", fit.terms[t], fit.coefficients[t]);
+  if (is_sum) return text + fmt::format("; {}, {} samples\n", residuals(first), fit.samples);
+  text += fmt::format("{}; {} samples\n", fit.is_given ? " (given)" : "", fit.samples);
+  for (const FittedColumn& column : fit.columns)
+    text += fmt::format("#   {} = {}; {}\n", Column{column.name, column.unit, {}}.heading(),
+                        one_line(column.text, longest_fact), residuals(column));
+  return text;
 }
 
 class CsvResult : public ResultFile {
@@ -84,7 +97,7 @@ class CsvResult : public ResultFile {
   }
 
   Expected<void> finish(std::span<const FittedTerms> fits) override {
-    for (const FittedTerms& fit : fits) put(fit_line(fit));
+    for (const FittedTerms& fit : fits) put(fit_lines(fit));
     if (file_ && std::fclose(std::exchange(file_, nullptr)) != 0) remember();
     if (reason_.empty()) reason_ = put_in_place(part_, path_);
     is_finished_ = reason_.empty();

@@ -260,21 +260,42 @@ class Hdf5Result : public ResultFile {
       const Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
       H5Pset_obj_track_times(list, false);
       const Handle one(H5Gcreate2(all, fit.name.c_str(), H5P_DEFAULT, list, H5P_DEFAULT), H5Gclose);
-      const hsize_t count = fit.coefficients.size();
-      const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-      for (const auto& [name, values] :
-           {std::pair{"coefficients", &fit.coefficients}, {"deviations", &fit.deviations}}) {
-        const Handle data(
-            H5Dcreate2(one, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, options(false), H5P_DEFAULT), H5Dclose);
-        good = good && data.ok() &&
-               H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values->data()) >= 0;
-      }
-      good = good && hdf5::put_attribute(one, "terms", fmt::format("{}", fmt::join(fit.terms, "; "))) &&
+      good = good && put_numbers(one, "coefficients", fit.coefficients) &&
+             put_numbers(one, "deviations", fit.deviations) && put_residuals(one, fit) &&
+             hdf5::put_attribute(one, "terms", fmt::format("{}", fmt::join(fit.terms, "; "))) &&
              hdf5::put_attribute(one, "units", fit.unit) && hdf5::put_attribute(one, "rms", fit.rms) &&
              hdf5::put_attribute(one, "largest", fit.largest) &&
              hdf5::put_attribute(one, "samples", static_cast<double>(fit.samples));
     }
     return good;
+  }
+
+  /// Of each column of a fit; names, units and formulas in the order of the numbers.
+  bool put_residuals(const Handle& group, const FittedTerms& fit) {
+    std::vector<double> rms, largest, relative;
+    std::vector<std::string> names, units, texts;
+    for (const FittedColumn& column : fit.columns) {
+      rms.push_back(column.rms);
+      largest.push_back(column.largest);
+      relative.push_back(column.relative);
+      names.push_back(column.name);
+      units.push_back(column.unit);
+      texts.push_back(column.text);
+    }
+    return put_numbers(group, "column_rms", rms) && put_numbers(group, "column_largest", largest) &&
+           put_numbers(group, "column_relative", relative) &&
+           hdf5::put_attribute(group, "columns", fmt::format("{}", fmt::join(names, "; "))) &&
+           hdf5::put_attribute(group, "column_units", fmt::format("{}", fmt::join(units, "; "))) &&
+           (fit.columns.front().text.empty() ||
+            hdf5::put_attribute(group, "formulas", fmt::format("{}", fmt::join(texts, "; "))));
+  }
+
+  bool put_numbers(const Handle& group, const char* name, const std::vector<double>& values) {
+    const hsize_t count = values.size();
+    const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+    const Handle data(
+        H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, options(false), H5P_DEFAULT), H5Dclose);
+    return data.ok() && H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
   }
 
   fs::path path_, part_;

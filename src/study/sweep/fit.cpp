@@ -17,27 +17,43 @@ constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-StreamedFit::StreamedFit(const StudyFit& fit)
+StreamedFit::StreamedFit(const Study& study, const StudyFit& fit)
     : fit_(&fit),
-      stacked_(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(fit.terms.size()) + 1 + rows_at_once,
-                                     static_cast<Eigen::Index>(fit.terms.size()) + 1)),
-      row_(stacked_.cols()) {
+      stacked_(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(fit.coefficients.size()) + 1 + rows_at_once,
+                                     static_cast<Eigen::Index>(fit.coefficients.size()) + 1)),
+      rows_(stacked_.cols(), static_cast<Eigen::Index>(fit.equations.size())),
+      sums_(fit.equations.size()) {
   result_.name = fit.name;
-  result_.terms = fit.texts;
+  result_.terms = fit.coefficients;
+  result_.is_given = !fit.known.empty();
+  for (const FitEquation& equation : fit.equations)
+    result_.columns.push_back(
+        {study.column_name(equation.column), study.column_unit(equation.column), equation.text});
+  result_.unit = result_.columns.front().unit;
+  for (const FittedColumn& column : result_.columns)
+    if (column.unit != result_.unit) result_.unit.clear();
 }
 
-bool StreamedFit::row(std::span<const double> columns) {
-  for (Eigen::Index t = 0; t + 1 < row_.size(); ++t)
-    row_[t] = value_of(fit_->terms[static_cast<std::size_t>(t)], columns);
-  row_[row_.size() - 1] = columns[fit_->column];
-  return row_.allFinite();
+/// The rows of a sample; whether it has all it needs.
+bool StreamedFit::is_whole(std::span<const double> columns) {
+  const Eigen::Index n = rows_.rows() - 1;
+  for (Eigen::Index e = 0; e < rows_.cols(); ++e) {
+    const FitEquation& equation = fit_->equations[static_cast<std::size_t>(e)];
+    for (Eigen::Index t = 0; t < n; ++t)
+      rows_(t, e) = value_of(equation.terms[static_cast<std::size_t>(t)], columns);
+    rows_(n, e) = columns[equation.column];
+  }
+  return rows_.allFinite();
 }
 
 void StreamedFit::add(std::span<const double> columns) {
-  if (!row(columns)) return;
-  stacked_.row(stacked_.cols() + filled_) = row_.transpose();
+  if (!is_whole(columns)) return;
   ++result_.samples;
-  if (++filled_ == rows_at_once) fold();
+  if (result_.is_given) return;
+  for (Eigen::Index e = 0; e < rows_.cols(); ++e) {
+    stacked_.row(stacked_.cols() + filled_) = rows_.col(e).transpose();
+    if (++filled_ == rows_at_once) fold();
+  }
 }
 
 void StreamedFit::fold() {
@@ -49,8 +65,17 @@ void StreamedFit::fold() {
   filled_ = 0;
 }
 
-FittedTerms StreamedFit::solve() {
+void StreamedFit::solve() {
+  const std::size_t n = fit_->coefficients.size();
+  result_.deviations.assign(n, missing);
+  result_.coefficients = fit_->known;
+  if (result_.is_given) return;
+  result_.coefficients.assign(n, missing);
   fold();
+  find_coefficients();
+}
+
+void StreamedFit::find_coefficients() {
   const Eigen::Index n = stacked_.cols() - 1;
   // terms may differ by many powers of ten: each column to unit length, so that the rank is that of
   // directions
@@ -59,29 +84,47 @@ FittedTerms StreamedFit::solve() {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(n, n);
   qr.setThreshold(collinear);
   qr.compute(stacked_.topLeftCorner(n, n) * scale.asDiagonal());
-  const double residual = std::abs(stacked_(n, n));
-  const auto samples = static_cast<double>(result_.samples);
-  result_.rms = samples > 0 ? residual / std::sqrt(samples) : missing;
-  result_.coefficients.assign(static_cast<std::size_t>(n), missing);
-  result_.deviations.assign(static_cast<std::size_t>(n), missing);
-  if (qr.rank() < n || samples < static_cast<double>(n)) return result_;
+  const double freedom =
+      static_cast<double>(result_.samples * fit_->equations.size()) - static_cast<double>(n);
+  if (qr.rank() < n || freedom < 0) return;
   const Eigen::VectorXd solution = scale.asDiagonal() * qr.solve(stacked_.col(n).head(n));
   const Eigen::MatrixXd inverse = scale.asDiagonal() * qr.solve(Eigen::MatrixXd::Identity(n, n));
-  const double freedom = samples - static_cast<double>(n);
+  const double residual = std::abs(stacked_(n, n));
   for (Eigen::Index t = 0; t < n; ++t) {
     result_.coefficients[static_cast<std::size_t>(t)] = solution[t];
     if (freedom > 0)
       result_.deviations[static_cast<std::size_t>(t)] = residual / std::sqrt(freedom) * inverse.row(t).norm();
   }
-  return result_;
 }
 
 void StreamedFit::add_residual(std::span<const double> columns) {
-  if (!row(columns)) return;
-  double left = row_[row_.size() - 1];
-  for (std::size_t t = 0; t < result_.coefficients.size(); ++t)
-    left -= result_.coefficients[t] * row_[static_cast<Eigen::Index>(t)];
-  if (!(std::abs(left) <= result_.largest)) result_.largest = std::abs(left);  // NaN stays seen
+  if (!is_whole(columns)) return;
+  const Eigen::Index n = rows_.rows() - 1;
+  for (Eigen::Index e = 0; e < rows_.cols(); ++e) {
+    double left = rows_(n, e);
+    for (Eigen::Index t = 0; t < n; ++t)
+      left -= result_.coefficients[static_cast<std::size_t>(t)] * rows_(t, e);
+    FittedColumn& column = result_.columns[static_cast<std::size_t>(e)];
+    Sums& sums = sums_[static_cast<std::size_t>(e)];
+    if (!(std::abs(left) <= column.largest)) column.largest = std::abs(left);  // NaN stays seen
+    sums.residual += left * left;
+    sums.column += rows_(n, e) * rows_(n, e);
+  }
+}
+
+FittedTerms StreamedFit::result() const {
+  FittedTerms done = result_;
+  const auto samples = static_cast<double>(done.samples);
+  double all = 0;
+  for (std::size_t e = 0; e < sums_.size(); ++e) {
+    FittedColumn& column = done.columns[e];
+    column.rms = std::sqrt(sums_[e].residual / samples);
+    column.relative = std::sqrt(sums_[e].residual / sums_[e].column);
+    all += sums_[e].residual;
+    if (!(column.largest <= done.largest)) done.largest = column.largest;
+  }
+  done.rms = std::sqrt(all / (samples * static_cast<double>(sums_.size())));
+  return done;
 }
 
 }  // namespace sinew::inline v0

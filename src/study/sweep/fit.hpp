@@ -8,28 +8,36 @@
 
 namespace sinew::inline v0 {
 
-/// Coefficients of one fit. Householder's QR of the rows so far, R with the right-hand side as last column;
-/// new rows are stacked under it and folded in, so that nothing is squared (as normal equations would).
+/// One fit: a row a sample and column, all with the same coefficients. Householder's QR of the rows so far, R
+/// with the right-hand side as last column; new rows are stacked under it and folded in, so that nothing is
+/// squared (as normal equations would). Given coefficients need no first pass, but are counted in it.
 class StreamedFit {
  public:
-  explicit StreamedFit(const StudyFit& fit);
+  StreamedFit(const Study& study, const StudyFit& fit);
 
-  /// @param columns axes and outputs of one sample; one with a missing value is left out
+  /// @param columns of one sample, as the study numbers them; one with a missing value is left out
   void add(std::span<const double> columns);
   /// No rows come any more. Coefficients that the samples do not determine are NaN.
-  FittedTerms solve();
-  /// After `solve`, in a second pass: the largest residual.
+  void solve();
+  /// After `solve`, in a second pass: the residuals.
   void add_residual(std::span<const double> columns);
-  FittedTerms result() const { return result_; }
+  FittedTerms result() const;
 
  private:
-  bool row(std::span<const double> columns);
+  /// Sums over one column.
+  struct Sums {
+    double residual = 0, column = 0;  ///< of squares
+  };
+
+  bool is_whole(std::span<const double> columns);
   void fold();
+  void find_coefficients();
 
   const StudyFit* fit_;
   Eigen::MatrixXd stacked_;  ///< triangle on top, rows below
-  Eigen::VectorXd row_;
+  Eigen::MatrixXd rows_;     ///< of one sample: an equation a column
   Eigen::Index filled_ = 0;
+  std::vector<Sums> sums_;
   FittedTerms result_;
 };
 

@@ -21,17 +21,14 @@ class Writer {
   Expected<WrittenResults> run() {
     auto file = create_result(options_.output, plan_.layout(options_));
     if (!file) return tl::unexpected(file.error());
-    for (const StudyFit& fit : plan_.study().fits) fits_.emplace_back(fit);
+    for (const StudyFit& fit : plan_.study().fits) fits_.emplace_back(plan_.study(), fit);
     const auto read = plan_.reduces() ? cells(**file) : samples(**file, true);
     if (!read) return tl::unexpected(read.error());
     for (StreamedFit& fit : fits_) fit.solve();
     if (!fits_.empty())
       if (const auto again = samples(**file, false); !again) return tl::unexpected(again.error());
     std::vector<FittedTerms> found;
-    for (std::size_t f = 0; f < fits_.size(); ++f) {
-      found.push_back(fits_[f].result());
-      found.back().unit = plan_.study().column_unit(plan_.study().fits[f].column);
-    }
+    for (const StreamedFit& fit : fits_) found.push_back(fit.result());
     if (const auto done = (*file)->finish(found); !done) return tl::unexpected(done.error());
     return WrittenResults{std::move(found), statuses_};
   }
