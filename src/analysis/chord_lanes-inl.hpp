@@ -1,6 +1,6 @@
 /// @file chord_lanes-inl.hpp
 /// Legs that are arcs between free joints, in lanes. In the plane D = 2 and N = 3, in space 3 and 6. Included
-/// once for each instruction set, as lanes-inl.hpp.  @implements TDPCR (5)-(6), (37)
+/// once for each instruction set, as lanes-inl.hpp.
 #if defined(SINEW_ANALYSIS_CHORD_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SINEW_ANALYSIS_CHORD_LANES_INL
 #undef SINEW_ANALYSIS_CHORD_LANES_INL

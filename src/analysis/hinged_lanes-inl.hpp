@@ -1,6 +1,6 @@
 /// @file hinged_lanes-inl.hpp
 /// Three struts on hinges at carriages on rails (3PRS), in lanes. Included once for each instruction set, as
-/// lanes-inl.hpp. Theory: docs/theory/tripod_rigid.md  @implements 3PFS (9)-(11), (15)-(18)
+/// lanes-inl.hpp. Theory: docs/theory/tripod_rigid.md
 #if defined(SINEW_ANALYSIS_HINGED_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SINEW_ANALYSIS_HINGED_LANES_INL
 #undef SINEW_ANALYSIS_HINGED_LANES_INL
