@@ -21,7 +21,9 @@ void drop_left_out(Table& table) {
 
 }  // namespace
 
-std::size_t Swept::converged() const { return summary.statuses[::sinew::converged]; }
+std::size_t Swept::converged() const {
+  return static_cast<std::size_t>(std::ranges::count((*this)["status"], ::sinew::converged));
+}
 
 const std::vector<double>& Swept::operator[](std::string_view name) const {
   const Column* column = table.find(name);
@@ -33,15 +35,22 @@ const std::vector<double>& Swept::operator[](std::string_view name) const {
 Expected<Swept> swept(std::string_view name, const std::filesystem::path& folder) {
   auto study = read_study(std::string(name));
   if (!study) return tl::unexpected(study.error());
+  // reduced results, which somebody may have made here, are of the same study
+  const std::string file = std::string(name) + (study->reductions.empty() ? ".h5" : "-samples.h5");
   study->reductions.clear();
   study->reduced_axes = 0;
-  Swept done{.table = {}, .summary = {}, .file = folder / (std::string(name) + ".h5")};
-  auto summary = sweep(std::move(*study), {.output = done.file, .compression = 4});
+  Swept done{.table = {}, .summary = {}, .file = folder / file};
+  // several figures are of one study; what is fitted is known to a run only
+  auto summary = sweep(*study, {.output = done.file, .resume = study->fits.empty(), .compression = 4});
   if (!summary) return tl::unexpected(summary.error());
   done.summary = std::move(*summary);
   auto table = read_hdf5(done.file);
   if (!table) return tl::unexpected(table.error());
   done.table = std::move(*table);
+  for (std::size_t c = 0; c < study->column_count(); ++c)
+    if (!done.table.find(study->column_name(c)))
+      return failure("file_unreadable", done.file.string(),
+                     "is not what sinew wrote: a column is missing; remove the file");
   drop_left_out(done.table);
   return done;
 }

@@ -26,7 +26,8 @@ struct Swept {
 };
 
 /// Runs the built-in study of this name into `folder`/name.h5, with all its samples: a reduction of its is
-/// left aside. Errors: those of `sweep`.
+/// left aside. Results that are there already, of the same study and version, are read. Errors: those of
+/// `sweep` and `read_hdf5`.
 Expected<Swept> swept(std::string_view study, const std::filesystem::path& folder);
 
 /// The rows of a study where `wanted(row)` holds.
