@@ -27,6 +27,7 @@ Expected<Reproduction> tripod_fig11(const StudyItem& item, const std::filesystem
 Expected<Reproduction> tripod_fig12(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tripod_fig13(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tripod_equation36(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> tripod_design(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> lsk_fig3(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> lsk_fig4(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> lsk_fig5(const StudyItem& item, const std::filesystem::path& folder);
