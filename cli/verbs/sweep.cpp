@@ -88,7 +88,8 @@ std::string rate_of(std::uint64_t bytes, double seconds) {
 }
 
 std::string report(const SweepSummary& summary) {
-  const auto fresh = static_cast<double>(summary.samples - summary.resumed);
+  const auto fresh =
+      static_cast<double>(summary.samples - summary.resumed - (summary.counts_all ? summary.statuses[10] : 0));
   std::string who = fmt::format("{} thread{}", summary.threads, summary.threads == 1 ? "" : "s");
   if (summary.ranks > 1) who = fmt::format("{} ranks of {}", summary.ranks, who);
   const auto line = [](const char* what, double seconds, const std::string& rate) {
@@ -168,6 +169,9 @@ void print_fit(const FittedTerms& fit) {
     text += fmt::format("{} samples\n", fit.samples);
   }
   print(text + '\n');
+  if (fit.is_given || !std::isnan(fit.coefficients.front())) return;
+  message(fmt::format("sinew sweep: fit {}: the samples do not tell {} apart; remove one, or vary more axes",
+                      fit.name, fmt::join(fit.terms, ", ")));
 }
 
 }  // namespace

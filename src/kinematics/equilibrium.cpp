@@ -106,7 +106,11 @@ void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench&
     Equilibrium found = equilibrium(robot, row, options, work);
     if (judge && found.report.status == Status::unstable) {
       options.resume = false;
+      const SpatialPose from = found.pose;
       found = equilibrium(robot, row, options, work);
+      options.start = from;
+      if (found.report.status != Status::converged)
+        found = equilibrium(robot, row, options, work);  // back to where the path is
     }
     poses[k] = found.pose;
     statuses[k] = found.is_solved() && !judge ? Status::converged : found.report.status;

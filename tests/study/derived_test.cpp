@@ -51,8 +51,8 @@ TEST(Derived, HaveTheUnitOfTheirAxesOrTheOneGiven) {
   const auto study = study_of(folder, good + R"(derived:
   s: 0.01 - 2 x - y
   area: x*y
-  angle: {is: 10 x, unit: deg, to: 10}
-  limited: {is: x^2, from: 1 N}
+  angle: {is: 1e1 x, unit: rad, to: 10 deg}
+  limited: {is: 4 x^2, from: 1 N}
   again: s + x
 )");
   ASSERT_TRUE(study) << to_string(study.error());
@@ -72,6 +72,11 @@ TEST(Derived, SayWhatIsWrong) {
                                       {"{s: x + s}", "later_column"},
                                       {"{s: x + t, t: y}", "later_column"},
                                       {"{s: x +}", "bad_term"},
+                                      {"{s: {is: x + y, to: 1 deg}}", "wrong_dimension"},
+                                      {"{s: {is: x*y, to: 1 mm}}", "wrong_dimension"},
+                                      {"{s: {is: x, unit: mm}}", "unknown_unit"},
+                                      {"{e3: x, s: 1e3 x}", "bad_term"},  // 1000 x, or e3 x
+                                      {"{e3: x, s: 1e3}", "bad_term"},
                                       {"{s: (x)}", "bad_term"},
                                       {"{s: [x]}", "wrong_type"},
                                       {"{s: {from: 0}}", "missing_key"},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sinew/io/quantity.hpp"
 #include "study/file/column_name.hpp"
@@ -12,16 +13,33 @@
 namespace sinew::inline v0 {
 namespace {
 
-/// The unit of a sum of single columns that have one unit; empty of anything else.
-std::string unit_of(std::span<const Monomial> sum, const Study& study) {
-  const std::string* unit = nullptr;
+/// What is known of the unit of a sum. A number may carry a unit: 20 x may be an angle.
+struct SumUnit {
+  bool is_known = false;
+  bool is_certain = false;  ///< no number but 1 stands before a column
+  bool is_product = false;  ///< of several units, for which there is no name
+  std::string name;
+};
+
+/// That of all summands that have one, where they agree.
+SumUnit unit_of(std::span<const Monomial> sum, const Study& study) {
+  std::vector<std::string> first;
+  bool is_certain = true;
   for (const Monomial& monomial : sum) {
-    if (monomial.columns.empty()) continue;  // a constant is in the unit of the others
-    const std::string& own = study.column_unit(monomial.columns.front());
-    if (monomial.columns.size() > 1 || (unit && *unit != own)) return {};
-    unit = &own;
+    std::vector<std::string> units;
+    for (const std::size_t column : monomial.columns)
+      if (!study.column_unit(column).empty()) units.push_back(study.column_unit(column));
+    std::ranges::sort(units);
+    if (units.empty()) continue;
+    is_certain = is_certain && std::abs(monomial.factor) == 1;
+    if (!first.empty() && units != first) return {};
+    first = units;
   }
-  return unit ? *unit : std::string();
+  if (first.empty()) return {};
+  return {.is_known = true,
+          .is_certain = is_certain,
+          .is_product = first.size() > 1,
+          .name = fmt::format("{}", fmt::join(first, "*"))};
 }
 
 /// The polynomial: of the names that stand before this one.
@@ -47,11 +65,27 @@ std::vector<Monomial> read_polynomial(const Reader& place, std::span<const std::
   return std::move(*sum);
 }
 
-/// What `unit: mm` says of the SI unit.
+/// What `unit: m` says: an SI unit, as numbers in the polynomial are in SI.
 std::string si_unit(const Reader& place, const std::string& text) {
   const auto one = parse_any_quantity("1 " + text);
-  if (!one) place.fail(one.error().front().code, one.error().front().message);
-  return one ? std::string(unit(one->dimension)) : std::string();
+  if (one && one->value == 1) return std::string(unit(one->dimension));
+  place.fail(
+      "unknown_unit",
+      fmt::format("{} is no SI unit that is known here, and a derived value is in SI; give m, rad, N, ...",
+                  in_quotes(text)));
+  return {};
+}
+
+/// The unit of the values: what is known of them, and what `unit` or the limits say.
+std::string settle(const Reader& place, const SumUnit& known, const std::string& said,
+                   const std::string& text) {
+  if (!known.is_known || said == known.name) return said;
+  if (!said.empty() && !known.is_certain) return said;
+  if (!said.empty())
+    place.fail("wrong_dimension",
+               fmt::format("is in {} by its unit or its limits, but {} is in {}; give {}", said, text,
+                           known.name, known.is_product ? "limits without a unit, in SI" : "that"));
+  return known.is_product ? std::string() : known.name;
 }
 
 StudyDerived read_one(const std::string& name, Reader& place, std::span<const std::string_view> names,
@@ -60,17 +94,18 @@ StudyDerived read_one(const std::string& name, Reader& place, std::span<const st
   const std::size_t number = study.variable_count();
   if (!place.is(Node::Kind::map)) {
     derived.is = read_polynomial(place, names, number);
-    derived.unit = unit_of(derived.is, study);
+    derived.unit = settle(place, unit_of(derived.is, study), {}, {});
     return derived;
   }
   const Reader sum = place.required("is", "a polynomial of axes: \"1.29 - L1 - L2\"");
   derived.is = read_polynomial(sum, names, number);
   const auto unit = place.optional("unit");
-  const std::string bare = unit ? unit->text() : std::string();
-  derived.unit = bare.empty() ? unit_of(derived.is, study) : si_unit(*unit, bare);
-  ColumnValues limits(derived.unit, bare, "derived value");
+  const std::string text = sum.node() ? sum.node()->text : std::string();
+  std::string said = unit ? si_unit(*unit, unit->text()) : std::string();
+  ColumnValues limits(said, {}, "derived value");
   if (const auto from = place.optional("from")) derived.low = limits.value(*from);
   if (const auto to = place.optional("to")) derived.high = limits.value(*to);
+  derived.unit = settle(place, unit_of(derived.is, study), said, text);
   if (derived.low > derived.high)
     place.fail("out_of_range", "from is above to, which leaves every sample out; exchange them");
   place.close();

@@ -327,7 +327,9 @@ class StudyReader {
           const std::string column = of->text();
           const auto output = std::ranges::find(study_.outputs, column, &StudyOutput::name);
           if (output == study_.outputs.end())
-            of->fail("unknown_column", "is no output of this study; name it under outputs");
+            of->fail("unknown_column", study_.find_variable(of->text())
+                                           ? "is an axis or a derived value; reductions are of outputs"
+                                           : "is no output of this study; name it under outputs");
           reduction.output = static_cast<std::size_t>(output - study_.outputs.begin());
         }
       if (found != 1)

@@ -165,12 +165,24 @@ class PoseSampler {
     VelocityBatch out{.status = statuses_};
     for (const Output& output : asked_.outputs) choose(output, block.count, out);
     velocity_batch(robot_, {poses_, asked_.bending, asked_.elbow, asked_.independent}, out, work_);
-    for (std::size_t k = 0; k < block.count; ++k) block.statuses[k] = status(statuses_[k]);
+    for (std::size_t k = 0; k < block.count; ++k)
+      block.statuses[k] = is_refused(k, block.count) ? refused : status(statuses_[k]);
     for (std::size_t o = 0; o < asked_.outputs.size(); ++o) put(o, block);
     *block.done += block.count;
   }
 
  private:
+  /// What a query would not take, whatever the robot; see read_pose.cpp and context.cpp.
+  bool is_refused(std::size_t k, std::size_t n) const {
+    const auto c = [&](std::size_t axis) { return poses_[axis * n + k]; };
+    const Range place = Range::place(), component = Range::between(-1, 1);
+    if (asked_.independent)
+      return !place.contains(c(0)) || !component.contains(c(1)) || !component.contains(c(2));
+    if (!asked_.is_spatial)
+      return !place.contains(c(0)) || !place.contains(c(1)) || !Range::turn().contains(c(2));
+    return !place.contains(c(0)) || !place.contains(c(1)) || !place.contains(c(2)) || !(squares_[k] >= 1e-12);
+  }
+
   std::vector<double>& column(Field field) { return columns_[static_cast<std::size_t>(field)]; }
 
   void place(const SampleBlock& block) {
@@ -178,9 +190,11 @@ class PoseSampler {
     poses_.resize(asked_.pose.size() * n);
     for (std::size_t c = 0; c < asked_.pose.size(); ++c)
       for (std::size_t k = 0; k < n; ++k) poses_[c * n + k] = asked_.pose[c].at(block, k);
+    squares_.assign(n, 1);
     for (std::size_t k = 0; asked_.pose.size() == 7 && k < n; ++k) {
       double square = 0;
       for (std::size_t c = 3; c < 7; ++c) square += poses_[c * n + k] * poses_[c * n + k];
+      squares_[k] = square;
       const double scale = 1 / std::sqrt(square);  // of zero: no finite pose, which the batch says
       for (std::size_t c = 3; c < 7; ++c) poses_[c * n + k] *= scale;
     }
@@ -252,7 +266,7 @@ class PoseSampler {
   const AnyRobot& robot_;
   const PoseStudy& asked_;
   Workspace work_;
-  std::vector<double> poses_;
+  std::vector<double> poses_, squares_;  ///< of the quaternions given
   std::vector<Status> statuses_;
   std::vector<std::uint8_t> type_1_, type_2_;
   std::array<std::vector<double>, 10> columns_;

@@ -124,6 +124,8 @@ FittedTerms StreamedFit::result() const {
     if (!(column.largest <= done.largest)) done.largest = column.largest;
   }
   done.rms = std::sqrt(all / (samples * static_cast<double>(sums_.size())));
+  const auto is_other = [&](const FittedColumn& column) { return column.unit != done.columns.front().unit; };
+  if (std::ranges::any_of(done.columns, is_other)) done.rms = done.largest = missing;  // metres and radians
   return done;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <random>
 
 #include "query/tree_session.hpp"
 #include "study/samplers/answer_path.hpp"
@@ -16,7 +18,8 @@ namespace {
 
 constexpr std::size_t trials = 24;
 constexpr std::size_t most_paths = 400;
-constexpr std::size_t most_left_out = 20'000;  ///< passed over in search of one sample to try
+constexpr std::size_t most_left_out = 20'000;        ///< passed over in search of a sample to try
+constexpr std::size_t most_looked_at = 100'000'000;  ///< where few are kept: some seconds
 
 /// Places of all numbers of a tree.
 void collect(const Json& node, const std::string& path, std::vector<std::string>& paths) {
@@ -71,15 +74,14 @@ bool is_usual(std::string_view path, std::string_view query) {
 
 class Trial {
  public:
-  explicit Trial(Study& study) : study_(study) {}
+  explicit Trial(Study& study) : study_(study), values_(study.variable_count()) {}
 
   Expected<std::string> run() {
     auto session = TreeSession::open(study_.robot_document);
     if (!session) return tl::unexpected(session.error());
     ask(*session);
     if (answers_.empty() && errors_.empty())
-      return failure("all_left_out", study_.source + ": derived",
-                     "every sample tried is outside the limits of a derived value; widen its from and to");
+      return failure("all_left_out", study_.source + ": derived", all_out());
     if (answers_.empty()) return tl::unexpected(errors_);
     if (study_.outputs.empty()) choose_outputs();
     if (study_.outputs.empty())
@@ -90,22 +92,21 @@ class Trial {
     if (!errors.empty()) return tl::unexpected(std::move(errors));
     set_units(*session);
     if (solved_ > 0) return std::string();
-    return fmt::format("none of {} samples tried has a solution", answers_.size());
+    return answers_.size() == 1 ? std::string("the one sample tried has no solution")
+                                : fmt::format("none of {} samples tried has a solution", answers_.size());
   }
 
  private:
   void ask(TreeSession& session) {
     Document query = study_.query;
     const auto places = placeholders(query.root, study_);
-    const std::size_t count = std::min(trials, study_.samples);
-    std::vector<double> values(study_.variable_count());
     const auto begin = std::chrono::steady_clock::now();
-    for (std::size_t t = 0; t < count; ++t) {
+    for (const std::size_t sample : chosen()) {
       const bool takes_long = std::chrono::steady_clock::now() - begin > std::chrono::seconds(2);
       if (takes_long && solved_ > 0) break;  // some queries take seconds
-      if (!sample(t, count, values)) continue;
+      axis_values(study_, {sample, 1}, false, values_);
       for (const Placeholder& place : places)
-        put(*place.node, values[*place.axis], study_.column_unit(*place.axis));
+        put(*place.node, values_[*place.axis], study_.column_unit(*place.axis));
       Json answer = session.answer(query);
       if (const auto error = answer.find("error"); error != answer.end()) {
         if (errors_.empty())
@@ -118,20 +119,51 @@ class Trial {
     }
   }
 
-  /// The sample of a trial: the first and the last, and between them places that no axis repeats; of those
-  /// left out the next that is not. Whether there is one.
-  bool sample(std::size_t trial, std::size_t count, std::span<double> values) const {
-    const std::size_t n = study_.samples;
-    const std::size_t first = trial + 1 == count
-                                  ? n - 1
-                                  : static_cast<std::size_t>(static_cast<double>(n) * 0.6180339887498949 *
-                                                             static_cast<double>(trial)) %
-                                        n;
-    for (std::size_t k = 0; k < std::min(n, most_left_out); ++k) {
-      axis_values(study_, {(first + k) % n, 1}, false, values);
-      if (!is_left_out(study_, values)) return true;
+  std::string all_out() const {
+    std::string names;
+    for (const StudyDerived& derived : study_.derived)
+      if (std::isfinite(derived.low) || std::isfinite(derived.high))
+        names += (names.empty() ? "" : ", ") + derived.name;
+    return fmt::format("{} samples are outside the limits of {}; widen from and to, or the axes",
+                       study_.samples <= most_looked_at ? "all" : "the first 1e8", names);
+  }
+
+  /// The first and the last sample, and between them places that no axis repeats; of those left out the next
+  /// that is not, and where so few are kept that there is none nearby, some of all.
+  std::vector<std::size_t> chosen() const {
+    const std::size_t n = study_.samples, count = std::min(trials, n);
+    std::vector<std::size_t> found;
+    for (std::size_t t = 0; t < count; ++t) {
+      const std::size_t first = t + 1 == count
+                                    ? n - 1
+                                    : static_cast<std::size_t>(static_cast<double>(n) * 0.6180339887498949 *
+                                                               static_cast<double>(t)) %
+                                          n;
+      std::size_t passed = 0;
+      while (passed < std::min(n, most_left_out) && !is_kept((first + passed) % n)) ++passed;
+      if (passed == std::min(n, most_left_out)) return chosen_of_all();
+      found.push_back((first + passed) % n);
     }
-    return false;
+    return found;
+  }
+
+  /// Each kept sample has the same chance (reservoir sampling).
+  std::vector<std::size_t> chosen_of_all() const {
+    std::vector<std::size_t> found;
+    std::minstd_rand random;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < std::min(study_.samples, most_looked_at); ++k) {
+      if (!is_kept(k)) continue;
+      const std::size_t place = ++kept <= trials ? kept - 1 : random() % kept;
+      if (found.size() < trials) found.push_back(k);
+      if (place < trials) found[place] = k;
+    }
+    return found;
+  }
+
+  bool is_kept(std::size_t sample) const {
+    axis_values(study_, {sample, 1}, false, values_);
+    return !is_left_out(study_, values_);
   }
 
   /// Where a query is wrong: a place of the file, or a path in the query or the robot.
@@ -192,6 +224,7 @@ class Trial {
   }
 
   Study& study_;
+  mutable std::vector<double> values_;  ///< of one sample
   Errors errors_;
   std::vector<Json> answers_;
   int solved_ = 0;

@@ -68,17 +68,35 @@ class TermParser {
     return found;
   }
 
+  /// The characters of a power of ten that follow a number: `e-3`; 0 where none does.
+  std::size_t exponent_size() const {
+    if (rest_.empty() || (rest_.front() != 'e' && rest_.front() != 'E')) return 0;
+    std::size_t size = rest_.size() > 1 && (rest_[1] == '-' || rest_[1] == '+') ? 2 : 1;
+    const std::size_t sign = size;
+    while (size < rest_.size() && is_digit(rest_[size])) ++size;
+    return size > sign ? size : 0;
+  }
+
+  /// `2`, `0.5`, `1e-3`.
+  bool number(Monomial& product) {
+    const std::string_view from = rest_;
+    word([](char c) { return is_digit(c) || c == '.'; });
+    const std::size_t digits = from.size() - rest_.size(), exponent = exponent_size();
+    const std::string_view power = rest_.substr(0, exponent);
+    for (const std::string_view column : columns_)
+      if (exponent > 0 && (power == column || power.substr(0, 1) == column)) return refuse_power(column);
+    rest_.remove_prefix(exponent);
+    const auto value = parse_number(from.substr(0, digits + exponent));
+    if (!value) return refuse();
+    product.factor *= *value;
+    skip();
+    return true;
+  }
+
   /// A number, or a column with a power.
   bool factor(Monomial& product) {
     skip();
-    const std::string_view number = word([](char c) { return is_digit(c) || c == '.'; });
-    if (!number.empty()) {
-      const auto value = parse_number(number);
-      if (!value) return refuse();
-      product.factor *= *value;
-      skip();
-      return true;
-    }
+    if (!rest_.empty() && (is_digit(rest_.front()) || rest_.front() == '.')) return number(product);
     const std::string_view name = word([](char c) { return is_letter(c) || is_digit(c); });
     if (name.empty()) return refuse();
     const auto found = std::ranges::find(columns_, name);
@@ -99,6 +117,16 @@ class TermParser {
     return true;
   }
 
+  /// `1e3` where e3 is a column.
+  bool refuse_power(std::string_view column) {
+    errors_ = {
+        {"bad_term", "",
+         fmt::format("{} has a number right before {}, which is a power of ten or the column {}; put a * "
+                     "between for the product, or write the number without a power of ten.",
+                     in_quotes(whole_), in_quotes(rest_), column)}};
+    return false;
+  }
+
   bool refuse() {
     errors_ = {{"bad_term", "",
                 fmt::format("{} cannot be read at {}; a term is made of columns, whole powers up to {} and "
@@ -117,7 +145,6 @@ class TermParser {
 
 Expected<std::vector<Monomial>> parse_term(std::string_view text, std::span<const std::string_view> columns,
                                            std::string_view nouns) {
-  if (const auto number = parse_number(text)) return std::vector{Monomial{.factor = *number, .columns = {}}};
   return TermParser(text, columns, nouns).term();
 }
 

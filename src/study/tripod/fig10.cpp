@@ -2,7 +2,6 @@
 /// inputs that hold z_p = h at each tilt. Theory: docs/theory/tripod_flexible.md
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -40,21 +39,22 @@ void add_findings(std::vector<Finding>& findings, const PresetStudies& of) {
   const std::size_t each = of.near.size() / std::size(heights);
   for (std::size_t i = 0; i < std::size(heights); ++i) {
     const auto rows = rows_at(of.exact, heights[i]);
-    const std::vector<double> feeds = common_feeds(of.exact, rows);
-    findings.push_back({fmt::format("{}, z_p = {} m: inputs beside the plane L₁ + L₂ + L₃ = const",
-                                    of.preset->name, heights[i]),
-                        "drawn, not printed",
-                        fmt::format("mean {:.2f} to {:.2f} mm more than level, {} poses, tilts to 34.9°",
-                                    1e3 * *std::ranges::min_element(feeds),
-                                    1e3 * *std::ranges::max_element(feeds), rows.size()),
-                        "", "for information"});
+    const auto more = tripod::range_of(common_feeds(of.exact, rows));
+    findings.push_back(
+        {fmt::format("{}, z_p = {} m: inputs beside the plane L₁ + L₂ + L₃ = const", of.preset->name,
+                     heights[i]),
+         "drawn, not printed",
+         fmt::format("mean {:.2f} to {:.2f} mm more than level, {} poses, tilts to {:.1f}°", 1e3 * more.low,
+                     1e3 * more.high, rows.size(), tripod::largest_tilt(of.exact)),
+         "", "for information"});
     const auto near = tripod::rows_where(of.near, [&](std::size_t k) { return k / each == i; });
     const std::vector<double> z = tripod::at_rows(of.near["z"], near);
+    const auto height = tripod::range_of(z);
     findings.push_back(
         {fmt::format("{}, h = {} m: z_p on that plane, {} poses", of.preset->name, heights[i], z.size()),
          "horizontal plane",
-         fmt::format("{:+.2f} to {:+.2f} mm from h", 1e3 * (*std::ranges::min_element(z) - heights[i]),
-                     1e3 * (*std::ranges::max_element(z) - heights[i])),
+         fmt::format("{:+.2f} to {:+.2f} mm from h", 1e3 * (height.low - heights[i]),
+                     1e3 * (height.high - heights[i])),
          "", "for information"});
   }
   findings.push_back(

@@ -1,5 +1,6 @@
 #include "study/tripod/tilt_plane.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,20 @@ constexpr double reach = 0.3;
 constexpr int places_a_side = 31;
 
 }  // namespace
+
+Extent range_of(std::span<const double> values) {
+  Extent found{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const double value : values)
+    if (std::isfinite(value)) found = {std::min(found.low, value), std::max(found.high, value)};
+  return found;
+}
+
+double largest_tilt(const Swept& study) {
+  double most = 0;
+  for (std::size_t k = 0; k < study.size(); ++k)
+    if (const double size = std::hypot(study["e1"][k], study["e2"][k]); size > most) most = size;
+  return tilt(std::min(1.0, most));
+}
 
 Panel tilt_panel(std::string title, double reach) {
   Panel panel = plane(std::move(title));

@@ -23,6 +23,15 @@ inline constexpr Preset presets[] = {
 /// Heights that the studies go to [m], in the order of their first axis.
 inline constexpr double heights[] = {0.2, 0.4, 0.6};
 
+/// The ends of those values that are finite.
+struct Extent {
+  double low, high;
+};
+Extent range_of(std::span<const double> values);
+
+/// Of all poses that were found [deg].
+double largest_tilt(const Swept& study);
+
 /// Empty, from −reach to reach both ways.
 Panel tilt_panel(std::string title, double reach);
 
