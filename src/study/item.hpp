@@ -27,6 +27,11 @@ Expected<Reproduction> tripod_fig11(const StudyItem& item, const std::filesystem
 Expected<Reproduction> tripod_fig12(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tripod_fig13(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tripod_equation36(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> tripod_fig14(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> tripod_fig15(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> tripod_fig16(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> tripod_table1(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> tripod_table2(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> tripod_design(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> lsk_fig3(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> lsk_fig4(const StudyItem& item, const std::filesystem::path& folder);

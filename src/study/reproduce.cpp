@@ -30,6 +30,13 @@ constexpr std::array items{
     StudyItem{"3pfs/fig12", "Parasitic shift x_p of the 3PFS beside the rigid 3PRS, at three heights"},
     StudyItem{"3pfs/fig13", "Parasitic shift y_p of the 3PFS beside the rigid 3PRS, at three heights"},
     StudyItem{"3pfs/equation36", "Parasitic motion of the 3PFS as polynomials of its tilt, equation (36)"},
+    StudyItem{"3pfs/fig14", "What a vertical force does to the poses of the 3PFS"},
+    StudyItem{"3pfs/fig15", "What a moment about x does to the poses of the 3PFS"},
+    StudyItem{"3pfs/fig16", "What a moment about y does to the poses of the 3PFS"},
+    StudyItem{"3pfs/table1",
+              "Relative RMS error between loaded and unloaded poses of the 3PFS, rods of 3 mm"},
+    StudyItem{"3pfs/table2",
+              "Relative RMS error between loaded and unloaded poses of the 3PFS, rods of 4 mm"},
     StudyItem{"3pfs/design",
               "Parasitic motion of the flexible tripod by pair angle, height, radius and diameter"},
     StudyItem{"lsk/fig3", "Length of a tendon past one joint: constant curvature and linearised"},
@@ -40,10 +47,10 @@ constexpr std::array items{
     StudyItem{"lsk/numbers", "Numbers derived in the text: sizes, travel, evaluations, errors, misprints"},
 };
 constexpr std::array<StudyFunction, items.size()> functions{
-    tdpcr_fig8,   tdpcr_fig9,   tdpcr_fig10,  tdpcr_fig11,       tdpcr_fig12,   tdpcr_chains,
-    tripod_fig4,  tripod_fig5,  tripod_fig6,  tripod_fig7,       tripod_fig9,   tripod_fig10,
-    tripod_fig11, tripod_fig12, tripod_fig13, tripod_equation36, tripod_design, lsk_fig3,
-    lsk_fig4,     lsk_fig5,     lsk_fig6,     lsk_fig7,          lsk_numbers};
+    tdpcr_fig8,    tdpcr_fig9,        tdpcr_fig10,  tdpcr_fig11,  tdpcr_fig12,  tdpcr_chains,  tripod_fig4,
+    tripod_fig5,   tripod_fig6,       tripod_fig7,  tripod_fig9,  tripod_fig10, tripod_fig11,  tripod_fig12,
+    tripod_fig13,  tripod_equation36, tripod_fig14, tripod_fig15, tripod_fig16, tripod_table1, tripod_table2,
+    tripod_design, lsk_fig3,          lsk_fig4,     lsk_fig5,     lsk_fig6,     lsk_fig7,      lsk_numbers};
 
 /// A bar would end the cell, and a line break the table.
 std::string cell(const std::string& text) {
