@@ -88,8 +88,8 @@ std::string rate_of(std::uint64_t bytes, double seconds) {
 }
 
 std::string report(const SweepSummary& summary) {
-  const auto fresh =
-      static_cast<double>(summary.samples - summary.resumed - (summary.counts_all ? summary.statuses[10] : 0));
+  const auto fresh = static_cast<double>(summary.samples - summary.resumed -
+                                         (summary.counts_all ? summary.statuses[10] : 0));
   std::string who = fmt::format("{} thread{}", summary.threads, summary.threads == 1 ? "" : "s");
   if (summary.ranks > 1) who = fmt::format("{} ranks of {}", summary.ranks, who);
   const auto line = [](const char* what, double seconds, const std::string& rate) {

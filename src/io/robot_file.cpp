@@ -593,12 +593,39 @@ Expected<AnyRobot> load(const std::string& path_or_name) {
   return document ? read_robot(*document) : tl::unexpected(document.error());
 }
 
+namespace {
+
+/// What of a leg's place stands in its defaults only becomes the leg's own: maps empty, so that defaults set
+/// later still count, and lists as they are.
+Expected<void> make_own(Document& robot, const Document& whole, const std::string& path) {
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    if (path[k] != '.' && path[k] != '[') continue;
+    const std::string above = path.substr(0, k);
+    const Node* shared = at(whole.root, above);
+    if (!shared || at(robot.root, above)) continue;
+    Node own = *shared;
+    if (own.kind == Node::Kind::map) own.members.clear();
+    if (const auto done = set(robot.root, above, std::move(own)); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace
+
 Expected<Document> with(const Document& document, const std::string& path, Node value) {
   Document changed = document;
-  if (path.starts_with("legs") || path.starts_with("sections[")) {
-    auto longer = is_serial(document) ? expanded_sections(document) : listed(document);
+  const bool of_legs = path.starts_with("legs"), of_sections = path.starts_with("sections[");
+  if (is_serial(document) && (of_legs || of_sections)) {
+    auto longer = expanded_sections(document);
     if (!longer) return longer;
     changed = std::move(*longer);
+  } else if (of_legs || of_sections) {
+    auto longer = expanded(document);
+    if (!longer) return longer;
+    Document whole = listed(*longer).value();
+    if (auto there = set(whole.root, path, value); !there) return tl::unexpected(there.error());
+    changed = std::move(*longer);
+    if (auto done = make_own(changed, whole, path); !done) return tl::unexpected(done.error());
   }
   // A place of its own, in no file: an error about the value is then named by its path, and told once.
   value.line = -1;

@@ -310,6 +310,14 @@ TEST(RobotFile, ASettingReplacesOneValue) {
   EXPECT_EQ(legs[1].link.length, 0.21);
   const auto all = read_robot(with(document, "defaults.link.length", length).value());
   EXPECT_EQ(std::get<0>(all->model).legs[2].link.length, 0.21);
+  // a setting of the defaults still reaches a leg of which something else was set before
+  const Document leg_first = with(document, "legs[1].link.length", length).value();
+  const auto both = read_robot(with(leg_first, "defaults.link.tendon_offset", make_node(0.004)).value());
+  ASSERT_TRUE(both) << to_string(both.error());
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(std::get<0>(both->model).legs[k].drive.offset, 0.004) << k;
+    EXPECT_EQ(std::get<0>(both->model).legs[k].link.length, k == 1 ? 0.21 : 0.2) << k;
+  }
   EXPECT_FALSE(with(document, "legs[7].link.length", length));
 }
 
