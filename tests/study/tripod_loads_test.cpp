@@ -218,6 +218,9 @@ std::set<std::string> what_fails(const Reproduction& item) {
 }
 
 TEST(TripodLoadItems, FiguresFailOnlyWhatIsNotSo) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "minutes of sweeps, which the test above runs too";
+#endif
   EXPECT_EQ(what_fails(made("fig14")), std::set<std::string>{"G2: e_1, e_2 contract"});
   EXPECT_EQ(made("fig14").findings.size(), 16u);
   for (const char* name : {"fig15", "fig16"}) {
@@ -245,6 +248,9 @@ void expect_stiffnesses(const std::string& geometry) {
 }
 
 TEST(TripodLoadItems, TablesHaveAFindingForEveryCell) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "minutes of sweeps, which the test above runs too";
+#endif
   for (const auto& [name, agreeing] : {std::pair{"table1", 36}, {"table2", 40}}) {
     const Reproduction& item = made(name);
     EXPECT_TRUE(what_fails(item).empty());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/tripod/tilt_plane.hpp"
+
 namespace sinew::inline v0::tripod {
 
 std::vector<std::size_t> rows_of(const Swept& study, const LoadCase& at) {
@@ -42,7 +44,7 @@ LoadedPairs at_rows(const LoadedPairs& pairs, std::span<const std::size_t> rows)
 }
 
 double relative_rms(const LoadedPairs& pairs) {
-  const auto [low, high] = std::ranges::minmax(pairs.unloaded);
+  const auto [low, high] = range_of(pairs.unloaded);
   return 100 * root_mean_square(pairs.change()) / (high - low);
 }
 
