@@ -33,7 +33,7 @@ constexpr std::array options{
     Option{"tolerance", "LENGTH", "of a tendon before it counts as slack or too short; default the file's"},
     Option{"envelope", "NAME", "bends a section is allowed: square, disc or actuator; default its limit"},
     Option{"from", "\"X, Y, PHI\"", "first pose of a path, written like --pose"},
-    Option{"to", "\"X, Y, PHI\"", "last pose of a path"},
+    Option{"to", "\"X, Y, PHI\"|LANGUAGE", "last pose of a path; of export the language: c-header"},
     Option{"to-inputs", "\"A, B, ...\"", "of branches the inputs where the curve leads"},
     Option{"to-wrench", "\"FX, FY, FZ, MX, MY, MZ\"", "of branches the wrench where the curve leads"},
     Option{"range", "\"LOW, HIGH\"",
@@ -83,7 +83,9 @@ constexpr std::array options{
     Option{"set", "PATH=VALUE", "change the robot, e.g. \"legs[0].link.length=180 mm\"; may be repeated", 0,
            true},
     Option{"output", "FILE",
-           "where to write: a folder for reproduce (default: out), a figure for plot, a .csv for track", 'o'},
+           "where to write: a folder for reproduce (default: out), a figure for plot, a .csv for track; of "
+           "export a file, or the folder of several",
+           'o'},
     Option{"resume", "", "go on with what an interrupted run left; without it, begin"},
     Option{"threads", "N", "threads of this process; default one a core"},
     Option{
@@ -299,6 +301,16 @@ const std::array table{
          "Values that are allowed but unlikely are warned of on stderr. --json gives the answer to describe.",
          "sinew check 3-rfr",
          run_check},
+    Verb{
+        "export",
+        "ROBOT",
+        "a robot in the languages of what drives it",
+        {"to", "output", "set", "quiet", "help"},
+        {"to"},
+        "c-header: the integer, Q15.16 and float tables of a serial robot, with limits, counts of its motors "
+        "and\na hash, for the kernel headers of sinew on a small controller. It goes to stdout without -o.",
+        "sinew export nottingham-tpcj --to c-header -o robot_table.h",
+        run_export},
     Verb{"new",
          "[KIND]",
          "a commented robot or study file to start from, on stdout",

@@ -24,11 +24,13 @@ struct Integer<64> {
   using type = __INT64_TYPE__;
 };
 
-/// raw / 2^Fraction, in Bits bits with the sign: `Fixed<16, 13>` holds −4 to 4 in steps of 0.00012.
+/// raw / 2^Fraction, in Bits bits with the sign: `Fixed<16, 13>` holds −4 to 4 in steps of 0.00012. Numbers
+/// that are all small may have more than Bits of them behind the point.
 template <int Bits, int Fraction>
 struct Fixed {
-  static_assert(Fraction >= 0 && Fraction < Bits, "the sign needs a bit");
+  static_assert(Fraction >= 0 && Fraction < 2 * Bits && Fraction < 63, "steps of at most 1");
   using Raw = typename Integer<Bits>::type;
+  static constexpr int bits = Bits, fraction = Fraction;
   static constexpr Raw largest = static_cast<Raw>(~(static_cast<Raw>(1) << (Bits - 1)));
   static constexpr Raw smallest = static_cast<Raw>(-largest - 1);
 

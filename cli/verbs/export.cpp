@@ -1,0 +1,85 @@
+/// export: a robot in the languages of what drives it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "request.hpp"
+#include "sinew/io/export.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/io/serial_file.hpp"
+#include "sinew/io/table.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace sinew::cli {
+namespace {
+
+struct Language {
+  std::string_view name, summary;
+  std::vector<ExportedFile> (*write)(const ControllerTable&);
+};
+
+const std::array languages{
+    Language{"c-header", "constants of a serial robot for a controller, C++14", controller_header},
+};
+
+const Language* find_language(std::string_view name) {
+  const auto found = std::ranges::find(languages, name, &Language::name);
+  return found == languages.end() ? nullptr : &*found;
+}
+
+int refuse_language(const std::string& word) {
+  std::vector<std::string_view> names;
+  for (const Language& language : languages) names.push_back(language.name);
+  const std::string_view hint = closest(word, names);
+  return refuse("export", {{"unknown_choice", "--to",
+                            fmt::format("no such language{} There are: {}.",
+                                        hint.empty() ? "." : fmt::format("; did you mean {}?", hint),
+                                        fmt::join(names, ", "))}});
+}
+
+Expected<ControllerTable> read_table(const Arguments& arguments) {
+  auto document = read_robot_file(arguments.operand());
+  if (!document) return tl::unexpected(document.error());
+  const auto changes = settings(arguments);
+  if (!changes) return tl::unexpected(changes.error());
+  if (!is_serial(*document))
+    return failure("not_available", "",
+                   fmt::format("{} is no serial robot; these languages are for those in this version",
+                               arguments.operand()));
+  document =
+      expanded_sections(*document).and_then([&](const Document& listed) { return with(listed, *changes); });
+  if (!document) return tl::unexpected(document.error());
+  const auto robot = read_serial_robot(*document);
+  return robot ? make_controller_table(*robot) : tl::unexpected(robot.error());
+}
+
+/// One file into the file that is named, or on stdout; several into the folder that is named.
+Expected<void> write(const std::vector<ExportedFile>& files, const Arguments& arguments) {
+  const std::string* output = arguments.text("output");
+  if (files.size() == 1 && !output) return print(files[0].text), Expected<void>();
+  for (const ExportedFile& file : files) {
+    const std::filesystem::path path = files.size() == 1
+                                           ? std::filesystem::path(*output)
+                                           : std::filesystem::path(output ? *output : ".") / file.name;
+    if (auto written = write_text(file.text, path); !written) return written;
+    if (!arguments.has("quiet")) print(path.string() + '\n');
+  }
+  return {};
+}
+
+}  // namespace
+
+int run_export(const Arguments& arguments) {
+  const std::string* name = arguments.text("to");
+  const Language* language = name ? find_language(*name) : nullptr;
+  if (!language) return refuse_language(name ? *name : "");
+  const auto table = read_table(arguments);
+  if (!table) return refuse("export", table.error());
+  const auto written = write(language->write(*table), arguments);
+  return written ? solved : refuse("export", written.error());
+}
+
+}  // namespace sinew::cli
