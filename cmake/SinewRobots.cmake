@@ -12,6 +12,17 @@ function(sinew_robot_rows folder result)
   set(${result} "${rows}" PARENT_SCOPE)
 endfunction()
 
+# The program of firmware/cycles and the kernel's headers, under the names by which they include one another.
+set(firmware_rows "")
+file(GLOB firmware_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/firmware/cycles/*.h
+     ${PROJECT_SOURCE_DIR}/firmware/cycles/*.cpp ${PROJECT_SOURCE_DIR}/kernel/include/sinew/kernel/*.h)
+foreach(file IN LISTS firmware_files)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
+  string(REGEX REPLACE "^(firmware/cycles|kernel/include)/" "" name ${file})
+  file(READ ${PROJECT_SOURCE_DIR}/${file} text)
+  string(APPEND firmware_rows "    {\"${name}\", R\"sinew(${text})sinew\"},\n")
+endforeach()
+
 sinew_robot_rows(studies study_rows)
 sinew_robot_rows(robots robot_rows)
 sinew_robot_rows(examples/robots template_rows)
@@ -37,7 +48,7 @@ std::span<const BuiltinRobot> robot_templates() {
 ]])
 
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/builtin_studies.cpp @ONLY CONTENT
-[[// Generated from studies/*.yaml.
+[[// Generated from studies/*.yaml, firmware/cycles and kernel/include.
 #include "study/builtin.hpp"
 
 namespace sinew::inline v0 {
@@ -46,6 +57,12 @@ std::span<const BuiltinFile> builtin_studies() {
   static constexpr BuiltinFile studies[] = {
 @study_rows@  };
   return studies;
+}
+
+std::span<const BuiltinFile> builtin_firmware() {
+  static constexpr BuiltinFile files[] = {
+@firmware_rows@  };
+  return files;
 }
 
 }  // namespace sinew::inline v0

@@ -7,7 +7,7 @@ format=$(command -v clang-format-14 || command -v clang-format)
 
 sources() {
   git -c safe.directory="$PWD" ls-files -z --cached --others --exclude-standard -- '*.hpp' '*.h' '*.cpp' 2>/dev/null ||
-    find include src kernel cli tests benchmarks examples \( -name '*.[hc]pp' -o -name '*.h' \) -print0
+    find include src kernel firmware cli tests benchmarks examples \( -name '*.[hc]pp' -o -name '*.h' \) -print0
 }
 
 if [[ ${1-} == --check ]]; then

@@ -17,12 +17,15 @@ namespace sinew::cli {
 namespace {
 
 struct Language {
-  std::string_view name, summary;
+  std::string_view name;
   std::vector<ExportedFile> (*write)(const ControllerTable&);
 };
 
 const std::array languages{
-    Language{"c-header", "constants of a serial robot for a controller, C++14", controller_header},
+    Language{"c-header",
+             [](const ControllerTable& table) {
+               return std::vector<ExportedFile>{{"robot_table.h", controller_header(table)}};
+             }},
 };
 
 const Language* find_language(std::string_view name) {

@@ -1,5 +1,6 @@
 /// @file builtin.hpp
-/// The study files that are part of the library: studies/*.yaml.
+/// Files that are part of the library: studies/*.yaml, and the program that counts cycles on a controller
+/// with the kernel that it includes.
 #pragma once
 #include <span>
 #include <string_view>
@@ -7,10 +8,11 @@
 namespace sinew::inline v0 {
 
 struct BuiltinFile {
-  std::string_view name;  ///< without `.yaml`
+  std::string_view name;  ///< of a study without `.yaml`; of a source its path as it is included
   std::string_view text;
 };
 
 std::span<const BuiltinFile> builtin_studies();
+std::span<const BuiltinFile> builtin_firmware();
 
 }  // namespace sinew::inline v0

@@ -2,6 +2,7 @@
 /// A robot in the languages of what drives it.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/base/export.hpp"
@@ -13,7 +14,7 @@ struct ExportedFile {
   std::string name, text;
 };
 
-/// A C++14 header for controllers: the tables of sinew/kernel/table.h filled in, `namespace robot`.
-SINEW_API std::vector<ExportedFile> controller_header(const ControllerTable& table);
+/// A C++14 header for controllers: the tables of sinew/kernel/table.h filled in, in a namespace of that name.
+SINEW_API std::string controller_header(const ControllerTable& table, std::string_view name = "robot");
 
 }  // namespace sinew::inline v0

@@ -90,7 +90,7 @@ std::string exact_text(const ControllerTable& table, const Numbers& numbers) {
 
 std::string q_name(int fraction) { return fmt::format("Q{}.{}", 15 - fraction, fraction); }
 
-std::string head(const ControllerTable& table) {
+std::string head(const ControllerTable& table, std::string_view name) {
   return fmt::format(
       "// Constants of the serial robot {0} for controllers; made by `sinew export {0} --to c-header`.\n"
       "// C++14 without a library: #include needs the folder kernel/include of sinew alone. Lengths in mm, "
@@ -100,12 +100,13 @@ std::string head(const ControllerTable& table) {
       "//            pivots, theta (cos phi, sin phi) of a neutral backbone\n"
       "//   changes  {3}, steps of {4:.6g} mm, > 0 pays out; at most {5:.3g} mm from LSK of the same bends\n"
       "//   counts   {6}\n"
-      "#ifndef SINEW_ROBOT_TABLE_H\n#define SINEW_ROBOT_TABLE_H\n\n"
+      "#ifndef SINEW_TABLE_{7}_H\n#define SINEW_TABLE_{7}_H\n\n"
       "#include \"sinew/kernel/controller.h\"\n#include \"sinew/kernel/table.h\"\n\n",
       table.robot, q_name(table.bits.angle), table.angle_step(), q_name(table.bits.length),
       table.length_step(), table.rounding(),
       table.counts_per_mm > 0 ? fmt::format("{:.6g} a mm", table.counts_per_mm)
-                              : std::string("one a step: the robot's file names no `motor`"));
+                              : std::string("one a step: the robot's file names no `motor`"),
+      name);
 }
 
 std::string sizes(const ControllerTable& table) {
@@ -151,19 +152,18 @@ std::string exact_tables(const ControllerTable& table) {
                   fmt::format(fmt::runtime(type), "Q15_16"), exact_text(table, q15_16));
   if (!table.has_short_chords())
     return text + "// None in 16 bits: squares of the largest bends do not fit the integers of angles.\n";
-  return text +
-         fmt::format(
-             "#define SINEW_EXACT_SHORT\ntemplate <class Multiply>\nconstexpr {} exact_short_table() {{\n"
-             "  return {};\n}}\nconstexpr auto exact_short = exact_short_table<Native>();\n",
-             fmt::format(fmt::runtime(type), "Short<Multiply>"), exact_text(table, {16, table.bits}));
+  return text + fmt::format(
+                    "template <class Multiply>\nconstexpr {} exact_short_table() {{\n"
+                    "  return {};\n}}\nconstexpr auto exact_short = exact_short_table<Native>();\n",
+                    fmt::format(fmt::runtime(type), "Short<Multiply>"), exact_text(table, {16, table.bits}));
 }
 
 }  // namespace
 
-std::vector<ExportedFile> controller_header(const ControllerTable& table) {
-  return {{"robot_table.h", head(table) + "namespace robot {\nusing namespace sinew::kernel;\n\n" +
-                                sizes(table) + linear_tables(table) + exact_tables(table) +
-                                "\n}  // namespace robot\n\n#endif\n"}};
+std::string controller_header(const ControllerTable& table, std::string_view name) {
+  return head(table, name) + fmt::format("namespace {} {{\nusing namespace sinew::kernel;\n\n", name) +
+         sizes(table) + linear_tables(table) + exact_tables(table) +
+         fmt::format("\n}}  // namespace {}\n\n#endif\n", name);
 }
 
 }  // namespace sinew::inline v0
