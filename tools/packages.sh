@@ -7,9 +7,12 @@
 build_packages=(build-essential cmake ninja-build pkgconf libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
                 libfmt-dev libexpected-dev libhwy-dev libtbb-dev libhdf5-dev libmd-dev libxxhash-dev gnuplot-nox)
 # ... and what the tests and benchmarks need beside it. ccache saves compiling the library again for the packaging tests.
+# Last, what builds and runs the firmware: the cross compilers of ATmega2560 and Cortex-M with their simulators, and the
+# tools of the Verilog core.
 # shellcheck disable=SC2034
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
-               python3-yaml python3-h5py ccache libopenmpi-dev openmpi-bin)
+               python3-yaml python3-h5py ccache libopenmpi-dev openmpi-bin
+               gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys)
 
 say() { printf '%s\n' "$*" >&2; }
 
