@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr double millimetres = 1e3;
 constexpr int samples = 48;
+constexpr const char* most_cycles = "100000000000";  // the program ends by itself
 
 /// Table 2 with so many sections.
 SerialRobot robot_of(const std::string& name, int sections) {
@@ -139,12 +140,12 @@ Expected<void> write_sources(const Robots& robots, const fs::path& folder) {
 
 /// The simulator of this build: beside the command, or on PATH.
 std::string simulator_path() {
-  if (const char* named = std::getenv("SINEW_AVR")) return named;
+  if (const char* named = std::getenv("SINEW_SIMULATE")) return named;
   std::error_code ignored;
   const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& place : {beside / "sinew-avr", beside.parent_path() / "bin" / "sinew-avr"})
+  for (const fs::path& place : {beside / "sinew-simulate", beside.parent_path() / "bin" / "sinew-simulate"})
     if (fs::exists(place, ignored)) return place.string();
-  return "sinew-avr";
+  return "sinew-simulate";
 }
 
 }  // namespace
@@ -177,7 +178,7 @@ Expected<CyclesRun> measure_cycles(int sections, const CyclesTools& tools, const
                    fmt::format("-DSINEW_SAMPLES={}", samples), "-I.", "main.cpp", "-o", "cycles.elf"},
                   place);
   if (!compiled.succeeded()) return failure("compiler_failed", tools.compiler, compiled.complaint());
-  const ProcessResult ran = run_process({tools.simulator, "cycles.elf"}, place);
+  const ProcessResult ran = run_process({tools.simulator, "cycles.elf", "--cycles", most_cycles}, place);
   if (!ran.succeeded()) return failure("simulator_failed", tools.simulator, ran.complaint());
   return read_run(ran.output, robots);
 }
