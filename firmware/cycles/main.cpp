@@ -35,6 +35,11 @@ Bend<Fixed<32, 16>> polar_longs[M];
 Bend<neutral::Angle> polar_round[M];
 paper::Robot<float, M> paper_floats;
 paper::Robot<Fixed<32, 16>, M> paper_longs;
+// The paper's program in 16 bits needs one format for everything: up to 256 mm, and steps of 1/128.
+using Coarse = Fixed<16, 7>;
+paper::Robot<Coarse, M> paper_shorts;
+Data<Coarse> shorts;
+Bend<Coarse> polar_shorts[M];
 
 void put(char c) {
   while (!(UCSR0A & (1 << UDRE0))) {
@@ -90,6 +95,8 @@ void draw_bends(unsigned sample) {
     polar_round[m] = {neutral::Angle::from_raw(theta), neutral::Angle::from_raw(phi)};
     longs.bends[m] = {Fixed<32, 16>(twin.bends[m].x), Fixed<32, 16>(twin.bends[m].y)};
     polar_longs[m] = {Fixed<32, 16>(polar_round[m].x), Fixed<32, 16>(polar_round[m].y)};
+    shorts.bends[m] = {Coarse(twin.bends[m].x), Coarse(twin.bends[m].y)};
+    polar_shorts[m] = {Coarse(polar_round[m].x), Coarse(polar_round[m].y)};
     floats.bends[m] = {static_cast<float>(x) / (1L << tpcj::Angle::fraction),
                        static_cast<float>(y) / (1L << tpcj::Angle::fraction)};
     polar_floats[m] = {static_cast<float>(theta) / (1L << neutral::Angle::fraction),
@@ -163,6 +170,8 @@ KERNEL(pcc_polar_paper_float, floats, paper_floats.polar_changes(polar_floats, f
 KERNEL(pcc_polar_paper_q15_16, longs, paper_longs.polar_changes(polar_longs, longs.changes))
 KERNEL(pcc_twin_paper_float, floats, paper_floats.twin_changes(floats.bends, floats.changes))
 KERNEL(pcc_twin_paper_q15_16, longs, paper_longs.twin_changes(longs.bends, longs.changes))
+KERNEL(pcc_polar_paper_int16, shorts, paper_shorts.polar_changes(polar_shorts, shorts.changes))
+KERNEL(pcc_twin_paper_int16, shorts, paper_shorts.twin_changes(shorts.bends, shorts.changes))
 KERNEL(pcc_twin_float, floats, tpcj::exact_float.changes(floats.bends, floats.changes))
 KERNEL(pcc_twin_q15_16, longs, tpcj::exact_q15_16.changes(longs.bends, longs.changes))
 KERNEL(pcc_twin_int16, twin, tpcj::exact_short.changes(twin.bends, twin.changes))
@@ -175,18 +184,20 @@ KERNEL(lsk_twin_int16_mac_sum, twin, tpcj::table.changes_by_sum(twin.bends, twin
 // These change the bends they share with the kernels above, and so come last.
 KERNEL(pcc_polar_float, floats, by_polar(neutral::exact_float, polar_floats, floats))
 KERNEL(pcc_polar_q15_16, longs, by_polar(neutral::exact_q15_16, polar_longs, longs))
+KERNEL(pcc_polar_int16, round, by_polar(neutral::exact_short, polar_round, round))
 KERNEL(lsk_polar_float, floats, by_polar(neutral::table_float, polar_floats, floats))
 KERNEL(lsk_polar_q15_16, longs, by_polar(neutral::table_q15_16, polar_longs, longs))
 KERNEL(lsk_polar_int16, round, by_polar(neutral::table, polar_round, round))
 
 /// Those that take long: of every fourth sample.
 constexpr void (*dear[])(unsigned) = {run_pcc_polar_paper_float, run_pcc_polar_paper_q15_16,
-                                      run_pcc_twin_paper_float, run_pcc_twin_paper_q15_16};
+                                      run_pcc_twin_paper_float,  run_pcc_twin_paper_q15_16,
+                                      run_pcc_polar_paper_int16, run_pcc_twin_paper_int16};
 constexpr void (*kernels[])(unsigned) = {
-    run_pcc_twin_float,         run_pcc_twin_q15_16, run_pcc_twin_int16,   run_lsk_twin_float,
-    run_lsk_twin_float_sum,     run_lsk_twin_q15_16, run_lsk_twin_int16,   run_lsk_twin_int16_mac,
-    run_lsk_twin_int16_mac_sum, run_pcc_polar_float, run_pcc_polar_q15_16, run_lsk_polar_float,
-    run_lsk_polar_q15_16,       run_lsk_polar_int16};
+    run_pcc_twin_float,         run_pcc_twin_q15_16,  run_pcc_twin_int16,   run_lsk_twin_float,
+    run_lsk_twin_float_sum,     run_lsk_twin_q15_16,  run_lsk_twin_int16,   run_lsk_twin_int16_mac,
+    run_lsk_twin_int16_mac_sum, run_pcc_polar_float,  run_pcc_polar_q15_16, run_pcc_polar_int16,
+    run_lsk_polar_float,        run_lsk_polar_q15_16, run_lsk_polar_int16};
 
 }  // namespace
 
@@ -197,6 +208,7 @@ int main() {
   overhead = cycles_of(nothing) - 10;  // a call and a return of a 22-bit program counter
   make_paper(paper_floats);
   make_paper(paper_longs);
+  make_paper(paper_shorts);
   put("sections ");
   put(static_cast<unsigned long>(M));
   put("\n");

@@ -153,14 +153,6 @@ std::int64_t ControllerTable::short_limit(const ControllerSection& section) cons
   return static_cast<std::int64_t>(std::floor(std::ldexp(section.limit, bits.angle)));
 }
 
-bool ControllerTable::has_short_chords() const {
-  return std::ranges::all_of(sections, [&](const ControllerSection& section) {
-    const double squares =
-        (section.backbone == kernel::Backbone::neutral ? 2 : 1) * section.limit * section.limit;
-    return squares < std::ldexp(largest, -bits.angle);
-  });
-}
-
 std::uint32_t ControllerTable::hash() const {
   kernel::Crc32 crc;
   const auto add = [&](std::int64_t value) { crc.add_text(fmt::format("{},", value)); };

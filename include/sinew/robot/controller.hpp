@@ -47,8 +47,6 @@ struct SINEW_API ControllerTable {
   std::int64_t short_limit(const ControllerSection& section) const;
   /// Of all its integers: what a controller and who talks to it must have in common.
   std::uint32_t hash() const;
-  /// Whether squares of bends fit the integers of angles: those of exact PCC in 16 bits.
-  bool has_short_chords() const;
 };
 
 /// The nearest integer with so many bits behind the point; what does not fit `bits` saturates.

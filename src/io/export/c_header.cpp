@@ -146,16 +146,13 @@ std::string linear_tables(const ControllerTable& table) {
 std::string exact_tables(const ControllerTable& table) {
   const std::string type = fmt::format("ExactTable<{}, {}, {{}}, {}, {}>", table.sections.size(),
                                        table.tendons, table.alike, terms(table));
-  std::string text =
-      fmt::format("/// Exact PCC.\nconstexpr {} exact_float = {};\n\nconstexpr {} exact_q15_16 = {};\n\n",
-                  fmt::format(fmt::runtime(type), "Float"), exact_text(table, floats),
-                  fmt::format(fmt::runtime(type), "Q15_16"), exact_text(table, q15_16));
-  if (!table.has_short_chords())
-    return text + "// None in 16 bits: squares of the largest bends do not fit the integers of angles.\n";
-  return text + fmt::format(
-                    "template <class Multiply>\nconstexpr {} exact_short_table() {{\n"
-                    "  return {};\n}}\nconstexpr auto exact_short = exact_short_table<Native>();\n",
-                    fmt::format(fmt::runtime(type), "Short<Multiply>"), exact_text(table, {16, table.bits}));
+  return fmt::format(
+      "/// Exact PCC.\nconstexpr {} exact_float = {};\n\nconstexpr {} exact_q15_16 = {};\n\n"
+      "template <class Multiply>\nconstexpr {} exact_short_table() {{\n  return {};\n}}\n"
+      "constexpr auto exact_short = exact_short_table<Native>();\n",
+      fmt::format(fmt::runtime(type), "Float"), exact_text(table, floats),
+      fmt::format(fmt::runtime(type), "Q15_16"), exact_text(table, q15_16),
+      fmt::format(fmt::runtime(type), "Short<Multiply>"), exact_text(table, {16, table.bits}));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct PlainFormat {
   using Row = S;
   using Back = S;
   using Share = S;
+  using Square = S;
   using Loss = S;
   using Multiply = Portable;
 };
@@ -38,6 +39,7 @@ struct ShortFormat {
   using Row = Fixed<16, 16 + LengthFraction - AngleFraction>;
   using Back = Fixed<16, BackFraction>;
   using Share = Fixed<16, 13>;
+  using Square = Fixed<16, (AngleFraction > 7 ? 2 * AngleFraction - 15 : 0)>;  // of any angle that fits
   using Loss = Fixed<16, 15>;
   using Multiply = Multiplied;
 };
@@ -174,6 +176,7 @@ struct ExactTable {
   using Angle = typename Format::Angle;
   using Length = typename Format::Length;
   using Row = typename Format::Row;
+  using Square = typename Format::Square;
   using Loss = typename Format::Loss;
 
   Shares<Sections, Format, Alike> shares;
@@ -199,14 +202,14 @@ struct ExactTable {
   }
 
  private:
-  static constexpr Loss loss(const Chords<Format, Terms>& section, Angle square) {
+  static constexpr Loss loss(const Chords<Format, Terms>& section, Square square) {
     Loss sum = Stored<Loss>::load(section.series[Terms - 1]);
     for (Count k = Terms - 1; k-- > 0;) sum = Stored<Loss>::load(section.series[k]) + Loss(sum * square);
     return Loss(sum * square);
   }
   static constexpr void losses(const Chords<Format, Terms>& section, const Bend<Angle>& bend, Loss& x,
                                Loss& y) {
-    const Angle xx = Angle(bend.x * bend.x), yy = Angle(bend.y * bend.y);
+    const Square xx = Square(bend.x * bend.x), yy = Square(bend.y * bend.y);
     if (section.backbone == Backbone::neutral) {
       x = y = loss(section, xx + yy);
     } else {

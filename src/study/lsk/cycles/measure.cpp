@@ -83,6 +83,7 @@ double decoded(const std::string& kernel, std::int64_t value, const Robots& robo
   if (kernel.find("float") != std::string::npos)
     return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(value)));
   if (kernel.find("q15_16") != std::string::npos) return std::ldexp(static_cast<double>(value), -16);
+  if (kernel.find("paper_int16") != std::string::npos) return std::ldexp(static_cast<double>(value), -7);
   const bool is_polar = kernel.find("polar") != std::string::npos;
   return static_cast<double>(value) * (is_polar ? robots.neutral_table : robots.twin_table).length_step();
 }
