@@ -147,6 +147,10 @@ TEST(KernelFixed, RoundsAndSaturates) {
   static_assert((F(1.0) / F(0.0)).raw == 32767);
   static_assert((F(-3.0) / F(2.0)) == F(-1.5));
   static_assert((-F(-128.0)).raw == 32767);
+  using Short = Fixed<8, 4>;
+  static_assert(Short(1.5).raw == 24 && Short(9.0).raw == 127 && (Short(7.0) + Short(7.0)).raw == 127);
+  static_assert(Short(Short(1.5) * Short(-2.25)) == Short(-3.375));
+  static_assert((Short(-3.0) / Short(2.0)) == Short(-1.5) && Short(F(7.96875)).raw == 127);
   EXPECT_EQ(F(std::nan("")).raw, -32768);
   for (double a = -2; a < 2; a += 0.01)
     EXPECT_LE(std::fabs(static_cast<double>(F(Fixed<32, 20>(a))) - static_cast<double>(Fixed<32, 20>(a))),

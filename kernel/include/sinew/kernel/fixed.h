@@ -12,6 +12,10 @@ namespace kernel {
 template <int Bits>
 struct Integer;
 template <>
+struct Integer<8> {
+  using type = __INT8_TYPE__;
+};
+template <>
 struct Integer<16> {
   using type = __INT16_TYPE__;
 };
@@ -116,7 +120,8 @@ constexpr Fixed<Bits, Fraction> operator/(Fixed<Bits, Fraction> a, Fixed<Bits, F
   using Number = Fixed<Bits, Fraction>;
   using Wide = typename Integer<2 * Bits>::type;
   if (b.raw == 0) return Number::from_raw(a.raw < 0 ? Number::smallest : Number::largest);
-  const Wide value = static_cast<Wide>(a.raw) * (static_cast<Wide>(1) << Fraction) / static_cast<Wide>(b.raw);
+  const Wide value = static_cast<Wide>(static_cast<Wide>(a.raw) * (static_cast<Wide>(1) << Fraction) /
+                                       static_cast<Wide>(b.raw));
   return Number(Fixed<2 * Bits, Fraction>::from_raw(value));
 }
 template <int Bits, int Fraction>
