@@ -284,10 +284,21 @@ std::string_view key(Legend legend) {
   return "unset key";
 }
 
+/// gnuplot gives all numbers of a log axis the decimals of the smallest: 100.0000000 on one from 1e-7.
+bool is_tiny(const Axis& axis) { return axis.log && axis.low && *axis.low < 1e-4; }
+
+/// Takes back what those of a panel set.
+std::string after_axes(const Panel& panel) {
+  return std::string(is_tiny(panel.x) ? "  set format x\n" : "") +
+         (is_tiny(panel.y) ? "  set format y\n" : "");
+}
+
 std::string axis_lines(char axis, const Axis& of) {
-  return fmt::format("  set {0}label {1}\n  {2} logscale {0}\n  set {0}range [{3}:{4}]\n  set {0}tics {5}\n",
-                     axis, axis_title(of), of.log ? "set" : "unset", bound(of.low), bound(of.high),
-                     of.step ? si_text(*of.step) : "autofreq");
+  return fmt::format(
+      "  set {0}label {1}\n  {2} logscale {0}\n  set {0}range [{3}:{4}]\n  set {0}tics {5}\n{6}", axis,
+      axis_title(of), of.log ? "set" : "unset", bound(of.low), bound(of.high),
+      of.step ? si_text(*of.step) : "autofreq",
+      is_tiny(of) ? fmt::format("  set format {} '%g'\n", axis) : "");
 }
 
 std::string note_lines(const std::vector<Note>& notes) {
@@ -427,7 +438,7 @@ std::string panel_lines(const Panel& panel, std::size_t index) {
     text += scale_lines(*panel.scale, has_negative_scale(panel), false);
   }
   add_series(all, panel, index);
-  text += all.text() + (is_tight ? "  set xlabel offset 0,0\n" : "");
+  text += all.text() + (is_tight ? "  set xlabel offset 0,0\n" : "") + after_axes(panel);
   if (!panel.map && !panel.scale) return text;
   return text + std::string(grid) + after_scale(panel);
 }

@@ -192,6 +192,16 @@ TEST(Figure, APanelInSpaceHasOneScaleAndTakesBackWhatItSets) {
     EXPECT_NE(script.find(line), std::string::npos) << line;
 }
 
+TEST(Figure, ALogAxisOfTinyNumbersIsWrittenInPowersAndTakesThatBack) {
+  Figure figure = one_of_each();
+  EXPECT_EQ(gnuplot_script(figure, "f").find("set format"), std::string::npos);
+  figure.panels[0].y.low = 1e-7;
+  const std::string script = gnuplot_script(figure, "f");
+  const std::size_t set = script.find("set format y '%g'\n"), back = script.find("set format y\n");
+  EXPECT_LT(set, back);
+  EXPECT_LT(back, script.find("set title", script.find("set title") + 1));  // before the next panel
+}
+
 TEST(Figure, ShadedPointsHaveAColumnMoreAndALabelledBar) {
   const std::string script = gnuplot_script(one_of_each(), "f");
   EXPECT_NE(script.find("$panel5_1 << EOD\n0 1 -5\n\n2 3 7\nEOD\n"), std::string::npos);
