@@ -39,6 +39,7 @@ Expected<Reproduction> lsk_fig5(const StudyItem& item, const std::filesystem::pa
 Expected<Reproduction> lsk_fig6(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> lsk_fig7(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> lsk_fig8(const StudyItem& item, const std::filesystem::path& folder);
+Expected<Reproduction> lsk_fig9(const StudyItem& item, const std::filesystem::path& folder);
 Expected<Reproduction> lsk_numbers(const StudyItem& item, const std::filesystem::path& folder);
 
 }  // namespace sinew::inline v0

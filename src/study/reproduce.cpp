@@ -45,6 +45,7 @@ constexpr std::array items{
     StudyItem{"lsk/fig6", "The diagram of a section with a neutral backbone, in polar coordinates"},
     StudyItem{"lsk/fig7", "Relative error of the linearised length and the parabola through it"},
     StudyItem{"lsk/fig8", "Cycles of the kernels against the number of sections, on an ATmega2560"},
+    StudyItem{"lsk/fig9", "Error of a tendon's length in floating and fixed point, by three formulas"},
     StudyItem{"lsk/numbers", "Numbers derived in the text: sizes, travel, evaluations, errors, misprints"},
 };
 constexpr std::array<StudyFunction, items.size()> functions{
@@ -52,7 +53,7 @@ constexpr std::array<StudyFunction, items.size()> functions{
     tripod_fig4,  tripod_fig5,   tripod_fig6,   tripod_fig7,       tripod_fig9,  tripod_fig10,
     tripod_fig11, tripod_fig12,  tripod_fig13,  tripod_equation36, tripod_fig14, tripod_fig15,
     tripod_fig16, tripod_table1, tripod_table2, tripod_design,     lsk_fig3,     lsk_fig4,
-    lsk_fig5,     lsk_fig6,      lsk_fig7,      lsk_fig8,          lsk_numbers};
+    lsk_fig5,     lsk_fig6,      lsk_fig7,      lsk_fig8,          lsk_fig9,     lsk_numbers};
 
 /// A bar would end the cell, and a line break the table.
 std::string cell(const std::string& text) {

@@ -1,4 +1,4 @@
-/// Figures 3 to 7 of [LSK] and its numbers: findings and tables against tests/data/lsk and against the
+/// Figures 3 to 7 and 9 of [LSK] and its numbers: findings and tables against tests/data/lsk and against the
 /// paper's formulas written out here once more; the files.
 #include <gtest/gtest.h>
 
@@ -135,6 +135,28 @@ TEST(LskFig7, ErrorAndParabolasAreTheirs) {  // @verifies LSK (17), (18)
   EXPECT_EQ(fig.count("fails"), 0);
 }
 
+TEST(LskFig9, MeanErrorsAreTheirsAndTheClaimFailsInTwoFormats) {  // @verifies LSK (6), (7)
+  const Made& fig = made("fig9");
+  const auto reference = lsk_reference("error_precision")["fig9"]["result"];
+  const std::vector<std::string> rows{"double", "float", "half(binary16)", "Q15.16", "Q7.24", "Q3.28", "Q7.8",
+                                      "Q5.10",  "Q4.11", "Q3.12",          "Q2.13",  "Q3.4",  "Q2.5"};
+  ASSERT_EQ(fig.table.row_count(), rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto& theirs = reference[k < 3 ? rows[k] : rows[k] + "/nearest"];
+    EXPECT_NEAR(fig.value("lsk_mean", k) / theirs["lsk"]["mean_pct"].get<double>(), 1, 1e-11) << rows[k];
+    if (k < 3) continue;
+    EXPECT_NEAR(fig.value("pcc_mean", k) / theirs["pcc_naive_sat_zero_guarded"]["mean_pct"].get<double>(), 1,
+                1e-11)
+        << rows[k];
+  }
+  EXPECT_EQ(fig.count("fails"), 2);
+  EXPECT_EQ(fig.count("differs"), 1);
+  EXPECT_EQ(fig.finding("Q15.16: mean").verdict, "fails");  // (6) is the nearer one
+  EXPECT_EQ(fig.finding("Q3.4: mean").verdict, "fails");    // (7) is beyond 1 %
+  EXPECT_NE(fig.finding("Q7.8: mean").ours.find("(6) 3.47 % (100 %); (7) 0.279 %"), std::string::npos);
+  EXPECT_EQ(fig.finding("a column for double").verdict, "differs");
+}
+
 TEST(LskNumbers, OfTheTableAreTheirs) {  // @verifies LSK (5), (12), (24)
   const Made& fig = made("numbers");
   const auto derived = lsk_reference("references")["derived"],
@@ -177,7 +199,7 @@ TEST(LskNumbers, MisprintsComeToWhatTheErrataSay) {
 }
 
 TEST(Lsk, EveryItemLeavesItsFiles) {
-  for (const char* name : {"fig3", "fig4", "fig5", "fig6", "fig7", "numbers"}) {
+  for (const char* name : {"fig3", "fig4", "fig5", "fig6", "fig7", "fig9", "numbers"}) {
     const Made& fig = made(name);
     const fs::path stem = fig.folder.path / "lsk" / name;
     std::vector<fs::path> expected;
