@@ -6,16 +6,42 @@
 namespace sinew {
 namespace kernel {
 
+namespace detail {
+/// What a byte does to the sum is what its halves do, added: 16 entries for each.
+struct Crc32Rows {
+  __UINT32_TYPE__ low[16], high[16];
+};
+constexpr __UINT32_TYPE__ crc32_row(unsigned byte) {
+  __UINT32_TYPE__ row = byte;
+  for (int bit = 0; bit < 8; ++bit) row = (row & 1) ? (row >> 1) ^ 0xedb88320u : row >> 1;
+  return row;
+}
+constexpr Crc32Rows make_crc32_rows() {
+  Crc32Rows rows{};
+  for (unsigned i = 0; i < 16; ++i) {
+    rows.low[i] = crc32_row(i);
+    rows.high[i] = crc32_row(i << 4);
+  }
+  return rows;
+}
+
+/// In memory once: of a table within the function, avr-g++ makes a copy on the stack for each byte. A
+/// template, so that all translation units share it.
+template <class = void>
+struct Crc32Table {
+  static constexpr Crc32Rows rows = make_crc32_rows();
+};
+template <class T>
+constexpr Crc32Rows Crc32Table<T>::rows;
+}  // namespace detail
+
 class Crc32 {
  public:
   constexpr void add(unsigned char byte) {
-    // By halves of a byte: 16 entries serve, and a small controller shifts by 4 at once.
-    constexpr __UINT32_TYPE__ table[16] = {
-        0x00000000, 0x1db71064, 0x3b6e20c8, 0x26d930ac, 0x76dc4190, 0x6b6b51f4, 0x4db26158, 0x5005713c,
-        0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c, 0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c};
-    state_ ^= byte;
-    state_ = (state_ >> 4) ^ table[state_ & 15];
-    state_ = (state_ >> 4) ^ table[state_ & 15];
+    // A byte at once, so that a small controller shifts nothing.
+    using Table = detail::Crc32Table<>;
+    const unsigned char index = static_cast<unsigned char>(byte ^ (state_ & 0xff));
+    state_ = (state_ >> 8) ^ Table::rows.low[index & 15] ^ Table::rows.high[index >> 4];
   }
   template <class Text>
   constexpr void add_text(const Text& text) {
