@@ -1,0 +1,132 @@
+/// @file noise.hpp
+/// Lines that must all be refused: noise, damaged frames, and frames that are whole but stale, of another
+/// session or table, beyond limits, or not what their verb takes.
+#pragma once
+
+#include <random>
+
+#include "frames.hpp"
+
+namespace sinew::firmware {
+
+class Noise {
+ public:
+  explicit Noise(unsigned seed) : random_(seed) {}
+
+  int below(int end) { return std::uniform_int_distribution<>(0, end - 1)(random_); }
+
+  /// Bends within the limits.
+  std::vector<int> pose() {
+    std::vector<int> bends(bend_count);
+    const int limit = robot::limits.limit[0];
+    for (int& bend : bends) bend = below(2 * limit + 1) - limit;
+    return bends;
+  }
+
+  /// Text for the line, mostly one line, always ending in a newline.
+  /// @param last the last number that was accepted, and all frames that were
+  std::string line(std::uint32_t last, const std::vector<std::string>& accepted) {
+    const std::string fresh = request('P', last + 1 + static_cast<std::uint32_t>(below(3)), pose());
+    switch (below(12)) {
+      case 0:
+        return noise(below(2) ? 40 : 250) + '\n';
+      case 1:
+        return fresh.substr(0, static_cast<std::size_t>(below(static_cast<int>(fresh.size())))) + '\n';
+      case 2:
+        return fresh.substr(0, fresh.size() - 8) + hex(static_cast<std::uint32_t>(random_())) + '\n';
+      case 3:
+        return flipped(fresh, 1);
+      case 4:
+        return flipped(fresh, 2);
+      case 5:
+        return edited(fresh);
+      case 6:
+        return accepted.empty() ? "\n" : accepted[pick(accepted.size())] + '\n';
+      case 7:
+        return request("APSD"[below(4)], last - static_cast<std::uint32_t>(below(50)), pose()) + '\n';
+      case 8:
+        return request('P', last + 1 + 65536 * static_cast<std::uint32_t>(1 + below(9)), pose()) + '\n';
+      case 9:
+        return request('P', last + 1, pose(), table_hash ^ 1u << below(32)) + '\n';
+      case 10:
+        return fresh + fresh + '\n';
+      default:
+        return wrong_numbers(last + 1) + '\n';
+    }
+  }
+
+ private:
+  std::size_t pick(std::size_t size) { return static_cast<std::size_t>(below(static_cast<int>(size))); }
+
+  std::string noise(int most) {
+    std::string text(pick(static_cast<std::size_t>(most)), ' ');
+    const bool printable = below(2) == 0;
+    for (char& c : text) {
+      c = static_cast<char>(printable ? ' ' + below(95) : below(256));
+      if (c == '\n') c = '\r';
+    }
+    return text;
+  }
+
+  /// Bits that differ, the newline's too; a newline follows in any case.
+  std::string flipped(const std::string& frame, int bits) {
+    std::string line = frame + '\n';
+    for (int first = -1; bits > 0; --bits) {
+      int bit = below(8 * static_cast<int>(line.size()));
+      while (bit == first) bit = below(8 * static_cast<int>(line.size()));
+      first = bit;
+      line[static_cast<std::size_t>(bit / 8)] =
+          static_cast<char>(line[static_cast<std::size_t>(bit / 8)] ^ 1 << bit % 8);
+    }
+    // A frame that is whole but for its newline goes on into the next line.
+    return line.back() == '\n' ? line : line + "?\n";
+  }
+
+  /// A character lost, doubled, exchanged with its neighbour, or another one.
+  std::string edited(std::string frame) {
+    const std::string whole = frame;
+    const std::size_t at = pick(frame.size() - 1);
+    switch (below(4)) {
+      case 0:
+        frame.erase(at, 1);
+        break;
+      case 1:
+        frame.insert(at, 1, frame[at]);
+        break;
+      case 2:
+        std::swap(frame[at], frame[at + 1]);
+        break;
+      default:
+        frame[at] = static_cast<char>(' ' + below(95));
+    }
+    return (frame == whole ? frame + ' ' : frame) + '\n';
+  }
+
+  /// Whole and fresh, but not to be obeyed.
+  std::string wrong_numbers(std::uint32_t sequence) {
+    std::vector<int> bends = pose();
+    switch (below(6)) {
+      case 0:
+        bends[pick(bends.size())] = robot::limits.limit[0] + 1 + below(1000);
+        break;
+      case 1:
+        bends[pick(bends.size())] = -32769 - below(100000);
+        break;
+      case 2:
+        bends.pop_back();
+        break;
+      case 3:
+        bends.push_back(0);
+        break;
+      case 4:
+        return request("ASDH"[below(4)], sequence, bends);
+      default:
+        return request(static_cast<char>("XpQ*"[below(4)]), sequence, bends);
+    }
+    return request('P', sequence, bends);
+  }
+
+  std::mt19937 random_;
+};
+
+}  // namespace sinew::firmware
