@@ -1,0 +1,186 @@
+#include "simulator/controller.hpp"
+
+#include <array>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+
+extern "C" {
+#include <simavr/avr_eeprom.h>
+#include <simavr/avr_ioport.h>
+#include <simavr/avr_spi.h>
+#include <simavr/avr_uart.h>
+#include <simavr/sim_avr.h>
+#include <simavr/sim_elf.h>
+}
+
+#ifdef __SANITIZE_ADDRESS__
+// The library does not give back all that it takes for a controller.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libsimavr"; }
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
+#endif
+
+namespace sinew::firmware {
+namespace {
+
+void say_nothing(avr_t*, int, const char*, va_list) {}
+void sleep_in_no_time(avr_t*, avr_cycle_count_t) {}
+
+constexpr std::uint16_t jump_to_itself = 0xCFFF;  // rjmp .-2
+constexpr std::uint32_t framing_error = UART_INPUT_FE;
+
+/// The library reads what it takes for an ELF file without looking.
+void expect_elf(const std::filesystem::path& path) {
+  std::array<char, 4> head{};
+  if (std::FILE* file = std::fopen(path.c_str(), "rb")) {
+    const std::size_t read = std::fread(head.data(), 1, head.size(), file);
+    std::fclose(file);
+    if (read == head.size() && std::memcmp(head.data(), "\177ELF", 4) == 0) return;
+    throw std::runtime_error(path.string() + ": not an ELF file");
+  }
+  throw std::runtime_error(path.string() + ": cannot be read");
+}
+
+/// What the library has read, and copied by now.
+void release(elf_firmware_t& program) {
+  for (std::uint32_t i = 0; i < program.symbolcount; ++i) std::free(program.symbol[i]);
+  std::free(program.symbol);
+  std::free(program.flash);
+  std::free(program.eeprom);
+}
+
+}  // namespace
+
+Controller::Controller(const std::filesystem::path& elf, std::uint32_t frequency) : frequency_(frequency) {
+  expect_elf(elf);
+  avr_global_logger_set(say_nothing);
+  elf_firmware_t program{};
+  if (elf_read_firmware(elf.c_str(), &program) != 0)
+    throw std::runtime_error(elf.string() + ": not a program for an AVR");
+  avr_ = avr_make_mcu_by_name("atmega2560");
+  if (!avr_) throw std::runtime_error("simavr does not know the atmega2560");
+  avr_init(avr_);
+  program.frequency = frequency;
+  avr_load_firmware(avr_, &program);
+  release(program);
+  avr_->frequency = frequency;
+  avr_->sleep = sleep_in_no_time;
+  avr_->log = LOG_NONE;
+  connect();
+}
+
+Controller::~Controller() {
+  avr_terminate(avr_);
+  std::free(avr_);  // the library allocates it and has no way to give it back
+}
+
+void Controller::connect() {
+  std::uint32_t flags = 0;  // no copy on stdout, no sleep while polled
+  avr_ioctl(avr_, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
+  uart_input_ = avr_io_getirq(avr_, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);
+  const auto on_uart = [](int index, avr_irq_notify_t notify, Controller* self) {
+    avr_irq_register_notify(avr_io_getirq(self->avr_, AVR_IOCTL_UART_GETIRQ('0'), index), notify, self);
+  };
+  on_uart(
+      UART_IRQ_OUTPUT,
+      [](avr_irq_t*, std::uint32_t byte, void* self) {
+        static_cast<Controller*>(self)->incoming_.push_back(static_cast<char>(byte));
+      },
+      this);
+  on_uart(
+      UART_IRQ_OUT_XON,
+      [](avr_irq_t*, std::uint32_t on, void* self) {
+        if (on) static_cast<Controller*>(self)->has_room_ = true;
+      },
+      this);
+  on_uart(
+      UART_IRQ_OUT_XOFF,
+      [](avr_irq_t*, std::uint32_t off, void* self) {
+        if (off) static_cast<Controller*>(self)->has_room_ = false;
+      },
+      this);
+  spi_input_ = avr_io_getirq(avr_, AVR_IOCTL_SPI_GETIRQ(0), SPI_IRQ_INPUT);
+  avr_irq_register_notify(
+      avr_io_getirq(avr_, AVR_IOCTL_SPI_GETIRQ(0), SPI_IRQ_OUTPUT),
+      [](avr_irq_t*, std::uint32_t byte, void* self) {
+        auto& controller = *static_cast<Controller*>(self);
+        const auto sent = static_cast<std::uint8_t>(byte);
+        avr_raise_irq(controller.spi_input_, controller.spi ? controller.spi(sent) : 0xFF);
+      },
+      this);
+}
+
+void Controller::watch_port_b(int bit, std::function<void(bool)> changed) {
+  port_b_changed_ = std::move(changed);
+  avr_irq_register_notify(
+      avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ('B'), bit),
+      [](avr_irq_t*, std::uint32_t value, void* self) {
+        static_cast<Controller*>(self)->port_b_changed_((value & 1) != 0);
+      },
+      this);
+}
+
+void Controller::feed() {
+  constexpr std::size_t control = 0xC1, receiver_enabled = 0x10;  // UCSR0B: else what comes is lost
+  if (outgoing_.empty() || (avr_->data[control] & receiver_enabled) == 0) return;
+  while (has_room_ && !outgoing_.empty()) {
+    const auto byte = static_cast<std::uint8_t>(outgoing_.front());
+    outgoing_.pop_front();
+    const int arriving = line ? line(byte) : byte;
+    avr_raise_irq(uart_input_, arriving < 0 ? framing_error : static_cast<std::uint32_t>(arriving));
+  }
+}
+
+bool Controller::step() {
+  if (avr_->state == cpu_Done || avr_->state == cpu_Crashed) return false;
+  feed();
+  const int state = avr_run(avr_);
+  return state != cpu_Done && state != cpu_Crashed;
+}
+
+bool Controller::run(std::uint64_t cycles) {
+  const std::uint64_t end = cycle() + cycles;
+  while (cycle() < end)
+    if (!step()) return false;
+  return true;
+}
+
+bool Controller::has_crashed() const { return avr_->state == cpu_Crashed; }
+
+std::uint64_t Controller::cycle() const { return avr_->cycle; }
+
+bool Controller::is_high(char port, int bit) const {
+  // Not by the simulator's signals: these say nothing when a reset lets go of a pin.
+  constexpr std::size_t ddr_b = 0x24, port_b = 0x25, ddr_l = 0x10A, port_l = 0x10B;
+  const bool b = port == 'B';
+  if (!b && port != 'L') throw std::invalid_argument("only ports B and L are wired");
+  return ((avr_->data[b ? ddr_b : ddr_l] & avr_->data[b ? port_b : port_l]) >> bit & 1) != 0;
+}
+
+std::span<std::uint8_t> Controller::eeprom() {
+  avr_eeprom_desc_t all{nullptr, 0, avr_->e2end + 1u};
+  avr_ioctl(avr_, AVR_IOCTL_EEPROM_GET, &all);
+  return {all.ee, all.size};
+}
+
+void Controller::reset() {
+  outgoing_.clear();
+  has_room_ = true;
+  avr_reset(avr_);
+}
+
+void Controller::hang() {
+  hung_at_ = avr_->pc;
+  std::memcpy(&hung_instruction_, avr_->flash + hung_at_, sizeof hung_instruction_);
+  std::memcpy(avr_->flash + hung_at_, &jump_to_itself, sizeof jump_to_itself);
+  is_hung_ = true;
+}
+
+void Controller::mend() {
+  if (is_hung_) std::memcpy(avr_->flash + hung_at_, &hung_instruction_, sizeof hung_instruction_);
+  is_hung_ = false;
+}
+
+}  // namespace sinew::firmware

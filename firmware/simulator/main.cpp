@@ -1,0 +1,178 @@
+/// sinew-simulate: firmware on a simulated ATmega2560, its UART0 on stdin and stdout, servo drives on its
+/// SPI.
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "simulator/drives.hpp"
+
+namespace {
+
+using sinew::firmware::Controller;
+using sinew::firmware::Drives;
+
+constexpr const char* help =
+    "sinew-simulate: firmware on a simulated ATmega2560, UART0 on stdin and stdout\n\n"
+    "Usage: sinew-simulate FIRMWARE.elf [OPTIONS]\n\n"
+    "      --frequency HZ  of the controller's clock; default 16000000\n"
+    "      --cycles N      stop after so many; default some time after stdin ends\n"
+    "      --turns         send a line of stdin when the one before has been answered\n"
+    "      --real-time     as fast as the real one, not as fast as possible\n"
+    "      --eeprom FILE   read the EEPROM from there, and write it back at the end\n"
+    "      --drives N      servo drives on the SPI; default 15\n"
+    "  -h, --help          this text\n\n"
+    "It ends when the firmware sleeps with interrupts off. Exit status: 0, or 1 if the controller crashed, "
+    "or\n"
+    "2 if an option or file is bad. The bytes are raw: whoever writes a line waits for its reply, or asks "
+    "for "
+    "--turns.\n\n"
+    "Example:\n  sinew-simulate sinew-firmware.elf --turns < firmware/transcript.txt\n";
+
+struct Options {
+  std::string elf, eeprom;
+  std::uint32_t frequency = Controller::default_frequency;
+  std::optional<std::uint64_t> cycles;
+  std::size_t drives = 15;
+  bool turns = false, real_time = false, help = false;
+};
+
+template <class Number>
+Number number(const std::string& name, const std::string& text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value == 0)
+    throw std::runtime_error(name + ": \"" + text + "\" is no number above 0");
+  return value;
+}
+
+Options parse(int count, char** arguments) {
+  Options options;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = arguments[i];
+    const auto value = [&] {
+      if (i + 1 == count) throw std::runtime_error(word + " needs a value");
+      return std::string(arguments[++i]);
+    };
+    if (word == "-h" || word == "--help")
+      options.help = true;
+    else if (word == "--turns")
+      options.turns = true;
+    else if (word == "--real-time")
+      options.real_time = true;
+    else if (word == "--frequency")
+      options.frequency = number<std::uint32_t>(word, value());
+    else if (word == "--cycles")
+      options.cycles = number<std::uint64_t>(word, value());
+    else if (word == "--drives")
+      options.drives = number<std::size_t>(word, value());
+    else if (word == "--eeprom")
+      options.eeprom = value();
+    else if (word.starts_with("-") || !options.elf.empty())
+      throw std::runtime_error(word + ": no such option; see --help");
+    else
+      options.elf = word;
+  }
+  if (options.elf.empty() && !options.help) throw std::runtime_error("no firmware was named; see --help");
+  return options;
+}
+
+/// stdin as it comes, or a line for each reply.
+class Input {
+ public:
+  explicit Input(bool turns) : turns_(turns) {}
+
+  void pass_on(Controller& controller) {
+    read_what_is_there();
+    const std::size_t line = turns_ ? pending_.find('\n') + 1 : pending_.size();
+    if (awaiting_ || line == 0) return;
+    controller.send(std::string_view(pending_).substr(0, line));
+    pending_.erase(0, line);
+    passed_on_ = true;
+    awaiting_ = turns_;
+  }
+  void answered() { awaiting_ = false; }
+  /// Since this was last asked.
+  bool is_new() { return std::exchange(passed_on_, false); }
+  bool is_over() const { return ended_ && !awaiting_ && pending_.find('\n') == std::string::npos; }
+
+ private:
+  void read_what_is_there() {
+    pollfd in{STDIN_FILENO, POLLIN, 0};
+    if (ended_ || poll(&in, 1, 0) <= 0) return;
+    std::array<char, 4096> bytes{};
+    const ssize_t read = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+    if (read <= 0)
+      ended_ = true;
+    else
+      pending_.append(bytes.data(), static_cast<std::size_t>(read));
+  }
+
+  bool turns_, awaiting_ = false, passed_on_ = false, ended_ = false;
+  std::string pending_;
+};
+
+void load(Controller& controller, const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const auto eeprom = controller.eeprom();
+  if (file) file.read(reinterpret_cast<char*>(eeprom.data()), static_cast<std::streamsize>(eeprom.size()));
+}
+void save(Controller& controller, const std::string& path) {
+  const auto eeprom = controller.eeprom();
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(eeprom.data()), static_cast<std::streamsize>(eeprom.size()));
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+/// Passes bytes between the streams and the controller. True unless it crashed.
+bool serve(Controller& controller, const Options& options) {
+  const std::uint64_t slice = controller.cycles(1e-3), patience = controller.cycles(0.1);
+  const auto start = std::chrono::steady_clock::now();
+  Input input(options.turns);
+  std::uint64_t heard = 0;
+  for (;;) {
+    input.pass_on(controller);
+    const std::uint64_t left = options.cycles ? *options.cycles - controller.cycle() : slice;
+    const bool runs = controller.run(std::min(slice, left));
+    const std::string bytes = controller.received();
+    std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+    std::fflush(stdout);
+    if (bytes.find('\n') != std::string::npos || controller.cycle() - heard > 10 * patience) input.answered();
+    if (!runs) return !controller.has_crashed();
+    if (options.cycles && controller.cycle() >= *options.cycles) return true;
+    if (!bytes.empty() || !controller.all_sent() || input.is_new()) heard = controller.cycle();
+    if (!options.cycles && input.is_over() && controller.cycle() - heard > patience) return true;
+    if (options.real_time)
+      std::this_thread::sleep_until(
+          start + std::chrono::duration<double>(static_cast<double>(controller.cycle()) / options.frequency));
+  }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  const Options options = parse(count, arguments);
+  if (options.help) return std::fputs(help, stdout), 0;
+  Controller controller(options.elf, options.frequency);
+  Drives drives(controller, options.drives);
+  if (!options.eeprom.empty()) load(controller, options.eeprom);
+  const bool good = serve(controller, options);
+  if (!options.eeprom.empty()) save(controller, options.eeprom);
+  if (!good) std::fputs("sinew-simulate: the controller crashed\n", stderr);
+  return good ? 0 : 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "sinew-simulate: %s\n", error.what());
+  return 2;
+}
