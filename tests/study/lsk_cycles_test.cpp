@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 
+#include "sinew/study/reproduce.hpp"
 #include "study/lsk/cycles/measure.hpp"
 
 namespace sinew {
@@ -58,6 +59,24 @@ TEST_F(Cycles, DoNotDependOnTheNumbersWhereAnAvrMultiplies) {
     EXPECT_EQ(of(kernel).most, cycles);
     EXPECT_EQ(of(kernel).samples, 48);
   }
+}
+
+TEST_F(Cycles, GrowWithTheSectionsAsFigure8Claims) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "a program of another processor, ten times: nothing here for a sanitizer";
+#endif
+  const auto folder = std::filesystem::temp_directory_path() / "sinew_fig8_test";
+  const Reproduction made = reproduce("lsk/fig8", folder).value();
+  std::filesystem::remove_all(folder);
+  int claims = 0;
+  for (const Finding& finding : made.findings) {
+    if (finding.verdict == "holds") ++claims;
+    if (finding.verdict == "fails") {
+      EXPECT_EQ(finding.quantity, "its peaks grow exponentially");
+    }
+  }
+  EXPECT_EQ(claims, 6);
+  EXPECT_EQ(made.files.size(), 5U);
 }
 
 }  // namespace

@@ -158,6 +158,16 @@ TEST(Reproduce, WithoutGnuplotTheTableTheFindingsAndTheScriptsStay) {
   EXPECT_FALSE(fs::exists(folder.path / "tdpcr" / "fig9.png"));
 }
 
+TEST(Reproduce, WithoutACrossCompilerFigure8OfLskSaysSo) {
+  const Folder folder;
+  const EmptyPath nothing;
+  const auto made = reproduce("lsk/fig8", folder.path);
+  ASSERT_TRUE(made) << to_string(made.error());
+  ASSERT_EQ(made->findings.size(), 1U);
+  EXPECT_NE(made->findings[0].ours.find("apt-get install gcc-avr avr-libc"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder.path / "lsk" / "fig8.md"));
+}
+
 TEST(Reproduce, AFolderThatCannotBeWrittenIsAnError) {
   const Folder folder;
   std::ofstream(folder.path / "file") << "no folder";
