@@ -305,10 +305,12 @@ const std::array table{
         "export",
         "ROBOT",
         "a robot in the languages of what drives it",
-        {"to", "output", "set", "quiet", "help"},
+        {"to", "model", "output", "set", "quiet", "help"},
         {"to"},
         "c-header: the integer, Q15.16 and float tables of a serial robot, with limits, counts of its motors "
-        "and\na hash, for the kernel headers of sinew on a small controller. It goes to stdout without -o.",
+        "and\na hash, for the kernel headers of sinew on a small controller, which drives them by LSK, or "
+        "with --model pcc "
+        "exactly.\nIt goes to stdout without -o.",
         "sinew export nottingham-tpcj --to c-header -o robot_table.h",
         run_export},
     Verb{"new",

@@ -56,7 +56,13 @@ Expected<ControllerTable> read_table(const Arguments& arguments) {
       expanded_sections(*document).and_then([&](const Document& listed) { return with(listed, *changes); });
   if (!document) return tl::unexpected(document.error());
   const auto robot = read_serial_robot(*document);
-  return robot ? make_controller_table(*robot) : tl::unexpected(robot.error());
+  if (!robot) return tl::unexpected(robot.error());
+  const std::string* model = arguments.text("model");
+  if (model && *model != "pcc" && *model != "lsk")
+    return failure("unknown_choice", "--model",
+                   fmt::format("{} is no model of tendons: write pcc or lsk", in_quotes(*model)));
+  return make_controller_table(*robot,
+                               model && *model == "pcc" ? kernel::Model::exact : kernel::Model::linear);
 }
 
 /// One file into the file that is named, or on stdout; several into the folder that is named.

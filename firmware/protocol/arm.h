@@ -29,7 +29,7 @@ inline Length& change_at(Changes& changes, Uint8 i) { return changes[i / tendon_
 /// What bends ask of the drives; false, and nothing to be used, beyond the robot's limits.
 inline bool plan(const Bends& bends, Changes& changes, Counts& counts) {
   if (!robot::limits.hold(bends)) return false;
-  robot::table.changes(bends, changes);
+  robot::model.changes(bends, changes);
   for (Uint8 i = 0; i < drive_count; ++i) counts[i] = robot::motor.of(change_at(changes, i));
   return true;
 }
@@ -38,8 +38,8 @@ inline bool plan(const Bends& bends, Changes& changes, Counts& counts) {
 inline void measure(const Counts& counts, Bends& bends, States& states) {
   Changes changes;
   for (Uint8 i = 0; i < drive_count; ++i) change_at(changes, i) = robot::motor.change(counts[i]);
-  robot::table.bends(changes, bends);
-  robot::table.states(changes, robot::tolerance, states);
+  robot::model.bends(changes, bends);
+  robot::model.states(changes, robot::tolerance, states);
 }
 
 inline char letter_of(kernel::TendonState state) {

@@ -55,6 +55,7 @@ ControllerSection make_section(const Section& section, double greatest) {
     result.back.push_back({-back * at.cosine, -back * at.sine});
   }
   result.series = chord_series(map, section.limit);
+  result.most_common = 2 * result.half_length * -kernel::chord_loss(std::pow(map.half * section.limit, 2));
   return result;
 }
 
@@ -93,6 +94,13 @@ double longest_sum(const ControllerTable& table) {
   return most;
 }
 
+/// What exact PCC takes from all tendons alike, at most [mm].
+double longest_common(const ControllerTable& table) {
+  double sum = 0;
+  for (const ControllerSection& section : table.sections) sum += section.most_common;
+  return sum;
+}
+
 Expected<ShortBits> choose_bits(const ControllerTable& table, double gain) {
   double row = 0, back = 0;
   for (const ControllerSection& section : table.sections) {
@@ -111,6 +119,10 @@ Expected<ShortBits> choose_bits(const ControllerTable& table, double gain) {
   bits.row = fraction_of(row, 1);
   bits.length = bits.angle + bits.row - 16;
   if (bits.length > 15) bits.row -= std::exchange(bits.length, 15) - 15;
+  // Rows leave a change within 2¹⁵/√2; what tendons have in common needs the rest.
+  while (std::ldexp(longest_common(table), bits.length) >
+         0.29 * largest - static_cast<double>(table.sections.size()))
+    --bits.row, --bits.length;
   bits.back = std::min(fraction_of(back, 1), bits.angle - bits.length + 16);
   if (bits.angle < 0 || bits.length < 0 || bits.length + bits.back <= bits.angle)
     return failure("out_of_range", "sections",
@@ -171,6 +183,11 @@ std::uint32_t ControllerTable::hash() const {
   }
   add(fixed_point(tolerance, bits.length));
   add(counts_per_step());
+  for (const ControllerSection& section : sections)
+    if (model == kernel::Model::exact) {
+      add(fixed_point(section.half_length, bits.length));
+      for (const double term : section.series) add(fixed_point(term, ShortBits::loss));
+    }
   return crc.value();
 }
 
@@ -179,7 +196,7 @@ std::int64_t fixed_point(double value, int fraction, int bits) {
   return std::llround(std::clamp(std::round(std::ldexp(value, fraction)), -most, most - 1));
 }
 
-Expected<ControllerTable> make_controller_table(const SerialRobot& robot) {
+Expected<ControllerTable> make_controller_table(const SerialRobot& robot, kernel::Model model) {
   if (auto checked = check(robot); !checked) return tl::unexpected(checked.error());
   const auto gain = [](const Section& section) { return section.map().gain; };
   const auto [least, greatest] = std::ranges::minmax(robot.sections | std::views::transform(gain));
@@ -190,6 +207,7 @@ Expected<ControllerTable> make_controller_table(const SerialRobot& robot) {
                     greatest * millimetres, greatest / least, most_unlike));
   ControllerTable table;
   table.robot = robot.name;
+  table.model = model;
   table.tendons = robot.sections[0].tendons;
   table.tolerance = robot.tolerance * millimetres;
   if (robot.motor) table.counts_per_mm = robot.motor->counts_per_length() / millimetres;

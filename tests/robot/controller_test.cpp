@@ -7,8 +7,8 @@
 #include "sinew/io/serial_file.hpp"
 #include "sinew/kernel/controller.h"
 #include "sinew/kernel/crc32.h"
+#include "sinew/kernel/exact_table.h"
 #include "sinew/kernel/polar.h"
-#include "sinew/kernel/table.h"
 
 namespace sinew {
 namespace {
@@ -51,7 +51,7 @@ kernel::LinearTable<M, n, Format, Alike> linear(const ControllerTable& table) {
 template <std::size_t M, std::size_t n, class Format, bool Alike, std::size_t Terms>
 kernel::ExactTable<M, n, Format, Alike, Terms> exact(const ControllerTable& table) {
   kernel::ExactTable<M, n, Format, Alike, Terms> filled{};
-  fill_shares(filled, table);
+  filled.linear = linear<M, n, Format, Alike>(table);
   for (std::size_t m = 0; m < M; ++m) {
     const ControllerSection& section = table.sections[m];
     auto& chords = filled.chords[Alike ? 0 : m];
@@ -59,9 +59,6 @@ kernel::ExactTable<M, n, Format, Alike, Terms> exact(const ControllerTable& tabl
     chords.half_length = stored<typename Format::Length>(section.half_length);
     for (std::size_t k = 0; k < std::min(Terms, section.series.size()); ++k)
       chords.series[k] = stored<typename Format::Loss>(section.series[k]);
-    for (std::size_t i = 0; i < n; ++i)
-      for (const std::size_t axis : {0u, 1u})
-        filled.rows[m][i][axis] = stored<typename Format::Row>(section.rows[i][axis]);
   }
   return filled;
 }
@@ -201,10 +198,8 @@ TEST(ControllerTable, SectionsMayDiffer) {
             1.5e-5);
 }
 
-template <std::size_t M, class Format, bool Alike>
-void expect_bends_come_back(const SerialRobot& robot, double tolerance) {
-  const ControllerTable constants = make_controller_table(robot).value();
-  const auto table = linear<M, 3, Format, Alike>(constants);
+template <std::size_t M, class Format, class Table>
+void expect_bends_come_back(const SerialRobot& robot, const Table& table, double tolerance) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 500; ++trial) {
     kernel::Bend<typename Format::Angle> bends[M], found[M];
@@ -221,11 +216,37 @@ void expect_bends_come_back(const SerialRobot& robot, double tolerance) {
 
 /// @verifies LSK (10)
 TEST(ControllerTable, BendsComeBack) {
-  expect_bends_come_back<5, Short, true>(prototype(),
-                                         8e-4);  // two roundings of a change: 3.9 um of 9.8 mm each
-  expect_bends_come_back<5, Q15_16, true>(prototype(), 3e-4);
-  expect_bends_come_back<5, Floats, true>(prototype(), 2e-6);
-  expect_bends_come_back<3, kernel::ShortFormat<14, 9, 18>, false>(mixed(), 1.2e-3);
+  using Other = kernel::ShortFormat<14, 9, 18>;
+  const ControllerTable one = make_controller_table(prototype()).value(),
+                        other = make_controller_table(mixed()).value();
+  // two roundings of a change: 3.9 um of 9.8 mm each
+  expect_bends_come_back<5, Short>(prototype(), linear<5, 3, Short, true>(one), 8e-4);
+  expect_bends_come_back<5, Q15_16>(prototype(), linear<5, 3, Q15_16, true>(one), 3e-4);
+  expect_bends_come_back<5, Floats>(prototype(), linear<5, 3, Floats, true>(one), 2e-6);
+  expect_bends_come_back<3, Other>(mixed(), linear<3, 3, Other, false>(other), 1.2e-3);
+}
+
+TEST(ControllerTable, BendsOfExactChangesComeBack) {
+  using Other = kernel::ShortFormat<14, 9, 18>;
+  using Round = kernel::ShortFormat<10, 7, 16>;
+  const SerialRobot neutral = load_serial("nottingham-neutral").value();
+  const ControllerTable one = make_controller_table(prototype()).value(),
+                        other = make_controller_table(mixed()).value(),
+                        round = make_controller_table(neutral).value();
+  expect_bends_come_back<5, Short>(prototype(), exact<5, 3, Short, true, 2>(one), 1.2e-3);
+  expect_bends_come_back<5, Q15_16>(prototype(), exact<5, 3, Q15_16, true, 2>(one), 4e-4);
+  expect_bends_come_back<5, Floats>(prototype(), exact<5, 3, Floats, true, 2>(one), 3e-6);
+  expect_bends_come_back<5, Round>(neutral, exact<5, 3, Round, true, 2>(round), 1.2e-2);
+  expect_bends_come_back<5, Floats>(neutral, exact<5, 3, Floats, true, 2>(round), 2e-5);
+  expect_bends_come_back<3, Other>(mixed(), exact<3, 3, Other, false, 3>(other), 2e-3);
+  expect_bends_come_back<3, Floats>(mixed(), exact<3, 3, Floats, false, 3>(other), 5e-6);
+}
+
+TEST(ControllerTable, BendsOfLargeChordsComeBack) {
+  SerialRobot robot = prototype();
+  for (Section& section : robot.sections) section.limit = 1.9;
+  const ControllerTable table = make_controller_table(robot).value();
+  expect_bends_come_back<5, Floats>(robot, exact<5, 3, Floats, true, 9>(table), 5e-4);
 }
 
 TEST(ControllerTable, WhateverWasMeasuredSaturates) {
@@ -254,9 +275,9 @@ TEST(ControllerTable, WhateverWasMeasuredSaturates) {
   }
 }
 
-TEST(ControllerTable, TendonsAreSlackOrTooShortTogether) {
+template <class Table>
+void expect_states(const Table& table) {
   const SerialRobot robot = prototype();
-  const auto table = linear<5, 3, Short, true>(make_controller_table(robot).value());
   std::mt19937 random(11);
   kernel::Bend<Short::Angle> bends[5];
   Short::Length changes[5][3];
@@ -273,6 +294,12 @@ TEST(ControllerTable, TendonsAreSlackOrTooShortTogether) {
                          : m == 3 ? kernel::TendonState::over_tensioned
                                   : kernel::TendonState::exact);
   }
+}
+
+TEST(ControllerTable, TendonsAreSlackOrTooShortTogether) {
+  const ControllerTable table = make_controller_table(prototype()).value();
+  expect_states(linear<5, 3, Short, true>(table));
+  expect_states(exact<5, 3, Short, true, 2>(table));
 }
 
 TEST(ControllerTable, TheLastTendonFollowsFromTheOthers) {
@@ -318,6 +345,27 @@ TEST(ControllerTable, CountsOfMotorsComeBack) {
   }
   EXPECT_EQ(motor.change(2147483647).raw, 32767);
   EXPECT_EQ(motor.change(-2147483647 - 1).raw, -32768);
+}
+
+TEST(ControllerTable, WhatTendonsHaveInCommonFits) {
+  SerialRobot robot = prototype();
+  for (Section& section : robot.sections)
+    section.joint = 0.1, section.limit = 1.5;  // long joints, thin robot
+  const ControllerTable table = make_controller_table(robot).value();
+  ASSERT_EQ(table.bits.angle, 12);
+  ASSERT_EQ(table.bits.length, 4);
+  using Format = kernel::ShortFormat<12, 4, 18>;
+  ASSERT_EQ(table.bits.back, 18);
+  const double off = worst<kernel::ExactTable<5, 3, Format, true, 6>, 5, 3>(
+      exact<5, 3, Format, true, 6>(table), robot, kernel::Model::exact);
+  EXPECT_LT(off, 0.5);
+}
+
+TEST(ControllerTable, HashIsOfTheModelToo) {
+  const ControllerTable linear = make_controller_table(prototype()).value(),
+                        exact = make_controller_table(prototype(), kernel::Model::exact).value();
+  EXPECT_EQ(linear.hash(), 0x90d7d214u);
+  EXPECT_NE(exact.hash(), linear.hash());
 }
 
 TEST(ControllerTable, SaysWhyThereIsNone) {

@@ -25,6 +25,7 @@ struct ControllerSection {
   double limit = 0;                         ///< of its bend [rad]
   double share = 1;                         ///< its gain over the greatest
   double half_length = 0;                   ///< N L/2 [mm]
+  double most_common = 0;                   ///< that exact PCC takes from tendons alike, at its limit [mm]
   std::vector<std::array<double, 2>> rows;  ///< of each tendon −g (cos d, sin d) [mm], g the greatest
   std::vector<std::array<double, 2>> back;  ///< −2/(n g) (cos d, sin d) [1/mm]
   std::vector<double> series;               ///< of the chord's loss by the square of the bend
@@ -33,10 +34,11 @@ struct ControllerSection {
 struct SINEW_API ControllerTable {
   std::string robot;
   std::vector<ControllerSection> sections;
-  int tendons = 0;           ///< of each section
-  bool alike = true;         ///< one gain, one joint, one backbone
-  double tolerance = 0;      ///< of a tendon [mm]
-  double counts_per_mm = 0;  ///< of the motors' encoders; 0: the robot names no motors
+  kernel::Model model = kernel::Model::linear;  ///< by which a controller drives its tendons
+  int tendons = 0;                              ///< of each section
+  bool alike = true;                            ///< one gain, one joint, one backbone
+  double tolerance = 0;                         ///< of a tendon [mm]
+  double counts_per_mm = 0;                     ///< of the motors' encoders; 0: the robot names no motors
   ShortBits bits;
   double angle_step() const;   ///< [rad]
   double length_step() const;  ///< [mm]
@@ -53,6 +55,7 @@ struct SINEW_API ControllerTable {
 SINEW_API std::int64_t fixed_point(double value, int fraction, int bits = 16);
 
 /// Errors: `extensible`, `unlike_tendons`, `no_limit`, `unlike_gains`, `out_of_range`.
-SINEW_API Expected<ControllerTable> make_controller_table(const SerialRobot& robot);
+SINEW_API Expected<ControllerTable> make_controller_table(const SerialRobot& robot,
+                                                          kernel::Model model = kernel::Model::linear);
 
 }  // namespace sinew::inline v0

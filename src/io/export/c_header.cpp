@@ -82,12 +82,6 @@ std::string chords_text(const ControllerTable& table, const Numbers& numbers) {
   });
 }
 
-std::string exact_text(const ControllerTable& table, const Numbers& numbers) {
-  return fmt::format("{{{},\n  {},\n  {}}}", shares_text(table, numbers),
-                     rows_text(table, &ControllerSection::rows, numbers, numbers.fraction.row),
-                     chords_text(table, numbers));
-}
-
 std::string q_name(int fraction) { return fmt::format("Q{}.{}", 15 - fraction, fraction); }
 
 std::string head(const ControllerTable& table, std::string_view name) {
@@ -101,7 +95,7 @@ std::string head(const ControllerTable& table, std::string_view name) {
       "//   changes  {3}, steps of {4:.6g} mm, > 0 pays out; at most {5:.3g} mm from LSK of the same bends\n"
       "//   counts   {6}\n"
       "#ifndef SINEW_TABLE_{7}_H\n#define SINEW_TABLE_{7}_H\n\n"
-      "#include \"sinew/kernel/controller.h\"\n#include \"sinew/kernel/table.h\"\n\n",
+      "#include \"sinew/kernel/controller.h\"\n#include \"sinew/kernel/exact_table.h\"\n\n",
       table.robot, q_name(table.bits.angle), table.angle_step(), q_name(table.bits.length),
       table.length_step(), table.rounding(),
       table.counts_per_mm > 0 ? fmt::format("{:.6g} a mm", table.counts_per_mm)
@@ -147,12 +141,16 @@ std::string exact_tables(const ControllerTable& table) {
   const std::string type = fmt::format("ExactTable<{}, {}, {{}}, {}, {}>", table.sections.size(),
                                        table.tendons, table.alike, terms(table));
   return fmt::format(
-      "/// Exact PCC.\nconstexpr {} exact_float = {};\n\nconstexpr {} exact_q15_16 = {};\n\n"
-      "template <class Multiply>\nconstexpr {} exact_short_table() {{\n  return {};\n}}\n"
-      "constexpr auto exact_short = exact_short_table<Native>();\n",
-      fmt::format(fmt::runtime(type), "Float"), exact_text(table, floats),
-      fmt::format(fmt::runtime(type), "Q15_16"), exact_text(table, q15_16),
-      fmt::format(fmt::runtime(type), "Short<Multiply>"), exact_text(table, {16, table.bits}));
+      "/// Exact PCC.\nconstexpr {} exact_float = {{table_float, {}}};\n"
+      "constexpr {} exact_q15_16 = {{table_q15_16, {}}};\n"
+      "template <class Multiply>\nconstexpr {} exact_short_table() {{\n  return {{short_table<Multiply>(), "
+      "{}}};\n}}\n"
+      "constexpr auto exact_short = exact_short_table<Native>();\n\n"
+      "/// By which a controller drives the tendons.\nstatic constexpr const auto& model = {};\n",
+      fmt::format(fmt::runtime(type), "Float"), chords_text(table, floats),
+      fmt::format(fmt::runtime(type), "Q15_16"), chords_text(table, q15_16),
+      fmt::format(fmt::runtime(type), "Short<Multiply>"), chords_text(table, {16, table.bits}),
+      table.model == kernel::Model::exact ? "exact_short" : "table");
 }
 
 }  // namespace

@@ -127,16 +127,19 @@ struct LinearTable {
     }
   }
 
- private:
+  /// @name Of what all sections up to one sum up to, as of the greatest gain
+  /// @{
   using StoredRow = typename Stored<Row>::type;
-
+  /// Change of a tendon there.
   static constexpr Length change(const StoredRow (&row)[2], const Bend<Angle>& sum) {
     return Format::Multiply::template rounded_sum<Length>(Stored<Row>::load(row[0]), sum.x,
                                                           Stored<Row>::load(row[1]), sum.y);
   }
+  /// The sum past the next section.
   constexpr Bend<Angle> passed(Count m, const Bend<Angle>& sum, const Bend<Angle>& bend) const {
     return {wrapped_sum(sum.x, shares.shared(m, bend.x)), wrapped_sum(sum.y, shares.shared(m, bend.y))};
   }
+  /// The sum that comes nearest to the changes of a section's tendons.
   constexpr Bend<Angle> nearest_sum(Count m, const Length (&changes)[Tendons]) const {
     Products<Back, Length> x, y;
     for (Count i = 0; i < Tendons; ++i) {
@@ -146,6 +149,9 @@ struct LinearTable {
     return {Angle(x.sum()), Angle(y.sum())};
   }
 
+  /// @}
+
+ private:
   /// A loop that is unrolled whatever the compiler thinks of it.
   template <Count I, Count End>
   struct Each {
@@ -159,64 +165,6 @@ struct LinearTable {
   struct Each<End, End> {
     static constexpr void set(const StoredRow (&)[Tendons][2], const Bend<Angle>&, Length (&)[Tendons]) {}
   };
-};
-
-/// What exact PCC needs of a section beside its rows.
-template <class Format, Count Terms>
-struct Chords {
-  Backbone backbone;
-  typename Stored<typename Format::Length>::type half_length;  ///< N L/2
-  typename Stored<typename Format::Loss>::type
-      series[Terms];  ///< of the chord's loss by the square of the bend
-};
-
-/// PCC as far as its series goes: changes of tendons from bends.
-template <Count Sections, Count Tendons, class Format, bool Alike = true, Count Terms = 2>
-struct ExactTable {
-  using Angle = typename Format::Angle;
-  using Length = typename Format::Length;
-  using Row = typename Format::Row;
-  using Square = typename Format::Square;
-  using Loss = typename Format::Loss;
-
-  Shares<Sections, Format, Alike> shares;
-  typename Stored<Row>::type rows[Sections][Tendons][2];
-  Chords<Format, Terms> chords[Alike ? 1 : Sections];
-
-  constexpr void changes(const Bend<Angle> (&bends)[Sections], Length (&changes)[Sections][Tendons]) const {
-    Bend<Angle> sum{Angle(0.0), Angle(0.0)};
-    Length common = Length(0.0);
-    for (Count m = 0; m < Sections; ++m) {
-      const Chords<Format, Terms>& section = chords[Alike ? 0 : m];
-      const Bend<Angle>& bend = bends[m];
-      Loss loss_x{}, loss_y{};
-      losses(section, bend, loss_x, loss_y);
-      sum.x = wrapped_sum(sum.x, shares.shared(m, wrapped_sum(bend.x, Angle(bend.x * loss_x))));
-      sum.y = wrapped_sum(sum.y, shares.shared(m, wrapped_sum(bend.y, Angle(bend.y * loss_y))));
-      common = wrapped_sum(common, Length(Stored<Length>::load(section.half_length) * (loss_x + loss_y)));
-      for (Count i = 0; i < Tendons; ++i)
-        changes[m][i] = wrapped_sum(
-            common, Format::Multiply::template rounded_sum<Length>(Stored<Row>::load(rows[m][i][0]), sum.x,
-                                                                   Stored<Row>::load(rows[m][i][1]), sum.y));
-    }
-  }
-
- private:
-  static constexpr Loss loss(const Chords<Format, Terms>& section, Square square) {
-    Loss sum = Stored<Loss>::load(section.series[Terms - 1]);
-    for (Count k = Terms - 1; k-- > 0;) sum = Stored<Loss>::load(section.series[k]) + Loss(sum * square);
-    return Loss(sum * square);
-  }
-  static constexpr void losses(const Chords<Format, Terms>& section, const Bend<Angle>& bend, Loss& x,
-                               Loss& y) {
-    const Square xx = Square(bend.x * bend.x), yy = Square(bend.y * bend.y);
-    if (section.backbone == Backbone::neutral) {
-      x = y = loss(section, xx + yy);
-    } else {
-      x = loss(section, xx);
-      y = loss(section, yy);
-    }
-  }
 };
 
 }  // namespace kernel
