@@ -28,6 +28,28 @@ struct Integer<64> {
   using type = __INT64_TYPE__;
 };
 
+namespace detail {
+/// The same bits without a sign: sums of these wrap, those of signed integers are undefined.
+template <class Raw>
+struct Unsigned;
+template <>
+struct Unsigned<__INT8_TYPE__> {
+  using type = __UINT8_TYPE__;
+};
+template <>
+struct Unsigned<__INT16_TYPE__> {
+  using type = __UINT16_TYPE__;
+};
+template <>
+struct Unsigned<__INT32_TYPE__> {
+  using type = __UINT32_TYPE__;
+};
+template <>
+struct Unsigned<__INT64_TYPE__> {
+  using type = __UINT64_TYPE__;
+};
+}  // namespace detail
+
 /// raw / 2^Fraction, in Bits bits with the sign: `Fixed<16, 13>` holds −4 to 4 in steps of 0.00012. Numbers
 /// that are all small may have more than Bits of them behind the point.
 template <int Bits, int Fraction>
@@ -70,15 +92,18 @@ struct Fixed {
     using Wide = typename Integer<wide>::type;
     constexpr int down = OtherFraction > Fraction ? OtherFraction - Fraction : 0;
     constexpr int up = Fraction > OtherFraction ? Fraction - OtherFraction : 0;
-    // Limits before the shift up, so that the shift never overflows; `>> 1` first, so that rounding never
-    // does.
+    static_assert(up < wide && down <= wide, "formats that have bits in common");
+    // Limits before the shift up, so that the shift never overflows; a shift down first, so that rounding
+    // never does.
     Wide value = other.raw;
-    if (down > 0) value = static_cast<Wide>(((value >> (down > 0 ? down - 1 : 0)) + 1) >> 1);
+    if (down == 1) value = static_cast<Wide>((value >> 1) + (value & 1));
+    if (down > 1) value = static_cast<Wide>(((value >> (down > 1 ? down - 1 : 0)) + 1) >> 1);
     const Wide high = static_cast<Wide>(static_cast<Wide>(largest) >> up),
                low = static_cast<Wide>(static_cast<Wide>(smallest) >> up);
     if (value > high) return largest;
     if (value < low) return smallest;
-    return static_cast<Raw>(value * (static_cast<Wide>(1) << up));
+    return static_cast<Raw>(
+        static_cast<Wide>(static_cast<typename detail::Unsigned<Wide>::type>(value) << up));
   }
 };
 
@@ -119,6 +144,7 @@ template <int Bits, int Fraction>
 constexpr Fixed<Bits, Fraction> operator/(Fixed<Bits, Fraction> a, Fixed<Bits, Fraction> b) {
   using Number = Fixed<Bits, Fraction>;
   using Wide = typename Integer<2 * Bits>::type;
+  static_assert(Fraction < Bits, "the quotient of the ends of the range fits twice the bits");
   if (b.raw == 0) return Number::from_raw(a.raw < 0 ? Number::smallest : Number::largest);
   const Wide value = static_cast<Wide>(static_cast<Wide>(a.raw) * (static_cast<Wide>(1) << Fraction) /
                                        static_cast<Wide>(b.raw));

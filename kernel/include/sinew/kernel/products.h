@@ -23,21 +23,7 @@ struct Stored<Fixed<Bits, Fraction>> {
 };
 
 namespace detail {
-/// The same bits without a sign: sums of these wrap, those of signed integers are undefined.
-template <class Raw>
-struct Unsigned;
-template <>
-struct Unsigned<__INT16_TYPE__> {
-  using type = __UINT16_TYPE__;
-};
-template <>
-struct Unsigned<__INT32_TYPE__> {
-  using type = __UINT32_TYPE__;
-};
-template <>
-struct Unsigned<__INT64_TYPE__> {
-  using type = __UINT64_TYPE__;
-};
+/// Modulo 2ⁿ.
 template <class Raw>
 constexpr Raw wrapped(Raw a, Raw b) {
   using Bare = typename Unsigned<Raw>::type;
