@@ -141,10 +141,15 @@ bool Controller::step() {
 }
 
 bool Controller::run(std::uint64_t cycles) {
+  // The library looks for other things to do after so many cycles, or when its timers or an interrupt want
+  // it.
+  constexpr std::uint32_t burst = 160, instruction = 1;
   const std::uint64_t end = cycle() + cycles;
-  while (cycle() < end)
-    if (!step()) return false;
-  return true;
+  avr_->run_cycle_limit = burst;
+  bool runs = true;
+  while (runs && cycle() < end) runs = step();
+  avr_->run_cycle_limit = avr_->run_cycle_count = instruction;
+  return runs;
 }
 
 bool Controller::has_crashed() const { return avr_->state == cpu_Crashed; }
