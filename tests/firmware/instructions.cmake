@@ -1,0 +1,18 @@
+# Kernels take about as many instructions as known:
+#   -D COMPILER=CXX "-D RUN=COMMAND;ARGUMENT;..." "-D KNOWN=KERNEL;NUMBER;..." -P instructions.cmake
+execute_process(COMMAND ${COMPILER} --version OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCH "^[^\n]*" version "${version}")
+execute_process(COMMAND ${RUN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+message(STATUS "${version}\n${text}")
+while(KNOWN)
+  list(POP_FRONT KNOWN kernel known)
+  if(NOT text MATCHES "${kernel} ([0-9]+)\n")
+    message(SEND_ERROR "${kernel} was not counted")
+    continue()
+  endif()
+  math(EXPR off "(${CMAKE_MATCH_1} - ${known}) * 100")
+  math(EXPR band "${known} * 3")
+  if(off GREATER band OR off LESS -${band})
+    message(SEND_ERROR "${kernel}: ${CMAKE_MATCH_1} instructions; known are ${known}, within 3 %")
+  endif()
+endwhile()
