@@ -63,10 +63,12 @@ class Board {
   Uint8 eeprom_read(Uint16 address) { return eeprom_read_byte(at(address)); }
   void eeprom_write(Uint16 address, Uint8 byte) { eeprom_write_byte(at(address), byte); }
 
-  /// Waits while the ring is full: the line is slower than the controller.
+  /// Waits while the ring is full: the line is slower than the controller. A byte that got in is a sign of
+  /// life: of many drives a reply may take longer than the watchdog waits.
   void send(char c) {
     while (!replies_.put(static_cast<Uint8>(c))) {
     }
+    wdt_reset();
     UCSR0B |= _BV(UDRIE0);
   }
   bool receive(char& c) {

@@ -13,6 +13,8 @@ namespace firmware {
 
 constexpr Uint8 section_count = robot::sections, tendon_count = robot::tendons;
 constexpr Uint8 bend_count = 2 * section_count, drive_count = section_count * tendon_count;
+static_assert(robot::sections * robot::tendons < 256 && 2 * robot::sections < 256,
+              "drives are counted in a byte");
 constexpr Uint32 table_hash = robot::hash;
 
 using Angle = robot::Angle;
@@ -32,6 +34,18 @@ inline bool plan(const Bends& bends, Changes& changes, Counts& counts) {
   robot::model.changes(bends, changes);
   for (Uint8 i = 0; i < drive_count; ++i) counts[i] = robot::motor.of(change_at(changes, i));
   return true;
+}
+
+/// Whether these can be counts of drives: within what changes can be, and not all -1, which is what a wire
+/// that is off reads by its pull-up.
+inline bool is_plausible(const Counts& counts) {
+  const Int32 most = robot::motor.of(Length::from_raw(Length::largest));
+  bool all_ones = true;
+  for (const Int32 count : counts) {
+    if (count > most || count < -most) return false;
+    all_ones = all_ones && count == -1;
+  }
+  return !all_ones;
 }
 
 /// What the drives say of the shape.

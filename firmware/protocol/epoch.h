@@ -25,17 +25,30 @@ void write_epoch(Board& board, Uint16 address, Uint16 epoch) {
   for (Uint8 i = 0; i < 4; ++i) board.eeprom_write(static_cast<Uint16>(address + i), bytes[i]);
 }
 
-/// The next one, written before it is used. Never 0; after 65535 comes 1.
+/// Writes a copy; whether it can be read again.
+template <class Board>
+bool keep_epoch(Board& board, Uint16 address, Uint16 epoch) {
+  write_epoch(board, address, epoch);
+  Uint16 kept = 0;
+  return read_epoch(board, address, kept) && kept == epoch;
+}
+
+/// The next one, written before it is used. After 65535 comes 1; 0 where none can be kept. Where one copy is
+/// lost it may have been the newer: one number is left out. Not at address 0, which a failing supply may
+/// damage.
 template <class Board>
 Uint16 next_epoch(Board& board) {
-  constexpr Uint16 first = 0, second = 4;
+  constexpr Uint16 first = 8, second = 12;
   Uint16 a = 0, b = 0;
   const bool has_a = read_epoch(board, first, a), has_b = read_epoch(board, second, b);
   const bool b_is_newer = has_b && (!has_a || static_cast<Int16>(b - a) > 0);
-  Uint16 next = static_cast<Uint16>((b_is_newer ? b : has_a ? a : 0) + 1);
+  const Uint16 newest = b_is_newer ? b : has_a ? a : 0;
+  Uint16 next = static_cast<Uint16>(newest + (has_a == has_b ? 1 : 2));
   if (next == 0) next = 1;
-  write_epoch(board, b_is_newer ? first : second, next);
-  return next;
+  const Uint16 older = b_is_newer ? first : second, other = b_is_newer ? second : first;
+  const bool is_kept = keep_epoch(board, older, next);
+  if (is_kept && (has_a || has_b)) return next;
+  return keep_epoch(board, other, next) || is_kept ? next : 0;  // the first of all in both places
 }
 
 }  // namespace firmware

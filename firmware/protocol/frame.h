@@ -25,7 +25,9 @@ enum class Error : Uint8 {
   wrong_count,
   out_of_range,
   not_armed,
-  out_of_limits
+  out_of_limits,
+  drives,
+  no_session
 };
 
 inline const char* text_of(Error error) {
@@ -41,7 +43,9 @@ inline const char* text_of(Error error) {
                                       "wrong count of numbers",
                                       "number out of range",
                                       "not armed",
-                                      "out of limits"};
+                                      "out of limits",
+                                      "drives answer nonsense",
+                                      "no session can be kept"};
   return texts[static_cast<Uint8>(error)];
 }
 

@@ -93,6 +93,7 @@ class Session {
 
   Error check_fresh(const Request& request) const {
     if (request.hash != table_hash) return Error::wrong_hash;
+    if (epoch_ == 0) return Error::no_session;
     if (static_cast<Uint16>(request.sequence >> 16) != epoch_) return Error::other_session;
     return request.sequence > last_ ? Error::none : Error::replayed;
   }
@@ -124,11 +125,18 @@ class Session {
     return Error::none;
   }
 
+  /// Where the drives are. Of two exchanges: drives that sample when LATCH rises answer of the one before.
+  void read_drives(Counts& measured) {
+    board_.exchange(setpoints_, measured);
+    board_.exchange(setpoints_, measured);
+  }
+
   /// Where the drives are becomes where they shall be, and only then they are enabled: nothing moves.
   Error arm(const Request& request) {
     if (state_ != State::armed) {
       Counts measured;
-      board_.exchange(setpoints_, measured);
+      read_drives(measured);
+      if (!is_plausible(measured)) return Error::drives;
       for (Uint8 i = 0; i < drive_count; ++i) setpoints_[i] = measured[i];
       board_.exchange(setpoints_, measured);
       board_.enable(true);
@@ -174,7 +182,7 @@ class Session {
 
   Error measure_state(const Request& request) {
     Counts measured;
-    board_.exchange(setpoints_, measured);
+    read_drives(measured);
     accept(request);
     Bends bends;
     States states;

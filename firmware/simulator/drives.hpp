@@ -18,6 +18,7 @@ class Drives {
       : setpoints(count),
         positions(count),
         strain(count),
+        sampled_(count),
         controller_(controller),
         sent_(4 * count) {
     controller.spi = [this](std::uint8_t byte) { return exchange(byte); };
@@ -33,6 +34,7 @@ class Drives {
   std::vector<std::int32_t> positions;  ///< where they are
   /// What the encoders show beyond where the drives shall be: a tendon pulled out or run slack.
   std::vector<std::int32_t> strain;
+  bool samples_at_latch = false;      ///< what they answer is of the end of the exchange before
   std::size_t latched = 0, torn = 0;  ///< exchanges that were whole, and that were not
 
  private:
@@ -42,13 +44,15 @@ class Drives {
     if (bytes_ == sent_.size()) return ++torn, 0;
     sent_[bytes_] = byte;
     const std::size_t drive = bytes_ / 4;
-    const auto measured = static_cast<std::uint32_t>(positions[drive] + strain[drive]);
+    const auto measured =
+        static_cast<std::uint32_t>(samples_at_latch ? sampled_[drive] : positions[drive] + strain[drive]);
     const auto answer = static_cast<std::uint8_t>(measured >> (24 - 8 * (bytes_ % 4)));
     ++bytes_;
     return answer;
   }
 
   void latch() {
+    for (std::size_t i = 0; i < sampled_.size(); ++i) sampled_[i] = positions[i] + strain[i];
     if (bytes_ == 0) return;
     if (bytes_ != sent_.size()) {
       ++torn;
@@ -64,6 +68,7 @@ class Drives {
     ++latched;
   }
 
+  std::vector<std::int32_t> sampled_;
   Controller& controller_;
   std::vector<std::uint8_t> sent_;
   std::size_t bytes_ = 0;

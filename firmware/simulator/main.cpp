@@ -39,7 +39,7 @@ constexpr const char* help =
     "2 if an option or file is bad. The bytes are raw: whoever writes a line waits for its reply, or asks "
     "for "
     "--turns.\n\n"
-    "Example:\n  sinew-simulate sinew-firmware.elf --turns < firmware/transcript.txt\n";
+    "Example:\n  sed -n 's/^> //p' firmware/README.md | sinew-simulate sinew-firmware.elf --turns\n";
 
 struct Options {
   std::string elf, eeprom;

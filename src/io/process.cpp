@@ -91,8 +91,11 @@ ProcessResult run_process(std::vector<std::string> arguments, const std::filesys
   messages.close_end(1);
   if (result.spawn_error == 0) {
     read_all(output, messages);
-    while (waitpid(child, &result.status, 0) < 0 && errno == EINTR) {
+    pid_t ended;
+    while ((ended = waitpid(child, &result.status, 0)) < 0 && errno == EINTR) {
     }
+    if (ended < 0)
+      result.spawn_error = errno;  // whoever started us ignores its children: how it ended is lost
   }
   output.close_end(0);
   messages.close_end(0);

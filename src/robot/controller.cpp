@@ -21,7 +21,7 @@ constexpr int most_bits = 30;        ///< behind the point, of numbers that are 
 constexpr int least_terms = 2;
 
 /// As many bits behind the point as `most` leaves, so that it stays below 2¹⁵ with so many steps to spare.
-int fraction_of(double most, double spare) {
+int fraction_of(double most, double spare = 1) {
   int bits = most_bits;
   while (bits >= 0 && std::ldexp(most, bits) > largest - spare) --bits;
   return bits;
@@ -101,8 +101,21 @@ double longest_common(const ControllerTable& table) {
   return sum;
 }
 
+/// The running sum of integers at the limits of all sections, as a controller forms it and with a step for
+/// what exact PCC rounds.
+std::int64_t longest_short_sum(const ControllerTable& table, int angle_bits) {
+  std::int64_t sum = 0, most = 0;
+  for (const ControllerSection& section : table.sections) {
+    const auto limit = static_cast<std::int64_t>(std::ldexp(section.limit, angle_bits));
+    const std::int64_t shared = limit * fixed_point(section.share, ShortBits::share);
+    sum += (table.alike ? limit : (shared >> ShortBits::share) + 1) + 1;
+    most = std::max({most, sum, limit});
+  }
+  return most;
+}
+
 Expected<ShortBits> choose_bits(const ControllerTable& table, double gain) {
-  double row = 0, back = 0;
+  double row = 0, back = 0, half = 0;
   for (const ControllerSection& section : table.sections) {
     std::array<double, 2> sums{};
     for (std::size_t i = 0; i < section.rows.size(); ++i)
@@ -111,23 +124,29 @@ Expected<ShortBits> choose_bits(const ControllerTable& table, double gain) {
         back = std::max(back, std::abs(section.back[i][axis]));
         sums[axis] += std::abs(section.back[i][axis]);
       }
-    back =
-        std::max({back, sums[0] / 2, sums[1] / 2});  // their products with whatever was measured fit 32 bits
+    // Their products with whatever was measured fit 32 bits.
+    back = std::max({back, sums[0] / 2, sums[1] / 2});
+    half = std::max(half, section.half_length);
   }
   ShortBits bits;
-  bits.angle = std::min(fraction_of(longest_sum(table), static_cast<double>(table.sections.size())), 15);
-  bits.row = fraction_of(row, 1);
+  bits.angle = std::min(fraction_of(longest_sum(table)), 15);
+  while (bits.angle >= 0 && longest_short_sum(table, bits.angle) > std::numeric_limits<std::int16_t>::max())
+    --bits.angle;
+  bits.row = fraction_of(row);
+  bits.half = std::min(fraction_of(half), 15);
   bits.length = bits.angle + bits.row - 16;
   if (bits.length > 15) bits.row -= std::exchange(bits.length, 15) - 15;
   // Rows leave a change within 2¹⁵/√2; what tendons have in common needs the rest.
   while (std::ldexp(longest_common(table), bits.length) >
          0.29 * largest - static_cast<double>(table.sections.size()))
     --bits.row, --bits.length;
-  bits.back = std::min(fraction_of(back, 1), bits.angle - bits.length + 16);
-  if (bits.angle < 0 || bits.length < 0 || bits.length + bits.back <= bits.angle)
-    return failure("out_of_range", "sections",
-                   fmt::format("gains up to {:.3g} mm and bends up to {:.3g} rad do not fit 16 bits", gain,
-                               longest_sum(table)));
+  bits.back = std::min(fraction_of(back, 2 + table.tendons / 4.0), bits.angle - bits.length + 16);
+  if (bits.angle < 0 || bits.length < 0 || bits.half < 0 || bits.length + bits.back <= bits.angle)
+    return failure(
+        "out_of_range", "sections",
+        fmt::format("gains up to {:.3g} mm, bends up to {:.3g} rad and half lengths up to {:.3g} mm do not "
+                    "fit 16 bits",
+                    gain, longest_sum(table), half));
   return bits;
 }
 
@@ -161,6 +180,12 @@ std::int32_t ControllerTable::counts_per_step() const {
   return static_cast<std::int32_t>(std::lround(counts * 65536));
 }
 
+std::int64_t ControllerTable::short_tolerance() const {
+  // Three roundings stand between setpoints and what is compared with them, and half a count.
+  const double count = counts_per_mm > 0 ? 0.5 / counts_per_mm / length_step() : 0;
+  return std::max(fixed_point(tolerance, bits.length), static_cast<std::int64_t>(std::ceil(2 + count)));
+}
+
 std::int64_t ControllerTable::short_limit(const ControllerSection& section) const {
   return static_cast<std::int64_t>(std::floor(std::ldexp(section.limit, bits.angle)));
 }
@@ -181,11 +206,11 @@ std::uint32_t ControllerTable::hash() const {
         add(fixed_point(section.back[i][axis], bits.back));
       }
   }
-  add(fixed_point(tolerance, bits.length));
+  add(short_tolerance());
   add(counts_per_step());
   for (const ControllerSection& section : sections)
     if (model == kernel::Model::exact) {
-      add(fixed_point(section.half_length, bits.length));
+      add(fixed_point(section.half_length, bits.half));
       for (const double term : section.series) add(fixed_point(term, ShortBits::loss));
     }
   return crc.value();

@@ -12,6 +12,11 @@
 namespace sinew::firmware {
 
 struct DeskBoard {
+  static std::array<Uint8, 16> erased() {
+    std::array<Uint8, 16> bytes;
+    bytes.fill(0xFF);
+    return bytes;
+  }
   void send(char c) { sent += c; }
   Uint16 milliseconds() const { return now; }
   void enable(bool on) { enabled = on; }
@@ -24,7 +29,7 @@ struct DeskBoard {
   Uint8 eeprom_read(Uint16 address) const { return eeprom.at(address); }
   void eeprom_write(Uint16 address, Uint8 byte) {
     if (writes_until_power_fails-- == 0) throw std::runtime_error("power failed");
-    eeprom.at(address) = byte;
+    eeprom.at(address) = address == worn ? 0x5A : byte;
   }
 
   std::string sent;
@@ -32,12 +37,13 @@ struct DeskBoard {
   bool enabled = false;
   int exchanges = 0;
   std::array<std::int32_t, drive_count> setpoints{}, positions{};
-  std::array<Uint8, 8> eeprom = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF};  // erased
+  std::array<Uint8, 16> eeprom = erased();
   int writes_until_power_fails = -1;
+  int worn = -1;  ///< a cell that keeps nothing
 };
 
 struct Desk {
-  explicit Desk(const std::array<Uint8, 8>* eeprom = nullptr) {
+  explicit Desk(const std::array<Uint8, 16>* eeprom = nullptr) {
     if (eeprom) board.eeprom = *eeprom;
     session.start('p');
   }

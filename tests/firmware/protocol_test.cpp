@@ -112,7 +112,7 @@ TEST(FirmwareSession, ArmingMovesNothing) {
   EXPECT_EQ(desk.board.setpoints, before);
   EXPECT_EQ(desk.board.positions, before);
   expect_accepted(desk.ask('A'), 'A', "armed");  // again: nothing but a sign of life
-  EXPECT_EQ(desk.board.exchanges, 2);
+  EXPECT_EQ(desk.board.exchanges, 3);
   expect_accepted(desk.ask('D'), 'D', "disarmed");
   EXPECT_FALSE(desk.board.enabled);
 }
@@ -208,14 +208,15 @@ TEST(FirmwareSession, ErrorsHaveNames) {
   expect_refused(desk.ask(request('P', next, many)), Error::wrong_count);
   expect_refused(desk.ask(request('S', next, straight)), Error::wrong_count);
   expect_refused(desk.ask(request('P', next, large)), Error::out_of_range);
-  EXPECT_EQ(desk.board.exchanges, 2);                                                // the two of arming
+  EXPECT_EQ(desk.board.exchanges, 3);                                                // the two of arming
   expect_accepted(desk.ask(request('P', next, straight)), 'P', "armed");             // no number was used up
   expect_accepted(desk.ask(request('P', next + 1, straight) + '\r'), 'P', "armed");  // as terminals write
 }
 
 TEST(FirmwareSession, LongestRequestFits) {
   Desk desk;
-  desk.board.eeprom = {0xFD, 0xFF, 0x02, 0x00, 0xFF, 0xFF, 0xFF, 0xFF};  // sequence numbers of ten digits
+  write_epoch(desk.board, 8, 0xFFFD);  // sequence numbers of ten digits
+  write_epoch(desk.board, 12, 0xFFFC);
   desk.session.start('p');
   desk.last = 0xFFFDFFFF;
   desk.ask('A');
@@ -293,9 +294,55 @@ TEST(FirmwareEpoch, PowerFailureNeverRepeatsOne) {
   }
 }
 
+TEST(FirmwareEpoch, DamagedCopyRepeatsNone) {
+  for (std::size_t bit = 0; bit < 64; ++bit) {
+    DeskBoard board;
+    for (int session = 1; session <= 4; ++session) EXPECT_EQ(next_epoch(board), session);
+    board.eeprom[8 + bit / 8] ^= static_cast<Uint8>(1u << (bit % 8));
+    EXPECT_GT(next_epoch(board), 4) << bit;
+  }
+  for (int cell = 8; cell < 16; ++cell) {
+    DeskBoard board;
+    board.worn = cell;
+    int used = 0;
+    for (int session = 0; session < 10; ++session) {
+      const int epoch = next_epoch(board);
+      EXPECT_GT(epoch, used) << cell;
+      used = epoch;
+    }
+  }
+}
+
+TEST(FirmwareEpoch, WithoutOneNothingIsAccepted) {
+  struct NoEeprom : DeskBoard {
+    Uint8 eeprom_read(Uint16) const { return 0; }
+  } board;
+  Session<NoEeprom> session(board);
+  session.start('p');
+  for (const char c : request('A', 1, {}) + '\n') session.take(c);
+  EXPECT_EQ(read_answer(board.sent.substr(0, board.sent.size() - 1)).code,
+            static_cast<int>(Error::no_session));
+  EXPECT_FALSE(board.enabled);
+}
+
+TEST(FirmwareSession, DrivesThatAnswerNonsenseAreNotArmed) {
+  Desk desk;
+  desk.board.positions.fill(-1);  // a wire is off
+  expect_refused(desk.ask('A'), Error::drives);
+  --desk.last;
+  desk.board.positions.fill(0);
+  desk.board.positions[3] = 0x7FFFFFFF;
+  expect_refused(desk.ask('A'), Error::drives);
+  --desk.last;
+  EXPECT_FALSE(desk.board.enabled);
+  desk.board.positions[3] = 100;
+  expect_accepted(desk.ask('A'), 'A', "armed");
+}
+
 TEST(FirmwareEpoch, AfterTheLastComesTheFirst) {
   DeskBoard board;
-  board.eeprom = {0xFF, 0xFF, 0x00, 0x00, 0xFE, 0xFF, 0x01, 0x00};
+  const std::array<Uint8, 8> copies{0xFF, 0xFF, 0x00, 0x00, 0xFE, 0xFF, 0x01, 0x00};
+  std::copy(copies.begin(), copies.end(), board.eeprom.begin() + 8);
   EXPECT_EQ(next_epoch(board), 1);
   EXPECT_EQ(next_epoch(board), 2);
 }

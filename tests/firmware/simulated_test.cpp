@@ -109,15 +109,19 @@ TEST(FirmwareSimulated, DrivesAreOffFromTheFirstInstructionUntilArmed) {
 }
 
 TEST(FirmwareSimulated, ArmingKeepsTheDrivesWhereTheyAre) {
-  Bench bench;
-  for (std::size_t i = 0; i < drive_count; ++i) bench.drives.positions[i] = -123456 * static_cast<int>(i) + 5;
-  const auto before = bench.drives.positions;
-  bench.hello();
-  EXPECT_EQ(bench.ask('A').state, "armed");
-  EXPECT_TRUE(bench.drives.are_enabled());
-  EXPECT_EQ(bench.drives.setpoints, before);
-  EXPECT_EQ(bench.ask('S').state, "armed");
-  EXPECT_EQ(bench.drives.positions, before);
+  for (const bool at_latch : {false, true}) {
+    Bench bench;
+    bench.drives.samples_at_latch = at_latch;
+    for (std::size_t i = 0; i < drive_count; ++i)
+      bench.drives.positions[i] = -12345 * static_cast<int>(i) + 5;
+    const auto before = bench.drives.positions;
+    bench.hello();
+    EXPECT_EQ(bench.ask('A').state, "armed");
+    EXPECT_TRUE(bench.drives.are_enabled());
+    EXPECT_EQ(bench.drives.setpoints, before);
+    EXPECT_EQ(bench.ask('S').state, "armed");
+    EXPECT_EQ(bench.drives.positions, before);
+  }
 }
 
 TEST(FirmwareSimulated, StatesComeFromTheCountsOfTheDrives) {

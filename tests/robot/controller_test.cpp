@@ -56,7 +56,7 @@ kernel::ExactTable<M, n, Format, Alike, Terms> exact(const ControllerTable& tabl
     const ControllerSection& section = table.sections[m];
     auto& chords = filled.chords[Alike ? 0 : m];
     chords.backbone = section.backbone;
-    chords.half_length = stored<typename Format::Length>(section.half_length);
+    chords.half_length = stored<typename Format::Half>(section.half_length);
     for (std::size_t k = 0; k < std::min(Terms, section.series.size()); ++k)
       chords.series[k] = stored<typename Format::Loss>(section.series[k]);
   }
@@ -359,6 +359,59 @@ TEST(ControllerTable, WhatTendonsHaveInCommonFits) {
   const double off = worst<kernel::ExactTable<5, 3, Format, true, 6>, 5, 3>(
       exact<5, 3, Format, true, 6>(table), robot, kernel::Model::exact);
   EXPECT_LT(off, 0.5);
+}
+
+/// What running sums of integers come to at the limits, in the robot where their roundings add up.
+TEST(ControllerTable, SumsAtTheLimitsDoNotWrap) {
+  SerialRobot robot = load_serial("nottingham-neutral").value();
+  robot.sections.resize(3);
+  for (std::size_t m = 0; m < 3; ++m) {
+    robot.sections[m].segments = 4;
+    robot.sections[m].disc_radius = 5e-3;
+    robot.sections[m].tendon_radius = m == 0 ? 4e-3 : 1.00025e-3;
+    robot.sections[m].limit = m == 0 ? 2.045654298 : 3.906616212;
+  }
+  const ControllerTable table = make_controller_table(robot).value();
+  std::int64_t sum = 0;
+  for (const ControllerSection& section : table.sections)
+    sum += (table.short_limit(section) * fixed_point(section.share, ShortBits::share) + 4096) >>
+           ShortBits::share;
+  EXPECT_LE(sum, 32767);
+}
+
+TEST(ControllerTable, LongSectionsHaveExactChangesToo) {
+  SerialRobot robot = load_serial("nottingham-neutral").value();
+  robot.sections.resize(1);
+  robot.sections[0].joint = 0.125;
+  robot.sections[0].tendon_radius = 2e-3;
+  robot.sections[0].limit = 0.2;
+  const ControllerTable table = make_controller_table(robot).value();
+  ASSERT_EQ(table.bits.angle, 15);
+  ASSERT_EQ(table.bits.length, 13);
+  ASSERT_EQ(table.bits.half, 6);
+  using Format = kernel::ShortFormat<15, 13, 15, kernel::Native, 6>;
+  const double off = worst<kernel::ExactTable<1, 3, Format>, 1, 3>(exact<1, 3, Format, true, 2>(table), robot,
+                                                                   kernel::Model::exact);
+  EXPECT_LT(off, 0.05);  // 500 mm times a step of the loss, 0.00003
+}
+
+TEST(ControllerTable, ExactTendonsAreExactWithoutATolerance) {
+  SerialRobot robot = prototype();
+  robot.tolerance = 0;
+  const ControllerTable constants = make_controller_table(robot).value();
+  const auto table = linear<5, 3, Short, true>(constants);
+  const auto tolerance = Short::Length::from_raw(static_cast<std::int16_t>(constants.short_tolerance()));
+  std::mt19937 random(17);
+  for (int trial = 0; trial < 2000; ++trial) {
+    kernel::Bend<Short::Angle> bends[5];
+    Short::Length changes[5][3];
+    kernel::TendonState states[5][3];
+    draw(robot, random, bends);
+    table.changes(bends, changes);
+    table.states(changes, tolerance, states);
+    for (const auto& section : states)
+      for (const kernel::TendonState state : section) EXPECT_EQ(state, kernel::TendonState::exact);
+  }
 }
 
 TEST(ControllerTable, HashIsOfTheModelToo) {

@@ -4,7 +4,7 @@
 /// throughout. Theory: docs/theory/model_error.md
 ///
 /// (6) divides by the bend: L/β of a small bend is beyond the format's largest number. Neither (7) nor the
-/// chord factor has a value larger than L. Errors are fractions of the exact length, not percent.
+/// chord factor has a value larger than L + r|β|. Errors are fractions of the exact length, not percent.
 #pragma once
 #include <optional>
 #include <string_view>

@@ -15,7 +15,7 @@ namespace sinew::inline v0 {
 
 /// Bits behind the point of the 16-bit numbers of a controller, as in kernel::ShortFormat.
 struct ShortBits {
-  int angle = 0, length = 0, row = 0, back = 0;
+  int angle = 0, length = 0, row = 0, back = 0, half = 0;
   static constexpr int share = 13, loss = 15;
 };
 
@@ -45,6 +45,8 @@ struct SINEW_API ControllerTable {
   double rounding() const;     ///< of a change of tendon against LSK of the same bends [mm], at most
   /// Counts in one step of a length, in 1/65536; without motors a step is a count.
   std::int32_t counts_per_step() const;
+  /// The tolerance, and at least what rounding makes of tendons that are exact.
+  std::int64_t short_tolerance() const;
   /// The section's limit, downwards: what is within it is allowed.
   std::int64_t short_limit(const ControllerSection& section) const;
   /// Of all its integers: what a controller and who talks to it must have in common.

@@ -20,7 +20,7 @@ struct Numbers {
   }
 };
 
-constexpr Numbers q15_16{32, {16, 16, 16, 16}}, floats{};
+constexpr Numbers q15_16{32, {16, 16, 16, 16, 16}}, floats{};
 int share_bits(const Numbers& numbers) { return numbers.bits == 16 ? ShortBits::share : 16; }
 int loss_bits(const Numbers& numbers) { return numbers.bits == 16 ? ShortBits::loss : 16; }
 
@@ -77,30 +77,40 @@ std::string chords_text(const ControllerTable& table, const Numbers& numbers) {
   return braced(sections, [&](const ControllerSection& section) {
     return fmt::format(
         "{{{}, {}, {}}}", backbone_text(section.backbone),
-        numbers.text(section.half_length, numbers.fraction.length),
+        numbers.text(section.half_length, numbers.fraction.half),
         braced(section.series, [&](double value) { return numbers.text(value, loss_bits(numbers)); }));
   });
+}
+
+/// On one line of a comment.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  return text;
 }
 
 std::string q_name(int fraction) { return fmt::format("Q{}.{}", 15 - fraction, fraction); }
 
 std::string head(const ControllerTable& table, std::string_view name) {
   return fmt::format(
-      "// Constants of the serial robot {0} for controllers; made by `sinew export {0} --to c-header`.\n"
+      "// Constants of the serial robot {0} for controllers; made by `sinew export --to c-header`.\n"
       "// C++14 without a library: #include needs the folder kernel/include of sinew alone. Lengths in mm, "
       "angles in rad.\n"
       "//   bends    {1}, steps of {2:.6g} rad; per section as sinew writes them: (beta_1, beta_2) of a "
       "joint of twin\n"
       "//            pivots, theta (cos phi, sin phi) of a neutral backbone\n"
       "//   changes  {3}, steps of {4:.6g} mm, > 0 pays out; at most {5:.3g} mm from LSK of the same bends\n"
+      "//   model    {8}\n"
       "//   counts   {6}\n"
       "#ifndef SINEW_TABLE_{7}_H\n#define SINEW_TABLE_{7}_H\n\n"
       "#include \"sinew/kernel/controller.h\"\n#include \"sinew/kernel/exact_table.h\"\n\n",
-      table.robot, q_name(table.bits.angle), table.angle_step(), q_name(table.bits.length),
+      printable(table.robot), q_name(table.bits.angle), table.angle_step(), q_name(table.bits.length),
       table.length_step(), table.rounding(),
       table.counts_per_mm > 0 ? fmt::format("{:.6g} a mm", table.counts_per_mm)
                               : std::string("one a step: the robot's file names no `motor`"),
-      name);
+      name,
+      table.model == kernel::Model::exact ? "exact PCC, by which a controller drives the tendons"
+                                          : "LSK, by which a controller drives the tendons");
 }
 
 std::string sizes(const ControllerTable& table) {
@@ -108,19 +118,19 @@ std::string sizes(const ControllerTable& table) {
       "constexpr unsigned char sections = {}, tendons = {};\n"
       "/// Of all integers of the 16-bit table: frames carry it.\n"
       "constexpr __UINT32_TYPE__ hash = 0x{:08x}UL;\n\n"
-      "template <class Multiply>\nusing Short = ShortFormat<{}, {}, {}, Multiply>;\n"
+      "template <class Multiply>\nusing Short = ShortFormat<{}, {}, {}, Multiply, {}>;\n"
       "using Angle = Short<Native>::Angle;\nusing Length = Short<Native>::Length;\n"
       "using Q15_16 = PlainFormat<Fixed<32, 16>>;\nusing Float = PlainFormat<float>;\n\n"
       "constexpr BendLimits<{}, Angle> limits = {{{}, {}}};\n"
       "constexpr MotorCounts<Length> motor = {{{}}};\n"
       "constexpr Length tolerance = Length::from_raw({});  // of a tendon\n\n",
       table.sections.size(), table.tendons, table.hash(), table.bits.angle, table.bits.length,
-      table.bits.back, table.sections.size(),
+      table.bits.back, table.bits.half, table.sections.size(),
       braced(table.sections,
              [](const ControllerSection& section) { return backbone_text(section.backbone); }),
       braced(table.sections,
              [&](const ControllerSection& section) { return fmt::format("{}", table.short_limit(section)); }),
-      table.counts_per_step(), fixed_point(table.tolerance, table.bits.length));
+      table.counts_per_step(), table.short_tolerance());
 }
 
 std::string linear_tables(const ControllerTable& table) {

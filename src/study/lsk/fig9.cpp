@@ -151,7 +151,7 @@ Finding short_finding(const Formats& all) {
                         f->name, percent(f->nearest.linear.mean), percent(down), percent(f->inputs.mean));
     breaks = breaks && down > under;
   }
-  return derived("8 bits are too few for (7) too: they do not hold L, r and β", ours, breaks);
+  return derived("8 bits rounded down are too few for (7) too: they hardly hold L, r and β", ours, breaks);
 }
 
 std::vector<Finding> findings(const Formats& all) {

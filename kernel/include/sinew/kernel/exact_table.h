@@ -14,10 +14,11 @@ namespace kernel {
 template <class Format, Count Terms>
 struct Chords {
   using Length = typename Format::Length;
+  using Half = typename Format::Half;
   using Loss = typename Format::Loss;
 
   Backbone backbone;
-  typename Stored<Length>::type half_length;  ///< N L/2
+  typename Stored<Half>::type half_length;    ///< N L/2
   typename Stored<Loss>::type series[Terms];  ///< of the chord's loss by the square of the bend
 
   /// What chords lack of their arcs, as shares.
@@ -33,9 +34,7 @@ struct Chords {
     }
   }
   /// What all tendons have in common.
-  constexpr Length common(Loss x, Loss y) const {
-    return Length(Stored<Length>::load(half_length) * (x + y));
-  }
+  constexpr Length common(Loss x, Loss y) const { return Length(Stored<Half>::load(half_length) * (x + y)); }
 
   /// The bend of these chords. Each step leaves a share 1 - cos(b/2) of what lacks, so that `steps` serve up
   /// to 120 degrees a joint; always as many, so that the time is always the same.

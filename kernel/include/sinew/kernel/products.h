@@ -96,7 +96,7 @@ struct Portable {
 };
 
 #ifdef __AVR__
-/// The same of 16 bits whose result is the upper half: 44 cycles, whatever the numbers.
+/// The same of 16 bits whose result is the upper half: 45 cycles, whatever the numbers.
 struct AvrInstructions : Portable {
   using Portable::rounded_sum;
   template <class Result, int A, int B>

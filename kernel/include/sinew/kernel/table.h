@@ -25,21 +25,25 @@ struct PlainFormat {
   using Row = S;
   using Back = S;
   using Share = S;
+  using Half = S;
   using Square = S;
   using Loss = S;
   using Multiply = Portable;
 };
 
-/// 16 bits with so many of them behind the point of angles, lengths and the inverse's rows. Those of the rows
-/// follow: the upper half of a product is a length, so that rounding costs no shift.
-template <int AngleFraction, int LengthFraction, int BackFraction, class Multiplied = Native>
+/// 16 bits with so many of them behind the point of angles, lengths, the inverse's rows and half lengths.
+/// Those of the rows follow: the upper half of a product is a length, so that rounding costs no shift.
+template <int AngleFraction, int LengthFraction, int BackFraction, class Multiplied = Native,
+          int HalfFraction = LengthFraction>
 struct ShortFormat {
   using Angle = Fixed<16, AngleFraction>;
   using Length = Fixed<16, LengthFraction>;
   using Row = Fixed<16, 16 + LengthFraction - AngleFraction>;
   using Back = Fixed<16, BackFraction>;
   using Share = Fixed<16, 13>;
-  using Square = Fixed<16, (AngleFraction > 7 ? 2 * AngleFraction - 15 : 0)>;  // of any angle that fits
+  using Half = Fixed<16, HalfFraction>;
+  using Square =
+      Fixed<16, (AngleFraction > 7 ? 2 * AngleFraction - 15 : 0)>;  // of any angle of 8 to 15 of them
   using Loss = Fixed<16, 15>;
   using Multiply = Multiplied;
 };
