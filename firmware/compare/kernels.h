@@ -87,7 +87,7 @@ struct Kernel {
   void (*run)(const Inputs& in, Sum& sum);
 };
 
-constexpr unsigned char kernel_count = 23;
+constexpr unsigned char kernel_count = 28;
 
 /// In a function, since a constructor before `main` would need more of a target.
 inline const Kernel& kernel(unsigned char index) {
@@ -104,6 +104,10 @@ inline const Kernel& kernel(unsigned char index) {
       {"int16_states", false, [](In in, Sum& sum) { add_states(portable_table, in.changes, sum); }},
       {"int16_exact_native", true, [](In in, Sum& sum) { add_changes(robot::exact_short, in.bends, sum); }},
       {"int16_exact", true, [](In in, Sum& sum) { add_changes(portable_exact, in.bends, sum); }},
+      {"int16_exact_bends", true, [](In in, Sum& sum) { add_bends(robot::exact_short, in.changes, sum); }},
+      {"int16_exact_states_native", true,
+       [](In in, Sum& sum) { add_states(robot::exact_short, in.changes, sum); }},
+      {"int16_exact_states", true, [](In in, Sum& sum) { add_states(portable_exact, in.changes, sum); }},
       {"int16_polar_bend", false,
        [](In in, Sum& sum) { sum.add(sinew::kernel::polar_bend(in.polar.x, in.polar.y)); }},
       {"q15_16_changes", false,
@@ -113,6 +117,10 @@ inline const Kernel& kernel(unsigned char index) {
       {"q15_16_bends", true, [](In in, Sum& sum) { add_bends(robot::table_q15_16, in.long_changes, sum); }},
       {"q15_16_states", true, [](In in, Sum& sum) { add_states(robot::table_q15_16, in.long_changes, sum); }},
       {"q15_16_exact", true, [](In in, Sum& sum) { add_changes(robot::exact_q15_16, in.long_bends, sum); }},
+      {"q15_16_exact_bends", true,
+       [](In in, Sum& sum) { add_bends(robot::exact_q15_16, in.long_changes, sum); }},
+      {"q15_16_exact_states", true,
+       [](In in, Sum& sum) { add_states(robot::exact_q15_16, in.long_changes, sum); }},
       {"q15_16_polar_bend", false,
        [](In in, Sum& sum) { sum.add(sinew::kernel::polar_bend(in.long_polar.x, in.long_polar.y)); }},
       {"limits_hold", false, [](In in, Sum& sum) { sum.add(robot::limits.hold(in.bends)); }},
