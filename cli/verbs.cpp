@@ -33,7 +33,7 @@ constexpr std::array options{
     Option{"tolerance", "LENGTH", "of a tendon before it counts as slack or too short; default the file's"},
     Option{"envelope", "NAME", "bends a section is allowed: square, disc or actuator; default its limit"},
     Option{"from", "\"X, Y, PHI\"", "first pose of a path, written like --pose"},
-    Option{"to", "\"X, Y, PHI\"|LANGUAGE", "last pose of a path; of export the language: c-header"},
+    Option{"to", "\"X, Y, PHI\"|LANGUAGE", "last pose of a path; of export the language: c-header, verilog"},
     Option{"to-inputs", "\"A, B, ...\"", "of branches the inputs where the curve leads"},
     Option{"to-wrench", "\"FX, FY, FZ, MX, MY, MZ\"", "of branches the wrench where the curve leads"},
     Option{"range", "\"LOW, HIGH\"",
@@ -310,7 +310,9 @@ const std::array table{
         "c-header: the integer, Q15.16 and float tables of a serial robot, with limits, counts of its motors "
         "and\na hash, for the kernel headers of sinew on a small controller, which drives them by LSK, or "
         "with --model pcc "
-        "exactly.\nIt goes to stdout without -o.",
+        "exactly.\nIt goes to stdout without -o.\n"
+        "verilog: the integer table of LSK as a core for an FPGA, forward and inverse with states of "
+        "tendons,\nand a testbench: two files into the folder of -o, or here.",
         "sinew export nottingham-tpcj --to c-header -o robot_table.h",
         run_export},
     Verb{"new",

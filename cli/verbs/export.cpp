@@ -19,13 +19,16 @@ namespace {
 struct Language {
   std::string_view name;
   std::vector<ExportedFile> (*write)(const ControllerTable&);
+  bool has_exact;  ///< exact PCC, too
 };
 
 const std::array languages{
     Language{"c-header",
              [](const ControllerTable& table) {
                return std::vector<ExportedFile>{{"robot_table.h", controller_header(table)}};
-             }},
+             },
+             true},
+    Language{"verilog", controller_verilog, false},
 };
 
 const Language* find_language(std::string_view name) {
@@ -43,7 +46,20 @@ int refuse_language(const std::string& word) {
                                         fmt::join(names, ", "))}});
 }
 
-Expected<ControllerTable> read_table(const Arguments& arguments) {
+/// The model by which a controller drives its tendons.
+Expected<kernel::Model> read_model(const Arguments& arguments, const Language& language) {
+  const std::string* model = arguments.text("model");
+  if (!model || *model == "lsk") return kernel::Model::linear;
+  if (*model != "pcc")
+    return failure("unknown_choice", "--model",
+                   fmt::format("{} is no model of tendons: write pcc or lsk", in_quotes(*model)));
+  if (!language.has_exact)
+    return failure("not_available", "--model",
+                   fmt::format("{} is of lsk alone; c-header has pcc, too", language.name));
+  return kernel::Model::exact;
+}
+
+Expected<ControllerTable> read_table(const Arguments& arguments, const Language& language) {
   auto document = read_robot_file(arguments.operand());
   if (!document) return tl::unexpected(document.error());
   const auto changes = settings(arguments);
@@ -57,12 +73,8 @@ Expected<ControllerTable> read_table(const Arguments& arguments) {
   if (!document) return tl::unexpected(document.error());
   const auto robot = read_serial_robot(*document);
   if (!robot) return tl::unexpected(robot.error());
-  const std::string* model = arguments.text("model");
-  if (model && *model != "pcc" && *model != "lsk")
-    return failure("unknown_choice", "--model",
-                   fmt::format("{} is no model of tendons: write pcc or lsk", in_quotes(*model)));
-  return make_controller_table(*robot,
-                               model && *model == "pcc" ? kernel::Model::exact : kernel::Model::linear);
+  const auto model = read_model(arguments, language);
+  return model ? make_controller_table(*robot, *model) : tl::unexpected(model.error());
 }
 
 /// One file into the file that is named, or on stdout; several into the folder that is named.
@@ -85,7 +97,7 @@ int run_export(const Arguments& arguments) {
   const std::string* name = arguments.text("to");
   const Language* language = name ? find_language(*name) : nullptr;
   if (!language) return refuse_language(name ? *name : "");
-  const auto table = read_table(arguments);
+  const auto table = read_table(arguments, *language);
   if (!table) return refuse("export", table.error());
   const auto written = write(language->write(*table), arguments);
   return written ? solved : refuse("export", written.error());

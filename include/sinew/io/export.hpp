@@ -17,4 +17,8 @@ struct ExportedFile {
 /// A C++14 header for controllers: the tables of sinew/kernel/table.h filled in, in a namespace of that name.
 SINEW_API std::string controller_header(const ControllerTable& table, std::string_view name = "robot");
 
+/// A core for an FPGA in Verilog-2005, LSK forward and inverse with states of tendons, and a testbench that
+/// works in any simulator. Its modules are named after the robot. Theory: docs/theory/controller.md
+SINEW_API std::vector<ExportedFile> controller_verilog(const ControllerTable& table);
+
 }  // namespace sinew::inline v0
