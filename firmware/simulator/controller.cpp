@@ -16,12 +16,6 @@ extern "C" {
 #include <simavr/sim_elf.h>
 }
 
-#ifdef __SANITIZE_ADDRESS__
-// The library does not give back all that it takes for a controller.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libsimavr"; }
-extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
-#endif
-
 namespace sinew::firmware {
 namespace {
 

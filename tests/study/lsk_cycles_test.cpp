@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <filesystem>
 
 #include "sinew/study/reproduce.hpp"
 #include "study/lsk/cycles/measure.hpp"
+#include "study_folder.hpp"
 
 namespace sinew {
 namespace {
@@ -16,9 +16,8 @@ class Cycles : public testing::Test {
     const auto found = lsk::find_cycles_tools();
     if (!found) return;
     tools = *found;
-    const auto folder = std::filesystem::temp_directory_path() / "sinew_cycles_test";
-    run = lsk::measure_cycles(5, tools, folder).value();
-    std::filesystem::remove_all(folder);
+    const test::Folder folder;
+    run = lsk::measure_cycles(5, tools, folder.path).value();
   }
   void SetUp() override {
     if (tools.compiler_version.empty()) GTEST_SKIP() << lsk::find_cycles_tools().error()[0].message;
@@ -65,9 +64,8 @@ TEST_F(Cycles, GrowWithTheSectionsAsFigure8Claims) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "a program of another processor, ten times: nothing here for a sanitizer";
 #endif
-  const auto folder = std::filesystem::temp_directory_path() / "sinew_fig8_test";
-  const Reproduction made = reproduce("lsk/fig8", folder).value();
-  std::filesystem::remove_all(folder);
+  const test::Folder folder;
+  const Reproduction made = reproduce("lsk/fig8", folder.path).value();
   int claims = 0;
   for (const Finding& finding : made.findings) {
     if (finding.verdict == "holds") ++claims;
