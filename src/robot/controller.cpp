@@ -115,9 +115,10 @@ std::int64_t longest_short_sum(const ControllerTable& table, int angle_bits) {
 }
 
 Expected<ShortBits> choose_bits(const ControllerTable& table, double gain) {
-  double row = 0, back = 0, half = 0;
+  double row = 0, back = 0, half = 0, pull = 0;
   for (const ControllerSection& section : table.sections) {
     std::array<double, 2> sums{};
+    for (const auto& [a, b] : section.rows) pull = std::max(pull, std::abs(a) + std::abs(b));
     for (std::size_t i = 0; i < section.rows.size(); ++i)
       for (const std::size_t axis : {0u, 1u}) {
         row = std::max(row, std::abs(section.rows[i][axis]));
@@ -136,9 +137,10 @@ Expected<ShortBits> choose_bits(const ControllerTable& table, double gain) {
   bits.half = std::min(fraction_of(half), 15);
   bits.length = bits.angle + bits.row - 16;
   if (bits.length > 15) bits.row -= std::exchange(bits.length, 15) - 15;
-  // Rows leave a change within 2¹⁵/√2; what tendons have in common needs the rest.
-  while (std::ldexp(longest_common(table), bits.length) >
-         0.29 * largest - static_cast<double>(table.sections.size()))
+  // Exact PCC takes from all tendons alike what has to fit beside the pull of all sections at their limits;
+  // each section rounds its part.
+  const double rounded = 2 + static_cast<double>(table.sections.size());
+  while (std::ldexp(pull * longest_sum(table) + longest_common(table), bits.length) > largest - rounded)
     --bits.row, --bits.length;
   bits.back = std::min(fraction_of(back, 2 + table.tendons / 4.0), bits.angle - bits.length + 16);
   if (bits.angle < 0 || bits.length < 0 || bits.half < 0 || bits.length + bits.back <= bits.angle)

@@ -68,13 +68,17 @@ double value(S number) {
   return static_cast<double>(number);
 }
 
-/// Bends within the limits, in steps of the format.
+/// Bends within the limits, in steps of the format; at times all sections at their limits alike.
 template <std::size_t M, class Angle>
 void draw(const SerialRobot& robot, std::mt19937& random, kernel::Bend<Angle> (&bends)[M]) {
   std::uniform_real_distribution<double> share(-1, 1), turn(-3.1, 3.1);
+  const bool is_extreme = random() % 16 == 0;
+  const double x_share = share(random) < 0 ? -1 : 1, y_share = share(random) < 0 ? -1 : 1,
+               direction = turn(random);
   for (std::size_t m = 0; m < M; ++m) {
-    const double limit = robot.sections[m].limit * 0.999, x = limit * share(random),
-                 y = limit * share(random), phi = turn(random);
+    const double limit = robot.sections[m].limit * 0.999, x = limit * (is_extreme ? x_share : share(random)),
+                 y = limit * (is_extreme ? y_share : share(random)),
+                 phi = is_extreme ? direction : turn(random);
     bends[m] = robot.sections[m].is_twin()
                    ? kernel::Bend<Angle>{Angle(x), Angle(y)}
                    : kernel::Bend<Angle>{Angle(x * std::cos(phi)), Angle(x * std::sin(phi))};
@@ -179,7 +183,7 @@ TEST(ControllerTable, SquaresOfLargeBendsFit) {
   using Format = kernel::ShortFormat<10, 7, 16>;
   const double off = worst<kernel::ExactTable<5, 3, Format>, 5, 3>(exact<5, 3, Format, true, 2>(table), robot,
                                                                    kernel::Model::exact);
-  EXPECT_LT(off, 3e-2);
+  EXPECT_LT(off, 5e-2);
 }
 
 TEST(ControllerTable, SectionsMayDiffer) {
@@ -353,12 +357,12 @@ TEST(ControllerTable, WhatTendonsHaveInCommonFits) {
     section.joint = 0.1, section.limit = 1.5;  // long joints, thin robot
   const ControllerTable table = make_controller_table(robot).value();
   ASSERT_EQ(table.bits.angle, 12);
-  ASSERT_EQ(table.bits.length, 4);
-  using Format = kernel::ShortFormat<12, 4, 18>;
+  ASSERT_EQ(table.bits.length, 6);
+  using Format = kernel::ShortFormat<12, 6, 18>;
   ASSERT_EQ(table.bits.back, 18);
   const double off = worst<kernel::ExactTable<5, 3, Format, true, 6>, 5, 3>(
       exact<5, 3, Format, true, 6>(table), robot, kernel::Model::exact);
-  EXPECT_LT(off, 0.5);
+  EXPECT_LT(off, 0.25);
 }
 
 /// What running sums of integers come to at the limits, in the robot where their roundings add up.

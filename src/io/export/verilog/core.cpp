@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "io/export/verilog/adders.hpp"
+#include "io/export/verilog/columns.hpp"
 #include "io/export/verilog/limits.hpp"
 #include "io/export/verilog/modules.hpp"
 #include "io/export/verilog/streams.hpp"
@@ -12,26 +14,25 @@ namespace sinew::inline v0::verilog {
 namespace {
 
 constexpr std::string_view head =
-    R"(// Kinematics of the serial robot <robot> in fixed point; made by `sinew export ROBOT --to verilog`.
-// Verilog-2005 for synthesis, without primitives of a vendor. One clock, synchronous reset. <robot>_core is the whole;
-// <robot>_forward and <robot>_inverse do without each other. All bits are those of kernel::LinearTable in C++ with
-// the 16-bit table of `sinew export ROBOT --to c-header`, of hash <hash>.
+    R"(// Kinematics of the serial robot <robot> in fixed point: LSK forward, inverse, and states of tendons.
+// Made by `sinew export ROBOT --to verilog`. Verilog-2005 for synthesis, without primitives of a vendor. One clock,
+// synchronous reset. <robot>_core is the whole; <robot>_forward and <robot>_inverse do without
+// each other. All bits are those of kernel::LinearTable in C++ with the 16-bit table of hash <hash>, which
+// `sinew export ROBOT --to c-header` writes.
 //
-//   bends    steps of <angle_step> rad (1/2^<angle>); per section (beta_1, beta_2) of a joint of twin pivots, theta
-//            (cos phi, sin phi) of a neutral backbone
-//   changes  steps of <length_step> mm (1/2^<length>), > 0 pays out; tendon i is bits 16 i to 16 i + 15; at most <rounding> mm
-//            from LSK of the same bends
+//   bends    steps of <angle_step> rad (1/2^<angle>); per section (beta_1, beta_2) of a joint of twin pivots,
+//            theta (cos phi, sin phi) of a neutral backbone
+//   changes  steps of <length_step> mm (1/2^<length>), > 0 pays out; tendon i is bits 16 i to 16 i + 15;
+//            at most <rounding> mm from LSK of the same bends
 //
-// A stream is <sections> sections in turn from the base, one a clock or with gaps; `first` stands at the base's section
-// and begins anew. Whatever comes is taken at once and there is nothing to wait for. A result comes <forward> clocks
-// (forward) or <inverse> clocks (inverse) after its section: of <sections> sections without gaps the last after <forward_done> and <inverse_done>.
-// `in_limits` at the last section says that the whole robot was within its limits: do not let it move by a robot that
-// was not, and hold earlier sections back until then. Beyond limits sums wrap, as they do in C++.
+// A stream is the <sections> sections of a robot in turn, base first, one a clock or with gaps. `first` stands at the base's
+// section and begins anew. Whatever comes is taken at once; there is nothing to wait for. A section's result comes
+// <forward> clocks (forward) or <inverse> clocks (inverse) later: a robot's last result, without gaps, <forward_done> or <inverse_done> clocks after its
+// first section. With it `in_limits` says that all bends were within limits: hold earlier sections back until then, and
+// let nothing move by a robot that was not. Beyond limits sums wrap, as they do in C++.
 //
 // Test it by <robot>_core_tb.v. How it works and what it takes of an FPGA: docs/theory/controller.md of sinew.
 )";
-
-using Rows = std::vector<std::array<double, 2>>;
 
 int index_bits(const ControllerTable& table) {
   return std::max(1, static_cast<int>(std::bit_width(table.sections.size() - 1)));
@@ -83,36 +84,6 @@ std::string share_cases(const ControllerTable& table, Value value) {
   });
 }
 
-/// Bits with the sign that hold a number.
-int bits_of(std::int64_t value) {
-  return 1 + static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value < 0 ? -value - 1 : value)));
-}
-
-template <class Value>
-int most_bits(const ControllerTable& table, Value value) {
-  int most = 1;
-  for (const ControllerSection& section : table.sections) most = std::max(most, bits_of(value(section)));
-  return most;
-}
-
-/// Of each tendon in turn, what its column of an axis takes.
-std::vector<int> column_bits(const ControllerTable& table, Rows ControllerSection::*rows, int places,
-                             std::size_t axis) {
-  std::vector<int> bits;
-  for (std::size_t i = 0; i < (table.sections[0].*rows).size(); ++i)
-    bits.push_back(most_bits(table, [&](const ControllerSection& section) {
-      return fixed_point((section.*rows)[i][axis], places);
-    }));
-  return bits;
-}
-
-template <class Value>
-int share_bits(const ControllerTable& table, Value value) {
-  return most_bits(table, [&](const ControllerSection& section) {
-    return fixed_point(value(section.share), ShortBits::share);
-  });
-}
-
 std::string columns_text(const ControllerTable& table, Rows ControllerSection::*rows, int places) {
   const std::vector<int> x = column_bits(table, rows, places, 0), y = column_bits(table, rows, places, 1);
   std::string list;
@@ -121,49 +92,9 @@ std::string columns_text(const ControllerTable& table, Rows ControllerSection::*
   return list;
 }
 
-/// A number of the tree of adders.
-struct Term {
-  std::string name;
-  int bits = 0;
-
-  std::string widened(int to) const {
-    if (bits >= to) return name;
-    return fmt::format("$signed({{{{{}{{{}[{}]}}}}, {}}})", to - bits, name, bits - 1, name);
-  }
-};
-
-/// The register of a sum, or of a term that waits.
-Term add(const Term& a, const Term* b, std::string name, std::string& text) {
-  const int most = b ? std::max(a.bits, b->bits) : a.bits;
-  const Term sum{std::move(name), b ? std::min(32, most + 1) : most};
-  const std::string value = b ? a.widened(most) + " + " + b->widened(most) : a.name;
-  text += fmt::format("  reg signed [{0}:0] {1};\n  always @(posedge clock) {1} <= {2};\n", sum.bits - 1,
-                      sum.name, value);
-  return sum;
-}
-
-/// Adders by pairs, of products by factors of so many bits.
-std::string tree(const std::vector<int>& factors, int levels) {
-  std::string text;
-  std::vector<Term> terms;
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    terms.push_back({fmt::format("product_{}", i), factors[i] + 16});
-    text += fmt::format("  wire signed [{}:0] {} = products[{} +: {}];\n", terms[i].bits - 1, terms[i].name,
-                        32 * i, terms[i].bits);
-  }
-  for (int level = 1; level <= levels; ++level) {
-    std::vector<Term> sums;
-    for (std::size_t i = 0; i < terms.size(); i += 2)
-      sums.push_back(add(terms[i], i + 1 < terms.size() ? &terms[i + 1] : nullptr,
-                         fmt::format("sum_{}_{}", level, i / 2), text));
-    terms = std::move(sums);
-  }
-  return text + fmt::format("  assign sum = {};", terms[0].widened(32));
-}
-
 std::string total_text(const ControllerTable& table, const Core& core, std::size_t axis) {
   const std::vector<int> bits = column_bits(table, &ControllerSection::back, table.bits.back, axis);
-  return filled(total_module, {{"axis", axis == 0 ? "x" : "y"}, {"tree", tree(bits, core.levels)}});
+  return filled(total_module, {{"axis", axis == 0 ? "x" : "y"}, {"tree", adders(bits, core.levels)}});
 }
 
 Words sizes(const ControllerTable& table) {

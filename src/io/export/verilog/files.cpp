@@ -19,7 +19,8 @@ std::string identifier(const std::string& robot) {
     else if (!name.empty() && name.back() != '_')
       name += '_';
   if (name.ends_with('_')) name.pop_back();
-  return name.empty() || (name[0] >= '0' && name[0] <= '9') ? "robot_" + name : name;
+  if (name.empty()) return "robot";
+  return name[0] >= '0' && name[0] <= '9' ? "robot_" + name : name;
 }
 
 }  // namespace
