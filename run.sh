@@ -24,7 +24,7 @@ up_to_date() {
   local -a inputs=()
   local input
   [[ -x $sinew && -e $stamp ]] || return 1
-  for input in CMakeLists.txt CMakePresets.json cmake kernel include src cli robots studies; do
+  for input in CMakeLists.txt CMakePresets.json cmake kernel include src server cli robots studies; do
     if [[ -e $input ]]; then inputs+=("$input"); fi
   done
   [[ -z $(find "${inputs[@]}" -newer "$stamp" -print -quit) ]]

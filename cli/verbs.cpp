@@ -86,6 +86,11 @@ constexpr std::array options{
            "where to write: a folder for reproduce (default: out), a figure for plot, a .csv for track; of "
            "export a file, or the folder of several",
            'o'},
+    Option{
+        "host", "ADDRESS",
+        "of serve where it listens; default 127.0.0.1, this machine alone. Any other one asks for the token "
+        "that is printed with the address"},
+    Option{"port", "PORT", "of serve; default 8765, 0 is any that is free"},
     Option{"resume", "", "go on with what an interrupted run left; without it, begin"},
     Option{"threads", "N", "threads of this process; default one a core"},
     Option{
@@ -315,6 +320,17 @@ const std::array table{
         "tendons,\nand a testbench: two files into the folder of -o, or here.",
         "sinew export nottingham-tpcj --to c-header -o robot_table.h",
         run_export},
+    Verb{
+        "serve",
+        "[ROBOT]",
+        "queries over HTTP, on this machine or with a token from others",
+        {"host", "port", "quiet", "help"},
+        {},
+        "Prints the address and answers there until Ctrl-C. The calls are in docs/server.md. Nothing is read "
+        "but\n"
+        "the robot that is named; nothing is written; no request leaves this machine.",
+        "sinew serve 3-rfr",
+        run_serve},
     Verb{"new",
          "[KIND]",
          "a commented robot or study file to start from, on stdout",

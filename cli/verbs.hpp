@@ -68,6 +68,7 @@ int run_sweep(const Arguments& arguments);
 int run_query(const Arguments& arguments);
 int run_check(const Arguments& arguments);
 int run_export(const Arguments& arguments);
+int run_serve(const Arguments& arguments);
 int run_new(const Arguments& arguments);
 int run_reproduce(const Arguments& arguments);
 int run_plot(const Arguments& arguments);

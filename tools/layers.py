@@ -26,7 +26,7 @@ ROWS = [
     ["math", "solve"],
     ["kernel", "base"],
 ]
-SIBLINGS = {("solve", "math")}
+SIBLINGS = {("solve", "math"), ("cli", "server")}
 APPS = set(ROWS[0])
 LAYERS = [layer for row in ROWS for layer in row]
 HEIGHT = {layer: len(ROWS) - i for i, row in enumerate(ROWS) for layer in row}

@@ -5,7 +5,7 @@
 # What building the library and the command and drawing figures needs, ...
 # shellcheck disable=SC2034
 build_packages=(build-essential cmake ninja-build pkgconf libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
-                libfmt-dev libexpected-dev libhwy-dev libtbb-dev libhdf5-dev libmd-dev libxxhash-dev gnuplot-nox)
+                libfmt-dev libexpected-dev libhwy-dev libtbb-dev libhdf5-dev libmd-dev libxxhash-dev libcpp-httplib-dev gnuplot-nox)
 # ... and what the tests and benchmarks need beside it. ccache saves compiling the library again for the packaging tests.
 # Last, what builds and runs the firmware: the cross compilers of ATmega2560 and Cortex-M with their simulators, and the
 # tools of the Verilog core.

@@ -35,7 +35,9 @@ TEST(Help, TheExampleOfEveryVerbWorksAsPrinted) {
     EXPECT_EQ(help.out, run_command({"help", verb}, here.path()).out);
     const std::string line = example(help.out);
     ASSERT_FALSE(line.empty()) << verb;
-    const Outcome outcome = run_shell(line, here.path());
+    const bool stays = verb == "serve";  // until Ctrl-C
+    const Outcome outcome =
+        run_shell(stays ? "timeout --preserve-status -s INT 1 " + line + " --port 0 -q" : line, here.path());
     EXPECT_EQ(outcome.exit, 0) << line << outcome.err;
     EXPECT_EQ(outcome.err, "") << line;
   }

@@ -1,0 +1,61 @@
+/// serve: the viewer in a browser, and queries over HTTP.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <thread>
+
+#include "server/server.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace sinew::cli {
+namespace {
+
+Expected<int> read_port(const std::string& text) {
+  int port = -1;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, port);
+  if (read.ec != std::errc() || read.ptr != end || port < 0 || port > 65535)
+    return failure(
+        "out_of_range", "--port",
+        fmt::format("{} is no port: write a number from 1 to 65535, or 0 for any that is free", text));
+  return port;
+}
+
+Expected<server::Options> read_options(const Arguments& arguments) {
+  server::Options options;
+  options.robot = arguments.operand();
+  if (const std::string* address = arguments.text("host")) options.address = *address;
+  if (const std::string* text = arguments.text("port")) {
+    const auto port = read_port(*text);
+    if (!port) return tl::unexpected(port.error());
+    options.port = *port;
+  }
+  return options;
+}
+
+}  // namespace
+
+int run_serve(const Arguments& arguments) {
+  const auto options = read_options(arguments);
+  if (!options) return refuse(arguments.verb, options.error());
+  auto server = server::Server::open(*options);
+  if (!server) return refuse(arguments.verb, server.error());
+  finish_what_is_begun();
+  print(server->url() + '\n');
+  if (!arguments.has("quiet")) {
+    if (server->url().find("token") != std::string::npos)
+      message("Whoever has this address can ask this machine to compute. It is not encrypted.");
+    message("Ctrl-C ends it.");
+  }
+  std::jthread watch([&](const std::stop_token& over) {
+    using namespace std::chrono_literals;
+    while (!interrupted() && !over.stop_requested()) std::this_thread::sleep_for(20ms);
+    server->stop();
+  });
+  server->run();
+  return interrupted() ? solved : internal_error;
+}
+
+}  // namespace sinew::cli

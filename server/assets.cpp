@@ -1,0 +1,17 @@
+#include "assets.hpp"
+
+#include <array>
+
+namespace sinew::server {
+
+std::span<const Asset> assets() {
+  static constexpr std::array page{Asset{"/",
+                                         "text/html; charset=utf-8",
+                                         "<!doctype html>\n<title>sinew</title>\n<h1>sinew</h1>\n"
+                                         "<p>This program answers queries here, but was built without its "
+                                         "viewer.</p>\n",
+                                         {}}};
+  return page;
+}
+
+}  // namespace sinew::server

@@ -1,0 +1,166 @@
+#include "calls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "sinew/base/export.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/query/session.hpp"
+
+namespace sinew::server {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+std::string written(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+Json json_of(std::string_view code, std::string_view where, std::string_view message) {
+  return {{"code", code}, {"where", where}, {"message", message}};
+}
+
+int whole(std::string_view text) {
+  int number = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9' || number > 100'000'000) return 0;
+    number = 10 * number + (c - '0');
+  }
+  return number;
+}
+
+/// An error of a file with its place apart: `robot:14:11` is line 14, column 11.
+Json error_of_file(const Error& error) {
+  Json json = json_of(error.code, error.where, error.message);
+  const std::size_t second = error.where.rfind(':');
+  const std::size_t first = second == std::string::npos ? second : error.where.rfind(':', second - 1);
+  if (first == std::string::npos) return json;
+  const std::string_view where = error.where;
+  const int line = whole(where.substr(first + 1, second - first - 1)),
+            column = whole(where.substr(second + 1));
+  if (line > 0) json["line"] = line;
+  if (line > 0 && column > 0) json["column"] = column;
+  return json;
+}
+
+/// What a query answers about the robot of a file that ships.
+Json summary(std::string_view name) {
+  Json row{{"name", name}};
+  auto session = Session::open(std::string(name));
+  if (!session) return row;
+  const Json says = Json::parse(session->answer(R"({"query": "describe"})"));
+  row["title"] = says.value("robot", std::string(name));
+  row["kind"] = says.value("kind", "");
+  row["space"] = says.value("space", "");
+  return row;
+}
+
+std::string answer_of(Session& session, std::string_view query) {
+  try {
+    return session.answer(query);
+  } catch (const std::exception& error) {
+    return refused(500, "internal", "query", fmt::format("this query failed inside sinew: {}", error.what()))
+        .text;
+  }
+}
+
+int working(const Limits& limits) {
+  return limits.working > 0 ? limits.working
+                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+Reply refused(int status, std::string_view code, std::string_view where, std::string_view message) {
+  return {status, written({{"error", json_of(code, where, message)}})};
+}
+
+Calls::Calls(const Options& options)
+    : options_(options),
+      robots_(options.limits.robots),
+      rate_(options.limits.rate),
+      places_(working(options.limits)) {}
+
+std::optional<Errors> Calls::read_opened() {
+  if (options_.robot.empty()) return {};
+  auto text = read_robot_text(options_.robot);
+  if (!text) return text.error();
+  if (const auto session = Session::open(options_.robot); !session) return session.error();
+  opened_text_ = std::move(*text);
+  return {};
+}
+
+Reply Calls::version() const { return {200, written({{"sinew", sinew::version()}, {"protocol", 1}})}; }
+
+Reply Calls::robots() const {
+  static const Json shipped = [] {
+    Json rows = Json::array();
+    for (const std::string_view name : builtin_robot_names()) rows.push_back(summary(name));
+    return rows;
+  }();
+  Json opened;
+  if (!opened_text_.empty()) opened = {{"name", options_.robot}, {"text", opened_text_}};
+  return {200, written({{"robots", shipped}, {"opened", opened}})};
+}
+
+Reply Calls::robot_text(const std::string& name) const {
+  const auto names = builtin_robot_names();
+  if (std::ranges::find(names, name) == names.end())  // never a path
+    return refused(404, "unknown_robot", "robot", "no robot of this name ships; GET /api/robots lists them");
+  return {200, read_robot_text(name).value(), "text/yaml; charset=utf-8"};
+}
+
+Reply Calls::open_robot(const std::string& text) {
+  const auto place = places_.wait(std::chrono::duration<double>(options_.limits.patience));
+  if (!place) return refused(503, "busy", "robot", "all places to compute are taken; try again");
+  const auto handle = robots_.open(text);
+  if (handle) return {200, written({{"robot", *handle}})};
+  Json errors = Json::array();
+  for (const Error& error : handle.error()) errors.push_back(error_of_file(error));
+  return {422, written({{"errors", errors}})};
+}
+
+std::string Calls::answers(Robot& robot, const std::vector<std::string_view>& queries, bool is_list) {
+  auto session = robot.take();
+  if (!session) return refused(500, "internal", "robot", "the robot cannot be opened again").text;
+  const auto end = Clock::now() + std::chrono::duration<double>(options_.limits.time);
+  std::string text = is_list ? "[" : "";
+  for (const std::string_view query : queries) {
+    if (text.size() > 1) text += ',';
+    if (text.size() > options_.limits.answers)
+      text +=
+          refused(200, "too_large", "query", "the answers before fill a reply; ask for fewer at once").text;
+    else if (Clock::now() > end)
+      text += refused(200, "too_slow", "query", "the time of a request is over; ask for fewer at once").text;
+    else
+      text += answer_of(*session, query);
+  }
+  robot.give_back(std::move(*session));
+  return is_list ? text + ']' : text;
+}
+
+Reply Calls::query(std::string_view handle, std::string_view body, const std::string& address) {
+  const std::vector<std::string_view> queries = queries_of(body);
+  if (queries.empty())
+    return refused(400, "json_syntax", "body", "give one query, {...}, or an array of queries, [{...}, ...]");
+  if (queries.size() > options_.limits.queries)
+    return refused(
+        413, "too_large", "body",
+        fmt::format("{} queries; give at most {} at once", queries.size(), options_.limits.queries));
+  const auto robot = robots_.find(handle);
+  if (!robot)
+    return refused(404, "unknown_robot", "robot",
+                   "no robot has this handle (any more): POST its text to /api/robot and ask again");
+  if (!rate_.allows(address, queries.size()))
+    return refused(429, "too_many", "query",
+                   fmt::format("more than {} queries a second; wait a second", options_.limits.rate));
+  const auto place = places_.wait(std::chrono::duration<double>(options_.limits.patience));
+  if (!place) return refused(503, "busy", "query", "all places to compute are taken; try again");
+  return {200, answers(*robot, queries, body.find('[') < body.find('{'))};
+}
+
+}  // namespace sinew::server

@@ -1,0 +1,57 @@
+/// @file robots.hpp
+/// Robots that pages have opened, under handles: a handle is a hash of the text, so the same file has the
+/// same one, and a page that comes back after a restart of the server puts its text again and goes on.
+#pragma once
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/base/error.hpp"
+#include "sinew/query/session.hpp"
+
+namespace sinew::server {
+
+/// One text, and sessions of it that nobody uses at the moment.
+class Robot {
+ public:
+  Robot(Document document, Session first);
+
+  /// A session for this thread until it is given back.
+  Expected<Session> take();
+  void give_back(Session session);
+
+ private:
+  Document document_;
+  std::mutex mutex_;
+  std::vector<Session> idle_;
+};
+
+/// For any number of threads.
+class Robots {
+ public:
+  explicit Robots(std::size_t most) : most_(most) {}
+
+  /// The handle of a robot file's text, or all its errors; their places are `robot:LINE:COLUMN`.
+  Expected<std::string> open(const std::string& text);
+  /// Null where there is none (any more).
+  std::shared_ptr<Robot> find(std::string_view handle);
+
+ private:
+  struct Entry {
+    std::string handle;
+    std::shared_ptr<Robot> robot;
+  };
+
+  std::size_t most_;
+  std::mutex mutex_;
+  std::list<Entry> entries_;  // the last used first
+};
+
+/// The queries of a body: itself, or the elements of the array that it is. Nothing where it is neither, or
+/// where brackets and quotes do not close; whether an element is a query is for a session to say.
+std::vector<std::string_view> queries_of(std::string_view body);
+
+}  // namespace sinew::server

@@ -1,0 +1,259 @@
+/// HTTP: the one file that knows httplib (it defines _res, which Eigen uses: nothing of Eigen comes after
+/// it).
+#include "server.hpp"
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <thread>
+
+#include "assets.hpp"
+#include "calls.hpp"
+#include "guard.hpp"
+
+namespace sinew::server {
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+
+constexpr const char* policy =
+    "default-src 'self'; img-src 'self' blob: data:; media-src 'self' blob:; style-src 'self'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'; object-src 'none'";
+
+void put(Response& response, const Reply& reply) {
+  response.status = reply.status;
+  if (reply.status == 429 || reply.status == 503) response.set_header("Retry-After", "1");
+  response.set_content(reply.text, std::string(reply.type).c_str());
+}
+
+/// All of the body is taken off the wire, whatever comes of the request: what stayed there would be read as
+/// the next request, written by whoever wrote this one.
+bool read_body(const httplib::ContentReader& reader, std::size_t most, std::string& body) {
+  bool fits = true;
+  const bool is_whole = reader([&](const char* bytes, std::size_t count) {
+    fits = fits && count <= most - body.size();
+    if (fits) body.append(bytes, count);
+    return true;
+  });
+  return is_whole && fits;
+}
+
+bool has_type(const Request& request, std::string_view type) {
+  const std::string given = request.get_header_value("Content-Type");
+  return given.substr(0, given.find(';')) == type;
+}
+
+Reply refusal(Refusal why) {
+  switch (why) {
+    case Refusal::foreign_host:
+      return refused(403, "foreign_host", "Host", "open the address printed by sinew serve");
+    case Refusal::foreign_origin:
+      return refused(403, "foreign_origin", "Origin", "only the page of this server asks here");
+    case Refusal::no_token:
+      return {403, "open the address printed by sinew serve\n", "text/plain; charset=utf-8"};
+    case Refusal::none:
+      break;
+  }
+  return {};
+}
+
+bool takes_gzip(const Request& request) {
+  return request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
+}
+
+std::string bracketed(const std::string& address) {
+  return address.find(':') == std::string::npos ? address : '[' + address + ']';
+}
+
+}  // namespace
+
+struct Server::State {
+  using Body = Reply (State::*)(const Request&, const std::string& body);
+  using Plain = Reply (State::*)(const Request&);
+
+  explicit State(const Options& chosen) : options(chosen), calls(chosen) {}
+
+  Expected<int> bind();
+  void route();
+  void route_page();
+  void get(const char* pattern, Plain call);
+  void post(const char* pattern, const char* type, Body call);
+  void limit();
+  /// Whether the request may go on; else the response says why not.
+  bool lets_in(const Request& request, Response& response) const;
+  void show(const Asset& asset, const Request& request, Response& response) const;
+
+  Reply on_version(const Request&) { return calls.version(); }
+  Reply on_robots(const Request&) { return calls.robots(); }
+  Reply on_robot_text(const Request& request) { return calls.robot_text(request.matches[1]); }
+  Reply on_robot(const Request&, const std::string& body) { return calls.open_robot(body); }
+  Reply on_query(const Request& request, const std::string& body) {
+    return calls.query(request.get_param_value("robot"), body, request.remote_addr);
+  }
+  Reply on_nothing(const Request&) { return refused(404, "not_found", "path", "nothing is here"); }
+
+  Options options;
+  Calls calls;
+  std::optional<Guard> guard;
+  std::string url;
+  httplib::Server http;
+  std::atomic<bool> has_begun = false, has_ended = false, is_stopped = false;
+};
+
+bool Server::State::lets_in(const Request& request, Response& response) const {
+  const auto header = [&](const char* name) { return request.get_header_value(name); };
+  const std::string host = header("Host"), origin = header("Origin"), cookie = header("Cookie"),
+                    authorization = header("Authorization");
+  const Refusal why = guard->judge({host, origin, cookie, authorization});
+  if (why != Refusal::none) put(response, refusal(why));
+  return why == Refusal::none;
+}
+
+void Server::State::get(const char* pattern, Plain call) {
+  http.Get(pattern, [this, call](const Request& request, Response& response) {
+    if (lets_in(request, response)) put(response, (this->*call)(request));
+  });
+}
+
+void Server::State::post(const char* pattern, const char* type, Body call) {
+  http.Post(pattern, [this, type, call](const Request& request, Response& response,
+                                        const httplib::ContentReader& reader) {
+    std::string body;
+    const bool fits = read_body(reader, options.limits.body, body);
+    if (!lets_in(request, response)) return;
+    if (!fits)
+      return put(response, refused(413, "too_large", "body",
+                                   fmt::format("give at most {} bytes", options.limits.body)));
+    if (!has_type(request, type))
+      return put(response, refused(415, "wrong_type", "Content-Type", fmt::format("it has to be {}", type)));
+    put(response, (this->*call)(request, body));
+  });
+}
+
+void Server::State::show(const Asset& asset, const Request& request, Response& response) const {
+  const bool is_small = !asset.gzip.empty() && takes_gzip(request);
+  if (!asset.gzip.empty()) response.set_header("Vary", "Accept-Encoding");
+  if (is_small) response.set_header("Content-Encoding", "gzip");
+  const std::string_view bytes = is_small ? asset.gzip : asset.bytes;
+  response.set_content(bytes.data(), bytes.size(), std::string(asset.type).c_str());
+}
+
+/// The page's files. The address that was printed has the token; the page goes on with a cookie in its place.
+void Server::State::route_page() {
+  for (const Asset& asset : assets())
+    http.Get(std::string(asset.path), [this, &asset](const Request& request, Response& response) {
+      if (asset.path == "/" && request.has_param("token") && !guard->token().empty() &&
+          guard->accepts(request.get_param_value("token"))) {
+        response.set_header("Set-Cookie",
+                            fmt::format("sinew_token={}; HttpOnly; SameSite=Strict; Path=/", guard->token()));
+        return response.set_redirect("/");
+      }
+      if (lets_in(request, response)) show(asset, request, response);
+    });
+}
+
+void Server::State::route() {
+  get("/api/version", &State::on_version);
+  get("/api/robots", &State::on_robots);
+  get("/api/robots/([^/]*)", &State::on_robot_text);
+  post("/api/robot", "text/yaml", &State::on_robot);
+  post("/api/query", "application/json", &State::on_query);
+  route_page();
+  get(".*", &State::on_nothing);
+  http.Post(".*", [this](const Request& request, Response& response, const httplib::ContentReader& reader) {
+    std::string body;
+    read_body(reader, 0, body);
+    if (lets_in(request, response)) put(response, on_nothing(request));
+  });
+}
+
+void Server::State::limit() {
+  // Other methods never come from a page of another site without its browser asking first, so their bodies
+  // may stay unread.
+  http.set_pre_routing_handler([](const Request& request, Response& response) {
+    if (request.method == "GET" || request.method == "HEAD" || request.method == "POST")
+      return httplib::Server::HandlerResponse::Unhandled;
+    put(response, refused(405, "not_available", "method", "GET and POST are answered"));
+    return httplib::Server::HandlerResponse::Handled;
+  });
+  http.set_exception_handler([](const Request&, Response& response, std::exception_ptr) {
+    put(response, refused(500, "internal", "server", "this request failed inside sinew"));
+  });
+  http.set_default_headers({{"Content-Security-Policy", policy},
+                            {"Permissions-Policy", "camera=(self), serial=()"},
+                            {"X-Content-Type-Options", "nosniff"},
+                            {"Cross-Origin-Resource-Policy", "same-origin"},
+                            {"Cross-Origin-Opener-Policy", "same-origin"},
+                            {"Referrer-Policy", "no-referrer"},
+                            {"Cache-Control", "no-store"}});
+  http.set_payload_max_length(options.limits.body);
+  http.set_keep_alive_max_count(100'000);
+  http.set_keep_alive_timeout(2);
+  http.set_read_timeout(5);
+  http.set_write_timeout(5);
+  http.set_tcp_nodelay(true);
+  http.set_socket_options([](socket_t socket) {  // not SO_REUSEPORT: a second server is to be told
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
+  const int threads = options.limits.threads;
+  http.new_task_queue = [threads] { return new httplib::ThreadPool(static_cast<std::size_t>(threads)); };
+}
+
+Expected<int> Server::State::bind() {
+  errno = 0;
+  const bool is_any = options.port == 0;
+  const int port = is_any ? http.bind_to_any_port(options.address)
+                          : (http.bind_to_port(options.address, options.port) ? options.port : -1);
+  if (port > 0) return port;
+  if (errno == EADDRINUSE)
+    return failure(
+        "address_in_use", "--port",
+        fmt::format("port {} is taken; give another one, or 0 for any that is free", options.port));
+  return failure("bad_address", "--host",
+                 fmt::format("nothing can listen on {} port {}{}{}", options.address, options.port,
+                             errno ? ": " : "", errno ? std::strerror(errno) : ""));
+}
+
+Server::Server(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Server::Server(Server&&) noexcept = default;
+Server& Server::operator=(Server&&) noexcept = default;
+Server::~Server() = default;
+
+Expected<Server> Server::open(const Options& options) {
+  auto state = std::make_unique<State>(options);
+  if (const auto errors = state->calls.read_opened()) return tl::unexpected(*errors);
+  state->limit();
+  const auto port = state->bind();
+  if (!port) return tl::unexpected(port.error());
+  state->guard.emplace(options.address, *port);
+  state->url = fmt::format("http://{}:{}/", bracketed(options.address), *port);
+  if (!state->guard->token().empty()) state->url += "?token=" + state->guard->token();
+  state->route();
+  return Server(std::move(state));
+}
+
+const std::string& Server::url() const { return state_->url; }
+
+void Server::run() {
+  state_->has_begun = true;
+  if (!state_->is_stopped) state_->http.listen_after_bind();
+  state_->has_ended = true;
+}
+
+void Server::stop() {
+  if (state_->is_stopped.exchange(true)) return;
+  using namespace std::chrono_literals;
+  // Before it runs, httplib takes no notice of being stopped.
+  while (state_->has_begun && !state_->has_ended && !state_->http.is_running())
+    std::this_thread::sleep_for(1ms);
+  if (state_->http.is_running()) state_->http.stop();
+}
+
+}  // namespace sinew::server

@@ -1,0 +1,54 @@
+/// @file server.hpp
+/// The server of the viewer: a page, robots under handles, and queries to them over HTTP. Calls and limits:
+/// docs/server.md
+#pragma once
+#include <memory>
+#include <string>
+
+#include "sinew/base/error.hpp"
+
+namespace sinew::server {
+
+/// What a client may ask of the server before it is told to wait or to ask less.
+struct Limits {
+  std::size_t body = std::size_t{1} << 20U;      ///< [bytes]
+  std::size_t queries = 1000;                    ///< in a request
+  std::size_t answers = std::size_t{64} << 20U;  ///< [bytes] to a request; the queries left over get an error
+  double time = 30;                              ///< [s] of computing for a request; as answers
+  double rate = 50'000;                          ///< queries a second, of an address
+  int threads = 64;                              ///< connections served at a time
+  int working = 0;                               ///< requests that compute at a time; 0: one a core
+  double patience = 10;                          ///< [s] that a request waits for its turn to compute
+  std::size_t robots = 64;                       ///< kept; the one longest unused goes
+};
+
+struct Options {
+  std::string address = "127.0.0.1";
+  int port = 8765;    ///< 0: any that is free
+  std::string robot;  ///< file or name of the robot that the page opens with; empty: none
+  Limits limits;
+};
+
+/// Listens from its making on; answers while `run` runs.
+class Server {
+ public:
+  /// Errors: those of the robot's file; `address_in_use`, `bad_address`.
+  static Expected<Server> open(const Options& options);
+
+  /// What to open in a browser. Of another address than this machine's own with a token that lets in.
+  const std::string& url() const;
+  /// Until `stop`, which any thread may call.
+  void run();
+  void stop();
+
+  Server(Server&&) noexcept;
+  Server& operator=(Server&&) noexcept;
+  ~Server();
+
+ private:
+  struct State;
+  explicit Server(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sinew::server
