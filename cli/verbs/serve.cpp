@@ -1,5 +1,6 @@
 /// serve: the viewer in a browser, and queries over HTTP.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <chrono>
@@ -49,13 +50,13 @@ int run_serve(const Arguments& arguments) {
       message("Whoever has this address can ask this machine to compute. It is not encrypted.");
     message("Ctrl-C ends it.");
   }
-  std::jthread watch([&](const std::stop_token& over) {
+  std::jthread watch([](const std::stop_token& over) {
     using namespace std::chrono_literals;
     while (!interrupted() && !over.stop_requested()) std::this_thread::sleep_for(20ms);
-    server->stop();
+    if (interrupted()) _exit(solved);  // only sockets are open: idle ones would be waited for
   });
-  server->run();
-  return interrupted() ? solved : internal_error;
+  server->run();  // until the socket fails
+  return internal_error;
 }
 
 }  // namespace sinew::cli

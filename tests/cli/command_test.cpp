@@ -35,9 +35,10 @@ TEST(Help, TheExampleOfEveryVerbWorksAsPrinted) {
     EXPECT_EQ(help.out, run_command({"help", verb}, here.path()).out);
     const std::string line = example(help.out);
     ASSERT_FALSE(line.empty()) << verb;
-    const bool stays = verb == "serve";  // until Ctrl-C
-    const Outcome outcome =
-        run_shell(stays ? "timeout --preserve-status -s INT 1 " + line + " --port 0 -q" : line, here.path());
+    const std::string call = verb == "serve"  // it stays until Ctrl-C
+                                 ? "timeout --preserve-status -s INT 1 sinew serve 3-rfr --port 0 -q"
+                                 : line;
+    const Outcome outcome = run_shell(call, here.path());
     EXPECT_EQ(outcome.exit, 0) << line << outcome.err;
     EXPECT_EQ(outcome.err, "") << line;
   }
