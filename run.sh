@@ -3,6 +3,7 @@
 #
 #   ./run.sh                 inverse kinematics of a robot and a figure of a paper, into out/
 #   ./run.sh ARGUMENTS...    the sinew command, e.g. ./run.sh forward ROBOT --json
+#   ./run.sh serve ROBOT     the viewer in a browser; installs Node where it is missing
 #   ./run.sh --yes ...       the same, and installs packages without asking
 set -euo pipefail
 caller=$PWD
@@ -17,6 +18,7 @@ if [[ ${1-} == --yes ]]; then
   shift
 fi
 
+with_page=0
 sinew=build/release/bin/sinew
 stamp=build/release/.built  # as old as the start of the last build that succeeded
 
@@ -24,13 +26,19 @@ up_to_date() {
   local -a inputs=()
   local input
   [[ -x $sinew && -e $stamp ]] || return 1
-  for input in CMakeLists.txt CMakePresets.json cmake kernel include src server cli robots studies; do
+  ((!with_page)) || grep -q '^SINEW_WEB:BOOL=ON' build/release/CMakeCache.txt || return 1
+  for input in CMakeLists.txt CMakePresets.json cmake kernel include src server cli robots studies \
+    web/src web/index.html web/build.mjs web/package-lock.json; do
     if [[ -e $input ]]; then inputs+=("$input"); fi
   done
   [[ -z $(find "${inputs[@]}" -newer "$stamp" -print -quit) ]]
 }
 
 need_packages "$yes" "${build_packages[@]}"
+if [[ ${1-} == serve ]]; then  # the page needs more to be built; once built it stays
+  need_packages "$yes" "${web_packages[@]}"
+  with_page=1
+fi
 if ! up_to_date; then
   mkdir -p build/release
   exec 9>build/release/.lock
@@ -38,7 +46,7 @@ if ! up_to_date; then
   if ! up_to_date; then  # another run may just have built it
     touch build/release/.started
     # shellcheck disable=SC2086
-    build_preset release ${SINEW_CMAKE_ARGUMENTS-}
+    build_preset release ${SINEW_CMAKE_ARGUMENTS-} $( ((with_page)) && echo -D SINEW_WEB=ON)
     mv build/release/.started "$stamp"
   fi
   exec 9>&-

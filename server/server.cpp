@@ -26,10 +26,21 @@ constexpr const char* policy =
     "default-src 'self'; img-src 'self' blob: data:; media-src 'self' blob:; style-src 'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'; object-src 'none'";
 
-void put(Response& response, const Reply& reply) {
+/// As it is: httplib would compress what it is given as a text, each time.
+template <class Text>
+void put_bytes(Response& response, Text text, std::string_view type) {
+  const std::size_t size = text.size();
+  response.set_content_provider(
+      size, std::string(type).c_str(),
+      [text = std::move(text)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        return sink.write(text.data() + offset, length);
+      });
+}
+
+void put(Response& response, Reply reply) {
   response.status = reply.status;
   if (reply.status == 429 || reply.status == 503) response.set_header("Retry-After", "1");
-  response.set_content(reply.text, std::string(reply.type).c_str());
+  put_bytes(response, std::move(reply.text), reply.type);
 }
 
 /// All of the body is taken off the wire, whatever comes of the request: what stayed there would be read as
@@ -103,6 +114,7 @@ struct Server::State {
   std::optional<Guard> guard;
   std::string url;
   httplib::Server http;
+  socket_t listening = INVALID_SOCKET;
   std::atomic<bool> has_begun = false, has_ended = false, is_stopped = false;
 };
 
@@ -140,8 +152,7 @@ void Server::State::show(const Asset& asset, const Request& request, Response& r
   const bool is_small = !asset.gzip.empty() && takes_gzip(request);
   if (!asset.gzip.empty()) response.set_header("Vary", "Accept-Encoding");
   if (is_small) response.set_header("Content-Encoding", "gzip");
-  const std::string_view bytes = is_small ? asset.gzip : asset.bytes;
-  response.set_content(bytes.data(), bytes.size(), std::string(asset.type).c_str());
+  put_bytes(response, is_small ? asset.gzip : asset.bytes, asset.type);
 }
 
 /// The page's files. The address that was printed has the token; the page goes on with a cookie in its place.
@@ -198,9 +209,10 @@ void Server::State::limit() {
   http.set_read_timeout(5);
   http.set_write_timeout(5);
   http.set_tcp_nodelay(true);
-  http.set_socket_options([](socket_t socket) {  // not SO_REUSEPORT: a second server is to be told
+  http.set_socket_options([this](socket_t socket) {  // not SO_REUSEPORT: a second server is to be told
     const int yes = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    listening = socket;
   });
   const int threads = options.limits.threads;
   http.new_task_queue = [threads] { return new httplib::ThreadPool(static_cast<std::size_t>(threads)); };
@@ -211,7 +223,11 @@ Expected<int> Server::State::bind() {
   const bool is_any = options.port == 0;
   const int port = is_any ? http.bind_to_any_port(options.address)
                           : (http.bind_to_port(options.address, options.port) ? options.port : -1);
-  if (port > 0) return port;
+  if (port > 0) {
+    listen(listening,
+           options.limits.threads);  // httplib lets five wait, and of more that come at once some are lost
+    return port;
+  }
   if (errno == EADDRINUSE)
     return failure(
         "address_in_use", "--port",

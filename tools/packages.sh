@@ -6,13 +6,15 @@
 # shellcheck disable=SC2034
 build_packages=(build-essential cmake ninja-build pkgconf libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
                 libfmt-dev libexpected-dev libhwy-dev libtbb-dev libhdf5-dev libmd-dev libxxhash-dev libcpp-httplib-dev gnuplot-nox)
+# ... what building the page of the viewer needs, ...
+web_packages=(nodejs npm)
 # ... and what the tests and benchmarks need beside it. ccache saves compiling the library again for the packaging tests.
-# Last, what builds and runs the firmware: the cross compilers of ATmega2560 and Cortex-M with their simulators, and the
-# tools of the Verilog core.
+# Last, what builds and runs the firmware: the cross compilers of ATmega2560 and Cortex-M with their simulators, the
+# tools of the Verilog core, and a browser.
 # shellcheck disable=SC2034
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
                python3-yaml python3-h5py ccache libopenmpi-dev openmpi-bin
-               gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys)
+               gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys "${web_packages[@]}" chromium)
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -21,6 +23,8 @@ is_present() {
   case $1 in
     gnuplot-nox) command -v gnuplot >/dev/null && return ;;
     pkgconf) command -v pkg-config >/dev/null && return ;;
+    nodejs) command -v node >/dev/null && return ;;
+    npm) command -v npm >/dev/null && return ;;
   esac
   [[ $installed_packages == *$'\n'"$1"$'\n'* ]]
 }

@@ -221,8 +221,13 @@ int errors_of_clients(Desk& desk, int rounds) {
       client.set_tcp_nodelay(true);
       const auto made =
           client.Post("/api/robot", read_robot_text(i % 2 ? "3-rfr" : "3-frr").value(), as_yaml);
+      if (!made) {
+        ++errors;
+        return;
+      }
       const std::string path = "/api/query?robot=" + json::parse(made->body)["robot"].get<std::string>();
-      const std::string first = client.Post(path, inverse, as_json)->body;
+      const auto asked = client.Post(path, inverse, as_json);
+      const std::string first = asked ? asked->body : "none";
       for (int k = 0; k < rounds; ++k) {
         const auto answer = client.Post(path, inverse, as_json);
         if (!answer || answer->status != 200 || answer->body != first) ++errors;

@@ -1,0 +1,14 @@
+// The command that gives the numbers of the page.
+import type {Described} from './rows';
+
+const short = (value: number) => String(Number(value.toPrecision(12)));
+
+export function command(robot: string, described: Described, values: number[]): string {
+  if (!described.isSerial) return `sinew forward ${robot} --inputs "${values.map(short).join(', ')}"`;
+  const sections: string[][] = [];
+  described.rows.forEach((row, i) => {
+    const index = Number(/\[(\d+)\]/.exec(row.name)?.[1] ?? 0);
+    (sections[index] ??= []).push(short(values[i]!));
+  });
+  return `sinew forward ${robot} --configuration "${sections.map((pair) => pair.join(', ')).join('; ')}"`;
+}
