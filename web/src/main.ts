@@ -2,9 +2,11 @@
 import './app.css';
 import {type Json, Newest, Refused, Robot, robots, robotText, version} from './client';
 import {command} from './command';
-import {describe, type Described, fields} from './rows';
+import {FileTab} from './file';
+import {describe, type Described, fields, inputsOf, inverse, poseOf} from './rows';
 import {Scene, type View} from './scene';
 import {Sliders} from './sliders';
+import {Tabs} from './tabs';
 import {type System, unitName} from './units';
 import {Panel} from './verdict';
 
@@ -25,10 +27,13 @@ class Page {
   private readonly scene = new Scene(byId('view'));
   private readonly panel = new Panel(byId('answer'));
   private readonly sliders = new Sliders(byId('inputs'), () => this.ask(), this.system);
+  private readonly poses = new Sliders(byId('pose'), () => this.askInverse(), this.system);
+  private readonly file = new FileTab(byId('file'), (robot) => this.use(robot, this.sliders.values));
   private readonly picker = byId<HTMLSelectElement>('robot');
 
   async start(): Promise<void> {
     this.listen();
+    new Tabs(byId('tabs'), ['inputs', 'pose', 'file'].map((id) => byId(id)), (id) => this.turnTo(id));
     this.paint();
     const says = await version();
     if (says.protocol !== protocol)
@@ -58,7 +63,7 @@ class Page {
   }
 
   private key(event: KeyboardEvent): void {
-    if (event.target instanceof HTMLInputElement || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.target instanceof HTMLInputElement || event.target instanceof HTMLTextAreaElement || event.ctrlKey || event.metaKey || event.altKey) return;
     const views: Record<string, View> = {1: 'side', 2: 'top', 3: 'front', 4: 'tip'};
     const view = views[event.key];
     if (event.key === 'u') this.toggleUnits();
@@ -76,18 +81,62 @@ class Page {
 
   private async open(name: string, text: string, values: number[] | null): Promise<void> {
     await this.guarded(async () => {
-      const robot = await Robot.open(text), described = await describe(robot);
-      [this.robot, this.described, this.name, this.last, this.lastShape] = [robot, described, name, null, null];
+      const robot = await Robot.open(text);
+      this.name = name;
       this.picker.value = [...this.picker.options].some((option) => option.value === name) ? name : '';
-      this.scene.clear();
-      this.sliders.show(described.rows, values?.length === described.rows.length ? values : null);
-      this.ask();
+      await this.use(robot, values);
     });
+  }
+
+  /** The robot of the page from now on; values of another number of inputs are not its. */
+  private async use(robot: Robot, values: number[] | null): Promise<void> {
+    const described = await describe(robot);
+    [this.robot, this.described, this.last, this.lastShape] = [robot, described, null, null];
+    this.scene.clear();
+    this.sliders.show(described.rows, values?.length === described.rows.length ? values : null);
+    this.poses.show(described.poseRows, null);
+    this.file.show(robot.text);
+    this.ask();
   }
 
   private ask(): void {
     const values = [...this.sliders.values];
     this.newest.put(() => this.guarded(() => this.answer(values)));
+  }
+
+  /** The pose begins where the inputs have brought the robot. */
+  private turnTo(tab: string): void {
+    const pose = this.described && this.last && poseOf(this.described, this.last);
+    if (tab === 'pose' && pose) this.poses.put(pose);
+  }
+
+  private askInverse(): void {
+    const values = [...this.poses.values];
+    this.newest.put(() => this.guarded(() => this.answerInverse(values)));
+  }
+
+  /** Inputs for a pose; where there are none the last solved shape stays and the panel says why. */
+  private async answerInverse(values: number[]): Promise<void> {
+    const {robot, described} = this;
+    if (!robot || !described) return;
+    const [answer] = await robot.ask([inverse(described, values, this.last)]), inputs = inputsOf(described, answer!);
+    if (robot !== this.robot) return;
+    const solved = (answer!.status === 'converged' || answer!.status === 'unstable') && inputs;
+    if (solved) {
+      this.last = {...this.last, ...answer};
+      this.sliders.put(inputs);
+      return this.answer(inputs);
+    }
+    this.panel.show(answer!, this.system);
+    if (this.lastShape) this.draw(described, this.lastShape, false);
+    this.told(answer!);
+  }
+
+  private told(answer: Json, took?: number): void {
+    byId('link').className = 'dot on';
+    document.documentElement.dataset.answers = String(++this.count);  // what tests wait for
+    const time = took === undefined ? '' : ` · ${took.toFixed(0)} ms`;
+    this.say(`${answer.status ?? 'refused'}${time} · ${this.count} answers`);
   }
 
   private async answer(values: number[]): Promise<void> {
@@ -101,12 +150,10 @@ class Page {
     this.draw(described, shape!, solved);
     this.panel.show(answer!, this.system);
     byId('command').textContent = command(this.name, described, values);
-    this.say(`${answer!.status ?? 'refused'} · ${(performance.now() - begin).toFixed(0)} ms · ${++this.count} answers`);
-    byId('link').className = 'dot on';
+    const took = performance.now() - begin;
     clearTimeout(this.linked);  // browsers slow down pages that write their address all the time
     this.linked = window.setTimeout(() => history.replaceState(null, '', `#robot=${encodeURIComponent(this.name)}&inputs=${values.join(',')}`), 200);
-    document.documentElement.dataset.answers = String(this.count);  // what tests wait for
-    Object.assign(window, {__sinew: {answer, scene: this.scene}});
+    this.told(answer!, took);
   }
 
   /** What is not solved is never drawn as if it were: the last solved shape stays, faded. */
@@ -139,6 +186,7 @@ class Page {
     this.system = this.system === 'mm' ? 'SI' : 'mm';
     byId('units').textContent = `${unitName('m', this.system)}, ${unitName('rad', this.system)}`;
     this.sliders.use(this.system);
+    this.poses.use(this.system);
     if (this.last) this.panel.show(this.last, this.system);
   }
 

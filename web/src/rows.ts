@@ -9,6 +9,7 @@ export interface Described {
   isSerial: boolean;
   isPlanar: boolean;
   rows: Row[];
+  poseRows: Row[];  ///< what a pose is asked by
 }
 
 /** Where nothing limits an input the slider covers this part of its home value to both sides. */
@@ -26,11 +27,54 @@ function serialRows(answer: Json): Row[] {
   });
 }
 
-/** The home pose in the words of an inverse query: three rods hold three independent coordinates, not a pose. */
+/** Whether three actuators hold three independent coordinates of a platform in space, not its pose. */
+function isHeldByFew(answer: Json): boolean {
+  return answer.kind === 'parallel' && answer.space === 'spatial' && answer.freedoms.actuators < answer.freedoms.platform;
+}
+
 function atHome(answer: Json): Json {
-  const {home, freedoms} = answer;
-  const isHeldByFew = answer.model === 'rod' && freedoms.actuators < freedoms.platform;
-  return isHeldByFew ? {independent: {z: home.position[2], e1: 0, e2: 0}} : {pose: home};
+  const {home} = answer;
+  return isHeldByFew(answer) ? {independent: {z: home.position[2], e1: 0, e2: 0}} : {pose: home};
+}
+
+function poseRows(answer: Json): Row[] {
+  const row = (name: string, unit: Unit, home: number, reach: number): Row =>
+    ({name, unit, low: home - reach, high: home + reach, home});
+  if (answer.kind === 'serial') {
+    const length: number = answer.sections.reduce((sum: number, section: Json) => sum + (section.length ?? 0), 0);
+    return [row('x', 'm', 0, length), row('y', 'm', 0, length), {...row('z', 'm', length, length), high: length, low: 0}];
+  }
+  if (answer.space === 'planar') {
+    const reach = answer.legs[0].link.length / 2 || 0.1;
+    return [row('x', 'm', answer.home.x, reach), row('y', 'm', answer.home.y, reach), row('phi', 'rad', answer.home.phi, 1)];
+  }
+  const [x, y, z] = answer.home.position, reach = 0.3 * z || 0.1;
+  if (isHeldByFew(answer)) return [row('z', 'm', z, reach), row('e1', '', 0, 0.5), row('e2', '', 0, 0.5)];
+  return [row('x', 'm', x, reach), row('y', 'm', y, reach), row('z', 'm', z, reach)];
+}
+
+/** The query for the inputs that bring the platform, or the tip, where the pose's sliders say. */
+export function inverse(described: Described, values: number[], last: Json | null): Json {
+  const {answer, poseRows: rows} = described, byName = Object.fromEntries(rows.map((row, i) => [row.name, values[i]!]));
+  if (described.isSerial) return {query: 'inverse', position: values, ...(last?.configuration && {start: last.configuration})};
+  if (described.isPlanar) return {query: 'inverse', pose: byName};
+  if (isHeldByFew(answer)) return {query: 'inverse', independent: byName};
+  const quaternion = last?.pose?.quaternion ?? answer.home.quaternion;
+  return {query: 'inverse', pose: {position: values, quaternion}};
+}
+
+/** Where an answer has the platform, or the tip, in the words of the pose's sliders; nothing where it has none. */
+export function poseOf(described: Described, answer: Json): number[] | null {
+  const pose = answer.pose ?? answer.tip;
+  if (!pose) return null;
+  if (described.isPlanar) return [pose.x, pose.y, pose.phi];
+  return isHeldByFew(described.answer) ? [pose.position[2], pose.quaternion[1], pose.quaternion[2]] : pose.position;
+}
+
+/** What an answer to `inverse` gives the sliders of the inputs; nothing where it has none. */
+export function inputsOf(described: Described, answer: Json): number[] | null {
+  const values = described.isSerial ? answer.configuration?.flat() : answer.inputs;
+  return values?.length === described.rows.length ? values : null;
 }
 
 function parallelRows(answer: Json, home: number[]): Row[] {
@@ -45,9 +89,9 @@ function parallelRows(answer: Json, home: number[]): Row[] {
 export async function describe(robot: Robot): Promise<Described> {
   const answer = (await robot.ask([{query: 'describe'}]))[0]!;
   const isSerial = answer.kind === 'serial', isPlanar = answer.space === 'planar';
-  if (isSerial) return {answer, isSerial, isPlanar, rows: serialRows(answer)};
+  if (isSerial) return {answer, isSerial, isPlanar, rows: serialRows(answer), poseRows: poseRows(answer)};
   const home = (await robot.ask([{query: 'inverse', ...atHome(answer)}]))[0]!;
-  return {answer, isSerial, isPlanar, rows: parallelRows(answer, home.inputs ?? [])};
+  return {answer, isSerial, isPlanar, rows: parallelRows(answer, home.inputs ?? []), poseRows: poseRows(answer)};
 }
 
 /** The values of the sliders as fields of a query. */

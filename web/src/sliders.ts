@@ -10,6 +10,13 @@ export class Sliders {
 
   constructor(private readonly panel: HTMLElement, private readonly changed: () => void, private system: System) {}
 
+  /** Values from elsewhere: nobody is told. */
+  put(values: number[]): void {
+    this.values = values;
+    this.write();
+  }
+
+
   show(rows: Row[], values: number[] | null): void {
     this.rows = rows;
     this.values = values ?? rows.map((row) => row.home);
@@ -42,7 +49,7 @@ export class Sliders {
           unit = document.createElement('span'), range = document.createElement('input'), why = document.createElement('span');
     line.className = 'row';
     label.textContent = row.name;
-    label.htmlFor = box.id = `input-${i}`;
+    label.htmlFor = box.id = `${this.panel.id}-${i}`;
     unit.className = 'unit';
     unit.textContent = unitName(row.unit, this.system);
     why.className = 'why';

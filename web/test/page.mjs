@@ -65,7 +65,7 @@ async function everyRobot(browser, url, sizes) {
 /** What is typed, wrong and right; a link; units; a file that is dropped is a later test's. */
 async function words(browser, url) {
   const {page, wrong} = await open(browser, `${url}#robot=3-rfr`, 1280, 800, 'light');
-  const box = page.locator('#input-0');
+  const box = page.locator('#inputs-0');
   for (const [text, message] of [['12 deg', 'deg is no unit of length'], ['x', 'x is no number'], ['5 foo', 'foo is no unit; write mm']]) {
     await box.fill(text);
     await box.press('Enter');
@@ -86,14 +86,56 @@ async function words(browser, url) {
   await settled(second.page, 0);
   assert.equal(await pose(second.page), shown, 'a link shows what it was copied from');
   count = await answers(page);
-  await page.locator('#input-0').fill('0.4');
-  await page.locator('#input-0').press('Enter');
+  await page.locator('#inputs-0').fill('0.4');
+  await page.locator('#inputs-0').press('Enter');
   await settled(page, count);
   assert.doesNotMatch(await page.locator('.verdict').innerText(), /SOLVED/);
   await page.screenshot({path: join(folder, 'unreachable.png')});
   assert.deepEqual([...wrong, ...second.wrong], []);
   await page.close();
   await second.page.close();
+}
+
+/** Poses ask for inputs: in the plane, of three rods, of a platform held in all directions, of a serial robot. */
+async function poses(browser, url) {
+  for (const name of ['3-rfr', '3pfs-g2', '3prs', 'hexapod', 'nottingham-tpcj']) {
+    const {page, wrong} = await open(browser, `${url}#robot=${name}`, 1280, 800, 'light');
+    const before = await page.locator('#inputs-0').inputValue(), count = await answers(page);
+    await page.getByRole('tab', {name: 'Pose'}).click();
+    const isArm = name === 'nottingham-tpcj', sliders = page.locator('#pose input[type=range]');
+    const slider = isArm ? sliders.nth(2) : sliders.first();  // a straight arm reaches no further
+    await slider.focus();
+    await slider.press(isArm ? 'Shift+ArrowLeft' : 'ArrowRight');
+    await settled(page, count);
+    await page.screenshot({path: join(folder, `pose-${name}.png`)});
+    assert.match(await page.locator('.verdict').innerText(), /SOLVED/, name);
+    assert.notEqual(await page.locator('#inputs-0').inputValue(), before, `${name}: the inputs did not change`);
+    assert.deepEqual(wrong, []);
+    await page.close();
+  }
+}
+
+/** A file with an error says where; the picture waits; the mended file is drawn. */
+async function file(browser, url) {
+  const {page, wrong} = await open(browser, `${url}#robot=3-frr`, 1280, 800, 'light');
+  await page.getByRole('tab', {name: 'File'}).click();
+  const area = page.getByLabel('Robot file'), text = await area.inputValue(), before = await picture(page);
+  await area.fill(text.replace('planar', 'plane'));
+  await page.locator('#file li').first().waitFor();
+  assert.match(await page.locator('#file li').first().innerText(), /^\d+:\d+ .*plan/);
+  assert.match(await page.locator('#file p').innerText(), /last valid file/);
+  assert.deepEqual(await picture(page), before);
+  await page.screenshot({path: join(folder, 'file-error.png')});
+  await page.locator('#file li button').first().click();
+  const line = await area.evaluate((of) => of.value.slice(0, of.selectionStart).split('\n').length);
+  assert.equal(line, text.slice(0, text.indexOf('planar')).split('\n').length);
+  const count = await answers(page);
+  await area.fill(text.replace(/radius: [0-9.]+ *m?m?/, 'radius: 70 mm'));
+  await settled(page, count);
+  assert.equal(await page.locator('#file li').count(), 0);
+  assert.notDeepEqual(await picture(page), before);
+  assert.deepEqual(wrong.filter((line) => !/422/.test(line)), []);  // browsers report the refusal themselves
+  await page.close();
 }
 
 /** From a slider's step to the picture of its answer [ms]. */
@@ -123,6 +165,8 @@ const browser = await chromium.launch({
 try {
   await everyRobot(browser, url, [[1280, 800, 'light'], [390, 844, 'dark']]);
   await words(browser, url);
+  await poses(browser, url);
+  await file(browser, url);
   await latency(browser, url);
 } finally {
   await browser.close();
