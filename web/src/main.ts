@@ -161,12 +161,12 @@ class Page {
     const isFirst = !this.lastShape;
     if (solved && shape.backbones) this.lastShape = shape;
     if (!this.lastShape) return;
-    const link = described.answer.legs?.[0]?.link;
-    this.scene.draw(this.lastShape, (link?.diameter ?? 0.001) / 2, !solved);
-    if (isFirst) {
-      this.scene.fit(described.isPlanar);
-      this.scene.draw(this.lastShape, (link?.diameter ?? 0.001) / 2, !solved);
-    }
+    const legs: Json[] = described.answer.legs ?? [], radius = (legs[0]?.link.diameter ?? 0.001) / 2;
+    const struts = legs.map((leg) => /strut/.test(leg.closure.type));
+    this.scene.draw(this.lastShape, radius, struts, !solved);
+    if (!isFirst) return;
+    this.scene.fit(described.isPlanar);  // which says how thin a rod may be drawn
+    this.scene.draw(this.lastShape, radius, struts, !solved);
   }
 
   private async guarded(task: () => Promise<void>): Promise<void> {

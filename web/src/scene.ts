@@ -62,7 +62,8 @@ export class Scene {
     this.lines = [];
   }
 
-  draw(shape: Json, radius: number, isGhost: boolean): void {
+  /** Legs pull along lines; where these are struts they are drawn as what is there. */
+  draw(shape: Json, radius: number, struts: boolean[], isGhost: boolean): void {
     const least = this.size / 250;  // thin rods stay visible
     let next = 0;
     for (const backbone of shape.backbones as number[][][])
@@ -72,7 +73,10 @@ export class Scene {
     const plate = shape.platform as number[][] | undefined, base = shape.base as number[][] | undefined;
     if (plate && plate.length > 1) this.line(line++, this.colours.plate, 0, true, plate);
     if (base && base.length > 1) this.line(line++, this.colours.line, 0, true, base);
-    for (const pull of (shape.lines ?? []) as number[][][]) this.line(line++, this.colours.line, 1, false, pull);
+    ((shape.lines ?? []) as number[][][]).forEach((pull, leg) => {
+      if (struts[leg]) this.tube(next++).set(pull, Math.max(radius, least) * 0.8);
+      else this.line(line++, this.colours.line, 1, false, pull);
+    });
     for (const of of (shape.tendons ?? []) as number[][][][])
       of.forEach((tendon, i) => {
         if (tendon.length > 1) this.line(line++, this.colours.tendons[i % 4]!, i % 4, false, tendon);
