@@ -32,6 +32,7 @@ class Page {
   private readonly picker = byId<HTMLSelectElement>('robot');
 
   async start(): Promise<void> {
+    Object.assign(window, {__sinew: {scene: this.scene}});  // frames are counted in tests
     this.listen();
     new Tabs(byId('tabs'), ['inputs', 'pose', 'file'].map((id) => byId(id)), (id) => this.turnTo(id));
     this.paint();

@@ -14,6 +14,14 @@ const dashes: [number, number][] = [[1, 0], [8, 4], [2, 4], [10, 3]];
 const from: Record<View, [number, number, number]> =
   {side: [0, -1, 0.35], top: [0, 0, 1], front: [1, 0, 0.15], tip: [0.7, -0.7, 0.6]};
 
+/** Whether the browser draws without a graphics card: smooth edges would cost it most of its time. */
+function isSoftware(): boolean {
+  const probe = document.createElement('canvas').getContext('webgl2'), info = probe?.getExtension('WEBGL_debug_renderer_info');
+  const name = info ? String(probe?.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
+  probe?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
 export class Scene {
   readonly renderer: WebGLRenderer;
   frames = 0;
@@ -31,8 +39,9 @@ export class Scene {
   private colours = {backbone: '#0072B2', line: '#566172', plate: '#0072B2', tendons: ['#0072B2', '#00795A', '#1B2430', '#4C6A92']};
 
   constructor(private readonly box: HTMLElement) {
-    this.renderer = new WebGLRenderer({antialias: true, preserveDrawingBuffer: true});
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    const isSlow = isSoftware();
+    this.renderer = new WebGLRenderer({antialias: !isSlow});
+    this.renderer.setPixelRatio(isSlow ? 1 : Math.min(window.devicePixelRatio, 2));
     box.append(this.renderer.domElement);
     this.camera.up.set(0, 0, 1);
     this.world.add(new AmbientLight(0xffffff, 1.4), this.camera, this.parts);

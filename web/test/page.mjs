@@ -153,6 +153,16 @@ async function latency(browser, url) {
     return times.sort((a, b) => a - b);
   });
   console.log(`slider to new pose: median ${times[100].toFixed(1)} ms, 95 % ${times[190].toFixed(1)} ms`);
+  const rate = await page.evaluate(async () => {
+    const slider = document.querySelector('#inputs input[type=range]'), begin = performance.now(), first = window.__sinew.scene.frames;
+    for (let i = 0; performance.now() < begin + 2000; ++i) {
+      slider.value = String(Number(slider.value) + (i % 40 < 20 ? 1e-4 : -1e-4));
+      slider.dispatchEvent(new Event('input'));
+      await new Promise((next) => requestAnimationFrame(next));
+    }
+    return (window.__sinew.scene.frames - first) / (performance.now() - begin) * 1000;
+  });
+  console.log(`new poses drawn while it moves: ${rate.toFixed(0)} a second`);
   await page.close();
 }
 
