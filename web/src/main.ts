@@ -2,6 +2,7 @@
 import './app.css';
 import {type Json, Newest, Refused, Robot, robots, robotText, version} from './client';
 import {command} from './command';
+import {Connection} from './connection';
 import {FileTab} from './file';
 import {describe, type Described, fields, inputsOf, inverse, poseOf} from './rows';
 import {Scene, type View} from './scene';
@@ -24,6 +25,7 @@ class Page {
   private count = 0;
   private linked = 0;
   private readonly newest = new Newest();
+  private readonly connection = new Connection((text) => this.say(text), () => this.robot ? this.ask() : location.reload());
   private readonly scene = new Scene(byId('view'));
   private readonly panel = new Panel(byId('answer'));
   private readonly sliders = new Sliders(byId('inputs'), () => this.ask(), this.system);
@@ -174,8 +176,10 @@ class Page {
     try {
       await task();
     } catch (error) {
-      byId('link').className = error instanceof Refused ? 'dot on' : 'dot lost';
-      this.say(error instanceof Refused ? error.message : `NO CONNECTION: ${String(error)}`);
+      if (error instanceof Refused) return this.say(error.message);
+      if (!(error instanceof TypeError)) throw error;  // fetch says so where nobody answers
+      byId('link').className = 'dot lost';
+      this.connection.lost();
     }
   }
 

@@ -10,7 +10,7 @@ const [, , sinew, executablePath, folder] = process.argv;
 mkdirSync(folder, {recursive: true});
 
 async function serve(...options) {
-  const server = spawn(sinew, ['serve', ...options, '--port', '0', '-q'], {stdio: ['ignore', 'pipe', 'inherit']});
+  const server = spawn(sinew, ['serve', ...(options.length ? options : ['--port', '0']), '-q'], {stdio: ['ignore', 'pipe', 'inherit']});
   const url = await new Promise((resolve) => createInterface(server.stdout).once('line', resolve));
   return {server, url};
 }
@@ -138,6 +138,26 @@ async function file(browser, url) {
   await page.close();
 }
 
+/** A server that goes away and comes back, with none of its robots. */
+async function connection(browser) {
+  const first = await serve(), {page} = await open(browser, `${first.url}#robot=3-rfr`, 1280, 800, 'light');
+  const gone = new Promise((done) => first.server.once('exit', done));
+  first.server.kill('SIGINT');
+  await gone;
+  const slider = page.locator('#inputs input[type=range]').first();
+  await slider.focus();
+  await slider.press('ArrowRight');
+  await page.locator('#status', {hasText: /NO CONNECTION \d+ s/}).waitFor();
+  assert.ok(await page.evaluate(() => document.body.classList.contains('lost')));
+  await page.screenshot({path: join(folder, 'no-connection.png')});
+  const count = await answers(page), second = await serve('--port', new URL(first.url).port);
+  await settled(page, count);
+  assert.match(await page.locator('.verdict').innerText(), /SOLVED/);
+  assert.match(await page.locator('#status').innerText(), /converged/);
+  second.server.kill('SIGINT');
+  await page.close();
+}
+
 /** From a slider's step to the picture of its answer [ms]. */
 async function latency(browser, url) {
   const {page} = await open(browser, `${url}#robot=3-rfr`, 1280, 800, 'light');
@@ -177,6 +197,7 @@ try {
   await words(browser, url);
   await poses(browser, url);
   await file(browser, url);
+  await connection(browser);
   await latency(browser, url);
 } finally {
   await browser.close();

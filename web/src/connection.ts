@@ -1,0 +1,42 @@
+// Whether the server is there. While it is not, the page says since when, and asks again, less and less often.
+import {version} from './client';
+
+const pauses = [500, 1000, 2000, 5000];  // ms
+
+export class Connection {
+  private lostAt = 0;
+  private tries = 0;
+  private clock = 0;
+
+  constructor(private readonly say: (text: string) => void, private readonly back: () => void) {}
+
+  lost(): void {
+    if (this.lostAt !== 0) return;
+    this.lostAt = performance.now();
+    this.tries = 0;
+    document.body.classList.add('lost');
+    this.clock = window.setInterval(() => this.tell(), 1000);
+    this.tell();
+    this.tryLater();
+  }
+
+  private tell(): void {
+    this.say(`NO CONNECTION ${((performance.now() - this.lostAt) / 1000).toFixed(0)} s`);
+  }
+
+  private tryLater(): void {
+    setTimeout(() => void this.try(), pauses[Math.min(this.tries++, pauses.length - 1)]);
+  }
+
+  private async try(): Promise<void> {
+    try {
+      await version();
+    } catch {
+      return this.tryLater();
+    }
+    clearInterval(this.clock);
+    this.lostAt = 0;
+    document.body.classList.remove('lost');
+    this.back();
+  }
+}
