@@ -30,13 +30,14 @@ class Page {
   private readonly panel = new Panel(byId('answer'));
   private readonly sliders = new Sliders(byId('inputs'), () => this.ask(), this.system);
   private readonly poses = new Sliders(byId('pose'), () => this.askInverse(), this.system);
+  private readonly loads = new Sliders(byId('load'), () => this.ask(), this.system);
+  private readonly tabs = new Tabs(byId('tabs'), ['inputs', 'pose', 'load', 'file'].map((id) => byId(id)), (id) => this.turnTo(id));
   private readonly file = new FileTab(byId('file'), (robot) => this.use(robot, this.sliders.values));
   private readonly picker = byId<HTMLSelectElement>('robot');
 
   async start(): Promise<void> {
     Object.assign(window, {__sinew: {scene: this.scene}});  // frames are counted in tests
     this.listen();
-    new Tabs(byId('tabs'), ['inputs', 'pose', 'file'].map((id) => byId(id)), (id) => this.turnTo(id));
     this.paint();
     const says = await version();
     if (says.protocol !== protocol)
@@ -98,6 +99,8 @@ class Page {
     this.scene.clear();
     this.sliders.show(described.rows, values?.length === described.rows.length ? values : null);
     this.poses.show(described.poseRows, null);
+    this.loads.show(described.loadRows, null);
+    this.tabs.offer('load', described.loadRows.length > 0);
     this.file.show(robot.text);
     this.ask();
   }
@@ -113,6 +116,10 @@ class Page {
     if (tab === 'pose' && pose) this.poses.put(pose);
   }
 
+  private load(): Json {
+    return this.loads.values.some((part) => part !== 0) ? {wrench: this.loads.values} : {};
+  }
+
   private askInverse(): void {
     const values = [...this.poses.values];
     this.newest.put(() => this.guarded(() => this.answerInverse(values)));
@@ -122,7 +129,7 @@ class Page {
   private async answerInverse(values: number[]): Promise<void> {
     const {robot, described} = this;
     if (!robot || !described) return;
-    const [answer] = await robot.ask([inverse(described, values, this.last)]), inputs = inputsOf(described, answer!);
+    const [answer] = await robot.ask([{...inverse(described, values, this.last), ...this.load()}]), inputs = inputsOf(described, answer!);
     if (robot !== this.robot) return;
     const solved = (answer!.status === 'converged' || answer!.status === 'unstable') && inputs;
     if (solved) {
@@ -145,14 +152,14 @@ class Page {
   private async answer(values: number[]): Promise<void> {
     const {robot, described} = this;
     if (!robot || !described) return;
-    const begin = performance.now(), at = fields(described, values, this.last);
+    const begin = performance.now(), at = {...fields(described, values, this.last), ...this.load()};
     const [answer, shape] = await robot.ask([{query: 'forward', ...at}, {query: 'shape', ...at}]);
     if (robot !== this.robot) return;
     const solved = answer!.status === 'converged' || answer!.status === 'unstable';
     if (solved) this.last = answer!;
     this.draw(described, shape!, solved);
     this.panel.show(answer!, this.system);
-    byId('command').textContent = command(this.name, described, values);
+    byId('command').textContent = command(this.name, described, values, this.loads.values);
     const took = performance.now() - begin;
     clearTimeout(this.linked);  // browsers slow down pages that write their address all the time
     this.linked = window.setTimeout(() => history.replaceState(null, '', `#robot=${encodeURIComponent(this.name)}&inputs=${values.join(',')}`), 200);
@@ -192,6 +199,7 @@ class Page {
     byId('units').textContent = `${unitName('m', this.system)}, ${unitName('rad', this.system)}`;
     this.sliders.use(this.system);
     this.poses.use(this.system);
+    this.loads.use(this.system);
     if (this.last) this.panel.show(this.last, this.system);
   }
 

@@ -10,6 +10,7 @@ export interface Described {
   isPlanar: boolean;
   rows: Row[];
   poseRows: Row[];  ///< what a pose is asked by
+  loadRows: Row[];  ///< the wrench on the platform; empty where the legs bear none
 }
 
 /** Where nothing limits an input the slider covers this part of its home value to both sides. */
@@ -25,6 +26,12 @@ function serialRows(answer: Json): Row[] {
     const [low, high] = entry.limits ?? [0, 1];
     return {...entry, low, high, home: low};
   });
+}
+
+function loadRows(answer: Json): Row[] {
+  if (answer.model !== 'rod') return [];
+  const row = (name: string, unit: Unit, reach: number): Row => ({name, unit, low: -reach, high: reach, home: 0});
+  return [row('Fx', 'N', 5), row('Fy', 'N', 5), row('Fz', 'N', 20), row('Mx', 'N m', 0.5), row('My', 'N m', 0.5), row('Mz', 'N m', 0.5)];
 }
 
 /** Whether three actuators hold three independent coordinates of a platform in space, not its pose. */
@@ -89,9 +96,9 @@ function parallelRows(answer: Json, home: number[]): Row[] {
 export async function describe(robot: Robot): Promise<Described> {
   const answer = (await robot.ask([{query: 'describe'}]))[0]!;
   const isSerial = answer.kind === 'serial', isPlanar = answer.space === 'planar';
-  if (isSerial) return {answer, isSerial, isPlanar, rows: serialRows(answer), poseRows: poseRows(answer)};
+  if (isSerial) return {answer, isSerial, isPlanar, rows: serialRows(answer), poseRows: poseRows(answer), loadRows: []};
   const home = (await robot.ask([{query: 'inverse', ...atHome(answer)}]))[0]!;
-  return {answer, isSerial, isPlanar, rows: parallelRows(answer, home.inputs ?? []), poseRows: poseRows(answer)};
+  return {answer, isSerial, isPlanar, rows: parallelRows(answer, home.inputs ?? []), poseRows: poseRows(answer), loadRows: loadRows(answer)};
 }
 
 /** The values of the sliders as fields of a query. */

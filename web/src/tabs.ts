@@ -18,6 +18,13 @@ export class Tabs {
     this.mark(0);
   }
 
+  /** A tab that this robot has no use for is not there. */
+  offer(id: string, is: boolean): void {
+    const i = this.panels.findIndex((panel) => panel.id === id);
+    this.buttons[i]!.hidden = !is;
+    if (!is && !this.panels[i]!.hidden) this.choose(0);
+  }
+
   choose(i: number): void {
     this.mark(i);
     this.chosen(this.panels[i]!.id);
@@ -34,7 +41,9 @@ export class Tabs {
   private key(event: KeyboardEvent, i: number): void {
     const way = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
     if (way === 0) return;
-    const next = (i + way + this.buttons.length) % this.buttons.length;
+    const count = this.buttons.length;
+    let next = (i + way + count) % count;
+    while (this.buttons[next]!.hidden) next = (next + way + count) % count;
     this.choose(next);
     this.buttons[next]!.focus();
   }

@@ -17,8 +17,12 @@ const shown: Record<Unit, Record<System, Shown>> = {
 /** Words of a number box, with the SI value of one of them. */
 const written: Record<string, [Unit, number]> = {
   m: ['m', 1], mm: ['m', 1e-3], cm: ['m', 1e-2], um: ['m', 1e-6], in: ['m', 0.0254],
+  N: ['N', 1], mN: ['N', 1e-3], kN: ['N', 1e3], 'N m': ['N m', 1], 'N mm': ['N m', 1e-3],
   rad: ['rad', 1], deg: ['rad', Math.PI / 180], '°': ['rad', Math.PI / 180],
 };
+
+const kinds: Record<Unit, string> =
+  {m: 'length', rad: 'angle', N: 'force', 'N m': 'moment', '1/m': 'curvature', '': 'this number'};
 
 export function unitName(unit: Unit, system: System): string {
   return shown[unit][system].name;
@@ -39,13 +43,13 @@ function number(text: string): number {
 
 /** The SI value of `12`, `12 mm`, `0.012 m`, `1/2 in`; or why it is none. A bare number has the unit that is shown. */
 export function parse(text: string, unit: Unit, system: System): number | string {
-  const parts = /^\s*(.*?)\s*([a-z°]*)\s*$/i.exec(text);
+  const parts = /^\s*(.*?)\s*([a-z°]*(?: m{1,2})?)\s*$/i.exec(text);
   const value = number(parts?.[1] ?? '');
   if (!Number.isFinite(value)) return `${text.trim() || 'nothing'} is no number`;
   const word = parts?.[2] ?? '';
   if (word === '') return value / shown[unit][system].factor;
   const found = written[word];
   if (!found) return `${word} is no unit; write ${unitName(unit, system) || 'a number alone'}`;
-  if (found[0] !== unit) return `${word} is no unit of ${unit === 'm' ? 'length' : unit === 'rad' ? 'angle' : 'this'}`;
+  if (found[0] !== unit) return `${word} is no unit of ${kinds[unit]}`;
   return value * found[1];
 }

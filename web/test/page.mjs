@@ -138,6 +138,27 @@ async function file(browser, url) {
   await page.close();
 }
 
+/** Rods give way under a load; legs that bear none have no tab for it. */
+async function load(browser, url) {
+  const {page, wrong} = await open(browser, `${url}#robot=3pfs-g2`, 1280, 800, 'light');
+  const before = await pose(page), count = await answers(page);
+  await page.getByRole('tab', {name: 'Load'}).click();
+  await page.locator('#load-0').fill('2 N');
+  await page.locator('#load-0').press('Enter');
+  await settled(page, count);
+  assert.notEqual(await pose(page), before);
+  assert.match(await page.locator('#command').innerText(), /--wrench "2, 0, 0, 0, 0, 0"$/);
+  await page.locator('#load-3').fill('2 N');
+  await page.locator('#load-3').press('Enter');
+  assert.equal(await page.locator('#load .why').nth(3).innerText(), 'N is no unit of moment');
+  await page.screenshot({path: join(folder, 'load.png')});
+  await page.locator('#robot').selectOption('3-rfr');
+  await page.locator('#inputs').waitFor();
+  await page.getByRole('tab', {name: 'Load'}).waitFor({state: 'hidden'});
+  assert.deepEqual(wrong, []);
+  await page.close();
+}
+
 /** A server that goes away and comes back, with none of its robots. */
 async function connection(browser) {
   const first = await serve(), {page} = await open(browser, `${first.url}#robot=3-rfr`, 1280, 800, 'light');
@@ -197,6 +218,7 @@ try {
   await words(browser, url);
   await poses(browser, url);
   await file(browser, url);
+  await load(browser, url);
   await connection(browser);
   await latency(browser, url);
 } finally {
