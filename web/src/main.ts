@@ -4,7 +4,7 @@ import {type Json, Newest, Refused, Robot, robots, robotText, version} from './c
 import {command} from './command';
 import {Connection} from './connection';
 import {FileTab} from './file';
-import {describe, type Described, fields, inputsOf, inverse, poseOf} from './rows';
+import {describe, type Described, fields, forward, inputsOf, inverse, poseOf, velocities} from './rows';
 import {Scene, type View} from './scene';
 import {Sliders} from './sliders';
 import {Tabs} from './tabs';
@@ -153,11 +153,12 @@ class Page {
     const {robot, described} = this;
     if (!robot || !described) return;
     const begin = performance.now(), at = {...fields(described, values, this.last), ...this.load()};
-    const [answer, shape] = await robot.ask([{query: 'forward', ...at}, {query: 'shape', ...at}]);
+    const [answer, shape, velocity] = await robot.ask([forward(described, at), {query: 'shape', ...at}, ...velocities(described, at)]);
     if (robot !== this.robot) return;
     const solved = answer!.status === 'converged' || answer!.status === 'unstable';
     if (solved) this.last = answer!;
     this.draw(described, shape!, solved);
+    if (velocity && !velocity.error) Object.assign(answer!, {velocity});
     this.panel.show(answer!, this.system);
     byId('command').textContent = command(this.name, described, values, this.loads.values);
     const took = performance.now() - begin;

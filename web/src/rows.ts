@@ -60,6 +60,16 @@ function poseRows(answer: Json): Row[] {
   return [row('x', 'm', x, reach), row('y', 'm', y, reach), row('z', 'm', z, reach)];
 }
 
+/** The pose, and of rods whether it holds and by how much. */
+export function forward(described: Described, at: Json): Json {
+  return {query: 'forward', ...at, ...(described.loadRows.length > 0 && {want: ['stability', 'margins']})};
+}
+
+/** How near to a singularity a platform on legs without load is. */
+export function velocities(described: Described, at: Json): Json[] {
+  return described.isSerial || described.loadRows.length > 0 ? [] : [{query: 'velocity', ...at}];
+}
+
 /** The query for the inputs that bring the platform, or the tip, where the pose's sliders say. */
 export function inverse(described: Described, values: number[], last: Json | null): Json {
   const {answer, poseRows: rows} = described, byName = Object.fromEntries(rows.map((row, i) => [row.name, values[i]!]));

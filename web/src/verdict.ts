@@ -33,6 +33,18 @@ export function poseLines(pose: Json, system: System): [string, string][] {
   return [line('x', pose.x, 'm'), line('y', pose.y, 'm'), line('φ', pose.phi, 'rad')];
 }
 
+/** How far to what would end the motion; numbers without units. */
+function marginLines(answer: Json): [string, string][] {
+  const {margins, velocity} = answer, lines: [string, string][] = [];
+  if (margins?.fold !== undefined) lines.push(['to a fold', margins.fold.toFixed(4)]);
+  if (margins?.strain !== undefined) lines.push(['bending strain', `${(100 * margins.strain).toFixed(3)} %`]);
+  const condition = velocity?.indices?.condition_homogenised;
+  if (condition !== undefined) lines.push(['condition number', condition.toFixed(2)]);
+  if (velocity?.type_1?.length > 0) lines.push(['type I', `legs ${velocity.type_1.join(', ')}`]);
+  if (velocity?.type_2) lines.push(['type II', velocity.type_2.singular ? `singular, ${velocity.type_2.class}` : 'no']);
+  return lines;
+}
+
 export class Panel {
   constructor(private readonly box: HTMLElement) {}
 
@@ -63,6 +75,8 @@ export class Panel {
         [`section ${m + 1}`, changes.map((change) => format(change, 'm', system)).join('  ')]);
       tables.push(this.table(`Tendon changes [${unitName('m', system)}]`, lines));
     }
+    const margins = marginLines(answer);
+    if (margins.length > 0) tables.push(this.table('Margins', margins));
     return tables;
   }
 

@@ -142,6 +142,8 @@ async function file(browser, url) {
 async function load(browser, url) {
   const {page, wrong} = await open(browser, `${url}#robot=3pfs-g2`, 1280, 800, 'light');
   const before = await pose(page), count = await answers(page);
+  assert.match(await page.locator('.verdict').innerText(), /SOLVED, STABLE/);
+  assert.match(await page.locator('#answer').innerText(), /to a fold\s+0\.\d+/);
   await page.getByRole('tab', {name: 'Load'}).click();
   await page.locator('#load-0').fill('2 N');
   await page.locator('#load-0').press('Enter');
