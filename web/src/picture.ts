@@ -1,0 +1,42 @@
+// What a picture of a robot is made of, and what it can do, whether WebGL or SVG draws it.
+import type {Json} from './client';
+
+export type View = 'side' | 'top' | 'front' | 'tip';
+export const layerNames = ['rods', 'tendons', 'discs', 'frames', 'lines', 'labels', 'ghost', 'grid'] as const;
+export type Layer = (typeof layerNames)[number];
+export const shownAtFirst: Layer[] = ['rods', 'tendons', 'discs', 'frames', 'ghost'];
+
+/** A part that the pointer can be on: `backbone` of a leg or section, `platform`, ... */
+export interface Part { kind: 'backbone' | 'platform' | 'tendon' | 'line' | 'disc' | 'frame'; index: number; tendon?: number }
+
+export interface Drawing {
+  shape: Json;             ///< an answer to `shape`
+  isPlanar: boolean;
+  radius: number;          ///< of the rods [m]
+  struts: boolean[];       ///< whether the line of a leg is a strut, drawn as the rod it is
+  isStale: boolean;        ///< the last solved one, while what is asked has no solution
+  ghost: Json | null;      ///< another answer to `shape`, to compare with
+  states: string[];        ///< the shape of each section's state (●▼⊗⧄), at its end; empty of platforms
+  isUnstable: boolean;
+  directions: number[][];  ///< unstable ones: twists [v, ω]
+  meeting: number[] | null;  ///< where the legs' lines meet at a type II
+  wrench: number[] | null;   ///< on the platform [N, N m]; planar [fx, fy, m]
+}
+
+export interface Picture {
+  readonly canvas: Element;
+  frames: number;                          ///< drawn so far
+  labelOf: (part: Part) => string;         ///< name and value of what the pointer is on
+  grabbed: (position: number[], isEnd: boolean) => void;  ///< the platform is dragged: where its reference point is to go [m]
+  note: (text: string) => void;            ///< something to say once, such as that details were left out
+  moved: () => void;                       ///< the camera has moved
+  paint(style: CSSStyleDeclaration): void;  ///< colours are the page's tokens
+  clear(): void;
+  draw(drawing: Drawing): void;
+  fit(view?: View): void;                  ///< all of it in view
+  show(layer: Layer, is: boolean): void;
+  toggleProjection(): void;                ///< orthographic or perspective
+  camera: string;                          ///< short text for a link; empty: as fit leaves it
+  notScaled: boolean;                      ///< rods are drawn thicker than they are
+  save(command: string): Promise<Blob>;    ///< PNG of twice the size, the command in its metadata
+}
