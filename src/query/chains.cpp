@@ -214,7 +214,9 @@ void put_equilibrium(Context& context, const ChainRobot<Space>& robot, const Cha
   answer["iterations"] = report.iterations;
   put_number(answer, "residual", report.residual);
   if (!is_solved) return;
-  answer["pose"] = to_json(AnyPose(Space::tidy(state.pose)));
+  const AnyPose pose = Space::tidy(state.pose);
+  context.remember(pose);
+  answer["pose"] = to_json(pose);
   answer["legs"] = chain_legs_json(robot, state);
   answer["wrench"] = to_json<Space::dof>(state.wrench);
   put_matrix<Space>(answer, "stiffness", stiffness(robot, state, work));
@@ -325,9 +327,10 @@ void answer_forward_of(Context& context, ChainRobot<Space>& robot) {
   const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
   const Load<Space> load = read_load<Space>(context);
   ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
-  if (auto start = context.query.optional("start")) options.start = read_pose(context, std::move(*start));
+  options.start = read_start(context);
   if (refuse_motors(context, robot.has_base_motors) || !context.ready()) return;
   const Forward arcs = forward(context.robot, inputs, options, context.work);
+  context.remember({});  // until the chains are found
   if (!arcs.ok()) return context.report(arcs.report);
   Branch branch;
   const std::vector<double> coordinates = {arcs.coordinates.begin(), arcs.coordinates.end()};

@@ -15,6 +15,20 @@ AnyPose read_pose(const Context& context, Reader pose) {
   return read_spatial_pose(std::move(pose));
 }
 
+std::optional<AnyPose> read_start(Context& context) {
+  auto start = context.query.optional("start");
+  if (!start) return {};
+  context.names_start = true;
+  if (!start->is(Node::Kind::string)) return read_pose(context, std::move(*start));
+  if (start->text() != "last")
+    start->refuse("unknown_choice", "give a pose, or last: the pose last answered to a query with a start");
+  else if (!context.last || context.continues == Continues::always)
+    start->refuse("not_available", "in a study path says where searches begin; leave it out");
+  else if (*context.last && (*context.last)->index() == home(context.robot).index())  // or set has changed it
+    return *context.last;
+  return {};
+}
+
 AskedPose read_asked_pose(Context& context) {
   AskedPose asked;
   auto pose = context.query.optional("pose");
@@ -112,15 +126,14 @@ Configuration read_configuration(Context& context) {
   configuration.report = asked.report;
   if (const auto inputs = context.query.optional("inputs"))
     configuration.inputs = read_inputs(context, *inputs);
-  if (auto start = context.query.optional("start"))
-    configuration.start = read_pose(context, std::move(*start));
+  configuration.start = read_start(context);
   if (!configuration.pose && !configuration.inputs)
     context.query.fail("missing_key", "give a pose, or inputs, or both");
   if (configuration.inputs && !configuration.branch.is_default())
     context.query.fail(
         "ambiguous",
         "bending, curvature and elbow choose among solutions; the inputs are given, remove them");
-  if (configuration.pose && configuration.start)
+  if (configuration.pose && context.names_start)
     context.query.fail("ambiguous",
                        "start is where a search for the pose begins; the pose is given, remove it");
   return configuration;
@@ -135,9 +148,9 @@ Solved solve_configuration(Context& context, const Configuration& given) {
   }
   if (!given.pose) {
     ForwardOptions options{.start = given.start, .max_iterations = context.max_iterations.value_or(100)};
-    if (context.last && !given.start) options.start = *context.last;
+    if (!given.start) options.start = context.path_start();
     const Forward solved = forward(context.robot, *given.inputs, options, work);
-    if (context.last) *context.last = solved.ok() ? std::optional(solved.pose) : std::nullopt;
+    context.remember(solved.ok() ? std::optional(solved.pose) : std::nullopt);
     return {solved.report, solved.pose, {solved.coordinates.begin(), solved.coordinates.end()}};
   }
   Report report = command(context.robot, *given.inputs, work);

@@ -15,6 +15,9 @@ namespace sinew::inline v0 {
 
 using Json = nlohmann::ordered_json;
 
+/// When the search for a pose begins where the last one ended.
+enum class Continues { always, where_asked };
+
 /// One query being answered, whatever the robot. A handler reads every field it knows, calls `ready`, and
 /// only then computes.
 struct Question {
@@ -22,14 +25,25 @@ struct Question {
   Errors& errors;
   Json& answer;
   std::optional<int> max_iterations;
-  /// On a path of questions: the pose last answered, where the next search begins; the workspace still holds
-  /// that answer. Null for a question by itself.
+  /// The pose last answered, where a search may begin. Null for a question by itself.
   std::optional<AnyPose>* last = nullptr;
+  /// On a path of questions always: the workspace then still holds that answer. In a session where `start`
+  /// says so.
+  Continues continues = Continues::where_asked;
+  bool names_start = false;  ///< `start` was read
 
   /// True when all fields are read, none is left over and none was wrong.
   bool ready() {
     query.close();
     return errors.empty();
+  }
+  /// Where a question that names no start begins on a path of questions.
+  std::optional<AnyPose> path_start() const {
+    return last && continues == Continues::always ? *last : std::nullopt;
+  }
+  /// Keeps the pose that was found; none where the search failed.
+  void remember(const std::optional<AnyPose>& found) {
+    if (last && (names_start || continues == Continues::always)) *last = found;
   }
   void report(const Report& report) {
     answer["status"] = to_string(report.status);
@@ -54,6 +68,10 @@ struct Branch {
 
 /// A pose of the robot's space.
 AnyPose read_pose(const Context& context, Reader pose);
+
+/// Where a search is to begin, by `start`: a pose, or `last`, the pose found last by a question that named
+/// its start. Nothing for home.
+std::optional<AnyPose> read_start(Context& context);
 
 /// The pose that a query asks for by `pose` or `independent`, if it does; the report says whether there is
 /// one.

@@ -85,6 +85,7 @@ void put_shape_of(Json& answer, const ShapeOf<D>& picture) {
 void answer_all_modes(Context& context, const std::vector<double>& inputs, const AnyPose& start) {
   const AssemblyModes modes = assembly_modes(context.robot, inputs, context.work);
   context.report(modes.report);
+  context.remember({});
   if (modes.report.status == Status::left_domain) return;
   Json solutions = Json::array();
   for (std::size_t k = 0; k < modes.poses.size(); ++k)
@@ -94,7 +95,9 @@ void answer_all_modes(Context& context, const std::vector<double>& inputs, const
   for (std::size_t k = 0; k < modes.poses.size(); ++k)
     if (modes.is_double[k]) solutions[k]["double"] = true;  // two modes merge: a type II singularity
   if (!modes.poses.empty()) {
-    const Json& nearest = solutions[nearest_pose(context.robot, modes.poses, start)];
+    const std::size_t chosen = nearest_pose(context.robot, modes.poses, start);
+    context.remember(modes.poses[chosen]);
+    const Json& nearest = solutions[chosen];
     for (const char* key : {"pose", "legs", "residual"}) context.answer[key] = nearest[key];
   }
   context.answer["count"] = modes.poses.size();
@@ -123,7 +126,7 @@ void answer_forward(Context& context) {
   if (bears_load(context.robot)) return answer_rods_forward(context);
   const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
   ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
-  if (auto start = context.query.optional("start")) options.start = read_pose(context, std::move(*start));
+  options.start = read_start(context);
   std::vector<TraceStep> trace;
   if (const auto wanted = context.query.optional("trace"))
     if (wanted->boolean()) trace.resize(most_trace);
@@ -137,10 +140,10 @@ void answer_forward(Context& context) {
   if (!context.ready()) return;
 
   if (want_all) return answer_all_modes(context, inputs, options.start.value_or(home(context.robot)));
-  if (context.last && !options.start) options.start = *context.last;
+  if (!options.start) options.start = context.path_start();
   const Forward result = forward(context.robot, inputs, options, context.work);
   context.report(result.report);
-  if (context.last) *context.last = result.ok() ? std::optional(result.pose) : std::nullopt;
+  context.remember(result.ok() ? std::optional(result.pose) : std::nullopt);
   if (result.ok()) {
     context.answer["pose"] = to_json(result.pose);
     context.answer["legs"] = legs_json(context.robot, result.pose, result.coordinates, context.work);

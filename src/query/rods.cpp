@@ -174,6 +174,13 @@ void refuse_what_rods_lack(Context& context) {
   read_branch(context);  // refuses bending, curvature and elbow
 }
 
+/// Robots on rods are spatial.
+std::optional<SpatialPose> read_spatial_start(Context& context) {
+  const std::optional<AnyPose> start = read_start(context);
+  if (!start) return {};
+  return std::get<SpatialPose>(*start);
+}
+
 /// A pose that six lengths hold.
 std::optional<SpatialPose> read_held_pose(const Context& context) {
   auto pose = context.query.optional("pose");
@@ -187,8 +194,7 @@ RodQuery read_configuration_of_rods(Context& context) {
   RodQuery asked;
   refuse_what_rods_lack(context);
   asked.options = read_options(context);
-  auto start = context.query.optional("start");
-  if (start) asked.options.start = read_spatial_pose(std::move(*start));
+  asked.options.start = read_spatial_start(context);
   const auto inputs = context.query.optional("inputs");
   auto independent = context.query.optional("independent");
   if (inputs) asked.inputs = read_inputs(context, *inputs);
@@ -203,7 +209,7 @@ RodQuery read_configuration_of_rods(Context& context) {
   if (inputs && (independent || asked.pose))
     context.query.fail("ambiguous", fmt::format("inputs and {} both say where the platform is; keep one",
                                                 asked.pose ? "pose" : "independent"));
-  if ((independent || asked.pose) && start)
+  if ((independent || asked.pose) && context.names_start)
     context.query.fail(
         "ambiguous",
         fmt::format("start is where a search with given inputs begins; that of {} begins at home",
@@ -213,12 +219,12 @@ RodQuery read_configuration_of_rods(Context& context) {
 
 Equilibrium solve(Context& context, const RodQuery& asked) {
   EquilibriumOptions options = asked.options;
-  options.resume = context.last && *context.last && !options.start;
+  options.resume = context.path_start() && !options.start;
   const Equilibrium found =
       asked.pose          ? inverse_equilibrium(context.robot, *asked.pose, options, context.work)
       : asked.independent ? inverse_equilibrium(context.robot, *asked.independent, options, context.work)
                           : equilibrium(context.robot, asked.inputs, options, context.work);
-  if (context.last) *context.last = found.is_solved() ? std::optional<AnyPose>(found.pose) : std::nullopt;
+  context.remember(found.is_solved() ? std::optional<AnyPose>(found.pose) : std::nullopt);
   return found;
 }
 
@@ -267,8 +273,7 @@ void answer_rods_forward(Context& context) {
   if (const auto trace = context.query.optional("trace"))
     trace->fail("not_available", "the iterates of rods are not recorded; leave it out");
   asked.options = read_options(context);
-  if (auto start = context.query.optional("start"))
-    asked.options.start = read_spatial_pose(std::move(*start));
+  asked.options.start = read_spatial_start(context);
   const Wanted wanted = read_want(context);
   const std::optional<Until> until = read_until(context);
   const auto all = context.query.optional("all");
@@ -282,6 +287,7 @@ void answer_rods_forward(Context& context) {
     context.answer["load"] = path.load;
     context.answer["why"] = to_string(path.end);
     found.pose = path.pose;
+    context.remember(path.pose);
     found.report.residual = path.residual;
   }
   put_equilibrium(context, found, wanted);

@@ -120,6 +120,7 @@ struct TreeSession::State {
 };
 struct Session::State {
   TreeSession session;
+  std::optional<AnyPose> last = {};
 };
 
 namespace {
@@ -173,7 +174,7 @@ Expected<TreeSession> TreeSession::open(Document robot) {
   return TreeSession(std::make_unique<State>(State{std::move(robot), std::move(*opened)}));
 }
 
-Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last) {
+Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last, Continues continues) {
   Errors errors;
   Reader query(document, errors);
   const Json id = read_id(query);
@@ -190,7 +191,7 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last)
   if (!id.is_null()) answer["id"] = id;
   answer["query"] = kind.name;
   answer["robot"] = std::visit([](const auto& any) -> const std::string& { return any.name(); }, opened);
-  Question question{query, errors, answer, {}, last};
+  Question question{query, errors, answer, {}, last, continues};
   if (const auto limit = query.optional("max_iterations"))
     question.max_iterations = limit->integer(Range::between(0, 100000));
   if (auto* chain = std::get_if<Chain>(&opened)) {
@@ -223,8 +224,11 @@ Expected<Session> Session::open(const std::string& path) {
 
 std::string Session::answer(std::string_view text) {
   const auto document = parse_json(text, "query");
-  const Json answer = document ? state_->session.answer(*document) : error_answer({}, document.error());
+  const Json answer = document ? state_->session.answer(*document, &state_->last, Continues::where_asked)
+                               : error_answer({}, document.error());
   return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
+
+void Session::forget() { state_->last.reset(); }
 
 }  // namespace sinew::inline v0

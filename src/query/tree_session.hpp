@@ -13,8 +13,9 @@ class SINEW_API TreeSession {
  public:
   static Expected<TreeSession> open(Document robot);
 
-  /// @param last where the search of a question may begin, see Question::last; it is kept up to date
-  Json answer(const Document& query, std::optional<AnyPose>* last = nullptr);
+  /// @param last where the search of a question may begin, see Question; it is kept up to date
+  Json answer(const Document& query, std::optional<AnyPose>* last = nullptr,
+              Continues continues = Continues::always);
 
   TreeSession(TreeSession&&) noexcept;
   TreeSession& operator=(TreeSession&&) noexcept;

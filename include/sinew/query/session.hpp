@@ -22,6 +22,10 @@ class SINEW_API Session {
   /// input: the answer then is `{"error": {"code", "where", "message"}}`.
   std::string answer(std::string_view query);
 
+  /// Forgets the pose that `"start": "last"` begins at, as for another client: the session is as when it was
+  /// opened.
+  void forget();
+
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
   ~Session();
