@@ -1,5 +1,7 @@
 #include "sinew/io/read_pose.hpp"
 
+#include "sinew/math/tilt.hpp"
+
 namespace sinew::inline v0 {
 
 PlanarPose read_planar_pose(Reader pose) {
@@ -10,6 +12,23 @@ PlanarPose read_planar_pose(Reader pose) {
   pose.close();
   return result;
 }
+
+namespace {
+
+/// By these angles, if any of them is given.
+std::optional<SO3<double>> read_tilt(Reader& pose) {
+  TiltTorsion angles;
+  bool is_given = false;
+  for (const auto& [key, angle] :
+       {std::pair{"tilt", &angles.tilt}, {"azimuth", &angles.azimuth}, {"torsion", &angles.torsion}})
+    if (const auto given = pose.optional(key)) {
+      *angle = given->quantity(Dimension::angle);
+      is_given = true;
+    }
+  return is_given ? std::optional(rotation_of(angles)) : std::nullopt;
+}
+
+}  // namespace
 
 SpatialPose read_spatial_pose(Reader pose) {
   SpatialPose result;
@@ -23,6 +42,12 @@ SpatialPose read_spatial_pose(Reader pose) {
       quaternion->fail("no_rotation", "a quaternion [w, x, y, z] needs a component that is not 0");
       result.quaternion = {1, 0, 0, 0};
     }
+  }
+  if (const auto turn = read_tilt(pose)) {
+    if (pose.has("quaternion"))
+      pose.fail("ambiguous",
+                "quaternion and tilt, azimuth, torsion both say how the platform is turned; keep one");
+    result.quaternion = {turn->w, turn->v.x(), turn->v.y(), turn->v.z()};
   }
   pose.close();
   return spatial_pose(SE3<double>::from(result));

@@ -7,6 +7,7 @@
 #include "sinew/io/read_pose.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/forward.hpp"
+#include "sinew/math/tilt.hpp"
 
 namespace sinew::inline v0 {
 
@@ -173,6 +174,28 @@ Json to_json(const AnyPose& pose) {
   const auto& spatial = std::get<SpatialPose>(pose);
   return {{"position", {spatial.position[0], spatial.position[1], spatial.position[2]}},
           {"quaternion", spatial.quaternion}};
+}
+
+namespace {
+
+/// Of what has a quaternion, if it is there.
+void add_tilt_of(Json& object, const char* key) {
+  const auto pose = object.find(key);
+  if (pose == object.end() || !pose->is_object() || !pose->contains("quaternion")) return;
+  const auto q = (*pose)["quaternion"].get<std::array<double, 4>>();
+  const TiltTorsion angles = tilt_torsion({q[0], Vec3<double>(q[1], q[2], q[3])});
+  (*pose)["tilt"] = angles.tilt;
+  (*pose)["azimuth"] = angles.azimuth;
+  (*pose)["torsion"] = angles.torsion;
+}
+
+}  // namespace
+
+void add_tilt(Json& answer) {
+  add_tilt_of(answer, "pose");
+  add_tilt_of(answer, "tip");
+  if (const auto solutions = answer.find("solutions"); solutions != answer.end())
+    for (Json& solution : *solutions) add_tilt_of(solution, "pose");
 }
 
 Json to_json(std::span<const double> values) {

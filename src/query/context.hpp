@@ -110,6 +110,8 @@ Configuration read_configuration(Context& context);
 Solved solve_configuration(Context& context, const Configuration& configuration);
 
 Json to_json(const AnyPose& pose);
+/// `tilt`, `azimuth` and `torsion` beside the quaternions of `pose`, `tip` and the poses of `solutions`.
+void add_tilt(Json& answer);
 Json to_json(std::span<const double> values);
 Json to_json(const MatrixView& matrix);
 Json to_json(const Indices& indices);

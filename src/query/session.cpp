@@ -143,6 +143,16 @@ void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
   if (!found) asked.fail("no_effect", "has no effect: no leg of this robot has an input theta; remove it");
 }
 
+/// Whether the answer's poses are to have tilt, azimuth and torsion.
+bool read_tilt(Reader& query, const Opened& opened) {
+  const auto asked = query.optional("tilt");
+  const bool is_wanted = asked && asked->boolean();
+  const auto* platform = std::get_if<Platform>(&opened);
+  if (is_wanted && platform && std::holds_alternative<PlanarPose>(home(platform->robot)))
+    asked->fail("no_effect", "has no effect: in the plane phi says how the platform is turned; remove it");
+  return is_wanted;
+}
+
 /// The robot with the query's `set` and `theta_is` applied; null if it has neither, or if (with errors noted)
 /// that gives no robot.
 std::optional<Opened> altered(const Document& document, Reader& query, Errors& errors) {
@@ -194,6 +204,7 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
   Question question{query, errors, answer, {}, last, continues};
   if (const auto limit = query.optional("max_iterations"))
     question.max_iterations = limit->integer(Range::between(0, 100000));
+  const bool wants_tilt = read_tilt(query, opened);
   if (auto* chain = std::get_if<Chain>(&opened)) {
     SerialContext context{question, chain->robot, chain->work};
     kind.serial_handler(context);
@@ -203,6 +214,7 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
     (on_chains ? kind.chain_handler : kind.handler)(context);
   }
   if (!errors.empty()) return error_answer(id, errors);
+  if (wants_tilt) add_tilt(answer);
   return answer;
 }
 

@@ -320,6 +320,10 @@ class Schema(unittest.TestCase):
             ("the input of a rod", standing({**rods, "actuated": ["length"]}, *three)),
             ("the input of an arc", standing({**rods, "actuated": ["tendon_1"]}, *three)),
             ("tied rods", standing(rods, {}, {"tied": 0}, {"tied": 0})),
+            *[(f"a home with {turn}", standing(rods, *three, platform={"home": {"position": [0, 0, 1], **turn}}))
+              for turn in [{"tilt": "10 deg"}, {"azimuth": 1, "torsion": "-0.5 rad"}, {"tilt": "10 mm"}, {"tilt": None},
+                           {"tilt": 0.1, "quaternion": [1, 0, 0, 0]}, {"torsion": 0, "quaternion": None},
+                           {"azimuth": None, "quaternion": [1, 0, 0, 0]}, {"tilt": [0.1]}]],
             ("rods in the plane", standing(rods, *three, space="planar", platform={})),
             ("no home", standing(rods, *three, platform={})),
         ])

@@ -196,6 +196,9 @@ TEST(Samplers, OthersAreAskedQueryByQuery) {
        {std::pair{"3-rfr", "{query: velocity, model: prb, pose: {x: $x, y: 0, phi: 0}}"},
         {"3-frr", "{query: inverse, pose: {x: $x, y: 0, phi: 0}}"},
         {"3pfs-g2", "{query: forward, inputs: [0.43, 0.43, 0.43], wrench: [$x, 0, 0, 0, 0, 0]}"},
+        {"3pfs-g2", "{query: forward, inputs: [0.43, 0.44, 0.43], tilt: true, wrench: [0, 0, -1, $x, 0, 0]}"},
+        {"hexapod", "{query: inverse, pose: {position: [0, 0, 0.4], tilt: 0.1, torsion: $x}}"},
+        {"6-ufs", "{query: velocity, pose: {position: [0, 0, 0.18], tilt: $x}}"},
         {"3pfs-g2", "{query: forward, inputs: [0.43, 0.43, 0.43], set: {\"legs[0].link.diameter\": $d}}"},
         {"nottingham-tpcj", "{query: inverse, position: [0.06, $x, 0.15]}"}}) {
     const std::string text = std::string("sinew: 1\nrobot: ") + robot + "\nquery: " + query +
@@ -290,6 +293,7 @@ TEST(AnswerPath, KnowsUnits) {
   EXPECT_EQ(unit_of_answer("pose.position[2]"), "m");
   EXPECT_EQ(unit_of_answer("pose.quaternion[2]"), "");
   EXPECT_EQ(unit_of_answer("pose.phi"), "rad");
+  EXPECT_EQ(unit_of_answer("pose.torsion"), "rad");
   EXPECT_EQ(unit_of_answer("legs[0].tendon_lengths[1]"), "m");
   EXPECT_EQ(unit_of_answer("legs[0].base_tangent"), "rad");
   EXPECT_EQ(unit_of_answer("legs[0].base_tangent[1]"), "");

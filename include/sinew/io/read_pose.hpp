@@ -10,7 +10,7 @@ namespace sinew::inline v0 {
 SINEW_API PlanarPose read_planar_pose(Reader pose);
 
 /// `{position: [x, y, z], quaternion: [w, x, y, z]}`; the quaternion need not be normalised; no turn
-/// where it is left out.
+/// where it is left out. In its place `tilt`, `azimuth`, `torsion`, see math/tilt.hpp, each 0 by default.
 SINEW_API SpatialPose read_spatial_pose(Reader pose);
 
 /// `[x, y, z]`: what falls falls so [m/s²], base axes.

@@ -56,11 +56,14 @@ std::optional<double> AnswerPath::number(const Json& answer) const {
 
 std::string_view unit_of_answer(std::string_view path) {
   // the last word of the path that has a unit, without its indices
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 29> units{{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 32> units{{
       {"x", "m"},
       {"y", "m"},
       {"z", "m"},
       {"phi", "rad"},
+      {"tilt", "rad"},
+      {"azimuth", "rad"},
+      {"torsion", "rad"},
       {"position", "m"},
       {"curvature", "1/m"},
       {"curvature_0", "1/m"},

@@ -40,7 +40,7 @@ bool is_solved(const Json& answer) {
 
 /// `pose.position[2]` as the name of a column: `z`; `legs[0].curvature`: `legs_0_curvature`.
 std::string column_of(std::string_view path) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> known{{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 13> known{{
       {"pose.position[0]", "x"},
       {"pose.position[1]", "y"},
       {"pose.position[2]", "z"},
@@ -51,6 +51,9 @@ std::string column_of(std::string_view path) {
       {"pose.x", "x"},
       {"pose.y", "y"},
       {"pose.phi", "phi"},
+      {"pose.tilt", "tilt"},
+      {"pose.azimuth", "azimuth"},
+      {"pose.torsion", "torsion"},
   }};
   for (const auto& [place, name] : known)
     if (place == path) return std::string(name);

@@ -8,6 +8,7 @@
 
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/kinematics/inverse.hpp"
+#include "sinew/math/tilt.hpp"
 
 namespace sinew::inline v0::tripod {
 namespace {
@@ -59,7 +60,10 @@ AnyRobot with_platform_radius(AnyRobot robot, double radius) {
   return robot;
 }
 
-double tilt(double radius) { return 2 * std::asin(radius) / degree; }
+double tilt(double radius) {
+  const double rest = std::sqrt((1 - radius) * (1 + radius));
+  return tilt_torsion({rest, Vec3<double>(radius, 0, 0)}).tilt / degree;
+}
 
 // ---------------------------------------------------------------- places
 

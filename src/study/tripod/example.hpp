@@ -24,7 +24,7 @@ TripodSize size_of(const AnyRobot& robot);
 /// The same robot with a platform of this radius [m].
 AnyRobot with_platform_radius(AnyRobot robot, double radius);
 
-/// Tilt of the platform, φ = 2 arcsin |(e₁, e₂)| [deg].
+/// Tilt of the platform, φ = 2 arcsin |(e₁, e₂)|, of 0 to 1 [deg].
 double tilt(double radius);
 
 // ---------------------------------------------------------------- places
