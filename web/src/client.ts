@@ -9,8 +9,8 @@ export class Refused extends Error {
   }
 }
 
-async function call(path: string, body?: string, type = 'application/json'): Promise<string> {
-  const reply = await fetch(path, body === undefined ? {} : {method: 'POST', body, headers: {'Content-Type': type}});
+async function call(path: string, body?: string, type = 'application/json', signal?: AbortSignal): Promise<string> {
+  const reply = await fetch(path, body === undefined ? {} : {method: 'POST', body, headers: {'Content-Type': type}, ...(signal && {signal})});
   const text = await reply.text();
   if (reply.ok) return text;
   let answer: Json = {};
@@ -29,20 +29,51 @@ export const robotText = (name: string): Promise<string> => call(`/api/robots/${
 
 /** A robot of the server; a server that was started anew gets its text again. */
 export class Robot {
+  private waiting = new AbortController();
+
   private constructor(readonly text: string, private handle: string) {}
 
   static async open(text: string): Promise<Robot> {
     return new Robot(text, JSON.parse(await call('/api/robot', text, 'text/yaml')).robot);
   }
 
+  /** What is on its way is waited for no more: it ends as an AbortError. */
+  cancel(): void {
+    this.waiting.abort();
+    this.waiting = new AbortController();
+  }
+
   async ask(queries: Json[]): Promise<Json[]> {
-    const put = () => call(`/api/query?robot=${this.handle}`, JSON.stringify(queries));
+    return this.known((robot) => call(`/api/query?robot=${robot}`, JSON.stringify(queries), 'application/json', this.waiting.signal));
+  }
+
+  /** As `ask`, of what takes long: it keeps no other question waiting, and the server stops where `signal` says so. */
+  async work(queries: Json[], signal: AbortSignal): Promise<Json[]> {
+    const {job} = await this.known((robot) => call('/api/jobs', JSON.stringify({robot, queries})));
+    const events = new EventSource(`/api/jobs/${job}/events`), answers: Json[] = [];
+    return new Promise<Json[]>((done, failed) => {
+      signal.addEventListener('abort', () => {
+        void fetch(`/api/jobs/${job}`, {method: 'DELETE'});
+        failed(new DOMException('cancelled', 'AbortError'));
+      });
+      events.addEventListener('answers', (event) => {
+        const {first, answers: some} = JSON.parse(event.data);
+        some.forEach((one: Json, i: number) => { answers[first + i] = one; });
+      });
+      events.addEventListener('done', () => done(answers));
+      events.addEventListener('cancelled', () => failed(new DOMException('cancelled', 'AbortError')));
+      events.addEventListener('failed', (event) => failed(new Refused(500, JSON.parse(event.data))));
+    }).finally(() => events.close());
+  }
+
+  /** A server that was started anew does not know the robot. */
+  private async known(put: (handle: string) => Promise<string>): Promise<any> {
     try {
-      return JSON.parse(await put());
+      return JSON.parse(await put(this.handle));
     } catch (error) {
       if (!(error instanceof Refused) || error.status !== 404) throw error;
       this.handle = JSON.parse(await call('/api/robot', this.text, 'text/yaml')).robot;
-      return JSON.parse(await put());
+      return JSON.parse(await put(this.handle));
     }
   }
 }
@@ -55,6 +86,11 @@ export class Newest {
   put(task: () => Promise<void>): void {
     this.waiting = task;
     if (!this.busy) void this.run();
+  }
+
+  /** What waits is not done. */
+  drop(): void {
+    this.waiting = null;
   }
 
   private async run(): Promise<void> {

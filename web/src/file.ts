@@ -1,71 +1,101 @@
 // The robot's file: checked a moment after the last key. While it has errors the picture stays that of the last good one.
 import {type Json, Refused, Robot} from './client';
+import {Editor} from './editor';
+import {button, make} from './make';
+import {toast} from './toast';
 
 const patience = 300;  // ms after the last key
 
 export class FileTab {
-  private readonly area = document.createElement('textarea');
-  private readonly numbers = document.createElement('pre');
-  private readonly errors = document.createElement('ol');
-  private readonly note = document.createElement('p');
+  private readonly errors = make('ol');
+  private readonly note = make('p');
+  private readonly disk = make('p', {className: 'disk', hidden: true});
+  private readonly editor: Editor;
   private timer = 0;
+  private name = '';
+  private saved = '';  // the file as it was opened
+  private isOpening = false;
 
   constructor(panel: HTMLElement, private readonly opened: (robot: Robot) => Promise<void>) {
-    const editor = document.createElement('div');
-    editor.className = 'editor';
-    this.area.spellcheck = false;
-    this.area.setAttribute('aria-label', 'Robot file');
-    this.numbers.ariaHidden = 'true';
+    const box = make('div', {className: 'editor'});
     this.note.setAttribute('role', 'status');
-    this.area.addEventListener('input', () => this.typed());
-    this.area.addEventListener('scroll', () => { this.numbers.scrollTop = this.area.scrollTop; });
-    editor.append(this.numbers, this.area);
-    panel.replaceChildren(editor, this.note, this.errors);
+    this.disk.setAttribute('role', 'status');
+    panel.append(box, this.disk, this.note, this.errors, make('div', {className: 'actions'},
+      button('Copy YAML', () => void navigator.clipboard.writeText(this.editor.text).then(() => toast('copied')), 'the whole file'),
+      button('Undo', () => this.editor.undo(), 'the last change of the text'),
+      button('Reload', () => this.reload(this.saved), 'the file as it was opened'),
+      button('Save…', () => this.save(), 'download the file')));
+    this.editor = new Editor(box, () => this.typed());
   }
 
-  show(text: string): void {
+  get text(): string {
+    return this.editor.text;
+  }
+
+  /** The file of a robot that is shown already. */
+  show(name: string, text: string): void {
     clearTimeout(this.timer);
-    if (this.area.value !== text) this.area.value = text;
-    this.count();
+    this.name = name;
+    this.saved = text;
+    this.isOpening = true;
+    this.editor.open(text);
+    this.isOpening = false;
+    this.quiet();
+  }
+
+  /** The same file has another text on disk. */
+  changedOnDisk(text: string): void {
+    if (text === this.saved) return;
+    this.disk.replaceChildren('changed on disk: ', button('Reload', () => this.reload(text)), button('Keep mine', () => {
+      this.saved = text;
+      this.disk.hidden = true;
+    }));
+    this.disk.hidden = false;
+  }
+
+  private reload(text: string): void {
+    this.show(this.name, text);
+    void this.check();
+  }
+
+  private save(): void {
+    const url = URL.createObjectURL(new Blob([this.editor.text], {type: 'text/yaml'}));
+    make('a', {href: url, download: `${this.name.replace(/^.*\//, '').replace(/\.yaml$/, '')}.yaml`}).click();
+    setTimeout(() => URL.revokeObjectURL(url), 1000);
+  }
+
+  private quiet(): void {
     this.errors.replaceChildren();
     this.note.textContent = '';
+    this.disk.hidden = true;
+    this.editor.mark([]);
   }
 
   private typed(): void {
-    this.count();
+    if (this.isOpening) return;
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => void this.check(), patience);
   }
 
-  private count(): void {
-    const lines = this.area.value.split('\n').length;
-    this.numbers.textContent = Array.from({length: lines}, (_, i) => i + 1).join('\n');
-  }
-
   private async check(): Promise<void> {
-    const text = this.area.value;
+    const text = this.editor.text;
     try {
       const robot = await Robot.open(text);
-      if (text === this.area.value) await this.opened(robot);
+      if (text !== this.editor.text) return;
+      this.quiet();
+      await this.opened(robot);
     } catch (error) {
-      if (!(error instanceof Refused) || !error.answer.errors) throw error;
-      this.note.textContent = 'The picture shows the last valid file.';
-      this.errors.replaceChildren(...error.answer.errors.map((one: Json) => this.error(one)));
+      if (!(error instanceof Refused)) throw error;
+      if (text === this.editor.text) this.tell(error.answer.errors ?? [{message: error.message, where: 'file'}]);
     }
   }
 
-  private error(one: Json): HTMLElement {
-    const item = document.createElement('li'), go = document.createElement('button');
-    go.type = 'button';
-    go.textContent = one.line ? `${one.line}:${one.column ?? 1}` : one.where;
-    go.addEventListener('click', () => this.goTo(one.line ?? 1, one.column ?? 1));
-    item.append(go, ` ${one.message}`);
-    return item;
-  }
-
-  private goTo(line: number, column: number): void {
-    const before = this.area.value.split('\n').slice(0, line - 1).join('\n').length + (line > 1 ? 1 : 0);
-    this.area.focus();
-    this.area.setSelectionRange(before + column - 1, before + column);
+  private tell(errors: Json[]): void {
+    this.note.textContent = 'The picture shows the last valid file.';
+    this.editor.mark(errors.map(({line = 0, column = 1, message}) => ({line, column, message})));
+    this.errors.replaceChildren(...errors.map(({line, column, where, message}) => {
+      const go = button(line ? `${line}:${column ?? 1}` : where, () => this.editor.goTo(line ?? 1, column ?? 1));
+      return make('li', {}, go, ` ${message}`);
+    }));
   }
 }

@@ -1,105 +1,124 @@
-// One row an input: a number box with its unit, and a slider.
-import type {Row} from './rows';
+// One row a number: a box with its unit, steps for fingers, and a slider.
+import type {Row} from './described';
+import {button, make} from './make';
 import {format, parse, type System, unitName} from './units';
 
+const ways: Record<string, number> = {ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1};
+
+interface Line { box: HTMLInputElement; range: HTMLInputElement; unit: HTMLElement; why: HTMLElement }
+
 export class Sliders {
-  values: number[] = [];
+  private values: number[] = [];
   private rows: Row[] = [];
-  private boxes: HTMLInputElement[] = [];
-  private ranges: HTMLInputElement[] = [];
+  private lines: Line[] = [];
+  private readonly list = make('div');
+  private readonly title = make('h2');
+  private system: System = 'mm';
+  private readonly id: string;
 
-  constructor(private readonly panel: HTMLElement, private readonly changed: () => void, private system: System) {}
-
-  /** Values from elsewhere: nobody is told. */
-  put(values: number[]): void {
-    this.values = values;
-    this.write();
+  /** @param home the button that puts all rows back */
+  constructor(panel: HTMLElement, home: HTMLButtonElement, private readonly changed: (index: number, value: number) => void) {
+    const head = make('div', {className: 'head'}, this.title, home);
+    panel.append(head, this.list);
+    this.id = panel.id;
   }
 
 
-  show(rows: Row[], values: number[] | null): void {
+  get count(): number {
+    return this.rows.length;
+  }
+
+  show(title: string, rows: Row[], values: number[]): void {
+    this.title.textContent = title;
     this.rows = rows;
-    this.values = values ?? rows.map((row) => row.home);
-    this.boxes = [];
-    this.ranges = [];
-    const home = document.createElement('button');
-    home.type = 'button';
-    home.textContent = 'Home';
-    home.addEventListener('click', () => this.goHome());
-    this.panel.replaceChildren(...rows.map((row, i) => this.row(row, i)), home);
-    this.write();
+    this.lines = [];
+    this.list.replaceChildren(...rows.map((row, i) => this.row(row, i)));
+    this.put(values);
+  }
+
+  /** Values from elsewhere: nobody is told. */
+  put(values: number[]): void {
+    this.values = [...values];
+    this.rows.forEach((_, i) => this.write(i));
+  }
+
+  /** These numbers are the answer, not the question, until one of them is touched. */
+  answered(is: boolean): void {
+    this.list.classList.toggle('answered', is);
   }
 
   use(system: System): void {
     this.system = system;
-    this.panel.querySelectorAll('.unit').forEach((unit, i) => {
-      unit.textContent = unitName(this.rows[i]!.unit, system);
-    });
-    this.write();
-  }
-
-  goHome(): void {
-    this.values = this.rows.map((row) => row.home);
-    this.write();
-    this.changed();
+    this.lines.forEach(({unit}, i) => { unit.textContent = unitName(this.rows[i]!.unit, system); });
+    this.put(this.values);
   }
 
   private row(row: Row, i: number): HTMLElement {
-    const line = document.createElement('div'), label = document.createElement('label'), box = document.createElement('input'),
-          unit = document.createElement('span'), range = document.createElement('input'), why = document.createElement('span');
-    line.className = 'row';
-    label.textContent = row.name;
-    label.htmlFor = box.id = `${this.panel.id}-${i}`;
-    unit.className = 'unit';
-    unit.textContent = unitName(row.unit, this.system);
-    why.className = 'why';
-    why.setAttribute('role', 'alert');
-    range.type = 'range';
-    range.min = String(row.low);
-    range.max = String(row.high);
-    range.step = 'any';
+    const id = `${this.id}-${i}`, marks = make('datalist', {id: `${id}-marks`});
+    const box = make('input', {id, inputMode: 'decimal', autocomplete: 'off'}), unit = make('span', {className: 'unit', textContent: unitName(row.unit, this.system)});
+    const range = make('input', {type: 'range', min: String(row.low), max: String(row.high), step: 'any'}), why = make('span', {className: 'why'});
+    const label = make('label', {htmlFor: id, title: row.path}, row.name);
+    for (const mark of new Set([row.low, row.home, row.high])) marks.append(make('option', {value: String(mark)}));
     range.setAttribute('aria-label', row.name);
+    range.setAttribute('list', marks.id);
+    why.setAttribute('role', 'alert');
     range.addEventListener('input', () => this.set(i, range.valueAsNumber));
     range.addEventListener('keydown', (event) => this.key(event, i));
-    box.addEventListener('change', () => this.typed(i, box, why));
-    box.inputMode = 'decimal';
-    this.boxes.push(box);
-    this.ranges.push(range);
-    line.append(label, box, unit, range, why);
-    return line;
+    box.addEventListener('change', () => this.typed(i));
+    box.addEventListener('focus', () => box.select());
+    this.lines.push({box, range, unit, why});
+    const step = (way: number) => button(way < 0 ? '−' : '+', () => this.step(i, way), `${row.name} ${way < 0 ? 'less' : 'more'}`);
+    const steps = [step(-1), step(1)];
+    for (const one of steps) {
+      one.classList.add('step');
+      one.tabIndex = -1;  // the slider has arrows
+    }
+    return make('div', {className: 'row'}, label, steps[0]!, box, unit, steps[1]!, range, marks, why);
   }
 
-  private typed(i: number, box: HTMLInputElement, why: HTMLElement): void {
-    const value = parse(box.value, this.rows[i]!.unit, this.system);
-    box.setAttribute('aria-invalid', String(typeof value === 'string'));
-    why.textContent = typeof value === 'string' ? value : '';
-    if (typeof value === 'number') this.set(i, value);
+  private typed(i: number): void {
+    const {box, why} = this.lines[i]!, value = parse(box.value, this.rows[i]!.unit, this.system), isWrong = typeof value === 'string';
+    box.setAttribute('aria-invalid', String(isWrong));
+    why.textContent = isWrong ? value : '';
+    if (!isWrong) this.set(i, value);
   }
 
-  /** Arrows are a hundredth of the range, with Shift ten times as much, with Alt a tenth. */
+  private step(i: number, hundredths: number): void {
+    const {low, high} = this.rows[i]!;
+    this.set(i, Math.min(high, Math.max(low, this.values[i]! + hundredths * (high - low) / 100)));
+  }
+
+  /** Arrows are a hundredth of the range, with Shift ten times as much, with Alt a tenth. A digit opens the box. */
   private key(event: KeyboardEvent, i: number): void {
-    const row = this.rows[i]!, step = (row.high - row.low) / 100 * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
-    const way = ({ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1} as Record<string, number>)[event.key];
-    if (way !== undefined) this.set(i, Math.min(row.high, Math.max(row.low, this.values[i]! + way * step)));
-    else if (event.key === '0') this.set(i, row.home);
+    if (event.ctrlKey || event.metaKey) return;
+    const way = ways[event.key];
+    if (way !== undefined) this.step(i, way * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1));
+    else if (event.key === '0') this.set(i, this.rows[i]!.home);
+    else if (/^[1-9.-]$/.test(event.key) && !event.altKey) this.open(i, event.key);
     else return;
     event.preventDefault();
+    event.stopPropagation();
+  }
+
+  private open(i: number, digit: string): void {
+    const {box} = this.lines[i]!;
+    box.focus();
+    box.value = digit;
+    box.setSelectionRange(1, 1);
   }
 
   private set(i: number, value: number): void {
     this.values[i] = value;
-    this.writeOne(i);
-    this.changed();
+    this.write(i);
+    this.changed(i, value);
   }
 
-  private write(): void {
-    this.rows.forEach((_, i) => this.writeOne(i));
-  }
-
-  private writeOne(i: number): void {
-    const value = this.values[i]!, row = this.rows[i]!;
-    this.boxes[i]!.value = format(value, row.unit, this.system);
-    this.ranges[i]!.value = String(value);
-    this.ranges[i]!.setAttribute('aria-valuetext', `${format(value, row.unit, this.system)} ${unitName(row.unit, this.system)}`);
+  private write(i: number): void {
+    const value = this.values[i]!, {unit} = this.rows[i]!, {box, range, why} = this.lines[i]!, text = format(value, unit, this.system);
+    box.value = text;
+    box.removeAttribute('aria-invalid');
+    why.textContent = '';
+    range.value = String(value);
+    range.setAttribute('aria-valuetext', `${text} ${unitName(unit, this.system)}`);
   }
 }

@@ -10,6 +10,8 @@ export class Tabs {
       button.setAttribute('role', 'tab');
       button.setAttribute('aria-controls', panel.id);
       button.textContent = panel.getAttribute('aria-label');
+      button.id = `tab-${panel.id}`;
+      panel.setAttribute('aria-labelledby', button.id);
       button.addEventListener('click', () => this.choose(i));
       button.addEventListener('keydown', (event) => this.key(event, i));
       return button;
@@ -28,6 +30,10 @@ export class Tabs {
   choose(i: number): void {
     this.mark(i);
     this.chosen(this.panels[i]!.id);
+  }
+
+  open(id: string): void {
+    this.choose(this.panels.findIndex((panel) => panel.id === id));
   }
 
   private mark(chosen: number): void {

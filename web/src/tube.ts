@@ -1,10 +1,9 @@
 // A tube along a polyline. Its buffers stay while the number of points does: a slider makes no garbage.
 import {BufferAttribute, BufferGeometry, type Material, Mesh, Vector3} from 'three';
 
-const sides = 10;
-
 export class Tube extends Mesh {
   private count = 0;
+  private sides = 0;
   private readonly at = new Vector3();
   private readonly ahead = new Vector3();
   private readonly side = new Vector3();
@@ -13,22 +12,26 @@ export class Tube extends Mesh {
 
   constructor(material: Material) {
     super(new BufferGeometry(), material);
-    this.frustumCulled = false;
   }
 
-  /** Points of two or three coordinates, and the radius, in metres. */
-  set(points: number[][], radius: number): void {
-    if (points.length !== this.count) this.allocate(points.length);
+  /**
+   * @param points of two or three coordinates [m]
+   * @param radius [m]
+   * @param end radius of the last point as a part of the others: 0 makes a point of it
+   */
+  set(points: number[][], radius: number, sides: number, end = 1): void {
+    if (points.length !== this.count || sides !== this.sides) this.allocate(points.length, sides);
     const places = this.geometry.getAttribute('position') as BufferAttribute;
     const normals = this.geometry.getAttribute('normal') as BufferAttribute;
     this.side.set(0, 0, 0);
     for (let i = 0; i < points.length; ++i) {
       this.frame(points, i);
+      const here = i === points.length - 1 ? end * radius : radius;
       for (let k = 0; k < sides; ++k) {
         const angle = (2 * Math.PI * k) / sides;
         this.turn.copy(this.side).multiplyScalar(Math.cos(angle)).addScaledVector(this.across, Math.sin(angle));
         normals.setXYZ(i * sides + k, this.turn.x, this.turn.y, this.turn.z);
-        this.turn.multiplyScalar(radius).add(this.at);
+        this.turn.multiplyScalar(here).add(this.at);
         places.setXYZ(i * sides + k, this.turn.x, this.turn.y, this.turn.z);
       }
     }
@@ -51,8 +54,9 @@ export class Tube extends Mesh {
     this.across.crossVectors(this.ahead, this.side);
   }
 
-  private allocate(count: number): void {
+  private allocate(count: number, sides: number): void {
     this.count = count;
+    this.sides = sides;
     this.geometry.dispose();
     this.geometry = new BufferGeometry();
     this.geometry.setAttribute('position', new BufferAttribute(new Float32Array(count * sides * 3), 3));

@@ -1,95 +1,90 @@
-// The right panel: a word with a shape, and the numbers of an answer.
+// The word of an answer, with its shape and what to try.
 import type {Json} from './client';
-import {format, type System, type Unit, unitName} from './units';
 
-interface Verdict { word: string; shape: string; state: string }
+export interface Verdict { word: string; shape: string; state: string; advice: string }
 
 const verdicts: Record<string, Verdict> = {
-  converged: {word: 'SOLVED', shape: '●', state: 'exact'},
-  unstable: {word: 'SOLVED, UNSTABLE', shape: '▼', state: 'slack'},
-  singular: {word: 'SINGULAR', shape: '▼', state: 'slack'},
-  slack: {word: 'SLACK TENDON', shape: '▼', state: 'slack'},
-  unreachable: {word: 'UNREACHABLE', shape: '▧', state: 'unreachable'},
-  left_domain: {word: 'UNREACHABLE', shape: '▧', state: 'unreachable'},
-  stalled: {word: 'STALLED', shape: '⊗', state: 'over'},
-  iteration_limit: {word: 'LIMIT REACHED', shape: '⊗', state: 'over'},
+  converged: {word: 'SOLVED', shape: '●', state: 'exact', advice: ''},
+  unstable: {word: 'SOLVED, UNSTABLE', shape: '▼', state: 'slack', advice: 'It does not stay here by itself. Lower the load, or look at other solutions.'},
+  singular: {word: 'SINGULAR', shape: '▼', state: 'slack', advice: 'Step back, or change another input first.'},
+  slack: {word: 'SLACK TENDON', shape: '▼', state: 'slack', advice: 'A tendon cannot push: bend this leg more, or lower the load.'},
+  unreachable: {word: 'UNREACHABLE', shape: '▧', state: 'unreachable', advice: 'The legs do not reach: go back towards the last pose that was solved.'},
+  left_domain: {word: 'UNREACHABLE', shape: '▧', state: 'unreachable', advice: 'Go back within the limits.'},
+  stalled: {word: 'STALLED', shape: '⊗', state: 'over', advice: 'Begin at Home and take smaller steps.'},
+  iteration_limit: {word: 'LIMIT REACHED', shape: '⊗', state: 'over', advice: 'Raise the limit of iterations under Model.'},
 };
 
-function verdictOf(answer: Json): Verdict {
-  if (answer.error) return {word: 'REFUSED', shape: '⊗', state: 'over'};
-  const found = verdicts[answer.status] ?? {word: String(answer.status).toUpperCase(), shape: '⊗', state: 'over'};
+export function verdictOf(answer: Json): Verdict {
+  if (answer.error) return {word: 'REFUSED', shape: '⊗', state: 'over', advice: ''};
+  const found = verdicts[answer.status] ?? {word: String(answer.status).toUpperCase(), shape: '⊗', state: 'over', advice: ''};
   return answer.status === 'converged' && answer.stable === true ? {...found, word: 'SOLVED, STABLE'} : found;
 }
 
-/** `x 1.234 mm` for each coordinate of a pose, planar or in space. */
-export function poseLines(pose: Json, system: System): [string, string][] {
-  const line = (name: string, value: number, unit: Unit): [string, string] =>
-    [name, `${format(value, unit, system)} ${unitName(unit, system)}`.trim()];
-  if (pose.position) {
-    const [x, y, z] = pose.position, names = ['w', 'x', 'y', 'z'];
-    return [line('x', x, 'm'), line('y', y, 'm'), line('z', z, 'm'),
-            ...(pose.quaternion as number[]).map((q, i) => line(`q ${names[i]}`, q, ''))];
-  }
-  return [line('x', pose.x, 'm'), line('y', pose.y, 'm'), line('φ', pose.phi, 'rad')];
-}
+/** The box with the word. Words are told to a screen reader as they change, the numbers beside them are not. */
+export class VerdictBox {
+  private readonly mark = document.createElement('span');
+  private readonly word = document.createElement('strong');
+  private readonly detail = document.createElement('span');
+  private readonly why = document.createElement('p');
+  private readonly advice = document.createElement('p');
+  private readonly way = document.createElement('button');
+  private readonly cancel = document.createElement('button');
+  private timers: number[] = [];
 
-/** How far to what would end the motion; numbers without units. */
-function marginLines(answer: Json): [string, string][] {
-  const {margins, velocity} = answer, lines: [string, string][] = [];
-  if (margins?.fold !== undefined) lines.push(['to a fold', margins.fold.toFixed(4)]);
-  if (margins?.strain !== undefined) lines.push(['bending strain', `${(100 * margins.strain).toFixed(3)} %`]);
-  const condition = velocity?.indices?.condition_homogenised;
-  if (condition !== undefined) lines.push(['condition number', condition.toFixed(2)]);
-  if (velocity?.type_1?.length > 0) lines.push(['type I', `legs ${velocity.type_1.join(', ')}`]);
-  if (velocity?.type_2) lines.push(['type II', velocity.type_2.singular ? `singular, ${velocity.type_2.class}` : 'no']);
-  return lines;
-}
-
-export class Panel {
-  constructor(private readonly box: HTMLElement) {}
-
-  show(answer: Json, system: System): void {
-    const {word, shape, state} = verdictOf(answer);
-    const verdict = document.createElement('div'), mark = document.createElement('span'), text = document.createElement('strong');
-    verdict.className = 'verdict';
-    verdict.setAttribute('role', 'status');
-    mark.className = `mark ${state}`;
-    mark.textContent = shape;
-    mark.ariaHidden = 'true';
-    text.textContent = word;
-    verdict.append(mark, text);
-    const why = document.createElement('p');
-    why.textContent = answer.error?.message ?? answer.message ?? '';
-    const rows: [string, string][] = [];
-    const pose = answer.pose ?? answer.tip;
-    if (pose && !answer.error) rows.push(...poseLines(pose, system));
-    if (answer.residual !== undefined) rows.push(['residual', answer.residual.toExponential(1)]);
-    if (answer.iterations !== undefined) rows.push(['iterations', String(answer.iterations)]);
-    this.box.replaceChildren(verdict, why, ...this.tables(rows, answer, system));
+  constructor(private readonly box: HTMLElement, cancel: () => void) {
+    const text = document.createElement('div');
+    box.className = 'verdict';
+    this.mark.className = 'mark';
+    this.mark.ariaHidden = 'true';
+    this.word.setAttribute('role', 'status');
+    this.detail.className = 'detail';
+    this.why.className = 'reason';
+    this.advice.className = 'advice';
+    this.way.type = this.cancel.type = 'button';
+    this.cancel.textContent = 'Cancel';
+    this.cancel.addEventListener('click', cancel);
+    text.append(this.word, this.detail, this.why, this.advice, this.way, this.cancel);
+    box.append(this.mark, text);
+    this.offer('', () => undefined);
+    this.cancel.hidden = true;
   }
 
-  private tables(rows: [string, string][], answer: Json, system: System): HTMLElement[] {
-    const tables = [this.table(answer.tip ? 'Tip' : 'Pose', rows)];
-    if (answer.changes) {
-      const lines = (answer.changes as number[][]).map((changes, m): [string, string] =>
-        [`section ${m + 1}`, changes.map((change) => format(change, 'm', system)).join('  ')]);
-      tables.push(this.table(`Tendon changes [${unitName('m', system)}]`, lines));
-    }
-    const margins = marginLines(answer);
-    if (margins.length > 0) tables.push(this.table('Margins', margins));
-    return tables;
+  show(answer: Json, detail: string): void {
+    const {word, shape, state, advice} = verdictOf(answer);
+    this.settle();
+    this.mark.className = `mark ${state}`;
+    this.mark.textContent = shape;
+    if (this.word.textContent !== word) this.word.textContent = word;
+    this.box.dataset.state = state;
+    this.detail.textContent = detail;
+    this.why.textContent = answer.error?.message ?? answer.message ?? '';
+    this.advice.textContent = advice;
+    this.offer('', () => undefined);
   }
 
-  private table(title: string, rows: [string, string][]): HTMLElement {
-    const table = document.createElement('table'), caption = table.createCaption();
-    caption.textContent = title;
-    for (const [name, value] of rows) {
-      const row = table.insertRow(), head = document.createElement('th');
-      head.scope = 'row';
-      head.textContent = name;
-      row.append(head);
-      row.insertCell().textContent = value;
-    }
-    return table;
+  /** A way out of what has no solution. */
+  offer(text: string, go: () => void): void {
+    this.way.hidden = text === '';
+    this.way.textContent = text;
+    this.way.onclick = go;
+  }
+
+  /** A question is on its way: a ring after 0.1 s, words and Cancel after a second. */
+  wait(): void {
+    if (this.timers.length > 0) return;
+    this.timers = [
+      window.setTimeout(() => this.box.classList.add('waiting'), 100),
+      window.setTimeout(() => {
+        this.detail.textContent = 'solving…';
+        this.cancel.hidden = false;
+      }, 1000),
+    ];
+  }
+
+  settle(): void {
+    this.timers.forEach(clearTimeout);
+    this.timers = [];
+    this.box.classList.remove('waiting');
+    this.cancel.hidden = true;
   }
 }

@@ -1,0 +1,76 @@
+// The left panel: what of a state people turn.
+import {Bending} from './bending';
+import type {Json} from './client';
+import {bearsLoad, type Described} from './described';
+import {button, byId, make} from './make';
+import {ModelTab} from './model_tab';
+import {signsOf} from './questions';
+import {Sliders} from './sliders';
+import type {Side, State} from './state';
+import type {System} from './units';
+
+/** What the controls ask the page to do. */
+export interface Wishes {
+  turn(side: Side | 'load', index: number, value: number): void;  ///< one number
+  change(part: Partial<State>): void;
+  bend(bending: number[] | null): void;
+  goHome(): void;
+}
+
+export class Controls {
+  private readonly sides: Record<Side | 'load', Sliders>;
+  private readonly bending: Bending;
+  private readonly model: ModelTab;
+  private readonly gravity = make('input', {type: 'checkbox', id: 'gravity'});
+  private readonly gravityChoice = make('label', {className: 'choice'}, this.gravity, 'Gravity as in the file');
+  private readonly note = make('p', {className: 'note'});
+
+  constructor(private readonly wishes: Wishes) {
+    const sliders = (side: Side | 'load', home: HTMLButtonElement) => new Sliders(byId(side), home, (i, value) => wishes.turn(side, i, value));
+    this.sides = {
+      inputs: sliders('inputs', button('Home', () => wishes.goHome(), 'all inputs to their home (h)')),
+      pose: sliders('pose', button('Home', () => wishes.goHome(), 'the home pose (h)')),
+      load: sliders('load', button('Zero', () => this.zero(), 'no load')),
+    };
+    this.bending = new Bending(byId('pose'), (bending) => wishes.bend(bending));
+    this.model = new ModelTab(byId('model'), (part) => wishes.change(part));
+    this.gravity.addEventListener('change', () => wishes.change({gravity: this.gravity.checked}));
+    byId('load').append(this.gravityChoice, this.note);
+  }
+
+  /** All of them say what the state is. */
+  show(described: Described, state: State): void {
+    this.sides.inputs.show(described.isSerial ? 'Bends (forward)' : 'Inputs (forward)', described.inputs, state.inputs);
+    this.sides.pose.show(described.isSerial ? 'Tip (inverse)' : 'Pose (inverse)', described.pose, state.pose);
+    this.sides.load.show('Load on the platform', described.load, state.load);
+    this.gravityChoice.hidden = !described.hasGravity;
+    this.gravity.checked = state.gravity;
+    const bears = bearsLoad(state.model);
+    this.note.replaceChildren(...(bears ? [] : ['Links of this model bear no load. ', button('Take pseudo-rigid chains', () => this.wishes.change({model: 'prb'}))]));
+    byId('load').classList.toggle('idle', !bears);
+    this.model.show(described, state);
+    this.mark(state.asked);
+  }
+
+  put(side: Side | 'load', values: number[]): void {
+    this.sides[side].put(values);
+  }
+
+  /** The side that is not asked is the answer. */
+  mark(asked: Side): void {
+    this.sides.inputs.answered(asked === 'pose');
+    this.sides.pose.answered(asked === 'inputs');
+  }
+
+  showBending(described: Described, state: State, answer: Json): void {
+    this.bending.show(described.canBend ? signsOf(answer) : null, state.bending !== null);
+  }
+
+  use(system: System): void {
+    for (const side of Object.values(this.sides)) side.use(system);
+  }
+
+  private zero(): void {
+    this.wishes.change({load: [0, 0, 0, 0, 0, 0].slice(0, this.sides.load.count)});
+  }
+}

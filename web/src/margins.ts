@@ -1,0 +1,50 @@
+// What takes longer to say than where the robot is: asked when nothing moves.
+import type {Json, Robot} from './client';
+import {bearsLoad, type Described} from './described';
+import {forward, given, inverse, plain} from './questions';
+import type {State} from './state';
+
+/** How far the platform can go the way an input moves it before it meets a type II singularity. */
+async function typeTwo(robot: Robot, described: Described, state: State, answer: Json, index: number): Promise<Json | null> {
+  const U: number[][] | undefined = answer.velocity?.U, along = U?.map((row) => row[index]!), row = described.inputs[index]!;
+  if (!along || along.every((part) => Math.abs(part) < 1e-12)) return null;
+  const ways = await robot.ask([1, -1].map((way) => ({query: 'velocity', ...given(described, state, plain(answer.pose)), along: along.map((part) => way * part)})));
+  const found = ways.map((one) => one.type_2_distance).filter((one) => one?.found).map((one) => one.distance as number);
+  return found.length > 0 ? {name: row.name, unit: row.unit, distance: Math.min(...found)} : null;
+}
+
+/** How many times the load can be added before the robot gives way. */
+async function reach(robot: Robot, described: Described, state: State, answer: Json): Promise<Json | null> {
+  const limit = 10, [found] = await robot.ask([{...forward(described, state, plain(answer.pose)), until: {wrench: state.load, limit}}]) as [Json];
+  return found.load === undefined ? null : {load: found.load, why: found.why, limit};
+}
+
+/** @param input the one last touched */
+export async function margins(robot: Robot, described: Described, state: State, answer: Json, input: number): Promise<Json> {
+  const found: Json = {};
+  if (described.isSerial || !answer.pose) return found;
+  if (bearsLoad(state.model)) {
+    const far = state.load.some((part) => part !== 0) && answer.status === 'converged' ? await reach(robot, described, state, answer) : null;
+    return far ? {reach: far} : found;
+  }
+  const two = await typeTwo(robot, described, state, answer, input);
+  return two ? {typeTwo: two} : found;
+}
+
+const numbersOf = (pose: Json): number[] => (pose.position ? [...pose.position, ...pose.quaternion] : [pose.x, pose.y, pose.phi]);
+const isSame = (a: number[], b: number[]) => a.every((value, i) => Math.abs(value - b[i]!) < 1e-7);
+
+/**
+ * Where the command has to start its search so that it ends where the page is; null where it does so from home.
+ * @param answer of `forward`
+ */
+export async function startOf(robot: Robot, described: Described, state: State, answer: Json): Promise<number[] | null> {
+  if (state.asked === 'inputs') {
+    if (described.isSerial || !answer.pose) return null;
+    const [plainly] = await robot.ask([forward(described, state)]) as [Json], here = numbersOf(answer.pose);
+    return plainly.pose && isSame(numbersOf(plainly.pose), here) ? null : here;
+  }
+  const {start: _, ...query} = inverse(described, state), [plainly] = await robot.ask([query]) as [Json];
+  const inputs: number[] | undefined = described.isSerial ? plainly.configuration?.flat() : plainly.inputs;
+  return inputs && isSame(inputs, state.inputs) ? null : state.inputs;
+}

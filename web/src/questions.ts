@@ -1,0 +1,103 @@
+// Queries of a state, and what their answers say of it. The one place that knows how each kind of robot is asked.
+import type {Json} from './client';
+import {bearsLoad, type Described, indexOf} from './described';
+import type {Side, State} from './state';
+
+const isLoaded = (state: State) => state.load.some((part) => part !== 0);
+
+/** What all queries of a state have in common. */
+function common(described: Described, state: State): Json {
+  const {answer} = described, query: Json = {};
+  if (state.model !== answer.model) query.model = state.model;
+  if (state.model === 'prb' && state.joints > 0)
+    query.set = Object.fromEntries(answer.legs.map((_: Json, i: number) => [`legs[${i}].link.joints`, state.joints]));
+  if (bearsLoad(state.model) && isLoaded(state)) query.wrench = state.load;
+  if (described.hasGravity && !state.gravity) query.gravity = [0, 0, 0];
+  if (state.iterations > 0) query.max_iterations = state.iterations;
+  return query;
+}
+
+/** The numbers of a serial robot's rows, a list a section. */
+export function bySection(described: Described, values: number[]): number[][] {
+  const sections: number[][] = [];
+  described.inputs.forEach((row, i) => (sections[indexOf(row.path)] ??= []).push(values[i]!));
+  return sections;
+}
+
+/** Inputs, and where a search for the pose begins: a pose, `last`, or at home. */
+export function given(described: Described, state: State, start?: Json | string): Json {
+  if (described.isSerial) return {configuration: bySection(described, state.inputs), ...common(described, state)};
+  return {inputs: state.inputs, ...(start && {start}), ...common(described, state)};
+}
+
+const withTilt = (described: Described) => (described.isPlanar ? {} : {tilt: true});
+
+/** The pose of the inputs; of rods also whether it holds and by how much. */
+export function forward(described: Described, state: State, start?: Json | string): Json {
+  const wants = state.model === 'rod' ? {want: ['stability', 'margins']} : {};
+  return {query: 'forward', ...given(described, state, start), ...withTilt(described), ...wants};
+}
+
+export function shape(described: Described, state: State, start?: Json | string): Json {
+  const {max_iterations: _, ...at} = given(described, state, start);
+  return {query: 'shape', ...at, ...(state.samples > 0 && {samples: state.samples})};
+}
+
+/** Velocity equations tell how near a singularity is. Of rods `margins` do; chains at a load have none. */
+export const hasVelocity = (state: State) => !bearsLoad(state.model);
+
+export function velocity(described: Described, state: State, start?: Json | string): Json {
+  return {query: 'velocity', ...given(described, state, start), ...withTilt(described)};
+}
+
+function poseField(described: Described, values: number[]): Json {
+  const byName = Object.fromEntries(described.pose.map((row, i) => [row.path, values[i]!]));
+  if (described.isSerial) return {position: values};
+  if (described.isPlanar) return {pose: byName};
+  if (described.isHeldByFew) return {independent: byName};
+  const {tilt, azimuth, torsion} = byName;
+  return {pose: {position: values.slice(0, 3), tilt, azimuth, torsion}};
+}
+
+/** The inputs of the pose. Of several solutions that of `bending`, else the one nearest to the inputs so far. */
+export function inverse(described: Described, state: State): Json {
+  const query: Json = {query: 'inverse', ...poseField(described, state.pose), ...common(described, state)};
+  if (described.isSerial) return {...query, start: bySection(described, state.inputs)};
+  if (bearsLoad(state.model)) return state.bending && described.canBend ? {...query, bending: state.bending} : query;
+  return state.bending && described.canBend ? {...query, bending: state.bending} : {...query, start: state.inputs};
+}
+
+/** Where an answer has the platform, or the tip, in the words of the pose's rows; null where it says nothing of it. */
+export function poseOf(described: Described, answer: Json): number[] | null {
+  const pose = answer.pose ?? answer.tip;
+  if (!pose) return null;
+  if (described.isPlanar) return [pose.x, pose.y, pose.phi];
+  if (described.isHeldByFew) return [pose.position[2], pose.quaternion[1], pose.quaternion[2]];
+  return described.isSerial ? pose.position : [...pose.position, pose.tilt ?? 0, pose.azimuth ?? 0, pose.torsion ?? 0];
+}
+
+/** The inputs in an answer to `inverse`; null where it has none. */
+export function inputsOf(described: Described, answer: Json): number[] | null {
+  const values = described.isSerial ? answer.configuration?.flat() : answer.inputs;
+  return values?.length === described.inputs.length ? values : null;
+}
+
+/** Of each leg the side to which it bends. */
+export const signsOf = (answer: Json): number[] | null =>
+  answer.legs?.every((leg: Json) => typeof leg.curvature === 'number') ? answer.legs.map((leg: Json) => (leg.curvature < 0 ? -1 : 1)) : null;
+
+/** A state with one number of it changed, as a slider does. */
+export function changed(state: State, side: Side | 'load', index: number, value: number): State {
+  const values = [...state[side]];
+  values[index] = value;
+  return {...state, ...(side !== 'load' && {asked: side}), [side]: values};
+}
+
+/** An answer that may be drawn and walked on from. `unstable` and `slack` are solved too, and their words say what is wrong. */
+export const isSolved = (answer: Json) => !answer.error && ['converged', 'unstable', 'slack'].includes(answer.status);
+
+/** A pose as a question takes it: its orientation once. */
+export function plain(pose: Json): Json {
+  const {tilt: _t, azimuth: _a, torsion: _s, ...rest} = pose;
+  return rest;
+}

@@ -1,0 +1,53 @@
+// No robot yet: those that ship, as pictures with names. One click opens.
+import {Robot, robotText, type Shipped} from './client';
+import {describe, type Described} from './described';
+import {make} from './make';
+import {shape} from './questions';
+import {sketch} from './sketch';
+import {type State, stateOf} from './state';
+
+/** At home; a straight arm shows nothing of itself, so it is bent half-way. */
+function posed(described: Described): State {
+  const state = stateOf(described);
+  if (!described.isSerial) return state;
+  return {...state, inputs: described.inputs.map((row, i) => (row.isLimited && i % 2 === 0 ? (row.home + row.high) / 2 : row.home))};
+}
+
+export class Start {
+  private isFilled = false;
+
+  constructor(private readonly box: HTMLElement, private readonly open: (name: string) => void) {}
+
+  show(shipped: Shipped[]): void {
+    this.box.hidden = false;
+    if (this.isFilled) return;
+    this.isFilled = true;
+    const list = make('div', {className: 'robots'}), cards = shipped.map((one) => this.card(one));
+    list.append(...cards);
+    this.box.replaceChildren(make('h1', {textContent: 'Robots that bend'}), make('p', {textContent: 'Choose one, or drop a robot file anywhere on the page.'}), list);
+    void this.draw(shipped, cards);
+  }
+
+  hide(): void {
+    this.box.hidden = true;
+  }
+
+  private card({name, title, kind, space}: Shipped): HTMLElement {
+    const card = make('button', {type: 'button', className: 'robot'}, make('span', {className: 'picture'}),
+                      make('strong', {textContent: title}), make('span', {className: 'kind', textContent: `${kind}, ${space === 'planar' ? 'in the plane' : 'in space'}`}));
+    card.addEventListener('click', () => this.open(name));
+    return card;
+  }
+
+  /** One after the other: the first are seen before the last are there. */
+  private async draw(shipped: Shipped[], cards: HTMLElement[]): Promise<void> {
+    for (const [i, {name}] of shipped.entries()) {
+      if (this.box.hidden) {
+        this.isFilled = false;  // a page that comes back goes on
+        return;
+      }
+      const robot = await Robot.open(await robotText(name)), described = await describe(robot), [picture] = await robot.ask([shape(described, posed(described))]);
+      if (picture?.backbones) cards[i]!.firstElementChild!.append(sketch(picture, described.isPlanar, {width: 168, height: 112}));
+    }
+  }
+}

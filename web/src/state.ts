@@ -1,0 +1,102 @@
+// What the page asks: all that a link holds and that undo brings back.
+import type {Described, Row} from './described';
+
+export type Side = 'inputs' | 'pose';  ///< which of them is given; the other one is the answer
+
+export interface State {
+  asked: Side;
+  inputs: number[];
+  pose: number[];
+  load: number[];
+  bending: number[] | null;  ///< of each leg at the pose: 1 or -1; null: as near to the last as can be
+  gravity: boolean;
+  model: string;
+  joints: number;      ///< of each pseudo-rigid chain; 0: as the file says
+  samples: number;     ///< points of each curve; 0: as many as is usual
+  iterations: number;  ///< at most; 0: as many as is usual
+}
+
+const homes = (rows: Row[]) => rows.map((row) => row.home);
+
+export function stateOf(described: Described): State {
+  return {
+    asked: 'inputs', inputs: homes(described.inputs), pose: homes(described.pose), load: homes(described.load), bending: null,
+    gravity: true, model: described.answer.model, joints: 0, samples: 0, iterations: 0,
+  };
+}
+
+const numbers = (text: string | null) => text?.split(',').map(Number);
+
+/** The state of a link, of which what does not fit the robot is left out. */
+export function fromLink(link: URLSearchParams, described: Described): State {
+  const state = stateOf(described);
+  const take = (key: 'inputs' | 'pose' | 'load') => {
+    const values = numbers(link.get(key));
+    if (values?.length === state[key].length && values.every(Number.isFinite)) state[key] = values;
+  };
+  take('inputs');
+  take('pose');
+  take('load');
+  if (link.get('asked') === 'pose') state.asked = 'pose';
+  if (described.models.includes(link.get('model') ?? '')) state.model = link.get('model')!;
+  const bending = numbers(link.get('bending'));
+  if (bending?.length === described.answer.legs?.length && bending?.every((sign) => Math.abs(sign) === 1)) state.bending = bending;
+  state.gravity = link.get('gravity') !== 'off';
+  for (const key of ['joints', 'samples', 'iterations'] as const) state[key] = Math.max(0, Math.floor(Number(link.get(key)) || 0));
+  return state;
+}
+
+/** What of the state is not as it is at home. Inputs are there always: the link of a picture is to show it for ever. */
+export function toLink(robot: string, state: State, described: Described): URLSearchParams {
+  const link = new URLSearchParams({robot});
+  link.set('inputs', state.inputs.join(','));
+  if (state.asked === 'pose') {
+    link.set('asked', 'pose');
+    link.set('pose', state.pose.join(','));
+  }
+  if (state.load.some((part) => part !== 0)) link.set('load', state.load.join(','));
+  if (state.bending) link.set('bending', state.bending.join(','));
+  if (!state.gravity) link.set('gravity', 'off');
+  if (state.model !== described.answer.model) link.set('model', state.model);
+  for (const key of ['joints', 'samples', 'iterations'] as const) if (state[key] > 0) link.set(key, String(state[key]));
+  return link;
+}
+
+/** States that undo goes back to. Changes that follow each other without a pause are one. */
+export class History {
+  private before: State[] = [];
+  private after: State[] = [];
+  private last = -Infinity;
+
+  constructor(private readonly pause = 700) {}
+
+  clear(): void {
+    this.before = [];
+    this.after = [];
+  }
+
+  /** Call before a change. */
+  keep(state: State): void {
+    const now = performance.now();
+    if (now - this.last > this.pause) this.before.push(structuredClone(state));
+    this.last = now;
+    this.after = [];
+    if (this.before.length > 200) this.before.shift();
+  }
+
+  undo(state: State): State | null {
+    return this.step(this.before, this.after, state);
+  }
+
+  redo(state: State): State | null {
+    return this.step(this.after, this.before, state);
+  }
+
+  private step(from: State[], to: State[], state: State): State | null {
+    const found = from.pop();
+    if (!found) return null;
+    to.push(structuredClone(state));
+    this.last = -Infinity;
+    return found;
+  }
+}

@@ -1,0 +1,267 @@
+// How far one can still go: quantities over the range of the slider last touched, walked outwards from where it is.
+import uPlot from 'uplot';
+import 'uplot/dist/uPlot.min.css';
+import type {Json, Robot} from './client';
+import {coordinates} from './answer';
+import {type Described, type Row, subscript} from './described';
+import {make} from './make';
+import {changed, forward, hasVelocity, inputsOf, inverse, isSolved, plain, velocity} from './questions';
+import type {Side, State} from './state';
+import {shownValue, type System, type Unit, unitName} from './units';
+import {verdictOf} from './verdict';
+
+export interface Touched { side: Side | 'load'; index: number }
+interface Sample { at: number; answer: Json }
+
+const steps = 40;  // to each side
+const chunk = 8;   // samples of a request: between two of them a newer question may come in
+
+/** A quantity of an answer: its name and how to find it. */
+interface Quantity { name: string; unit: Unit; of: (answer: Json) => number | undefined }
+
+/** Whether the inputs are what is answered. */
+const isInverse = (state: State, side: Side | 'load') => side === 'pose' || (side === 'load' && state.asked === 'pose');
+
+function quantitiesOf(described: Described, state: State, touched: Touched): Quantity[] {
+  const list: Quantity[] = [];
+  if (isInverse(state, touched.side)) {
+    described.inputs.forEach((row, i) => list.push({name: row.name, unit: row.unit, of: (answer) => inputsOf(described, answer)?.[i]}));
+  } else {
+    const names = described.isPlanar ? ['x', 'y', 'φ'] : ['tilt', 'x', 'y', 'z', 'azimuth', 'torsion'];
+    for (const name of names) {
+      const find = (answer: Json) => coordinates(answer.pose ?? answer.tip ?? {}).find(([of]) => of === name);
+      list.push({name, unit: name.length === 1 && name !== 'φ' ? 'm' : 'rad', of: (answer) => find(answer)?.[1]});
+    }
+  }
+  if (!isInverse(state, touched.side) && hasVelocity(state)) list.push({name: 'conditioning', unit: '', of: (answer) => answer.indices?.condition_homogenised ?? answer.indices?.condition});
+  if (state.model === 'rod') {
+    list.push({name: 'fold margin', unit: '', of: (answer) => answer.margins?.fold}, {name: 'strain', unit: '', of: (answer) => answer.margins?.strain},
+              {name: 'energy', unit: 'J', of: (answer) => answer.energy});
+  }
+  if (state.model === 'prb') described.answer.legs.forEach((_: Json, i: number) =>
+    list.push({name: `T${subscript(i + 1)}`, unit: 'N', of: (answer) => answer.legs?.[i]?.tensions && Math.max(...answer.legs[i].tensions)}));
+  return list;
+}
+
+function question(described: Described, state: State, side: Side | 'load', start: Json | string | undefined): Json {
+  if (isInverse(state, side)) return {...inverse(described, state), ...(!described.isPlanar && !described.isSerial && {tilt: true})};
+  return hasVelocity(state) ? velocity(described, state, start) : forward(described, state, start);
+}
+
+export class Strip {
+  private plot: uPlot | null = null;
+  private readonly title = make('h2');
+  private readonly choices = make('div', {className: 'choices'});
+  private readonly box = make('div', {className: 'plot'});
+  private readonly text = make('p', {className: 'sr'});
+  private chosen = new Map<string, string[]>();  // by the kind of robot and side, so that a choice stays
+  private samples: Sample[] = [];
+  private context: {described: Described; state: State; touched: Touched; row: Row} | null = null;
+  private system: System = 'mm';
+  private run = 0;
+
+  constructor(section: HTMLElement, private readonly goTo: (value: number) => void) {
+    section.append(make('div', {className: 'head'}, this.title, this.choices), this.box, this.text);
+    this.text.setAttribute('role', 'status');
+    new ResizeObserver(() => this.draw()).observe(this.box);
+  }
+
+  /** What was asked before counts no more. */
+  cancel(): void {
+    ++this.run;
+  }
+
+  clear(): void {
+    this.cancel();
+    this.samples = [];
+    this.context = null;
+    this.draw();
+  }
+
+  /** Samples both ways from the present value, each beginning where the one before it ended. */
+  async ask(robot: Robot, described: Described, state: State, touched: Touched, pose: Json | null): Promise<void> {
+    const run = ++this.run, row = described[touched.side][touched.index]!, here = state[touched.side][touched.index]!;
+    this.context = {described, state, touched, row};
+    const found: Sample[] = [];
+    for (const end of [row.high, row.low]) {
+      const width = (row.high - row.low) / (2 * steps), count = Math.max(0, Math.ceil(Math.abs(end - here) / width - 1e-9));
+      let isGoing = Math.sign(end - here) === (end === row.high ? 1 : -1);
+      for (let first = 0; isGoing && first <= count; first += chunk) {
+        const values = Array.from({length: Math.min(chunk, count + 1 - first)}, (_, k) => (first + k === count ? end : here + Math.sign(end - here) * width * (first + k)));
+        const start = (k: number) => (first + k === 0 ? pose ?? undefined : k === 0 ? found.at(-1)?.answer.pose && plain(found.at(-1)!.answer.pose) : 'last');
+        const answers = await robot.ask(values.map((value, k) => question(described, changed(state, touched.side, touched.index, value), touched.side, described.isSerial ? undefined : start(k))));
+        if (run !== this.run) return;
+        values.forEach((at, k) => {
+          if (!isGoing) return;
+          found.push({at, answer: answers[k]!});
+          isGoing = isSolved(answers[k]!);  // beyond it nothing was followed
+        });
+      }
+      if (end === row.high) this.samples = [...found];
+    }
+    this.samples = found.sort((a, b) => a.at - b.at);
+    this.draw();
+    this.tell();
+  }
+
+  use(system: System): void {
+    this.system = system;
+    this.draw();
+  }
+
+  /** How far the number can go to each side until something ends it: what, and the last value that is solved. */
+  room(): {word: string; to: number}[] {
+    const {row} = this.context!;
+    return this.endsOf().filter(({from, to}) => from === row.low || to === row.high).map(({from, to, word}) => ({word, to: from === row.low ? to : from}));
+  }
+
+  /** The value nearest to one that has no solution. */
+  nearest(value: number): number | null {
+    const solved = this.samples.filter(({answer}) => isSolved(answer)).map(({at}) => at);
+    if (solved.length === 0) return null;
+    return solved.reduce((best, at) => (Math.abs(at - value) < Math.abs(best - value) ? at : best));
+  }
+
+  private key(): string {
+    const {described, touched, state} = this.context!;
+    return `${described.answer.kind} ${described.answer.space} ${state.model} ${isInverse(state, touched.side)}`;
+  }
+
+  private shownQuantities(): {all: Quantity[]; shown: Quantity[]} {
+    const {described, state, touched} = this.context!, all = quantitiesOf(described, state, touched);
+    const names = this.chosen.get(this.key()) ?? [all[0]!.name, (all.find(({name}) => name === 'conditioning' || name === 'fold margin') ?? all[1] ?? all[0]!).name];
+    return {all, shown: all.filter(({name}) => names.includes(name)).slice(0, 2)};
+  }
+
+  private choose(name: string, shown: Quantity[]): void {
+    const names = shown.map((one) => one.name);
+    this.chosen.set(this.key(), names.includes(name) ? (names.length > 1 ? names.filter((one) => one !== name) : names) : [...names, name].slice(-2));
+    this.draw();
+  }
+
+  private draw(): void {
+    this.plot?.destroy();
+    this.plot = null;
+    this.choices.replaceChildren();
+    const {context} = this, width = this.box.clientWidth, height = this.box.clientHeight;
+    this.title.textContent = context ? `Response to ${context.row.name}` : 'Response';
+    if (!context || this.samples.length === 0 || width < 50 || height < 30) return;
+    const {all, shown} = this.shownQuantities();
+    this.choices.replaceChildren(...all.map(({name}) => {
+      const at = shown.findIndex((one) => one.name === name), choice = make('button', {type: 'button', className: `choice line-${at + 1}`, textContent: name});
+      choice.setAttribute('aria-pressed', String(at >= 0));
+      choice.addEventListener('click', () => this.choose(name, shown));
+      return choice;
+    }));
+    this.plot = new uPlot(this.options(shown, width, height), this.data(shown), this.box);
+    this.box.dataset.samples = String(this.samples.length);
+  }
+
+  private data(shown: Quantity[]): uPlot.AlignedData {
+    const {row} = this.context!, x = this.samples.map(({at}) => shownValue(at, row.unit, this.system));
+    return [x, ...shown.map(({of, unit}) => this.samples.map(({answer}) => {
+      const value = isSolved(answer) ? of(answer) : undefined;
+      return value === undefined ? null : shownValue(value, unit, this.system);
+    }))] as uPlot.AlignedData;
+  }
+
+  private options(shown: Quantity[], width: number, height: number): uPlot.Options {
+    const {row} = this.context!, style = getComputedStyle(document.documentElement), token = (name: string) => style.getPropertyValue(`--${name}`).trim();
+    const colours = [token('tendon-1'), token('tendon-2')], grid = {stroke: token('line'), width: 1}, font = '11px system-ui, sans-serif';
+    const axis = (k: number): uPlot.Axis => ({
+      scale: `y${k}`, side: k === 0 ? 3 : 1, stroke: colours[k]!, font, size: 56, grid: k === 0 ? grid : {show: false}, ticks: grid,
+      values: (_, marks) => marks.map((mark) => String(Number(mark.toPrecision(6)))),
+    });
+    const unit = (of: Unit) => (unitName(of, this.system) ? ` [${unitName(of, this.system)}]` : '');
+    return {
+      width, height, padding: [8, 8, 0, 8], legend: {show: false},
+      cursor: {drag: {x: false, y: false}, points: {size: 6}},
+      scales: {x: {time: false, range: [shownValue(row.low, row.unit, this.system), shownValue(row.high, row.unit, this.system)]}},
+      axes: [{stroke: token('mute'), font, grid: {show: false}, ticks: grid, size: 24, values: (_, marks) => marks.map((mark, i) => `${Number(mark.toPrecision(6))}${i === marks.length - 1 ? ` ${unitName(row.unit, this.system)}` : ''}`)},
+             ...shown.map((_, k) => axis(k))],
+      series: [{}, ...shown.map(({name, unit: of}, k) => ({label: name + unit(of), scale: `y${k}`, stroke: colours[k]!, width: 2, ...(k === 1 && {dash: [8, 4]}), points: {show: false}, spanGaps: false}))],
+      hooks: {
+        drawClear: [(plot) => this.bands(plot, token)], draw: [(plot) => this.present(plot, token)],
+        ready: [(plot) => plot.over.addEventListener('click', (event) => this.goTo(this.valueAt(plot, event)))],
+      },
+    };
+  }
+
+  private valueAt(plot: uPlot, event: MouseEvent): number {
+    const {row} = this.context!, left = event.clientX - plot.over.getBoundingClientRect().left;
+    return plot.posToVal(left, 'x') / shownValue(1, row.unit, this.system);
+  }
+
+  private endsOf(): {from: number; to: number; word: string; isOver: boolean}[] {
+    const {row} = this.context!, solved = this.samples.filter(({answer}) => isSolved(answer)), bands: {from: number; to: number; word: string; isOver: boolean}[] = [];
+    const first = this.samples[0], last = this.samples.at(-1);
+    const add = (sample: Sample | undefined, from: number, to: number) => {
+      if (!sample || isSolved(sample.answer)) return;
+      const {word, state} = verdictOf(sample.answer);
+      bands.push({from, to, word, isOver: state !== 'slack'});
+    };
+    if (solved.length === 0) {
+      add(first, row.low, row.high);
+      return bands;
+    }
+    add(first, row.low, solved[0]!.at);
+    add(last, solved.at(-1)!.at, row.high);
+    for (let i = 0; i < this.samples.length; ++i) {  // solved, but not as one would have it
+      const {answer} = this.samples[i]!;
+      if (answer.status !== 'unstable' && answer.status !== 'slack') continue;
+      let end = i;
+      while (this.samples[end + 1]?.answer.status === answer.status) ++end;
+      bands.push({from: this.samples[i]!.at, to: this.samples[end]!.at, word: answer.status === 'slack' ? 'SLACK' : 'UNSTABLE', isOver: false});
+      i = end;
+    }
+    return bands;
+  }
+
+  private bands(plot: uPlot, token: (name: string) => string): void {
+    const {row} = this.context!, {ctx} = plot, {top, height} = plot.bbox, ratio = devicePixelRatio;
+    const x = (value: number) => plot.valToPos(shownValue(value, row.unit, this.system), 'x', true);
+    ctx.save();
+    for (const {from, to, word, isOver} of this.endsOf()) {
+      const left = x(from), right = x(to), colour = token(isOver ? 'over' : 'slack');
+      ctx.globalAlpha = 0.14;
+      ctx.fillStyle = colour;
+      ctx.fillRect(left, top, right - left, height);
+      ctx.globalAlpha = 1;
+      ctx.strokeStyle = ctx.fillStyle;
+      ctx.setLineDash([6 * ratio, 3 * ratio]);
+      ctx.lineWidth = 1.5 * ratio;
+      for (const edge of [left, right]) if (edge > plot.bbox.left + 1 && edge < plot.bbox.left + plot.bbox.width - 1) {
+        ctx.beginPath();
+        ctx.moveTo(edge, top);
+        ctx.lineTo(edge, top + height);
+        ctx.stroke();
+      }
+      ctx.font = `bold ${11 * ratio}px system-ui, sans-serif`;
+      ctx.textBaseline = 'top';
+      const room = ctx.measureText(word).width, isLeft = (left + right) / 2 < plot.bbox.left + plot.bbox.width / 2;
+      const at = room < right - left - 8 * ratio ? (left + right - room) / 2 : isLeft ? right + 4 * ratio : left - room - 4 * ratio;
+      ctx.fillText(word, at, top + 4 * ratio);
+    }
+    ctx.restore();
+  }
+
+  private present(plot: uPlot, token: (name: string) => string): void {
+    const {row, state, touched} = this.context!, {ctx} = plot, {top, height} = plot.bbox;
+    const x = plot.valToPos(shownValue(state[touched.side][touched.index]!, row.unit, this.system), 'x', true);
+    ctx.save();
+    ctx.setLineDash([]);
+    ctx.strokeStyle = token('text');
+    ctx.lineWidth = 2 * devicePixelRatio;
+    ctx.beginPath();
+    ctx.moveTo(x, top);
+    ctx.lineTo(x, top + height);
+    ctx.stroke();
+    ctx.restore();
+  }
+
+  /** The same for who does not see it. */
+  private tell(): void {
+    const {row} = this.context!, name = (value: number) => `${shownValue(value, row.unit, this.system).toPrecision(5)} ${unitName(row.unit, this.system)}`;
+    this.text.textContent = this.endsOf().map(({from, to, word}) => `${word} from ${name(from)} to ${name(to)}`).join('; ') || `solved over the whole range of ${row.name}`;
+  }
+}

@@ -1,0 +1,107 @@
+// What goes wrong, and what is seen then (the table of errors).
+import assert from 'node:assert/strict';
+import {copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {answers, blank, differs, launch, numbers, open, picture, rested, serve, settled, shot, tab, then, verdict} from './harness.mjs';
+
+/** A server that goes away and comes back, with none of its robots. */
+export async function connection(browser) {
+  const first = await serve(), {page, done} = await open(browser, first.url, '3-rfr');
+  const gone = new Promise((ended) => first.server.once('exit', ended));
+  first.server.kill('SIGINT');
+  await gone;
+  await page.locator('#inputs input[type=range]').first().press('ArrowRight');
+  await page.locator('#status', {hasText: /NO CONNECTION \d+ s/}).waitFor();
+  assert.ok(await page.evaluate(() => document.body.classList.contains('lost')));
+  await shot(page, 'no-connection');
+  const count = await answers(page), second = await serve('--port', new URL(first.url).port);
+  await settled(page, count);
+  assert.match(await verdict(page), /SOLVED/);
+  assert.match(await page.locator('#status').innerText(), /converged/);
+  second.server.kill('SIGINT');
+  await done(/ERR_|404/);
+}
+
+/** An answer that takes long: a ring, then words and a way out; sliders stay live, only the newest question is kept. */
+export async function slow(browser, url) {
+  const {page, done} = await open(browser, url, '3-rfr'), asked = [];
+  await page.route('**/api/query*', async (route) => {
+    asked.push(route.request().postData());
+    await new Promise((wait) => setTimeout(wait, 1600));
+    await route.continue().catch(() => undefined);
+  });
+  const slider = page.locator('#inputs input[type=range]').first(), count = await answers(page);
+  for (let i = 0; i < 5; ++i) await slider.press('ArrowRight');
+  await page.locator('#verdict.waiting').waitFor();
+  await page.locator('#verdict', {hasText: 'solving…'}).waitFor();
+  await shot(page, 'slow');
+  await settled(page, count);
+  await settled(page, count + 1);
+  assert.equal(asked.filter((text) => /"forward"/.test(text)).length, 2, 'of five questions the first and the newest are asked');
+  await slider.press('ArrowRight');
+  await page.locator('#verdict').getByRole('button', {name: 'Cancel'}).click();
+  assert.equal(await page.locator('#status').innerText(), 'cancelled');
+  await page.unroute('**/api/query*');
+  await then(page, () => slider.press('ArrowRight'));
+  await done();
+}
+
+/** Bad numbers go to the place where they are; a bad link to the start. */
+export async function links_that_lead_nowhere(browser, url) {
+  const {page, done} = await blank(browser);
+  await page.goto(`${url}#robot=nobody`);
+  await page.locator('.robot').first().waitFor();
+  assert.match(await page.locator('#status').innerText(), /nobody: open its file/);
+  await then(page, () => page.goto(`${url}#robot=3-rfr&inputs=1,2&load=x&model=y&camera=zzz&layers=q&bending=7`));
+  assert.match(await verdict(page), /SOLVED/);
+  await done();
+}
+
+/** A program of another protocol. */
+export async function another_version(browser, url) {
+  const {page, done} = await blank(browser);
+  await page.route('**/api/version', (route) => route.fulfill({json: {sinew: '9.0.0', protocol: 2}}));
+  await page.goto(url);
+  await page.locator('#status', {hasText: 'page and program differ (protocol 1, 2): reload'}).waitFor();
+  await done();
+}
+
+/** The file of the command line changes on disk. */
+export async function disk(browser) {
+  const folder = mkdtempSync(join(tmpdir(), 'sinew-')), path = join(folder, 'mine.yaml'), robots = new URL('../../robots/', import.meta.url);
+  copyFileSync(new URL('3-frr.yaml', robots), path);
+  const {server, url} = await serve(path), {page, done} = await blank(browser);
+  await page.goto(url);
+  await settled(page, 0);
+  await rested(page);
+  assert.match(await page.locator('#command').innerText(), new RegExp(`^sinew forward ${path} `));
+  await tab(page, 'File');
+  const before = await numbers(page), text = readFileSync(path, 'utf8'), other = text.replaceAll('radius: 50 mm', 'radius: 61 mm');
+  assert.notEqual(other, text);
+  writeFileSync(path, other);
+  await page.evaluate(() => window.dispatchEvent(new Event('focus')));
+  await page.locator('#file .disk').waitFor();
+  await shot(page, 'changed-on-disk');
+  await then(page, () => page.locator('#file .disk').getByRole('button', {name: 'Reload'}).click());
+  assert.notEqual(await numbers(page), before);
+  writeFileSync(path, text);
+  await page.evaluate(() => window.dispatchEvent(new Event('focus')));
+  await page.locator('#file .disk').getByRole('button', {name: 'Keep mine'}).click();
+  await page.locator('#file .disk').waitFor({state: 'hidden'});
+  server.kill('SIGINT');
+  rmSync(folder, {recursive: true});
+  await done();
+}
+
+/** No WebGL: the same picture by simpler means, and a word about it. */
+export async function no_webgl(_, url) {
+  const browser = await launch('--disable-gpu', '--disable-software-rasterizer', '--disable-webgl'), {page, done} = await open(browser, url, '3pfs-g2');
+  assert.match(await page.locator('#view').innerText(), /no WebGL/);
+  const before = await picture(page);
+  await then(page, () => page.locator('#inputs input[type=range]').first().press('Shift+ArrowRight'));
+  differs(await picture(page), before);
+  await shot(page, 'no-webgl');
+  await done(/WebGL/i);
+  await browser.close();
+}
