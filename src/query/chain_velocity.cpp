@@ -69,41 +69,11 @@ void put_velocity(Context& context, const ChainRobot<Space>& robot, const ChainV
   answer["legs"] = std::move(list);
 }
 
-/// Angles as given, or a branch on which chains are at rest.
-template <class Space>
-class Joints {
- public:
-  Joints(Context& context, ChainRobot<Space>& robot) : branch_(read_branch(context)) {
-    const auto angles = context.query.optional("angles");
-    if (!angles) return;
-    given_ = read_angles(*angles, robot);
-    if (!branch_.is_default())
-      context.query.fail("ambiguous",
-                         "bending, curvature and elbow choose among solutions; the angles are given");
-  }
-
-  Report at(Context& context, ChainRobot<Space>& robot, const AnyPose& pose,
-            std::vector<ChainLegState>& legs) const {
-    if (given_) {
-      legs = *given_;
-      return {};
-    }
-    ChainState<Space> state;
-    const Report report = rest_at(context, robot, pose, branch_, false, state);
-    legs = std::move(state.legs);
-    return report;
-  }
-
- private:
-  Branch branch_;
-  std::optional<std::vector<ChainLegState>> given_;
-};
-
 template <class Space>
 void answer_velocity_of(Context& context, ChainRobot<Space>& robot) {
   Reader& query = context.query;
   const AnyPose pose = read_pose(context, query.required("pose", "pose of the platform"));
-  const Joints joints(context, robot);
+  const Joints joints(context, robot, read_branch(context));
   std::vector<double> twist;
   if (const auto asked = query.optional("twist"))
     twist = asked->quantities(Dimension::number, {}, static_cast<std::size_t>(Space::dof));
@@ -112,11 +82,8 @@ void answer_velocity_of(Context& context, ChainRobot<Space>& robot) {
   const Report report = joints.at(context, robot, pose, legs);
   if (!report.ok()) return context.report(report);
   const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
-  if (!(velocity.rates.closure_error <= 1e-9))
-    return query.fail("not_closed",
-                      fmt::format("pose and angles contradict each other: a leg misses by {:.3g} "
-                                  "m; leave the angles out to have them solved",
-                                  velocity.rates.closure_error));
+  refuse_open_legs(context, velocity.rates.closure_error);
+  if (!context.errors.empty()) return;
   context.answer["pose"] = to_json(pose);
   put_velocity(context, robot, velocity, legs, twist);
 }
@@ -138,7 +105,7 @@ template <class Space>
 void answer_track_of(Context& context, ChainRobot<Space>& robot) {
   Reader& query = context.query;
   const std::vector<AnyPose> poses = read_path(context);
-  const Joints joints(context, robot);
+  const Joints joints(context, robot, read_branch(context));
   ChainMotionOptions options;
   options.objective = read_objective(query);
   if (const auto steps = query.optional("rk4_steps"))

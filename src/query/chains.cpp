@@ -47,25 +47,19 @@ void aim_bases(ChainRobot<Planar>& robot, const Arcs& arcs) {
   }
 }
 
+void refuse_open_legs(Context& context, double closure_error) {
+  if (closure_error <= 1e-9) return;
+  context.query.fail("not_closed",
+                     fmt::format("pose and angles contradict each other: a leg misses by {:.3g} "
+                                 "m; leave the angles out to have them solved",
+                                 closure_error));
+}
+
 }  // namespace chains
 
 namespace {
 
 using namespace chains;
-
-template <class Space>
-using Wrench = Vec<double, Space::dof>;
-
-/// Forces, then moments.
-template <class Space>
-Wrench<Space> read_wrench(const Reader& list) {
-  Wrench<Space> wrench = Wrench<Space>::Zero();
-  const auto items = list.items(static_cast<std::size_t>(Space::dof));
-  for (std::size_t k = 0; k < items.size() && k < static_cast<std::size_t>(Space::dof); ++k)
-    wrench[static_cast<Eigen::Index>(k)] =
-        items[k].quantity(static_cast<int>(k) < Space::dimension ? Dimension::force : Dimension::moment);
-  return wrench;
-}
 
 template <class Space>
 struct Until {
@@ -201,19 +195,12 @@ void put_equilibrium(Context& context, const ChainRobot<Space>& robot, const Cha
                      Report report, const ChainState<Space>* unloaded, const Load<Space>& load,
                      ChainWork& work) {
   Json& answer = context.answer;
-  const bool is_solved = report.ok() || report.status == Status::slack;
-  double least = 0;
-  if (is_solved) {
-    least = least_curvature(robot, state);
-    if (report.ok() && !(least > 0)) {
-      report.status = Status::unstable;
-      report.message.append("the equilibrium does not hold by itself: smallest_eigenvalue is not above 0");
-    }
-  }
+  const bool is_found = is_solved(report);
+  const double least = is_found ? judge(robot, state, report) : 0;
   context.report(report);
   answer["iterations"] = report.iterations;
   put_number(answer, "residual", report.residual);
-  if (!is_solved) return;
+  if (!is_found) return;
   const AnyPose pose = Space::tidy(state.pose);
   context.remember(pose);
   answer["pose"] = to_json(pose);
@@ -249,13 +236,11 @@ template <class Space>
 void answer_held(Context& context, ChainRobot<Space>& robot, const AnyPose& start, const Branch& branch,
                  const std::vector<ChainHold>& hold, const Load<Space>& load) {
   ChainState<Space> state;
-  Report report = rest_at(context, robot, start, branch, false, state);
   ChainWork work;
-  if (report.ok()) report = equilibrium(robot, hold, Wrench<Space>::Zero().eval(), state, work, load.options);
-  if (!report.ok() && report.status != Status::slack)
-    return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
-  const ChainState<Space> unloaded = state;
-  load_and_answer(context, robot, state, unloaded, load);
+  const Report report = unloaded(context, robot, start, branch, hold, state, work, load.options);
+  if (!is_solved(report)) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
+  const ChainState<Space> before = state;
+  load_and_answer(context, robot, state, before, load);
 }
 
 /// Of a pose that is held there is no unloaded one to compare with.
@@ -320,28 +305,16 @@ bool refuse_motors(Context& context, bool has_base_motors) {
   return has_base_motors;
 }
 
-/// Tendon 1 of the arcs' lengths; where it is the outer one the inner is held, whose length is as much
-/// shorter.
 template <class Space>
 void answer_forward_of(Context& context, ChainRobot<Space>& robot) {
   const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
   const Load<Space> load = read_load<Space>(context);
-  ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
-  options.start = read_start(context);
+  const std::optional<AnyPose> start = read_start(context);
   if (refuse_motors(context, robot.has_base_motors) || !context.ready()) return;
-  const Forward arcs = forward(context.robot, inputs, options, context.work);
+  const HeldInputs held = hold_inputs(context, robot, inputs, start);
   context.remember({});  // until the chains are found
-  if (!arcs.ok()) return context.report(arcs.report);
-  Branch branch;
-  const std::vector<double> coordinates = {arcs.coordinates.begin(), arcs.coordinates.end()};
-  std::vector<ChainHold> hold;
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    branch.curvature.push_back(coordinates[i]);
-    const double rest_length = robot.legs[i].chain.length;
-    const bool is_inner = inputs[i] <= rest_length;
-    hold.push_back({is_inner ? 0 : 1, is_inner ? inputs[i] : 2 * rest_length - inputs[i], {}});
-  }
-  answer_held(context, robot, arcs.pose, branch, hold, load);
+  if (!held.report.ok()) return context.report(held.report);
+  answer_held(context, robot, held.pose, held.branch, held.hold, load);
 }
 
 template <class Space>
@@ -359,7 +332,7 @@ void answer_inverse_of(Context& context, ChainRobot<Space>& robot) {
   ChainWork work;
   if (report.ok()) report = hold_pose(robot, load.wrench, state, work, load.options);
   put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
-  if (!report.ok() && report.status != Status::slack) return;
+  if (!is_solved(report)) return;
   Json inputs = Json::array();
   for (const ChainLegState& leg : state.legs) inputs.push_back(leg.tendon_length[0]);
   context.answer["inputs"] = std::move(inputs);

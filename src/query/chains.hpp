@@ -3,12 +3,14 @@
 #pragma once
 #include "query/context.hpp"
 #include "sinew/kinematics/chain.hpp"
+#include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v0 {
 
 void answer_chains_forward(Context& context);
 void answer_chains_inverse(Context& context);
 void answer_chains_velocity(Context& context);
+void answer_chains_shape(Context& context);
 void answer_chains_track(Context& context);
 void answer_statics(Context& context);
 
@@ -28,6 +30,20 @@ struct Arcs {
   std::vector<double> curvature, base_tangent;
 };
 Arcs arcs_at(Context& context, const AnyPose& pose, const Branch& branch);
+
+template <class Space>
+using Wrench = Vec<double, Space::dof>;
+
+/// Forces, then moments.
+template <class Space>
+Wrench<Space> read_wrench(const Reader& list) {
+  Wrench<Space> wrench = Wrench<Space>::Zero();
+  const auto items = list.items(static_cast<std::size_t>(Space::dof));
+  for (std::size_t k = 0; k < items.size() && k < static_cast<std::size_t>(Space::dof); ++k)
+    wrench[static_cast<Eigen::Index>(k)] =
+        items[k].quantity(static_cast<int>(k) < Space::dimension ? Dimension::force : Dimension::moment);
+  return wrench;
+}
 
 /// First links along the tangents of the arcs, less the half of a link that they stand for.
 void aim_bases(ChainRobot<Planar>& robot, const Arcs& arcs);
@@ -74,6 +90,90 @@ Report rest_at(Context& context, ChainRobot<Space>& robot, const AnyPose& pose, 
   if (!arcs.report.ok()) return arcs.report;
   aim_bases(robot, arcs);
   return rest(robot, std::get<typename Space::Pose>(pose), arcs.curvature, holds_lengths, state);
+}
+
+/// Angles as given, or a branch on which chains are at rest.
+template <class Space>
+class Joints {
+ public:
+  Joints(Context& context, ChainRobot<Space>& robot, Branch branch) : branch_(std::move(branch)) {
+    const auto angles = context.query.optional("angles");
+    if (!angles) return;
+    given_ = read_angles(*angles, robot);
+    if (!branch_.is_default())
+      context.query.fail("ambiguous",
+                         "bending, curvature and elbow choose among solutions; the angles are given");
+  }
+
+  bool are_given() const { return given_.has_value(); }
+
+  Report at(Context& context, ChainRobot<Space>& robot, const AnyPose& pose,
+            std::vector<ChainLegState>& legs) const {
+    if (given_) {
+      legs = *given_;
+      return {};
+    }
+    ChainState<Space> state;
+    const Report report = rest_at(context, robot, pose, branch_, false, state);
+    legs = std::move(state.legs);
+    return report;
+  }
+
+ private:
+  Branch branch_;
+  std::optional<std::vector<ChainLegState>> given_;
+};
+
+/// Notes it where angles that were given do not lead to the pose.
+void refuse_open_legs(Context& context, double closure_error);
+
+/// What arcs of these inputs say of the chains: where searches begin, and which tendon lengths are held.
+struct HeldInputs {
+  Report report;
+  AnyPose pose;
+  Branch branch;
+  std::vector<ChainHold> hold;
+};
+/// Tendon 1 of the arcs' lengths; where it is the outer one the inner is held, whose length is as much
+/// shorter.
+template <class Space>
+HeldInputs hold_inputs(Context& context, const ChainRobot<Space>& robot, std::span<const double> inputs,
+                       const std::optional<AnyPose>& start) {
+  const ForwardOptions options{.start = start, .max_iterations = context.max_iterations.value_or(100)};
+  const Forward arcs = forward(context.robot, inputs, options, context.work);
+  HeldInputs held{arcs.report, arcs.pose, {}, {}};
+  if (!arcs.ok()) return held;
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    held.branch.curvature.push_back(arcs.coordinates[i]);
+    const double rest_length = robot.legs[i].chain.length;
+    const bool is_inner = inputs[i] <= rest_length;
+    held.hold.push_back({is_inner ? 0 : 1, is_inner ? inputs[i] : 2 * rest_length - inputs[i], {}});
+  }
+  return held;
+}
+
+/// What motors hold, without load, from rest at a pose.
+template <class Space>
+Report unloaded(Context& context, ChainRobot<Space>& robot, const AnyPose& start, const Branch& branch,
+                std::span<const ChainHold> hold, ChainState<Space>& state, ChainWork& work,
+                const ChainOptions& options) {
+  const Report report = rest_at(context, robot, start, branch, false, state);
+  if (!report.ok()) return report;
+  return equilibrium(robot, hold, Wrench<Space>::Zero().eval(), state, work, options);
+}
+
+/// Whether there is an equilibrium; tendons that would have to push are told of, not forbidden.
+inline bool is_solved(const Report& report) { return report.ok() || report.status == Status::slack; }
+
+/// The smallest eigenvalue of a solved equilibrium; `unstable` where it does not hold by itself.
+template <class Space>
+double judge(const ChainRobot<Space>& robot, const ChainState<Space>& state, Report& report) {
+  const double least = least_curvature(robot, state);
+  if (report.ok() && !(least > 0)) {
+    report.status = Status::unstable;
+    report.message.append("the equilibrium does not hold by itself: smallest_eigenvalue is not above 0");
+  }
+  return least;
 }
 
 }  // namespace chains

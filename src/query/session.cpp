@@ -26,7 +26,7 @@ constexpr std::array kinds{
     Kind{"forward", answer_forward, answer_serial_forward, answer_chains_forward},
     Kind{"inverse", answer_inverse, answer_serial_inverse, answer_chains_inverse},
     Kind{"velocity", answer_velocity, answer_serial_velocity, answer_chains_velocity},
-    Kind{"shape", answer_shape, answer_serial_shape, nullptr},
+    Kind{"shape", answer_shape, answer_serial_shape, answer_chains_shape},
     Kind{"describe", answer_describe, answer_serial_describe, nullptr},
     Kind{"statics", answer_statics, nullptr, answer_statics},
     Kind{"track", answer_track, nullptr, answer_chains_track},

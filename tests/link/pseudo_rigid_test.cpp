@@ -103,6 +103,19 @@ TEST(PseudoRigid, TendonsBetweenDiscsAreDistancesOfHoles) {
   }
 }
 
+TEST(PseudoRigid, TurnsOfEndsAndJointsBetweenAreTheTurn) {
+  for (const ChainBase base : bases)
+    for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs})
+      for (const int links : {2, 5}) {
+        const PseudoRigid chain{.length = 0.3, .links = links, .base = base, .model = model};
+        VectorXd angles(chain.joints());
+        for (int j = 0; j < chain.joints(); ++j) angles[j] = 0.3 - 0.25 * j;
+        const auto [first, last] = chain.end_turns(span_of(angles));
+        const double between = base == ChainBase::pinned ? angles.sum() : angles.sum() - angles[0];
+        EXPECT_NEAR(first + between + last, chain.turn(span_of(angles)), 1e-15);
+      }
+}
+
 TEST(PseudoRigid, ChordsAndTheirRatesAreTheirs) {  // @verifies TDPCR (33)
   const Json& robot = test::reference_file("data/tdpcr/poses.json")["3-RFR"];
   const PseudoRigid chain{

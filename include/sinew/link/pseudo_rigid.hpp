@@ -82,12 +82,15 @@ struct PseudoRigid {
   double spring(int joint) const {
     if (model != ChainModel::weighted) return 1;
     if (is_first(joint) && base == ChainBase::clamped) return 2;  // of half a link's length
-    return end_weight(joint);
+    return turn_weight(joint);
   }
 
   /// How much of the backbone's turn goes with a joint's: what ends bend by beyond the outermost joints is
-  /// half as much again.
-  double turn_weight(int joint) const { return model == ChainModel::weighted ? end_weight(joint) : 1; }
+  /// half as much again; the only joint of two links has both ends.
+  double turn_weight(int joint) const {
+    const double first = is_first(joint) && base == ChainBase::pinned ? free_end() : 0;
+    return 1 + first + (joint == joints() - 1 ? free_end() : 0);
+  }
 
   /// Turn of the backbone from end to end, counter-clockwise [rad].
   template <Scalar S>
@@ -95,6 +98,13 @@ struct PseudoRigid {
     S sum(0);
     for (std::size_t j = 0; j < angles.size(); ++j) sum += S(turn_weight(static_cast<int>(j))) * angles[j];
     return sum;
+  }
+
+  /// By how much of that the first link is turned from the backbone's base, and its tip from the last link.
+  template <Scalar S>
+  std::array<S, 2> end_turns(std::span<const S> angles) const {
+    const double first = base == ChainBase::clamped ? 1 : free_end();
+    return {S(first) * angles.front(), S(free_end()) * angles.back()};
   }
 
   /// Of tendon 1 where `side` is 1, of tendon 2 where it is −1: on the side of +x and of −x.
@@ -131,11 +141,8 @@ struct PseudoRigid {
 
  private:
   static bool is_first(int joint) { return joint == 0; }
-  /// A joint next to a free end stands for half a link more; the only one of two links for both ends.
-  double end_weight(int joint) const {
-    const double first = is_first(joint) && base == ChainBase::pinned ? 0.5 : 0;
-    return 1 + first + (joint == joints() - 1 ? 0.5 : 0);
-  }
+  /// What a free end bends by beyond its joint, of that joint's angle: half a link's turn.
+  double free_end() const { return model == ChainModel::weighted ? 0.5 : 0; }
 };
 
 }  // namespace sinew::inline v0

@@ -1,0 +1,93 @@
+/// Handler of shape on pseudo-rigid chains.
+#include "sinew/analysis/chain_shape.hpp"
+#include "query/chains.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+using namespace chains;
+
+/// Which chains are to be drawn.
+template <class Space>
+struct Asked {
+  Configuration at;
+  Joints<Space> joints;
+  std::optional<Wrench<Space>> wrench;
+  ChainOptions options;
+};
+
+template <class Space>
+Asked<Space> read_asked(Context& context, ChainRobot<Space>& robot) {
+  Reader& query = context.query;
+  Configuration at = read_configuration(context);
+  Joints<Space> joints(context, robot, at.branch);
+  Asked<Space> asked{std::move(at), std::move(joints), {}, {}};
+  if (const auto wrench = query.optional("wrench")) {
+    asked.wrench = read_wrench<Space>(*wrench);
+    if (asked.joints.are_given())
+      wrench->fail("no_effect", "has no effect: the angles say how the chains are bent; remove it");
+  }
+  if (context.max_iterations) asked.options.max_iterations = *context.max_iterations;
+  if (const auto samples = query.optional("samples"))
+    samples->fail("no_effect", "has no effect: a chain is drawn by its joints; remove it");
+  if (asked.joints.are_given()) query.required("pose", "that the chains of these angles lead to");
+  if (asked.at.pose && asked.at.inputs)
+    query.fail("ambiguous", "pose and inputs both say where the platform is; keep one");
+  if (asked.at.inputs && robot.has_base_motors)
+    query.fail("not_available",
+               "model prb has no inputs for legs with a motor at the base; give a pose, on a branch or with "
+               "angles");
+  return asked;
+}
+
+/// Rests under the wrench as `forward` has it from inputs, as `inverse` from a pose.
+template <class Space>
+Report rest_under(Context& context, ChainRobot<Space>& robot, const Asked<Space>& asked,
+                  ChainState<Space>& state) {
+  ChainWork work;
+  const Wrench<Space> wrench = asked.wrench.value_or(Wrench<Space>::Zero());
+  if (!asked.at.inputs) {
+    const Report report = rest_at(context, robot, *asked.at.pose, asked.at.branch, true, state);
+    return report.ok() ? hold_pose(robot, wrench, state, work, asked.options) : report;
+  }
+  const HeldInputs held = hold_inputs(context, robot, *asked.at.inputs, asked.at.start);
+  if (!held.report.ok()) return held.report;
+  const Report report =
+      unloaded(context, robot, held.pose, held.branch, held.hold, state, work, asked.options);
+  return is_solved(report) ? equilibrium(robot, held.hold, wrench, state, work, asked.options) : report;
+}
+
+template <class Space>
+void answer_shape_of(Context& context, ChainRobot<Space>& robot) {
+  const Asked<Space> asked = read_asked(context, robot);
+  if (!context.ready()) return;
+  ChainState<Space> state;
+  Report report;
+  if (asked.joints.are_given()) {
+    state.pose = std::get<typename Space::Pose>(*asked.at.pose);
+    report = asked.joints.at(context, robot, *asked.at.pose, state.legs);
+    refuse_open_legs(context, chain_rates(robot, state.pose, state.legs).closure_error);
+    if (!context.errors.empty()) return;
+  } else {
+    report = rest_under(context, robot, asked, state);
+  }
+  const bool is_found = is_solved(report);
+  if (is_found && !asked.joints.are_given()) judge(robot, state, report);
+  context.report(report);
+  context.remember({});
+  if (!is_found) return;
+  const AnyPose pose = Space::tidy(state.pose);
+  context.remember(pose);
+  context.answer["pose"] = to_json(pose);
+  put_shape(context.answer, chain_shape(robot, state.pose, state.legs));
+  context.answer["frames"] = Json::array({to_json(pose)});
+}
+
+}  // namespace
+
+void answer_chains_shape(Context& context) {
+  auto robot = read_robot(context, read_law(context));
+  if (robot) std::visit([&](auto& chains) { answer_shape_of(context, chains); }, *robot);
+}
+
+}  // namespace sinew::inline v0
