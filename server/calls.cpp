@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "queries.hpp"
 #include "sinew/base/export.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/query/session.hpp"
@@ -59,15 +59,6 @@ Json summary(std::string_view name) {
   return row;
 }
 
-std::string answer_of(Session& session, std::string_view query) {
-  try {
-    return session.answer(query);
-  } catch (const std::exception& error) {
-    return refused(500, "internal", "query", fmt::format("this query failed inside sinew: {}", error.what()))
-        .text;
-  }
-}
-
 int working(const Limits& limits) {
   return limits.working > 0 ? limits.working
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -75,15 +66,12 @@ int working(const Limits& limits) {
 
 }  // namespace
 
-Reply refused(int status, std::string_view code, std::string_view where, std::string_view message) {
-  return {status, written({{"error", json_of(code, where, message)}})};
-}
-
 Calls::Calls(const Options& options)
     : options_(options),
       robots_(options.limits.robots),
       rate_(options.limits.rate),
-      places_(working(options.limits)) {}
+      places_(working(options.limits)),
+      jobs_(options.limits.jobs, robots_, rate_) {}
 
 std::optional<Errors> Calls::read_opened() {
   if (options_.robot.empty()) return {};
@@ -126,16 +114,15 @@ Reply Calls::open_robot(const std::string& text) {
 
 std::string Calls::answers(Robot& robot, const std::vector<std::string_view>& queries, bool is_list) {
   auto session = robot.take();
-  if (!session) return refused(500, "internal", "robot", "the robot cannot be opened again").text;
+  if (!session) return error_text("internal", "robot", "the robot cannot be opened again");
   const auto end = Clock::now() + std::chrono::duration<double>(options_.limits.time);
   std::string text = is_list ? "[" : "";
   for (const std::string_view query : queries) {
     if (text.size() > 1) text += ',';
     if (text.size() > options_.limits.answers)
-      text +=
-          refused(200, "too_large", "query", "the answers before fill a reply; ask for fewer at once").text;
+      text += error_text("too_large", "query", "the answers before fill a reply; ask for fewer at once");
     else if (Clock::now() > end)
-      text += refused(200, "too_slow", "query", "the time of a request is over; ask for fewer at once").text;
+      text += error_text("too_slow", "query", "the time of a request is over; ask for fewer at once");
     else
       text += answer_of(*session, query);
   }

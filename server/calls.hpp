@@ -5,20 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "jobs/job_calls.hpp"
 #include "limiter.hpp"
+#include "reply.hpp"
 #include "robots.hpp"
 #include "server.hpp"
 
 namespace sinew::server {
-
-struct Reply {
-  int status = 200;
-  std::string text;
-  std::string_view type = "application/json";
-};
-
-/// `{"error": {"code", "where", "message"}}`, as of a query.
-Reply refused(int status, std::string_view code, std::string_view where, std::string_view message);
 
 class Calls {
  public:
@@ -29,6 +22,7 @@ class Calls {
   Reply robot_text(const std::string& name) const;
   Reply open_robot(const std::string& text);
   Reply query(std::string_view handle, std::string_view body, const std::string& address);
+  JobCalls& jobs() { return jobs_; }
 
   /// The robot of the command line: read before anything listens.
   std::optional<Errors> read_opened();
@@ -41,6 +35,7 @@ class Calls {
   Robots robots_;
   Rate rate_;
   Places places_;
+  JobCalls jobs_;
 };
 
 }  // namespace sinew::server

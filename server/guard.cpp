@@ -1,22 +1,11 @@
 #include "guard.hpp"
 
 #include <fmt/format.h>
-#include <sys/random.h>
 
-#include <array>
-#include <cstdint>
-#include <stdexcept>
+#include "secret.hpp"
 
 namespace sinew::server {
 namespace {
-
-/// 128 bits that nobody can guess.
-std::string make_token() {
-  std::array<std::uint64_t, 2> bits{};
-  if (getrandom(bits.data(), sizeof bits, 0) != static_cast<ssize_t>(sizeof bits))
-    throw std::runtime_error("the system gives no random numbers");
-  return fmt::format("{:016x}{:016x}", bits[0], bits[1]);
-}
 
 /// The value of a cookie, or nothing.
 std::string_view cookie(std::string_view cookies, std::string_view name) {
@@ -38,7 +27,7 @@ bool is_loopback(std::string_view address) {
 
 Guard::Guard(std::string_view address, int port)
     : port_(port),
-      token_(is_loopback(address) ? std::string() : make_token()) {}
+      token_(is_loopback(address) ? std::string() : make_secret()) {}
 
 bool Guard::is_own_name(std::string_view host) const {
   for (const std::string_view name : {"127.0.0.1", "localhost", "[::1]"})

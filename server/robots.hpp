@@ -19,7 +19,8 @@ class Robot {
  public:
   Robot(Document document, Session first);
 
-  /// A session for this thread until it is given back.
+  /// A session for this thread until it is given back, as when it was opened: `"start": "last"` is of the
+  /// same request or job.
   Expected<Session> take();
   void give_back(Session session);
 
@@ -28,6 +29,9 @@ class Robot {
   std::mutex mutex_;
   std::vector<Session> idle_;
 };
+
+/// An answer of the session; an exception is told in its place.
+std::string answer_of(Session& session, std::string_view query);
 
 /// For any number of threads.
 class Robots {
@@ -49,9 +53,5 @@ class Robots {
   std::mutex mutex_;
   std::list<Entry> entries_;  // the last used first
 };
-
-/// The queries of a body: itself, or the elements of the array that it is. Nothing where it is neither, or
-/// where brackets and quotes do not close; whether an element is a query is for a session to say.
-std::vector<std::string_view> queries_of(std::string_view body);
 
 }  // namespace sinew::server

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <httplib.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -40,6 +41,7 @@ void put_bytes(Response& response, Text text, std::string_view type) {
 void put(Response& response, Reply reply) {
   response.status = reply.status;
   if (reply.status == 429 || reply.status == 503) response.set_header("Retry-After", "1");
+  if (reply.text.empty()) return;  // httplib never ends a content of no length
   put_bytes(response, std::move(reply.text), reply.type);
 }
 
@@ -74,6 +76,21 @@ Reply refusal(Refusal why) {
   return {};
 }
 
+/// The path of a job itself.
+bool is_job(std::string_view path) {
+  constexpr std::string_view jobs = "/api/jobs/";
+  return path.starts_with(jobs) && path.find('/', jobs.size()) == std::string_view::npos;
+}
+
+/// A part of a stream; false ends the connection at once.
+bool send_events(Stream& stream, httplib::DataSink& sink) {
+  const std::string text = stream.next();
+  if (stream.is_broken() || !sink.is_writable()) return false;  // not even a last line: the client is gone
+  if (!text.empty() && !sink.write(text.data(), text.size())) return false;
+  if (stream.has_ended()) sink.done();
+  return true;
+}
+
 bool takes_gzip(const Request& request) {
   return request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
 }
@@ -94,7 +111,9 @@ struct Server::State {
   void route();
   void route_page();
   void get(const char* pattern, Plain call);
-  void post(const char* pattern, const char* type, Body call);
+  void post(const char* pattern, const char* type, std::size_t most, Body call);
+  void route_jobs();
+  void show_events(const Request& request, Response& response);
   void limit();
   /// Whether the request may go on; else the response says why not.
   bool lets_in(const Request& request, Response& response) const;
@@ -107,6 +126,10 @@ struct Server::State {
   Reply on_query(const Request& request, const std::string& body) {
     return calls.query(request.get_param_value("robot"), body, request.remote_addr);
   }
+  Reply on_job(const Request& request, const std::string& body) {
+    return calls.jobs().start(body, request.remote_addr);
+  }
+  Reply on_result(const Request& request) { return calls.jobs().result(request.matches[1].str()); }
   Reply on_nothing(const Request&) { return refused(404, "not_found", "path", "nothing is here"); }
 
   Options options;
@@ -133,15 +156,14 @@ void Server::State::get(const char* pattern, Plain call) {
   });
 }
 
-void Server::State::post(const char* pattern, const char* type, Body call) {
-  http.Post(pattern, [this, type, call](const Request& request, Response& response,
-                                        const httplib::ContentReader& reader) {
+void Server::State::post(const char* pattern, const char* type, std::size_t most, Body call) {
+  http.Post(pattern, [this, type, most, call](const Request& request, Response& response,
+                                              const httplib::ContentReader& reader) {
     std::string body;
-    const bool fits = read_body(reader, options.limits.body, body);
+    const bool fits = read_body(reader, most, body);
     if (!lets_in(request, response)) return;
     if (!fits)
-      return put(response, refused(413, "too_large", "body",
-                                   fmt::format("give at most {} bytes", options.limits.body)));
+      return put(response, refused(413, "too_large", "body", fmt::format("give at most {} bytes", most)));
     if (!has_type(request, type))
       return put(response, refused(415, "wrong_type", "Content-Type", fmt::format("it has to be {}", type)));
     put(response, (this->*call)(request, body));
@@ -169,12 +191,38 @@ void Server::State::route_page() {
     });
 }
 
+/// Not compressed by httplib, and nothing kept back: it knows this type.
+void Server::State::show_events(const Request& request, Response& response) {
+  if (!lets_in(request, response)) return;
+  const auto stream =
+      calls.jobs().listen(request.matches[1].str(), request.get_header_value("Last-Event-ID"));
+  if (!stream) return put(response, stream.error());
+  response.status = 200;
+  response.set_chunked_content_provider(
+      "text/event-stream",
+      [stream = *stream](std::size_t, httplib::DataSink& sink) { return send_events(*stream, sink); });
+}
+
+void Server::State::route_jobs() {
+  post("/api/jobs", "application/json", options.limits.jobs.body, &State::on_job);
+  http.Get("/api/jobs/([^/]*)/events",
+           [this](const Request& request, Response& response) { show_events(request, response); });
+  get("/api/jobs/([^/]*)/result", &State::on_result);
+  http.Delete("/api/jobs/([^/]*)",
+              [this](const Request& request, Response& response, const httplib::ContentReader& reader) {
+                std::string body;
+                read_body(reader, 0, body);
+                if (lets_in(request, response)) put(response, calls.jobs().cancel(request.matches[1].str()));
+              });
+}
+
 void Server::State::route() {
   get("/api/version", &State::on_version);
   get("/api/robots", &State::on_robots);
   get("/api/robots/([^/]*)", &State::on_robot_text);
-  post("/api/robot", "text/yaml", &State::on_robot);
-  post("/api/query", "application/json", &State::on_query);
+  post("/api/robot", "text/yaml", options.limits.body, &State::on_robot);
+  post("/api/query", "application/json", options.limits.body, &State::on_query);
+  route_jobs();
   route_page();
   get(".*", &State::on_nothing);
   http.Post(".*", [this](const Request& request, Response& response, const httplib::ContentReader& reader) {
@@ -186,11 +234,12 @@ void Server::State::route() {
 
 void Server::State::limit() {
   // Other methods never come from a page of another site without its browser asking first, so their bodies
-  // may stay unread.
+  // may stay unread. That holds for DELETE too: its browser asks by OPTIONS, which is refused here.
   http.set_pre_routing_handler([](const Request& request, Response& response) {
-    if (request.method == "GET" || request.method == "HEAD" || request.method == "POST")
+    if (request.method == "GET" || request.method == "HEAD" || request.method == "POST" ||
+        (request.method == "DELETE" && is_job(request.path)))
       return httplib::Server::HandlerResponse::Unhandled;
-    put(response, refused(405, "not_available", "method", "GET and POST are answered"));
+    put(response, refused(405, "not_available", "method", "GET and POST are answered, and DELETE of a job"));
     return httplib::Server::HandlerResponse::Handled;
   });
   http.set_exception_handler([](const Request&, Response& response, std::exception_ptr) {
@@ -203,7 +252,7 @@ void Server::State::limit() {
                             {"Cross-Origin-Opener-Policy", "same-origin"},
                             {"Referrer-Policy", "no-referrer"},
                             {"Cache-Control", "no-store"}});
-  http.set_payload_max_length(options.limits.body);
+  http.set_payload_max_length(std::max(options.limits.body, options.limits.jobs.body));
   http.set_keep_alive_max_count(100'000);
   http.set_keep_alive_timeout(2);
   http.set_read_timeout(5);
@@ -265,6 +314,7 @@ void Server::run() {
 
 void Server::stop() {
   if (state_->is_stopped.exchange(true)) return;
+  state_->calls.jobs().stop();
   using namespace std::chrono_literals;
   // Before it runs, httplib takes no notice of being stopped.
   while (state_->has_begun && !state_->has_ended && !state_->http.is_running())

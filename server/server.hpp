@@ -9,6 +9,20 @@
 
 namespace sinew::server {
 
+/// What long jobs may take.
+struct JobLimits {
+  int running = 2;                                   ///< at a time
+  std::size_t body = std::size_t{16} << 20U;         ///< [bytes] of a request for one
+  std::size_t queries = 100'000;                     ///< of a job
+  std::size_t result = std::size_t{256} << 20U;      ///< [bytes] of the answers of a job, or of its table
+  std::size_t kept = 16;                             ///< finished ones; the oldest go
+  std::size_t kept_bytes = std::size_t{256} << 20U;  ///< of them together; the newest stays in any case
+  int threads = 0;                                   ///< of a study; 0: half the cores
+  double patience = 30;                              ///< [s] that a job goes on while nobody listens
+  int streams = 16;                                  ///< listeners at a time; each takes a connection
+  double heart_beat = 3;                             ///< [s] of silence after which a listener gets a sign
+};
+
 /// What a client may ask of the server before it is told to wait or to ask less.
 struct Limits {
   std::size_t body = std::size_t{1} << 20U;      ///< [bytes]
@@ -20,6 +34,7 @@ struct Limits {
   int working = 0;                               ///< requests that compute at a time; 0: one a core
   double patience = 10;                          ///< [s] that a request waits for its turn to compute
   std::size_t robots = 64;                       ///< kept; the one longest unused goes
+  JobLimits jobs = {};
 };
 
 struct Options {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "server/queries.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::server {

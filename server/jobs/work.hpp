@@ -1,0 +1,15 @@
+/// @file work.hpp
+/// What jobs do.
+#pragma once
+#include "jobs.hpp"
+#include "server/robots.hpp"
+
+namespace sinew::server {
+
+/// A study that ships, by its name: its table.
+Work study_work(std::string name, const JobLimits& limits);
+
+/// Queries to a robot, answered in order by one session.
+Work query_work(std::shared_ptr<Robot> robot, std::vector<std::string> queries);
+
+}  // namespace sinew::server
