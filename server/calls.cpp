@@ -75,10 +75,7 @@ Calls::Calls(const Options& options)
 
 std::optional<Errors> Calls::read_opened() {
   if (options_.robot.empty()) return {};
-  auto text = read_robot_text(options_.robot);
-  if (!text) return text.error();
   if (const auto session = Session::open(options_.robot); !session) return session.error();
-  opened_text_ = std::move(*text);
   return {};
 }
 
@@ -90,8 +87,10 @@ Reply Calls::robots() const {
     for (const std::string_view name : builtin_robot_names()) rows.push_back(summary(name));
     return rows;
   }();
-  Json opened;
-  if (!opened_text_.empty()) opened = {{"name", options_.robot}, {"text", opened_text_}};
+  Json opened;  // read again each time, so that a page sees what an editor has saved
+  if (const auto text = options_.robot.empty() ? Expected<std::string>() : read_robot_text(options_.robot);
+      text && !text->empty())
+    opened = {{"name", options_.robot}, {"text", *text}};
   return {200, written({{"robots", shipped}, {"opened", opened}})};
 }
 

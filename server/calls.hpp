@@ -31,7 +31,6 @@ class Calls {
   std::string answers(Robot& robot, const std::vector<std::string_view>& queries, bool is_list);
 
   Options options_;
-  std::string opened_text_;
   Robots robots_;
   Rate rate_;
   Places places_;

@@ -7,7 +7,6 @@ const from: Record<View, [number, number, number]> = {side: [0, -1, 0.1], top: [
 const angle = 30;  // of view [deg]
 
 export class Camera {
-  isMoved = false;
   readonly controls: OrbitControls;
   private readonly parallel = new OrthographicCamera();
   private readonly lens = new PerspectiveCamera(angle);
@@ -24,7 +23,7 @@ export class Camera {
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', changed);
     this.controls.addEventListener('end', () => {
-      this.isMoved = true;
+      this.snap();
       moved();
     });
     box.addEventListener('keydown', (event) => this.key(event, moved));
@@ -38,16 +37,15 @@ export class Camera {
     return [this.parallel, this.lens];
   }
 
-  /** Of a view that was moved, or that is wanted for the first drawing. */
+  /** Two angles, the height of the picture in metres, and the target. */
   get text(): string {
     if (this.wanted) return this.wanted;
-    if (!this.isMoved) return '';
-    const {radius, phi, theta} = this.round(), {x, y, z} = this.controls.target;
-    return [phi, theta, this.isLens ? radius : this.parallel.zoom, x, y, z].map((part) => String(Number(part.toPrecision(6)))).join(',') + (this.isLens ? ',lens' : '');
+    const {phi, theta} = this.round(), {x, y, z} = this.controls.target, height = this.box.clientHeight / this.pixels;
+    return [phi, theta, height, x, y, z].map((part) => String(Number(part.toPrecision(6)))).join(',') + (this.isLens ? ',lens' : '');
   }
 
+  /** For the next time that all is fitted. */
   set text(text: string) {
-    this.isMoved = false;
     this.wanted = text.split(',').slice(0, 6).map(Number).every((part) => text !== '' && Number.isFinite(part)) && text.split(',').length >= 6 ? text : '';
   }
 
@@ -64,11 +62,11 @@ export class Camera {
     this.now.position.copy(middle).add(new Vector3(x, y, z).normalize().multiplyScalar(far));
     this.parallel.zoom = 1;
     controls.target.copy(middle);
-    this.isMoved = view !== (isPlanar ? 'top' : 'tip');
     this.resize();
     this.follow();
-    if (this.wanted) this.apply(this.wanted);
+    const wanted = this.wanted || this.text;
     this.wanted = '';
+    this.apply(wanted);
   }
 
   resize(): void {
@@ -107,8 +105,8 @@ export class Camera {
       this.parallel.zoom = (pixels * (this.parallel.top - this.parallel.bottom)) / height;
       this.parallel.updateProjectionMatrix();
     }
-    this.isMoved = true;
     this.follow();
+    this.snap();
   }
 
   /** A way on the screen in metres, at the target's depth. */
@@ -129,15 +127,14 @@ export class Camera {
   }
 
   private apply(text: string): void {
-    const [phi, theta, zoom, x, y, z] = text.split(',').map(Number) as [number, number, number, number, number, number];
+    const [phi, theta, height, x, y, z] = text.split(',').map(Number) as [number, number, number, number, number, number];
     if (text.endsWith(',lens') !== this.isLens) this.toggleProjection();
-    const away = new Vector3().setFromSpherical(new Spherical(this.isLens ? zoom : 3 * this.size, Math.min(Math.max(phi, 1e-4), Math.PI), theta));
+    const away = new Vector3().setFromSpherical(new Spherical(this.isLens ? height / (2 * Math.tan((angle * Math.PI) / 360)) : 3 * this.size, Math.min(Math.max(phi, 1e-4), Math.PI), theta));
     this.controls.target.set(x, y, z);
     this.now.up.set(0, phi > 1e-3 ? 0 : 1, phi > 1e-3 ? 1 : 0);
     this.now.position.set(x + away.z, y + away.x, z + away.y);
-    if (!this.isLens) this.parallel.zoom = zoom;
+    this.parallel.zoom = (this.parallel.top - this.parallel.bottom) / height;
     this.now.updateProjectionMatrix();
-    this.isMoved = true;
     this.follow();
   }
 
@@ -147,8 +144,8 @@ export class Camera {
     if (turn) this.isPlanar ? this.pan(...turn) : this.turn(...turn);
     else if (event.key === '+' || event.key === '-') this.zoom(event.key === '+' ? 1.1 : 1 / 1.1);
     else return;
-    this.isMoved = true;
     this.follow();
+    this.snap();
     moved();
     event.preventDefault();
   }
@@ -171,6 +168,11 @@ export class Camera {
     if (this.isLens) this.lens.position.sub(this.controls.target).divideScalar(by).add(this.controls.target);
     else this.parallel.zoom *= by;
     this.now.updateProjectionMatrix();
+  }
+
+  /** To what a link can say, so that it shows the same. */
+  private snap(): void {
+    this.apply(this.text);
   }
 
   private follow(): void {

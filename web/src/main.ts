@@ -274,7 +274,8 @@ class Page {
       state.inputs = inputs;
       start = found.pose;
     }
-    const queries = [forward(described, state, start), shape(described, state, 'last'), ...(hasVelocity(state) ? [velocity(described, state, 'last')] : [])];
+    const there = start && 'last';  // where the first of them ended
+    const queries = [forward(described, state, start), shape(described, state, there), ...(hasVelocity(state) ? [velocity(described, state, there)] : [])];
     const [answer, picture, speed] = await robot.ask(queries) as [Json, Json, Json?];
     if (robot !== this.robot) return;
     if (!isSolved(answer) || !picture.backbones) return this.unsolved(picture.error && !answer.error ? picture : answer, begin);
@@ -306,10 +307,11 @@ class Page {
   }
 
   private rest(then: (state: State) => Promise<void>): void {
+    const {count} = this;
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => this.later.put(() => this.guarded(async () => {
       await then(structuredClone(this.state));
-      document.documentElement.dataset.rests = String(this.count);  // what tests wait for
+      document.documentElement.dataset.rests = String(count);  // what tests wait for
     })), rest);
   }
 

@@ -36,7 +36,7 @@ export interface Picture {
   fit(view?: View): void;                  ///< all of it in view
   show(layer: Layer, is: boolean): void;
   toggleProjection(): void;                ///< orthographic or perspective
-  camera: string;                          ///< short text for a link; empty: as fit leaves it. Once set, the next drawing is seen so
+  camera: string;                          ///< short text for a link. Once set, the next drawing is seen so; empty: it is fitted
   notScaled: boolean;                      ///< rods are drawn thicker than they are
   save(command: string): Promise<Blob>;    ///< PNG of twice the size, the command in its metadata
 }

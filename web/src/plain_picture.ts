@@ -21,7 +21,6 @@ export class PlainPicture implements Picture {
   private azimuth = views.tip[0];
   private elevation = views.tip[1];
   private zoom = 1;
-  private isMoved = false;
   private isHeld = false;
   private scale = 1;
   private middle = [0, 0];
@@ -43,13 +42,12 @@ export class PlainPicture implements Picture {
   }
 
   get camera(): string {
-    return this.isMoved ? [this.azimuth, this.elevation, this.zoom].map((part) => part.toFixed(4)).join(',') : '';
+    return [this.azimuth, this.elevation, this.zoom].map((part) => part.toFixed(4)).join(',');
   }
 
   set camera(text: string) {
     const numbers = text.split(',').map(Number);
-    this.isMoved = text !== '' && numbers.length >= 3 && numbers.every(Number.isFinite);
-    if (this.isMoved) [this.azimuth, this.elevation, this.zoom] = numbers as [number, number, number];
+    if (text !== '' && numbers.length === 3 && numbers.every(Number.isFinite)) [this.azimuth, this.elevation, this.zoom] = numbers as [number, number, number];
   }
 
   paint(): void {
@@ -69,7 +67,6 @@ export class PlainPicture implements Picture {
   fit(view: View = 'tip'): void {
     [this.azimuth, this.elevation] = views[view];
     this.zoom = 1;
-    this.isMoved = view !== 'tip';
     this.moved();
     this.refresh();
   }
@@ -94,14 +91,12 @@ export class PlainPicture implements Picture {
     else if (event.key === '+' || event.key === '-') this.zoom *= event.key === '+' ? 1.1 : 1 / 1.1;
     else return;
     event.preventDefault();
-    this.isMoved = true;
     this.refresh();
   }
 
   private turn(azimuth: number, elevation: number): void {
     this.azimuth += azimuth;
     this.elevation = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, this.elevation + elevation));
-    this.isMoved = true;
     this.moved();
     this.refresh();
   }

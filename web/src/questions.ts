@@ -40,7 +40,7 @@ export function forward(described: Described, state: State, start?: Json | strin
 
 export function shape(described: Described, state: State, start?: Json | string): Json {
   const {max_iterations: _, ...at} = given(described, state, start);
-  return {query: 'shape', ...at, ...(state.samples > 0 && {samples: state.samples})};
+  return {query: 'shape', ...at, ...(state.samples > 0 && state.model !== 'prb' && {samples: state.samples})};
 }
 
 /** Velocity equations tell how near a singularity is. Of rods `margins` do; chains at a load have none. */

@@ -38,7 +38,6 @@ export class Scene implements Picture {
   private readonly shown = new Set<Layer>(shownAtFirst);
   private drawing: Drawing | null = null;
   private isAsked = false;
-  private size = 1;
   private drawnAt = 1;  // pixels of a metre
   private isFitted = false;
   private colours = Object.fromEntries(Object.keys(tokens).map((name) => [name, '#808080'])) as Record<keyof typeof tokens, string>;
@@ -75,7 +74,7 @@ export class Scene implements Picture {
   }
 
   get camera(): string {
-    return this.lookout.text;
+    return this.isFitted ? this.lookout.text : '';
   }
 
   set camera(text: string) {
@@ -111,9 +110,8 @@ export class Scene implements Picture {
     const add = (points: number[][]) => points.forEach((point) => box.expandByPoint(this.spare.set(point[0]!, point[1]!, point[2] ?? 0)));
     for (const points of [...shape.backbones, ...(shape.lines ?? []), shape.platform ?? [], shape.base ?? []]) add(points);
     for (const disc of shape.discs ?? []) add([disc.pose.position]);
-    this.size = Math.max(box.getSize(new Vector3()).length(), 1e-6);
     this.isFitted = true;
-    this.lookout.fit(box.getCenter(new Vector3()), this.size, isPlanar, view);
+    this.lookout.fit(box.getCenter(new Vector3()), Math.max(box.getSize(new Vector3()).length(), 1e-6), isPlanar, view);
     this.refresh();
     if (view) this.moved();
   }
@@ -216,7 +214,7 @@ export class Scene implements Picture {
   }
 
   private drawFrames(drawing: Drawing): void {
-    const {shape, isPlanar} = drawing, frames = this.layers.frames, length = 0.09 * this.size, isShown = this.shown.has('frames');
+    const {shape, isPlanar} = drawing, frames = this.layers.frames, length = this.pixels(48), isShown = this.shown.has('frames');
     const names = ['x', 'y', 'z'] as const, turn = (q: number[], v: Vector3) => v.applyQuaternion({x: q[1]!, y: q[2]!, z: q[3]!, w: q[0]!} as never);
     const one = (place: number[], axis: (k: number) => number[], isNamed: boolean) => names.slice(0, isPlanar ? 2 : 3).forEach((name, k) => {
       const along = axis(k), tip = place.map((part, i) => part + length * (along[i] ?? 0));
@@ -234,7 +232,7 @@ export class Scene implements Picture {
   private drawLines(drawing: Drawing): void {
     const {shape, meeting} = drawing, dash: [number, number] = [this.pixels(12), this.pixels(5)];
     ((shape.lines ?? []) as number[][][]).forEach((points) => {
-      const long = longer(points, this.size);
+      const long = longer(points, this.pixels(800));
       if (long) this.layers.lines.line(long, {...this.look(this.colours.line, drawing), dash});
       if (long && meeting) this.always.line(long, {...this.look(this.colours.alarm, drawing), dash});
     });
@@ -244,7 +242,7 @@ export class Scene implements Picture {
   private drawLoad(drawing: Drawing): void {
     const {shape, wrench, directions, isPlanar} = drawing, place = placeOf(shape);
     if (!place) return;
-    const long = 0.22 * this.size, to = (way: number[], by: number) => place.map((part, i) => part + (by * (way[i] ?? 0)) / Math.hypot(...way));
+    const long = this.pixels(110), to = (way: number[], by: number) => place.map((part, i) => part + (by * (way[i] ?? 0)) / Math.hypot(...way));
     const arrow = (from: number[], tip: number[]) => this.always.arrow(from, tip, this.pixels(1.6), this.pixels(14), this.look(this.colours.alarm, drawing));
     for (const twist of directions) {
       const moves = twist.slice(0, isPlanar ? 2 : 3), way = Math.hypot(...moves) > 1e-6 ? moves : twist.slice(3);
@@ -281,7 +279,7 @@ export class Scene implements Picture {
   }
 
   private drawGrid(): void {
-    const step = round(this.size / 8), count = 6, look: Look = {colour: this.colours.line, opacity: 0.35};
+    const step = round(this.pixels(80)), count = 6, look: Look = {colour: this.colours.line, opacity: 0.35};
     for (let i = -count; i <= count; ++i) {
       this.layers.grid.line([[i * step, -count * step, 0], [i * step, count * step, 0]], look);
       this.layers.grid.line([[-count * step, i * step, 0], [count * step, i * step, 0]], look);

@@ -52,13 +52,14 @@ export async function open(browser, url, robot, options) {
 
 export const answers = (page) => page.evaluate(() => Number(document.documentElement.dataset.answers ?? 0));
 export const numbers = (page) => page.locator('#numbers').innerText();
+export const answer = (page) => page.locator('#right').innerText();
 export const verdict = (page) => page.locator('#verdict strong').innerText();
 export const picture = (page) => page.locator('#view').screenshot();
 export const shot = (page, name) => page.screenshot({path: join(folder, `${name}.png`)});
 
 /** Of screenshots: unlike them assert.deepEqual would print every byte. */
-export const differs = (a, b, what = 'the picture') => assert.ok(!a.equals(b), `${what} did not change`);
-export const same = (a, b, what = 'the picture') => assert.ok(a.equals(b), `${what} changed`);
+export const differs = (a, b, what = '') => assert.ok(!a.equals(b), `${what}: the picture did not change`);
+export const same = (a, b, what = '') => assert.ok(a.equals(b), `${what}: another picture`);
 
 async function until(page, is, what) {
   for (let i = 0; i < 1500; ++i) {
