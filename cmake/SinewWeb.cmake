@@ -14,7 +14,7 @@ add_custom_command(OUTPUT ${installed}
 
 file(GLOB page_inputs CONFIGURE_DEPENDS ${web}/src/*.ts ${web}/src/*.css ${web}/index.html ${web}/build.mjs ${web}/tsconfig.json)
 set(page_files "")
-foreach(name index.html app.js app.css)
+foreach(name index.html app.js editor.js app.css)
   list(APPEND page_files ${page}/${name} ${page}/${name}.gz)
 endforeach()
 add_custom_command(OUTPUT ${page_files}
@@ -26,7 +26,7 @@ add_custom_command(OUTPUT ${page_files}
 set(bytes "")
 set(rows "")
 set(declared "")
-foreach(row "index.html /@text/html; charset=utf-8" "app.js /app.js@text/javascript; charset=utf-8" "app.css /app.css@text/css; charset=utf-8")
+foreach(row "index.html /@text/html; charset=utf-8" "app.js /app.js@text/javascript; charset=utf-8" "editor.js /editor.js@text/javascript; charset=utf-8" "app.css /app.css@text/css; charset=utf-8")
   string(REGEX MATCH "^([^ ]+) ([^@]+)@(.+)$" found "${row}")
   string(MAKE_C_IDENTIFIER ${CMAKE_MATCH_1} id)
   string(APPEND rows "      Asset{\"${CMAKE_MATCH_2}\", \"${CMAKE_MATCH_3}\", text(page_${id}, page_${id}_end), text(page_${id}_gz, page_${id}_gz_end)},\n")

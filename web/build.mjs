@@ -10,13 +10,14 @@ const folder = process.argv[2] ?? join(here, 'dist');
 mkdirSync(folder, {recursive: true});
 
 const made = await build({
-  entryPoints: {app: join(here, 'src/main.ts')},
+  entryPoints: {app: join(here, 'src/main.ts'), editor: join(here, 'src/editor.ts')},
+  external: ['./editor.js'],  // comes when it is wanted
   bundle: true,
   minify: true,
   format: 'esm',
   target: 'es2022',
   legalComments: 'none',
-  banner: {js: '/* three.js, MIT, (c) three.js authors */'},
+  banner: {js: '/* three.js, uPlot, CodeMirror: MIT, (c) their authors */'},
   outdir: folder,
   write: false,
 });

@@ -13,6 +13,8 @@ export class Camera {
   private isLens = false;
   private isPlanar = false;
   private size = 1;
+  private width = 1;   // of the box [px], asked once: browsers lay out the page to say it
+  private height = 1;
   private wanted = '';
 
   /** @param lamp goes where the camera goes */
@@ -40,7 +42,7 @@ export class Camera {
   /** Two angles, the height of the picture in metres, and the target. */
   get text(): string {
     if (this.wanted) return this.wanted;
-    const {phi, theta} = this.round(), {x, y, z} = this.controls.target, height = this.box.clientHeight / this.pixels;
+    const {phi, theta} = this.round(), {x, y, z} = this.controls.target, height = this.height / this.pixels;
     return [phi, theta, height, x, y, z].map((part) => String(Number(part.toPrecision(6)))).join(',') + (this.isLens ? ',lens' : '');
   }
 
@@ -70,7 +72,8 @@ export class Camera {
   }
 
   resize(): void {
-    const {clientWidth: width, clientHeight: height} = this.box, ratio = width / Math.max(height, 1);
+    [this.width, this.height] = [Math.max(this.box.clientWidth, 1), Math.max(this.box.clientHeight, 1)];
+    const ratio = this.width / this.height;
     const half = (this.isPlanar ? 0.5 : 0.55) * this.size;
     this.parallel.left = -half * Math.max(ratio, 1);
     this.parallel.right = half * Math.max(ratio, 1);
@@ -86,13 +89,13 @@ export class Camera {
 
   /** Pixels of a metre, at the target. */
   get pixels(): number {
-    const height = this.box.clientHeight;
+    const {height} = this;
     if (!this.isLens) return (height * this.parallel.zoom) / (this.parallel.top - this.parallel.bottom);
     return height / (2 * this.round().radius * Math.tan((angle * Math.PI) / 360));
   }
 
   toggleProjection(): void {
-    const {position, quaternion, up} = this.now, height = this.box.clientHeight, pixels = this.pixels;
+    const {position, quaternion, up} = this.now, {height, pixels} = this;
     this.isLens = !this.isLens;
     this.now.up.copy(up);
     this.now.quaternion.copy(quaternion);
@@ -117,7 +120,7 @@ export class Camera {
 
   project(point: number[], into: Vector3): [number, number] {
     into.set(point[0]!, point[1]!, point[2] ?? 0).project(this.now);
-    return [((into.x + 1) / 2) * this.box.clientWidth, ((1 - into.y) / 2) * this.box.clientHeight];
+    return [((into.x + 1) / 2) * this.width, ((1 - into.y) / 2) * this.height];
   }
 
   /** Of the camera from the target; the angles of three's controls have +y up, here it is +z. */

@@ -1,6 +1,6 @@
 // The robot's file: checked a moment after the last key. While it has errors the picture stays that of the last good one.
 import {type Json, Refused, Robot} from './client';
-import {Editor} from './editor';
+import type {Editor} from './editor';
 import {button, make} from './make';
 import {toast} from './toast';
 
@@ -10,26 +10,39 @@ export class FileTab {
   private readonly errors = make('ol');
   private readonly note = make('p');
   private readonly disk = make('p', {className: 'disk', hidden: true});
-  private readonly editor: Editor;
+  private readonly box = make('div', {className: 'editor'});
+  private editor: Editor | null = null;
   private timer = 0;
   private name = '';
   private saved = '';  // the file as it was opened
   private isOpening = false;
 
   constructor(panel: HTMLElement, private readonly opened: (robot: Robot) => Promise<void>) {
-    const box = make('div', {className: 'editor'});
     this.note.setAttribute('role', 'status');
     this.disk.setAttribute('role', 'status');
-    panel.append(box, this.disk, this.note, this.errors, make('div', {className: 'actions'},
-      button('Copy YAML', () => void navigator.clipboard.writeText(this.editor.text).then(() => toast('copied')), 'the whole file'),
-      button('Undo', () => this.editor.undo(), 'the last change of the text'),
+    panel.append(this.box, this.disk, this.note, this.errors, make('div', {className: 'actions'},
+      button('Copy YAML', () => void navigator.clipboard.writeText(this.text).then(() => toast('copied')), 'the whole file'),
+      button('Undo', () => this.editor?.undo(), 'the last change of the text'),
       button('Reload', () => this.reload(this.saved), 'the file as it was opened'),
       button('Save…', () => this.save(), 'download the file')));
-    this.editor = new Editor(box, () => this.typed());
   }
 
   get text(): string {
-    return this.editor.text;
+    return this.editor?.text ?? this.saved;
+  }
+
+  /** The editor comes when it is wanted: pictures need not wait for it. */
+  async load(): Promise<void> {
+    const {Editor} = await import('./editor.js');
+    if (this.editor) return;
+    this.editor = new Editor(this.box, () => this.typed());
+    this.fill();
+  }
+
+  private fill(): void {
+    this.isOpening = true;
+    this.editor?.open(this.saved);
+    this.isOpening = false;
   }
 
   /** The file of a robot that is shown already. */
@@ -37,9 +50,7 @@ export class FileTab {
     clearTimeout(this.timer);
     this.name = name;
     this.saved = text;
-    this.isOpening = true;
-    this.editor.open(text);
-    this.isOpening = false;
+    this.fill();
     this.quiet();
   }
 
@@ -59,7 +70,7 @@ export class FileTab {
   }
 
   private save(): void {
-    const url = URL.createObjectURL(new Blob([this.editor.text], {type: 'text/yaml'}));
+    const url = URL.createObjectURL(new Blob([this.text], {type: 'text/yaml'}));
     make('a', {href: url, download: `${this.name.replace(/^.*\//, '').replace(/\.yaml$/, '')}.yaml`}).click();
     setTimeout(() => URL.revokeObjectURL(url), 1000);
   }
@@ -68,7 +79,7 @@ export class FileTab {
     this.errors.replaceChildren();
     this.note.textContent = '';
     this.disk.hidden = true;
-    this.editor.mark([]);
+    this.editor?.mark([]);
   }
 
   private typed(): void {
@@ -78,23 +89,23 @@ export class FileTab {
   }
 
   private async check(): Promise<void> {
-    const text = this.editor.text;
+    const {text} = this;
     try {
       const robot = await Robot.open(text);
-      if (text !== this.editor.text) return;
+      if (text !== this.text) return;
       this.quiet();
       await this.opened(robot);
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
-      if (text === this.editor.text) this.tell(error.answer.errors ?? [{message: error.message, where: 'file'}]);
+      if (text === this.text) this.tell(error.answer.errors ?? [{message: error.message, where: 'file'}]);
     }
   }
 
   private tell(errors: Json[]): void {
     this.note.textContent = 'The picture shows the last valid file.';
-    this.editor.mark(errors.map(({line = 0, column = 1, message}) => ({line, column, message})));
+    this.editor?.mark(errors.map(({line = 0, column = 1, message}) => ({line, column, message})));
     this.errors.replaceChildren(...errors.map(({line, column, where, message}) => {
-      const go = button(line ? `${line}:${column ?? 1}` : where, () => this.editor.goTo(line ?? 1, column ?? 1));
+      const go = button(line ? `${line}:${column ?? 1}` : where, () => this.editor?.goTo(line ?? 1, column ?? 1));
       return make('li', {}, go, ` ${message}`);
     }));
   }

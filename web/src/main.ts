@@ -49,7 +49,7 @@ class Page {
   private readonly connection = new Connection((text) => this.shell.say(text), () => this.robot ? this.ask() : location.reload());
   private readonly verdict = new VerdictBox(byId('verdict'), () => this.cancel());
   private readonly numbers = new AnswerPanel(byId('numbers'));
-  private readonly tabs = new Tabs(byId('tabs'), ['inputs', 'pose', 'load', 'model', 'file', 'answer'].map((id) => byId(id)), (id) => { document.body.dataset.tab = id; });
+  private readonly tabs = new Tabs(byId('tabs'), ['inputs', 'pose', 'load', 'model', 'file', 'answer'].map((id) => byId(id)), (id) => this.turnTo(id));
   private readonly file = new FileTab(byId('file'), (robot) => this.use(robot, null));
   private readonly strip = new Strip(byId('strip'), (value) => this.turn(this.touched.side, this.touched.index, value));
   private readonly solutions = new Solutions(byId('solutions'), (solution) => this.jump(solution));
@@ -62,14 +62,13 @@ class Page {
     this.listen();
     this.paint();
     await this.guarded(async () => {
-      const says = await version();
+      const link = new URLSearchParams(location.hash.slice(1)), wanted = link.get('robot');
+      const [says, {robots: shipped, opened}] = await Promise.all([version(), robots()]);
       if (says.protocol !== protocol) return this.shell.say(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
-      const {robots: shipped, opened} = await robots();
       this.shipped = shipped;
       for (const {name, title} of shipped) for (const list of [this.picker, this.against]) list.add(new Option(title, name));
       this.against.add(new Option('nothing', ''), 0);
       this.against.value = '';
-      const link = new URLSearchParams(location.hash.slice(1)), wanted = link.get('robot');
       if (opened && (!wanted || wanted === opened.name)) return this.open(opened.name, opened.text, link);
       if (this.ships(wanted)) return this.choose(wanted!, link);
       if (wanted) this.shell.say(`the link shows ${wanted}: open its file`);
@@ -128,6 +127,11 @@ class Page {
   }
 
   // What is open
+
+  private turnTo(tab: string): void {
+    document.body.dataset.tab = tab;
+    if (tab === 'file') void this.guarded(() => this.file.load());
+  }
 
   private ships(name: string | null): boolean {
     return this.shipped.some((one) => one.name === name);

@@ -14,6 +14,7 @@ export interface Touched { side: Side | 'load'; index: number }
 interface Sample { at: number; answer: Json }
 
 const steps = 40;  // to each side
+const often = 400;  // ms between drawings of what is there so far
 const chunk = 8;   // samples of a request: between two of them a newer question may come in
 
 /** A quantity of an answer: its name and how to find it. */
@@ -83,6 +84,7 @@ export class Strip {
     const run = ++this.run, row = described[touched.side][touched.index]!, here = state[touched.side][touched.index]!;
     this.context = {described, state, touched, row};
     const found: Sample[] = [];
+    let begin = performance.now();
     for (const end of [row.high, row.low]) {
       const width = (row.high - row.low) / (2 * steps), count = Math.max(0, Math.ceil(Math.abs(end - here) / width - 1e-9));
       let isGoing = Math.sign(end - here) === (end === row.high ? 1 : -1);
@@ -96,8 +98,11 @@ export class Strip {
           found.push({at, answer: answers[k]!});
           isGoing = isSolved(answers[k]!);  // beyond it nothing was followed
         });
+        if (performance.now() - begin < often) continue;  // of robots that take long it is seen how far it is
+        begin = performance.now();
+        this.samples = [...found].sort((a, b) => a.at - b.at);
+        this.draw();
       }
-      if (end === row.high) this.samples = [...found];
     }
     this.samples = found.sort((a, b) => a.at - b.at);
     this.draw();
