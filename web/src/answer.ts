@@ -20,7 +20,9 @@ function poseSection(answer: Json, ghost: Json | null, described: Described, sys
   const pose = answer.pose ?? answer.tip, other = ghost?.pose ?? ghost?.tip, title = described.isSerial ? 'Pose of the tip' : 'Pose of the platform';
   if (!pose) return {title, rows: [], bars: []};
   const others = other ? coordinates(other) : [];
+  const isUpright = Math.abs(pose.tilt ?? 1) < 1e-7;  // it leans nowhere, so in no direction
   const rows = coordinates(pose).map(([name, value, unit], i): [string, string] => {
+    if (name === 'azimuth' && isUpright) return [name, '–'];
     const beside = others[i] ? ` (${value < others[i][1] ? '−' : '+'}${withUnit(Math.abs(value - others[i][1]), unit, system)})` : '';
     return [name, withUnit(value, unit, system) + beside];
   });
@@ -40,8 +42,9 @@ function conditioning(condition: number): Bar {
 function limitBar(described: Described, state: State): Bar | null {
   let found: {name: string; part: number} | null = null;
   described.inputs.forEach((row, i) => {
-    const part = 2 * Math.min(state.inputs[i]! - row.low, row.high - state.inputs[i]!) / (row.high - row.low);
-    if (row.isLimited && (!found || part < found.part)) found = {name: row.name, part};
+    const {low, high} = row.limits, value = state.inputs[i]!, middle = (row.low + row.high) / 2;
+    const below = low ? (value - row.low) / (middle - row.low) : Infinity, above = high ? (row.high - value) / (row.high - middle) : Infinity, part = Math.min(1, below, above);
+    if ((low || high) && (!found || part < found.part)) found = {name: row.name, part};
   });
   if (!found) return null;
   const {name, part} = found as {name: string; part: number};
@@ -69,7 +72,7 @@ function marginRows(answer: Json, system: System): [string, string][] {
   for (const {name, by, unit, word} of room ?? []) rows.push([`${name} ${by < 0 ? '−' : '+'}${withUnit(Math.abs(by), unit, system)}`, word]);
   if (velocity?.type_1?.length > 0) rows.push(['type I', `leg ${velocity.type_1.map((leg: number) => leg + 1).join(', ')}`]);
   if (velocity?.type_2?.singular) rows.push(['type II', velocity.type_2.class ?? 'singular']);
-  else if (typeTwo) rows.push([`straight on by ${typeTwo.name}`, `type II after ${withUnit(typeTwo.distance, typeTwo.unit, system)}`]);
+  else if (typeTwo) rows.push([`type II by ${typeTwo.name}`, `after ${withUnit(typeTwo.distance, typeTwo.unit, system)}`]);
   return rows;
 }
 

@@ -1,5 +1,6 @@
 // Whether the server is there. While it is not, the page says since when, and asks again, less and less often.
 import {version} from './client';
+import {byId} from './make';
 
 const pauses = [500, 1000, 2000, 5000];  // ms
 
@@ -8,20 +9,21 @@ export class Connection {
   private tries = 0;
   private clock = 0;
 
-  constructor(private readonly say: (text: string) => void, private readonly back: () => void) {}
+  constructor(private readonly back: () => void) {}
 
   lost(): void {
     if (this.lostAt !== 0) return;
     this.lostAt = performance.now();
     this.tries = 0;
     document.body.classList.add('lost');
+    byId('lost').hidden = false;
     this.clock = window.setInterval(() => this.tell(), 1000);
     this.tell();
     this.tryLater();
   }
 
   private tell(): void {
-    this.say(`NO CONNECTION ${((performance.now() - this.lostAt) / 1000).toFixed(0)} s`);
+    byId('since').textContent = `${((performance.now() - this.lostAt) / 1000).toFixed(0)} s`;
   }
 
   private tryLater(): void {
@@ -37,6 +39,7 @@ export class Connection {
     clearInterval(this.clock);
     this.lostAt = 0;
     document.body.classList.remove('lost');
+    byId('lost').hidden = true;
     this.back();
   }
 }

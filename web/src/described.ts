@@ -9,7 +9,7 @@ export interface Row {
   low: number;
   high: number;
   home: number;
-  isLimited: boolean;  ///< whether low and high are limits of the robot, not only ends of the slider
+  limits: {low: boolean; high: boolean};  ///< whether these are limits of the robot, not only ends of the slider
 }
 
 export interface Described {
@@ -27,6 +27,8 @@ export interface Described {
 
 /** Whether links of this model yield to a load. */
 export const bearsLoad = (model: string) => model === 'rod' || model === 'prb';
+
+const none = {low: false, high: false}, both = {low: true, high: true};
 
 /** Where nothing limits an input the slider covers this part of its home value to both sides. */
 const share = 0.2;
@@ -60,11 +62,11 @@ function named(entries: Json[]): {name: string; path: string; unit: Unit}[] {
 function serialInputs(answer: Json): Row[] {
   return named(answer.configuration).map((row, i) => {
     const limit: number = answer.sections[indexOf(row.path)]?.limit ?? Math.PI, field = row.path.split('.')[1];
-    if (field === 'phi') return {...row, low: -Math.PI, high: Math.PI, home: 0, isLimited: false};
-    if (field === 'theta') return {...row, low: 0, high: limit, home: 0, isLimited: true};
-    if (row.unit === 'rad') return {...row, low: -limit, high: limit, home: 0, isLimited: true};
+    if (field === 'phi') return {...row, low: -Math.PI, high: Math.PI, home: 0, limits: none};
+    if (field === 'theta') return {...row, low: 0, high: limit, home: 0, limits: {low: false, high: true}};
+    if (row.unit === 'rad') return {...row, low: -limit, high: limit, home: 0, limits: both};
     const [low, high] = answer.configuration[i].limits ?? [0, 1];
-    return {...row, low, high, home: low, isLimited: true};
+    return {...row, low, high, home: low, limits: both};
   });
 }
 
@@ -73,12 +75,12 @@ function parallelInputs(answer: Json, home: number[]): Row[] {
     const limits: number[] | undefined = answer.inputs[i].limits;
     const value = home[i] ?? (limits ? (limits[0]! + limits[1]!) / 2 : 0);
     const reach = Math.max(Math.abs(value) * share, row.unit === 'rad' ? 0.5 : 0.01);
-    return {...row, low: limits?.[0] ?? value - reach, high: limits?.[1] ?? value + reach, home: value, isLimited: !!limits};
+    return {...row, low: limits?.[0] ?? value - reach, high: limits?.[1] ?? value + reach, home: value, limits: limits ? both : none};
   });
 }
 
 const free = (name: string, unit: Unit, home: number, reach: number): Row =>
-  ({name, path: name, unit, low: home - reach, high: home + reach, home, isLimited: false});
+  ({name, path: name, unit, low: home - reach, high: home + reach, home, limits: none});
 
 function poseRows(answer: Json, isHeldByFew: boolean): Row[] {
   if (answer.kind === 'serial') {

@@ -46,7 +46,7 @@ class Page {
   private readonly controls = new Controls({
     turn: (side, index, value) => this.turn(side, index, value), change: (part) => this.change(part), bend: (bending) => this.bend(bending), goHome: () => this.goHome(),
   });
-  private readonly connection = new Connection((text) => this.shell.say(text), () => this.robot ? this.ask() : location.reload());
+  private readonly connection = new Connection(() => this.robot ? this.ask() : location.reload());
   private readonly verdict = new VerdictBox(byId('verdict'), () => this.cancel());
   private readonly numbers = new AnswerPanel(byId('numbers'));
   private readonly tabs = new Tabs(byId('tabs'), ['inputs', 'pose', 'load', 'model', 'file', 'answer'].map((id) => byId(id)), (id) => this.turnTo(id));
@@ -278,7 +278,8 @@ class Page {
       state.inputs = inputs;
       start = found.pose;
     }
-    const there = start && 'last';  // where the first of them ended
+    // Where the first of them ended. Rods come to rest in more ways than a pose can tell: they go the same way again.
+    const there = start && (state.model === 'rod' ? start : 'last');
     const queries = [forward(described, state, start), shape(described, state, there), ...(hasVelocity(state) ? [velocity(described, state, there)] : [])];
     const [answer, picture, speed] = await robot.ask(queries) as [Json, Json, Json?];
     if (robot !== this.robot) return;

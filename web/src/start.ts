@@ -10,7 +10,7 @@ import {type State, stateOf} from './state';
 function posed(described: Described): State {
   const state = stateOf(described);
   if (!described.isSerial) return state;
-  return {...state, inputs: described.inputs.map((row, i) => (row.isLimited && i % 2 === 0 ? (row.home + row.high) / 2 : row.home))};
+  return {...state, inputs: described.inputs.map((row, i) => (row.limits.high && i % 2 === 0 ? (row.home + row.high) / 2 : row.home))};
 }
 
 export class Start {

@@ -173,6 +173,11 @@ export class Strip {
   private options(shown: Quantity[], width: number, height: number): uPlot.Options {
     const {row} = this.context!, style = getComputedStyle(document.documentElement), token = (name: string) => style.getPropertyValue(`--${name}`).trim();
     const colours = [token('tendon-1'), token('tendon-2')], grid = {stroke: token('line'), width: 1}, font = '11px system-ui, sans-serif';
+    // What does not change is a line in the middle, not rounding errors at full height.
+    const range = (_: uPlot, low: number, high: number): uPlot.Range.MinMax => {
+      const room = 0.1 * (high - low), least = 1e-6 * Math.max(1, Math.abs(low), Math.abs(high));
+      return high - low < least ? [low - 1, high + 1] : [low - room, high + room];
+    };
     const axis = (k: number): uPlot.Axis => ({
       scale: `y${k}`, side: k === 0 ? 3 : 1, stroke: colours[k]!, font, size: 56, grid: k === 0 ? grid : {show: false}, ticks: grid,
       values: (_, marks) => marks.map((mark) => String(Number(mark.toPrecision(6)))),
@@ -181,7 +186,7 @@ export class Strip {
     return {
       width, height, padding: [8, 8, 0, 8], legend: {show: false},
       cursor: {drag: {x: false, y: false}, points: {size: 6}},
-      scales: {x: {time: false, range: [shownValue(row.low, row.unit, this.system), shownValue(row.high, row.unit, this.system)]}},
+      scales: {x: {time: false, range: [shownValue(row.low, row.unit, this.system), shownValue(row.high, row.unit, this.system)]}, ...Object.fromEntries(shown.map((_, k) => [`y${k}`, {range}]))},
       axes: [{stroke: token('mute'), font, grid: {show: false}, ticks: grid, size: 24, values: (_, marks) => marks.map((mark, i) => `${Number(mark.toPrecision(6))}${i === marks.length - 1 ? ` ${unitName(row.unit, this.system)}` : ''}`)},
              ...shown.map((_, k) => axis(k))],
       series: [{}, ...shown.map(({name, unit: of}, k) => ({label: name + unit(of), scale: `y${k}`, stroke: colours[k]!, width: 2, ...(k === 1 && {dash: [8, 4]}), points: {show: false}, spanGaps: false}))],
@@ -226,7 +231,8 @@ export class Strip {
     const {row} = this.context!, {ctx} = plot, {top, height} = plot.bbox, ratio = devicePixelRatio;
     const x = (value: number) => plot.valToPos(shownValue(value, row.unit, this.system), 'x', true);
     ctx.save();
-    for (const {from, to, word, isOver} of this.endsOf()) {
+    let free = -Infinity;  // of words before
+    for (const {from, to, word, isOver} of this.endsOf().sort((a, b) => a.from - b.from)) {
       const left = x(from), right = x(to), colour = token(isOver ? 'over' : 'slack');
       ctx.globalAlpha = 0.14;
       ctx.fillStyle = colour;
@@ -245,7 +251,9 @@ export class Strip {
       ctx.textBaseline = 'top';
       const room = ctx.measureText(word).width, isLeft = (left + right) / 2 < plot.bbox.left + plot.bbox.width / 2;
       const at = room < right - left - 8 * ratio ? (left + right - room) / 2 : isLeft ? right + 4 * ratio : left - room - 4 * ratio;
+      if (at < free) continue;
       ctx.fillText(word, at, top + 4 * ratio);
+      free = at + room + 4 * ratio;
     }
     ctx.restore();
   }

@@ -12,7 +12,7 @@ export async function connection(browser) {
   first.server.kill('SIGINT');
   await gone;
   await page.locator('#inputs input[type=range]').first().press('ArrowRight');
-  await page.locator('#status', {hasText: /NO CONNECTION \d+ s/}).waitFor();
+  await page.locator('#lost', {hasText: /NO CONNECTION \d+ s/}).waitFor();
   assert.ok(await page.evaluate(() => document.body.classList.contains('lost')));
   await shot(page, 'no-connection');
   const count = await answers(page), second = await serve('--port', new URL(first.url).port);

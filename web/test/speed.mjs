@@ -3,18 +3,31 @@ import {open, blank, settled} from './harness.mjs';
 
 export async function latency(browser, url) {
   const {page, done} = await open(browser, url, '3-rfr');
-  const times = await page.evaluate(async () => {
+  /** @param pause [ms] between an answer and the next step: none says what a browser bears, some what a hand feels */
+  const measure = (pause) => page.evaluate(async (wait) => {
     const slider = document.querySelector('#inputs input[type=range]'), root = document.documentElement, times = [];
-    for (let i = 0; i < 400; ++i) {
-      const count = root.dataset.answers, begin = performance.now();
+    const answered = (count) => new Promise((done) => {
+      const watch = new MutationObserver(() => {
+        if (root.dataset.answers === count) return;
+        watch.disconnect();
+        done();
+      });
+      watch.observe(root, {attributes: true});
+    });
+    for (let i = 0; i < 300; ++i) {
+      const begin = performance.now(), answer = answered(root.dataset.answers);
       slider.value = String(Number(slider.value) + (i % 40 < 20 ? 1e-4 : -1e-4));
       slider.dispatchEvent(new Event('input'));
-      while (root.dataset.answers === count) await new Promise((next) => setTimeout(next, 0));
+      await answer;
       times.push(performance.now() - begin);
+      if (wait > 0) await new Promise((next) => setTimeout(next, wait));
     }
     return times.sort((a, b) => a - b);
-  });
-  console.log(`  slider to new pose: median ${times[200].toFixed(1)} ms, 95 % ${times[380].toFixed(1)} ms`);
+  }, pause);
+  for (const [pause, what] of [[40, 'a step each 40 ms'], [0, 'one step after the other']]) {
+    const times = await measure(pause);
+    console.log(`  slider to new pose, ${what}: median ${times[150].toFixed(1)} ms, 95 % ${times[285].toFixed(1)} ms`);
+  }
   for (const robot of ['3-rfr', '6-ufs', 'hexapod', 'nottingham-tpcj']) {
     await page.goto(`${url}#robot=${robot}`);
     await page.waitForTimeout(800);
