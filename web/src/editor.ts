@@ -1,6 +1,6 @@
 // The editor of a robot's file. It lives in a root of its own: its styles come as sheets that are adopted, which the
 // content policy lets, not as elements, which it does not.
-import {defaultKeymap, history, historyKeymap, indentWithTab, undo} from '@codemirror/commands';
+import {defaultKeymap, history, historyKeymap, undo} from '@codemirror/commands';
 import {yaml} from '@codemirror/lang-yaml';
 import {HighlightStyle, syntaxHighlighting} from '@codemirror/language';
 import {type Diagnostic, lintGutter, setDiagnostics} from '@codemirror/lint';
@@ -57,7 +57,7 @@ export class Editor {
     this.view = new EditorView({
       root,
       state: EditorState.create({extensions: [
-        lineNumbers(), history(), keymap.of([...defaultKeymap, ...historyKeymap, indentWithTab]), yaml(), syntaxHighlighting(highlight), lintGutter(), theme, marks,
+        lineNumbers(), history(), keymap.of([...defaultKeymap, ...historyKeymap]), yaml(), syntaxHighlighting(highlight), lintGutter(), theme, marks,
         EditorView.contentAttributes.of({'aria-label': 'Robot file', spellcheck: 'false'}),
         EditorView.updateListener.of((update) => update.docChanged && this.typed()),
         EditorView.domEventHandlers({pointerdown: (event, view) => this.grab(event, view)}),

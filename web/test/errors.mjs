@@ -105,3 +105,17 @@ export async function no_webgl(_, url) {
   await done(/WebGL/i);
   await browser.close();
 }
+
+/** Of another address only who has the token is answered; others read where it is. */
+export async function token(browser) {
+  const {server, url} = await serve('--host', '0.0.0.0'), {page, done} = await blank(browser), here = new URL(url);
+  here.hostname = '127.0.0.1';
+  await page.goto(here.origin);
+  assert.match(await page.locator('body').innerText(), /^open the address printed by sinew serve/);
+  await page.goto(`${here.href}#robot=3-rfr`);
+  await settled(page, 0);
+  assert.match(await verdict(page), /SOLVED/);
+  assert.doesNotMatch(page.url(), /token/);
+  server.kill('SIGINT');
+  await done(/403/);
+}
