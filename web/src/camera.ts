@@ -1,185 +1,128 @@
-// The camera: round the picture, parallel or not, as a short text and back.
-import {MOUSE, OrthographicCamera, PerspectiveCamera, type Object3D, Spherical, TOUCH, Vector3} from 'three';
-import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+// Where a picture is seen from: round a point, parallel lines staying parallel or not, as a short text and back.
+// It knows neither WebGL nor SVG, so both see the same.
 import type {View} from './picture';
+import {dot, length, minus, type Point} from './vector';
 
-const from: Record<View, [number, number, number]> = {side: [0, -1, 0.1], top: [0, 0, 1], front: [1, 0, 0.1], tip: [0.45, -0.85, 0.4]};
-const angle = 30;  // of view [deg]
+const degree = Math.PI / 180;
+const angles: Record<Exclude<View, 'tip'>, [number, number]> = {side: [-90, 0], top: [-90, 90], front: [0, 0]};  // azimuth, elevation [deg]
+const usual: [number, number] = [-62, 20];
+const lens = 30;       // height of a picture seen through a lens [deg]
+const [nearest, farthest] = [1e-5, 1e4];  // widths in view [m]
 
 export class Camera {
-  readonly controls: OrbitControls;
-  private readonly parallel = new OrthographicCamera();
-  private readonly lens = new PerspectiveCamera(angle);
-  private isLens = false;
-  private isPlanar = false;
-  private size = 1;
-  private width = 1;   // of the box [px], asked once: browsers lay out the page to say it
-  private height = 1;
-  private wanted = '';
+  isLens = false;
+  isPlanar = false;
+  margin = 44;  // pixels between what is fitted and the edges
+  width = 1;   // of the box [px]
+  height = 1;
+  private azimuth = usual[0];
+  private elevation = usual[1];
+  private reach = 1;  // what the narrower side of the box shows, at the target [m]
+  private target: Point = [0, 0, 0];
+  right: Point = [1, 0, 0];
+  up: Point = [0, 1, 0];
+  back: Point = [0, 0, 1];  // from the target to the camera
 
-  /** @param lamp goes where the camera goes */
-  constructor(private readonly box: HTMLElement, canvas: HTMLElement, lamp: Object3D, changed: () => void, moved: () => void) {
-    for (const camera of [this.parallel, this.lens]) camera.up.set(0, 0, 1);
-    this.parallel.add(lamp);
-    this.controls = new OrbitControls(this.parallel, canvas);
-    this.controls.zoomToCursor = true;
-    this.controls.addEventListener('change', changed);
-    this.controls.addEventListener('end', () => {
-      this.snap();
-      moved();
-    });
-    box.addEventListener('keydown', (event) => this.key(event, moved));
-  }
-
-  get now(): OrthographicCamera | PerspectiveCamera {
-    return this.isLens ? this.lens : this.parallel;
-  }
-
-  get objects(): Object3D[] {
-    return [this.parallel, this.lens];
-  }
-
-  /** Two angles, the height of the picture in metres, and the target. */
-  get text(): string {
-    if (this.wanted) return this.wanted;
-    const {phi, theta} = this.round(), {x, y, z} = this.controls.target, height = this.height / this.pixels;
-    return [phi, theta, height, x, y, z].map((part) => String(Number(part.toPrecision(6)))).join(',') + (this.isLens ? ',lens' : '');
-  }
-
-  /** For the next time that all is fitted. */
-  set text(text: string) {
-    this.wanted = text.split(',').slice(0, 6).map(Number).every((part) => text !== '' && Number.isFinite(part)) && text.split(',').length >= 6 ? text : '';
-  }
-
-  /** All of a sphere in view. */
-  fit(middle: Vector3, size: number, isPlanar: boolean, view: View = isPlanar ? 'top' : 'tip'): void {
-    const {controls} = this, [x, y, z] = from[view];
-    this.size = size;
-    this.isPlanar = isPlanar;
-    controls.enableRotate = !isPlanar;
-    controls.mouseButtons = {LEFT: isPlanar ? MOUSE.PAN : MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN};
-    controls.touches = {ONE: isPlanar ? TOUCH.PAN : TOUCH.ROTATE, TWO: TOUCH.DOLLY_PAN};
-    const up = view === 'top' ? [0, 1, 0] : [0, 0, 1], far = this.isLens ? (0.55 * size) / Math.tan((angle * Math.PI) / 360) : 3 * size;
-    this.now.up.set(up[0]!, up[1]!, up[2]!);
-    this.now.position.copy(middle).add(new Vector3(x, y, z).normalize().multiplyScalar(far));
-    this.parallel.zoom = 1;
-    controls.target.copy(middle);
-    this.resize();
-    this.follow();
-    const wanted = this.wanted || this.text;
-    this.wanted = '';
-    this.apply(wanted);
-  }
-
-  resize(): void {
-    [this.width, this.height] = [Math.max(this.box.clientWidth, 1), Math.max(this.box.clientHeight, 1)];
-    const ratio = this.width / this.height;
-    const half = (this.isPlanar ? 0.5 : 0.55) * this.size;
-    this.parallel.left = -half * Math.max(ratio, 1);
-    this.parallel.right = half * Math.max(ratio, 1);
-    this.parallel.top = half / Math.min(ratio, 1);
-    this.parallel.bottom = -half / Math.min(ratio, 1);
-    this.lens.aspect = ratio;
-    for (const camera of [this.parallel, this.lens]) {
-      camera.near = 0.01 * this.size;
-      camera.far = 20 * this.size;
-      camera.updateProjectionMatrix();
-    }
+  constructor() {
+    this.aim();
   }
 
   /** Pixels of a metre, at the target. */
   get pixels(): number {
-    const {height} = this;
-    if (!this.isLens) return (height * this.parallel.zoom) / (this.parallel.top - this.parallel.bottom);
-    return height / (2 * this.round().radius * Math.tan((angle * Math.PI) / 360));
+    return Math.min(this.width, this.height) / this.reach;
   }
 
-  toggleProjection(): void {
-    const {position, quaternion, up} = this.now, {height, pixels} = this;
-    this.isLens = !this.isLens;
-    this.now.up.copy(up);
-    this.now.quaternion.copy(quaternion);
-    this.now.position.copy(position);
-    this.controls.object = this.now;
-    if (this.isLens) {
-      const away = position.clone().sub(this.controls.target).normalize();
-      this.lens.position.copy(this.controls.target).addScaledVector(away, height / pixels / (2 * Math.tan((angle * Math.PI) / 360)));
-    } else {
-      this.parallel.zoom = (pixels * (this.parallel.top - this.parallel.bottom)) / height;
-      this.parallel.updateProjectionMatrix();
-    }
-    this.follow();
+  /** From the target to a lens [m]. */
+  get away(): number {
+    return this.height / this.pixels / (2 * Math.tan((lens / 2) * degree));
+  }
+
+  get at(): Point {
+    return this.target;
+  }
+
+  /** Azimuth and elevation [deg], the narrower side of the picture [m], the target [m]. */
+  get text(): string {
+    return [this.azimuth, this.elevation, this.reach, ...this.target].map(String).join(',') + (this.isLens ? ',lens' : '');
+  }
+
+  /** @return whether the text is one */
+  put(text: string): boolean {
+    const parts = text.split(','), numbers = parts.slice(0, 6).map(Number), [azimuth, elevation, reach] = numbers as [number, number, number];
+    if (parts.length < 6 || parts.some((part) => part === '') || !numbers.every(Number.isFinite) || reach < nearest || reach > farthest) return false;
+    [this.azimuth, this.elevation, this.reach, this.target, this.isLens] = [azimuth, elevation, reach, numbers.slice(3), parts[6] === 'lens'];
     this.snap();
+    return true;
+  }
+
+  resize(width: number, height: number): void {
+    [this.width, this.height] = [Math.max(width, 1), Math.max(height, 1)];
+  }
+
+  /** All of the points in view, from where they are usually seen, or else. @param axis of the tip, which a view from there looks along */
+  fit(points: Point[], view: View | undefined, axis: Point): void {
+    const tip: [number, number] = [length([axis[0]!, axis[1]!]) > 1e-3 ? Math.atan2(axis[1]!, axis[0]!) / degree : -90, Math.asin(Math.min(1, Math.max(-1, axis[2]!))) / degree];
+    [this.azimuth, this.elevation] = this.isPlanar ? angles.top : view === 'tip' ? tip : view ? angles[view] : usual;
+    this.aim();
+    const middle = (way: Point) => {
+      let [low, high] = [Infinity, -Infinity];
+      for (const point of points) [low, high] = [Math.min(low, dot(point, way)), Math.max(high, dot(point, way))];
+      return [(low + high) / 2, high - low] as const;
+    };
+    const [x, wide] = middle(this.right), [y, high] = middle(this.up), [z, deep] = middle(this.back);
+    const {margin} = this, metres = Math.max(wide / Math.max(this.width - 2 * margin, this.width / 2), high / Math.max(this.height - 2 * margin, this.height / 2), 1e-9);
+    this.target = [0, 1, 2].map((k) => x * this.right[k]! + y * this.up[k]! + z * this.back[k]!);
+    this.reach = metres * Math.min(this.width, this.height);
+    if (this.isLens) this.reach *= 1 + deep / 2 / this.away;
+    this.snap();
+  }
+
+  /** By so many pixels of a pointer. */
+  orbit(right: number, down: number): void {
+    this.azimuth -= 0.5 * right;
+    this.elevation = Math.min(90, Math.max(-90, this.elevation + 0.5 * down));
+    this.aim();
+  }
+
+  pan(right: number, down: number): void {
+    this.target = minus(this.target, this.shift(right, down));
+  }
+
+  /** About a point of the picture [px]. */
+  zoom(by: number, x = this.width / 2, y = this.height / 2): void {
+    const reach = Math.min(farthest, Math.max(nearest, this.reach / by)), part = 1 - reach / this.reach;
+    this.pan(-part * (x - this.width / 2), -part * (y - this.height / 2));
+    this.reach = reach;
+  }
+
+  toggle(): void {
+    this.isLens = !this.isLens;
   }
 
   /** A way on the screen in metres, at the target's depth. */
-  shift(right: number, down: number): number[] {
-    const {elements: m} = this.now.matrixWorld, unit = 1 / this.pixels;
-    return [0, 1, 2].map((k) => unit * (right * m[k]! - down * m[4 + k]!));
+  shift(right: number, down: number): Point {
+    const unit = 1 / this.pixels;
+    return [0, 1, 2].map((k) => unit * (right * this.right[k]! - down * this.up[k]!));
   }
 
-  project(point: number[], into: Vector3): [number, number] {
-    into.set(point[0]!, point[1]!, point[2] ?? 0).project(this.now);
-    return [((into.x + 1) / 2) * this.width, ((1 - into.y) / 2) * this.height];
+  /** Pixels from the left and from the top. */
+  project(point: Point): [number, number] {
+    const from = minus(point, this.target), near = this.isLens ? this.away / Math.max(this.away - dot(from, this.back), 0.02 * this.away) : 1, unit = this.pixels * near;
+    return [this.width / 2 + unit * dot(from, this.right), this.height / 2 - unit * dot(from, this.up)];
   }
 
-  /** Of the camera from the target; the angles of three's controls have +y up, here it is +z. */
-  private round(): Spherical {
-    const away = this.now.position.clone().sub(this.controls.target);
-    return new Spherical().setFromCartesianCoords(away.y, away.z, away.x);
+  /** To what a link says, so that it shows the same to the pixel. */
+  snap(): void {
+    const digits = Math.min(12, Math.max(0, 5 - Math.floor(Math.log10(this.reach)))), turn = ((this.azimuth % 360) + 540) % 360 - 180;
+    [this.azimuth, this.elevation, this.reach] = [Number(turn.toFixed(2)), Number(this.elevation.toFixed(2)), Number(this.reach.toPrecision(5))];
+    this.target = this.target.map((part) => Number(part.toFixed(digits)) + 0);
+    this.aim();
   }
 
-  private apply(text: string): void {
-    const [phi, theta, height, x, y, z] = text.split(',').map(Number) as [number, number, number, number, number, number];
-    if (text.endsWith(',lens') !== this.isLens) this.toggleProjection();
-    const away = new Vector3().setFromSpherical(new Spherical(this.isLens ? height / (2 * Math.tan((angle * Math.PI) / 360)) : 3 * this.size, Math.min(Math.max(phi, 1e-4), Math.PI), theta));
-    this.controls.target.set(x, y, z);
-    this.now.up.set(0, phi > 1e-3 ? 0 : 1, phi > 1e-3 ? 1 : 0);
-    this.now.position.set(x + away.z, y + away.x, z + away.y);
-    this.parallel.zoom = (this.parallel.top - this.parallel.bottom) / height;
-    this.now.updateProjectionMatrix();
-    this.follow();
-  }
-
-  private key(event: KeyboardEvent, moved: () => void): void {
-    const turns: Record<string, [number, number]> = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}, turn = turns[event.key];
-    if (event.ctrlKey || event.altKey || event.metaKey) return;
-    if (turn) this.isPlanar ? this.pan(...turn) : this.turn(...turn);
-    else if (event.key === '+' || event.key === '-') this.zoom(event.key === '+' ? 1.1 : 1 / 1.1);
-    else return;
-    this.follow();
-    this.snap();
-    moved();
-    event.preventDefault();
-  }
-
-  private turn(right: number, up: number): void {
-    const at = this.round();
-    if (this.now.up.z === 0) this.now.up.set(0, 0, 1);  // it looked down
-    at.theta += 0.1 * right;
-    at.phi = Math.min(Math.PI - 0.01, Math.max(0.01, at.phi - 0.1 * up));
-    const away = new Vector3().setFromSpherical(at);
-    this.now.position.set(away.z, away.x, away.y).add(this.controls.target);
-  }
-
-  private pan(right: number, up: number): void {
-    const [x, y] = this.shift(-40 * right, 40 * up) as [number, number];
-    for (const place of [this.now.position, this.controls.target]) place.set(place.x - x, place.y - y, place.z);
-  }
-
-  private zoom(by: number): void {
-    if (this.isLens) this.lens.position.sub(this.controls.target).divideScalar(by).add(this.controls.target);
-    else this.parallel.zoom *= by;
-    this.now.updateProjectionMatrix();
-  }
-
-  /** To what a link can say, so that it shows the same. */
-  private snap(): void {
-    this.apply(this.text);
-  }
-
-  private follow(): void {
-    this.controls.update();
-    this.now.updateMatrixWorld();
+  private aim(): void {
+    const [a, e] = [this.azimuth * degree, this.elevation * degree], [c, s, ce, se] = [Math.cos(a), Math.sin(a), Math.cos(e), Math.sin(e)];
+    this.right = [-s, c, 0];
+    this.up = [-se * c, -se * s, ce];
+    this.back = [ce * c, ce * s, se];
   }
 }

@@ -1,12 +1,13 @@
 // Words over a picture: letters of frames, numbers of legs, values of loads, what the pointer is on, the length of the bar.
+import type {Point} from './vector';
 
-interface Label { element: HTMLElement; point: number[]; isShown: boolean }
+interface Label { element: HTMLElement; point: Point }
 
 export class Labels {
   private readonly labels: Label[] = [];
   private used = 0;
-  readonly bar = document.createElement('div');
-  readonly tip = document.createElement('div');
+  private readonly bar = document.createElement('div');
+  private readonly tip = document.createElement('div');
 
   constructor(private readonly box: HTMLElement) {
     this.bar.className = 'scale-bar';
@@ -19,11 +20,11 @@ export class Labels {
     this.used = 0;
   }
 
-  /** @param kind a class of its own: `axis`, `leg`, `load`, `state` */
-  put(text: string, point: number[], kind: string): void {
+  /** @param kind classes of its own: `axis`, `leg`, `load`, `state`, `stale` */
+  put(text: string, point: Point, kind: string): void {
     let label = this.labels[this.used];
     if (!label) {
-      label = {element: document.createElement('span'), point, isShown: true};
+      label = {element: document.createElement('span'), point};
       label.element.ariaHidden = 'true';
       this.box.append(label.element);
       this.labels.push(label);
@@ -35,13 +36,13 @@ export class Labels {
   }
 
   end(): void {
-    this.labels.forEach((label, i) => { label.element.hidden = i >= this.used; });
+    this.labels.forEach(({element}, i) => { if (element.hidden !== i >= this.used) element.hidden = i >= this.used; });
   }
 
   /** @param project a point of the picture in pixels of the box */
-  place(project: (point: number[]) => [number, number]): void {
-    for (const {element, point} of this.labels.slice(0, this.used)) {
-      const [x, y] = project(point);
+  place(project: (point: Point) => [number, number]): void {
+    for (let i = 0; i < this.used; ++i) {
+      const {element, point} = this.labels[i]!, [x, y] = project(point);
       element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
     }
   }
@@ -51,30 +52,42 @@ export class Labels {
     if (this.bar.textContent !== text) this.bar.textContent = text;
   }
 
+  /** What the pointer is on, beside it and inside the box. An empty text is none. */
   point(text: string, x: number, y: number, isPinned: boolean): void {
-    this.tip.hidden = text === '';
-    this.tip.textContent = text;
+    if (this.tip.hidden !== (text === '')) this.tip.hidden = text === '';
+    if (text === '') return;
+    if (this.tip.textContent !== text) this.tip.textContent = text;
     this.tip.classList.toggle('pinned', isPinned);
-    this.tip.style.transform = `translate(${Math.min(x + 12, this.box.clientWidth - 180)}px, ${Math.max(4, y - 32)}px)`;
+    const right = this.box.clientWidth - this.tip.offsetWidth - 4, low = this.box.clientHeight - this.tip.offsetHeight - 4;
+    this.tip.style.transform = `translate(${Math.max(4, Math.min(x + 12, right)).toFixed(1)}px, ${Math.max(4, Math.min(y - 32, low)).toFixed(1)}px)`;
   }
 
-  /** The words on a picture that is saved. */
-  paint(context: CanvasRenderingContext2D, ratio: number, colour: string): void {
+  /** The words on a picture that is saved, as they look in the page. */
+  paint(context: CanvasRenderingContext2D, ratio: number): void {
     const from = this.box.getBoundingClientRect();
-    context.font = `${12 * ratio}px system-ui, sans-serif`;
+    context.save();
+    context.scale(ratio, ratio);
+    context.translate(-from.left, -from.top);
     context.textAlign = 'center';
     context.textBaseline = 'middle';
-    context.fillStyle = context.strokeStyle = colour;
-    for (const {element} of this.labels.slice(0, this.used)) {
-      const at = element.getBoundingClientRect();
-      context.fillText(element.textContent ?? '', (at.left + at.width / 2 - from.left) * ratio, (at.top + at.height / 2 - from.top) * ratio);
-    }
-    const bar = this.bar.getBoundingClientRect(), [x, y] = [(bar.left - from.left) * ratio, (bar.bottom - from.top) * ratio];
-    context.lineWidth = 2 * ratio;
-    context.beginPath();
-    context.moveTo(x, y);
-    context.lineTo(x + bar.width * ratio, y);
-    context.stroke();
-    context.fillText(this.bar.textContent ?? '', x + (bar.width / 2) * ratio, y - 10 * ratio);
+    const word = (element: HTMLElement) => {
+      const at = element.getBoundingClientRect(), style = getComputedStyle(element);
+      if (style.borderTopWidth !== '0px') {
+        context.fillStyle = style.backgroundColor;
+        context.fillRect(at.left, at.top, at.width, at.height);
+      }
+      context.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
+      context.fillStyle = style.color;
+      context.fillText(element.textContent ?? '', at.left + at.width / 2, at.top + at.height / 2);
+    };
+    for (const {element} of this.labels.slice(0, this.used)) word(element);
+    if (!this.tip.hidden) word(this.tip);
+    const bar = this.bar.getBoundingClientRect(), style = getComputedStyle(this.bar);
+    context.textAlign = 'left';
+    context.font = `${style.fontSize} ${style.fontFamily}`;
+    context.fillStyle = style.color;
+    context.fillText(this.bar.textContent ?? '', bar.left, bar.top + bar.height / 2 - 1);
+    context.fillRect(bar.left, bar.bottom - 2, bar.width, 2);
+    context.restore();
   }
 }

@@ -1,15 +1,5 @@
 // Shapes of a picture that come from its points: the platform's outline, the base's ring, lines made longer, round lengths.
-
-export type Point = number[];
-
-const sum = (points: Point[], k: number) => points.reduce((total, point) => total + (point[k] ?? 0), 0);
-export const centre = (points: Point[]): Point => [0, 1, 2].map((k) => sum(points, k) / points.length);
-const minus = (a: Point, b: Point): Point => [0, 1, 2].map((k) => (a[k] ?? 0) - (b[k] ?? 0));
-const dot = (a: Point, b: Point) => a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!;
-const cross = (a: Point, b: Point): Point => [a[1]! * b[2]! - a[2]! * b[1]!, a[2]! * b[0]! - a[0]! * b[2]!, a[0]! * b[1]! - a[1]! * b[0]!];
-const length = (a: Point) => Math.sqrt(dot(a, a));
-const scaled = (a: Point, by: number): Point => a.map((part) => part * by);
-const plus = (a: Point, b: Point): Point => [0, 1, 2].map((k) => (a[k] ?? 0) + (b[k] ?? 0));
+import {centre, cross, dot, length, minus, plus, type Point, scaled} from './vector';
 
 /** Two directions in the plane of points around their centre; null where they lie in one line. */
 function plane(points: Point[], middle: Point): [Point, Point] | null {
@@ -19,7 +9,7 @@ function plane(points: Point[], middle: Point): [Point, Point] | null {
   const second = rests.reduce((best, arm) => (length(arm) > length(best) ? arm : best));
   if (length(second) < 1e-9 * length(first)) return null;
   const v = scaled(second, 1 / length(second));
-  return dot(cross(u, v), [0, 0, 1]) < 0 ? [u, scaled(v, -1)] : [u, v];
+  return cross(u, v)[2]! < 0 ? [u, scaled(v, -1)] : [u, v];
 }
 
 /** The points in the order of their angle around their centre: an outline that does not cross itself. */
@@ -38,16 +28,14 @@ export function ring(points: Point[]): Point[] {
   if (!axes || points.some((point) => Math.abs(length(minus(point, middle)) - radius) > 0.02 * radius)) return outline(points);
   return Array.from({length: ringSteps}, (_, i) => {
     const angle = (2 * Math.PI * i) / ringSteps;
-    return plus(middle, plus(scaled(axes[0], radius * Math.cos(angle)), scaled(axes[1], radius * Math.sin(angle))));
+    return plus(plus(middle, axes[0], radius * Math.cos(angle)), axes[1], radius * Math.sin(angle));
   });
 }
 
 /** A segment made longer at both ends; null where it has no length and so no direction. */
-export function longer([a, b]: Point[], by: number): Point[] | null {
+export function longer([a, b]: Point[], by: number): [Point, Point] | null {
   const along = minus(b!, a!), size = length(along);
-  if (size < 1e-9) return null;
-  const more = scaled(along, by / size);
-  return [minus(a!, more), plus(b!, more)];
+  return size < 1e-9 ? null : [plus(a!, along, -by / size), plus(b!, along, by / size)];
 }
 
 /** The largest of 1, 2, 5 times a power of ten that is not above. */

@@ -1,19 +1,27 @@
-// What of a picture is under the pointer, by distances on the screen.
+// What of a picture is under the pointer, by distances on the screen. What is not shown, and ghosts, are never found.
 import type {Json} from './client';
+import {leastRod} from './compose';
 import {outline} from './outline';
-import type {Part} from './picture';
+import type {Drawing, Layer, Part} from './picture';
+import {placeOf, plus, type Point} from './vector';
 
-type Project = (point: number[]) => [number, number];
+type Project = (point: Point) => [number, number];
 
-function toSegment(x: number, y: number, [ax, ay]: [number, number], [bx, by]: [number, number]): number {
-  const [dx, dy] = [bx - ax, by - ay], square = dx * dx + dy * dy;
-  const t = square > 0 ? Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / square)) : 0;
-  return Math.hypot(x - ax - t * dx, y - ay - t * dy);
-}
+/** A part, and where along it: where its name is pinned. */
+export interface Found { part: Part; along: number }
 
-function toLine(x: number, y: number, points: number[][], project: Project): number {
-  const on = points.map(project);
-  return on.slice(1).reduce((best, point, i) => Math.min(best, toSegment(x, y, on[i]!, point)), Infinity);
+const reach = 7;  // pixels beside a thin line that are still on it
+
+/** Distance to a polyline, and where along it, as a count of points. */
+function toLine(x: number, y: number, points: Point[], project: Project): [number, number] {
+  let best: [number, number] = [Infinity, 0], [ax, ay] = project(points[0]!);
+  for (let i = 1; i < points.length; ++i) {
+    const [bx, by] = project(points[i]!), [dx, dy] = [bx - ax, by - ay], square = dx * dx + dy * dy;
+    const t = square > 0 ? Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / square)) : 0, distance = Math.hypot(x - ax - t * dx, y - ay - t * dy);
+    if (distance < best[0]) best = [distance, i - 1 + t];
+    [ax, ay] = [bx, by];
+  }
+  return best;
 }
 
 function isInside(x: number, y: number, points: [number, number][]): boolean {
@@ -25,23 +33,48 @@ function isInside(x: number, y: number, points: [number, number][]): boolean {
   return inside;
 }
 
+/** Where the platform's reference point, or the tip, is. */
+export function reference(shape: Json): Point | null {
+  const last = shape.frames?.at(-1);
+  return last ? placeOf(last) : null;
+}
+
 /** Whether the pointer is on the platform: in its outline, or near its reference point. */
-export function isOnPlatform(x: number, y: number, shape: Json, place: number[] | null, project: Project): boolean {
-  const plate: number[][] = shape.platform ?? [];
+export function isOnPlatform(x: number, y: number, shape: Json, project: Project): boolean {
+  const plate: Point[] = shape.platform ?? [], place = reference(shape);
   if (plate.length > 2 && isInside(x, y, outline(plate).map(project))) return true;
   if (!place) return false;
   const [px, py] = project(place);
   return Math.hypot(px - x, py - y) < 14;
 }
 
-/** The part nearest to the pointer, within so many pixels. */
-export function partAt(x: number, y: number, shape: Json, project: Project, reach = 7): Part | null {
-  const found: {part: Part; distance: number}[] = [];
-  const add = (part: Part, points: number[][]) => points.length > 1 && found.push({part, distance: toLine(x, y, points, project)});
-  (shape.backbones as number[][][]).forEach((points, index) => add({kind: 'backbone', index}, points));
-  ((shape.lines ?? []) as number[][][]).forEach((points, index) => add({kind: 'line', index}, points));
-  ((shape.tendons ?? []) as number[][][][]).forEach((of, index) => of.forEach((points, tendon) => add({kind: 'tendon', index, tendon}, points)));
-  const best = found.reduce<(typeof found)[number] | null>((least, one) => (!least || one.distance < least.distance ? one : least), null);
-  if (best && best.distance < reach) return best.part;
-  return (shape.platform?.length ?? 0) > 2 && isInside(x, y, outline(shape.platform).map(project)) ? {kind: 'platform', index: 0} : null;
+function lineOf({shape}: Drawing, {kind, index, tendon}: Part): Point[] | undefined {
+  return kind === 'backbone' ? shape.backbones[index] : kind === 'line' ? shape.lines?.[index] : kind === 'tendon' ? shape.tendons?.[index]?.[tendon ?? 0] : undefined;
+}
+
+/** The part nearest to the pointer. @param pixels of a metre */
+export function partAt(x: number, y: number, drawing: Drawing, shown: ReadonlySet<Layer>, project: Project, pixels: number): Found | null {
+  const {shape, struts, radius} = drawing, thick = Math.max(reach, radius * pixels + leastRod);
+  const body = shown.has('discs') ? Math.max(0, ...(shape.discs ?? []).map((disc: Json) => disc.radius * pixels)) : 0;
+  let best: (Found & {beyond: number}) | null = null;
+  const add = (part: Part, within: number) => {
+    const points = lineOf(drawing, part);
+    if (!points || points.length < 2) return;
+    const [distance, along] = toLine(x, y, points, project), beyond = distance / within;
+    if (distance <= within && (!best || beyond < best.beyond)) best = {part, along, beyond};
+  };
+  shape.backbones.forEach((_: Point[], index: number) => shown.has('rods') && add({kind: 'backbone', index}, Math.max(thick, body)));
+  (shape.lines ?? []).forEach((_: Point[], index: number) => (shown.has('lines') || (struts[index] && shown.has('rods'))) && add({kind: 'line', index}, thick));
+  (shape.tendons ?? []).forEach((of: Point[][], index: number) => shown.has('tendons') && of.forEach((_, tendon) => add({kind: 'tendon', index, tendon}, reach)));
+  if (best) return best;
+  return (shape.platform?.length ?? 0) > 2 && isInside(x, y, outline(shape.platform).map(project)) ? {part: {kind: 'platform', index: 0}, along: 0} : null;
+}
+
+/** Where what was found is now; null where the drawing has no such part. */
+export function pointOf(drawing: Drawing, {part, along}: Found): Point | null {
+  if (part.kind === 'platform') return reference(drawing.shape);
+  const points = lineOf(drawing, part), i = Math.min(Math.floor(along), (points?.length ?? 0) - 2);
+  if (!points || i < 0) return null;
+  const [a, b] = [points[i]!, points[i + 1]!], t = Math.min(along - i, 1);
+  return plus(plus([0, 0, 0], a, 1 - t), b, t);
 }

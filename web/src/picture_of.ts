@@ -2,12 +2,6 @@
 import type {Picture} from './picture';
 import {PlainPicture} from './plain_picture';
 import {Scene} from './scene';
+import {webgl} from './webgl';
 
-export function makePicture(box: HTMLElement): Picture {
-  try {
-    return new Scene(box);
-  } catch {
-    box.replaceChildren();  // three leaves a canvas
-    return new PlainPicture(box);
-  }
-}
+export const makePicture = (box: HTMLElement): Picture => (webgl() === 'none' ? new PlainPicture(box) : new Scene(box));

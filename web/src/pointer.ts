@@ -1,92 +1,144 @@
-// The pointer on a picture: names what it rests on, keeps a name that is clicked, and drags the platform.
-import type {Json} from './client';
-import type {Labels} from './labels';
-import {isOnPlatform, partAt} from './pick';
-import type {Part} from './picture';
+// Pointer, wheel and keys on a picture: they move the camera, or take hold of the platform.
+import type {Camera} from './camera';
+import {isOnPlatform, reference} from './pick';
+import type {Names} from './names';
+import type {Drawing} from './picture';
+import {plus, type Point} from './vector';
 
-const patience = 150;  // ms on a part until it is named
+const slip = 4;  // pixels a pointer moves in a click
 
-export interface Pointed {
-  shape(): Json | null;
-  project(point: number[]): [number, number];
-  shift(right: number, down: number): number[];  ///< in metres, of a way in pixels in the plane of the screen
-  label(part: Part): string;
-  grabbed(position: number[], isEnd: boolean): void;
-  hold(is: boolean): void;  ///< the camera stands still
+export interface Hand {
+  drawing(): Drawing | null;
+  grabbed(position: Point, isEnd: boolean): void;
+  looked(isEnd: boolean): void;  ///< the camera has moved
+  fit(): void;
 }
 
-/** Where the platform's reference point, or the tip, is. */
-export const placeOf = (shape: Json): number[] | null => {
-  const frame = shape.frames?.at(-1);
-  return frame ? frame.position ?? [frame.x, frame.y, 0] : null;
-};
+type Mode = 'orbit' | 'pan' | 'grab' | 'none';
 
 export class Pointer {
-  private timer = 0;
-  private isPinned = false;
-  private from: {x: number; y: number; place: number[]} | null = null;
-  private next: number[] | null = null;
+  private readonly down = new Map<number, {x: number; y: number}>();
+  private mode: Mode = 'none';
+  private from = {x: 0, y: 0};
+  private place: Point = [];
+  private isClick = false;
+  private isTold = true;  // where the platform is dragged to
+  private wheeled = 0;
 
-  constructor(private readonly box: HTMLElement, private readonly labels: Labels, private readonly picture: Pointed) {
-    box.addEventListener('pointerdown', (event) => this.down(event), {capture: true});
+  constructor(private readonly box: HTMLElement, private readonly camera: Camera, private readonly names: Names, private readonly hand: Hand) {
+    box.style.touchAction = 'none';
+    box.addEventListener('pointerdown', (event) => this.press(event));
     box.addEventListener('pointermove', (event) => this.move(event));
-    box.addEventListener('pointerup', (event) => this.up(event));
-    box.addEventListener('pointerleave', () => this.isPinned || this.unpin());
-    box.addEventListener('click', (event) => this.name(event, true));
-    box.addEventListener('keydown', (event) => event.key === 'Escape' && this.unpin());
+    for (const end of ['pointerup', 'pointercancel'] as const) box.addEventListener(end, (event) => this.release(event));
+    box.addEventListener('pointerleave', () => this.names.leave());
+    box.addEventListener('contextmenu', (event) => event.preventDefault());
+    box.addEventListener('wheel', (event) => this.wheel(event), {passive: false});
+    box.addEventListener('dblclick', () => hand.fit());
+    box.addEventListener('keydown', (event) => this.key(event));
   }
 
-  unpin(): void {
-    this.isPinned = false;
-    clearTimeout(this.timer);
-    this.labels.point('', 0, 0, false);
-  }
-
-  private at(event: MouseEvent): [number, number] {
+  private at(event: MouseEvent): {x: number; y: number} {
     const {left, top} = this.box.getBoundingClientRect();
-    return [event.clientX - left, event.clientY - top];
+    return {x: event.clientX - left, y: event.clientY - top};
   }
 
-  private name(event: MouseEvent, isClick: boolean): void {
-    const shape = this.picture.shape(), [x, y] = this.at(event), part = shape && partAt(x, y, shape, (point) => this.picture.project(point));
-    if (isClick) this.isPinned = !!part && !this.isPinned;
-    this.labels.point(part && (this.isPinned || !isClick) ? this.picture.label(part) : '', x, y, this.isPinned);
+  private isOnPlatform({x, y}: {x: number; y: number}): boolean {
+    const drawing = this.hand.drawing();
+    return !!drawing && isOnPlatform(x, y, drawing.shape, (point) => this.camera.project(point));
   }
 
-  private down(event: PointerEvent): void {
-    const shape = this.picture.shape(), place = shape && placeOf(shape), [x, y] = this.at(event);
-    if (!place || event.button !== 0 || !isOnPlatform(x, y, shape, place, (point) => this.picture.project(point))) return;
-    this.from = {x, y, place};
-    this.picture.hold(true);
+  private press(event: PointerEvent): void {
+    const at = this.at(event);
     this.box.setPointerCapture(event.pointerId);
+    this.down.set(event.pointerId, at);
+    if (this.down.size > 1) {  // fingers
+      if (this.mode === 'grab') this.letGo(at);
+      this.isClick = false;
+      this.mode = 'none';
+      return;
+    }
+    const isPan = event.button !== 0 || event.shiftKey || event.ctrlKey || this.camera.isPlanar, place = this.isOnPlatform(at) && reference(this.hand.drawing()!.shape);
+    this.from = at;
+    this.isClick = event.button === 0;
+    this.mode = event.button === 0 && place ? 'grab' : isPan ? 'pan' : 'orbit';
+    if (place && this.mode === 'grab') this.place = place;
+    this.names.leave();
   }
 
   private move(event: PointerEvent): void {
-    const [x, y] = this.at(event), shape = this.picture.shape();
-    if (this.from) {
-      const way = this.picture.shift(x - this.from.x, y - this.from.y), isFirst = !this.next;
-      this.next = this.from.place.map((part, i) => part + (way[i] ?? 0));
-      if (isFirst) requestAnimationFrame(() => this.tell());
+    const at = this.at(event), last = this.down.get(event.pointerId);
+    if (!last) {
+      this.box.style.cursor = this.isOnPlatform(at) ? 'grab' : '';
+      this.names.rest(at.x, at.y);
       return;
     }
-    const isHand = !!shape && isOnPlatform(x, y, shape, placeOf(shape), (point) => this.picture.project(point));
-    this.box.style.cursor = isHand ? 'grab' : '';
-    if (this.isPinned || event.buttons !== 0) return;
-    clearTimeout(this.timer);
-    this.labels.point('', 0, 0, false);
-    this.timer = window.setTimeout(() => this.name(event, false), patience);
+    if (this.down.size === 2) this.pinch(event.pointerId, last, at);
+    this.down.set(event.pointerId, at);
+    if (Math.hypot(at.x - this.from.x, at.y - this.from.y) > slip) this.isClick = false;
+    if (this.mode === 'none' || this.isClick) return;
+    this.box.style.cursor = 'grabbing';
+    if (this.mode === 'grab') return this.drag();
+    if (this.mode === 'pan') this.camera.pan(at.x - last.x, at.y - last.y);
+    else this.camera.orbit(at.x - last.x, at.y - last.y);
+    this.hand.looked(false);
   }
 
-  private tell(): void {
-    if (this.next) this.picture.grabbed(this.next, false);
-    this.next = null;
+  /** Two fingers: apart and together zoom about their middle, both ways pan. */
+  private pinch(id: number, last: {x: number; y: number}, at: {x: number; y: number}): void {
+    const other = [...this.down].find(([key]) => key !== id)![1], gap = (of: {x: number; y: number}) => Math.max(Math.hypot(of.x - other.x, of.y - other.y), 1);
+    this.camera.pan((at.x - last.x) / 2, (at.y - last.y) / 2);
+    this.camera.zoom(gap(at) / gap(last), (at.x + other.x) / 2, (at.y + other.y) / 2);
+    this.hand.looked(false);
   }
 
-  private up(event: PointerEvent): void {
-    if (!this.from) return;
-    const [x, y] = this.at(event), way = this.picture.shift(x - this.from.x, y - this.from.y), isMoved = Math.hypot(x - this.from.x, y - this.from.y) > 2;
-    if (isMoved) this.picture.grabbed(this.from.place.map((part, i) => part + (way[i] ?? 0)), true);
-    this.from = this.next = null;
-    this.picture.hold(false);
+  /** Once a picture at most. */
+  private drag(): void {
+    if (!this.isTold) return;
+    this.isTold = false;
+    requestAnimationFrame(() => {
+      const at = [...this.down.values()][0];
+      if (!this.isTold && at && this.mode === 'grab') this.hand.grabbed(this.goal(at), false);
+      this.isTold = true;
+    });
+  }
+
+  private goal(at: {x: number; y: number}): Point {
+    return plus(this.place, this.camera.shift(at.x - this.from.x, at.y - this.from.y)).slice(0, 3);
+  }
+
+  private letGo(at: {x: number; y: number}): void {
+    this.isTold = true;
+    if (!this.isClick) this.hand.grabbed(this.goal(at), true);
+  }
+
+  private release(event: PointerEvent): void {
+    const at = this.at(event), {mode} = this;
+    if (!this.down.delete(event.pointerId)) return;
+    if (mode === 'grab') this.letGo(at);
+    else if (!this.isClick) this.hand.looked(true);
+    if (this.isClick && event.type === 'pointerup') this.names.click(at.x, at.y);
+    this.mode = 'none';
+    this.isClick = false;
+    this.box.style.cursor = this.isOnPlatform(at) ? 'grab' : '';
+  }
+
+  private wheel(event: WheelEvent): void {
+    const {x, y} = this.at(event), unit = event.deltaMode === 1 ? 16 : event.deltaMode === 2 ? 400 : 1;
+    event.preventDefault();
+    this.camera.zoom(Math.exp(-event.deltaY * unit * (event.ctrlKey ? 0.01 : 0.0015)), x, y);
+    this.hand.looked(false);
+    clearTimeout(this.wheeled);
+    this.wheeled = window.setTimeout(() => this.hand.looked(true), 150);  // a wheel says not when it ends
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const ways: Record<string, [number, number]> = {ArrowLeft: [12, 0], ArrowRight: [-12, 0], ArrowUp: [0, 12], ArrowDown: [0, -12]}, way = ways[event.key];
+    if (event.key === 'Escape') return this.names.unpin();
+    if (way) this.camera.isPlanar ? this.camera.pan(4 * way[0], 4 * way[1]) : this.camera.orbit(...way);
+    else if (event.key === '+' || event.key === '-') this.camera.zoom(event.key === '+' ? 1.1 : 1 / 1.1);
+    else return;
+    event.preventDefault();
+    this.hand.looked(true);
   }
 }

@@ -1,65 +1,39 @@
-// A picture by SVG: small ones beside numbers.
+// Small pictures of robots, beside numbers and on the start screen: few strokes, coloured by the page's classes.
+import {Camera} from './camera';
 import type {Json} from './client';
+import {extent} from './compose';
 import {outline, ring} from './outline';
+import {makeSvg, path, shapeOf} from './svg_pen';
+import type {Point} from './vector';
 
-const space = 'http://www.w3.org/2000/svg';
+const room = 7;  // pixels between the robot and the edges
 
-/** From the side and a little from above; planar ones from above. */
-export const flat = (isPlanar: boolean, azimuth = -1.0, elevation = 0.35) => {
-  const [c, s, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
-  return (point: number[]): [number, number] => {
-    const [x, y, z] = [point[0]!, point[1]!, point[2] ?? 0];
-    return isPlanar ? [x, -y] : [-s * x + c * y, se * (c * x + s * y) - ce * z];
-  };
-};
-
-export interface Stroke { kind: 'rod' | 'plate' | 'base' | 'tendon' | 'ghost'; points: number[][]; isClosed: boolean }
-
-/** The lines of a picture, those behind first. */
-export function strokes(shape: Json, isPlanar: boolean): Stroke[] {
-  const list: Stroke[] = [], base = shape.base as number[][] | undefined, plate = shape.platform as number[][] | undefined;
-  if (base && base.length > 1) list.push({kind: 'base', points: isPlanar ? outline(base) : ring(base), isClosed: true});
-  for (const points of (shape.lines ?? []) as number[][][]) list.push({kind: 'tendon', points, isClosed: false});
-  for (const points of shape.backbones as number[][][]) if (points.length > 1) list.push({kind: 'rod', points, isClosed: false});
-  if (plate && plate.length > 1) list.push({kind: 'plate', points: outline(plate), isClosed: true});
-  return list;
-}
-
-export function draw(svg: SVGElement, list: Stroke[], project: (point: number[]) => [number, number], width: (kind: Stroke['kind']) => number): void {
-  svg.replaceChildren(...list.map(({kind, points, isClosed}) => {
-    const path = document.createElementNS(space, 'path');
-    path.setAttribute('d', `M${points.map((point) => project(point).map((part) => part.toPrecision(5)).join(' ')).join('L')}${isClosed ? 'Z' : ''}`);
-    path.setAttribute('class', `sk-${kind}`);
-    path.setAttribute('stroke-width', String(width(kind)));
-    path.setAttribute('stroke-linejoin', 'round');
-    if (kind === 'ghost') path.setAttribute('stroke-dasharray', '4 3');
-    return path;
-  }));
-}
-
-/** The window of the drawing that holds all points, with some room. */
-export function bounds(list: Stroke[], project: (point: number[]) => [number, number]): {x: number; y: number; width: number; height: number} {
-  const all = list.flatMap(({points}) => points.map(project)), xs = all.map(([x]) => x), ys = all.map(([, y]) => y);
-  const [x, y] = [Math.min(...xs), Math.min(...ys)];
-  return {x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y};
-}
-
-export function make(): SVGElement {
-  const svg = document.createElementNS(space, 'svg');
-  svg.setAttribute('aria-hidden', 'true');
-  return svg;
-}
-
-/** A small picture of a robot. */
 export function sketch(shape: Json, isPlanar: boolean, {width, height}: {width: number; height: number}): SVGElement {
-  const svg = make(), project = flat(isPlanar), list = strokes(shape, isPlanar), box = bounds(list, project), room = 6;
-  const scale = Math.min((width - 2 * room) / Math.max(box.width, 1e-9), (height - 2 * room) / Math.max(box.height, 1e-9));
-  const at = (point: number[]): [number, number] => {
-    const [x, y] = project(point);
-    return [width / 2 + scale * (x - box.x - box.width / 2), height / 2 + scale * (y - box.y - box.height / 2)];
-  };
+  const svg = makeSvg(), camera = new Camera(), isSmall = Math.min(width, height) < 100, rod = isSmall ? 1.6 : 2;
+  const base: Point[] = shape.base ?? [], plate: Point[] = shape.platform ?? [], backbones = (shape.backbones as Point[][]).filter((points) => points.length > 1);
+  camera.isPlanar = isPlanar;
+  camera.margin = room;
+  camera.resize(width, height);
+  camera.fit(extent(shape), undefined, [0, 0, 1]);
+  const stroke = (kind: string, points: Point[], pixels: number, isClosed = false) =>
+    svg.append(shapeOf('path', {class: `sk-${kind}`, d: path(points.map((point) => camera.project(point)), isClosed), 'stroke-width': pixels.toFixed(2), 'stroke-linejoin': 'round'}));
   svg.setAttribute('width', String(width));
   svg.setAttribute('height', String(height));
-  draw(svg, list, at, (kind) => (kind === 'rod' ? 1.8 : kind === 'plate' ? 1.4 : 0.8));
+  if (base.length > 1) stroke('base', isPlanar ? outline(base) : ring(base), 1, true);
+  const radius = Math.max(0, ...(shape.discs ?? []).map((disc: Json) => disc.radius));
+  if (radius > 0) for (const points of backbones) stroke('body', points, Math.max(2 * radius * camera.pixels, 2 * rod));
+  if (!isSmall) for (const points of ((shape.tendons ?? []) as Point[][][]).flat()) if (points.length > 1) stroke('tendon', points, 0.8);
+  for (const points of (shape.lines ?? []) as Point[][]) stroke(isRigid(shape, points) ? 'rod' : 'tendon', points, isRigid(shape, points) ? rod : 0.8);
+  for (const points of backbones) stroke('rod', points, rod);
+  if (plate.length > 1) stroke('plate', outline(plate), 1.5, true);
+  for (const point of base) {
+    const [cx, cy] = camera.project(point);
+    svg.append(shapeOf('circle', {class: 'sk-point', cx: cx.toFixed(2), cy: cy.toFixed(2), r: isSmall ? 1.8 : 2.5, 'stroke-width': 1.2}));
+  }
   return svg;
+}
+
+/** A line that goes on where a backbone ends is a strut: it is drawn as the rod it is. */
+function isRigid({backbones}: Json, [a]: Point[]): boolean {
+  return (backbones as Point[][]).some((points) => points.length > 1 && points.at(-1)!.every((part, k) => Math.abs(part - a![k]!) < 1e-9));
 }
