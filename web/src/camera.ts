@@ -12,7 +12,7 @@ const [nearest, farthest] = [1e-5, 1e4];  // widths in view [m]
 export class Camera {
   isLens = false;
   isPlanar = false;
-  margin = 44;  // pixels between what is fitted and the edges
+  margin = 62;  // pixels between what is fitted and the edges
   width = 1;   // of the box [px]
   height = 1;
   private azimuth = usual[0];

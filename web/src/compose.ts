@@ -213,7 +213,7 @@ class Composition {
 
 /** Draws all that is shown. */
 export function compose(drawing: Drawing, pen: Pen, labels: Labels, setting: Setting): void {
-  pen.begin(drawing.isPlanar);
+  pen.begin(drawing.isPlanar, setting.pixels);
   labels.begin();
   new Composition(drawing, pen, labels, setting).all();
   pen.end();

@@ -132,10 +132,10 @@ export abstract class Figure implements Picture {
     this.isComposed = true;
     this.composedAt = lookout.pixels;
     if (drawing) return compose(drawing, pen, labels, {shown: this.shown, colours: this.colours, pixels: lookout.pixels});
-    for (const of of [pen, labels]) {
-      of.begin(false);
-      of.end();
-    }
+    pen.begin(false, lookout.pixels);
+    pen.end();
+    labels.begin();
+    labels.end();
   }
 
   private looked(isEnd: boolean): void {

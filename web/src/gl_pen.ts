@@ -38,12 +38,12 @@ export class GlPen implements Pen {
     this.shared.behind.value = behind;
   }
 
-  begin(isPlanar: boolean): void {
+  begin(isPlanar: boolean, pixels: number): void {
     for (const plate of this.plates) plate.renderOrder = isPlanar ? 0 : 2;
     this.ink.material.depthTest = !isPlanar;  // in a plane what is drawn later lies above
-    this.ink.step = this.above.step = this.isCoarse ? 2 : 1;
-    this.ink.begin();
-    this.above.begin();
+    this.ink.tolerance = this.isCoarse ? 0.6 : 0.15;
+    this.ink.begin(pixels);
+    this.above.begin(pixels);
     this.plateCount = this.discCount = 0;
   }
 
@@ -52,7 +52,7 @@ export class GlPen implements Pen {
   }
 
   circle(middle: Point, u: Point, v: Point, radius: number, look: Look, turn = around): void {
-    this.of(look).circle(middle, u, v, radius, look, turn, 36);
+    this.of(look).circle(middle, u, v, radius, look, turn);
   }
 
   head(from: Point, to: Point, look: Look): void {
@@ -79,9 +79,9 @@ export class GlPen implements Pen {
   }
 
   disc({pose, height, radius}: Json, body: string, rim: string): void {
-    const axes = axesOf(pose), look: Look = {colour: rim, width: 1}, steps = this.isCoarse ? 12 : 24;
-    this.ink.circle(pose.position, axes[0], axes[1], radius, look, around, steps);
-    this.ink.circle(plus(pose.position, axes[2], height), axes[0], axes[1], radius, look, around, steps);
+    const axes = axesOf(pose), look: Look = {colour: rim, width: 1};
+    this.ink.circle(pose.position, axes[0], axes[1], radius, look, around);
+    this.ink.circle(plus(pose.position, axes[2], height), axes[0], axes[1], radius, look, around);
     if (this.isCoarse) return;
     if (this.discCount >= this.discs.instanceMatrix.count) this.growDiscs();
     const [w, x, y, z] = pose.quaternion;

@@ -9,6 +9,7 @@ const patience = 150;  // ms on a part until it is named
 export class Names {
   private timer = 0;
   private pinned: Found | null = null;
+  private rested: [number, number] | null = null;  // where what is named now is under the pointer
 
   constructor(private readonly labels: Labels, private readonly camera: Camera, private readonly shown: ReadonlySet<Layer>,
               private readonly drawing: () => Drawing | null, private readonly label: (part: Part) => string) {}
@@ -16,16 +17,17 @@ export class Names {
   /** The pointer has come here. */
   rest(x: number, y: number): void {
     this.leave();
-    if (!this.pinned) this.timer = window.setTimeout(() => this.name(this.find(x, y), x, y), patience);
+    if (!this.pinned) this.timer = window.setTimeout(() => this.name(this.find(x, y), ...(this.rested = [x, y])), patience);
   }
 
   leave(): void {
     clearTimeout(this.timer);
+    this.rested = null;
     if (!this.pinned) this.name(null, 0, 0);
   }
 
   click(x: number, y: number): void {
-    clearTimeout(this.timer);
+    this.leave();
     this.pinned = this.pinned ? null : this.find(x, y);
     this.name(this.pinned, x, y);
   }
@@ -35,9 +37,10 @@ export class Names {
     this.leave();
   }
 
-  /** The picture is another one: the name that is kept goes where its part is, and says what is so now. */
+  /** The picture is another one: names say what is so now, and one that is kept goes where its part is. */
   follow(): void {
     const drawing = this.drawing();
+    if (this.rested) this.name(this.find(...this.rested), ...this.rested);
     if (!this.pinned) return;
     const point = drawing && pointOf(drawing, this.pinned);
     if (!point) return this.unpin();

@@ -13,7 +13,8 @@ export interface Look {
 
 /** Between `begin` and `end` all of a picture is drawn anew. What is drawn later lies above where depth does not tell. */
 export interface Pen {
-  begin(isPlanar: boolean): void;
+  /** @param pixels of a metre */
+  begin(isPlanar: boolean, pixels: number): void;
   line(points: Point[], look: Look, isClosed?: boolean): void;
   /** @param turn as much of the circle [rad] */
   circle(middle: Point, u: Point, v: Point, radius: number, look: Look, turn?: number): void;

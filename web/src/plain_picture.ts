@@ -6,7 +6,7 @@ import {makeSvg, shapeOf, SvgPen} from './svg_pen';
 export class PlainPicture extends Figure {
   readonly canvas = makeSvg();
   protected override readonly isFlat = true;
-  protected readonly pen = new SvgPen(this.canvas, (point) => this.lookout.project(point), () => this.lookout.pixels);
+  protected readonly pen = new SvgPen(this.canvas, (point) => this.lookout.project(point));
 
   constructor(box: HTMLElement) {
     super(box);

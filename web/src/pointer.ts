@@ -26,7 +26,7 @@ export class Pointer {
   private wheeled = 0;
 
   constructor(private readonly box: HTMLElement, private readonly camera: Camera, private readonly names: Names, private readonly hand: Hand) {
-    box.style.touchAction = 'none';
+    box.style.touchAction = box.style.userSelect = 'none';
     box.addEventListener('pointerdown', (event) => this.press(event));
     box.addEventListener('pointermove', (event) => this.move(event));
     for (const end of ['pointerup', 'pointercancel'] as const) box.addEventListener(end, (event) => this.release(event));

@@ -22,7 +22,8 @@ export function sketch(shape: Json, isPlanar: boolean, {width, height}: {width: 
   if (base.length > 1) stroke('base', isPlanar ? outline(base) : ring(base), 1, true);
   const radius = Math.max(0, ...(shape.discs ?? []).map((disc: Json) => disc.radius));
   if (radius > 0) for (const points of backbones) stroke('body', points, Math.max(2 * radius * camera.pixels, 2 * rod));
-  if (!isSmall) for (const points of ((shape.tendons ?? []) as Point[][][]).flat()) if (points.length > 1) stroke('tendon', points, 0.8);
+  const hasRoom = !isSmall && (radius === 0 || 2 * radius * camera.pixels > 20);  // else tendons run together
+  if (hasRoom) for (const points of ((shape.tendons ?? []) as Point[][][]).flat()) if (points.length > 1) stroke('tendon', points, 0.8);
   for (const points of (shape.lines ?? []) as Point[][]) stroke(isRigid(shape, points) ? 'rod' : 'tendon', points, isRigid(shape, points) ? rod : 0.8);
   for (const points of backbones) stroke('rod', points, rod);
   if (plate.length > 1) stroke('plate', outline(plate), 1.5, true);

@@ -23,12 +23,13 @@ export function shapeOf(name: 'path' | 'circle' | 'rect', attributes: Record<str
 
 export class SvgPen implements Pen {
   private shapes: SVGElement[] = [];
+  private pixels = 1;
 
-  /** @param pixels of a metre */
-  constructor(private readonly svg: SVGSVGElement, private readonly project: Project, private readonly pixels: () => number) {}
+  constructor(private readonly svg: SVGSVGElement, private readonly project: Project) {}
 
-  begin(): void {
+  begin(_isPlanar: boolean, pixels: number): void {
     this.shapes = [];
+    this.pixels = pixels;
   }
 
   line(points: Point[], look: Look, isClosed = false): void {
@@ -69,7 +70,7 @@ export class SvgPen implements Pen {
 
   private stroke({colour, width = 1, diameter = 0, dash, opacity = 1}: Look): Record<string, string | number> {
     return {
-      stroke: colour, 'stroke-width': Math.max(width, diameter * this.pixels()).toFixed(2), 'stroke-linejoin': 'round', 'stroke-linecap': dash ? 'butt' : 'round',
+      stroke: colour, 'stroke-width': Math.max(width, diameter * this.pixels).toFixed(2), 'stroke-linejoin': 'round', 'stroke-linecap': dash ? 'butt' : 'round',
       ...(dash && {'stroke-dasharray': dash.join(' ')}), ...(opacity < 1 && {'stroke-opacity': opacity}),
     };
   }
