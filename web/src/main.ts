@@ -118,7 +118,7 @@ class Page {
     for (const [id, go] of Object.entries(clicks)) byId(id).addEventListener('click', go);
     chooser.addEventListener('change', () => this.openFile(chooser.files?.[0]));
     window.addEventListener('focus', () => void this.guarded(() => this.look()));
-    window.addEventListener('hashchange', () => void this.follow());
+    window.addEventListener('hashchange', (event) => void this.follow(new URL(event.newURL).hash));
     window.addEventListener('dragover', (event) => event.preventDefault());
     window.addEventListener('drop', (event) => {
       event.preventDefault();
@@ -186,9 +186,10 @@ class Page {
     if (opened?.name === this.name) this.file.changedOnDisk(opened.text);
   }
 
-  /** A link that was put into the address by hand. */
-  private async follow(): Promise<void> {
-    const link = new URLSearchParams(location.hash.slice(1));
+  /** A link that was put into the address by hand; what the page writes there may have come between. */
+  private async follow(hash: string): Promise<void> {
+    const link = new URLSearchParams(hash.slice(1));
+    clearTimeout(this.linked);
     if (this.ships(link.get('robot'))) await this.choose(link.get('robot')!, link);
   }
 
