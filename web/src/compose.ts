@@ -18,6 +18,7 @@ export interface Setting {
   shown: ReadonlySet<Layer>;
   colours: Colours;
   pixels: number;  ///< of a metre
+  side: number;    ///< narrower one of the picture [px]
 }
 
 /** Draws once; what of it is the same in all parts is kept here. */
@@ -150,13 +151,13 @@ class Composition {
   }
 
   private frames(): void {
-    const {isPlanar} = this.drawing, list: Json[] = this.shape.frames ?? [];
+    const {isPlanar} = this.drawing, list: Json[] = this.shape.frames ?? [], part = Math.min(1, this.setting.side / 480), [long, short] = [44 * part, 26 * part];
     const one = (place: Point, ways: Point[], pixels: number, isNamed: boolean) => axes.slice(0, isPlanar ? 2 : 3).forEach((name, k) => {
       const at = this.arrow(place, ways[k]!, pixels, {colour: this.colour(`axis-${name}`), width: 2, isAbove: true});
       if (isNamed) this.label(name, at, `axis axis-${name}`);
     });
-    one([0, 0, 0], [[1, 0, 0], [0, 1, 0], [0, 0, 1]], 44, true);
-    list.forEach((frame, i) => one(placeOf(frame), axesOf(frame), i === list.length - 1 ? 44 : 26, i === list.length - 1));
+    one([0, 0, 0], [[1, 0, 0], [0, 1, 0], [0, 0, 1]], long, true);
+    list.forEach((frame, i) => one(placeOf(frame), axesOf(frame), i === list.length - 1 ? long : short, i === list.length - 1));
   }
 
   /** A type II: the legs' lines, and the point that they have in common. */

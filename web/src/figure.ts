@@ -131,7 +131,7 @@ export abstract class Figure implements Picture {
     const {drawing, lookout, pen, labels} = this;
     this.isComposed = true;
     this.composedAt = lookout.pixels;
-    if (drawing) return compose(drawing, pen, labels, {shown: this.shown, colours: this.colours, pixels: lookout.pixels});
+    if (drawing) return compose(drawing, pen, labels, {shown: this.shown, colours: this.colours, pixels: lookout.pixels, side: Math.min(lookout.width, lookout.height)});
     pen.begin(false, lookout.pixels);
     pen.end();
     labels.begin();

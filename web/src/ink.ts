@@ -116,7 +116,7 @@ export class Ink extends Mesh<BufferGeometry, RawShaderMaterial> {
   }
 
   circle(middle: Point, u: Point, v: Point, radius: number, look: Look, turn: number): void {
-    const steps = Math.ceil(Math.min(48, Math.max(8, 2 * turn * Math.sqrt(this.pixels * radius) / Math.PI)));
+    const steps = Math.ceil(Math.min(48, Math.max(8, 0.5 * turn * Math.sqrt((this.pixels * radius) / (4 * this.tolerance)))));
     let [x, y, z] = [middle[0]! + radius * u[0]!, middle[1]! + radius * u[1]!, middle[2]! + radius * u[2]!];
     this.along = 0;
     for (let i = 1; i <= steps; ++i) {
