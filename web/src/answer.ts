@@ -2,6 +2,7 @@
 import {type Bar, filled, type Section, sectionOf, signed} from './bars';
 import type {Json} from './client';
 import {type Described, subscript} from './described';
+import type {Ghost} from './ghost';
 import type {State} from './state';
 import {format, type System, type Unit, unitName} from './units';
 
@@ -16,17 +17,18 @@ export function coordinates(pose: Json): [string, number, Unit][] {
   return [...place, ['tilt', pose.tilt, 'rad'], ['azimuth', pose.azimuth, 'rad'], ['torsion', pose.torsion, 'rad']];
 }
 
-function poseSection(answer: Json, ghost: Json | null, described: Described, system: System): Section {
-  const pose = answer.pose ?? answer.tip, other = ghost?.pose ?? ghost?.tip, title = described.isSerial ? 'Pose of the tip' : 'Pose of the platform';
+function poseSection(answer: Json, ghost: Ghost | null, described: Described, system: System): Section {
+  const pose = answer.pose ?? answer.tip, other = ghost?.answer.pose ?? ghost?.answer.tip, title = described.isSerial ? 'Pose of the tip' : 'Pose of the platform';
   if (!pose) return {title, rows: [], bars: []};
   const others = other ? coordinates(other) : [];
   const isUpright = Math.abs(pose.tilt ?? 1) < 1e-7;  // it leans nowhere, so in no direction
-  const rows = coordinates(pose).map(([name, value, unit], i): [string, string] => {
+  const rows = coordinates(pose).map(([name, value, unit]): [string, string] => {
     if (name === 'azimuth' && isUpright) return [name, '–'];
-    const beside = others[i] ? ` (${value < others[i][1] ? '−' : '+'}${withUnit(Math.abs(value - others[i][1]), unit, system)})` : '';
+    const its = others.find(([of]) => of === name)?.[1], by = value - (its ?? value), far = unit === 'rad' ? by - 2 * Math.PI * Math.round(by / (2 * Math.PI)) : by;
+    const beside = its === undefined ? '' : ` (${far < 0 ? '−' : '+'}${withUnit(Math.abs(far), unit, system)})`;
     return [name, withUnit(value, unit, system) + beside];
   });
-  return {title: other ? `${title} (from the ghost)` : title, rows, bars: []};
+  return {title: other ? `${title} (from the ghost${ghost!.says && `, ${ghost!.says}`})` : title, rows, bars: []};
 }
 
 /** Decades up to this one are drawn as a bar. */
@@ -112,7 +114,7 @@ export class AnswerPanel {
   constructor(private readonly box: HTMLElement) {}
 
   /** @param answer of `forward`, with those of other queries as `velocity`, `reach`, `typeTwo` and `room` in it */
-  show(answer: Json, described: Described, state: State, ghost: Json | null, system: System): void {
+  show(answer: Json, described: Described, state: State, ghost: Ghost | null, system: System): void {
     const sections = [poseSection(answer, ghost, described, system)];
     const margins: Section = {title: 'Margins', rows: marginRows(answer, system), bars: marginBars(answer, described, state)};
     if (margins.rows.length + margins.bars.length > 0) sections.push(margins);

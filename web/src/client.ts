@@ -4,14 +4,38 @@ export type Json = Record<string, any>;
 export interface Shipped { name: string; title: string; kind: string; space: string }
 
 export class Refused extends Error {
-  constructor(readonly status: number, readonly answer: Json) {
+  /** @param wait what the server says to wait before the next try [s] */
+  constructor(readonly status: number, readonly answer: Json, readonly wait = 0) {
     super(answer.error?.message ?? answer.errors?.[0]?.message ?? `the server answered ${status}`);
+  }
+
+  /** Too much at once: the same question may be answered later. */
+  get isBusy(): boolean {
+    return this.status === 429 || this.status === 503;
+  }
+}
+
+/** Nobody answers. */
+export class Lost extends Error {}
+
+const breath = 150;  // ms before a second try
+
+/** A server may close a connection that it kept open, or that a question held too long: one more try tells this from one that is gone. */
+async function reach(path: string, options: RequestInit): Promise<{reply: Response; text: string}> {
+  for (let isFirst = true;; isFirst = false) {
+    try {
+      const reply = await fetch(path, options);
+      return {reply, text: await reply.text()};
+    } catch (error) {
+      if (!(error instanceof TypeError)) throw error;  // so fetch says that nobody answered
+      if (!isFirst) throw new Lost('no connection');
+      await new Promise((done) => setTimeout(done, breath));
+    }
   }
 }
 
 async function call(path: string, body?: string, type = 'application/json', signal?: AbortSignal): Promise<string> {
-  const reply = await fetch(path, body === undefined ? {} : {method: 'POST', body, headers: {'Content-Type': type}, ...(signal && {signal})});
-  const text = await reply.text();
+  const {reply, text} = await reach(path, body === undefined ? {} : {method: 'POST', body, headers: {'Content-Type': type}, ...(signal && {signal})});
   if (reply.ok) return text;
   let answer: Json = {};
   try {
@@ -19,7 +43,7 @@ async function call(path: string, body?: string, type = 'application/json', sign
   } catch {
     answer = {error: {message: text}};
   }
-  throw new Refused(reply.status, answer);
+  throw new Refused(reply.status, answer, Number(reply.headers.get('Retry-After')) || 0);
 }
 
 export const version = async (): Promise<Json> => JSON.parse(await call('/api/version'));
@@ -50,12 +74,15 @@ export class Robot {
   /** As `ask`, of what takes long: it keeps no other question waiting, and the server stops where `signal` says so. */
   async work(queries: Json[], signal: AbortSignal): Promise<Json[]> {
     const {job} = await this.known((robot) => call('/api/jobs', JSON.stringify({robot, queries})));
+    const end = () => {
+      void fetch(`/api/jobs/${job}`, {method: 'DELETE'}).catch(() => undefined);  // nobody listens: it ends by itself
+      return new DOMException('cancelled', 'AbortError');
+    };
+    if (signal.aborted) throw end();  // while the job was made
     const events = new EventSource(`/api/jobs/${job}/events`), answers: Json[] = [];
     return new Promise<Json[]>((done, failed) => {
-      signal.addEventListener('abort', () => {
-        void fetch(`/api/jobs/${job}`, {method: 'DELETE'});
-        failed(new DOMException('cancelled', 'AbortError'));
-      });
+      signal.addEventListener('abort', () => failed(end()));
+      events.addEventListener('error', () => events.readyState === EventSource.CLOSED && failed(new Lost('no connection')));
       events.addEventListener('answers', (event) => {
         const {first, answers: some} = JSON.parse(event.data);
         some.forEach((one: Json, i: number) => { answers[first + i] = one; });

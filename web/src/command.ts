@@ -1,9 +1,11 @@
-// The command that gives the numbers of the page.
+// The command that gives the numbers of the page, for a shell.
 import {bearsLoad, type Described} from './described';
 import {bySection} from './questions';
+import type {Source} from './source';
 import type {State} from './state';
 
 const short = (value: number) => String(Number(value.toPrecision(12)));
+const quoted = (word: string) => (/["$`\\!']/.test(word) ? `'${word.replaceAll("'", "'\\''")}'` : `"${word}"`);
 const list = (values: number[]) => `"${values.map(short).join(', ')}"`;
 
 function asked(described: Described, state: State, bending: number[] | null): string {
@@ -17,21 +19,24 @@ function asked(described: Described, state: State, bending: number[] | null): st
   return `--${described.isHeldByFew ? 'independent' : 'pose'} ${list(state.pose)}${signs}`;
 }
 
-/**
- * @param robot a name or a file
- * @param start where the search has to begin so that it ends at this solution, as `--start` has it; else null
- * @param quaternion the orientation of a pose that is asked, which the command takes in place of its tilt
- */
-export function command(robot: string, described: Described, state: State, start: number[] | null, quaternion: number[] | null): string {
-  const isPose = state.asked === 'pose' && !described.isSerial && !described.isPlanar && !described.isHeldByFew;
-  const told = isPose && quaternion ? {...state, pose: [...state.pose.slice(0, 3), ...quaternion]} : state;
-  const words = ['sinew', state.asked === 'pose' ? 'inverse' : 'forward', /^[\w./-]+$/.test(robot) ? robot : `'${robot}'`,
+/** Rz(azimuth) Ry(tilt) Rz(torsion − azimuth), as the command takes an orientation. */
+function quaternionOf([tilt = 0, azimuth = 0, torsion = 0]: number[]): number[] {
+  const [c, s] = [Math.cos(tilt / 2), Math.sin(tilt / 2)], half = azimuth - torsion / 2;
+  return [c * Math.cos(torsion / 2), -s * Math.sin(half), s * Math.cos(half), c * Math.sin(torsion / 2)];
+}
+
+/** @param start where the search has to begin so that it ends at this solution, as `--start` has it; else null */
+export function command(source: Source, described: Described, state: State, start: number[] | null): string {
+  const isPose = state.asked === 'pose' && !described.isSerial && !described.isPlanar && !described.isHeldByFew, robot = source.word;
+  const told = isPose ? {...state, pose: [...state.pose.slice(0, 3), ...quaternionOf(state.pose.slice(3))]} : state;
+  const words = ['sinew', state.asked === 'pose' ? 'inverse' : 'forward', /^[\w./-]+$/.test(robot) ? robot : quoted(robot),
                  asked(described, told, described.canBend ? state.bending : null)];
   if (start) words.push(`--start ${list(start)}`);
   if (state.model !== described.answer.model) words.push(`--model ${state.model}`);
   if (bearsLoad(state.model) && state.load.some((part) => part !== 0)) words.push(`--wrench ${list(state.load)}`);
   if (described.hasGravity && !state.gravity) words.push('--gravity "0, 0, 0"');
   if (state.iterations > 0) words.push(`--max-iterations ${state.iterations}`);
+  for (const set of source.sets) words.push(`--set ${quoted(set)}`);
   if (state.model === 'prb' && state.joints > 0)
     described.answer.legs.forEach((_: unknown, i: number) => words.push(`--set "legs[${i}].link.joints=${state.joints}"`));
   return words.join(' ');

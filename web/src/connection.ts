@@ -8,13 +8,13 @@ export class Connection {
   private lostAt = 0;
   private tries = 0;
   private clock = 0;
+  private again: () => void = () => undefined;
 
-  constructor(private readonly back: () => void) {}
-
-  lost(): void {
+  /** @param again what is done once it is back; of several the last */
+  lost(again: () => void): void {
+    this.again = again;
     if (this.lostAt !== 0) return;
     this.lostAt = performance.now();
-    this.tries = 0;
     document.body.classList.add('lost');
     byId('lost').hidden = false;
     this.clock = window.setInterval(() => this.tell(), 1000);
@@ -40,6 +40,11 @@ export class Connection {
     this.lostAt = 0;
     document.body.classList.remove('lost');
     byId('lost').hidden = true;
-    this.back();
+    this.again();
+  }
+
+  /** It answers what is asked, not only that it is there: the next loss is a new one. */
+  answered(): void {
+    this.tries = 0;
   }
 }

@@ -15,6 +15,7 @@ export interface Wishes {
   change(part: Partial<State>): void;
   bend(bending: number[] | null): void;
   goHome(): void;
+  release(): void;  ///< a hand has let go
 }
 
 export class Controls {
@@ -26,7 +27,7 @@ export class Controls {
   private readonly note = make('p', {className: 'note'});
 
   constructor(private readonly wishes: Wishes) {
-    const sliders = (side: Side | 'load', home: HTMLButtonElement) => new Sliders(byId(side), home, (i, value) => wishes.turn(side, i, value));
+    const sliders = (side: Side | 'load', home: HTMLButtonElement) => new Sliders(byId(side), home, (i, value) => wishes.turn(side, i, value), () => wishes.release());
     this.sides = {
       inputs: sliders('inputs', button('Home', () => wishes.goHome(), 'all inputs to their home (h)')),
       pose: sliders('pose', button('Home', () => wishes.goHome(), 'the home pose (h)')),

@@ -4,9 +4,11 @@ import {defaultKeymap, history, historyKeymap, undo} from '@codemirror/commands'
 import {yaml} from '@codemirror/lang-yaml';
 import {HighlightStyle, syntaxHighlighting} from '@codemirror/language';
 import {type Diagnostic, lintGutter, setDiagnostics} from '@codemirror/lint';
-import {EditorState, RangeSetBuilder, type Text} from '@codemirror/state';
+import {EditorState, type Extension, RangeSetBuilder, type Text} from '@codemirror/state';
 import {Decoration, type DecorationSet, EditorView, keymap, lineNumbers, ViewPlugin, type ViewUpdate} from '@codemirror/view';
 import {tags} from '@lezer/highlight';
+
+export {changesOf, withChanges} from './yaml';
 
 const theme = EditorView.theme({
   '&': {height: '100%', color: 'var(--text)', backgroundColor: 'var(--card)', fontSize: '12.5px'},
@@ -38,8 +40,17 @@ function changedLines(now: Text, was: string[]): number[] {
   return found;
 }
 
+/** Browsers that replace a selection write styles into elements, which the content policy does not let. */
+function typedOver(event: InputEvent, view: EditorView): boolean {
+  if (event.inputType !== 'insertText' || !event.data || event.isComposing || view.state.selection.main.empty) return false;
+  view.dispatch(view.state.replaceSelection(event.data), {userEvent: 'input.type', scrollIntoView: true});
+  event.preventDefault();
+  return true;
+}
+
 export class Editor {
   private readonly view: EditorView;
+  private readonly extensions: Extension[];
   private original: string[] = [];
 
   constructor(box: HTMLElement, private readonly typed: () => void) {
@@ -47,22 +58,20 @@ export class Editor {
     const marks = ViewPlugin.fromClass(class {
       decorations: DecorationSet;
       constructor(view: EditorView) { this.decorations = this.find(view); }
-      update(update: ViewUpdate) { if (update.docChanged) this.decorations = this.find(update.view); }
+      update(update: ViewUpdate) { this.decorations = this.find(update.view); }
       find(view: EditorView): DecorationSet {
         const builder = new RangeSetBuilder<Decoration>(), mark = Decoration.line({class: 'cm-changed'});
         for (const line of changedLines(view.state.doc, changed())) builder.add(view.state.doc.line(line).from, view.state.doc.line(line).from, mark);
         return builder.finish();
       }
     }, {decorations: (value) => value.decorations});
-    this.view = new EditorView({
-      root,
-      state: EditorState.create({extensions: [
-        lineNumbers(), history(), keymap.of([...defaultKeymap, ...historyKeymap]), yaml(), syntaxHighlighting(highlight), lintGutter(), theme, marks,
-        EditorView.contentAttributes.of({'aria-label': 'Robot file', spellcheck: 'false'}),
-        EditorView.updateListener.of((update) => update.docChanged && this.typed()),
-        EditorView.domEventHandlers({pointerdown: (event, view) => this.grab(event, view)}),
-      ]}),
-    });
+    this.extensions = [
+      lineNumbers(), history(), keymap.of([...defaultKeymap, ...historyKeymap]), yaml(), syntaxHighlighting(highlight), lintGutter(), theme, marks,
+      EditorView.contentAttributes.of({'aria-label': 'Robot file', spellcheck: 'false'}),
+      EditorView.updateListener.of((update) => update.docChanged && this.typed()),
+      EditorView.domEventHandlers({pointerdown: (event, view) => this.grab(event, view), beforeinput: typedOver}),
+    ];
+    this.view = new EditorView({root, state: EditorState.create({extensions: this.extensions})});
     this.view.scrollDOM.tabIndex = 0;  // so that keys scroll it
     root.append(this.view.dom);
   }
@@ -71,14 +80,25 @@ export class Editor {
     return this.view.state.doc.toString();
   }
 
-  /** A text that is the file's from now on; lines are marked where they differ from it. */
-  open(text: string): void {
-    this.original = text.split('\n');
+  /**
+   * @param original the file, from which lines that differ are marked
+   * @param isOther another file: undo leads not back to the one before
+   */
+  open(text: string, original: string, isOther: boolean): void {
+    this.original = original.split('\n');
+    if (isOther) return this.view.setState(EditorState.create({doc: text, extensions: this.extensions}));
     if (this.text !== text) this.view.dispatch({changes: {from: 0, to: this.view.state.doc.length, insert: text}});
   }
 
-  undo(): void {
-    undo(this.view);
+  /** The text is as it is, the file another one. */
+  compare(original: string): void {
+    this.original = original.split('\n');
+    this.view.dispatch({});
+  }
+
+  /** @return whether there was something to undo */
+  undo(): boolean {
+    return undo(this.view);
   }
 
   mark(errors: {line: number; column: number; message: string}[]): void {

@@ -1,15 +1,29 @@
 // What the picture is compared with: a pose that was kept, or another robot at the same inputs.
 import {type Json, Robot, robotText} from './client';
-import {describe} from './described';
+import {describe, type Described} from './described';
 import {forward, isSolved, shape} from './questions';
 import {type State, stateOf} from './state';
 
-export interface Ghost { name: string; answer: Json; shape: Json }
+export interface Ghost { says: string; answer: Json; shape: Json }
 
-/** Another robot where the first one is, as far as it has the same inputs; else at home. */
-export async function ghostOf(name: string, state: State): Promise<Ghost | null> {
-  const robot = await Robot.open(await robotText(name)), described = await describe(robot), own = stateOf(described);
-  const at = own.inputs.length === state.inputs.length ? {...own, inputs: state.inputs} : own;
-  const answers = await robot.ask([forward(described, at), shape(described, at)]) as [Json, Json];
-  return isSolved(answers[0]) && answers[1].backbones ? {name, answer: answers[0], shape: answers[1]} : null;
+/** Another robot, which goes where the first one is as far as it has the same inputs; else it stays at home. */
+export class Rival {
+  private constructor(readonly name: string, private readonly robot: Robot, private readonly described: Described) {}
+
+  static async open(name: string): Promise<Rival> {
+    const robot = await Robot.open(await robotText(name));
+    return new Rival(name, robot, await describe(robot));
+  }
+
+  /** @return null where it has no solution there */
+  async at(first: Described, state: State): Promise<Ghost | null> {
+    const {described, name} = this, own = stateOf(described), isAlike = (side: 'inputs' | 'load') =>
+      first.isSerial === described.isSerial && first[side].length === described[side].length && first[side].every(({unit}, i) => unit === described[side][i]!.unit);
+    const at = {
+      ...own, ...(isAlike('inputs') && {inputs: state.inputs}), ...(isAlike('load') && {load: state.load}), gravity: state.gravity,
+      ...(described.models.includes(state.model) && {model: state.model}),
+    };
+    const answers = await this.robot.ask([forward(described, at), shape(described, at)]) as [Json, Json];
+    return isSolved(answers[0]) && answers[1].backbones ? {says: isAlike('inputs') ? name : `${name} at home`, answer: answers[0], shape: answers[1]} : null;
+  }
 }

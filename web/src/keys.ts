@@ -1,5 +1,5 @@
 // Keys of the page, in one list: what they do and what help says of them.
-import {byId, make} from './make';
+import {make} from './make';
 
 export interface Key {
   keys: string[];  ///< `Ctrl+z`, `Shift+?` without the Shift that the character needs
@@ -10,8 +10,10 @@ export interface Key {
 const nameOf = (event: KeyboardEvent) =>
   `${event.ctrlKey || event.metaKey ? 'Ctrl+' : ''}${event.altKey ? 'Alt+' : ''}${event.shiftKey && event.key.length > 1 || (event.ctrlKey && event.shiftKey) ? 'Shift+' : ''}${event.key.length === 1 ? event.key.toLowerCase() : event.key}`;
 
+/** Where letters are written, or choose in a list: there they are nothing else. */
 const isText = (target: EventTarget | null) => target instanceof HTMLElement &&
   (target.isContentEditable || (target instanceof HTMLInputElement && !['range', 'radio', 'checkbox'].includes(target.type)) || target instanceof HTMLTextAreaElement);
+const isList = (target: EventTarget | null) => target instanceof HTMLSelectElement;
 
 /** Where the focus is, also in the editor's own root. */
 function focused(event: Event): EventTarget | null {
@@ -21,8 +23,8 @@ function focused(event: Event): EventTarget | null {
 export function listen(keys: Key[]): void {
   document.addEventListener('keydown', (event) => {
     const name = nameOf(event), target = focused(event);
-    if (byId<HTMLDialogElement>('keys').open) return;  // it closes itself at Esc
-    if (isText(target) && !(name.startsWith('Alt+') && /\d$/.test(name))) return;
+    if (document.querySelector('dialog[open]')) return;  // it closes itself at Esc
+    if (event.isComposing || isText(target) || (isList(target) && name.length === 1)) return;
     if (name === 'Ctrl+c' && !getSelection()?.isCollapsed) return;
     const found = keys.find((key) => key.go && key.keys.includes(name));
     if (!found) return;

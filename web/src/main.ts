@@ -1,13 +1,14 @@
 // The page: what is open, what is asked of it, and who is told when an answer comes.
 import './app.css';
 import {AnswerPanel, withUnit} from './answer';
-import {type Json, Newest, Refused, Robot, robots, robotText, type Shipped, version} from './client';
+import {type Json, Lost, Newest, Refused, Robot, robots, robotText, type Shipped, version} from './client';
+import {copy} from './clipboard';
 import {command} from './command';
 import {Connection} from './connection';
 import {Controls} from './controls';
-import {describe, type Described} from './described';
-import {FileTab} from './file';
-import {ghostOf} from './ghost';
+import {bearsLoad, describe, type Described} from './described';
+import {download, FileTab} from './file';
+import {Rival} from './ghost';
 import {fillHelp, type Key, listen} from './keys';
 import {byId} from './make';
 import {margins, startOf} from './margins';
@@ -15,28 +16,36 @@ import {forward, hasVelocity, inputsOf, inverse, isSolved, plain, poseOf, shape,
 import {makeSheet} from './sheet';
 import {Shell} from './shell';
 import {type Solution, Solutions} from './solutions';
+import {changesIn, drafts, keyOf, Source, sourceOf} from './source';
 import {type Shown, Stage, views} from './stage';
 import {Start} from './start';
-import {fromLink, History, type Side, type State, stateOf, toLink} from './state';
+import {fromLink, History, numbersOf, type Side, type State, stateOf, toLink} from './state';
 import {Strip, type Touched} from './strip';
 import {Tabs} from './tabs';
 import {toast} from './toast';
-import {VerdictBox, verdictOf} from './verdict';
+import {VerdictBox, verdictOf, type Way} from './verdict';
 
 const protocol = 1;
 const rest = 100;  // ms without a change, after which the slower questions are asked
+const longest = 16;  // s between tries of a server that is busy
 
 class Page {
   private shipped: Shipped[] = [];
   private robot: Robot | null = null;
   private described: Described | null = null;
-  private name = '';
+  private source: Source | null = null;
   private state!: State;
   private shown: Shown | null = null;
-  private pose: Json | null = null;  // of the platform, last solved: where searches begin
+  private rival: Rival | null = null;
   private touched: Touched = {side: 'inputs', index: 0};
+  private opening = 0;   // how often a robot was asked for: only the last of them is shown
+  private question = 0;  // how often the state has changed
+  private answered = 0;  // the question that was answered last
+  private leaps = 0;     // how often it was not the next step from where it was: then older answers lead nowhere
+  private tries = 0;     // of a server that is busy
   private count = 0;
   private timer = 0;
+  private trying = 0;
   private linked = 0;
   private readonly history = new History();
   private readonly newest = new Newest();
@@ -45,15 +54,19 @@ class Page {
   private readonly stage = new Stage(() => this.link(), () => this.save());
   private readonly controls = new Controls({
     turn: (side, index, value) => this.turn(side, index, value), change: (part) => this.change(part), bend: (bending) => this.bend(bending), goHome: () => this.goHome(),
+    release: () => this.history.end(),
   });
-  private readonly connection = new Connection(() => this.robot ? this.ask() : location.reload());
+  private readonly connection = new Connection();
+  private readonly rivals = new Newest();
   private readonly verdict = new VerdictBox(byId('verdict'), () => this.cancel());
   private readonly numbers = new AnswerPanel(byId('numbers'));
   private readonly tabs = new Tabs(byId('tabs'), ['inputs', 'pose', 'load', 'model', 'file', 'answer'].map((id) => byId(id)), (id) => this.turnTo(id));
-  private readonly file = new FileTab(byId('file'), (robot) => this.use(robot, null));
+  private readonly file = new FileTab(byId('file'), {
+    opened: (robot) => this.edit(robot), based: (base) => this.rebase(base), guarded: (task, again) => this.guarded(task, again),
+  });
   private readonly strip = new Strip(byId('strip'), (value) => this.turn(this.touched.side, this.touched.index, value));
   private readonly solutions = new Solutions(byId('solutions'), (solution) => this.jump(solution));
-  private readonly start = new Start(byId('start'), (name) => void this.choose(name));
+  private readonly start = new Start(byId('start'), (name) => void this.choose(name), (task, again) => this.guarded(task, again));
   private readonly picker = byId<HTMLSelectElement>('robot');
   private readonly against = byId<HTMLSelectElement>('against');
 
@@ -61,19 +74,23 @@ class Page {
     Object.assign(window, {__sinew: {scene: this.stage.picture, file: this.file, answer: () => this.shown?.answer}});  // for tests
     this.listen();
     this.paint();
-    await this.guarded(async () => {
-      const link = new URLSearchParams(location.hash.slice(1)), wanted = link.get('robot');
-      const [says, {robots: shipped, opened}] = await Promise.all([version(), robots()]);
-      if (says.protocol !== protocol) return this.shell.say(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
-      this.shipped = shipped;
-      for (const {name, title} of shipped) for (const list of [this.picker, this.against]) list.add(new Option(title, name));
-      this.against.add(new Option('nothing', ''), 0);
-      this.against.value = '';
-      if (opened && (!wanted || wanted === opened.name)) return this.open(opened.name, opened.text, link);
-      if (this.ships(wanted)) return this.choose(wanted!, link);
-      if (wanted) this.shell.say(`the link shows ${wanted}: open its file`);
-      this.start.show(shipped);
-    });
+    await this.guarded(() => this.enter(), () => location.reload());
+  }
+
+  private async enter(): Promise<void> {
+    const link = new URLSearchParams(location.hash.slice(1)), wanted = link.get('robot');
+    const [says, {robots: shipped, opened}] = await Promise.all([version(), robots()]);
+    if (says.protocol !== protocol) return this.shell.say(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
+    this.shipped = shipped;
+    for (const {name, title} of shipped) for (const list of [this.picker, this.against]) list.add(new Option(title, name));
+    this.against.add(new Option('nothing', ''), 0);
+    this.against.value = this.picker.value = '';
+    if (opened && (!wanted || wanted === opened.name)) return this.open(opened.name, opened.text, link);
+    if (this.ships(wanted)) return this.choose(wanted!, link);
+    const draft = wanted ? drafts.of(wanted) : null;
+    if (draft && draft.key === keyOf(link)) return this.open(wanted!, draft.base, link);
+    if (wanted) this.shell.say(`the link shows ${wanted}: open its file`);
+    this.start.show(shipped);
   }
 
   private keys(): Key[] {
@@ -95,9 +112,8 @@ class Page {
       on(['d'], 'day or dark', () => this.shell.nextTheme()),
       on(['['], 'the panel of what is asked', () => this.shell.toggleLeft()),
       on([']'], 'the panel of the answer', () => this.shell.toggleDrawer()),
-      on(['Alt+1'], 'this screen', () => this.tabs.open('inputs')),
       on(['?'], 'these keys', () => this.shell.help()),
-      on(['Escape'], 'close what is on top', () => this.shell.toggleDrawer(false)),
+      on(['Escape'], 'close what is on top', () => this.start.isShown && this.robot ? this.start.hide() : this.shell.toggleDrawer(false)),
       {keys: ['← →'], says: 'in a slider 1 % of its range, with Shift 10 %, with Alt 0.1 %; Home and End its limits, 0 its home, a digit opens the number box'},
       {keys: ['← → ↑ ↓', '+ −'], says: 'in the picture: turn it, zoom'},
     ];
@@ -108,16 +124,21 @@ class Page {
     listen(keys);
     fillHelp(byId('keys'), keys);
     makeSheet(byId('left'), byId('handle'));
-    this.stage.picture.grabbed = (position) => this.drag(position);
+    this.stage.picture.grabbed = (position, isEnd) => this.drag(position, isEnd);
     this.picker.addEventListener('change', () => void this.choose(this.picker.value));
-    this.against.addEventListener('change', () => void this.guarded(() => this.compare(this.against.value)));
+    this.against.addEventListener('change', () => this.compare(this.against.value));
     const clicks: Record<string, () => void> = {
-      brand: () => this.start.show(this.shipped), open: () => chooser.click(), copy: () => this.copyCommand(), 'copy-pose': () => this.copyPose(),
-      keep: () => this.keep(), home: () => this.goHome(), undo: () => this.back(this.history.undo(this.state)),
+      brand: () => this.start.isShown && this.robot ? this.start.hide() : this.start.show(this.shipped), open: () => chooser.click(), copy: () => this.copyCommand(), 'copy-pose': () => this.copyPose(),
+      keep: () => this.keep(), home: () => this.goHome(), undo: () => this.back(this.history.undo(this.state)), needs: () => this.saveFile(),
     };
     for (const [id, go] of Object.entries(clicks)) byId(id).addEventListener('click', go);
-    chooser.addEventListener('change', () => this.openFile(chooser.files?.[0]));
+    chooser.addEventListener('change', () => {
+      this.openFile(chooser.files?.[0]);
+      chooser.value = '';  // the same file again is a change, too
+    });
     window.addEventListener('focus', () => void this.guarded(() => this.look()));
+    window.addEventListener('error', ({error}) => error && this.failed(error));
+    window.addEventListener('unhandledrejection', ({reason}) => this.failed(reason));
     window.addEventListener('hashchange', (event) => void this.follow(new URL(event.newURL).hash));
     window.addEventListener('dragover', (event) => event.preventDefault());
     window.addEventListener('drop', (event) => {
@@ -138,59 +159,129 @@ class Page {
   }
 
   private async choose(name: string, link = new URLSearchParams()): Promise<void> {
+    const run = ++this.opening;
     await this.guarded(async () => {
-      const opened = this.ships(name) ? {name, text: await robotText(name)} : (await robots()).opened;
-      if (opened) await this.open(opened.name, opened.text, link);
-    });
+      try {
+        const opened = this.ships(name) ? {name, text: await robotText(name)} : (await robots()).opened, draft = drafts.of(name);
+        if (run !== this.opening) return;
+        if (opened?.name === name) await this.open(name, opened.text, link);
+        else if (name === this.source?.name) await this.open(name, this.source.base, link);
+        else if (draft) await this.open(name, draft.base, link);
+        else this.shell.say(`${name} is not here any more: open its file`);
+      } finally {
+        this.entitle();
+      }
+    }, () => void this.choose(name, link));
   }
 
   private openFile(file: File | undefined): void {
-    if (file) void file.text().then((text) => this.open(file.name, text, new URLSearchParams()));
+    if (!file) return;
+    const name = this.ships(file.name) ? `./${file.name}` : file.name, again = (): void => void this.guarded(async () => {
+      await this.open(name, await file.text(), new URLSearchParams());
+    }, again);
+    again();
   }
 
+  /** @param text of the file, which a link and what was written here before may have changed */
   private async open(name: string, text: string, link: URLSearchParams): Promise<void> {
-    await this.guarded(async () => {
-      const robot = await Robot.open(text);
-      if (![...this.picker.options].some((option) => option.value === name)) this.picker.add(new Option(name, name));
-      this.picker.value = this.name = name;
-      this.stage.ghost = null;
-      this.against.value = '';
-      this.history.clear();
-      this.file.show(name, text);
-      await this.use(robot, link);
-    });
+    const run = ++this.opening, draft = drafts.of(name), isGoing = draft?.key === keyOf(link) && (draft.base === text || link.has('modified'));
+    const changed = isGoing ? draft.shown : await this.textOf(text, link);
+    if (run !== this.opening) return;
+    if (changed === null) {
+      this.shell.say(`the link shows another ${name} than is here: open its file`);
+      return this.start.show(this.shipped);
+    }
+    const robot = await Robot.open(changed), described = await describe(robot), source = await sourceOf(name, text, changed, described.answer);
+    if (run !== this.opening) return;
+    if (![...this.picker.options].some((option) => option.value === name)) this.picker.add(new Option(name, name));
+    [this.stage.ghost, this.rival] = [null, null];
+    this.haunt();
+    this.history.clear();
+    this.use(source, robot, described, link);
+    this.file.show(source, isGoing ? draft : null, isGoing ? null : draft);
+  }
+
+  /** The robot's text that a link means; null where it is not to be had. */
+  private async textOf(text: string, link: URLSearchParams): Promise<string | null> {
+    const changes = changesIn(link);
+    if (link.has('modified') || changes.length === 0) return link.has('modified') ? null : text;
+    const {withChanges} = await import('./editor.js');
+    return withChanges(text, changes);
+  }
+
+  /** Another text of the same file: its state stays. */
+  private async edit(robot: Robot): Promise<void> {
+    const {opening} = this, {name, base} = this.source!, described = await describe(robot), source = await sourceOf(name, base, robot.text, described.answer);
+    if (opening !== this.opening || robot.text !== this.file.text) return;  // another robot, or more was written
+    this.use(source, robot, described, null);
+    this.file.shown(source);
+  }
+
+  /** The file itself has another text now; the robot that is shown has not. */
+  private async rebase(base: string): Promise<void> {
+    const {opening} = this, {name, text} = this.source!, source = await sourceOf(name, base, text, this.described!.answer);
+    if (opening !== this.opening || text !== this.source!.text) return;
+    this.source = source;
+    this.file.shown(source);
+    this.entitle();
+    this.command();
+    this.link();
   }
 
   /** The robot of the page from now on. @param link null: another text of the same file, so its state stays */
-  private async use(robot: Robot, link: URLSearchParams | null): Promise<void> {
-    const described = await describe(robot), before = this.described;
-    const fits = before && (['inputs', 'pose', 'load'] as const).every((side) => before[side].length === described[side].length);
-    [this.robot, this.described, this.shown, this.pose] = [robot, described, null, null];
-    this.state = link ? fromLink(link, described) : fits ? this.state : stateOf(described);
+  private use(source: Source, robot: Robot, described: Described, link: URLSearchParams | null): void {
+    const before = this.described, fits = before && (['inputs', 'pose', 'load'] as const).every((side) => before[side].length === described[side].length);
+    this.robot?.cancel();
+    [this.source, this.robot, this.described, this.shown] = [source, robot, described, null];
+    this.state = link ? fromLink(link, described) : fits ? {...this.state, start: null} : stateOf(described);
+    if (!link && !fits) this.history.clear();
+    ++this.leaps;
+    byId('hint').hidden = true;
     if (!described.models.includes(this.state.model)) this.state.model = described.answer.model;
     this.touched = {side: this.state.asked, index: 0};
     this.start.hide();
+    this.entitle();
     this.strip.clear();
     this.solutions.clear();
-    this.stage.clear(link ? link.get('camera') ?? '' : null);
+    this.stage.clear(link ? link.get('camera') ?? '' : null, described.isPlanar);
+    this.numbers.clear();
     if (link) this.stage.fromLink(link);
     this.tabs.offer('load', described.load.length > 0);
     this.spread();
     this.ask();
   }
 
+  /** All that names the robot names the one that is shown. */
+  private entitle(): void {
+    const {source} = this;
+    for (const option of this.picker.options) {
+      const title = this.shipped.find(({name}) => name === option.value)?.title ?? option.value;
+      option.textContent = source?.isModified && option.value === source.name ? `${title} (modified)` : title;
+    }
+    this.picker.value = source?.name ?? '';
+    document.title = source ? `${source.label} – sinew` : 'sinew';
+    byId('needs').hidden = !source?.needsFile;
+    if (source) byId('needs').textContent = `save ${source.word} first:`;
+  }
+
+  private saveFile(): void {
+    if (this.source) download(this.source.word, this.source.text);
+  }
+
   /** The opened file may have changed on disk. */
   private async look(): Promise<void> {
-    if (!this.robot || this.ships(this.name)) return;
+    if (!this.source || this.ships(this.source.name)) return;
     const {opened} = await robots();
-    if (opened?.name === this.name) this.file.changedOnDisk(opened.text);
+    if (opened?.name === this.source?.name) this.file.changedOnDisk(opened!.text);
   }
 
   /** A link that was put into the address by hand; what the page writes there may have come between. */
   private async follow(hash: string): Promise<void> {
     const link = new URLSearchParams(hash.slice(1));
     clearTimeout(this.linked);
-    if (this.ships(link.get('robot'))) await this.choose(link.get('robot')!, link);
+    const name = link.get('robot');
+    if (this.ships(name) || (name && name === this.source?.name)) await this.choose(name!, link);
+    else if (name) this.shell.say(`the link shows ${name}: open its file`);
   }
 
   // What is asked
@@ -199,14 +290,18 @@ class Page {
     const values = [...this.state[side]];
     values[index] = value;
     this.touched = {side, index};
-    this.change({[side]: values, ...(side !== 'load' && {asked: side}), ...(side === 'inputs' && {bending: null})}, false);
+    this.change({[side]: values, ...(side !== 'load' && {asked: side}), ...(side === 'inputs' && {bending: null})}, false, `${side} ${index}`);
     this.controls.put(side, values);
   }
 
-  /** @param isWhole whether all of the controls have to be written anew */
-  private change(part: Partial<State>, isWhole = true): void {
+  /**
+   * @param isWhole whether all of the controls have to be written anew
+   * @param by the control that does it, if it does it bit by bit
+   */
+  private change(part: Partial<State>, isWhole = true, by = ''): void {
     if (!this.described) return;
-    this.history.keep(this.state);
+    this.history.keep(this.state, by);
+    if ('start' in part) ++this.leaps;
     Object.assign(this.state, part);
     if (isWhole) this.spread();
     this.controls.mark(this.state.asked);
@@ -220,62 +315,75 @@ class Page {
   private goHome(): void {
     if (!this.described) return;
     const {pose, inputs} = stateOf(this.described);
-    this.pose = null;
-    this.change({...(this.state.asked === 'pose' ? {pose} : {inputs}), bending: null});
+    this.change({...(this.state.asked === 'pose' ? {pose} : {inputs}), bending: null, start: null});
   }
 
   private bend(bending: number[] | null): void {
-    this.pose = null;  // another branch: nothing of this one is a start
-    this.change({bending, asked: 'pose'});
+    this.change({bending, asked: 'pose', start: null});  // another branch: nothing of this one is a start
   }
 
-  private back(state: State | null): void {
+  /** @param isChange whether undo leads back from there */
+  private back(state: State | null, isChange = false): void {
     if (!state) return toast('nothing more to undo or redo');
+    if (isChange) this.history.keep(this.state);
+    this.history.end();
+    ++this.leaps;
     this.state = state;
     this.spread();
     this.ask();
   }
 
   private jump({inputs, pose}: Solution): void {
-    this.pose = pose;
-    this.change(this.state.asked === 'pose' ? {inputs, bending: null} : {});
+    this.change({start: pose, ...(this.state.asked === 'pose' && {inputs, bending: null})});
     toast('jumped to another solution: no path was followed there');
   }
 
   /** Where the hand drags the platform is the pose that is asked. */
-  private drag(position: number[]): void {
+  private drag(position: number[], isEnd: boolean): void {
     const {described, state} = this;
     if (!described) return;
     const pose = [...state.pose], held = described.isHeldByFew ? [position[2]!] : position.slice(0, described.isPlanar ? 2 : 3);
     held.forEach((value, i) => { pose[i] = value; });
-    if (pose.every((value, i) => value === state.pose[i])) return;
-    this.touched = {side: 'pose', index: 0};
-    this.change({pose, asked: 'pose'}, false);
-    this.controls.put('pose', pose);
+    if (pose.some((value, i) => value !== state.pose[i])) {
+      this.touched = {side: 'pose', index: 0};
+      this.change({pose, asked: 'pose'}, false, 'hand');
+      this.controls.put('pose', pose);
+    }
+    if (isEnd) this.history.end();
   }
 
   private ask(): void {
+    ++this.question;
     clearTimeout(this.timer);
+    clearTimeout(this.trying);
     this.strip.cancel();
-    this.newest.put(() => this.guarded(() => this.answer()));
+    this.solutions.old();
+    this.wait();
+    this.newest.put(() => this.guarded(() => this.answer(), () => this.ask()));
+  }
+
+  /** After a while without an answer what is shown is not taken for one. */
+  private wait(): void {
+    this.verdict.wait(() => this.behind({status: 'solving'}));
   }
 
   private cancel(): void {
     this.newest.drop();
     this.robot?.cancel();
-    this.verdict.settle();
+    clearTimeout(this.timer);
+    this.unanswered('cancelled');
     this.shell.say('cancelled');
   }
 
   private async answer(): Promise<void> {
-    const {robot, described} = this, state = structuredClone(this.state), begin = performance.now();
+    const {robot, described, question, leaps} = this, state = structuredClone(this.state), begin = performance.now();
     if (!robot || !described) return;
-    this.verdict.wait();
-    let start = this.pose ?? undefined;
+    this.wait();
+    let start = state.start ?? undefined;
     if (state.asked === 'pose') {
       const [found] = await robot.ask([inverse(described, state)]) as [Json], inputs = inputsOf(described, found);
       if (robot !== this.robot) return;
-      if (!isSolved(found) || !inputs) return this.unsolved(found, begin);
+      if (!isSolved(found) || !inputs) return this.unsolved(found, question, begin);
       state.inputs = inputs;
       start = found.pose;
     }
@@ -284,80 +392,117 @@ class Page {
     const queries = [forward(described, state, start), shape(described, state, there), ...(hasVelocity(state) ? [velocity(described, state, there)] : [])];
     const [answer, picture, speed] = await robot.ask(queries) as [Json, Json, Json?];
     if (robot !== this.robot) return;
-    if (!isSolved(answer) || !picture.backbones) return this.unsolved(picture.error && !answer.error ? picture : answer, begin);
-    this.solved({...answer, ...(speed && !speed.error && {velocity: speed})}, picture, state, begin);
+    if (!isSolved(answer) || !picture.backbones) return this.unsolved(isSolved(answer) ? picture : answer, question, begin);
+    this.solved({...answer, ...(speed && !speed.error && {velocity: speed})}, picture, state, question, leaps === this.leaps, begin);
   }
 
-  private solved(answer: Json, picture: Json, state: State, begin: number): void {
-    const described = this.described!, pose = poseOf(described, answer);
-    this.pose = answer.pose ? plain(answer.pose) : null;
-    this.shown = {described, state, answer, shape: picture, isStale: false};
-    if (state.asked === this.state.asked) {  // else the other side was touched in the meantime
-      if (state.asked === 'pose') this.controls.put('inputs', this.state.inputs = state.inputs);
+  /** @param isNear whether what is asked by now goes on from here */
+  private solved(answer: Json, picture: Json, state: State, question: number, isNear: boolean, begin: number): void {
+    const described = this.described!, pose = poseOf(described, answer), {rival} = this;
+    if (answer.pose) state.start = plain(answer.pose);
+    if (isNear) this.state.start = state.start;
+    if (state.asked === 'inputs' && pose) state.pose = pose;
+    this.shown = {described, state, answer, shape: picture, isStale: false, start: undefined};
+    if (isNear && state.asked === this.state.asked) {  // else the other side was touched in the meantime
+      if (state.asked === 'pose') this.controls.put('inputs', this.state.inputs = [...state.inputs]);
       else if (pose) this.controls.put('pose', this.state.pose = pose);
     }
     byId('hint').hidden = true;
-    this.tell(answer, begin);
-    this.link();
+    if (rival) this.meet(rival, this.shown);
+    this.tell(answer, question, begin);
     this.rest((now) => this.more(now));
   }
 
-  /** What is not solved is never drawn as if it were: the last solved picture stays, faded. */
-  private unsolved(answer: Json, begin: number): void {
-    const hint = byId('hint');
+  private unsolved(answer: Json, question: number, begin: number): void {
+    if (question !== this.question) return void (this.answered = question);  // something newer is on its way
     if (this.shown) this.shown.isStale = true;
-    this.tell(answer, begin);
-    hint.textContent = `${verdictOf(answer).word}: ${answer.error?.message ?? answer.message ?? ''}`;
-    hint.hidden = false;
-    this.rest((now) => this.wayOut(now));
+    const {shown} = this, ways: Way[] = [shown ? ['Back to the last solved pose', () => this.back(structuredClone(shown.state), true)] : ['Home', () => this.goHome()]];
+    if (verdictOf(answer).state === 'stale') ways.unshift(['Ask again', () => this.ask()]);
+    this.tell(answer, question, begin, ways);
+    this.hint(answer);
+    this.rest((now) => this.wayOut(now, ways));
   }
 
-  private rest(then: (state: State) => Promise<void>): void {
-    const {count} = this;
+  /** Nobody has answered what is asked. What is shown is not taken for an answer: the picture and the numbers fade, and a word says so. */
+  private behind(answer: Json, ways: Way[] = []): void {
+    if (this.question === this.answered || !this.described) return;
+    if (this.shown) this.shown.isStale = true;
+    this.stage.draw(this.shown);
+    this.verdict.show(answer, '', ways);
+    this.hint(answer);
+    this.write();
+    this.command();
+    this.link();
+  }
+
+  private unanswered(why: string): void {
+    this.behind({status: 'not_answered', message: why}, [['Ask again', () => this.ask()]]);
+  }
+
+  private hint(answer: Json): void {
+    const hint = byId('hint'), why = answer.error?.message ?? answer.message;
+    hint.textContent = verdictOf(answer).word + (why ? `: ${why}` : '');
+    hint.hidden = false;
+  }
+
+  /** @param then is given the number of the question that was answered */
+  private rest(then: (question: number) => Promise<void>): void {
+    const {count, answered: question} = this, again = () => {
+      if (question === this.question) this.rest(then);
+    };
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => this.later.put(() => this.guarded(async () => {
-      await then(structuredClone(this.state));
+      if (question !== this.question) return;
+      await then(question);
       document.documentElement.dataset.rests = String(count);  // what tests wait for
-    })), rest);
+    }, again)), rest);
   }
 
   /** The slower questions, when nothing moves. */
-  private async more(state: State): Promise<void> {
-    const {robot, described, shown, touched} = this;
-    if (!robot || !described || !shown) return;
-    await this.strip.ask(robot, described, state, touched, this.pose);
+  private async more(question: number): Promise<void> {
+    const {robot, described, shown, touched} = this, isOld = () => question !== this.question || shown !== this.shown;
+    if (!robot || !described || !shown || isOld()) return;
+    const {state} = shown, start = await startOf(robot, described, state, shown.answer);
+    if (isOld()) return;
+    shown.start = start;
+    this.command();
+    this.link();
+    await this.strip.ask(robot, described, state, touched, state.start);
+    if (isOld()) return;
     const found = await margins(robot, described, state, shown.answer, touched.side === 'inputs' ? touched.index : 0);
-    if (shown !== this.shown) return;
+    if (isOld()) return;
     const {name, unit} = described[touched.side][touched.index]!, here = state[touched.side][touched.index]!;
     Object.assign(shown.answer, found, {room: this.strip.room().map(({word, to}) => ({name, unit, word, by: to - here}))});
     this.write();
-    const start = await startOf(robot, described, state, shown.answer);
-    if (shown !== this.shown) return;
-    this.command(start);
-    await this.solutions.offer(robot, described, state, this.pose);
+    await this.solutions.offer(robot, described, state, state.start);
   }
 
   /** The value nearest to what has no solution, as a button. */
-  private async wayOut(state: State): Promise<void> {
-    const {robot, described, shown, touched: {side, index}} = this, row = described?.[side][index];
+  private async wayOut(question: number, ways: Way[]): Promise<void> {
+    const {robot, described, shown, state, touched: {side, index}} = this, row = described?.[side][index];
     if (!robot || !described || !shown || !row) return;
     const from = shown.state[side][index] ?? row.home, values = state[side].map((value, i) => (i === index ? from : value));
-    await this.strip.ask(robot, described, {...state, [side]: values}, this.touched, this.pose);
+    await this.strip.ask(robot, described, {...structuredClone(state), [side]: values}, this.touched, shown.state.start, state[side][index]!);
+    if (question !== this.question) return;
     const value = this.strip.nearest(state[side][index]!);
-    if (value !== null) this.verdict.offer(`Go to ${row.name} = ${withUnit(value, row.unit, this.shell.system)}`, () => this.turn(side, index, value));
+    if (value !== null) this.verdict.offer([[`Go to ${row.name} = ${withUnit(value, row.unit, this.shell.system)}`, () => this.turn(side, index, value)], ...ways]);
   }
 
   // What is shown
 
-  private tell(answer: Json, begin: number): void {
+  private tell(answer: Json, question: number, begin: number, ways: Way[] = []): void {
     const parts: string[] = [];
     if (answer.residual !== undefined) parts.push(`residual ${answer.residual.toExponential(1)}`);
     if (answer.iterations !== undefined) parts.push(`${answer.iterations} ${answer.iterations === 1 ? 'iteration' : 'iterations'}`);
+    this.answered = question;
+    this.tries = 0;
     this.stage.draw(this.shown);
-    this.verdict.show(answer, parts.join(' · '));
+    this.verdict.show(answer, parts.join(' · '), ways);
     this.write();
-    this.command(null);
+    this.command();
+    this.link();
     this.shell.connected(true);
+    this.connection.answered();
     document.documentElement.dataset.answers = String(++this.count);  // what tests wait for
     this.shell.say(`${answer.status ?? 'refused'} · ${(performance.now() - begin).toFixed(0)} ms · ${this.count} answers`);
   }
@@ -366,12 +511,25 @@ class Page {
     const {described, shown, state} = this;
     if (!described || !shown) return;
     byId('answer').classList.toggle('stale', shown.isStale);
-    this.numbers.show(shown.answer, described, shown.state, this.stage.ghost?.answer ?? null, this.shell.system);
+    this.numbers.show(shown.answer, described, shown.state, this.stage.ghost, this.shell.system);
     this.controls.showBending(described, state, shown.answer);
   }
 
-  private command(start: number[] | null): void {
-    byId('command').textContent = command(this.name, this.described!, this.state, start, this.shown?.answer.pose?.quaternion ?? null);
+  /** Where a search has to begin so that it ends here: as long as nobody knows whether it has to, it does. */
+  private startOf(state: State, known: number[] | null | undefined): number[] | null {
+    if (known !== undefined || this.described!.isSerial) return known ?? null;
+    if (state.asked === 'inputs') return state.start && numbersOf(state.start);
+    return bearsLoad(state.model) ? null : state.inputs;
+  }
+
+  /** The start of what is asked: known where it is what is shown. */
+  private get started(): number[] | null {
+    const {shown} = this;
+    return this.startOf(this.state, shown && !shown.isStale && this.question === this.answered ? shown.start : undefined);
+  }
+
+  private command(): void {
+    if (this.described) byId('command').textContent = command(this.source!, this.described, this.state, this.started);
   }
 
   /** The address says what is shown; browsers slow down pages that write it all the time. */
@@ -379,7 +537,8 @@ class Page {
     clearTimeout(this.linked);
     this.linked = window.setTimeout(() => {
       if (!this.described) return;
-      const link = toLink(this.name, this.state, this.described);
+      const link = toLink(this.source!.name, this.state, this.described, this.started);
+      this.source!.toLink(link);
       this.stage.toLink(link);
       history.replaceState(null, '', `#${link.toString().replaceAll('%2C', ',')}`);
     }, 200);
@@ -394,51 +553,100 @@ class Page {
   }
 
   private keep(): void {
-    if (!this.shown) return;
-    const isKept = this.stage.ghost?.name === '';
-    this.stage.ghost = isKept ? null : {name: '', answer: this.shown.answer, shape: this.shown.shape};
+    if (!this.shown) return toast('no pose is shown yet');
+    const isKept = !!this.stage.ghost && !this.rival;
+    this.rival = null;
+    this.stage.ghost = isKept ? null : {says: '', answer: this.shown.answer, shape: this.shown.shape};
     this.haunt();
     toast(isKept ? 'the ghost is gone' : 'this pose is kept as a ghost');
   }
 
-  private async compare(name: string): Promise<void> {
-    this.stage.ghost = name ? await ghostOf(name, this.state) : null;
-    if (name && !this.stage.ghost) this.shell.say(`${name} has no solution here to compare with`);
-    this.haunt();
+  private compare(name: string): void {
+    [this.rival, this.stage.ghost] = [null, null];
+    this.stage.draw();
+    this.write();
+    if (!name) return this.haunt();
+    void this.guarded(async () => {
+      const rival = await Rival.open(name);
+      if (this.against.value !== name) return;
+      this.rival = rival;
+      this.haunt();
+      if (this.shown) this.meet(rival, this.shown);
+    }, () => this.compare(name));
+  }
+
+  /** The ghost of another robot goes where this one has gone; until it is there, there is none. */
+  private meet(rival: Rival, shown: Shown): void {
+    this.stage.ghost = null;
+    this.rivals.put(() => this.guarded(async () => {
+      const ghost = await rival.at(shown.described, shown.state);
+      if (rival !== this.rival || shown !== this.shown) return;
+      this.stage.ghost = ghost;
+      if (!ghost) this.shell.say(`${rival.name} has no solution here to compare with`);
+      this.haunt();
+    }, () => this.rival === rival && this.shown && this.meet(rival, this.shown)));
   }
 
   /** The ghost is another one now. */
   private haunt(): void {
-    this.against.value = this.stage.ghost?.name ?? '';
-    byId('keep').setAttribute('aria-pressed', String(this.stage.ghost?.name === ''));
+    this.against.value = this.rival?.name ?? '';
+    byId('keep').setAttribute('aria-pressed', String(!!this.stage.ghost && !this.rival));
     this.stage.draw();
     this.write();
   }
 
   private copyCommand(): void {
-    void navigator.clipboard.writeText(byId('command').textContent ?? '').then(() => toast('command copied'));
+    const {described, source} = this;
+    if (!described) return toast('no robot is open yet');
+    void copy(byId('command').textContent ?? '', source!.needsFile ? `command copied; it needs ${source!.word}, to be saved` : 'command copied');
   }
 
   private copyPose(): void {
     const pose = this.shown?.answer.pose ?? this.shown?.answer.tip;
-    if (pose) void navigator.clipboard.writeText(JSON.stringify(plain(pose))).then(() => toast('pose copied, in metres and radians'));
+    if (pose) void copy(JSON.stringify(plain(pose)), `${this.shown!.isStale ? 'last solved pose' : 'pose'} copied, in metres and radians`);
+    else toast('no pose is shown yet');
   }
 
+  /** With the command of what is drawn, be it what is asked or not; and with the robot, where no command names it. */
   private save(): void {
-    void this.stage.save(this.name, byId('command').textContent ?? '');
+    const {shown, source} = this;
+    if (!shown || !source) return toast('nothing is drawn yet');
+    const text = command(source, shown.described, shown.state, this.startOf(shown.state, shown.start));
+    void this.guarded(() => this.stage.save(source.stem.replace(/\W+/g, '-'), source.needsFile ? `${text}\n\n# ${source.word}\n${source.text}` : text));
   }
 
-  private async guarded(task: () => Promise<unknown>): Promise<void> {
+  // What goes wrong
+
+  /** @param again does it once more, when there is hope */
+  private async guarded(task: () => Promise<unknown>, again?: () => unknown): Promise<void> {
     try {
       await task();
     } catch (error) {
-      this.verdict.settle();
       if (error instanceof DOMException && error.name === 'AbortError') return;
-      if (error instanceof Refused) return this.shell.say(error.message);
-      if (!(error instanceof TypeError)) throw error;  // fetch says so where nobody answers
-      this.shell.connected(false);
-      this.connection.lost();
+      if (error instanceof Lost) {
+        this.shell.connected(false);
+        this.unanswered(error.message);
+        return this.connection.lost(() => this.question === this.answered || !this.robot ? again?.() : this.ask());
+      }
+      if (!(error instanceof Refused)) return this.failed(error);
+      if (!error.isBusy || !again) {
+        this.unanswered(error.message);
+        return this.shell.say(error.message);
+      }
+      const wait = Math.max(error.wait, Math.min(2 ** this.tries++, longest)), why = `the server is busy, asked again in ${wait} s`;
+      clearTimeout(this.trying);
+      this.trying = window.setTimeout(() => again(), 1000 * wait);
+      this.unanswered(why);
+      this.shell.say(why);
     }
+  }
+
+  /** A mistake of the page is called one. */
+  private failed(error: unknown): void {
+    const message = error instanceof Error ? `${error.name}: ${error.message}` : String(error);
+    console.error(error);
+    this.shell.say(`internal error: ${message}`);
+    this.behind({status: 'page_failed', message}, [['Load anew', () => location.reload()]]);
   }
 }
 

@@ -2,7 +2,7 @@
 import type {Json, Robot} from './client';
 import {bearsLoad, type Described} from './described';
 import {forward, given, inverse, plain} from './questions';
-import type {State} from './state';
+import {numbersOf, type State} from './state';
 
 /** How far the platform can go the way an input moves it before it meets a type II singularity. */
 async function typeTwo(robot: Robot, described: Described, state: State, answer: Json, index: number): Promise<Json | null> {
@@ -31,7 +31,6 @@ export async function margins(robot: Robot, described: Described, state: State, 
   return two ? {typeTwo: two} : found;
 }
 
-const numbersOf = (pose: Json): number[] => (pose.position ? [...pose.position, ...pose.quaternion] : [pose.x, pose.y, pose.phi]);
 const isSame = (a: number[], b: number[]) => a.every((value, i) => Math.abs(value - b[i]!) < 1e-7);
 
 /**

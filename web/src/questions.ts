@@ -38,9 +38,17 @@ export function forward(described: Described, state: State, start?: Json | strin
   return {query: 'forward', ...given(described, state, start), ...withTilt(described), ...wants};
 }
 
+/** Of a serial robot points are those of each joint: few long joints need more of them to look round. */
+const fewestOfSection = 40;
+
+function samplesOf({answer}: Described, state: State): number {
+  if (state.samples > 0 || answer.kind !== 'serial') return state.samples;
+  return Math.max(5, Math.ceil(fewestOfSection / Math.min(...answer.sections.map((one: Json) => one.segments))));
+}
+
 export function shape(described: Described, state: State, start?: Json | string): Json {
-  const {max_iterations: _, ...at} = given(described, state, start);
-  return {query: 'shape', ...at, ...(state.samples > 0 && state.model !== 'prb' && {samples: state.samples})};
+  const {max_iterations: _, ...at} = given(described, state, start), samples = samplesOf(described, state);
+  return {query: 'shape', ...at, ...(samples > 0 && state.model !== 'prb' && {samples})};
 }
 
 /** Velocity equations tell how near a singularity is. Of rods `margins` do; chains at a load have none. */

@@ -17,7 +17,8 @@ export class Sliders {
   private readonly id: string;
 
   /** @param home the button that puts all rows back */
-  constructor(panel: HTMLElement, home: HTMLButtonElement, private readonly changed: (index: number, value: number) => void) {
+  constructor(panel: HTMLElement, home: HTMLButtonElement, private readonly changed: (index: number, value: number) => void,
+              private readonly released: () => void) {
     const head = make('div', {className: 'head'}, this.title, home);
     panel.append(head, this.list);
     this.id = panel.id;
@@ -39,7 +40,10 @@ export class Sliders {
   /** Values from elsewhere: nobody is told. */
   put(values: number[]): void {
     this.values = [...values];
-    this.rows.forEach((_, i) => this.write(i));
+    this.rows.forEach((_, i) => {
+      if (!this.lines[i]!.range.matches(':active')) this.span(i, true);
+      this.write(i);
+    });
   }
 
   /** These numbers are the answer, not the question, until one of them is touched. */
@@ -63,9 +67,12 @@ export class Sliders {
     range.setAttribute('list', marks.id);
     why.setAttribute('role', 'alert');
     range.addEventListener('input', () => this.set(i, range.valueAsNumber));
+    range.addEventListener('change', () => this.release(i));
     range.addEventListener('keydown', (event) => this.key(event, i));
     box.addEventListener('change', () => this.typed(i));
     box.addEventListener('focus', () => box.select());
+    box.addEventListener('input', () => { box.dataset.typed = ''; });
+    box.addEventListener('blur', () => { delete box.dataset.typed; });
     this.lines.push({box, range, unit, why});
     const step = (way: number) => button(way < 0 ? '−' : '+', () => this.step(i, way), `${row.name} ${way < 0 ? 'less' : 'more'}`);
     const steps = [step(-1), step(1)];
@@ -78,14 +85,15 @@ export class Sliders {
 
   private typed(i: number): void {
     const {box, why} = this.lines[i]!, value = parse(box.value, this.rows[i]!.unit, this.system), isWrong = typeof value === 'string';
+    delete box.dataset.typed;
     box.setAttribute('aria-invalid', String(isWrong));
     why.textContent = isWrong ? value : '';
     if (!isWrong) this.set(i, value);
   }
 
   private step(i: number, hundredths: number): void {
-    const {low, high} = this.rows[i]!;
-    this.set(i, Math.min(high, Math.max(low, this.values[i]! + hundredths * (high - low) / 100)));
+    const {low, high} = this.rows[i]!, value = this.values[i]!;
+    this.set(i, Math.min(Math.max(high, value), Math.max(Math.min(low, value), value + hundredths * (high - low) / 100)));
   }
 
   /** Arrows are a hundredth of the range, with Shift ten times as much, with Alt a tenth. A digit opens the box. */
@@ -100,10 +108,23 @@ export class Sliders {
     event.stopPropagation();
   }
 
+  /** A hand has let go: the range is that of the robot again, but for a value beyond it. */
+  private release(i: number): void {
+    this.span(i, true);
+    this.released();
+  }
+
+  private span(i: number, isNew: boolean): void {
+    const {low, high} = this.rows[i]!, {range} = this.lines[i]!, value = this.values[i]!, [least, most] = isNew ? [low, high] : [Number(range.min), Number(range.max)];
+    range.min = String(Math.min(least, low, value));
+    range.max = String(Math.max(most, high, value));
+  }
+
   private open(i: number, digit: string): void {
     const {box} = this.lines[i]!;
     box.focus();
     box.value = digit;
+    box.dataset.typed = '';
     box.setSelectionRange(1, 1);
   }
 
@@ -115,9 +136,12 @@ export class Sliders {
 
   private write(i: number): void {
     const value = this.values[i]!, {unit} = this.rows[i]!, {box, range, why} = this.lines[i]!, text = format(value, unit, this.system);
-    box.value = text;
-    box.removeAttribute('aria-invalid');
-    why.textContent = '';
+    if (box.dataset.typed === undefined) {  // else somebody is writing there
+      box.value = text;
+      box.removeAttribute('aria-invalid');
+      why.textContent = '';
+    }
+    this.span(i, false);
     range.value = String(value);
     range.setAttribute('aria-valuetext', `${text} ${unitName(unit, this.system)}`);
   }

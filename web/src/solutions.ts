@@ -1,18 +1,21 @@
 // Other solutions of what is asked, as small pictures. A click goes to one.
-import type {Json, Robot} from './client';
+import {type Json, Lost, Refused, type Robot} from './client';
 import type {Described} from './described';
 import {button, make} from './make';
 import {forward, inverse, plain, shape} from './questions';
 import {sketch} from './sketch';
-import type {State} from './state';
+import {numbersOf, type State} from './state';
 
 const most = 12;       // pictures
 const patience = 300;  // ms that a search may take to be made unasked
 
 /** A pose with the inputs that belong to it. */
-export interface Solution { inputs: number[]; pose: Json | null; curvature: number[] | null }
+export interface Solution { inputs: number[]; pose: Json | null }
 
-interface Found { solution: Solution; answer: Json; picture: Json }
+interface Found { solution: Solution; answer: Json; number: number; isShown: boolean }
+
+/** Nearer than this a solution is the one that is shown; in metres and radians, or parts of a quaternion. */
+const same = 1e-5;
 
 export class Solutions {
   private readonly title = make('h3');
@@ -30,12 +33,19 @@ export class Solutions {
   }
 
   clear(): void {
-    ++this.run;
-    this.searching.abort();
-    this.searching = new AbortController();
+    this.old();
+    this.asked = null;
     this.list.replaceChildren();
     this.title.textContent = 'Other solutions';
     this.search.hidden = this.stop.hidden = true;
+  }
+
+  /** They are of what was asked before: to be seen still, not to be gone to. */
+  old(): void {
+    ++this.run;
+    this.searching.abort();
+    this.searching = new AbortController();
+    this.list.inert = this.search.hidden = this.stop.hidden = true;
   }
 
   /** @param pose that the page shows */
@@ -43,10 +53,10 @@ export class Solutions {
     this.clear();
     const isInverse = state.asked === 'pose';
     if (described.isSerial || (state.model !== described.answer.model) || (isInverse && state.model === 'rod')) return void (this.title.textContent = '');
-    const shown = isInverse ? state.inputs : numbersOf(pose);
+    const shown = isInverse ? state.inputs : pose ? numbersOf(pose) : [];
     const key = `${described.answer.robot} ${isInverse}`;
     this.asked = async () => {
-      const begin = performance.now(), run = this.run;
+      const begin = performance.now(), {run} = this;
       await this.find(robot, described, state, shown, run);
       if (run === this.run) this.took.set(key, performance.now() - begin);
     };
@@ -56,18 +66,28 @@ export class Solutions {
   }
 
   private async look(): Promise<void> {
+    const {run} = this;
     this.search.hidden = true;
     this.stop.hidden = false;
     this.title.textContent = 'Other solutions: looking…';
     try {
       await this.asked?.();
     } catch (error) {
-      if (!(error instanceof DOMException)) throw error;  // cancelled
+      const isExpected = error instanceof Refused || error instanceof Lost;
+      if (run === this.run) this.rest(isExpected ? `Other solutions: ${error instanceof Refused && error.isBusy ? 'the server is busy' : error.message}` : 'Other solutions');
+      if (!isExpected && !(error instanceof DOMException)) throw error;
     }
   }
 
   private cancel(): void {
-    this.clear();
+    this.old();
+    this.rest('Other solutions: not looked for to the end');
+  }
+
+  /** As it is when nothing is looked for. */
+  private rest(title: string): void {
+    this.title.textContent = title;
+    this.stop.hidden = true;
     this.search.hidden = false;
   }
 
@@ -77,36 +97,40 @@ export class Solutions {
     delete (query as Json).want;
     const [all] = await (state.model === 'rod' ? robot.work([query], this.searching.signal) : robot.ask([query])) as [Json];
     if (run !== this.run) return;
-    const solutions: Json[] = all.solutions ?? [], few = solutions.slice(0, most);
-    const shapes = few.length === 0 ? [] : await robot.ask(few.map((one) => this.shapeOf(described, state, all, one)));
+    const distance = ({inputs, pose}: Solution) => {
+      const values = isInverse ? inputs : pose ? numbersOf(pose) : [];
+      return Math.max(...values.map((value, i) => Math.abs(value - (shown[i] ?? value))));
+    };
+    const solutions = ((all.solutions ?? []) as Json[]).map((answer, i) => ({answer, number: i + 1, solution: this.solutionOf(all, answer, state)}));
+    const byDistance = solutions.map((one) => ({...one, far: distance(one.solution)})).sort((a, b) => a.far - b.far);
+    const few: Found[] = byDistance.slice(0, most).map((one, i) => ({...one, isShown: i === 0 && one.far < same})).sort((a, b) => a.number - b.number);
+    const shapes = few.length < 2 ? [] : await robot.ask(few.map((one) => this.shapeOf(described, state, one.solution)));
     if (run !== this.run) return;
-    this.show(described, all, few.map((one, i) => ({solution: this.solutionOf(all, one, state), answer: one, picture: shapes[i]!})), solutions.length, shown, isInverse);
+    this.show(described, all, few, shapes);
   }
 
   private solutionOf(all: Json, one: Json, state: State): Solution {
-    return {inputs: one.inputs ?? state.inputs, pose: one.pose ? plain(one.pose) : plain(all.pose), curvature: one.legs?.map((leg: Json) => leg.curvature) ?? null};
+    return {inputs: one.inputs ?? state.inputs, pose: one.pose ? plain(one.pose) : all.pose ? plain(all.pose) : null};
   }
 
-  private shapeOf(described: Described, state: State, all: Json, one: Json): Json {
-    const {inputs, pose} = this.solutionOf(all, one, state);
-    return {...shape(described, {...state, inputs, asked: 'inputs', samples: 9}, pose!)};
+  private shapeOf(described: Described, state: State, {inputs, pose}: Solution): Json {
+    return shape(described, {...state, inputs, asked: 'inputs', samples: 9}, pose ?? undefined);
   }
 
-  private show(described: Described, all: Json, found: Found[], count: number, shown: number[], isInverse: boolean): void {
+  private show(described: Described, all: Json, few: Found[], shapes: Json[]): void {
+    const count: number = all.solutions?.length ?? 0, isLeast = all.complete === false;
+    const found = `${isLeast ? 'at least ' : ''}${count}${count > few.length ? `; the nearest ${few.length} are drawn` : ''}`;
     this.stop.hidden = true;
-    const isLeast = all.complete === false || count > most, distance = (one: Found) => {
-      const values = isInverse ? one.solution.inputs : numbersOf(one.solution.pose);
-      return Math.max(...values.map((value, i) => Math.abs(value - (shown[i] ?? value))));
-    };
-    const nearest = found.length > 0 ? found.reduce((best, one) => (distance(one) < distance(best) ? one : best)) : null;
-    this.title.textContent = found.length < 2 ? `Other solutions: ${all.error || found.length === 0 ? 'none found' : isLeast ? 'none found' : 'none'}` : `Solutions (${isLeast ? 'at least ' : ''}${count})`;
-    this.list.replaceChildren(...(found.length < 2 ? [] : found.map((one, i) => this.small(described, one, i, one === nearest))));
+    this.list.inert = false;
+    this.title.textContent = count > 1 ? `Solutions (${found})` : `Other solutions: ${all.error || isLeast || count === 0 ? 'none found' : 'none'}`;
+    this.list.replaceChildren(...(count > 1 ? few.map((one, i) => this.small(described, one, shapes[i]!)) : []));
   }
 
-  private small(described: Described, {solution, answer, picture}: Found, i: number, isShown: boolean): HTMLElement {
-    const word = isShown ? 'shown' : answer.stable === false ? 'unstable' : answer.stable ? 'stable' : `no. ${i + 1}`;
-    const small = button('', () => this.goTo(solution), isShown ? 'this is shown' : `go to solution ${i + 1}`);
+  private small(described: Described, {solution, answer, number, isShown}: Found, picture: Json): HTMLElement {
+    const word = isShown ? 'shown' : answer.stable === false ? 'unstable' : answer.stable ? 'stable' : `no. ${number}`;
+    const small = button('', () => this.goTo(solution), isShown ? 'this is shown' : `go to solution ${number}`);
     small.className = 'small';
+    small.disabled = isShown;
     small.setAttribute('aria-label', `${small.title}, ${word}`);
     small.setAttribute('aria-current', String(isShown));
     if (picture.backbones) small.append(sketch(picture, described.isPlanar, {width: 84, height: 72}));
@@ -114,6 +138,3 @@ export class Solutions {
     return small;
   }
 }
-
-const numbersOf = (pose: Json | null): number[] => (!pose ? [] : pose.position ? [...pose.position, ...(pose.quaternion ?? [])] : [pose.x, pose.y, pose.phi]);
-

@@ -11,13 +11,18 @@ import {toast} from './toast';
 import type {System} from './units';
 
 /** An answer with the picture of it. */
-export interface Shown { described: Described; state: State; answer: Json; shape: Json; isStale: boolean }
+export interface Shown {
+  described: Described; state: State; answer: Json; shape: Json;
+  isStale: boolean;                    ///< something else is asked by now, and has no picture
+  start: number[] | null | undefined;  ///< where a command has to begin so that it ends here; undefined: not known yet
+}
 
 export const views: [string, View][] = [['1', 'side'], ['2', 'top'], ['3', 'front'], ['4', 'tip']];
 
 export class Stage {
   readonly picture = makePicture(byId('view'));
   ghost: Ghost | null = null;
+  private readonly sides = views.map(([key, view]) => button(view[0]!.toUpperCase() + view.slice(1), () => this.view(view), `view (${key})`));
   private readonly layers = new Set<Layer>(shownAtFirst);
   private shown: Shown | null = null;
   private system: System = 'mm';
@@ -25,7 +30,7 @@ export class Stage {
   /** @param moved the camera or the layers are others now */
   constructor(private readonly moved: () => void, save: () => void) {
     byId('tools').append(button('Fit', () => this.picture.fit(), 'all in view (f)'),
-                         ...views.map(([key, view]) => button(view[0]!.toUpperCase() + view.slice(1), () => this.view(view), `view (${key})`)),
+                         ...this.sides,
                          button('Save', save, 'save the picture (p)'));
     for (const layer of layerNames) {
       const box = make('input', {type: 'checkbox', checked: this.layers.has(layer)});
@@ -38,8 +43,9 @@ export class Stage {
     this.picture.moved = moved;
   }
 
-  /** Another robot comes. */
-  clear(camera: string | null): void {
+  /** Another robot comes. What is planar has one side. */
+  clear(camera: string | null, isPlanar: boolean): void {
+    for (const side of this.sides) side.hidden = isPlanar;
     this.shown = null;
     this.picture.clear();
     if (camera !== null) this.picture.camera = camera;
@@ -58,7 +64,8 @@ export class Stage {
   }
 
   view(view: View): void {
-    if (this.shown && !this.shown.described.isPlanar) this.picture.fit(view);
+    if (this.shown?.described.isPlanar) return toast('what lies in the plane has one side');
+    if (this.shown) this.picture.fit(view);
   }
 
   /** What of the view is not as it is at first. */
@@ -73,9 +80,10 @@ export class Stage {
     if (layers) for (const layer of layerNames) this.toggle(layer, layers.includes(layer));
   }
 
-  async save(name: string, command: string): Promise<void> {
-    const url = URL.createObjectURL(await this.picture.save(command));
-    make('a', {href: url, download: `${name.replace(/\W+/g, '-')}.png`}).click();
+  /** @param text that goes with it */
+  async save(name: string, text: string): Promise<void> {
+    const url = URL.createObjectURL(await this.picture.save(text));
+    make('a', {href: url, download: `${name}.png`}).click();
     setTimeout(() => URL.revokeObjectURL(url), 1000);
     toast('picture saved, with its command in it');
   }

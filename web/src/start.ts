@@ -16,7 +16,9 @@ function posed(described: Described): State {
 export class Start {
   private isFilled = false;
 
-  constructor(private readonly box: HTMLElement, private readonly open: (name: string) => void) {}
+  /** @param guarded tells what goes wrong, and does the last again when there is hope */
+  constructor(private readonly box: HTMLElement, private readonly open: (name: string) => void,
+              private readonly guarded: (task: () => Promise<void>, again: () => void) => Promise<void>) {}
 
   show(shipped: Shipped[]): void {
     this.box.hidden = false;
@@ -25,7 +27,12 @@ export class Start {
     const list = make('div', {className: 'robots'}), cards = shipped.map((one) => this.card(one));
     list.append(...cards);
     this.box.replaceChildren(make('h1', {textContent: 'Robots that bend'}), make('p', {textContent: 'Choose one, or drop a robot file anywhere on the page.'}), list);
-    void this.draw(shipped, cards);
+    const draw = (): void => void this.guarded(() => this.draw(shipped, cards), () => this.box.hidden ? (this.isFilled = false) : draw());
+    draw();
+  }
+
+  get isShown(): boolean {
+    return !this.box.hidden;
   }
 
   hide(): void {
@@ -42,6 +49,7 @@ export class Start {
   /** One after the other: the first are seen before the last are there. */
   private async draw(shipped: Shipped[], cards: HTMLElement[]): Promise<void> {
     for (const [i, {name}] of shipped.entries()) {
+      if (cards[i]!.firstElementChild!.hasChildNodes()) continue;
       if (this.box.hidden) {
         this.isFilled = false;  // a page that comes back goes on
         return;

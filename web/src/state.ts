@@ -1,4 +1,5 @@
 // What the page asks: all that a link holds and that undo brings back.
+import type {Json} from './client';
 import type {Described, Row} from './described';
 
 export type Side = 'inputs' | 'pose';  ///< which of them is given; the other one is the answer
@@ -14,6 +15,7 @@ export interface State {
   joints: number;      ///< of each pseudo-rigid chain; 0: as the file says
   samples: number;     ///< points of each curve; 0: as many as is usual
   iterations: number;  ///< at most; 0: as many as is usual
+  start: Json | null;  ///< the pose near which that of the inputs is looked for, the last solved or a chosen one; null: home
 }
 
 const homes = (rows: Row[]) => rows.map((row) => row.home);
@@ -21,11 +23,20 @@ const homes = (rows: Row[]) => rows.map((row) => row.home);
 export function stateOf(described: Described): State {
   return {
     asked: 'inputs', inputs: homes(described.inputs), pose: homes(described.pose), load: homes(described.load), bending: null,
-    gravity: true, model: described.answer.model, joints: 0, samples: 0, iterations: 0,
+    gravity: true, model: described.answer.model, joints: 0, samples: 0, iterations: 0, start: null,
   };
 }
 
 const numbers = (text: string | null) => text?.split(',').map(Number);
+
+/** A pose as a list, as links and commands have it. */
+export const numbersOf = (pose: Json): number[] => (pose.position ? [...pose.position, ...(pose.quaternion ?? [])] : [pose.x, pose.y, pose.phi]);
+
+function poseOf(values: number[] | undefined, isPlanar: boolean): Json | null {
+  if (values?.length !== (isPlanar ? 3 : 7) || !values.every(Number.isFinite)) return null;
+  const [x, y, phi] = values;
+  return isPlanar ? {x, y, phi} : {position: values.slice(0, 3), quaternion: values.slice(3)};
+}
 
 /** The state of a link, of which what does not fit the robot is left out. */
 export function fromLink(link: URLSearchParams, described: Described): State {
@@ -41,15 +52,20 @@ export function fromLink(link: URLSearchParams, described: Described): State {
   if (described.models.includes(link.get('model') ?? '')) state.model = link.get('model')!;
   const bending = numbers(link.get('bending'));
   if (bending?.length === described.answer.legs?.length && bending?.every((sign) => Math.abs(sign) === 1)) state.bending = bending;
+  state.start = described.isSerial ? null : poseOf(numbers(link.get('start')), described.isPlanar);
   state.gravity = link.get('gravity') !== 'off';
   for (const key of ['joints', 'samples', 'iterations'] as const) state[key] = Math.max(0, Math.floor(Number(link.get(key)) || 0));
   return state;
 }
 
-/** What of the state is not as it is at home. Inputs are there always: the link of a picture is to show it for ever. */
-export function toLink(robot: string, state: State, described: Described): URLSearchParams {
+/**
+ * What of the state is not as it is at home. Inputs are there always: the link of a picture is to show it for ever.
+ * @param start near which the pose has to be looked for; null where it is found from home
+ */
+export function toLink(robot: string, state: State, described: Described, start: number[] | null): URLSearchParams {
   const link = new URLSearchParams({robot});
   link.set('inputs', state.inputs.join(','));
+  if (start && state.asked === 'inputs') link.set('start', start.join(','));  // else the inputs are where it starts
   if (state.asked === 'pose') {
     link.set('asked', 'pose');
     link.set('pose', state.pose.join(','));
@@ -62,26 +78,34 @@ export function toLink(robot: string, state: State, described: Described): URLSe
   return link;
 }
 
-/** States that undo goes back to. Changes that follow each other without a pause are one. */
+/** States that undo goes back to. What one control changes without a pause, or without letting go, is one step. */
 export class History {
   private before: State[] = [];
   private after: State[] = [];
   private last = -Infinity;
+  private by = '';
 
   constructor(private readonly pause = 700) {}
 
   clear(): void {
     this.before = [];
     this.after = [];
+    this.end();
   }
 
-  /** Call before a change. */
-  keep(state: State): void {
+  /** Call before a change. @param by the control that makes it; of none each change is a step */
+  keep(state: State, by = ''): void {
     const now = performance.now();
-    if (now - this.last > this.pause) this.before.push(structuredClone(state));
+    if (by === '' || by !== this.by || now - this.last > this.pause) this.before.push(structuredClone(state));
     this.last = now;
+    this.by = by;
     this.after = [];
     if (this.before.length > 200) this.before.shift();
+  }
+
+  /** The control was let go. */
+  end(): void {
+    this.by = '';
   }
 
   undo(state: State): State | null {
@@ -96,7 +120,7 @@ export class History {
     const found = from.pop();
     if (!found) return null;
     to.push(structuredClone(state));
-    this.last = -Infinity;
+    this.end();
     return found;
   }
 }

@@ -1,6 +1,8 @@
 // The word of an answer, with its shape and what to try.
 import type {Json} from './client';
+import {button} from './make';
 
+export type Way = [text: string, go: () => void];
 export interface Verdict { word: string; shape: string; state: string; advice: string }
 
 const verdicts: Record<string, Verdict> = {
@@ -12,9 +14,16 @@ const verdicts: Record<string, Verdict> = {
   left_domain: {word: 'UNREACHABLE', shape: '▧', state: 'unreachable', advice: 'Go back within the limits.'},
   stalled: {word: 'STALLED', shape: '⊗', state: 'over', advice: 'Begin at Home and take smaller steps.'},
   iteration_limit: {word: 'LIMIT REACHED', shape: '⊗', state: 'over', advice: 'Raise the limit of iterations under Model.'},
+  stopped: {word: 'STOPPED', shape: '■', state: 'stale', advice: 'It was ended before it was solved. Ask again, or take a smaller step.'},
+  bad_input: {word: 'BAD INPUT', shape: '⊗', state: 'over', advice: 'These numbers do not fit this robot: go back, or Home.'},
+  // The page's own words, where nobody has answered
+  solving: {word: 'SOLVING…', shape: '…', state: 'stale', advice: 'The picture is still of the numbers before.'},
+  not_answered: {word: 'NOT ANSWERED', shape: '?', state: 'stale', advice: 'The picture is of the numbers before.'},
+  page_failed: {word: 'INTERNAL ERROR', shape: '⊗', state: 'over', advice: 'The page itself failed, not the robot and not the connection. Load it anew; should it come again, report the words above.'},
 };
 
 export function verdictOf(answer: Json): Verdict {
+  if (answer.error?.code === 'too_slow') return verdicts.stopped!;
   if (answer.error) return {word: 'REFUSED', shape: '⊗', state: 'over', advice: ''};
   const found = verdicts[answer.status] ?? {word: String(answer.status).toUpperCase(), shape: '⊗', state: 'over', advice: ''};
   return answer.status === 'converged' && answer.stable === true ? {...found, word: 'SOLVED, STABLE'} : found;
@@ -27,7 +36,7 @@ export class VerdictBox {
   private readonly detail = document.createElement('span');
   private readonly why = document.createElement('p');
   private readonly advice = document.createElement('p');
-  private readonly way = document.createElement('button');
+  private readonly ways = document.createElement('div');
   private readonly cancel = document.createElement('button');
   private timers: number[] = [];
 
@@ -40,18 +49,19 @@ export class VerdictBox {
     this.detail.className = 'detail';
     this.why.className = 'reason';
     this.advice.className = 'advice';
-    this.way.type = this.cancel.type = 'button';
+    this.ways.className = 'ways';
+    this.cancel.type = 'button';
     this.cancel.textContent = 'Cancel';
     this.cancel.addEventListener('click', cancel);
-    text.append(this.word, this.detail, this.why, this.advice, this.way, this.cancel);
+    text.append(this.word, this.detail, this.why, this.advice, this.ways, this.cancel);
     box.append(this.mark, text);
-    this.offer('', () => undefined);
     this.cancel.hidden = true;
   }
 
-  show(answer: Json, detail: string): void {
+  /** @param ways out of it, as buttons */
+  show(answer: Json, detail: string, ways: Way[] = []): void {
     const {word, shape, state, advice} = verdictOf(answer);
-    this.settle();
+    if (answer.status !== 'solving') this.settle();
     this.mark.className = `mark ${state}`;
     this.mark.textContent = shape;
     if (this.word.textContent !== word) this.word.textContent = word;
@@ -59,23 +69,20 @@ export class VerdictBox {
     this.detail.textContent = detail;
     this.why.textContent = answer.error?.message ?? answer.message ?? '';
     this.advice.textContent = advice;
-    this.offer('', () => undefined);
+    this.offer(ways);
   }
 
-  /** A way out of what has no solution. */
-  offer(text: string, go: () => void): void {
-    this.way.hidden = text === '';
-    this.way.textContent = text;
-    this.way.onclick = go;
+  offer(ways: Way[]): void {
+    this.ways.replaceChildren(...ways.map(([text, go]) => button(text, go)));
   }
 
   /** A question is on its way: a ring after 0.1 s, words and Cancel after a second. */
-  wait(): void {
+  wait(late: () => void): void {
     if (this.timers.length > 0) return;
     this.timers = [
       window.setTimeout(() => this.box.classList.add('waiting'), 100),
       window.setTimeout(() => {
-        this.detail.textContent = 'solving…';
+        late();
         this.cancel.hidden = false;
       }, 1000),
     ];

@@ -89,6 +89,9 @@ export async function disk(browser) {
   await page.evaluate(() => window.dispatchEvent(new Event('focus')));
   await page.locator('#file .disk').getByRole('button', {name: 'Keep mine'}).click();
   await page.locator('#file .disk').waitFor({state: 'hidden'});
+  await page.locator('#robot option:checked', {hasText: 'mine.yaml (modified)'}).waitFor({state: 'attached'});  // no longer what the file says
+  assert.match(await page.locator('#command').innerText(), /--set "platform\.radius=61 mm"/);
+  await rested(page);
   server.kill('SIGINT');
   rmSync(folder, {recursive: true});
   await done();
