@@ -59,6 +59,26 @@ Json summary(std::string_view name) {
   return row;
 }
 
+Clock::time_point after(double seconds) {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+std::string why(const Limits& limits) {
+  return fmt::format(
+      "stopped: a query here may take {} s, and all of a request {} s; ask as a job (POST /api/jobs), which "
+      "may go on",
+      limits.query, limits.time);
+}
+
+/// The answer to a query that was stopped, told so whatever it had come to.
+std::string stopped(const std::string& answer, const std::string& message) {
+  Json json = Json::parse(answer, nullptr, false);
+  if (!json.is_object() || json.contains("error")) return answer;
+  json["status"] = "stopped";
+  json["message"] = message;
+  return written(json);
+}
+
 int working(const Limits& limits) {
   return limits.working > 0 ? limits.working
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -68,10 +88,10 @@ int working(const Limits& limits) {
 
 Calls::Calls(const Options& options)
     : options_(options),
-      robots_(options.limits.robots),
+      robots_(options.limits.robots, options.limits.robot_bytes),
       rate_(options.limits.rate),
       places_(working(options.limits)),
-      jobs_(options.limits.jobs, robots_, rate_) {}
+      jobs_(options.limits.jobs, robots_, rate_, dog_) {}
 
 std::optional<Errors> Calls::read_opened() {
   if (options_.robot.empty()) return {};
@@ -111,32 +131,40 @@ Reply Calls::open_robot(const std::string& text) {
   return {422, written({{"errors", errors}})};
 }
 
-std::string Calls::answers(Robot& robot, const std::vector<std::string_view>& queries, bool is_list) {
+std::string Calls::answers(Robot& robot, const std::vector<std::string_view>& queries, bool is_list,
+                           const Watchdog::IsOver& is_gone) {
   auto session = robot.take();
   if (!session) return error_text("internal", "robot", "the robot cannot be opened again");
-  const auto end = Clock::now() + std::chrono::duration<double>(options_.limits.time);
+  const auto end = after(options_.limits.time);
+  auto due = end;
+  Watchdog::Watched watched(dog_, [&] { return Clock::now() > due || is_gone(); });
+  session->stop_on(watched.token());
   std::string text = is_list ? "[" : "";
   for (const std::string_view query : queries) {
     if (text.size() > 1) text += ',';
     if (text.size() > options_.limits.answers)
       text += error_text("too_large", "query", "the answers before fill a reply; ask for fewer at once");
-    else if (Clock::now() > end)
+    else if (Clock::now() > end || (watched.is_over() && is_gone()))
       text += error_text("too_slow", "query", "the time of a request is over; ask for fewer at once");
-    else
-      text += answer_of(*session, query);
+    else {
+      watched.renew([&] { due = std::min(end, after(options_.limits.query)); });
+      const std::string answer = answer_of(*session, query);
+      text += watched.is_over() ? stopped(answer, why(options_.limits)) : answer;
+    }
   }
   robot.give_back(std::move(*session));
   return is_list ? text + ']' : text;
 }
 
-Reply Calls::query(std::string_view handle, std::string_view body, const std::string& address) {
-  const std::vector<std::string_view> queries = queries_of(body);
+Reply Calls::query(std::string_view handle, std::string_view body, const std::string& address,
+                   const Watchdog::IsOver& is_gone) {
+  const std::vector<std::string_view> queries = queries_of(body, options_.limits.queries);
   if (queries.empty())
     return refused(400, "json_syntax", "body", "give one query, {...}, or an array of queries, [{...}, ...]");
   if (queries.size() > options_.limits.queries)
-    return refused(
-        413, "too_large", "body",
-        fmt::format("{} queries; give at most {} at once", queries.size(), options_.limits.queries));
+    return refused(413, "too_large", "body",
+                   fmt::format("there are more queries than may be asked at once; give at most {}",
+                               options_.limits.queries));
   const auto robot = robots_.find(handle);
   if (!robot)
     return refused(404, "unknown_robot", "robot",
@@ -146,7 +174,12 @@ Reply Calls::query(std::string_view handle, std::string_view body, const std::st
                    fmt::format("more than {} queries a second; wait a second", options_.limits.rate));
   const auto place = places_.wait(std::chrono::duration<double>(options_.limits.patience));
   if (!place) return refused(503, "busy", "query", "all places to compute are taken; try again");
-  return {200, answers(*robot, queries, body.find('[') < body.find('{'))};
+  return {200, answers(*robot, queries, body.find('[') < body.find('{'), is_gone)};
+}
+
+void Calls::stop() {
+  dog_.stop();
+  jobs_.stop();
 }
 
 }  // namespace sinew::server

@@ -10,6 +10,7 @@
 #include "reply.hpp"
 #include "robots.hpp"
 #include "server.hpp"
+#include "watchdog.hpp"
 
 namespace sinew::server {
 
@@ -21,19 +22,26 @@ class Calls {
   Reply robots() const;  ///< those that ship, and the one the page opens with
   Reply robot_text(const std::string& name) const;
   Reply open_robot(const std::string& text);
-  Reply query(std::string_view handle, std::string_view body, const std::string& address);
+  /// @param is_gone whether the client has left; asked from another thread
+  Reply query(
+      std::string_view handle, std::string_view body, const std::string& address,
+      const Watchdog::IsOver& is_gone = [] { return false; });
   JobCalls& jobs() { return jobs_; }
+  /// What computes is to end.
+  void stop();
 
   /// The robot of the command line: read before anything listens.
   std::optional<Errors> read_opened();
 
  private:
-  std::string answers(Robot& robot, const std::vector<std::string_view>& queries, bool is_list);
+  std::string answers(Robot& robot, const std::vector<std::string_view>& queries, bool is_list,
+                      const Watchdog::IsOver& is_gone);
 
   Options options_;
   Robots robots_;
   Rate rate_;
   Places places_;
+  Watchdog dog_;
   JobCalls jobs_;
 };
 

@@ -16,6 +16,14 @@ bool Rate::allows(const std::string& address, std::size_t queries, Clock::time_p
   return true;
 }
 
+std::shared_ptr<const void> Room::take(std::size_t bytes) {
+  std::size_t left = left_;
+  do {
+    if (bytes > left) return nullptr;
+  } while (!left_.compare_exchange_weak(left, left - bytes));
+  return {this, [bytes](Room* room) { room->left_ += bytes; }};
+}
+
 Places::Place Places::wait(std::chrono::duration<double> patience) {
   std::unique_lock lock(mutex_);
   if (!changed_.wait_for(lock, patience, [&] { return free_ > 0; })) return Place(nullptr);

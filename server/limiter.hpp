@@ -1,9 +1,11 @@
 /// @file limiter.hpp
 /// How much an address may ask, and how much is computed at a time.
 #pragma once
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -25,6 +27,17 @@ class Rate {
   double a_second_;
   std::mutex mutex_;
   std::map<std::string, Bucket> buckets_;
+};
+
+/// Bytes that all requests share: of large bodies and answers, which clients may be slow to give or to take.
+class Room {
+ public:
+  explicit Room(std::size_t most) : left_(most) {}
+  /// So many, given back with what is returned; null where they are not left.
+  std::shared_ptr<const void> take(std::size_t bytes);
+
+ private:
+  std::atomic<std::size_t> left_;
 };
 
 /// Places to compute; who finds none free waits for a while.

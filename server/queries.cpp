@@ -15,7 +15,7 @@ std::size_t end_of_quotes(std::string_view text, std::size_t at) {
   return at;
 }
 
-std::vector<std::string_view> elements_of(std::string_view inside) {
+std::vector<std::string_view> elements_of(std::string_view inside, std::size_t most) {
   std::vector<std::string_view> elements;
   std::size_t begin = 0, depth = 0;
   for (std::size_t i = 0; i < inside.size(); ++i) {
@@ -27,6 +27,7 @@ std::vector<std::string_view> elements_of(std::string_view inside) {
     if (c == ',' && depth == 0) {
       elements.push_back(trimmed(inside.substr(begin, i - begin)));
       begin = i + 1;
+      if (elements.size() > most) return elements;
     }
   }
   if (depth != 0) return {};
@@ -35,11 +36,11 @@ std::vector<std::string_view> elements_of(std::string_view inside) {
   return elements;
 }
 
-std::vector<std::string_view> queries_of(std::string_view body) {
+std::vector<std::string_view> queries_of(std::string_view body, std::size_t most) {
   body = trimmed(body);
   if (body.starts_with('{')) return {body};
   if (!body.starts_with('[') || !body.ends_with(']') || body.size() < 2) return {};
-  return elements_of(body.substr(1, body.size() - 2));
+  return elements_of(body.substr(1, body.size() - 2), most);
 }
 
 }  // namespace sinew::server

@@ -1,6 +1,7 @@
 /// @file reply.hpp
 /// What a request is answered, before it is HTTP.
 #pragma once
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,7 @@ struct Reply {
   int status = 200;
   std::string text;
   std::string_view type = "application/json";
+  std::shared_ptr<const std::string> kept = {};  ///< in the text's place: as large as a result may be
 };
 
 /// `{"error": {"code", "where", "message"}}`, as of a query.

@@ -38,6 +38,7 @@ Expected<Session> Robot::take() {
 
 void Robot::give_back(Session session) {
   session.forget();
+  session.stop_on({});
   const std::lock_guard lock(mutex_);
   idle_.push_back(std::move(session));
 }
@@ -59,8 +60,14 @@ Expected<std::string> Robots::open(const std::string& text) {
   if (!session) return tl::unexpected(session.error());
   auto robot = std::make_shared<Robot>(std::move(*document), std::move(*session));
   const std::lock_guard lock(mutex_);
-  entries_.push_front({handle, std::move(robot)});
-  if (entries_.size() > most_) entries_.pop_back();
+  const bool has_come = std::ranges::find(entries_, handle, &Entry::handle) != entries_.end();  // meanwhile
+  if (has_come) return handle;
+  entries_.push_front({handle, text.size(), std::move(robot)});
+  bytes_ += text.size();
+  while (entries_.size() > 1 && (entries_.size() > most_ || bytes_ > most_bytes_)) {
+    bytes_ -= entries_.back().bytes;
+    entries_.pop_back();
+  }
   return handle;
 }
 

@@ -1,21 +1,19 @@
-/// HTTP: the one file that knows httplib (it defines _res, which Eigen uses: nothing of Eigen comes after
-/// it).
+/// HTTP: which call answers which request.
 #include "server.hpp"
 
 #include <fmt/format.h>
-#include <httplib.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
+#include <memory>
 #include <optional>
-#include <thread>
 
 #include "assets.hpp"
 #include "calls.hpp"
 #include "guard.hpp"
+// It has httplib: last.
+#include "http/listener.hpp"
 
 namespace sinew::server {
 namespace {
@@ -28,12 +26,11 @@ constexpr const char* policy =
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'; object-src 'none'";
 
 /// As it is: httplib would compress what it is given as a text, each time.
-template <class Text>
-void put_bytes(Response& response, Text text, std::string_view type) {
-  const std::size_t size = text.size();
+void put_bytes(Response& response, std::string_view text, std::string_view type,
+               std::shared_ptr<const void> owner = {}) {
   response.set_content_provider(
-      size, std::string(type).c_str(),
-      [text = std::move(text)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+      text.size(), std::string(type).c_str(),
+      [text, owner = std::move(owner)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
         return sink.write(text.data() + offset, length);
       });
 }
@@ -41,21 +38,22 @@ void put_bytes(Response& response, Text text, std::string_view type) {
 void put(Response& response, Reply reply) {
   response.status = reply.status;
   if (reply.status == 429 || reply.status == 503) response.set_header("Retry-After", "1");
-  if (reply.text.empty()) return;  // httplib never ends a content of no length
-  put_bytes(response, std::move(reply.text), reply.type);
+  const auto text =
+      reply.kept ? std::move(reply.kept) : std::make_shared<const std::string>(std::move(reply.text));
+  if (!text->empty())
+    put_bytes(response, *text, reply.type, text);  // httplib never ends a content of no length
 }
 
-/// All of the body is taken off the wire, whatever comes of the request: what stayed there would be read as
-/// the next request, written by whoever wrote this one.
-bool read_body(const httplib::ContentReader& reader, std::size_t most, std::string& body) {
-  bool fits = true;
-  const bool is_whole = reader([&](const char* bytes, std::size_t count) {
-    fits = fits && count <= most - body.size();
+/// False where it does not come whole, or does not fit. What is left of it closes the connection.
+bool read_body(const httplib::ContentReader& reader, std::size_t most, std::string& body, bool& fits) {
+  return reader([&](const char* bytes, std::size_t count) {
+    fits = count <= most - body.size();
     if (fits) body.append(bytes, count);
-    return true;
+    return fits;
   });
-  return is_whole && fits;
 }
+
+Reply full() { return refused(503, "busy", "server", "too much is under way; try again"); }
 
 bool has_type(const Request& request, std::string_view type) {
   const std::string given = request.get_header_value("Content-Type");
@@ -105,18 +103,24 @@ struct Server::State {
   using Body = Reply (State::*)(const Request&, const std::string& body);
   using Plain = Reply (State::*)(const Request&);
 
-  explicit State(const Options& chosen) : options(chosen), calls(chosen) {}
+  explicit State(const Options& chosen)
+      : options(chosen),
+        calls(chosen),
+        room(chosen.limits.held),
+        http(chosen.limits) {}
 
   Expected<int> bind();
   void route();
   void route_page();
+  Reply kept(Reply reply);
   void get(const char* pattern, Plain call);
   void post(const char* pattern, const char* type, std::size_t most, Body call);
   void route_jobs();
   void show_events(const Request& request, Response& response);
   void limit();
-  /// Whether the request may go on; else the response says why not.
+  /// Whether the request may go on; else the response says why not. Before any of its body is read.
   bool lets_in(const Request& request, Response& response) const;
+  bool brings_token(const Request& request) const;
   void show(const Asset& asset, const Request& request, Response& response) const;
 
   Reply on_version(const Request&) { return calls.version(); }
@@ -124,7 +128,8 @@ struct Server::State {
   Reply on_robot_text(const Request& request) { return calls.robot_text(request.matches[1]); }
   Reply on_robot(const Request&, const std::string& body) { return calls.open_robot(body); }
   Reply on_query(const Request& request, const std::string& body) {
-    return calls.query(request.get_param_value("robot"), body, request.remote_addr);
+    return calls.query(request.get_param_value("robot"), body, request.remote_addr,
+                       [client = Listener::current()] { return client->is_gone(); });
   }
   Reply on_job(const Request& request, const std::string& body) {
     return calls.jobs().start(body, request.remote_addr);
@@ -136,38 +141,65 @@ struct Server::State {
   Calls calls;
   std::optional<Guard> guard;
   std::string url;
-  httplib::Server http;
-  socket_t listening = INVALID_SOCKET;
-  std::atomic<bool> has_begun = false, has_ended = false, is_stopped = false;
+  Room room;
+  Listener http;
 };
 
 bool Server::State::lets_in(const Request& request, Response& response) const {
   const auto header = [&](const char* name) { return request.get_header_value(name); };
   const std::string host = header("Host"), origin = header("Origin"), cookie = header("Cookie"),
                     authorization = header("Authorization");
-  const Refusal why = guard->judge({host, origin, cookie, authorization});
+  const Refusal why =
+      brings_token(request) ? Refusal::none : guard->judge({host, origin, cookie, authorization});
   if (why != Refusal::none) put(response, refusal(why));
   return why == Refusal::none;
 }
 
+/// In the address that was printed.
+bool Server::State::brings_token(const Request& request) const {
+  return request.path == "/" && request.method == "GET" && !guard->token().empty() &&
+         request.has_param("token") && guard->accepts(request.get_param_value("token"));
+}
+
 void Server::State::get(const char* pattern, Plain call) {
   http.Get(pattern, [this, call](const Request& request, Response& response) {
-    if (lets_in(request, response)) put(response, (this->*call)(request));
+    put(response, (this->*call)(request));
   });
 }
 
 void Server::State::post(const char* pattern, const char* type, std::size_t most, Body call) {
   http.Post(pattern, [this, type, most, call](const Request& request, Response& response,
                                               const httplib::ContentReader& reader) {
-    std::string body;
-    const bool fits = read_body(reader, most, body);
-    if (!lets_in(request, response)) return;
-    if (!fits)
-      return put(response, refused(413, "too_large", "body", fmt::format("give at most {} bytes", most)));
     if (!has_type(request, type))
       return put(response, refused(415, "wrong_type", "Content-Type", fmt::format("it has to be {}", type)));
-    put(response, (this->*call)(request, body));
+    const std::size_t sent = Listener::current()->left();
+    const auto held = room.take(request.has_header("Content-Encoding") ? most : sent);
+    if (!held) return put(response, full());
+    std::string body;
+    bool fits = sent <= most;
+    const bool is_whole = fits && read_body(reader, most, body, fits);
+    if (!fits)
+      return put(response, refused(413, "too_large", "body", fmt::format("give at most {} bytes", most)));
+    if (!is_whole)
+      return put(response, refused(400, "bad_request", "body",
+                                   fmt::format("send all of it within {} s, packed by gzip or not at all",
+                                               options.limits.reading)));
+    put(response, kept((this->*call)(request, body)));
   });
+}
+
+/// A large answer takes part of the room until its client has it.
+Reply Server::State::kept(Reply reply) {
+  constexpr std::size_t large = std::size_t{64} << 10U;
+  if (reply.text.size() < large) return reply;
+  auto held = room.take(reply.text.size());
+  if (!held) return full();
+  struct Kept {
+    std::string text;
+    std::shared_ptr<const void> held;
+  };
+  const auto owner = std::make_shared<const Kept>(Kept{std::move(reply.text), std::move(held)});
+  return {reply.status, {}, reply.type, {owner, &owner->text}};
 }
 
 void Server::State::show(const Asset& asset, const Request& request, Response& response) const {
@@ -181,19 +213,17 @@ void Server::State::show(const Asset& asset, const Request& request, Response& r
 void Server::State::route_page() {
   for (const Asset& asset : assets())
     http.Get(std::string(asset.path), [this, &asset](const Request& request, Response& response) {
-      if (asset.path == "/" && request.has_param("token") && !guard->token().empty() &&
-          guard->accepts(request.get_param_value("token"))) {
+      if (brings_token(request)) {
         response.set_header("Set-Cookie",
                             fmt::format("sinew_token={}; HttpOnly; SameSite=Strict; Path=/", guard->token()));
         return response.set_redirect("/");
       }
-      if (lets_in(request, response)) show(asset, request, response);
+      show(asset, request, response);
     });
 }
 
 /// Not compressed by httplib, and nothing kept back: it knows this type.
 void Server::State::show_events(const Request& request, Response& response) {
-  if (!lets_in(request, response)) return;
   const auto stream =
       calls.jobs().listen(request.matches[1].str(), request.get_header_value("Last-Event-ID"));
   if (!stream) return put(response, stream.error());
@@ -209,10 +239,8 @@ void Server::State::route_jobs() {
            [this](const Request& request, Response& response) { show_events(request, response); });
   get("/api/jobs/([^/]*)/result", &State::on_result);
   http.Delete("/api/jobs/([^/]*)",
-              [this](const Request& request, Response& response, const httplib::ContentReader& reader) {
-                std::string body;
-                read_body(reader, 0, body);
-                if (lets_in(request, response)) put(response, calls.jobs().cancel(request.matches[1].str()));
+              [this](const Request& request, Response& response, const httplib::ContentReader&) {
+                put(response, calls.jobs().cancel(request.matches[1].str()));
               });
 }
 
@@ -225,25 +253,20 @@ void Server::State::route() {
   route_jobs();
   route_page();
   get(".*", &State::on_nothing);
-  http.Post(".*", [this](const Request& request, Response& response, const httplib::ContentReader& reader) {
-    std::string body;
-    read_body(reader, 0, body);
-    if (lets_in(request, response)) put(response, on_nothing(request));
+  http.Post(".*", [this](const Request& request, Response& response, const httplib::ContentReader&) {
+    put(response, on_nothing(request));
   });
 }
 
 void Server::State::limit() {
-  // Other methods never come from a page of another site without its browser asking first, so their bodies
-  // may stay unread. That holds for DELETE too: its browser asks by OPTIONS, which is refused here.
-  http.set_pre_routing_handler([](const Request& request, Response& response) {
-    if (request.method == "GET" || request.method == "HEAD" || request.method == "POST" ||
-        (request.method == "DELETE" && is_job(request.path)))
-      return httplib::Server::HandlerResponse::Unhandled;
-    put(response, refused(405, "not_available", "method", "GET and POST are answered, and DELETE of a job"));
-    return httplib::Server::HandlerResponse::Handled;
-  });
-  http.set_exception_handler([](const Request&, Response& response, std::exception_ptr) {
-    put(response, refused(500, "internal", "server", "this request failed inside sinew"));
+  http.set_pre_routing_handler([this](const Request& request, Response& response) {
+    using enum httplib::Server::HandlerResponse;
+    const bool is_answered = request.method == "GET" || request.method == "HEAD" ||
+                             request.method == "POST" || (request.method == "DELETE" && is_job(request.path));
+    if (!is_answered)
+      put(response,
+          refused(405, "not_available", "method", "GET and POST are answered, and DELETE of a job"));
+    return is_answered && lets_in(request, response) ? Unhandled : Handled;
   });
   http.set_default_headers({{"Content-Security-Policy", policy},
                             {"Permissions-Policy", "camera=(self), serial=()"},
@@ -253,18 +276,11 @@ void Server::State::limit() {
                             {"Referrer-Policy", "no-referrer"},
                             {"Cache-Control", "no-store"}});
   http.set_payload_max_length(std::max(options.limits.body, options.limits.jobs.body));
-  http.set_keep_alive_max_count(100'000);
-  http.set_keep_alive_timeout(2);
-  http.set_read_timeout(5);
-  http.set_write_timeout(5);
   http.set_tcp_nodelay(true);
-  http.set_socket_options([this](socket_t socket) {  // not SO_REUSEPORT: a second server is to be told
+  http.set_socket_options([](socket_t socket) {  // not SO_REUSEPORT: a second server is to be told
     const int yes = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    listening = socket;
   });
-  const int threads = options.limits.threads;
-  http.new_task_queue = [threads] { return new httplib::ThreadPool(static_cast<std::size_t>(threads)); };
 }
 
 Expected<int> Server::State::bind() {
@@ -273,8 +289,7 @@ Expected<int> Server::State::bind() {
   const int port = is_any ? http.bind_to_any_port(options.address)
                           : (http.bind_to_port(options.address, options.port) ? options.port : -1);
   if (port > 0) {
-    listen(listening,
-           options.limits.threads);  // httplib lets five wait, and of more that come at once some are lost
+    http.widen();
     return port;
   }
   if (errno == EADDRINUSE)
@@ -306,20 +321,11 @@ Expected<Server> Server::open(const Options& options) {
 
 const std::string& Server::url() const { return state_->url; }
 
-void Server::run() {
-  state_->has_begun = true;
-  if (!state_->is_stopped) state_->http.listen_after_bind();
-  state_->has_ended = true;
-}
+void Server::run() { state_->http.run(); }
 
 void Server::stop() {
-  if (state_->is_stopped.exchange(true)) return;
-  state_->calls.jobs().stop();
-  using namespace std::chrono_literals;
-  // Before it runs, httplib takes no notice of being stopped.
-  while (state_->has_begun && !state_->has_ended && !state_->http.is_running())
-    std::this_thread::sleep_for(1ms);
-  if (state_->http.is_running()) state_->http.stop();
+  state_->calls.stop();
+  state_->http.stop();
 }
 
 }  // namespace sinew::server

@@ -28,12 +28,16 @@ struct Limits {
   std::size_t body = std::size_t{1} << 20U;      ///< [bytes]
   std::size_t queries = 1000;                    ///< in a request
   std::size_t answers = std::size_t{64} << 20U;  ///< [bytes] to a request; the queries left over get an error
+  double query = 10;                             ///< [s] of computing for a query; then it is stopped
   double time = 30;                              ///< [s] of computing for a request; as answers
   double rate = 50'000;                          ///< queries a second, of an address
   int threads = 64;                              ///< connections served at a time
+  double reading = 30;                           ///< [s] from a request's first byte to its last
+  std::size_t held = std::size_t{256} << 20U;    ///< [bytes] of all bodies and answers that are under way
   int working = 0;                               ///< requests that compute at a time; 0: one a core
   double patience = 10;                          ///< [s] that a request waits for its turn to compute
   std::size_t robots = 64;                       ///< kept; the one longest unused goes
+  std::size_t robot_bytes = std::size_t{4} << 20U;  ///< of the texts of all that are kept
   JobLimits jobs = {};
 };
 

@@ -31,15 +31,16 @@ std::optional<std::size_t> position_of(std::string_view event) {
 
 }  // namespace
 
-JobCalls::JobCalls(const JobLimits& limits, Robots& robots, Rate& rate)
+JobCalls::JobCalls(const JobLimits& limits, Robots& robots, Rate& rate, Watchdog& dog)
     : limits_(limits),
       robots_(robots),
       rate_(rate),
+      dog_(dog),
       streams_(limits.streams),
       jobs_(limits) {}
 
 Reply JobCalls::start(std::string_view body, const std::string& address) {
-  const auto request = read_job(body);
+  const auto request = read_job(body, limits_.queries);
   if (!request) {
     const Error& error = request.error().front();
     return refused(400, error.code, error.where, error.message);
@@ -57,13 +58,14 @@ Reply JobCalls::start(std::string_view body, const std::string& address) {
 
 Reply JobCalls::start_queries(const std::string& handle, const std::vector<std::string_view>& queries) {
   if (queries.size() > limits_.queries)
-    return refused(413, "too_large", "queries",
-                   fmt::format("{} queries; give at most {} to a job", queries.size(), limits_.queries));
+    return refused(
+        413, "too_large", "queries",
+        fmt::format("there are more queries than a job may have; give at most {}", limits_.queries));
   auto robot = robots_.find(handle);
   if (!robot)
     return refused(404, "unknown_robot", "robot",
                    "no robot has this handle (any more): POST its text to /api/robot and ask again");
-  return start(query_work(std::move(robot), {queries.begin(), queries.end()}));
+  return start(query_work(std::move(robot), {queries.begin(), queries.end()}, dog_));
 }
 
 Reply JobCalls::start(Work work) {
@@ -81,7 +83,7 @@ Reply JobCalls::result(std::string_view id) {
     return refused(404, "no_result", "job", "it was cancelled or failed, as its last event says");
   if (outcome->table.empty())
     return refused(404, "no_result", "job", "answers to queries come as events; only a study has a table");
-  return {200, outcome->table, "text/csv; charset=utf-8"};
+  return {200, {}, "text/csv; charset=utf-8", {outcome, &outcome->table}};
 }
 
 Reply JobCalls::cancel(std::string_view id) {

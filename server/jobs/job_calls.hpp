@@ -10,13 +10,14 @@
 #include "server/limiter.hpp"
 #include "server/reply.hpp"
 #include "server/robots.hpp"
+#include "server/watchdog.hpp"
 #include "stream.hpp"
 
 namespace sinew::server {
 
 class JobCalls {
  public:
-  JobCalls(const JobLimits& limits, Robots& robots, Rate& rate);
+  JobCalls(const JobLimits& limits, Robots& robots, Rate& rate, Watchdog& dog);
 
   Reply start(std::string_view body, const std::string& address);
   Reply result(std::string_view id);
@@ -33,6 +34,7 @@ class JobCalls {
   JobLimits limits_;
   Robots& robots_;
   Rate& rate_;
+  Watchdog& dog_;
   Places streams_;
   Jobs jobs_;
 };

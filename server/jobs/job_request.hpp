@@ -16,6 +16,7 @@ struct JobRequest {
 };
 
 /// Codes: `json_syntax`, `unknown_field`, `missing_field`, `wrong_type`.
-Expected<JobRequest> read_job(std::string_view body);
+/// @param most queries; of more there is one more than this
+Expected<JobRequest> read_job(std::string_view body, std::size_t most);
 
 }  // namespace sinew::server

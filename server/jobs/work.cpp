@@ -77,14 +77,18 @@ Outcome run_study(const std::string& name, const JobLimits& limits, Job& job) {
   return table_of(*summary, path, limits.result);
 }
 
-Outcome answer_all(Robot& robot, const std::vector<std::string>& queries, Job& job) {
+Outcome answer_all(Robot& robot, const std::vector<std::string>& queries, Watchdog& dog, Job& job) {
   auto session = robot.take();
   if (!session) return failed({"internal", "robot", "the robot cannot be opened again"});
+  const Watchdog::Watched watched(dog, [&] { return job.is_over(); });
+  session->stop_on(watched.token());
   job.show(0, queries.size());
   const auto begin = Job::Clock::now();
   for (const std::string& query : queries) {
     if (job.is_over()) return cancelled(job);
-    if (!job.add(answer_of(*session, query)))
+    std::string answer = answer_of(*session, query);
+    if (watched.is_over()) return cancelled(job);
+    if (!job.add(std::move(answer)))
       return failed({"too_large", "queries", "the answers before fill a job; ask for fewer at once"});
   }
   robot.give_back(std::move(*session));
@@ -98,9 +102,9 @@ Work study_work(std::string name, const JobLimits& limits) {
   return [name = std::move(name), limits](Job& job) { return run_study(name, limits, job); };
 }
 
-Work query_work(std::shared_ptr<Robot> robot, std::vector<std::string> queries) {
-  return [robot = std::move(robot), queries = std::move(queries)](Job& job) {
-    return answer_all(*robot, queries, job);
+Work query_work(std::shared_ptr<Robot> robot, std::vector<std::string> queries, Watchdog& dog) {
+  return [robot = std::move(robot), queries = std::move(queries), &dog](Job& job) {
+    return answer_all(*robot, queries, dog, job);
   };
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "server/queries.hpp"
+#include "server/watchdog.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::server {
@@ -16,12 +17,14 @@ using nlohmann::json;
 using Texts = std::vector<std::string_view>;
 
 TEST(Queries, AreABodyOrItsElements) {
-  EXPECT_EQ(queries_of(R"( {"query": "describe"} )"), (Texts{R"({"query": "describe"})"}));
-  EXPECT_EQ(queries_of(R"([{"a": [1, 2]}, {"b": "], \" ,["},{}])"),
+  EXPECT_EQ(queries_of(R"( {"query": "describe"} )", 9), (Texts{R"({"query": "describe"})"}));
+  EXPECT_EQ(queries_of(R"([{"a": [1, 2]}, {"b": "], \" ,["},{}])", 9),
             (Texts{R"({"a": [1, 2]})", R"({"b": "], \" ,["})", "{}"}));
-  EXPECT_EQ(queries_of("[1, ]"), (Texts{"1", ""}));  // an element that is no query is for a session to refuse
+  EXPECT_EQ(queries_of("[1, ]", 9),
+            (Texts{"1", ""}));  // an element that is no query is for a session to refuse
   for (const char* body : {"", " ", "5", "[]", "[ ]", "[", "]", "[{]", "[}", "[{\"a]", "[\"\\", "text"})
-    EXPECT_TRUE(queries_of(body).empty()) << body;
+    EXPECT_TRUE(queries_of(body, 9).empty()) << body;
+  EXPECT_EQ(queries_of("[" + std::string(1'000'000, ',') + "]", 9).size(), 10U);
 }
 
 TEST(Rate, GivesASecondsWorthAtOnceAndThenASecondsWorthASecond) {
@@ -48,7 +51,7 @@ TEST(Places, AreGivenBack) {
 }
 
 TEST(Robots, KeepTheLastUsed) {
-  Robots robots(2);
+  Robots robots(2, 1'000'000);
   const auto text = [](const char* name) { return read_robot_text(name).value(); };
   const std::string a = robots.open(text("3-rfr")).value(), b = robots.open(text("3-frr")).value();
   EXPECT_EQ(robots.open(text("3-rfr")).value(), a);
@@ -56,6 +59,48 @@ TEST(Robots, KeepTheLastUsed) {
   EXPECT_TRUE(robots.find(a));
   EXPECT_FALSE(robots.find(b));
   EXPECT_TRUE(robots.find(c));
+}
+
+TEST(Robots, KeepNoMoreTextThanTold) {
+  const auto text = [](const char* name) { return read_robot_text(name).value(); };
+  Robots robots(9, text("3-rfr").size() + text("3-frr").size());
+  const std::string a = robots.open(text("3-rfr")).value(), b = robots.open(text("3-frr")).value();
+  EXPECT_TRUE(robots.find(a) && robots.find(b));
+  const std::string c = robots.open(text("3-rfr") + "#").value();  // the same robot, another text
+  EXPECT_FALSE(robots.find(a));
+  EXPECT_FALSE(robots.find(b));
+  EXPECT_TRUE(robots.find(c));
+}
+
+TEST(Room, IsGivenBack) {
+  Room room(10);
+  auto six = room.take(6);
+  EXPECT_TRUE(six);
+  EXPECT_FALSE(room.take(5));
+  EXPECT_TRUE(room.take(4));
+  six.reset();
+  EXPECT_TRUE(room.take(10));
+}
+
+TEST(Watchdog, EndsWhatIsOverAndLetsTheNextBegin) {
+  Watchdog dog;
+  std::atomic<bool> is_late = false;
+  Watchdog::Watched watched(dog, [&] { return is_late.load(); });
+  const auto until_over = [&] {
+    for (int i = 0; i < 1000 && !watched.is_over(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return watched.token().stop_requested();
+  };
+  EXPECT_FALSE(watched.is_over());
+  is_late = true;
+  EXPECT_TRUE(until_over());
+  watched.renew([&] { is_late = false; });
+  EXPECT_FALSE(watched.is_over());
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // it has looked again
+  EXPECT_FALSE(watched.is_over());
+  dog.stop();
+  EXPECT_TRUE(until_over());
+  EXPECT_TRUE(Watchdog::Watched(dog, [] { return false; }).is_over());
 }
 
 TEST(Calls, TellWhatHasNoTimeLeft) {

@@ -37,7 +37,7 @@ std::shared_ptr<const Outcome> outcome_of(const Job& job) {
 }
 
 std::string code_of(std::string_view body) {
-  const auto request = read_job(body);
+  const auto request = read_job(body, 9);
   return request ? "" : request.error().front().code;
 }
 
@@ -49,8 +49,8 @@ std::string all_of(Stream& stream) {
 }
 
 TEST(JobRequest, IsAStudyOrQueriesAsTheyStandThere) {
-  EXPECT_EQ(read_job(R"( {"study": "a\u0062c"} )")->study, "abc");
-  const auto request = read_job(R"({"queries" : [ {"x": 1.0, "x": 2}, 5,"]" ], "robot":"7"})");
+  EXPECT_EQ(read_job(R"( {"study": "a\u0062c"} )", 9)->study, "abc");
+  const auto request = read_job(R"({"queries" : [ {"x": 1.0, "x": 2}, 5,"]" ], "robot":"7"})", 9);
   ASSERT_TRUE(request);
   EXPECT_EQ(request->robot, "7");
   EXPECT_EQ(request->queries, (std::vector<std::string_view>{R"({"x": 1.0, "x": 2})", "5", R"("]")"}));
@@ -166,16 +166,17 @@ TEST(Jobs, EndWithTheirServer) {
 }
 
 std::shared_ptr<Robot> robot_of(const char* name) {
-  Robots robots(1);
+  Robots robots(1, 1'000'000);
   return robots.find(robots.open(read_robot_text(name).value()).value());
 }
 
 TEST(QueryWork, HasNoMoreAnswersThanFit) {
   JobLimits limits;
   limits.result = 3000;
+  Watchdog dog;
   Jobs jobs(limits);
   const std::vector<std::string> queries(100, R"({"query": "describe"})");
-  const auto job = jobs.find(jobs.start(query_work(robot_of("3-rfr"), queries)).value());
+  const auto job = jobs.find(jobs.start(query_work(robot_of("3-rfr"), queries, dog)).value());
   EXPECT_EQ(json::parse(outcome_of(*job)->said)["error"]["code"], "too_large");
   EXPECT_GT(job->answered(), 0U);
   EXPECT_LE(job->bytes(), limits.result);
@@ -188,8 +189,9 @@ TEST(QueryWork, BeginsWhereNobodyHasAsked) {  // another client's walk is not go
   other.answer(
       R"({"query": "forward", "inputs": [0.185, 0.19, 0.188], "start": {"x": 0, "y": 0, "phi": 0}})");
   robot->give_back(std::move(other));
+  Watchdog dog;
   Jobs jobs({});
-  const auto job = jobs.find(jobs.start(query_work(robot, {walk})).value());
+  const auto job = jobs.find(jobs.start(query_work(robot, {walk}, dog)).value());
   outcome_of(*job);
   EXPECT_EQ(job->news(0, Job::Clock::now()).text, Session::open("3-rfr")->answer(walk));
 }
