@@ -38,8 +38,8 @@ std::array<PolylineOf<Space::dimension>, 2> tendons_of(
 template <class Space>
 ShapeOf<Space::dimension> chain_shape(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
                                       std::span<const ChainLegState> legs) {
-  SINEW_EXPECTS(legs.size() == robot.legs.size());
   ShapeOf<Space::dimension> shape;
+  if (legs.size() != robot.legs.size()) return shape;
   const auto platform = Space::frame(pose);
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const ChainLeg<Space>& leg = robot.legs[i];

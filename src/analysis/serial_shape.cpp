@@ -1,7 +1,5 @@
 #include "sinew/analysis/serial_shape.hpp"
 
-#include "sinew/base/assert.hpp"
-
 namespace sinew::inline v0 {
 namespace {
 
@@ -61,7 +59,7 @@ std::vector<Vec3<double>> tendon(const SerialRobot& robot, const Walk& walk, std
 }  // namespace
 
 SerialShape serial_shape(const SerialRobot& robot, std::span<const Bend> bends, int samples) {
-  SINEW_EXPECTS(bends.size() == robot.sections.size() && samples >= 2);
+  if (bends.size() != robot.sections.size() || samples < 2) return {};
   Walk walk(robot, bends, samples);
   for (std::size_t m = 0; m < bends.size(); ++m) {
     auto& lines = walk.shape.tendons.emplace_back();

@@ -1,5 +1,6 @@
 #include "sinew/analysis/shape.hpp"
 
+#include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "robot/rod_work.hpp"
 
@@ -86,7 +87,9 @@ AnyShape loaded_shape(const AnyRobot& robot, System& system, const SpatialPose& 
 }  // namespace
 
 AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
-  SINEW_EXPECTS(samples >= 2);
+  const bool fits = std::holds_alternative<PlanarPose>(pose) == is_planar(robot) && samples >= 2 &&
+                    coordinates.size() == static_cast<std::size_t>(coordinate_count(robot));
+  if (!fits) return is_planar(robot) ? AnyShape(PlanarShape{}) : AnyShape(SpatialShape{});
   return visit_closing(
       robot,
       [&]<class LegT>(const ParallelRobot<LegT>& r) -> AnyShape {

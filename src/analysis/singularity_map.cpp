@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/analysis/velocity.hpp"
 
@@ -62,23 +63,38 @@ MapSample map_sample(const AnyRobot& robot, const AnyPose& pose, const InverseOp
   sample.is_reachable = true;
   sample.is_type_2 = at.type_2.singular;
   sample.kind = at.type_2.kind;
-  for (const int leg : at.type_1) sample.type_1 |= std::uint32_t{1} << leg;
+  for (const int leg : at.type_1)
+    if (leg < 32) sample.type_1 |= std::uint32_t{1} << leg;
   sample.determinant = at.determinant;
   sample.inverse_condition = inverse_of(at.indices.condition);
   sample.inverse_condition_homogenised = inverse_of(at.indices.condition_homogenised);
   return sample;
 }
 
+std::size_t visit_map(const AnyRobot& robot, const PoseGrid& grid, const InverseOptions& branch,
+                      Workspace& work, const TakeSample& take) {
+  if (grid.is_spatial == is_planar(robot) || !check_workspace(robot, work).ok())
+    return 0;  // not poses of this robot
+  const std::size_t total = grid.size();
+  for (std::size_t k = 0; k < total; ++k) {
+    if (work.stop.stop_requested()) return k;
+    if (!take(k, map_sample(robot, grid.pose(k), branch, work))) return k + 1;
+  }
+  return total;
+}
+
 SingularityMap singularity_map(const AnyRobot& robot, const PoseGrid& grid, const InverseOptions& branch,
                                Workspace& work, const Progress& progress) {
   SingularityMap map{.grid = grid, .samples = {}};
   const std::size_t total = grid.size();
+  if (progress && !progress(0, total)) return map;
   map.samples.reserve(total);
-  for (std::size_t k = 0; k < total; ++k) {
-    if (progress && k % poses_between_reports == 0 && !progress(k, total)) return map;
-    map.samples.push_back(map_sample(robot, grid.pose(k), branch, work));
-  }
-  if (progress) progress(total, total);
+  visit_map(robot, grid, branch, work, [&](std::size_t k, const MapSample& sample) {
+    map.samples.push_back(sample);
+    const bool is_reported = progress && (k + 1) % poses_between_reports == 0 && k + 1 < total;
+    return !is_reported || progress(k + 1, total);
+  });
+  if (progress && map.is_complete()) progress(total, total);
   return map;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
@@ -16,7 +17,8 @@ namespace {
 
 constexpr double step_size = 0.02;  // of a step [rad, or platform radii]
 constexpr double stencil = 0.2;     // spacing of the points of a derivative, in steps
-constexpr int most_steps = 1000000;
+constexpr int most_steps = 20000;   // four hundred platform radii, or sixty turns
+constexpr double least_dip = 1e-9;  // of the volume beside a smallest one; less is rounding
 
 /// A straight motion of the platform, by its distance s; put back into the planes that hinges may hold it in.
 struct Line {
@@ -155,7 +157,8 @@ std::optional<TypeTwoDistance> Walk::in_step(const Place& before, const Place& h
   std::optional<TypeTwoDistance> found;
   if (std::signbit(here.volume) != std::signbit(next.volume))
     found = crossing(here, next.s);
-  else if (before.s < here.s && size <= std::abs(before.volume) && size < std::abs(next.volume))
+  else if (before.s < here.s && size <= std::abs(before.volume) && size < std::abs(next.volume) &&
+           (1 + least_dip) * size < std::max(std::abs(before.volume), std::abs(next.volume)))
     found = touching(before, here, next);
   return found || next.s < limit_ ? found : found_at(here, next.s);
 }
@@ -170,7 +173,10 @@ TypeTwoDistance Walk::run(const InverseOptions& branch) {
   for (int steps = 0; !answer.found && report.ok() && here.s < limit_; ++steps) {
     Place next = moved(here, std::min(here.s + line_.step, limit_));
     report = report_;
-    if (steps == most_steps) report.status = Status::iteration_limit;
+    if (steps == most_steps) {
+      report.status = Status::iteration_limit;
+      report.message = std::string_view("there is none this far; to look farther, begin from here");
+    }
     if (auto found = in_step(before, here, next)) return *found;
     before = std::exchange(here, std::move(next));
   }
@@ -217,12 +223,29 @@ TypeTwoDistance one_way(const AnyRobot& robot, const AnyPose& pose, const Vec<do
 
 TypeTwoDistance type_2_distance(const AnyRobot& robot, const AnyPose& pose, Numbers direction,
                                 const TypeTwoSearch& search, Workspace& work) {
-  SINEW_EXPECTS(direction.size() == static_cast<std::size_t>(dof(robot)));
+  TypeTwoDistance refused{.found = false, .distance = 0, .pose = pose, .type_2 = {}, .report = {}};
+  refused.report = check_arguments(robot, pose, work);
+  if (refused.report.ok() && direction.size() != static_cast<std::size_t>(dof(robot))) {
+    refused.report.status = Status::bad_input;
+    refused.report.message.append("the direction needs a number for each freedom of the platform");
+  }
+  if (!refused.report.ok()) return refused;
   Vec<double, 6> along = Vec<double, 6>::Zero();
   std::copy_n(direction.begin(), std::min<std::size_t>(direction.size(), 6), along.data());
-  TypeTwoDistance ahead = one_way(robot, pose, along, search, work);
+  // its squares neither overflow nor vanish; by a power of two, exactly
+  const double largest = along.cwiseAbs().maxCoeff();
+  const int scale = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
+  for (double& part : along) part = std::scalbn(part, -scale);
+  TypeTwoSearch scaled = search;
+  scaled.limit = std::scalbn(search.limit, scale);
+  const auto search_one_way = [&](const Vec<double, 6>& way) {
+    TypeTwoDistance found = one_way(robot, pose, way, scaled, work);
+    found.distance = std::scalbn(found.distance, -scale);
+    return found;
+  };
+  TypeTwoDistance ahead = search_one_way(along);
   if (!search.both_ways) return ahead;
-  TypeTwoDistance behind = one_way(robot, pose, -along, search, work);
+  TypeTwoDistance behind = search_one_way(-along);
   if (!behind.found || (ahead.found && ahead.distance <= behind.distance)) return ahead;
   behind.distance = -behind.distance;
   return behind;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 
 namespace sinew::inline v0 {
@@ -130,6 +131,12 @@ Velocity velocity_of(const ParallelRobot<LegT>& robot, const AnyRobot& any, cons
 }  // namespace
 
 Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
+  const Report fits = check_arguments(robot, pose, coordinates, work);
+  if (!fits.ok()) {
+    Velocity answer = nothing_yet(assemble(robot, pose, coordinates, work), work);
+    answer.report = fits;
+    return answer;
+  }
   const Reduced reduced = assemble(robot, pose, coordinates, work);
   return visit_closing(
       robot, [&](const auto& r) { return velocity_of(r, robot, pose, coordinates, reduced, work); },
@@ -148,9 +155,18 @@ Report rates(const Velocity& velocity, Numbers twist, Workspace& work) {
     report.message.append(why);
     return report;
   };
+  const Eigen::Index inputs = velocity.K.cols(), rows = velocity.J.rows();
+  if (static_cast<Eigen::Index>(twist.size()) != velocity.J.cols() || rows == 0 ||
+      static_cast<std::size_t>(rows) != work.s.size() ||
+      static_cast<std::size_t>(inputs) != work.rates.size()) {
+    report.status = Status::bad_input;
+    report.message.append(
+        "a twist has one number for each freedom of the platform, of a velocity that was found with this "
+        "workspace");
+    return report;
+  }
   if (!velocity.type_1.empty())
     return refuse_with("a leg at a type I singularity cannot follow a twist; see type_1");
-  const Eigen::Index inputs = velocity.K.cols();
   const Eigen::Map<const Eigen::VectorXd> t(twist.data(), static_cast<Eigen::Index>(twist.size()));
   for (Eigen::Index i = 0; i < velocity.J.rows();
        ++i) {  // rows of K scaled to one: legs may be of unlike size

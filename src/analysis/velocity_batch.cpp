@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/velocity_lanes.hpp"
+#include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
@@ -158,7 +159,7 @@ class OneByOne {
 };
 
 /// Whether each span is empty or of its size.
-[[maybe_unused]] bool fits(const VelocityBatch& out, std::size_t poses, std::size_t legs) {
+bool fits(const VelocityBatch& out, std::size_t poses, std::size_t legs) {
   const auto fit = [](const auto& span, std::size_t size) { return span.empty() || span.size() == size; };
   return fit(out.poses, 7 * poses) && fit(out.status, poses) && fit(out.type_1, poses) &&
          fit(out.is_type_2, poses) && fit(out.inputs, legs * poses) && fit(out.curvatures, legs * poses) &&
@@ -176,10 +177,15 @@ std::size_t velocity_batch(const AnyRobot& robot, const PoseBatch& batch, const 
                            Workspace& work) {
   const auto legs = static_cast<std::size_t>(leg_count(robot));
   const auto is_for_legs = [&](std::span<const int> signs) { return signs.empty() || signs.size() == legs; };
-  const bool is_served = has_velocity_batch(robot) && is_for_legs(batch.bending) &&
-                         is_for_legs(batch.elbow) && (!batch.independent || plane_count(robot) == 3);
+  const bool is_served = has_velocity_batch(robot) && check_workspace(robot, work).ok() &&
+                         is_for_legs(batch.bending) && is_for_legs(batch.elbow) &&
+                         (!batch.independent || plane_count(robot) == 3);
   const std::size_t axes = axes_of(robot, batch), total = batch.coordinates.size() / axes;
-  SINEW_EXPECTS(is_served && batch.coordinates.size() == axes * total && fits(out, total, legs));
+  const bool has_places = batch.coordinates.size() == axes * total && fits(out, total, legs);
+  if (!has_places) {  // there may be no room for a number a pose
+    std::ranges::fill(out.status, Status::bad_input);
+    return 0;
+  }
   OneByOne one_by_one(robot, batch, total, out, work);
   if (!is_served) {
     for (std::size_t k = 0; k < total; ++k) one_by_one.put_nothing(k, Status::left_domain);

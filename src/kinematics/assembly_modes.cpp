@@ -30,8 +30,10 @@ void put(AssemblyModes& modes, const SpatialModes& found) {
   modes.is_complete = found.is_complete();
 }
 
-void put_modes(AssemblyModes& modes, std::span<const Reach<2>> reaches) { put(modes, planar_modes(reaches)); }
-void put_modes(AssemblyModes& modes, std::span<const Reach<3>> reaches) {
+void put_modes(AssemblyModes& modes, std::span<const Reach<2>> reaches, StopToken) {
+  put(modes, planar_modes(reaches));
+}
+void put_modes(AssemblyModes& modes, std::span<const Reach<3>> reaches, StopToken stop) {
   const bool has_plane =
       std::ranges::any_of(reaches, [](const Reach<3>& reach) { return reach.has_plane(); });
   if (has_plane && !are_hinged(reaches)) {
@@ -41,7 +43,7 @@ void put_modes(AssemblyModes& modes, std::span<const Reach<3>> reaches) {
     modes.is_complete = false;
     return;
   }
-  if (!has_plane) return put(modes, spatial_modes(reaches));
+  if (!has_plane) return put(modes, spatial_modes(reaches, {.stop = stop}));
   const HingedModes found = hinged_modes(reaches);
   put(modes, found);
   modes.is_complete = found.is_complete;
@@ -58,7 +60,8 @@ AssemblyModes assembly_modes(const AnyRobot& robot, Numbers inputs, Workspace& w
                       .coordinates = work.coordinates};
   if (modes.report.ok())
     visit_closing(
-        robot, [&](const auto& r) { put_modes(modes, reaches_of(r, work.coordinates).view()); }, [] {});
+        robot, [&](const auto& r) { put_modes(modes, reaches_of(r, work.coordinates).view(), work.stop); },
+        [] {});
   return modes;
 }
 

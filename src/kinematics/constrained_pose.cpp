@@ -161,7 +161,7 @@ ConstrainedPose constrained_pose(const AnyRobot& robot, const Independent& indep
 }
 
 AnyPose settled(const AnyRobot& robot, const AnyPose& pose) {
-  if (plane_count(robot) == 0) return pose;
+  if (plane_count(robot) == 0 || !std::holds_alternative<SpatialPose>(pose)) return pose;
   const Planes planes = planes_of(robot);
   SE3<double> platform = SE3<double>::from(in_space<Spatial>(pose));
   newton(Settling(planes), platform, {.tolerance = 1e-16 * planes.size, .max_iterations = 50});

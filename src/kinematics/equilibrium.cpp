@@ -9,11 +9,19 @@
 #include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/inverse.hpp"
 #include "kinematics/rods/question.hpp"
+#include "kinematics/rods/trace.hpp"
+#include "robot/arguments.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Equilibrium refused(const Report& report) {
+  Equilibrium answer;
+  answer.report = report;
+  return answer;
+}
 
 Equilibrium refused() {
   Equilibrium answer;
@@ -52,6 +60,7 @@ double largest_singular_value(const double* rows, int columns) {
 template <class Solve>
 Equilibrium solved(const AnyRobot& robot, const EquilibriumOptions& options, Workspace& work, Solve&& solve) {
   if (!bears_load(robot)) return refused();
+  if (const Report fits = check_workspace(robot, work); !fits.ok()) return refused(fits);
   return with_rods(work, [&](auto& rods) {
     const Report report = solve(rods, home_of(robot), question_of(robot, options, rods));
     return answer_of(report, rods.system, work, options.judge);
@@ -92,8 +101,11 @@ void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench&
                        bool judge) {
   std::fill(statuses.begin(), statuses.end(), Status::left_domain);
   const std::size_t inputs = at(input_count(robot));
-  if (!bears_load(robot) || statuses.size() != poses.size() || rows.size() != poses.size() * inputs) return;
+  if (!bears_load(robot) || !check_workspace(robot, work).ok() || statuses.size() != poses.size() ||
+      rows.size() != poses.size() * inputs)
+    return;
   if (auto* plane = std::get_if<RodWork>(&work.rods->kind)) {
+    plane->stop = work.stop;
     std::vector<SE3<double>> found(poses.size());
     const SpatialWrench whole = question_of(robot, {.wrench = wrench}, *plane).wrench;
     RodBatch(*plane, home_of(robot)).solve(rows, whole, judge, found, statuses);
@@ -101,6 +113,10 @@ void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench&
     return;
   }
   for (std::size_t k = 0; k < poses.size(); ++k) {  // one after the other
+    if (work.stop.stop_requested()) {
+      std::fill(statuses.begin() + static_cast<std::ptrdiff_t>(k), statuses.end(), Status::stopped);
+      return;
+    }
     EquilibriumOptions options{.wrench = wrench, .resume = true, .judge = judge};
     const Numbers row = rows.subspan(k * inputs, inputs);
     Equilibrium found = equilibrium(robot, row, options, work);
@@ -173,7 +189,7 @@ RodAnalysis analysis_of(const AnyRobot& robot, System& system) {
 }  // namespace
 
 RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
-  if (!bears_load(robot)) return {};
+  if (!bears_load(robot) || !check_workspace(robot, work).ok()) return {};
   return with_rods(work, [&](auto& rods) { return analysis_of(robot, rods.system); });
 }
 
@@ -185,24 +201,42 @@ std::string_view to_string(LoadEnd end) noexcept {
       return "bifurcation";
     case LoadEnd::fold:
       return "fold";
+    case LoadEnd::stability:
+      return "stability";
+    case LoadEnd::straight:
+      return "straight";
+    case LoadEnd::sharp:
+      return "sharp";
+    case LoadEnd::iterations:
+      return "iterations";
+    case LoadEnd::stopped:
+      return "stopped";
+    case LoadEnd::stalled:
+      return "stalled";
   }
   return "";
 }
 
 LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit, Workspace& work) {
-  if (!bears_load(robot) || !direction.allFinite() || !(limit > 0)) return {};
-  return with_rods(work, [&](auto& rods) -> LoadPath {
-    if (!rods.is_solved) return {};
+  LoadPath path;
+  path.end = LoadEnd::stalled;
+  if (!bears_load(robot) || !check_workspace(robot, work).ok() || !direction.allFinite() ||
+      direction == SpatialWrench::Zero() || !(limit > 0))
+    return path;
+  return with_rods(work, [&](auto& rods) {
+    if (!rods.is_solved) return path;
     auto& system = rods.system;
     system.evaluate();
     system.linearise();
-    RodTarget target = present(system);
-    target.wrench += limit * direction;
-    const RodPathEnd end = follow(system, target, {.stop_at_instability = true}, rods.spare);
-    const LoadEnd why = end.arrived           ? LoadEnd::limit
-                        : end.became_unstable ? LoadEnd::bifurcation
-                                              : LoadEnd::fold;
-    return {limit * end.progress, why, spatial_pose(system.platform()), system.evaluate()};
+    const RodLoad load = load_rods(rods, direction, limit);
+    path.load = load.parameter;
+    path.end = load.end;
+    path.definite_until = load.definite_until;
+    path.pose = spatial_pose(system.platform());
+    path.residual = system.evaluate();
+    system.linearise();
+    path.unstable_directions = unstable_directions(system);
+    return path;
   });
 }
 
@@ -230,37 +264,84 @@ bool is_new(const std::vector<FoundEquilibrium>& found, const SE3<double>& pose,
   });
 }
 
+/// Known by potential where there is one; a moment leaves none.
+double by_energy(const FoundEquilibrium& one) {
+  return std::isfinite(one.potential) ? one.potential : one.pose.position[2];
+}
+
+/// What the system holds, with the inputs that the workspace then has.
+template <class System>
+FoundEquilibrium found_equilibrium(const Report& report, const System& system, Workspace& work) {
+  const Equilibrium answer = answer_of(report, system, work, false);
+  return {.pose = answer.pose,
+          .inputs = {answer.inputs.begin(), answer.inputs.end()},
+          .rods = readings_of(system),
+          .residual = report.residual,
+          .potential = potential_of(system),
+          .unstable_directions = unstable_directions(system)};
+}
+
+/// Each start of rods that bear torque takes a tenth of a second.
+template <class Rods>
+constexpr bool is_slow =
+    std::is_base_of_v<GeneralSystem, std::decay_t<decltype(std::declval<Rods&>().system)>>;
+
+bool is_solution(const Report& report) { return report.ok() || report.status == Status::unstable; }
+
 }  // namespace
 
 std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
                                          const EquilibriumOptions& options, Workspace& work) {
   std::vector<FoundEquilibrium> found;
-  if (!bears_load(robot)) return found;
+  if (!bears_load(robot) || !check_workspace(robot, work).ok()) return found;
   const SE3<double> home = home_of(robot);
   const double size = home.p.norm();
-  with_rods(work, [&](auto& rods) {
-    const auto& system = rods.system;
-    const int starts = std::is_base_of_v<GeneralSystem, std::decay_t<decltype(rods.system)>> ? 16 : 160;
+  with_rods(work, [&]<class Rods>(Rods& rods) {
+    const int starts = is_slow<Rods> ? 16 : 160;
     RodQuestion question = question_of(robot, options, rods);
     question.resume = false;
     question.start.reset();
-    for (int k = -1; k < starts; ++k) {
+    for (int k = -1; k < starts && !rods.stop.stop_requested(); ++k) {
       if (k >= 0) question.start = scattered(home, size, k);
+      question.may_stray = k >= 0;  // more are found so
       const Report report = solve_rods(rods, home, inputs, question);
-      if (!report.ok() && report.status != Status::unstable) continue;
-      if (!is_new(found, system.platform(), size)) continue;
-      FoundEquilibrium one;
-      one.pose = spatial_pose(system.platform());
-      one.rods = readings_of(system);
-      one.residual = report.residual;
-      one.potential = potential_of(system);
-      one.unstable_directions = unstable_directions(system);
-      found.push_back(std::move(one));
+      if (is_solution(report) && is_new(found, rods.system.platform(), size))
+        found.push_back(found_equilibrium(report, rods.system, work));
     }
   });
-  std::ranges::sort(found, {}, [](const FoundEquilibrium& one) {
-    return std::isfinite(one.potential) ? one.potential : one.pose.position[2];
+  std::ranges::sort(found, {}, by_energy);
+  return found;
+}
+
+std::vector<FoundEquilibrium> inverse_equilibria(const AnyRobot& robot, const SpatialPose& wanted,
+                                                 const EquilibriumOptions& options, Workspace& work) {
+  std::vector<FoundEquilibrium> found;
+  if (!bears_load(robot) || !check_workspace(robot, work).ok()) return found;
+  const SE3<double> home = home_of(robot), target = SE3<double>::from(wanted);
+  const double size = home.p.norm();
+  const auto is_known = [&](const FoundEquilibrium& one) {
+    return std::ranges::any_of(found, [&](const FoundEquilibrium& other) {
+      return std::ranges::equal(one.inputs, other.inputs,
+                                [&](double a, double b) { return std::abs(a - b) < 1e-7 * size; });
+    });
+  };
+  with_rods(work, [&]<class Rods>(Rods& rods) {
+    const int ways = is_slow<Rods> ? 4 : 60;
+    RodQuestion question = question_of(robot, options, rods);
+    for (int k = -1; k < ways && !rods.stop.stop_requested(); ++k) {
+      question.resume = false;
+      if (k >= 0) {  // by a pose between
+        const Report between = hold_rods(rods, home, scattered(home, size, k), question);
+        if (!is_solution(between)) continue;
+        question.resume = true;
+      }
+      const Report report = hold_rods(rods, home, target, question);
+      if (!is_solution(report)) continue;
+      FoundEquilibrium one = found_equilibrium(report, rods.system, work);
+      if (!is_known(one)) found.push_back(std::move(one));
+    }
   });
+  std::ranges::sort(found, {}, by_energy);
   return found;
 }
 

@@ -6,6 +6,7 @@
 #include "kinematics/rods/question.hpp"
 #include "kinematics/rods/start.hpp"
 #include "kinematics/rods/trace.hpp"
+#include "robot/arguments.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -56,13 +57,15 @@ std::string_view to_string(CurveEnd end) noexcept {
       return "far";
     case CurveEnd::stalled:
       return "stalled";
+    case CurveEnd::stopped:
+      return "stopped";
   }
   return "";
 }
 
 std::vector<EquilibriumCurve> equilibrium_curves(const AnyRobot& robot, const CurveOptions& how,
                                                  Workspace& work) {
-  if (!bears_load(robot) || !is_answerable(robot, how)) return {};
+  if (!bears_load(robot) || !check_workspace(robot, work).ok() || !is_answerable(robot, how)) return {};
   return with_rods(work, [&](auto& rods) -> std::vector<EquilibriumCurve> {
     if (!rods.is_solved) return {};
     auto& system = rods.system;

@@ -4,6 +4,7 @@
 #include "kinematics/four_bars.hpp"
 #include "kinematics/reaches.hpp"
 #include "kinematics/three_circles.hpp"
+#include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/hinged_modes.hpp"
@@ -129,7 +130,7 @@ Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, con
 Forward forward_loaded(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options,
                        Workspace& work) {
   EquilibriumOptions unloaded;
-  if (options.start) unloaded.start = std::get<SpatialPose>(*options.start);
+  if (options.start) unloaded.start = in_space<Spatial>(*options.start);
   const Equilibrium found = equilibrium(robot, inputs, unloaded, work);
   return {found.report, found.pose, found.coordinates};
 }
@@ -137,9 +138,12 @@ Forward forward_loaded(const AnyRobot& robot, Numbers inputs, const ForwardOptio
 }  // namespace
 
 Forward forward(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work) {
+  const AnyPose start = options.start.value_or(home(robot));
+  if (const Report fits = check_arguments(robot, start, work, "start"); !fits.ok())
+    return {fits, home(robot), {}};
   if (bears_load(robot)) return forward_loaded(robot, inputs, options, work);
   const Report commanded = command(robot, inputs, work);
-  if (!commanded.ok()) return {commanded, options.start.value_or(home(robot)), work.coordinates};
+  if (!commanded.ok()) return {commanded, start, work.coordinates};
   return visit_closing(
       robot, [&](const auto& r) { return forward_robot(r, robot, options, work); }, [] { return Forward{}; });
 }

@@ -1,7 +1,10 @@
 #include "sinew/kinematics/inverse.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/leg/project.hpp"
 
@@ -165,8 +168,8 @@ class Problem {
       }
     });
     if (!report.ok() || work_.solution_count[i] > 0) return report;
-    report = name(Status::unreachable, "inputs", index(place.input));
-    report.message.append("moves several legs together, and no value of it closes them all at this pose");
+    report = name(Status::unreachable, "legs", i);
+    report.message.append("and those tied to it have one actuator, and no value of it closes them all at this pose");
     return report;
   }
 
@@ -271,7 +274,7 @@ Report check(const AnyRobot& robot, const InverseOptions& options) {
       fits(options.elbow.size(), legs) &&
       fits(options.start.size(), static_cast<std::size_t>(input_count(robot))))
     return {};
-  return refused(Status::left_domain,
+  return refused(Status::bad_input,
                  "bending, curvature and elbow need one value a leg, start one value an input");
 }
 
@@ -279,6 +282,7 @@ Report check(const AnyRobot& robot, const InverseOptions& options) {
 template <class Solve>
 Report with_problem(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options,
                     Workspace& work, const Solve& solve) {
+  if (const Report report = check_arguments(robot, pose, work); !report.ok()) return report;
   if (const Report report = check(robot, options); !report.ok()) return report;
   return visit_closing(
       robot,
@@ -318,6 +322,12 @@ WorkingModes working_modes(const AnyRobot& robot, const AnyPose& pose, const Inv
 }
 
 void WorkingModes::mode(const AnyRobot& robot, std::size_t k, std::span<double> inputs) const {
+  const auto width = static_cast<std::size_t>(input_count(robot));
+  if (!report.ok() || inputs.size() != width || solutions.size() != width * per_leg ||
+      solution_count.size() != static_cast<std::size_t>(leg_count(robot)))
+    return void(
+        std::ranges::fill(inputs,
+                          std::numeric_limits<double>::quiet_NaN()));  // modes of another robot, or none
   std::visit(
       [&](const auto& r) {
         for (std::size_t i = r.legs.size(); i-- > 0;) {

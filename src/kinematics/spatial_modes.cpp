@@ -8,6 +8,7 @@
 #include "kinematics/four_bars.hpp"
 #include "kinematics/normal_legs.hpp"
 #include "kinematics/sort_poses.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -49,6 +50,7 @@ Ends follow_all(const Sections& target, const SpatialModesOptions& options) {
   const Pencil pencil(generic.sections, target);
   Ends ends;
   for (const Study& start : generic.solutions) {
+    if (options.stop.stop_requested()) break;
     Path<Pencil> path(pencil, start, 0.0, {.max_steps = options.max_steps});
     ends.add(follow(pencil, path, Complex(1)));
   }
@@ -94,8 +96,8 @@ class Poses {
   }
 
   /// Starts spread evenly over turns and places (an additive recurrence), until too many are found.
-  void add_from_everywhere(int starts) {
-    for (int i = 1; i <= starts && !are_too_many(); ++i) {
+  void add_from_everywhere(int starts, StopToken stop) {
+    for (int i = 1; i <= starts && !are_too_many() && !stop.stop_requested(); ++i) {
       std::array<double, 6> u;
       double step = 1;
       for (double& coordinate : u) {
@@ -194,7 +196,8 @@ SpatialModes spatial_modes(std::span<const Reach<3>> legs, const SpatialModesOpt
   if (!normal) return modes;
   ComplexNumbers random(options.seed);
   Poses poses(*normal);
-  for (int attempt = 0; attempt < options.attempts && modes.lost_paths > 0; ++attempt) {
+  for (int attempt = 0; attempt < options.attempts && modes.lost_paths > 0 && !options.stop.stop_requested();
+       ++attempt) {
     const Ends ends = follow_all(random.phase() * normal->sections, options);
     for (const Study& x : ends.finite)
       if (const auto pose = real_pose(x)) poses.add(*pose);
@@ -205,12 +208,12 @@ SpatialModes spatial_modes(std::span<const Reach<3>> legs, const SpatialModesOpt
     modes.singular_count = ends.singular;
   }
   if (!modes.is_complete()) {
-    poses.add_from_everywhere(options.newton_starts);
+    poses.add_from_everywhere(options.newton_starts, options.stop);
     poses.add_mirrored();
     modes.singular_count = std::max(modes.singular_count, poses.singular_count());
   }
   tell(poses, *normal, legs, modes);
-  explain(poses, modes);
+  if (!note_stop(options.stop, modes.report)) explain(poses, modes);
   return modes;
 }
 

@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/leg/project.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 Vec<double, 3> twist_between(const PlanarPose& from, const PlanarPose& to) {
@@ -255,6 +257,7 @@ int Track::step(const AnyPose& pose, double part, std::vector<double>& coordinat
 }
 
 Report Track::advance(const AnyPose& next) {
+  if (Report fits = check_arguments(*robot_, next, *work_); !fits.ok()) return fits;
   if (!has_begun_) return begin(next);
   const AnyPose from = pose_;
   const std::vector<double> before = coordinates_;
@@ -263,6 +266,7 @@ Report Track::advance(const AnyPose& next) {
   progress_ = 0;
   double part = 1;
   for (int steps = 0; progress_ < 1; ++steps) {
+    if (note_stop(work_->stop, report)) return report;
     if (steps == most_steps) {
       report.status = Status::iteration_limit;
       report.message.append("the path winds too tightly to be followed between two poses; give more poses");

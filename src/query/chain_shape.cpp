@@ -44,7 +44,7 @@ Asked<Space> read_asked(Context& context, ChainRobot<Space>& robot) {
 template <class Space>
 Report rest_under(Context& context, ChainRobot<Space>& robot, const Asked<Space>& asked,
                   ChainState<Space>& state) {
-  ChainWork work;
+  ChainWork work{.stop = context.work.stop};
   const Wrench<Space> wrench = asked.wrench.value_or(Wrench<Space>::Zero());
   if (!asked.at.inputs) {
     const Report report = rest_at(context, robot, *asked.at.pose, asked.at.branch, true, state);

@@ -7,6 +7,7 @@
 #include "query/chains.hpp"
 #include "sinew/analysis/chain_velocity.hpp"
 #include "sinew/kinematics/chain_motion.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -119,7 +120,7 @@ void answer_track_of(Context& context, ChainRobot<Space>& robot) {
     const auto& pose = std::get<typename Space::Pose>(poses[k]);
     if (k > 0)
       report = follow_least_norm(robot, std::get<typename Space::Pose>(poses[k - 1]), pose, legs, options);
-    if (!report.ok()) break;
+    if (!report.ok() || note_stop(context.work.stop, report)) break;
     rows.push_back(row_json(robot, poses[k], legs));
     worst = std::max(worst, rows.back()["closure_error"].get<double>());
     if (k == 0 && !(worst <= 1e-9))

@@ -218,7 +218,7 @@ void put_equilibrium(Context& context, const ChainRobot<Space>& robot, const Cha
 template <class Space>
 void load_and_answer(Context& context, const ChainRobot<Space>& robot, ChainState<Space>& state,
                      const ChainState<Space>& unloaded, const Load<Space>& load) {
-  ChainWork work;
+  ChainWork work{.stop = context.work.stop};
   const std::vector<ChainHold> hold = state.hold;
   Report report = equilibrium(robot, hold, load.wrench, state, work, load.options);
   if (report.ok() && load.until) {
@@ -236,7 +236,7 @@ template <class Space>
 void answer_held(Context& context, ChainRobot<Space>& robot, const AnyPose& start, const Branch& branch,
                  const std::vector<ChainHold>& hold, const Load<Space>& load) {
   ChainState<Space> state;
-  ChainWork work;
+  ChainWork work{.stop = context.work.stop};
   const Report report = unloaded(context, robot, start, branch, hold, state, work, load.options);
   if (!is_solved(report)) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
   const ChainState<Space> before = state;
@@ -287,7 +287,7 @@ void answer_statics_of(Context& context, ChainRobot<Space>& robot) {
 
   ChainState<Space> state;
   const Report report = rest_at(context, robot, at, branch, holds_lengths, state);
-  ChainWork work;
+  ChainWork work{.stop = context.work.stop};
   if (!report.ok()) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
   const ChainState<Space> unloaded = state;
   if (!inverse_asked) return load_and_answer(context, robot, state, unloaded, load);
@@ -329,7 +329,7 @@ void answer_inverse_of(Context& context, ChainRobot<Space>& robot) {
   if (refuse_motors(context, robot.has_base_motors) || !context.ready()) return;
   ChainState<Space> state;
   Report report = rest_at(context, robot, at, branch, true, state);
-  ChainWork work;
+  ChainWork work{.stop = context.work.stop};
   if (report.ok()) report = hold_pose(robot, load.wrench, state, work, load.options);
   put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
   if (!is_solved(report)) return;

@@ -4,6 +4,7 @@
 #include "query/rods.hpp"
 #include "sinew/io/read_pose.hpp"
 #include "sinew/kinematics/equilibrium_curve.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -133,6 +134,9 @@ void answer_rods_track(Context& context) {
   answer["status"] = to_string(arrives ? Status::converged : Status::singular);
   answer.erase("message");
   if (!arrives) answer["message"] = in_words(curves.front());
+  const auto was_stopped = [](const EquilibriumCurve& curve) { return curve.end == CurveEnd::stopped; };
+  if (Report stopped; std::ranges::any_of(curves, was_stopped) && note_stop(context.work.stop, stopped))
+    context.report(stopped);
   double worst = 0;
   for (const EquilibriumCurve& curve : curves)
     for (const CurvePoint& point : curve.points) worst = std::max(worst, point.residual);

@@ -1,4 +1,5 @@
 /// `statics` of robots on rods: the wrench from axial forces.
+#include <algorithm>
 #include <cmath>
 
 #include "query/rods.hpp"
@@ -60,7 +61,9 @@ void answer_rods_statics(Context& context) {
   answer["pose"] = to_json(sensed.pose);
   answer["wrench"] = to_json(std::span<const double>(sensed.wrench.data(), 6));
   answer["wrench_sensitivity"] = rows_json(sensed.sensitivity);
-  if (asked.has_deviations) answer["covariance"] = rows_json(sensed.covariance);
+  if (asked.has_deviations &&
+      std::ranges::all_of(sensed.covariance, [](double part) { return std::isfinite(part); }))  // of squares
+    answer["covariance"] = rows_json(sensed.covariance);
 }
 
 }  // namespace sinew::inline v0

@@ -7,6 +7,7 @@
 #include "sinew/analysis/shape.hpp"
 #include "sinew/io/read_pose.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -219,7 +220,7 @@ RodQuery read_configuration_of_rods(Context& context) {
 
 Equilibrium solve(Context& context, const RodQuery& asked) {
   EquilibriumOptions options = asked.options;
-  options.resume = context.path_start() && !options.start;
+  options.resume = options.resume || (context.path_start() && !options.start);
   const Equilibrium found =
       asked.pose          ? inverse_equilibrium(context.robot, *asked.pose, options, context.work)
       : asked.independent ? inverse_equilibrium(context.robot, *asked.independent, options, context.work)
@@ -247,20 +248,42 @@ void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& w
   put_wanted(context, wanted, analysis);
 }
 
+/// What `equilibria` and `inverse_equilibria` tell of one of them beside where it is.
+void put_found(Json& solution, const FoundEquilibrium& one, const AnyRobot& robot) {
+  solution["residual"] = one.residual;
+  solution["stable"] = one.unstable_directions == 0;
+  solution["unstable_directions"] = one.unstable_directions;
+  put_number(solution, "potential", one.potential);
+  if (rod_count(robot) == leg_count(robot)) solution["legs"] = rods_json(one.rods);
+}
+
+/// Found by many starts, without proof.
+void put_solutions(Context& context, Json solutions) {
+  if (Report stopped; note_stop(context.work.stop, stopped)) context.report(stopped);
+  context.answer["count"] = solutions.size();
+  context.answer["complete"] = false;
+  context.answer["solutions"] = std::move(solutions);
+}
+
 void put_all(Context& context, std::span<const double> inputs, const EquilibriumOptions& options) {
   Json solutions = Json::array();
   for (const FoundEquilibrium& one : equilibria(context.robot, inputs, options, context.work)) {
-    Json solution{{"pose", to_json(one.pose)},
-                  {"residual", one.residual},
-                  {"stable", one.unstable_directions == 0},
-                  {"unstable_directions", one.unstable_directions}};
-    put_number(solution, "potential", one.potential);
-    if (rod_count(context.robot) == leg_count(context.robot)) solution["legs"] = rods_json(one.rods);
-    solutions.push_back(std::move(solution));
+    solutions.push_back({{"pose", to_json(one.pose)}});
+    put_found(solutions.back(), one, context.robot);
   }
-  context.answer["count"] = solutions.size();
-  context.answer["complete"] = false;  // many starts, no proof
-  context.answer["solutions"] = std::move(solutions);
+  put_solutions(context, std::move(solutions));
+}
+
+void put_all_lengths(Context& context, const SpatialPose& pose, const EquilibriumOptions& options) {
+  Json solutions = Json::array();
+  for (const FoundEquilibrium& one : inverse_equilibria(context.robot, pose, options, context.work)) {
+    solutions.push_back({{"inputs", to_json(one.inputs)}});
+    put_found(solutions.back(), one, context.robot);
+  }
+  if (!solutions.empty() && !context.answer.contains("inputs"))
+    context.answer["message"] =
+        context.answer.value("message", "") + "; by other ways it is held: see solutions";
+  put_solutions(context, std::move(solutions));
 }
 
 constexpr std::string_view inputs_rule = "rod lengths, in leg order";
@@ -283,12 +306,22 @@ void answer_rods_forward(Context& context) {
 
   Equilibrium found = solve(context, asked);
   if (until && found.is_solved()) {
+    if (note_stop(context.work.stop, found.report)) {
+      put_equilibrium(context, found, wanted);
+      return;
+    }
     const LoadPath path = follow_load(context.robot, until->direction, until->limit, context.work);
     context.answer["load"] = path.load;
     context.answer["why"] = to_string(path.end);
+    if (path.definite_until >= 0) context.answer["definite_until"] = path.definite_until;
     found.pose = path.pose;
     context.remember(path.pose);
     found.report.residual = path.residual;
+    if (path.end == LoadEnd::stopped) note_stop(context.work.stop, found.report);
+    if (path.end == LoadEnd::limit && path.unstable_directions > 0) {
+      found.report.status = Status::unstable;
+      found.report.message = std::string_view("at this load the robot does not hold by itself");
+    }
   }
   put_equilibrium(context, found, wanted);
   if (want_all) put_all(context, asked.inputs, asked.options);
@@ -306,13 +339,32 @@ void answer_rods_inverse(Context& context) {
   }
   asked.options = read_options(context);
   const Wanted wanted = read_want(context);
-  if (const auto start = context.query.optional("start"))
-    start->fail("not_available", "the search for the lengths of rods begins at home; leave it out");
-  if (const auto all = context.query.optional("all"))
-    if (all->boolean())
-      all->fail("not_available", "of several solutions only the one nearest home is found; leave it out");
+  std::vector<double> start;
+  if (const auto given = context.query.optional("start")) {
+    if (input_count(context.robot) == pose_inputs)
+      start = read_inputs(context, *given);
+    else
+      given->fail("not_available", "the search for the lengths of rods begins at home; leave it out");
+  }
+  const auto all = context.query.optional("all");
+  const bool want_all = all && all->boolean();
+  if (want_all && input_count(context.robot) != pose_inputs)
+    all->fail("not_available", "of several solutions only the one nearest home is found; leave it out");
   if (!context.ready()) return;
+  if (!start.empty()) {  // the way to the pose begins where these lengths hold the platform
+    const Equilibrium begun = equilibrium(context.robot, start, asked.options, context.work);
+    if (!begun.is_solved()) {
+      context.report(begun.report);
+      context.answer["message"] = "from start: " + std::string(begun.report.message.view());
+      return;
+    }
+    asked.options.resume = true;
+  }
   put_equilibrium(context, solve(context, asked), wanted);
+  if (want_all)
+    put_all_lengths(context, *asked.pose, asked.options);
+  else if (asked.pose && context.answer.contains("inputs"))
+    context.answer["complete"] = false;  // other lengths may hold it too
 }
 
 void answer_rods_velocity(Context& context) {

@@ -57,7 +57,7 @@ std::optional<ThreeArcs> three_arcs(const SerialRobot& robot) {
 /// Every solution within the limits; the one that bends least stands for the answer.
 void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& target, kernel::Model model) {
   const SE3<double> tip{target.position, *target.rotation};
-  const ThreeArcSolutions found = all_bends(arcs, spatial_pose(tip));
+  const ThreeArcSolutions found = all_bends(arcs, spatial_pose(tip), context.work.stop);
   Json solutions = Json::array();
   std::optional<std::size_t> first;
   for (std::size_t k = 0; k < found.solutions.size(); ++k) {
@@ -69,7 +69,7 @@ void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& 
                          {"residual", found.residual[k]}});
   }
   Report report = found.report;
-  if (!first && !found.solutions.empty()) {
+  if (!first && !found.solutions.empty() && report.status != Status::stopped) {
     report.status = found.is_complete() ? Status::unreachable : Status::stalled;
     report.message = {};
     append_number(report.message, static_cast<int>(found.solutions.size()));

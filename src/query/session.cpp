@@ -1,5 +1,7 @@
 #include "sinew/query/session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -7,7 +9,9 @@
 #include "query/context.hpp"
 #include "query/serial.hpp"
 #include "query/tree_session.hpp"
+#include "query/unit_hint.hpp"
 #include "sinew/io/parse.hpp"
+#include "sinew/io/quantity.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
 
@@ -76,6 +80,11 @@ bool reads_chains(Reader& query, const AnyRobot& robot, const Kind& kind) {
   return false;
 }
 
+bool has_key(const Document& robot, std::string_view key) {
+  const Node* value = robot.root.find(key);
+  return value && value->kind != Node::Kind::null;
+}
+
 Json error_answer(const Json& id, const Errors& errors) {
   Json answer = Json::object();
   if (!id.is_null()) answer["id"] = id;
@@ -86,17 +95,54 @@ Json error_answer(const Json& id, const Errors& errors) {
   return answer;
 }
 
+/// The tree that reading the answer's text would give; what is converted is freed.
+Node node_of(Json&& json) {
+  Node node;
+  switch (json.type()) {
+    case Json::value_t::boolean:
+      return make_node(json.get<bool>());
+    case Json::value_t::string:
+      return make_node(std::string_view(json.get_ref<const std::string&>()));
+    case Json::value_t::array:
+      node.kind = Node::Kind::list;
+      node.items.reserve(json.size());
+      for (Json& item : json) node.items.push_back(node_of(std::move(item)));
+      break;
+    case Json::value_t::object:
+      node.kind = Node::Kind::map;
+      node.members.reserve(json.size());
+      for (auto& [key, value] : json.get_ref<Json::object_t&>())
+        node.members.push_back({.key = key, .value = node_of(std::move(value))});
+      break;
+    case Json::value_t::null:
+      break;
+    default:
+      node = make_node(json.get<double>());
+      node.text = json.dump();
+  }
+  json = nullptr;
+  return node;
+}
+
 /// A robot, and the memory for questions to it.
 struct Platform {
   AnyRobot robot;
   Workspace work;
-  explicit Platform(AnyRobot any) : robot(std::move(any)), work(robot) {}
+  RobotScale scale;
+  std::vector<InputOfLeg> inputs;
+  explicit Platform(AnyRobot any)
+      : robot(std::move(any)),
+        work(robot),
+        scale(scale_of(robot)),
+        inputs(inputs_of(robot)) {}
   const std::string& name() const { return robot.name; }
 };
 struct Chain {
   SerialRobot robot;
   SerialWorkspace work;
-  explicit Chain(SerialRobot serial) : robot(std::move(serial)), work(robot) {}
+  RobotScale scale;
+  std::vector<InputOfLeg> inputs;  ///< none
+  explicit Chain(SerialRobot serial) : robot(std::move(serial)), work(robot), scale(scale_of(robot)) {}
   const std::string& name() const { return robot.name; }
 };
 using Opened = std::variant<Platform, Chain>;
@@ -117,6 +163,7 @@ Expected<Opened> open_robot(const Document& document) {
 struct TreeSession::State {
   Document document;
   Opened opened;
+  StopToken stop = {};
 };
 struct Session::State {
   TreeSession session;
@@ -205,7 +252,13 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
   if (const auto limit = query.optional("max_iterations"))
     question.max_iterations = limit->integer(Range::between(0, 100000));
   const bool wants_tilt = read_tilt(query, opened);
+  std::visit([&](auto& any) { any.work.stop = state_->stop; }, opened);
   if (auto* chain = std::get_if<Chain>(&opened)) {
+    for (const char* load : {"wrench", "gravity", "until"})
+      if (const auto asked = document.root.find(load) ? query.optional(load) : std::nullopt)
+        asked->fail("not_available",
+                    "a serial robot bears no load in this version: it takes the shape that its tendons give; "
+                    "leave it out");
     SerialContext context{question, chain->robot, chain->work};
     kind.serial_handler(context);
   } else {
@@ -215,8 +268,24 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
   }
   if (!errors.empty()) return error_answer(id, errors);
   if (wants_tilt) add_tilt(answer);
+  if (is_chain && answer.value("status", "") == "slack" && !has_key(state_->document, "tolerance"))
+    answer["message"] =
+        fmt::format("{}; the file gives no tolerance of its tendons: {} counts", answer.value("message", ""),
+                    human(std::get<Chain>(opened).robot.tolerance, Dimension::length));
+  const std::string hint = std::visit(  // by the robot as its file has it
+      [&](const auto& own_robot) {
+        return unit_hint(document.root, answer, own_robot.scale, state_->document.root, own_robot.inputs);
+      },
+      state_->opened);
+  if (!hint.empty()) {
+    std::string said = answer.value("message", "");
+    while (said.ends_with('.')) said.pop_back();
+    answer["message"] = said.empty() ? hint : said + ". " + hint;
+  }
   return answer;
 }
+
+void TreeSession::stop_on(StopToken stop) { state_->stop = stop; }
 
 Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Session::Session(Session&&) noexcept = default;
@@ -240,6 +309,13 @@ std::string Session::answer(std::string_view text) {
                                : error_answer({}, document.error());
   return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
+
+Document Session::answer(const Document& query) {
+  Json answer = state_->session.answer(query, &state_->last, Continues::where_asked);
+  return {"answer", node_of(std::move(answer))};
+}
+
+void Session::stop_on(StopToken stop) { state_->session.stop_on(stop); }
 
 void Session::forget() { state_->last.reset(); }
 

@@ -26,6 +26,8 @@ void put_type_2_distance(Context& context, const Along& along, const Configurati
   if (given.inputs) branch.start = *given.inputs;
   const TypeTwoDistance found = type_2_distance(context.robot, pose, along.direction,
                                                 {.branch = branch, .limit = along.limit}, context.work);
+  if (found.report.status == Status::stopped)
+    context.report(found.report);  // before: it may move all members
   Json& answer = context.answer["type_2_distance"];
   answer["found"] = found.found;
   if (found.found) {

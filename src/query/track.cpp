@@ -8,6 +8,7 @@
 #include "sinew/io/quantity.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -128,6 +129,7 @@ void answer_track(Context& context) {
   double worst = 0;
   for (const AnyPose& pose : poses) {
     report = track.advance(pose);
+    note_stop(context.work.stop, report);
     if (!report.ok()) break;
     worst = std::max(worst, track.closure_error());
     rows.push_back(row_json(context, track));

@@ -17,6 +17,9 @@ class SINEW_API TreeSession {
   Json answer(const Document& query, std::optional<AnyPose>* last = nullptr,
               Continues continues = Continues::always);
 
+  /// As Session's.
+  void stop_on(StopToken stop);
+
   TreeSession(TreeSession&&) noexcept;
   TreeSession& operator=(TreeSession&&) noexcept;
   ~TreeSession();

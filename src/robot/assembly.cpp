@@ -1,13 +1,16 @@
 #include "sinew/robot/assembly.hpp"
 
 #include <cmath>
+#include <limits>
 
+#include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "robot/rod_work.hpp"
-#include "sinew/base/assert.hpp"
 
 namespace sinew::inline v0 {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t at(int row, int column, int columns) { return static_cast<std::size_t>(row * columns + column); }
 
@@ -27,7 +30,7 @@ double assemble_leg(const LegT& leg, const LegPlace& place, const Frame& platfor
     work.s[at(row, 0, 1)] = -blocks.g[i];
   }
   const double misfit = LegT::misfit(blocks);
-  return std::isfinite(misfit) ? misfit : std::numeric_limits<double>::infinity();
+  return std::isfinite(misfit) ? misfit : infinity;
 }
 
 template <class LegT>
@@ -49,7 +52,7 @@ Reduced assemble_robot(const ParallelRobot<LegT>& robot, const AnyPose& pose, Nu
 
 Report wrong_count(std::size_t found, std::size_t needed) {
   Report report;
-  report.status = Status::left_domain;
+  report.status = Status::bad_input;
   report.message.append("the robot has ");
   append_number(report.message, static_cast<int>(needed));
   report.message.append(" inputs, ");
@@ -108,6 +111,8 @@ Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, RodWorkOf<Sy
 }  // namespace
 
 Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
+  if (!check_arguments(robot, pose, coordinates, work).ok())
+    return {MatrixView(nullptr, 0, dof(robot)), MatrixView(nullptr, 0, input_count(robot)), {}, infinity, 0};
   return visit_closing(
       robot, [&](const auto& r) { return assemble_robot(r, pose, coordinates, work); },
       [&] {
@@ -135,6 +140,7 @@ MatrixView homogenise(const AnyRobot& robot, const Reduced& reduced, Workspace& 
 }
 
 Report command(const AnyRobot& robot, Numbers inputs, Workspace& work) {
+  if (Report report = check_workspace(robot, work); !report.ok()) return report;
   return visit_closing(
       robot, [&](const auto& r) { return command_robot(r, inputs, work); },
       [&] {
@@ -147,6 +153,7 @@ Report command(const AnyRobot& robot, Numbers inputs, Workspace& work) {
 
 std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates,
                                      Workspace& work) {
+  if (!check_arguments(robot, pose, coordinates, work).ok()) return {};
   visit_closing(
       robot,
       [&]<class LegT>(const ParallelRobot<LegT>& r) {
@@ -236,13 +243,13 @@ Workspace::~Workspace() = default;
 Workspace::Workspace(Workspace&&) noexcept = default;
 Workspace& Workspace::operator=(Workspace&&) noexcept = default;
 
-Workspace::Workspace(const AnyRobot& robot) {
-  const auto legs_ = static_cast<std::size_t>(leg_count(robot));
-  const auto rows_ = static_cast<std::size_t>(row_count(robot));
-  const auto inputs_ = static_cast<std::size_t>(input_count(robot));
-  const auto dof_ = static_cast<std::size_t>(sinew::dof(robot));
-  if (bears_load(robot)) rods = std::make_unique<RodWorks>(robot);
-  coordinates.resize(static_cast<std::size_t>(coordinate_count(robot)));
+Workspace::Workspace(const AnyRobot& any) : robot(any.identity) {
+  const auto legs_ = static_cast<std::size_t>(leg_count(any));
+  const auto rows_ = static_cast<std::size_t>(row_count(any));
+  const auto inputs_ = static_cast<std::size_t>(input_count(any));
+  const auto dof_ = static_cast<std::size_t>(sinew::dof(any));
+  if (bears_load(any)) rods = std::make_unique<RodWorks>(any);
+  coordinates.resize(static_cast<std::size_t>(coordinate_count(any)));
   inputs.resize(inputs_);
   J.resize(rows_ * dof_);
   K.resize(rows_ * inputs_);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <utility>
 
 #include "sinew/kernel/crc32.h"
@@ -226,7 +225,8 @@ std::int64_t fixed_point(double value, int fraction, int bits) {
 Expected<ControllerTable> make_controller_table(const SerialRobot& robot, kernel::Model model) {
   if (auto checked = check(robot); !checked) return tl::unexpected(checked.error());
   const auto gain = [](const Section& section) { return section.map().gain; };
-  const auto [least, greatest] = std::ranges::minmax(robot.sections | std::views::transform(gain));
+  const auto [lowest, highest] = std::ranges::minmax_element(robot.sections, {}, gain);
+  const double least = gain(*lowest), greatest = gain(*highest);
   if (greatest >= most_unlike * least)
     return failure(
         "unlike_gains", "sections",

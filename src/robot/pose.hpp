@@ -2,16 +2,21 @@
 /// The pose of a robot's own space out of the variant at the edge.
 #pragma once
 #include <cmath>
+#include <limits>
 
-#include "sinew/base/assert.hpp"
 #include "sinew/robot/any_robot.hpp"
 
 namespace sinew::inline v0 {
 
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+inline PlanarPose nowhere(Planar) { return {not_a_number, not_a_number, not_a_number}; }
+inline SpatialPose nowhere(Spatial) { return {Vec3<double>::Constant(not_a_number), {1, 0, 0, 0}}; }
+
+/// A pose of the other space is not a number in this one: who did not check it gets no answer, and no crash.
 template <class Space>
-const typename Space::Pose& in_space(const AnyPose& pose) {
-  SINEW_EXPECTS(std::holds_alternative<typename Space::Pose>(pose));
-  return *std::get_if<typename Space::Pose>(&pose);
+typename Space::Pose in_space(const AnyPose& pose) {
+  if (const auto* own = std::get_if<typename Space::Pose>(&pose)) return *own;
+  return nowhere(Space{});
 }
 
 /// The pose of a frame, its angle or quaternion as answers have it.

@@ -5,8 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "sinew/base/assert.hpp"
-
 namespace sinew::inline v0 {
 namespace {
 
@@ -88,6 +86,12 @@ bool Lu6::factor(const double* matrix, double length) {
   }
   smallest_ /= largest;
   return std::isfinite(smallest_);
+}
+
+bool Lu6::has_negative_determinant() const {
+  bool is_negative = false;
+  for (std::size_t k = 0; k < 6; ++k) is_negative ^= (lu_[7 * k] < 0) != (order_[k] != static_cast<int>(k));
+  return is_negative;
 }
 
 void Lu6::solve(const double* rhs, double* x) const {

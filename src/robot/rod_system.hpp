@@ -23,6 +23,7 @@ class Lu6 {
   bool factor(const double* matrix, double length);
   void solve(const double* rhs, double* x) const;
   double smallest_pivot() const { return smallest_; }  ///< over the largest, 0 to 1
+  bool has_negative_determinant() const;
 
  private:
   std::array<double, 36> lu_;

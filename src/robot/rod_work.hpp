@@ -8,6 +8,15 @@
 
 namespace sinew::inline v0 {
 
+/// One state on a curve of equilibria, to come back to.
+/// @tparam System one of rod_systems.hpp
+template <class System>
+struct RodPlace {
+  typename System::Snapshot state;
+  double lambda = 0;                                ///< parameter of the curve
+  Vec<double, 7> tangent = Vec<double, 7>::Zero();  ///< unit, see Tracer
+};
+
 /// @tparam System one of rod_systems.hpp
 template <class System>
 struct RodWorkOf {
@@ -16,13 +25,17 @@ struct RodWorkOf {
       : system(robot),
         home(system.snapshot()),
         before(home),
-        spare(home) {}
+        spare(home),
+        places{RodPlace<System>{home}, RodPlace<System>{home}, RodPlace<System>{home},
+               RodPlace<System>{home}} {}
 
   System system;
   typename System::Snapshot home, before, spare;
-  bool knows_home = false;  ///< `home` is in equilibrium
-  bool is_solved = false;   ///< `system` is in equilibrium and linearised there
-  Lu6 feeding;              ///< factors of what the inputs do to the wrench, of the last pose that was held
+  std::array<RodPlace<System>, 4> places;  ///< memory of whoever follows a curve by its arc length
+  StopToken stop;                          ///< that of the workspace
+  bool knows_home = false;                 ///< `home` is in equilibrium
+  bool is_solved = false;                  ///< `system` is in equilibrium and linearised there
+  Lu6 feeding;  ///< factors of what the inputs do to the wrench, of the last pose that was held
   bool knows_feeding = false;
 };
 
@@ -56,11 +69,15 @@ struct RodWorks {
   std::variant<RodWork, TangentWork, GeneralWork, MixedWork, MixedGeneralWork> kind;
 };
 
-/// Calls `use(rods)` with a RodWorkOf, of whichever kind it is.
+/// Calls `use(rods)` with a RodWorkOf, of whichever kind it is, that stops as the workspace does.
 template <class Use>
 decltype(auto) with_rods(Workspace& work, Use&& use) {
-  return std::visit([&]<class System>(RodWorkOf<System>& rods) -> decltype(auto) { return use(rods); },
-                    work.rods->kind);
+  return std::visit(
+      [&]<class System>(RodWorkOf<System>& rods) -> decltype(auto) {
+        rods.stop = work.stop;
+        return use(rods);
+      },
+      work.rods->kind);
 }
 
 }  // namespace sinew::inline v0

@@ -22,6 +22,10 @@ std::string_view to_string(Status status) noexcept {
       return "unstable";
     case Status::converged:
       return "converged";
+    case Status::stopped:
+      return "stopped";
+    case Status::bad_input:
+      return "bad_input";
   }
   return "unknown";
 }
@@ -32,7 +36,8 @@ std::string to_string(const Report& report) {
     text += fmt::format(" {} {} iteration{}", report.ok() ? "in" : "after", report.iterations,
                         report.iterations == 1 ? "" : "s");
   }
-  text += fmt::format(", residual {:.1e} m", report.residual);
+  const bool is_measured = report.ok() || report.iterations > 0 || report.residual > 0;
+  if (is_measured) text += fmt::format(", residual {:.1e} m", report.residual);
   if (!report.message.empty()) text += fmt::format(": {}", report.message.view());
   return text;
 }

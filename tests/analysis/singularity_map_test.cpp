@@ -139,5 +139,22 @@ TEST(SingularityMap, StopsWhenItsCallerHasEnough) {
   EXPECT_EQ(part.samples[100].determinant, whole.samples[100].determinant);
 }
 
+TEST(SingularityMap, HandsItsSamplesOverInTheOrderOfTheGrid) {
+  const AnyRobot robot = rfr_in_code();
+  Workspace work(robot);
+  const PoseGrid grid{.axes = {MapAxis{-0.02, 0.02, 4}, MapAxis{-0.02, 0.02, 3}, MapAxis{}}};
+  const SingularityMap kept = singularity_map(robot, grid, {}, work);
+  std::size_t next = 0;
+  EXPECT_EQ(visit_map(robot, grid, {}, work,
+                      [&](std::size_t k, const MapSample& sample) {
+                        EXPECT_EQ(k, next++);
+                        EXPECT_EQ(sample.determinant, kept.samples.at(k).determinant);
+                        return true;
+                      }),
+            12U);
+  EXPECT_EQ(next, 12U);
+  EXPECT_EQ(visit_map(robot, grid, {}, work, [](std::size_t k, const MapSample&) { return k < 4; }), 5U);
+}
+
 }  // namespace
 }  // namespace sinew::test

@@ -45,6 +45,16 @@ TEST_F(OfTheRfr, TurningFromHomeItIsAtSixtyDegrees) {
   EXPECT_EQ(found.type_2.kind, LineClass::concurrent);
 }
 
+TEST_F(OfTheRfr, ADirectionMayHaveAnyLength) {  // 1e±300 was zero, or no number
+  for (const double length : {1e-300, 1e-200, 3e-7, 1e200, 1e300}) {
+    const std::array<double, 3> direction{0, 0, length};
+    const TypeTwoDistance found = along({0, 0, 0}, direction);
+    ASSERT_TRUE(found.found) << length << ' ' << to_string(found.report);
+    EXPECT_NEAR(found.distance * length, 60 * degree, 1e-14) << length;
+    EXPECT_FALSE(along({0, 0, 0}, direction, {.limit = 50 * degree / length}).found) << length;
+  }
+}
+
 TEST_F(OfTheRfr, FromAnyPoseItIsAtSixtyDegrees) {  // the only surface within reach
   std::mt19937 random(5);
   int found_ones = 0;

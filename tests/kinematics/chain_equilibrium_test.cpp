@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <numbers>
 
+#include "paths.hpp"
 #include "reference_file.hpp"
 #include "sinew/io/robot_file.hpp"
 
@@ -303,6 +304,15 @@ TEST(ChainEquilibrium, AFoldIsFoundWhateverTheLimit) {
   }
 }
 
+TEST(ChainEquilibrium, ALoadMayBeCountedInAnyUnit) {  // squares of 1e±300 are no numbers, or zero
+  for (const double unit : {1e-300, 1e-200, 1e200, 1e300}) {
+    ChainState<Planar> state;
+    const auto path = path_to(ChainModel::even, {0, 0, unit}, 20 / unit, state);
+    EXPECT_EQ(path.end, ChainLoadEnd::fold) << unit;
+    EXPECT_NEAR(path.load * unit, 6.3236e-3, 1e-6) << unit;
+  }
+}
+
 TEST(ChainEquilibrium, LegsOutOfReachAreNamed) {
   const auto robot = three_rfr(ChainModel::even);
   ChainState<Planar> state;
@@ -375,7 +385,7 @@ TEST(ChainEquilibrium, LinearModelIsTheirs) {  // @verifies TDPCR (44), (45), (4
 /// A robot of a file with the angles of a reference pose; directions of first links where they are inputs.
 template <class Space>
 void expect_rates(const char* name, const Json& pose, const typename Space::Pose& at) {
-  auto chains = chain_robot(*read_robot(*read_robot_file(std::string(SINEW_SOURCE_DIR) + "/robots/" + name)),
+  auto chains = chain_robot(*read_robot(*read_robot_file(std::string(source_folder) + "/robots/" + name)),
                             ChainModel::even);
   ASSERT_TRUE(chains.has_value()) << to_string(chains.error());
   auto& robot = std::get<ChainRobot<Space>>(*chains);

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "paths.hpp"
 #include "reference_file.hpp"
 #include "sinew/io/robot_file.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 template <class Space>
 ChainRobot<Space> chains_of(const char* file, ChainModel model = ChainModel::even) {
   auto chains =
-      chain_robot(*read_robot(*read_robot_file(std::string(SINEW_SOURCE_DIR) + "/robots/" + file)), model);
+      chain_robot(*read_robot(*read_robot_file(std::string(source_folder) + "/robots/" + file)), model);
   EXPECT_TRUE(chains.has_value()) << to_string(chains.error());
   return std::get<ChainRobot<Space>>(*chains);
 }

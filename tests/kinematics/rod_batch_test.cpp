@@ -105,13 +105,18 @@ TEST(RodBatch, AnswersAlikeWhateverTheWorkspaceHeld) {
 /// The stability of an equilibrium is a fact of its pose, whichever way it was found.
 TEST(RodBatch, JudgesStabilityAsOneByOne) {
   int unstable = 0;  // where home leads to none that holds either
-  for (const auto& [name, home, load_z] :
-       {std::tuple{"3pfs-g2", 0.4347, -105.0}, {"3pfs-g1", 0.2076, -190.0}}) {
+  for (const auto& [name, home, load_z, is_symmetric] : {std::tuple{"3pfs-g2", 0.4347, -105.0, false},
+                                                         {"3pfs-g1", 0.2076, -185.0, false},
+                                                         {"3pfs-g2", 0.4347, -115.0, true}}) {
     const AnyRobot robot = load(name).value();
     Workspace work(robot), alone(robot);
     SpatialWrench wrench;
     wrench << 0.5, 0, load_z, 0, 0.1, 0;
-    const std::vector<double> rows = walked_rows(600, home, 0.02);
+    std::vector<double> rows = walked_rows(600, home, 0.02);
+    if (is_symmetric) {  // the state in the middle goes on beyond the bifurcation, unstable
+      wrench << 0, 0, load_z, 0, 0, 0;
+      for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = home + 1e-5 * static_cast<double>(k / 3);
+    }
     std::vector<SpatialPose> poses(600);
     std::vector<Status> statuses(600);
     equilibrium_batch(robot, rows, wrench, poses, statuses, work, true);

@@ -1,5 +1,5 @@
 /// Following an equilibrium of rods: where it begins, where it goes, where it ends.
-#include "kinematics/rods/path.hpp"
+#include "kinematics/rods/trace.hpp"
 
 #include <gtest/gtest.h>
 
@@ -167,41 +167,29 @@ TEST(RodPath,
      FindsWhereTheSymmetricStateBuckles) {  // notes: G2 between -110 and -112 N, G1 between -190 and -200
   for (const auto& [t, low, high] : {std::tuple{g2, 110.0, 112.0}, std::tuple{g1, 190.0, 200.0}}) {
     SCOPED_TRACE(t.name);
-    Path path(t);
-    const std::array<double, 3> lengths{t.length, t.length, t.length};
-    ASSERT_TRUE(path.to(lengths, Wrench6::Zero()).arrived);
-    Wrench6 wrench = Wrench6::Zero();
-    wrench[2] = -300;
-    const RodPathEnd end = path.to(lengths, wrench, {.stop_at_instability = true});
-    EXPECT_TRUE(end.became_unstable);
-    EXPECT_FALSE(end.arrived);
-    EXPECT_GT(300 * end.progress, low);
-    EXPECT_LT(300 * end.progress, high);
-    EXPECT_EQ(unstable_directions(path.system), 0);              // the last stable state
-    EXPECT_LT(path.system.platform().p.head<2>().norm(), 1e-7);  // rounding, over what stiffness is left
-
-    EXPECT_LT(path.system.factors().smallest_pivot(), 1e-3);
+    RodWork work(tripod_robot(t));
+    RodSystem& system = work.system;
+    ASSERT_TRUE(rest_at(system, level(t.height)));
+    RodTarget target = present(system);
+    for (std::size_t k = 0; k < 6; ++k) target.lengths[k] = t.length;
+    target.wrench.setZero();
+    ASSERT_TRUE(follow(system, target, {}, work.spare).arrived);
+    Wrench6 down = Wrench6::Zero();
+    down[2] = -1;
+    const RodLoad load = load_rods(work, down, 300);
+    EXPECT_EQ(load.end, LoadEnd::bifurcation);
+    EXPECT_GT(load.parameter, low);
+    EXPECT_LT(load.parameter, high);
+    EXPECT_EQ(unstable_directions(system), 0);              // the last stable state
+    EXPECT_LT(system.platform().p.head<2>().norm(), 1e-7);  // rounding, over what stiffness is left
+    EXPECT_LT(system.factors().smallest_pivot(), 1e-3);
 
     // the state itself goes on beyond: two directions of sway are lost, by symmetry both at once
     Path beyond(t);
-    wrench[2] = -high - 2;
-    ASSERT_TRUE(beyond.to(lengths, wrench).arrived);
+    ASSERT_TRUE(beyond.to({t.length, t.length, t.length}, (high + 2) * down).arrived);
     EXPECT_EQ(unstable_directions(beyond.system), 2);
     EXPECT_LT(beyond.system.platform().p.head<2>().norm(), 1e-9);
   }
-}
-
-TEST(RodPath, DoesNotStopWhereNothingIsLost) {
-  Path path(g2);
-  const std::array<double, 3> lengths{0.46, 0.42, 0.43};
-  Wrench6 wrench = Wrench6::Zero();
-  wrench[2] = -20;
-  const RodPathEnd plain = path.to(lengths, wrench);
-  Path other(g2);
-  const RodPathEnd watched = other.to(lengths, wrench, {.stop_at_instability = true});
-  EXPECT_TRUE(plain.arrived && watched.arrived);
-  EXPECT_FALSE(watched.became_unstable);
-  EXPECT_EQ((path.system.platform().p - other.system.platform().p).norm(), 0);
 }
 
 TEST(RodPath,

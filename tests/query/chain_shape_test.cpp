@@ -206,7 +206,9 @@ TEST(ChainShape, TendonsBetweenDiscsAreAsLongAsTheyAre) {  // M1
 }
 
 TEST(ChainShape, WithMoreLinksItIsTheArc) {  // of second order: backbone, tendons, tendon lengths
-  for (const auto& [robot, pose, wrench] : poses()) {
+  for (const auto& [named, asked, wrench] : poses()) {
+    const auto& robot = named;  // clang 14 captures no structured binding
+    const auto& pose = asked;
     const int more = robot == "6-ufs" ? 1 : 0;
     const auto errors = [&](int links) {
       Json query{{"query", "shape"}, {"pose", pose}};

@@ -1,12 +1,13 @@
 /// Sections of variable length through `sinew query`: the template of serial robots has one.
 #include <gtest/gtest.h>
 
+#include "paths.hpp"
 #include "sinew_query.hpp"
 
 namespace sinew::test {
 namespace {
 
-const std::string robot = SINEW_SOURCE_DIR "/examples/robots/serial.yaml";
+const std::string robot = std::string(source_folder) + "/examples/robots/serial.yaml";
 
 TEST(ExtensionQuery, GoesFromConfigurationToChangesAndBack) {
   const Json shape = {{0.1, -0.2}, {0.8, 0.5, 0.004}};

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "sinew/math/vec.hpp"
 #include "sinew_query.hpp"
 
 namespace sinew::test {
@@ -81,6 +82,62 @@ TEST(ReferenceHexapodOnBalls, ForwardUnderEveryWrench) {  // @verifies 3PFS (25)
       EXPECT_NEAR(answers[i]["pose"]["quaternion"][k].get<double>(), c["quat_wxyz"][k].get<double>(),
                   source["tolerance"]["quat"].get<double>());
   }
+}
+
+/// The way to a pose begins where given lengths hold the platform: from those of a pose near by it comes to
+/// the same branch.
+TEST(HexapodInverse, StartsAtLengths) {
+  const Json pose = {{"position", {0.02, 0.03, 0.42}}, {"quaternion", {0.995, 0.08, -0.04, 0.03}}},
+             near = {{"position", {0.02, 0.025, 0.418}}, {"quaternion", {0.996, 0.07, -0.04, 0.03}}};
+  const auto found =
+      ask("hexapod", {{{"query", "inverse"}, {"pose", pose}}, {{"query", "inverse"}, {"pose", near}}});
+  ASSERT_TRUE(found[0].contains("inputs") && found[1].contains("inputs")) << found[0] << found[1];
+  EXPECT_EQ(found[0]["complete"], false);
+  const auto again =
+      ask("hexapod", {{{"query", "inverse"}, {"pose", pose}, {"start", found[1]["inputs"]}},
+                      {{"query", "inverse"}, {"pose", pose}, {"start", {0.4, 0.4, 0.4}}},
+                      {{"query", "inverse"}, {"pose", pose}, {"start", {-0.4, 0.4, 0.4, 0.4, 0.4, 0.4}}}});
+  ASSERT_TRUE(again[0].contains("inputs")) << again[0];
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_NEAR(again[0]["inputs"][k].get<double>(), found[0]["inputs"][k].get<double>(), 1e-9);
+  EXPECT_TRUE(again[1].contains("error")) << again[1];
+  EXPECT_EQ(again[2]["status"], "left_domain") << again[2];
+  EXPECT_TRUE(again[2]["message"].get<std::string>().starts_with("from start: ")) << again[2];
+}
+
+/// Other lengths that hold the same pose are counted, and each of them does: what its rods do to the platform
+/// adds up to nothing.
+TEST(HexapodInverse, AllFindsOtherLengths) {
+  const Json pose = {{"position", {0, 0, 0.4}}, {"quaternion", {1, 0, 0, 0}}};
+  const auto found = ask("hexapod", {{{"query", "inverse"}, {"pose", pose}, {"all", true}}})[0];
+  ASSERT_EQ(found["status"], "converged");
+  EXPECT_EQ(found["complete"], false);
+  EXPECT_EQ(found["count"], found["solutions"].size());
+  EXPECT_GE(found["solutions"].size(), 3U);
+  const auto vector = [](const Json& list) { return Vec3<double>(list[0], list[1], list[2]); };
+  bool has_answer = false;
+  for (const Json& one : found["solutions"]) {
+    EXPECT_LT(one["residual"].get<double>(), 1e-11);
+    has_answer =
+        has_answer || std::abs(one["inputs"][0].get<double>() - found["inputs"][0].get<double>()) < 1e-9;
+    Vec3<double> force = Vec3<double>::Zero(), moment = force;
+    for (std::size_t k = 0; k < 6; ++k) {
+      const Json& leg = one["legs"][k];
+      EXPECT_EQ(leg["length"], one["inputs"][k]);
+      force += vector(leg["force"]);
+      moment += vector(leg["moment"]) + cross(vector(leg["tip"]), vector(leg["force"]));
+    }
+    EXPECT_LT(force.norm(), 1e-9);
+    EXPECT_LT(moment.norm(), 1e-10);
+  }
+  EXPECT_TRUE(has_answer);
+}
+
+TEST(TripodInverse, AllIsOfSixRods) {
+  const auto asked =
+      ask("3pfs-g1",
+          {{{"query", "inverse"}, {"independent", {{"z", 0.3}, {"e1", 0}, {"e2", 0}}}, {"all", true}}})[0];
+  EXPECT_EQ(asked["error"]["code"], "not_available") << asked;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "check_jacobian.hpp"
 #include "every_robot.hpp"
+#include "paths.hpp"
 
 namespace sinew::test {
 namespace {
@@ -16,7 +17,7 @@ std::vector<std::string> every_robot() {
   std::vector<std::string> names;
   for (const std::string_view name : builtin_robot_names()) names.emplace_back(name);
   for (const std::string_view name : robot_template_names())
-    names.push_back(std::string(SINEW_SOURCE_DIR) + "/examples/robots/" + std::string(name) + ".yaml");
+    names.push_back(std::string(source_folder) + "/examples/robots/" + std::string(name) + ".yaml");
   std::erase_if(names, [](const std::string& name) {
     return is_serial(read_robot_file(name).value()) || bears_load(load(name).value());
   });

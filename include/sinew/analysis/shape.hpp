@@ -29,7 +29,9 @@ SINEW_API AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers
 
 /// Of a planar robot.
 inline PlanarShape shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
-  return std::get<PlanarShape>(any_shape(robot, pose, coordinates, samples));
+  const AnyShape any = any_shape(robot, pose, coordinates, samples);
+  const auto* planar = std::get_if<PlanarShape>(&any);
+  return planar ? *planar : PlanarShape{};
 }
 
 }  // namespace sinew::inline v0

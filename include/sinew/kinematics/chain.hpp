@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sinew/base/error.hpp"
+#include "sinew/base/stop.hpp"
 #include "sinew/leg/space.hpp"
 #include "sinew/link/pseudo_rigid.hpp"
 #include "sinew/robot/any_robot.hpp"
@@ -91,6 +92,13 @@ struct ChainState {
   Vec<double, SpaceT::dof> wrench = Vec<double, SpaceT::dof>::Zero();
 };
 
+/// Whether the state is one of this robot's, as far as its sizes tell. Functions answer one that is not with
+/// `bad_input`, or with numbers that are not.
+template <class Space>
+bool fits(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+  return state.legs.size() == robot.legs.size() && state.hold.size() == robot.legs.size();
+}
+
 /// Chains at a pose without a wrench, held by the tension of one tendon a leg, the inner one; the other is
 /// loose. They bend evenly, as under a moment, but for straight tendons on a clamped base (M1). Lengths of
 /// the inner tendons are held, or tensions. Allocates.
@@ -108,9 +116,10 @@ struct ChainOptions {
 
 /// Memory of a solver, one per thread. Sized on first use with a robot; then nothing allocates.
 struct ChainWork {
-  std::vector<double> moves;           ///< of each leg's unknowns, constant and by the platform
-  std::vector<ChainLegState> legs;     ///< iterates
-  std::vector<ChainHold> first, hold;  ///< of the path, and on it
+  StopToken stop = {};                   ///< solves that use it end with `stopped` once it is requested
+  std::vector<double> moves = {};        ///< of each leg's unknowns, constant and by the platform
+  std::vector<ChainLegState> legs = {};  ///< iterates
+  std::vector<ChainHold> first = {}, hold = {};  ///< of the path, and on it
 };
 
 /// The equilibrium under this wrench with the motors holding that, on a straight path of both from the one in

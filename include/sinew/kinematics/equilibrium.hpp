@@ -111,8 +111,14 @@ SINEW_API RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work
 /// Why a load path ended.
 enum class LoadEnd {
   limit,        ///< the limit was reached
-  bifurcation,  ///< the equilibrium goes on, but no longer holds by itself
+  bifurcation,  ///< the equilibrium goes on, but no longer holds by itself: another curve crosses
   fold,         ///< there is no equilibrium nearby beyond this load
+  stability,    ///< the equilibrium goes on, and a moment drives it away: none crosses
+  straight,     ///< a rod is pulled straight
+  sharp,        ///< the rods bend more sharply than is resolved
+  iterations,   ///< the bound on steps was met
+  stopped,      ///< on request
+  stalled,      ///< none of these, and no step however short succeeds
 };
 SINEW_API std::string_view to_string(LoadEnd end) noexcept;
 
@@ -121,17 +127,22 @@ struct LoadPath {
   LoadEnd end = LoadEnd::limit;
   SpatialPose pose;  ///< there
   double residual = 0;
+  /// With a moment the stiffness is not symmetric: from here on, before `load`, its symmetric part is not
+  /// definite, and what the load does depends on the way the platform moves. Below 0 where that is not so.
+  double definite_until = -1;
+  int unstable_directions = 0;  ///< there, as RodAnalysis
 };
 
 /// Adds `direction` times a growing factor to the wrench of the equilibrium the workspace holds, up to
-/// `limit`. Afterwards the workspace holds the last stable equilibrium. Where it held none, or the direction
-/// or limit is no load, the factor is 0.
+/// `limit`. Afterwards the workspace holds the last equilibrium that holds by itself. Where it held none, or
+/// the direction or limit is no load, the factor is 0 and the end `stalled`.
 SINEW_API LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit,
                                Workspace& work);
 
-/// One of several equilibria at the same inputs and load.
+/// One of several equilibria under the same load: of the same inputs, or of the same pose.
 struct FoundEquilibrium {
   SpatialPose pose;
+  std::vector<double> inputs;  ///< rod lengths [m]
   std::vector<RodReading> rods;
   double residual = 0, potential = 0;
   int unstable_directions = 0;
@@ -143,5 +154,11 @@ struct FoundEquilibrium {
 /// @param options of every search; its start is not asked
 SINEW_API std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
                                                    const EquilibriumOptions& options, Workspace& work);
+
+/// Equilibria of one pose on several branches, each with its inputs, found by ways from home through many
+/// poses around it; as `equilibria` else. The first way is that of `inverse_equilibrium`.
+SINEW_API std::vector<FoundEquilibrium> inverse_equilibria(const AnyRobot& robot, const SpatialPose& wanted,
+                                                           const EquilibriumOptions& options,
+                                                           Workspace& work);
 
 }  // namespace sinew::inline v0

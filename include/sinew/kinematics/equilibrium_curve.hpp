@@ -56,6 +56,7 @@ enum class CurveEnd {
   sharp,     ///< the rods bend more sharply than is resolved
   far,       ///< a rod has grown to ten times what any was
   stalled,   ///< none of these, and no step however short succeeds
+  stopped,   ///< on request
 };
 SINEW_API std::string_view to_string(CurveEnd end) noexcept;
 

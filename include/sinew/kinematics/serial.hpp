@@ -8,6 +8,7 @@
 
 #include "sinew/base/export.hpp"
 #include "sinew/base/numbers.hpp"
+#include "sinew/base/stop.hpp"
 #include "sinew/math/linalg.hpp"
 #include "sinew/robot/serial.hpp"
 #include "sinew/solve/report.hpp"
@@ -23,9 +24,11 @@ struct ExtensionMotion {
 /// Memory for questions to one serial robot, and the lengths its sections have; one per thread. `J` and `K`
 /// are rows first.
 struct SerialWorkspace {
-  std::vector<Bend> bends;         ///< per section [rad]
-  std::vector<double> changes;     ///< Δl of every tendon [m], section by section; > 0 pays out
-  std::vector<double> slack;       ///< what every tendon has beyond what the bends need [m]
+  std::shared_ptr<const char> robot;  ///< identity of the robot it is for, and of that robot's copies
+  StopToken stop;               ///< searches that use this workspace end with `stopped` once it is requested
+  std::vector<Bend> bends;      ///< per section [rad]
+  std::vector<double> changes;  ///< Δl of every tendon [m], section by section; > 0 pays out
+  std::vector<double> slack;    ///< what every tendon has beyond what the bends need [m]
   std::vector<SE3<double>> ends;   ///< pose of every section's end
   std::vector<double> J;           ///< tip twist (base axes, of the tip) per bend rate: 6 × 2M [m, rad]
   std::vector<double> K;           ///< tendon rates per bend rate: tendons × 2M [m]
@@ -37,6 +40,12 @@ struct SerialWorkspace {
   std::vector<int> tendons;                           ///< of every section
 
   SINEW_API explicit SerialWorkspace(const SerialRobot& robot);
+  /// Whether it was made for this robot; bends, extensions, ... are of as many sections.
+  bool fits(const SerialRobot& asked) const { return robot && robot == asked.identity; }
+  template <class PerSection>
+  bool fits(std::span<PerSection> values) const {
+    return values.size() == maps.size();
+  }
 
   MatrixView jacobian() const { return {J.data(), 6, static_cast<Eigen::Index>(2 * bends.size())}; }
   MatrixView tendon_jacobian() const {
@@ -46,6 +55,7 @@ struct SerialWorkspace {
 
 /// Makes the sections longer than at rest by so much [m]: all other questions to this workspace are about a
 /// robot of these lengths, with tendon changes from those of the straight robot at rest.
+/// Values of another number of sections, here and below, make what is answered NaN.
 SINEW_API void extend(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work);
 
 /// Changes of all tendons into `work.changes`, in one pass over the sections (LSK (5), (12)).

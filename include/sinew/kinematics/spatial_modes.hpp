@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sinew/base/stop.hpp"
 #include "sinew/leg/reach.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
@@ -18,6 +19,7 @@ struct SpatialModesOptions {
   int max_steps = 3000;     ///< of one path
   int newton_starts = 300;  ///< where the paths leave something open
   std::uint64_t seed = 1;   ///< of the paths' way through the complex numbers
+  StopToken stop = {};      ///< looked at between paths and starts: a millisecond or less
 };
 
 /// What the search found, and how far it can be believed.

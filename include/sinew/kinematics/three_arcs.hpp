@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sinew/base/export.hpp"
+#include "sinew/base/stop.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
 
@@ -51,7 +52,7 @@ struct ThreeArcSolutions {
 };
 
 /// Deterministic, no threads, bounded work: at most 32 solutions, 400 000 pairs of pieces and 40 MB.
-SINEW_API ThreeArcSolutions all_bends(const ThreeArcs& robot, const SpatialPose& tip);
+SINEW_API ThreeArcSolutions all_bends(const ThreeArcs& robot, const SpatialPose& tip, StopToken stop = {});
 
 /// Pose of the tip under these bends.
 SINEW_API SE3<double> tip_pose(const ThreeArcs& robot, const ThreeBends& bends);

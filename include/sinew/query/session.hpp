@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "sinew/base/error.hpp"
+#include "sinew/base/stop.hpp"
 #include "sinew/io/node.hpp"
 
 namespace sinew::inline v0 {
@@ -21,6 +22,13 @@ class SINEW_API Session {
   /// One query `{"query": "forward", ...}` in, one answer out, without a line break. Never throws on bad
   /// input: the answer then is `{"error": {"code", "where", "message"}}`.
   std::string answer(std::string_view query);
+  /// The same from tree to tree, for who asks and reads in this process. The limits of texts, which keep
+  /// strangers harmless, do not apply: an answer may be as large as it is.
+  Document answer(const Document& query);
+
+  /// Solves that are under way end with status `stopped`, with the best they have, soon after `stop` is
+  /// requested; so does every later one, until another token is given.
+  void stop_on(StopToken stop);
 
   /// Forgets the pose that `"start": "last"` begins at, as for another client: the session is as when it was
   /// opened.

@@ -2,7 +2,9 @@
 /// The one variant at the edge: any robot of this build, its name, and the pose types of both spaces.
 #pragma once
 #include <algorithm>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -46,6 +48,8 @@ struct AnyRobot {
   bool geometry_inferred =
       false;  ///< the source does not print the geometry; it was inferred from its results
   RobotModel model;
+  /// One for a robot and its copies; by it a workspace knows the robot that it was made for.
+  std::shared_ptr<const char> identity = std::make_shared<const char>();
 
   AnyRobot() = default;
   template <class LegT>
@@ -88,8 +92,9 @@ inline bool has_weight(const AnyRobot& robot) {
 /// bear load.
 template <class Use, class Otherwise>
 decltype(auto) visit_closing(const AnyRobot& robot, Use&& use, Otherwise&& otherwise) {
+  using Answer = std::invoke_result_t<Otherwise>;
   return std::visit(
-      [&]<class LegT>(const ParallelRobot<LegT>& r) -> decltype(otherwise()) {
+      [&]<class LegT>(const ParallelRobot<LegT>& r) -> Answer {
         if constexpr (BearsLoad<LegT>)
           return otherwise();
         else

@@ -2,6 +2,7 @@
 /// A serial robot: sections one after the other, each with tendons of its own that pass all sections before
 /// it. Theory: docs/theory/section.md
 #pragma once
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,8 @@ struct SerialRobot {
   double tolerance = 0;  ///< of a tendon [m]: encoder step, friction, stretch; ≥ 0
   std::optional<TendonMotor> motor;
   std::optional<TendonStretch> stretch;
+  /// One for a robot and its copies; by it a workspace knows the robot that it was made for.
+  std::shared_ptr<const char> identity = std::make_shared<const char>();
 
   int section_count() const { return static_cast<int>(sections.size()); }
   /// Tendons of all sections.

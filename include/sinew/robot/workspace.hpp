@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "sinew/base/stop.hpp"
 #include "sinew/robot/any_robot.hpp"
 
 namespace sinew::inline v0 {
@@ -20,6 +21,8 @@ struct Workspace {
   SINEW_API Workspace(Workspace&&) noexcept;
   SINEW_API Workspace& operator=(Workspace&&) noexcept;
 
+  std::shared_ptr<const char> robot;  ///< identity of the robot it is for, and of that robot's copies
+  StopToken stop;  ///< solves that use this workspace end with `stopped` once it is requested
   std::vector<double> coordinates;  ///< link coordinates, leg by leg
   std::vector<double> inputs;
   std::vector<double> J, K, U, s;      ///< row-major: rows × dof, rows × inputs, dof × inputs, rows

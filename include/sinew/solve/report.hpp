@@ -9,9 +9,10 @@
 
 namespace sinew::inline v0 {
 
-/// How a solve ended. The order is that of PROTOCOL: the first that holds is reported.
+/// How a solve ended. Of the first eight the first that holds is reported. The numbers stand in result files:
+/// new statuses are appended.
 enum class Status {
-  unreachable,      ///< no solution exists; the message names what cannot be met
+  unreachable = 0,  ///< no solution exists; the message names what cannot be met
   left_domain,      ///< an input or iterate lies outside the model's domain
   slack,            ///< a tendon would have to push
   singular,         ///< the linear system has no unique answer here
@@ -19,6 +20,9 @@ enum class Status {
   iteration_limit,  ///< the bound on iterations was met
   unstable,         ///< an equilibrium that does not hold by itself
   converged,
+  stopped = 8,  ///< the caller asked it to stop (StopToken); the best iterate so far is returned
+  bad_input =
+      9,  ///< the arguments do not fit the robot, e.g. a planar pose and a spatial robot; nothing was solved
 };
 
 SINEW_API std::string_view to_string(Status status) noexcept;

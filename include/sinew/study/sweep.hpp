@@ -24,11 +24,12 @@ struct SweepProgress {
 struct SweepOptions {
   std::filesystem::path output = {};  ///< `.h5` or `.csv`; the chunks are in `output.log` until it is written
   bool resume = false;                ///< go on with the chunks of an earlier run; without any, begin
+  bool replaces_results = true;       ///< else a sweep is not begun whose file is there; code `result_exists`
   int threads = 0;                    ///< of this process; 0: one a core
   int compression = 0;                ///< of HDF5, 0 (none) to 9
   std::string command = {};           ///< for the provenance
   Ranks* ranks = nullptr;             ///< of a cluster; null: this process alone
-  /// Called a few times a second, from a thread of its own; false stops the sweep.
+  /// Called twenty times a second, from a thread of its own; false stops the sweep.
   std::function<bool(const SweepProgress&)> progress = {};
 };
 

@@ -1,8 +1,10 @@
 /// Equilibria of platforms on chains: at rest, along paths to a load, with the pose held.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinematics/chains/solver.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -33,6 +35,14 @@ void say_how_far(Report& report, double done) {
     report.message.append(": it folds, or is lost; another branch (bending) or start may lead on");
 }
 
+Report wrong_sizes() {
+  Report report;
+  report.status = Status::bad_input;
+  report.message.append(
+      "each leg of the robot needs one value, and a state of its own: give those of this robot");
+  return report;
+}
+
 /// A path to a wrench, and to what is held where the platform is free.
 template <class Space>
 Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
@@ -45,7 +55,7 @@ Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<c
     for (std::size_t i = 0; i < hold.size(); ++i) work.hold[i] = between(work.first[i], hold[i], part);
   };
   const double done = walk(1, 1, 1e-6, [&](double next) {
-    if (!solver.has_budget()) return false;
+    if (!solver.has_budget() || work.stop.stop_requested()) return false;
     put(next);
     const Vec<double, Space::dof> load = first + next * (wrench - first);
     auto pose = state.pose;
@@ -65,7 +75,7 @@ Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<c
   report.iterations = solver.iterations();
   if (done < 1) {
     report.status = solver.has_budget() ? Status::stalled : Status::iteration_limit;
-    say_how_far(report, done);
+    if (!note_stop(work.stop, report)) say_how_far(report, done);
   } else {
     name_slack(state, report);
   }
@@ -93,7 +103,7 @@ Report settle(const ChainRobot<Space>& robot, ChainState<Space>& state) {
 template <class Space>
 Report rest(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
             std::span<const double> curvature, bool holds_lengths, ChainState<Space>& state) {
-  SINEW_EXPECTS(curvature.size() == robot.legs.size());
+  if (curvature.size() != robot.legs.size()) return wrong_sizes();
   state.pose = pose;
   state.legs.assign(robot.legs.size(), {});
   state.hold.assign(robot.legs.size(), {});
@@ -150,7 +160,7 @@ template <class Space>
 Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
                    const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
                    const ChainOptions& options) {
-  SINEW_EXPECTS(hold.size() == robot.legs.size() && state.legs.size() == robot.legs.size());
+  if (hold.size() != robot.legs.size() || state.legs.size() != robot.legs.size()) return wrong_sizes();
   Solver<Space> solver(robot, work, options);
   const Report report = check_hold(robot, hold);
   return report.ok() || options.evenly_bent ? follow(solver, robot, hold, wrench, state, work) : report;
@@ -166,6 +176,7 @@ Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& 
         "a pose under load is held by as many legs as the platform has freedoms, one tendon each");
     return report;
   }
+  if (!fits(robot, state)) return wrong_sizes();
   Solver<Space> solver(robot, work, options, Free::tensions);
   const std::vector<ChainHold> held = state.hold;
   const std::vector<ChainHold> hold(held.size());  // whatever tensions come out
@@ -177,6 +188,8 @@ Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& 
 template <class Space>
 Mat<double, Space::dof, Space::dof> stiffness(const ChainRobot<Space>& robot, const ChainState<Space>& state,
                                               ChainWork& work) {
+  if (!fits(robot, state))
+    return Mat<double, Space::dof, Space::dof>::Constant(std::numeric_limits<double>::quiet_NaN());
   Solver<Space> solver(robot, work, {});
   return solver.reduce(state.pose, state.legs, state.hold, state.wrench).S;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kinematics/chains/solver.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 
@@ -47,7 +48,21 @@ template <class Space>
 ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& direction,
                           double limit, ChainState<Space>& state, ChainWork& work,
                           const ChainOptions& options) {
+  const double largest = direction.cwiseAbs().maxCoeff();
+  const int scale = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
+  if (std::abs(scale) > 100) {  // its squares overflow or vanish; by a power of two, exactly
+    Vec<double, Space::dof> scaled = direction;
+    for (double& part : scaled) part = std::scalbn(part, -scale);
+    ChainLoadPath path = follow_load(robot, scaled, std::scalbn(limit, scale), state, work, options);
+    path.load = std::scalbn(path.load, -scale);
+    return path;
+  }
   ChainLoadPath path;
+  if (!fits(robot, state)) {
+    path.report.status = Status::bad_input;
+    path.report.message.append("the state is of another robot");
+    return path;
+  }
   Solver<Space> solver(robot, work, options);
   path.report = check_hold(robot, state.hold);
   if (!path.report.ok()) return path;
@@ -57,6 +72,7 @@ ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Spac
   ChainState<Space> ahead = state;
   const double done =
       walk(limit, std::min(limit, first_stride(robot, direction, state, work)), 1e-8, [&](double next) {
+        if (work.stop.stop_requested()) return false;
         ahead = state;
         ahead.wrench = first + next * direction;
         path.end = solver.has_budget() ? ChainLoadEnd::fold : ChainLoadEnd::iterations;
@@ -78,7 +94,9 @@ ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Spac
   const auto reduced = solver.reduce(state.pose, state.legs, state.hold, state.wrench);
   path.report.residual = solver.residual();
   path.report.iterations = solver.iterations();
-  if (path.end == ChainLoadEnd::iterations) {
+  if (note_stop(work.stop, path.report)) {
+    path.end = ChainLoadEnd::iterations;
+  } else if (path.end == ChainLoadEnd::iterations) {
     path.report.status = Status::iteration_limit;
     path.report.message.append("the iterations ran out before the load stopped growing");
   }

@@ -154,8 +154,12 @@ template <class Space>
 Report follow_least_norm(ChainRobot<Space>& robot, const typename Space::Pose& from,
                          const typename Space::Pose& to, std::span<ChainLegState> legs,
                          const ChainMotionOptions& options) {
-  SINEW_EXPECTS(legs.size() == robot.legs.size());
   Report report;
+  if (legs.size() != robot.legs.size()) {
+    report.status = Status::bad_input;
+    report.message.append("each leg of the robot needs a state");
+    return report;
+  }
   std::vector<ChainLegState> moved(legs.begin(), legs.end());
   auto bases = robot.legs;
   for (std::size_t i = 0; i < legs.size(); ++i) {

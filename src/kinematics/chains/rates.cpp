@@ -1,5 +1,6 @@
 /// Velocity equations of robots on chains, and what the paper's linear statics make of them.
 #include <cmath>
+#include <limits>
 
 #include "kinematics/chains/elimination.hpp"
 #include "kinematics/chains/leg_system.hpp"
@@ -10,8 +11,12 @@ namespace sinew::inline v0 {
 template <class Space>
 ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
                               std::span<const ChainLegState> legs) {
-  SINEW_EXPECTS(legs.size() == robot.legs.size() && legs.size() == static_cast<std::size_t>(Space::dof));
   ChainRates<Space> rates;
+  if (legs.size() != robot.legs.size() || legs.size() != static_cast<std::size_t>(Space::dof)) {
+    rates.closure_error = std::numeric_limits<double>::quiet_NaN();
+    rates.J.setConstant(rates.closure_error);
+    return rates;
+  }
   const auto platform = Space::frame(pose);
   ChainClosure<Space> at;
   for (std::size_t i = 0; i < legs.size(); ++i) {
@@ -33,6 +38,7 @@ template <class Space>
 Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& robot,
                                                       const ChainState<Space>& state) {
   constexpr int dof = Space::dof;
+  if (!fits(robot, state)) return Mat<double, dof, dof>::Constant(std::numeric_limits<double>::quiet_NaN());
   const ChainRates<Space> rates = chain_rates(robot, state.pose, state.legs);
   const std::size_t motors = robot.has_base_motors ? 1 : 0;
   Eigen::Matrix<double, dof, dof, Eigen::RowMajor> J = rates.J, inverse = Mat<double, dof, dof>::Identity();
@@ -65,6 +71,8 @@ template <class Space>
 double evenness_gap(const ChainRobot<Space>& robot, const ChainState<Space>& unloaded,
                     const Vec<double, Space::dof>& wrench) {
   constexpr int dof = Space::dof;
+  if (!fits(robot, unloaded) || robot.legs.size() != static_cast<std::size_t>(dof))
+    return std::numeric_limits<double>::quiet_NaN();
   const auto platform = Space::frame(unloaded.pose);
   ChainClosure<Space> at;
   Eigen::Matrix<double, dof, dof, Eigen::RowMajor> lines;

@@ -25,6 +25,7 @@ double least_on_null_space(const MatrixXd& H, const MatrixXd& C) {
 template <class Space>
 double least_curvature(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
   constexpr int dof = Space::dof;
+  if (!fits(robot, state)) return std::numeric_limits<double>::quiet_NaN();
   Eigen::Index size = dof, rows = 0;
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     size += robot.legs[i].chain.joints();
@@ -70,6 +71,7 @@ double work_of(const Vec<double, 6>& wrench, const SpatialPose& pose) {
 
 template <class Space>
 double potential(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+  if (!fits(robot, state)) return std::numeric_limits<double>::quiet_NaN();
   double sum = -work_of(state.wrench, state.pose);
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     const auto& leg = robot.legs[i];

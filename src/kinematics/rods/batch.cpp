@@ -123,6 +123,11 @@ void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wren
   for (int k = 0; k < 6; ++k) std::fill_n(poses_.wrench[k], rod_lanes, wrench[k]);
   knows_.fill(false);
   for (std::size_t step = 0; step < stretch; ++step) {
+    if (work_->stop.stop_requested()) {
+      for (std::size_t k = 0; k < count; ++k)
+        if (k % stretch >= step) statuses[k] = Status::stopped;
+      return;
+    }
     for (std::size_t k = 0; k < rods_.size(); ++k) before_[k] = rods_[k];
     poses_before_ = poses_;
     const auto row = [&](int lane) { return std::min(at(lane) * stretch + step, count - 1); };

@@ -8,6 +8,7 @@
 #include "kinematics/rods/start.hpp"
 #include "kinematics/rods/trace.hpp"
 #include "kinematics/rods/verdict.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -117,6 +118,7 @@ RodPathEnd follow_poses(RodWorkOf<System>& work, const RodWay& way, int max_iter
   RodPathEnd end;
   double stride = 0.25;
   while (end.progress < 1 && stride > shortest && end.iterations < max_iterations) {
+    if ((end.stopped = work.stop.stop_requested())) break;
     const double next = std::min(1.0, end.progress + stride);
     system.save(work.spare);
     system.evaluate();
@@ -150,7 +152,7 @@ RodPathEnd follow_poses(RodWorkOf<System>& work, const RodWay& way, int max_iter
 /// Why the lengths do not follow the platform further: the system is where they still do.
 template <class System>
 Report explain_hold(const System& system, const RodPathEnd& end, const RodFold& fold, std::string_view from) {
-  if (end.ran_out) return explain(system, end, false);
+  if (end.ran_out || end.stopped) return explain(system, end, fold, false);
   Report report = failed(fold.is_found ? Status::singular : Status::stalled);
   if (!fold.is_found && system.truncation() > worst_truncation) report.status = Status::left_domain;
   report.iterations = end.iterations;
@@ -292,6 +294,7 @@ Report hold_rods(RodWorkOf<System>& work, const SE3<double>& home, const SE3<dou
   System& system = work.system;
   if (const Report checked = check(system, wanted, question); !checked.ok()) return checked;
   Report report;
+  if (note_stop(work.stop, report)) return report;
   if (question.resume && work.is_solved) {
     system.save(work.before);
     system.set_wrench(question.wrench);
@@ -321,14 +324,16 @@ Report hold_rods(RodWorkOf<System>& work, const SE3<double>& home, const SE3<dou
   RodPathEnd end = approach(work, std::span(&wanted, 1), question);
   report.iterations = end.iterations;
   if (!end.arrived) {
-    RodFold fold = end.ran_out ? RodFold{} : find_fold(work, way, end.progress);
-    if (!end.ran_out && !fold.is_found && !fold.arrived && is_from_home && go_home(work, home).ok()) {
+    const bool is_cut = end.ran_out || end.stopped;
+    RodFold fold = is_cut ? RodFold{} : find_fold(work, way, end.progress);
+    if (!is_cut && !fold.is_found && !fold.arrived && is_from_home && go_home(work, home).ok()) {
       end.progress = 0;  // what was followed had left the branch
       fold = find_fold(work, way, 0);
     }
     if (!fold.arrived) {
       report = explain_hold(system, end, fold, is_from_home ? "home" : "the last pose");
-      if (!is_from_home || end.ran_out || !reach_otherwise(work, home, wanted, question, way, end, report)) {
+      if (!is_from_home || is_cut || !reach_otherwise(work, home, wanted, question, way, end, report)) {
+        note_stop(work.stop, report);
         work.is_solved = false;
         return report;
       }

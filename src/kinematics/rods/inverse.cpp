@@ -5,6 +5,7 @@
 
 #include "kinematics/rods/start.hpp"
 #include "kinematics/rods/verdict.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -110,6 +111,7 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
     report.message.append("e1 and e2 are parts of a unit quaternion: the sum of their squares is below 1");
     return report;
   }
+  if (note_stop(work.stop, report)) return report;
   if (!(question.resume && work.is_solved))
     if (const Report begun = go_home(work, home); !begun.ok()) return begun;
   // home with its own lengths: the tied ones are made equal on the way
@@ -117,7 +119,8 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
   const RodCoordinates begin = coordinates_of(system.platform());
   Inverse<System> inverse(system, report.iterations);
   double part = 0, stride = 0.5;
-  while (part < 1 && stride > 1e-7 && report.iterations < question.max_iterations) {
+  while (part < 1 && stride > 1e-7 && report.iterations < question.max_iterations &&
+         !work.stop.stop_requested()) {
     const double next = std::min(1.0, part + stride);
     system.save(work.spare);
     const RodCoordinates now{begin.z + next * (wanted.z - begin.z), begin.e1 + next * (wanted.e1 - begin.e1),
@@ -165,7 +168,8 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
   end.iterations = report.iterations;
   end.residual = report.residual;
   end.ran_out = report.iterations >= question.max_iterations;
-  return explain(system, end, false);
+  end.stopped = work.stop.stop_requested();
+  return explain(system, end, {}, false);
 }
 
 #define SINEW_FOR(System)                                                                      \

@@ -58,15 +58,21 @@ RodTarget present(const System& system) {
 
 template <class System>
 int unstable_directions(const System& system) {
-  int count = 0;
+  return signs_of(system).unstable;
+}
+
+template <class System>
+RodSigns signs_of(const System& system) {
+  RodSigns signs;
   for (int k = 0; k < system.rods(); ++k) {
     const auto [in_plane, aside] = system.unstable_with_tip_held(k);
-    count += in_plane + aside;
+    signs.unstable += in_plane + aside;
   }
+  signs.is_odd = system.factors().has_negative_determinant() != (signs.unstable % 2 == 1);
   std::array<double, 6> values;
   symmetric_eigenvalues(system.stiffness(), values);
-  for (const double value : values) count += value < 0;
-  return count;
+  for (const double value : values) signs.unstable += value < 0;
+  return signs;
 }
 
 namespace {
@@ -84,36 +90,54 @@ class Follower {
         spare_(spare) {}
 
   RodPathEnd run() {
-    double stride = 1;
-    if (options_.stop_at_instability) unstable_ = unstable_directions(system_);
-    while (end_.progress < 1 && stride > shortest && end_.iterations < options_.max_iterations) {
-      const double next = std::min(1.0, end_.progress + stride);
+    double stride = 1, stride_before = 1;
+    RodSigns signs = signs_of(system_);
+    while (end_.progress < 1 && stride > shortest * end_.progress && stride > least &&
+           end_.iterations < options_.max_iterations) {
+      if ((end_.stopped = options_.stop.stop_requested())) break;
+      const double next = next_of(stride);
+      const double taken = next - end_.progress;
       system_.save(spare_);
       if (!reach(next)) {
         retreat();
-        stride = (next - end_.progress) / 4;
+        const double fits = 0.9 * longest * system_.length(0) / predicted_;
+        stride = taken * (fits > 1e-6 ? std::min(fits, 0.25) : 1e-6);  // NaN too
         continue;
       }
-      if (options_.stop_at_instability && unstable_directions(system_) > unstable_) {
+      pace_ = predicted_ / taken;
+      const RodSigns now = options_.may_stray ? signs : signs_of(system_);
+      if (now != signs && predicted_ > crossing * system_.length(0)) {
         retreat();
-        unstable_from_ = std::min(unstable_from_, next);
-        stride = (next - end_.progress) / 2;
-        if (stride < 1e-9) break;
+        if (!(suspect_ > end_.progress)) stride_before = taken;
+        suspect_ = next;
         continue;
       }
-      stride = quick_ ? 2 * (next - end_.progress) : next - end_.progress;
+      stride = quick_ ? 2 * taken : taken;
+      if (suspect_ > end_.progress && next >= suspect_) stride = stride_before;  // past it
+      if (now != signs) suspect_ = 0;
       end_.progress = next;
-      if (unstable_from_ <= next) unstable_from_ = std::numeric_limits<double>::infinity();
+      signs = now;
     }
     end_.arrived = end_.progress == 1;
     end_.ran_out = !end_.arrived && end_.iterations >= options_.max_iterations;
-    // the last step may fail for the singular stiffness in between: what was met beyond it decides
-    end_.became_unstable = unstable_from_ - end_.progress < 1e-3;
     return end_;
   }
 
  private:
-  static constexpr double shortest = 1e-9;
+  /// A path ends where its strides are shorter than this part of what is behind, or of the whole.
+  static constexpr double shortest = 1e-9, least = 1e-18;
+  static constexpr double longest = 0.15;   ///< predictor, over a rod's length
+  static constexpr double crossing = 1e-5;  ///< ... over which signs may change
+
+  /// No further than half of the way to where another sign was met, until that is near.
+  double next_of(double stride) const {
+    double next = std::min(1.0, end_.progress + stride);
+    if (!(suspect_ > end_.progress)) return next;
+    const double ahead = suspect_ - end_.progress;
+    const bool is_near = pace_ * ahead <= crossing * system_.length(0);
+    next = std::min(next, is_near ? suspect_ : end_.progress + 0.5 * ahead);
+    return next > end_.progress ? next : suspect_;
+  }
 
   /// Predictor with the last factors, Newton's method after it. The corrections must stay small beside the
   /// prediction: else it may have found another branch.
@@ -121,8 +145,8 @@ class Follower {
     set(system_, from_, to_, part);
     system_.evaluate();
     const Vec<double, 6> ahead = system_.step(false);
-    const double length = size_of(ahead, system_.radius());
-    if (!(length <= 0.15 * system_.length(0))) return false;
+    predicted_ = size_of(ahead, system_.radius());
+    if (!(predicted_ <= longest * system_.length(0))) return false;
     system_.move(ahead);
     const SE3<double> predicted = system_.platform();
     const int before = end_.iterations;
@@ -131,7 +155,8 @@ class Follower {
     Vec<double, 6> correction;
     correction << system_.platform().p - predicted.p,
         predicted.R.inverse().compose(system_.platform().R).log();
-    if (size_of(correction, system_.radius()) > 0.5 * length + 1e-9) return false;
+    if (size_of(correction, system_.radius()) > (options_.may_stray ? 0.5 : 0.3) * predicted_ + 1e-9)
+      return false;
     while (!system_.is_finest() && system_.truncation() > coarse_truncation) {
       system_.refine();
       if (!correct(system_, end_.iterations, residual, options_.tolerance)) return false;
@@ -155,8 +180,9 @@ class Follower {
   typename System::Snapshot& spare_;
   RodPathEnd end_;
   bool quick_ = false;
-  double unstable_from_ = std::numeric_limits<double>::infinity();  ///< the path goes on here, unstable
-  int unstable_ = 0;
+  double predicted_ = 0;  ///< length of the last predictor [m]
+  double pace_ = 0;       ///< ... over its part of the path
+  double suspect_ = 0;    ///< where signs had changed; behind where none are
 };
 
 }  // namespace
@@ -172,6 +198,7 @@ RodPathEnd follow(System& system, const RodTarget& target, const RodPathOptions&
   template bool correct_rods(System&, int&, double&, double);                                      \
   template RodPathEnd follow(System&, const RodTarget&, const RodPathOptions&, System::Snapshot&); \
   template RodTarget present(const System&);                                                       \
+  template RodSigns signs_of(const System&);                                                       \
   template int unstable_directions(const System&);
 SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
 #undef SINEW_FOR

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "robot/rod_systems.hpp"
+#include "sinew/base/stop.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v0 {
@@ -33,17 +34,18 @@ inline constexpr double rod_quick_tolerance = 1e-10;
 
 struct RodPathOptions {
   double tolerance = rod_tolerance;
-  int max_iterations = 4000;         ///< Newton steps of the whole path
-  bool stop_at_instability = false;  ///< ends where the number of unstable directions grows
+  int max_iterations = 4000;  ///< Newton steps of the whole path
+  StopToken stop = {};
+  bool may_stray = false;  ///< onto other curves: of whoever looks for any equilibrium at the target
 };
 
 /// How a path ended.
 struct RodPathEnd {
   bool arrived = false;
-  bool became_unstable = false;  ///< with stop_at_instability
-  bool ran_out = false;          ///< of iterations
-  double progress = 0;           ///< 0 at the start, 1 at the target
-  int iterations = 0;            ///< Newton steps
+  bool ran_out = false;  ///< of iterations
+  bool stopped = false;  ///< on request
+  double progress = 0;   ///< 0 at the start, 1 at the target
+  int iterations = 0;    ///< Newton steps
   double residual = std::numeric_limits<double>::infinity();
 };
 
@@ -74,7 +76,9 @@ template <class System>
 bool correct_rods(System& system, int& iterations, double& residual, double tolerance);
 
 /// From the state of `system`, which must be in equilibrium and linearised, to `target`. Afterwards the
-/// system is at the last equilibrium found, linearised there. `spare` is memory.
+/// system is at the last equilibrium found, linearised there. `spare` is memory. A step over which stability
+/// or the sign of the determinant changes is halved until it is short: a long one may have led to a curve
+/// that passes near by.
 template <class System>
 RodPathEnd follow(System& system, const RodTarget& target, const RodPathOptions& options,
                   typename System::Snapshot& spare);
@@ -82,6 +86,15 @@ RodPathEnd follow(System& system, const RodTarget& target, const RodPathOptions&
 /// What the system is now, as a target.
 template <class System>
 RodTarget present(const System& system);
+
+/// What does not change on a smooth piece of a curve of equilibria, at fixed inputs and load.
+struct RodSigns {
+  int unstable = 0;     ///< directions of the whole robot
+  bool is_odd = false;  ///< the sign of the determinant of the whole, rods and platform
+  bool operator==(const RodSigns&) const = default;
+};
+template <class System>
+RodSigns signs_of(const System& system);
 
 /// Unstable directions of the whole robot: the second variation with every rod free to move. After
 /// `linearise`.

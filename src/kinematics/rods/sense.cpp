@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kinematics/rods/verdict.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -91,7 +92,8 @@ Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
   for (int k = 0; k < count; ++k) from[at(k)] = system.axial_force(k);
   double part = 0, stride = 1;
   constexpr double shortest = 1e-4;
-  while (part < 1 && stride > shortest && report.iterations < sensing.max_iterations) {
+  while (part < 1 && stride > shortest && report.iterations < sensing.max_iterations &&
+         !work.stop.stop_requested()) {
     const double next = std::min(1.0, part + stride);
     for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k] = std::lerp(from[k], sensing.axial[k], next);
     system.save(work.spare);
@@ -106,6 +108,7 @@ Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
   }
   work.is_solved = false;
   if (part < 1) {
+    if (note_stop(work.stop, report)) return report;
     const bool ran_out = report.iterations >= sensing.max_iterations;
     report.status = ran_out ? Status::iteration_limit : Status::singular;
     report.message.append(ran_out

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "kinematics/rods/start.hpp"
+#include "kinematics/rods/trace.hpp"
 #include "kinematics/rods/verdict.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -106,41 +108,50 @@ Report begin(RodWorkOf<System>& work, const SE3<double>& home, Numbers inputs, c
   return report;
 }
 
+/// To the target, by its parameter, and where that ends by arc length: only what the curve itself does is a
+/// fold.
+template <class System>
+Report go(RodWorkOf<System>& work, const RodTarget& target, const RodPathOptions& options, bool is_load) {
+  System& system = work.system;
+  const RodTarget begin = present(system);
+  RodPathEnd end = follow(system, target, options, work.spare);
+  RodFold fold;
+  if (!end.arrived && !end.ran_out && !end.stopped && !options.may_stray) {
+    fold = find_fold(work, {begin, target, false, {}, {}}, end.progress);
+    if (fold.arrived) end.arrived = true, end.residual = fold.residual;
+    end.stopped = !end.arrived && !fold.is_found && work.stop.stop_requested();
+  }
+  if (!end.arrived) return explain(system, end, fold, is_load);
+  Report report;
+  report.iterations = end.iterations;
+  report.residual = end.residual;
+  return report;
+}
+
 /// First the lengths, then the load; where the unloaded lengths fail, both together.
 template <class System>
 Report travel(RodWorkOf<System>& work, Numbers inputs, const RodQuestion& question) {
   System& system = work.system;
   system.save(work.before);
-  const RodPathOptions options{.max_iterations = question.max_iterations};
-  const auto arrived = [&](const RodPathEnd& end) {
-    Report report;
-    report.iterations = end.iterations;
-    report.residual = end.residual;
-    return report;
-  };
+  const RodPathOptions options{
+      .max_iterations = question.max_iterations, .stop = work.stop, .may_stray = question.may_stray};
   const bool is_loaded = question.wrench != System::Wrench::Zero();
   // from a pose that was asked for, and on a way that is resumed, lengths and load go together
   const bool at_once = question.start || question.resume || !is_loaded;
   RodTarget target = target_of(system, inputs, question.wrench);
-  if (at_once) {
-    const bool is_load = question.resume && target.lengths == present(system).lengths;
-    const RodPathEnd end = follow(system, target, options, work.spare);
-    return end.arrived ? arrived(end) : explain(system, end, is_load);
-  }
+  if (at_once) return go(work, target, options, question.resume && target.lengths == present(system).lengths);
   target.wrench.setZero();
-  const RodPathEnd first = follow(system, target, options, work.spare);
+  const Report first = go(work, target, options, false);
+  if (first.status == Status::stopped) return first;
   target.wrench = question.wrench;
-  if (first.arrived) {
-    RodPathEnd second = follow(system, target, options, work.spare);
-    second.iterations += first.iterations;
-    return second.arrived ? arrived(second) : explain(system, second, true);
+  if (!first.ok()) {
+    system.restore(work.before);
+    system.evaluate();
+    system.linearise();
   }
-  system.restore(work.before);
-  system.evaluate();
-  system.linearise();
-  RodPathEnd both = follow(system, target, options, work.spare);
-  both.iterations += first.iterations;
-  return both.arrived ? arrived(both) : explain(system, both, false);
+  Report second = go(work, target, options, first.ok());
+  second.iterations += first.iterations;
+  return second;
 }
 
 /// Newton's method from a start at once: whoever gives a pose wants what is near it. False, with the state as
@@ -186,6 +197,7 @@ Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inpu
     return report;
   }
   System& system = work.system;
+  if (Report stopped; note_stop(work.stop, stopped)) return stopped;
   if (question.resume) {
     system.save(work.before);
     const double truncation = question.judge ? coarse_truncation : System::quick_truncation;
@@ -206,7 +218,10 @@ Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inpu
     system.linearise();
   }
   if (const Report checked = check_reach(system, inputs); !checked.ok()) return checked;
-  if (const Report begun = begin(work, home, inputs, question); !begun.ok()) return begun;
+  if (Report begun = begin(work, home, inputs, question); !begun.ok()) {
+    note_stop(work.stop, begun);
+    return begun;
+  }
   Report report = failed(Status::stalled);
   if (!question.start || !jump(work, inputs, question, report)) report = travel(work, inputs, question);
   work.is_solved = report.ok();

@@ -15,7 +15,8 @@ struct RodQuestion {
   std::optional<SE3<double>> start = {};
   bool resume = false;
   int max_iterations = 4000;
-  bool judge = true;  ///< stability and resolution of a resumed answer too
+  bool judge = true;       ///< stability and resolution of a resumed answer too
+  bool may_stray = false;  ///< see RodPathOptions
 };
 
 /// Brings the system to rest at these inputs.

@@ -61,7 +61,7 @@ bool lay_rods(RodWorkOf<System>& work, const SE3<double>& pose, Numbers inputs) 
   RodTarget from = present(system), to = target_of(system, inputs, from.wrench);
   double part = 0, stride = 0.25;
   int iterations = 0;
-  while (part < 1 && stride > 1e-3) {
+  while (part < 1 && stride > 1e-3 && !work.stop.stop_requested()) {
     const double next = std::min(1.0, part + stride);
     system.save(work.spare);
     for (int k = 0; k < system.rods(); ++k)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Eigenvalues>
+
 #include "kinematics/rods/energy.hpp"
 #include "kinematics/rods/tracer.hpp"
 #include "kinematics/rods/verdict.hpp"
@@ -24,8 +26,9 @@ class CurveWriter {
   CurveWriter(RodWorkOf<System>& work, const RodWay& way, const CurveOptions& how)
       : system_(work.system),
         how_(how),
+        stop_(work.stop),
         tracer_(work, way, 0),
-        first_{system_.snapshot(), 0, Step::Zero()} {}
+        first_{system_.snapshot()} {}
 
   std::vector<EquilibriumCurve> run() {
     tracer_.save(first_);
@@ -42,7 +45,7 @@ class CurveWriter {
   }
 
  private:
-  using Place = Tracer<System>::Place;
+  using Place = RodPlace<System>;
   /// Where other curves cross the first: the state, directions square to it, and which point it is.
   struct Branching {
     Place place;
@@ -79,53 +82,64 @@ class CurveWriter {
     Signs last = tracer_.signs();
     curve.end = CurveEnd::max_points;
     while (static_cast<int>(curve.points.size()) < how_.max_points) {
-      tracer_.save(before);
-      const Step ahead = before.tangent;
-      const bool is_reached = tracer_.advance(ahead, stride) && dot(tracer_.tangent(), ahead) > 0.9;
-      if (!is_reached) {
-        tracer_.restore(before);
-        stride /= 3;
-        if (stride > shortest_stride * tracer_.size()) continue;
-        curve.end = why_stuck();
+      if (stop_.stop_requested()) {
+        curve.end = CurveEnd::stopped;
         return;
       }
+      tracer_.save(before);
       begun_ = before;
       const double taken = stride;
-      CurveEvent event = CurveEvent::none;
-      // a step ends at a fold at the latest, so that λ goes one way in it
-      if ((last.along > 0) != (tracer_.tangent()[6] > 0)) {
-        if (const auto there = tracer_.locate(ahead, stride, [&] { return tracer_.tangent()[6]; })) {
-          event = CurveEvent::fold;
-          stride = *there;
-        }
-      }
-      const bool is_last = ends_range(tracer_.lambda());
-      if (is_last) {
-        const double bound = tracer_.lambda() >= how_.highest ? how_.highest : how_.lowest;
-        tracer_.before() = begun_;
-        const auto there = tracer_.locate(ahead, stride, [&] { return tracer_.lambda() - bound; });
-        if (!there || !tracer_.settle_at(bound)) {
-          curve.end = CurveEnd::stalled;
+      const bool was_written = step(curve, last, stride, notes_branchings);
+      if (was_written && curve.end != CurveEnd::max_points) return;
+      if (was_written) {
+        stride = taken;
+        if (is_far()) {
+          curve.end = CurveEnd::far;
           return;
         }
-        stride = *there;
-        event = mark_of(bound);
-        curve.end = CurveEnd::left_range;
+        if (tracer_.corrections() <= 3) stride = std::min(1.6 * stride, longest);
+        continue;
       }
-      const Signs next = tracer_.signs();
-      tracer_.save(reached_);
-      const int unstable = note_events(curve, last, next, stride, notes_branchings);
-      tracer_.restore(reached_);
-      write(curve, event, event == CurveEvent::fold ? unstable : next.unstable);
-      if (is_last || curve.end == CurveEnd::closed) return;
-      last = next;
-      stride = taken;
-      if (is_far()) {
-        curve.end = CurveEnd::far;
-        return;
-      }
-      if (tracer_.corrections() <= 3) stride = std::min(1.6 * stride, longest);
+      tracer_.restore(begun_);
+      stride = taken / 3;
+      if (stride > shortest_stride * tracer_.size()) continue;
+      curve.end = why_stuck();
+      return;
     }
+  }
+
+  /// One stride from `begun_`, or less of it where something ends there, with all that happened on it. False,
+  /// with the state lost and nothing written, where none is found that stays on the curve.
+  bool step(EquilibriumCurve& curve, Signs& last, double stride, bool notes_branchings) {
+    const Step ahead = begun_.tangent;
+    if (!tracer_.step(stride)) return false;
+    CurveEvent event = CurveEvent::none;
+    // a step ends at a fold at the latest, so that λ goes one way in it
+    if ((last.along > 0) != (tracer_.tangent()[6] > 0)) {
+      const auto there = tracer_.locate(ahead, stride, [&] { return tracer_.tangent()[6]; });
+      if (!there) return false;
+      event = CurveEvent::fold;
+      stride = *there;
+    }
+    CurveEnd end = CurveEnd::max_points;
+    if (ends_range(tracer_.lambda())) {
+      const double bound = tracer_.lambda() >= how_.highest ? how_.highest : how_.lowest;
+      tracer_.before() = begun_;
+      const auto there = tracer_.locate(ahead, stride, [&] { return tracer_.lambda() - bound; });
+      if (!there || !tracer_.settle_at(bound)) return false;
+      stride = *there;
+      event = mark_of(bound);
+      end = CurveEnd::left_range;
+    }
+    const Signs next = tracer_.signs();
+    tracer_.save(reached_);
+    const auto unstable = note_events(curve, last, next, stride, notes_branchings);
+    if (!unstable) return false;
+    tracer_.restore(reached_);
+    write(curve, event, event == CurveEvent::fold ? *unstable : next.unstable);
+    if (curve.end == CurveEnd::max_points) curve.end = end;
+    last = next;
+    return true;
   }
 
   bool is_far() const {
@@ -147,11 +161,12 @@ class CurveWriter {
   }
 
   /// What happened between the place before and the one reached, in its order. Unstable directions before the
-  /// latter.
-  int note_events(EquilibriumCurve& curve, const Signs& last, const Signs& next, double stride,
-                  bool notes_branchings) {
+  /// latter; nothing where the place reached is not on the curve.
+  std::optional<int> note_events(EquilibriumCurve& curve, const Signs& last, const Signs& next, double stride,
+                                 bool notes_branchings) {
     found_.clear();
-    const int unstable = note_crossings(last, next, stride, notes_branchings);
+    const auto unstable = note_crossings(last, next, stride, notes_branchings);
+    if (!unstable) return {};
     note_marks(curve, stride);
     std::ranges::stable_sort(found_, {}, &Found::along);
     for (Found& one : found_) {
@@ -165,8 +180,8 @@ class CurveWriter {
   }
 
   /// Where other curves cross, or stability changes without a fold. Unstable directions after the last of
-  /// them.
-  int note_crossings(Signs last, const Signs& next, double stride, bool notes_branchings) {
+  /// them; nothing where what changed over the stride did not change on it: it led to another curve.
+  std::optional<int> note_crossings(Signs last, const Signs& next, double stride, bool notes_branchings) {
     const bool is_fold = (last.along > 0) != (next.along > 0);
     tracer_.before() = begun_;
     double along = 0;
@@ -174,17 +189,19 @@ class CurveWriter {
     for (int k = 0; k < most && along < stride; ++k) {
       const int gained = next.unstable - last.unstable;
       const bool crosses = last.is_odd != next.is_odd;
-      // a fold alone changes one direction of a robot whose inputs are held
-      if (!crosses && (gained == 0 || (is_fold && std::abs(gained) == 1))) break;
+      // a fold alone changes one direction of a robot whose inputs are held; under a moment the symmetric
+      // part of the stiffness, which counts them, loses it before
+      if (!crosses && (gained == 0 || (is_fold && std::abs(gained) == 1 && !has_moment()))) break;
       const auto sign = [&] {
         const Signs here = tracer_.signs();
         return here.is_odd != last.is_odd || here.unstable != last.unstable ? 1.0 : -1.0;
       };
       const auto there = tracer_.locate(begun_.tangent, stride - along, sign, false);
-      if (!there) break;
+      if (!there) return {};
       along += *there;
       const Signs beyond = tracer_.signs();
-      const auto event = event_of(last, beyond, is_fold);
+      auto event = event_of(last, beyond, is_fold);
+      if (event == CurveEvent::none && stride - along > 1e-7 * tracer_.size()) event = CurveEvent::stability;
       if (event == CurveEvent::none) break;  // the fold, at the end
       Found one{along, point(event, last.unstable), {}};
       if (event == CurveEvent::bifurcation && notes_branchings && how_.follows_branches)
@@ -195,6 +212,8 @@ class CurveWriter {
     }
     return last.unstable;
   }
+
+  bool has_moment() const { return system_.wrench().template tail<3>() != Vec3<double>::Zero(); }
 
   CurveEvent event_of(const Signs& last, const Signs& beyond, bool is_fold) const {
     if (tracer_.null_space(null_tolerance).multiplicity > 0 && (last.along > 0) == (beyond.along > 0))
@@ -208,7 +227,7 @@ class CurveWriter {
   /// Of the point where the tracer is: directions in which other curves may leave.
   Branching branching() {
     const auto [vectors, multiplicity] = tracer_.null_space(null_tolerance);
-    Branching one{{system_.snapshot(), 0, Step::Zero()}, {}, 0};
+    Branching one{{system_.snapshot()}, {}, 0};
     tracer_.save(one.place);
     // of the null space what is square to the curve
     const Step along = tracer_.before().tangent;
@@ -241,7 +260,7 @@ class CurveWriter {
   void leave(Branching& one, std::vector<EquilibriumCurve>& curves) {
     std::vector<Vec<double, 6>> begun;
     for (const Step& direction : one.directions) {
-      if (curves.size() >= most_curves) return;
+      if (curves.size() >= most_curves || stop_.stop_requested()) return;
       if (!step_aside(one.place, direction)) continue;
       const SE3<double> from = one.place.state.platform, here = system_.platform();
       Vec<double, 6> way;
@@ -288,6 +307,7 @@ class CurveWriter {
 
   System& system_;
   const CurveOptions& how_;
+  StopToken stop_;
   Tracer<System> tracer_;
   Place first_, reached_{first_}, begun_{first_};  ///< `begun_`: where a step began
   std::vector<Branching> branchings_;
@@ -325,18 +345,23 @@ std::vector<EquilibriumCurve> trace_rods(RodWorkOf<System>& work, const RodWay& 
 namespace {
 
 /// Steps along the curve until `is_done(direction, stride)` after one of them, or no step succeeds; false
-/// then.
+/// then. Over a long step signs may not change: it may have led to a curve that passes near by.
 template <class System, class IsDone>
-bool walk(Tracer<System>& tracer, int most, IsDone&& is_done) {
+bool walk(Tracer<System>& tracer, StopToken stop, int most, IsDone&& is_done) {
   double stride = 1e-3 * tracer.size();
-  for (int k = 0; k < most && stride > 1e-8 * tracer.size();) {
+  bool is_odd = tracer.signs().is_odd;
+  for (int k = 0; k < most && stride > 1e-8 * tracer.size() && !stop.stop_requested();) {
     tracer.save(tracer.before());
     const Step ahead = tracer.before().tangent;
-    if (!tracer.advance(ahead, stride) || !(dot(tracer.tangent(), ahead) > 0.9)) {
+    const bool is_reached = tracer.step(stride);
+    const bool now = is_reached && tracer.signs().is_odd;
+    const bool crosses = is_reached && now != is_odd && stride > tracer.shortest_verified * tracer.size();
+    if (!is_reached || crosses) {
       tracer.restore(tracer.before());
       stride /= 3;
       continue;
     }
+    is_odd = now;
     if (is_done(ahead, stride)) return true;
     if (tracer.corrections() <= 3) stride = std::min(1.6 * stride, 0.05 * tracer.size());
     ++k;
@@ -349,12 +374,13 @@ bool walk(Tracer<System>& tracer, int most, IsDone&& is_done) {
 template <class System>
 RodFold find_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) {
   Tracer<System> tracer(work, way, parameter);
-  auto start = tracer.before();
+  auto &start = work.places[2], &begun = work.places[3];
+  tracer.save(start);
   RodFold fold;
   const auto is_beyond = [&](const Step& ahead, double stride) {
     const bool turns = tracer.tangent()[6] <= 0;
     if (!turns && tracer.lambda() < 1) return false;
-    const auto begun = tracer.before();
+    begun = tracer.before();
     if (turns) {
       const auto there = tracer.locate(ahead, stride, [&] { return tracer.tangent()[6]; });
       if (!there) return true;  // lost: none is claimed
@@ -371,7 +397,8 @@ RodFold find_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) 
     return true;
   };
   constexpr int most = std::is_base_of_v<GeneralSystem, System> ? 40 : 200;
-  walk(tracer, most, is_beyond);
+  walk(tracer, work.stop, most, is_beyond);
+  fold.residual = tracer.residual();
   if (!fold.arrived) tracer.restore(start);
   return fold;
 }
@@ -380,7 +407,8 @@ template <class System>
 bool pass_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) {
   constexpr double longest_rod = 3;
   Tracer<System> tracer(work, way, parameter);
-  auto start = tracer.before();
+  auto& start = work.places[2];
+  tracer.save(start);
   bool arrives = false;
   const auto is_done = [&](const Step& ahead, double stride) {
     for (int k = 0; k < work.system.rods(); ++k)
@@ -389,15 +417,193 @@ bool pass_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) {
     arrives = tracer.locate(ahead, stride, [&] { return tracer.lambda() - 1; }) && tracer.settle_at(1);
     return true;
   };
-  walk(tracer, 200, is_done);
+  walk(tracer, work.stop, 200, is_done);
   if (!arrives) tracer.restore(start);
   return arrives;
+}
+
+namespace {
+
+/// Directions in which the whole gives way by itself: those of its rods, and of the platform's stiffness over
+/// its radius the eigenvalues left of zero. Under a moment that is no symmetric matrix, and what its
+/// symmetric part says is more.
+template <class System>
+int giving_way(const System& system, const CurveSigns& signs) {
+  if (signs.unstable == 0) return 0;  // whose symmetric part is definite
+  const auto stiffness = system.stiffness();
+  Eigen::Matrix<double, 6, 6> scaled;
+  const double radius = system.radius();
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 6; ++c)
+      scaled(r, c) = stiffness(r, c) / ((r < 3 ? 1 : radius) * (c < 3 ? 1 : radius));
+  const Eigen::EigenSolver<Eigen::Matrix<double, 6, 6>> solved(scaled, false);
+  int count = signs.own;
+  for (int k = 0; k < 6; ++k) count += solved.eigenvalues()[k].real() < 0;
+  return count;
+}
+
+/// A load that grows, by arc length.
+template <class System>
+class LoadWalk {
+ public:
+  LoadWalk(RodWorkOf<System>& work, const RodWay& way, double highest)
+      : work_(work),
+        system_(work.system),
+        tracer_(work, way, 0),
+        begun_(work.places[2]),
+        highest_(highest) {}
+
+  RodLoad run() {
+    tracer_.save(begun_);
+    last_ = signs();
+    first_ = last_;
+    double stride = 0.01 * tracer_.size();
+    constexpr int most = std::is_base_of_v<GeneralSystem, System> ? 400 : 4000;
+    for (int k = 0; k < most; ++k) {
+      if (work_.stop.stop_requested()) return end(LoadEnd::stopped);
+      const auto what = step(stride);
+      if (what == Found::end) return load_;
+      if (what == Found::nothing) {
+        tracer_.restore(begun_);
+        stride /= 3;
+        if (!(stride > 1e-8 * tracer_.size())) return end(why_stuck());
+        continue;
+      }
+      tracer_.save(begun_);
+      if (tracer_.corrections() <= 3) stride = std::min(1.6 * stride, longest());
+    }
+    return end(LoadEnd::iterations);
+  }
+
+ private:
+  enum class Found { nothing, step, end };
+  struct Signs : CurveSigns {
+    int giving_way = 0;
+  };
+  Signs signs() {
+    Signs signs{tracer_.signs()};
+    signs.giving_way = v0::giving_way(system_, signs);
+    return signs;
+  }
+
+  /// The platform moves so far at most; where it hardly moves the load grows by a quarter.
+  double longest() const {
+    const Step& t = tracer_.tangent();
+    const double least = 0.05 * tracer_.size(), load = std::abs(t[6]), moved = t.head<6>().norm();
+    return std::max(least, std::min(least / moved, 0.25 * tracer_.lambda() * tracer_.scale() / load));
+  }
+
+  RodLoad end(LoadEnd why) {
+    tracer_.restore(begun_);
+    load_.end = why;
+    load_.parameter = tracer_.lambda();
+    return load_;
+  }
+
+  LoadEnd why_stuck() const {
+    if (system_.is_finest() && system_.truncation() > coarse_truncation) return LoadEnd::sharp;
+    return is_pulled_straight(system_) ? LoadEnd::straight : LoadEnd::stalled;
+  }
+
+  bool holds_on(const Signs& here) const {
+    return here.along > 0 && here.is_odd == last_.is_odd && here.giving_way <= first_.giving_way;
+  }
+
+  Found step(double stride) {
+    tracer_.before() = begun_;
+    const Step ahead = begun_.tangent;
+    if (!tracer_.step(stride)) return Found::nothing;
+    bool arrives = tracer_.lambda() >= highest_;
+    if (!arrives && tracer_.tangent()[6] <= 0) {  // it may have been there on its way to a fold
+      if (!tracer_.locate(ahead, stride, [&] { return tracer_.tangent()[6]; })) return Found::nothing;
+      arrives = tracer_.lambda() >= highest_;
+      tracer_.before() = begun_;
+      if (!arrives) {
+        tracer_.restore(begun_);
+        if (!tracer_.advance(ahead, stride)) return Found::nothing;
+      }
+    }
+    if (arrives) {
+      const auto there = tracer_.locate(ahead, stride, [&] { return tracer_.lambda() - highest_; });
+      if (!there || !tracer_.settle_at(highest_)) return Found::nothing;
+      stride = *there;
+    }
+    const Signs next = signs();
+    tracer_.save(work_.places[3]);  // what it reached
+    if (!note_definiteness(next, ahead, stride)) return Found::nothing;
+    if (!holds_on(next)) {
+      tracer_.before() = begun_;
+      if (!tracer_.locate(
+              ahead, stride, [&] { return holds_on(signs()) ? 1.0 : -1.0; }, false))
+        return Found::nothing;
+      const Signs beyond = signs();
+      constexpr double level = 1e-4;  // dλ/ds at a fold, to rounding
+      const LoadEnd why = std::abs(beyond.along) < level ? LoadEnd::fold
+                          : beyond.is_odd != last_.is_odd || beyond.own != last_.own || !has_moment()
+                              ? LoadEnd::bifurcation
+                              : LoadEnd::stability;
+      begun_ = tracer_.before();  // the last that holds
+      end(why);
+      forget_definiteness();
+      return Found::end;
+    }
+    tracer_.restore(work_.places[3]);
+    last_ = next;
+    if (!arrives) return Found::step;
+    begun_ = work_.places[3];
+    end(LoadEnd::limit);
+    load_.parameter = highest_;
+    return Found::end;
+  }
+
+  bool has_moment() const { return system_.wrench().template tail<3>() != Vec3<double>::Zero(); }
+
+  /// Where the symmetric part of the stiffness loses its definiteness. False where that is not on the curve.
+  bool note_definiteness(const Signs& next, const Step& ahead, double stride) {
+    if (load_.definite_until >= 0 || next.unstable <= first_.unstable || !has_moment()) return true;
+    tracer_.before() = begun_;
+    const auto is_kept = [&] { return tracer_.signs().unstable <= first_.unstable ? 1.0 : -1.0; };
+    if (!tracer_.locate(ahead, stride, is_kept, false)) return false;
+    load_.definite_until = tracer_.before().lambda;
+    return true;
+  }
+  /// Told only where it is before the end.
+  void forget_definiteness() {
+    if (load_.definite_until >= load_.parameter * (1 - 1e-9)) load_.definite_until = -1;
+  }
+
+  RodWorkOf<System>& work_;
+  System& system_;
+  Tracer<System> tracer_;
+  RodPlace<System>& begun_;
+  double highest_;
+  Signs first_, last_;
+  RodLoad load_;
+};
+
+}  // namespace
+
+template <class System>
+RodLoad load_rods(RodWorkOf<System>& work, const Vec<double, 6>& direction, double limit) {
+  System& system = work.system;
+  double unit = 0;  // what bends the rods, roughly
+  for (int k = 0; k < system.rods(); ++k) unit += system.stiffness(k) / (system.length(k) * system.length(k));
+  const double largest = direction.cwiseAbs().maxCoeff();
+  const Vec<double, 6> whole = direction / largest * unit;
+  RodWay way{present(system), present(system), false, {}, {}};
+  way.target.wrench += whole;
+  RodLoad load = LoadWalk<System>(work, way, limit * largest / unit).run();
+  const double factor = unit / largest;
+  load.parameter = load.end == LoadEnd::limit ? limit : load.parameter * factor;
+  if (load.definite_until >= 0) load.definite_until *= factor;
+  return load;
 }
 
 #define SINEW_FOR(System)                                                                                    \
   template std::vector<EquilibriumCurve> trace_rods(RodWorkOf<System>&, const RodWay&, const CurveOptions&); \
   template RodFold find_fold(RodWorkOf<System>&, const RodWay&, double);                                     \
-  template bool pass_fold(RodWorkOf<System>&, const RodWay&, double);
+  template bool pass_fold(RodWorkOf<System>&, const RodWay&, double);                                        \
+  template RodLoad load_rods(RodWorkOf<System>&, const Vec<double, 6>&, double);
 SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
 #undef SINEW_FOR
 

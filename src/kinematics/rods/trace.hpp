@@ -28,7 +28,7 @@ std::vector<EquilibriumCurve> trace_rods(RodWorkOf<System>& work, const RodWay& 
 struct RodFold {
   bool is_found = false;
   bool arrived = false;  ///< at λ = 1, without one
-  double parameter = 0;
+  double parameter = 0, residual = 0;
   SE3<double> platform;
 };
 
@@ -41,5 +41,19 @@ RodFold find_fold(RodWorkOf<System>& work, const RodWay& way, double parameter);
 /// the system stays where it was.
 template <class System>
 bool pass_fold(RodWorkOf<System>& work, const RodWay& way, double parameter);
+
+/// How far a load grew.
+struct RodLoad {
+  double parameter = 0;  ///< times the direction
+  LoadEnd end = LoadEnd::limit;
+  double definite_until =
+      -1;  ///< where the stiffness's symmetric part lost definiteness before; else below 0
+};
+
+/// Adds a growing multiple of `direction` to the wrench of the state the system is in, to `limit`, or to
+/// where the equilibrium gives way; by arc length, so that the load is exact to rounding there. The system is
+/// then at the last equilibrium before.
+template <class System>
+RodLoad load_rods(RodWorkOf<System>& work, const Vec<double, 6>& direction, double limit);
 
 }  // namespace sinew::inline v0

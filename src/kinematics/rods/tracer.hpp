@@ -24,11 +24,13 @@ class Tracer {
   /// A step of the six unknowns, twist or lengths, and of the parameter, all in metres.
   using Step = Vec<double, 7>;
 
+  /// In the first two places of `work`.
   Tracer(RodWorkOf<System>& work, const RodWay& way, double parameter)
       : system_(work.system),
         way_(way),
         lambda_(parameter),
-        before_{system_.snapshot(), parameter, Step::Zero()} {
+        before_(work.places[0]),
+        origin_(work.places[1]) {
     for (int k = 0; k < system_.rods(); ++k) {
       const double length = system_.length(k);
       size_ = std::max(size_, length);
@@ -41,12 +43,7 @@ class Tracer {
     save(before_);
   }
 
-  /// One state of the curve, to come back to.
-  struct Place {
-    typename System::Snapshot state;
-    double lambda;
-    Step tangent;
-  };
+  using Place = RodPlace<System>;
 
   void save(Place& to) const {
     system_.save(to.state);
@@ -63,6 +60,8 @@ class Tracer {
 
   double lambda() const { return lambda_; }
   double size() const { return size_; }
+  /// What counts as a length of λ [m].
+  double scale() const { return scale_; }
   double residual() const { return residual_; }
   const Step& tangent() const { return tangent_; }
   Place& before() { return before_; }
@@ -99,6 +98,26 @@ class Tracer {
   }
   int corrections() const { return corrections_; }
 
+  /// Whether a pair of folds may hide in the stride from the place before to here: where λ grows far slower
+  /// in its middle than at both ends, by the cubic through both, or slower and slower, or faster and faster.
+  bool hides_folds(double stride) const {
+    const double begin = before_.tangent[6], end = tangent_[6] / dot(tangent_, before_.tangent);
+    if (!(stride > shortest_verified * size_) || (begin > 0) != (end > 0)) return false;
+    const double middle = 1.5 * (lambda_ - before_.lambda) * scale_ / stride - 0.25 * (begin + end);
+    const double least = std::min(std::abs(begin), std::abs(end)),
+                 most = std::max(std::abs(begin), std::abs(end));
+    constexpr double steep = 0.1, ratio = 2.5;
+    return (begin > 0 ? middle : -middle) < 0.5 * least || (least < steep && most > ratio * least);
+  }
+
+  /// A step along the curve from the place before, on which there is no sign of another curve. False, and the
+  /// state is lost, where it must be shorter.
+  bool step(double stride) {
+    const Step ahead = before_.tangent;
+    constexpr double most_turned = 0.9;  // its cosine
+    return advance(ahead, stride) && dot(tangent_, ahead) > most_turned && !hides_folds(stride);
+  }
+
   CurveSigns signs() {
     CurveSigns signs;
     signs.along = tangent_[6];
@@ -131,7 +150,8 @@ class Tracer {
 
   /// To where `value` changes its sign between the place before, which moves along, and `stride` beyond it in
   /// its direction: just beyond. By the rule of false position (Illinois), or where it `is_smooth` no more
-  /// than a sign by halving. How far that is; nothing where no corrector leads there, the state is then lost.
+  /// than a sign by halving. How far that is; nothing, and the state is lost, where no such place is in
+  /// between: the stride had left its curve.
   template <class Value>
   std::optional<double> locate(const Step& direction, double stride, Value&& value, bool is_smooth = true) {
     constexpr double finest = 1e-11;  // of the size
@@ -167,15 +187,21 @@ class Tracer {
         side = 1;
       }
     }
-    for (; low + width < stride; width *= 1.5) {
+    // the last bracket, or as little more as it takes where the equations are singular
+    const double widest = std::max(4 * width, 1e-5 * size_);
+    for (; width <= widest && low + width <= stride * (1 + 1e-9); width *= 1.5) {
       restore(before_);
       if (advance(direction, width) && (value() > 0) != (at_low > 0)) return low + width;
     }
+    if (stride > shortest_verified * size_) return {};
     before_ = origin_;  // all that is known
     restore(before_);
     if (!advance(direction, stride)) return {};
     return stride;
   }
+
+  /// Of the size: shorter strides are believed as they are.
+  static constexpr double shortest_verified = 1e-4;
 
   /// Exactly onto a parameter nearby.
   bool settle_at(double parameter) {
@@ -207,6 +233,7 @@ class Tracer {
       sum += v * dot(v, ahead);
     }
     tangent_ = sum.norm() > 1e-3 ? Step(sum.normalized()) : Step(space.vectors.col(6));
+    if (dot(tangent_, ahead) < 0) tangent_ = -tangent_;  // just before a fold λ hardly grows
   }
 
   /// A pose that is held is known to rounding, which stiff rods turn into forces.
@@ -315,14 +342,19 @@ class Tracer {
     double length = 0;
     if (solve(MatrixView(matrix.data(), 6, 6), MatrixView(column.data(), 6, 1), moved))
       for (const double x : moved) length += x * x;
-    scale_ = std::clamp(std::sqrt(length), 0.01 * size_, size_);
+    double fed = 0;
+    for (int k = 0; k < system_.feeds(); ++k) fed = std::max(fed, std::abs(rate(k)));
+    const Twist load = way_.target.wrench - way_.begin.wrench;
+    const double pressed =
+        size_ * std::hypot(load.template head<3>().norm(), load.template tail<3>().norm() / system_.radius());
+    scale_ = std::clamp(std::sqrt(length), 0.01 * size_, std::max(size_, fed + pressed / (unit_ * size_)));
   }
 
   System& system_;
   const RodWay& way_;
   double lambda_, scale_ = 1, size_ = 0, unit_ = 0, residual_ = 0;
   Step tangent_ = Step::Unit(6);
-  Place before_, origin_{before_};
+  Place &before_, &origin_;
   int corrections_ = 0;
 };
 

@@ -45,17 +45,22 @@ void say(Report& report, std::string_view text) {
 }
 
 template <class System>
-Report explain(const System& system, const RodPathEnd& end, bool is_load) {
+Report explain(const System& system, const RodPathEnd& end, const RodFold& fold, bool is_load) {
   Report report = failed(Status::singular);
   report.iterations = end.iterations;
   report.residual = end.residual;
+  if (end.stopped) {
+    report.status = Status::stopped;
+    report.message.append("stopped on request before the answer was complete");
+    return report;
+  }
   if (end.ran_out) {
     report.status = Status::iteration_limit;
     report.message.append("the path to the answer takes more steps than max_iterations; raise it");
     return report;
   }
   const auto percent = [&] {
-    append_number(report.message, static_cast<int>(100 * end.progress));
+    append_number(report.message, static_cast<int>(100 * (fold.is_found ? fold.parameter : end.progress)));
     report.message.append(" % of the way");
   };
   if (system.is_finest() && system.truncation() > worst_truncation) {
@@ -75,8 +80,7 @@ Report explain(const System& system, const RodPathEnd& end, bool is_load) {
                                   : " to these inputs: it is too short for the others");
     return report;
   }
-  const int unstable = unstable_directions(system);
-  if (unstable == 0 && system.factors().smallest_pivot() > 1e-3) {
+  if (!fold.is_found) {
     report.status = Status::stalled;
     report.message.append("the path ends at ");
     percent();
@@ -127,10 +131,10 @@ Report settle(System& system, Report report, double truncation) {
   return report;
 }
 
-#define SINEW_FOR(System)                                          \
-  template Report explain(const System&, const RodPathEnd&, bool); \
-  template bool resolve(System&, Report&, double);                 \
-  template Report settle(System&, Report, double);                 \
+#define SINEW_FOR(System)                                                          \
+  template Report explain(const System&, const RodPathEnd&, const RodFold&, bool); \
+  template bool resolve(System&, Report&, double);                                 \
+  template Report settle(System&, Report, double);                                 \
   template bool is_pulled_straight(const System&);
 SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
 #undef SINEW_FOR

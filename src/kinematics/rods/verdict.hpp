@@ -1,7 +1,7 @@
 /// @file verdict.hpp
 /// What is said of an equilibrium that was found, or of a path that ended before it.
 #pragma once
-#include "kinematics/rods/path.hpp"
+#include "kinematics/rods/trace.hpp"
 
 namespace sinew::inline v0 {
 
@@ -18,9 +18,9 @@ void say(Report& report, std::string_view text);
 template <class System>
 bool is_pulled_straight(const System& system);
 
-/// Why a path ended early; the system is at its last equilibrium.
+/// Why a path ended early; the system is at its last equilibrium. Says "fold" only of one that was found.
 template <class System>
-Report explain(const System& system, const RodPathEnd& end, bool is_load);
+Report explain(const System& system, const RodPathEnd& end, const RodFold& fold, bool is_load);
 
 /// The shapes of a solved state to this estimate of their error, by the fine nodes where it takes them. False
 /// where those do not do it.

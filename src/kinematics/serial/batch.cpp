@@ -6,7 +6,9 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "sinew/base/assert.hpp"
+#include <algorithm>
+#include <limits>
+
 #include "sinew/kinematics/serial.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -139,9 +141,9 @@ HWY_EXPORT(TendonChanges);
 
 void tendon_changes_batch(std::span<const double> bends, kernel::Model model, std::span<double> changes,
                           const SerialWorkspace& work) {
-  const std::size_t poses = bends.size() / (2 * work.bends.size());
-  SINEW_EXPECTS(bends.size() == poses * 2 * work.bends.size() &&
-                changes.size() == poses * work.changes.size());
+  const std::size_t poses = work.bends.empty() ? 0 : bends.size() / (2 * work.bends.size());
+  if (bends.size() != poses * 2 * work.bends.size() || changes.size() != poses * work.changes.size())
+    return void(std::ranges::fill(changes, std::numeric_limits<double>::quiet_NaN()));
   if (poses > 0) HWY_DYNAMIC_DISPATCH(TendonChanges)(work, model, bends, changes, poses);
 }
 

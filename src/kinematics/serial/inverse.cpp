@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "kinematics/serial/tip_problem.hpp"
-#include "sinew/base/assert.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -19,9 +19,10 @@ struct Iterate {
 /// One start after the other; the best end so far is kept.
 class Search {
  public:
-  Search(const TipProblem& problem, const SerialInverseOptions& options)
+  Search(const TipProblem& problem, const SerialInverseOptions& options, StopToken stop)
       : problem_(problem),
         options_(options),
+        stop_(stop),
         enough_(options.tolerance * problem.length()) {}
 
   const Iterate& best() const { return best_; }
@@ -62,7 +63,7 @@ class Search {
   Status descend(Iterate& at, bool patient) {
     BoundedStep system;
     double damping = 0.1, mark = at.merit;
-    for (int i = 0; i < options_.max_iterations; ++i) {
+    for (int i = 0; i < options_.max_iterations && !stop_.stop_requested(); ++i) {
       if (at.miss.residual(problem_.length()) <= enough_) return Status::converged;
       if (i % 12 == 11) {
         if (!patient && at.merit > 0.5 * mark) return Status::stalled;
@@ -96,6 +97,7 @@ class Search {
 
   const TipProblem& problem_;
   const SerialInverseOptions& options_;
+  StopToken stop_;
   double enough_;
   Iterate best_;
   Status status_ = Status::stalled;
@@ -169,8 +171,6 @@ class SpreadStarts {
 
 Shape first_start(const SerialRobot& robot, const SerialInverseOptions& options) {
   const std::size_t count = robot.sections.size();
-  SINEW_EXPECTS(options.start.empty() || options.start.size() == count);
-  SINEW_EXPECTS(options.start_extensions.empty() || options.start_extensions.size() == count);
   Shape shape;
   for (std::size_t m = 0; m < count; ++m) {
     shape.bends[m] = options.start.empty() ? Bend(0, 0) : options.start[m];
@@ -198,18 +198,44 @@ void explain_miss(const Iterate& best, Report& report) {
   report.message.append(" off; move the target, widen the limits, or give a start near the shape you expect");
 }
 
+Report check(const SerialRobot& robot, const TipTarget& target, const SerialInverseOptions& options,
+             const SerialWorkspace& work) {
+  const std::size_t count = robot.sections.size();
+  const auto fits = [count](std::size_t size) { return size == 0 || size == count; };
+  Report report;
+  const auto refuse = [&](std::string_view why) {
+    report.status = Status::bad_input;
+    report.message.append(why);
+    return report;
+  };
+  if (count == 0 || count > static_cast<std::size_t>(max_sections))
+    return refuse("a serial robot has 1 to 12 sections");
+  if (!work.fits(robot)) return refuse("the workspace was made for another robot: make one of this robot");
+  if (!fits(options.start.size()) || !fits(options.start_extensions.size()))
+    return refuse("start and start_extensions need one value a section");
+  if (target.direction && target.rotation) return refuse("a target has a direction or a rotation, not both");
+  if (!target.position.allFinite() || (target.direction && !(squared_norm(*target.direction) > 0)))
+    return refuse("the target is not finite, or its direction is zero");
+  return report;
+}
+
 }  // namespace
 
 SerialInverse inverse(const SerialRobot& robot, const TipTarget& target, const SerialInverseOptions& options,
                       SerialWorkspace& work) {
+  if (const Report fits = check(robot, target, options, work); !fits.ok()) {
+    SerialInverse refused;
+    refused.report = fits;
+    return refused;
+  }
   const TipProblem problem(robot, target, work);
-  Search search(problem, options);
+  Search search(problem, options, work.stop);
   Shape first = first_start(robot, options);
   problem.bring_within(first);
   const double beyond = problem.farthest();
   bool found = search.descend(first, 0);
   SpreadStarts spread(robot, problem, beyond > 0 ? 0 : options.starts);
-  while (!found && !spread.done())
+  while (!found && !spread.done() && !work.stop.stop_requested())
     for (const SpreadStarts::Start& start : spread.batch())
       if (!found) found = search.descend(spread_start(robot, start.index), start.index);
   if (!found) found = search.finish();
@@ -224,7 +250,7 @@ SerialInverse inverse(const SerialRobot& robot, const TipTarget& target, const S
   answer.start = search.start();
   if (beyond > 0)
     explain_too_far(beyond, robot.longest(), answer.report);
-  else if (!found)
+  else if (!found && !note_stop(work.stop, answer.report))
     explain_miss(best, answer.report);
   std::copy_n(best.shape.bends.begin(), robot.sections.size(), work.bends.begin());
   answer.bends = work.bends;

@@ -1,11 +1,19 @@
 /// Poses of a serial robot's sections and the Jacobian of its tip.
-#include "sinew/base/assert.hpp"
+#include <algorithm>
+#include <limits>
+
 #include "sinew/kinematics/serial.hpp"
 
 namespace sinew::inline v0 {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+const SE3<double> nowhere{Vec3<double>::Constant(not_a_number), SO3<double>::identity()};
+
+}  // namespace
 
 void section_ends(std::span<const Bend> bends, SerialWorkspace& work) {
-  SINEW_EXPECTS(bends.size() == work.ends.size());
+  if (!work.fits(bends)) return void(std::ranges::fill(work.ends, nowhere));
   BentPose<double> end;
   for (std::size_t m = 0; m < bends.size(); ++m) {
     end = end.then(work.sections[m].pose(bends[m]));
@@ -16,7 +24,10 @@ void section_ends(std::span<const Bend> bends, SerialWorkspace& work) {
 /// A section's columns are first those of a point of the tip that is at the base's origin, and are carried to
 /// the tip when it is known where that is.
 void tip_motion(std::span<const Bend> bends, SerialWorkspace& work) {
-  SINEW_EXPECTS(bends.size() == work.ends.size());
+  if (!work.fits(bends)) {
+    std::ranges::fill(work.J, not_a_number);
+    return void(std::ranges::fill(work.ends, nowhere));
+  }
   const std::size_t columns = 2 * bends.size();
   double* const J = work.J.data();
   BentPose<double> end;
@@ -45,7 +56,8 @@ void tip_motion(std::span<const Bend> bends, SerialWorkspace& work) {
 }
 
 void extension_motion(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work) {
-  SINEW_EXPECTS(bends.size() == work.ends.size());
+  if (!work.fits(bends))
+    return void(std::ranges::fill(work.lengthwise, ExtensionMotion{nowhere.p, not_a_number}));
   for (std::size_t m = 0; m < bends.size(); ++m) {
     const Vec3<double> own = work.sections[m].extension_motion(bends[m]);
     const kernel::Bend<double> bend{bends[m].x(), bends[m].y()};

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "kinematics/serial/tip_rows.hpp"
-#include "sinew/base/assert.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -103,9 +102,15 @@ RateWorkspace::RateWorkspace(const SerialRobot& robot)
 
 ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends, const TipTwist& twist,
                            const ResolvedRateOptions& options, SerialWorkspace& work, RateWorkspace& rates) {
-  SINEW_EXPECTS(bends.size() == robot.sections.size() && robot.section_count() <= max_sections);
-  SINEW_EXPECTS(rates.bends.size() == 2 * bends.size() && rates.tendons.size() == work.changes.size());
-  SINEW_EXPECTS(options.fastest > 0);
+  if (!work.fits(robot) || !work.fits(bends) || bends.empty() || robot.section_count() > max_sections ||
+      rates.bends.size() != 2 * bends.size() || rates.tendons.size() != work.changes.size() ||
+      !(options.fastest > 0)) {
+    ResolvedRate refused;
+    refused.report.status = Status::bad_input;
+    refused.report.message.append(
+        "robot, bends and both workspaces are not of one robot, or fastest is not above 0");
+    return refused;
+  }
   tip_motion(bends, work);
   extension_motion(bends, options.model, work);
   const SO3<double> frame = options.frame == TipFrame::tip ? work.ends.back().R : SO3<double>::identity();

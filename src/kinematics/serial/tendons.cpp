@@ -1,8 +1,8 @@
 /// Bends and tendon changes of serial robots, by the kernel's maps.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "sinew/base/assert.hpp"
 #include "sinew/kernel/tendon_state.h"
 #include "sinew/kinematics/serial.hpp"
 
@@ -10,6 +10,7 @@ namespace sinew::inline v0 {
 namespace {
 
 using kernel::Model;
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 using Pull = kernel::Pull<double>;
 
 kernel::Bend<double> kernel_bend(const Bend& bend) { return {bend.x(), bend.y()}; }
@@ -67,17 +68,18 @@ bool has_arcs(const Section& section, const kernel::Section<double>& map, double
 
 }  // namespace
 
-SerialWorkspace::SerialWorkspace(const SerialRobot& robot)
-    : bends(robot.sections.size(), Bend::Zero()),
-      changes(static_cast<std::size_t>(robot.tendon_count())),
+SerialWorkspace::SerialWorkspace(const SerialRobot& any)
+    : robot(any.identity),
+      bends(any.sections.size(), Bend::Zero()),
+      changes(static_cast<std::size_t>(any.tendon_count())),
       slack(changes.size()),
       ends(bends.size()),
       J(12 * bends.size()),
       K(changes.size() * 2 * bends.size()),
       extensions(bends.size()),
       lengthwise(bends.size()),
-      sections(robot.sections) {
-  for (const Section& section : robot.sections) {
+      sections(any.sections) {
+  for (const Section& section : any.sections) {
     maps.push_back(section.map());
     tendons.push_back(section.tendons);
     for (int i = 0; i < section.tendons; ++i) directions.push_back(section.direction(i));
@@ -85,11 +87,13 @@ SerialWorkspace::SerialWorkspace(const SerialRobot& robot)
 }
 
 void extend(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work) {
-  SINEW_EXPECTS(extensions.size() == work.sections.size());
+  if (!work.fits(robot) || !work.fits(extensions))
+    return void(std::ranges::fill(work.extensions, not_a_number));
   for (std::size_t m = 0; m < extensions.size(); ++m) extend(robot.sections[m], m, extensions[m], work);
 }
 
 void tendon_changes(std::span<const Bend> bends, Model model, SerialWorkspace& work) {
+  if (!work.fits(bends)) return void(std::ranges::fill(work.changes, not_a_number));
   Pull sum{};
   auto direction = work.directions.begin();
   auto change = work.changes.begin();
@@ -100,13 +104,14 @@ void tendon_changes(std::span<const Bend> bends, Model model, SerialWorkspace& w
 }
 
 kernel::Pull<double> pull_of_all(std::span<const Bend> bends, Model model, const SerialWorkspace& work) {
+  if (!work.fits(bends)) return {not_a_number, not_a_number, not_a_number};
   Pull sum{};
   for (std::size_t m = 0; m < work.maps.size(); ++m) sum = sum + pull_of(work, m, bends[m], model);
   return sum;
 }
 
 void pay_out(std::span<const double> more, SerialWorkspace& work) {
-  SINEW_EXPECTS(more.size() == work.maps.size());
+  if (!work.fits(more)) return void(std::ranges::fill(work.changes, not_a_number));
   auto change = work.changes.begin();
   for (std::size_t m = 0; m < work.maps.size(); ++m)
     for (int i = 0; i < work.tendons[m]; ++i) *change++ += more[m];
@@ -136,8 +141,12 @@ void check_extension(const Section& section, std::size_t m, double extension, Re
 
 Report check_limits(const SerialRobot& robot, std::span<const Bend> bends,
                     std::span<const double> extensions) {
-  SINEW_EXPECTS(extensions.empty() || extensions.size() == bends.size());
   Report report;
+  if (bends.size() > robot.sections.size() || (!extensions.empty() && extensions.size() != bends.size())) {
+    report.status = Status::bad_input;
+    report.message.append("bends and extensions need one value a section of the robot");
+    return report;
+  }
   for (std::size_t m = 0; m < bends.size() && report.ok(); ++m) {
     const Section& section = robot.sections[m];
     const double bend = section.is_twin() ? bends[m].lpNorm<Eigen::Infinity>() : bends[m].norm();
@@ -154,7 +163,12 @@ Report check_limits(const SerialRobot& robot, std::span<const Bend> bends,
 }
 
 Report bends_of_changes(const SerialRobot& robot, Numbers changes, Model model, SerialWorkspace& work) {
-  SINEW_EXPECTS(changes.size() == work.changes.size());
+  if (!work.fits(robot) || changes.size() != work.changes.size()) {
+    Report report;
+    report.status = Status::bad_input;
+    report.message.append("changes need one value a tendon, in a workspace of this robot");
+    return report;
+  }
   std::copy(changes.begin(), changes.end(), work.changes.begin());
   Report report;
   const double tolerance = tendon_tolerance(robot);
@@ -221,6 +235,7 @@ PullRate pull_rate(const kernel::Section<double>& section, double length, const 
 }  // namespace
 
 void tendon_rates(std::span<const Bend> bends, Model model, SerialWorkspace& work) {
+  if (!work.fits(bends)) return void(std::ranges::fill(work.K, not_a_number));
   std::fill(work.K.begin(), work.K.end(), 0.0);
   const std::size_t columns = 2 * work.maps.size();
   for (std::size_t k = 0; k < work.maps.size(); ++k) {

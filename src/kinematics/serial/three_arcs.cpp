@@ -5,6 +5,7 @@
 
 #include "kinematics/serial/arc_newton.hpp"
 #include "kinematics/serial/arc_pairs.hpp"
+#include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -28,9 +29,9 @@ class Search {
         resolution_(resolution),
         spacing_(spacing) {}
 
-  void run() {
+  void run(StopToken stop) {
     std::vector<Pair> open{{0, 0, 3}};
-    while (!open.empty() && boxes < most_boxes && pieces() < most_pieces &&
+    while (!open.empty() && !stop.stop_requested() && boxes < most_boxes && pieces() < most_pieces &&
            solutions.size() < most_solutions) {
       const Pair pair = open.back();
       open.pop_back();
@@ -200,7 +201,7 @@ void explain(bool is_free, bool is_cut, ThreeArcSolutions& answer) {
 
 SE3<double> tip_pose(const ThreeArcs& robot, const ThreeBends& bends) { return tip_of(robot.lengths, bends); }
 
-ThreeArcSolutions all_bends(const ThreeArcs& robot, const SpatialPose& tip) {
+ThreeArcSolutions all_bends(const ThreeArcs& robot, const SpatialPose& tip, StopToken stop) {
   ThreeArcSolutions answer;
   if (has_left_domain(robot, tip, answer.report) || is_too_far(robot, tip, answer.report)) return answer;
   const double size = robot.lengths[0] + robot.lengths[1] + robot.lengths[2];
@@ -211,9 +212,9 @@ ThreeArcSolutions all_bends(const ThreeArcs& robot, const SpatialPose& tip) {
   const bool is_free = pose.has_free_circle();
   Search search(pose, is_free ? example_spacing : ThreeArcSolutions::resolution,
                 is_free ? example_spacing : 10 * ThreeArcSolutions::resolution);
-  search.run();
+  search.run(stop);
   tell(search, pose, size, answer);
-  explain(is_free, search.is_cut, answer);
+  if (!note_stop(stop, answer.report)) explain(is_free, search.is_cut, answer);
   return answer;
 }
 

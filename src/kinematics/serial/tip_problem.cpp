@@ -3,8 +3,6 @@
 
 #include <numbers>
 
-#include "sinew/base/assert.hpp"
-
 namespace sinew::inline v0 {
 namespace {
 
@@ -28,12 +26,8 @@ TipProblem::TipProblem(const SerialRobot& robot, const TipTarget& target, Serial
       rows_(3),
       length_(robot.length()),
       is_extensible_(robot.is_extensible()) {
-  SINEW_EXPECTS(!robot.sections.empty() && robot.section_count() <= max_sections);
-  SINEW_EXPECTS(work.ends.size() == robot.sections.size());
-  SINEW_EXPECTS(!(target.direction && target.rotation));
   if (target_.direction) {
     const double size = std::sqrt(squared_norm(*target_.direction));
-    SINEW_EXPECTS(size > 0);
     *target_.direction /= size;
     rows_ = 5;
   }

@@ -1,0 +1,267 @@
+#include "query/unit_hint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sinew/io/quantity.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+/// How many times the robot's own measure is far outside; by a slip of units it is 57 times or 1000 times.
+constexpr double far_length = 10, far_change = 0.5, far_force = 1000, far_setting = 200;
+constexpr double far_angle = 2 * std::numbers::pi;  ///< [rad]
+
+class Search {
+ public:
+  Search(const RobotScale& scale, std::span<const InputOfLeg> inputs) : scale_(scale), inputs_(inputs) {}
+
+  std::string found() const { return found_; }
+  void query(const Node& query);
+  void settings(const Node& query, const Node& robot);
+
+ private:
+  void length(const std::string& path, const Node& node, double most) {
+    value(path, node, Dimension::length, most * scale_.length, scale_.length, "the robot's size");
+  }
+  void angle(const std::string& path, const Node& node) {
+    value(path, node, Dimension::angle, far_angle, 0, "");
+  }
+  void force(const std::string& path, const Node& node, Dimension dimension, double unit) {
+    value(path, node, dimension, far_force * scale_.force * unit, scale_.force * unit,
+          "what bends the robot's links far");
+  }
+  void value(const std::string& path, const Node& node, Dimension dimension, double most, double measure,
+             std::string_view of);
+  template <class Each>
+  void each(const std::string& path, const Node& node, const Each& visit);
+  void pose(const std::string& path, const Node& node);
+  void inputs(const std::string& path, const Node& list);
+  void wrench(const std::string& path, const Node& list);
+  void configuration(const std::string& path, const Node& list);
+
+  RobotScale scale_;
+  std::span<const InputOfLeg> inputs_;
+  std::string found_;
+};
+
+/// What the number may have been meant in.
+std::string_view small_unit(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::length:
+      return "mm";
+    case Dimension::angle:
+      return "deg";
+    case Dimension::force:
+      return "mN";
+    default:
+      return "N mm";
+  }
+}
+
+/// @param most beyond it the value is far outside; none is where it is 0
+/// @param measure of the robot, which the message compares with
+void Search::value(const std::string& path, const Node& node, Dimension dimension, double most,
+                   double measure, std::string_view of) {
+  double si = node.number;
+  const bool is_bare = node.kind == Node::Kind::number;
+  if (node.kind == Node::Kind::string)
+    si = parse_quantity(node.text, dimension).value_or(0.0);
+  else if (!is_bare)
+    return;
+  if (!found_.empty() || most <= 0 || !(std::abs(si) > most)) return;
+  const std::string size =
+      dimension == Dimension::angle
+          ? fmt::format("{:.3g} turns", std::abs(si) / far_angle)
+          : fmt::format("{:.4g} times {} ({})", std::abs(si) / measure, of, human(measure, dimension));
+  found_ = fmt::format("{} is {:.6g} {}, {}", path, si, unit(dimension), size);
+  if (is_bare)
+    found_ += fmt::format("; did you mean \"{} {}\"?", node.text.empty() ? si_text(si) : node.text,
+                          small_unit(dimension));
+}
+
+/// Of a list, in lists or not, each value with its path.
+template <class Each>
+void Search::each(const std::string& path, const Node& node, const Each& visit) {
+  if (node.kind != Node::Kind::list) return visit(path, node);
+  for (std::size_t i = 0; i < node.items.size() && found_.empty(); ++i)
+    each(joined(path, i), node.items[i], visit);
+}
+
+void Search::pose(const std::string& path, const Node& node) {
+  for (const Member& member : node.members) {
+    const std::string here = joined(path, member.key);
+    if (member.key == "position")
+      each(here, member.value, [&](const std::string& at, const Node& one) { length(at, one, far_length); });
+    else if (member.key == "x" || member.key == "y" || member.key == "z")
+      length(here, member.value, far_length);
+    else if (member.key == "phi" || member.key == "tilt" || member.key == "azimuth" ||
+             member.key == "torsion")
+      angle(here, member.value);
+  }
+}
+
+void Search::inputs(const std::string& path, const Node& list) {
+  for (std::size_t k = 0; k < std::min(list.items.size(), inputs_.size()); ++k) {
+    if (inputs_[k].kind.dimension == Dimension::angle)
+      angle(joined(path, k), list.items[k]);
+    else
+      length(joined(path, k), list.items[k], far_length);
+  }
+}
+
+void Search::wrench(const std::string& path, const Node& list) {
+  const std::size_t forces = list.items.size() == 3 ? 2 : 3;
+  for (std::size_t k = 0; k < list.items.size(); ++k) {
+    if (k < forces)
+      force(joined(path, k), list.items[k], Dimension::force, 1);
+    else
+      force(joined(path, k), list.items[k], Dimension::moment, scale_.length);
+  }
+}
+
+void Search::configuration(const std::string& path, const Node& list) {
+  for (std::size_t m = 0; m < list.items.size(); ++m)
+    for (std::size_t k = 0; k < list.items[m].items.size(); ++k) {
+      const Node& value_of = list.items[m].items[k];
+      if (k < 2)
+        angle(joined(joined(path, m), k), value_of);
+      else
+        length(joined(joined(path, m), k), value_of, far_change);
+    }
+}
+
+void Search::query(const Node& query) {
+  using Kind = Node::Kind;
+  for (const Member& member : query.members) {
+    const auto& [key, line, column, node] = member;
+    if (key == "poses" && node.kind == Kind::list) {
+      for (std::size_t k = 0; k < node.items.size() && found_.empty(); ++k)
+        pose(joined(key, k), node.items[k]);
+    } else if (node.kind == Kind::map && (key == "pose" || key == "from" || key == "start" ||
+                                          key == "set_at" || key == "independent" || key == "to")) {
+      pose(key, node);
+      if (key != "to") continue;
+      if (const Node* target = node.find("pose")) pose("to.pose", *target);
+      if (const Node* target = node.find("inputs")) inputs("to.inputs", *target);
+      if (const Node* target = node.find("wrench")) wrench("to.wrench", *target);
+    } else if (key == "inputs" || (key == "start" && !inputs_.empty())) {
+      inputs(key, node);
+    } else if (key == "configuration" || key == "start") {
+      configuration(key, node);
+    } else if (key == "position") {
+      each(key, node, [&](const std::string& at, const Node& one) { length(at, one, far_length); });
+    } else if (key == "changes" || key == "measured" || key == "slack" || key == "tolerance") {
+      each(key, node, [&](const std::string& at, const Node& one) { length(at, one, far_change); });
+    } else if (key == "lengths") {
+      each(key, node, [&](const std::string& at, const Node& one) { length(at, one, far_length); });
+    } else if (key == "wrench") {
+      wrench(key, node);
+    } else if (key == "until") {
+      if (const Node* step = node.find("wrench")) wrench("until.wrench", *step);
+    } else if (key == "axial_forces" ||
+               key == "tensions") {  // a tendon has a short arm: it pulls more than it bends
+      each(key, node, [&](const std::string& at, const Node& one) { force(at, one, Dimension::force, 100); });
+    } else if (key == "twist" && node.kind == Kind::list) {
+      const std::size_t shifts = node.items.size() == 3 ? 2 : 3;
+      for (std::size_t k = 0; k < std::min(shifts, node.items.size()); ++k)
+        length(joined(key, k), node.items[k], far_length);  // a second
+    }
+  }
+}
+
+/// A plain number in place of a length or an angle that is two hundred times smaller.
+void Search::settings(const Node& query, const Node& robot) {
+  const Node* set = query.find("set");
+  if (!set) return;
+  for (const Member& change : set->members) {
+    if (change.value.kind != Node::Kind::number || !found_.empty()) continue;
+    const Node* before = at(robot, change.key);
+    if (!before) {  // of a file that says it for all legs, or by an architecture
+      const std::string_view key = std::string_view(change.key).substr(change.key.rfind('.') + 1);
+      if (key == "length" || key == "tendon_offset" || key == "diameter" || key == "radius" || key == "joint")
+        length(change.key, change.value, far_length);
+      continue;
+    }
+    const auto old = before->kind == Node::Kind::string
+                         ? parse_any_quantity(before->text)
+                         : Expected<Quantity>(Quantity{before->number, Dimension::number});
+    if (!old || (old->dimension != Dimension::length && old->dimension != Dimension::angle)) continue;
+    if (!(std::abs(change.value.number) > far_setting * std::abs(old->value)) &&
+        old->dimension == Dimension::length)
+      continue;
+    if (old->dimension == Dimension::angle && !(std::abs(change.value.number) > far_angle)) continue;
+    found_ = fmt::format("{} = {} is in {}, and {} in the file; did you mean \"{} {}\"?", change.key,
+                         change.value.text, old->dimension == Dimension::length ? "metres" : "radians",
+                         before->text, change.value.text, small_unit(old->dimension));
+  }
+}
+
+/// Where the answer says the robot is.
+std::string far_answer(const Json& answer, const RobotScale& scale) {
+  for (const char* key : {"pose", "tip"}) {
+    const auto pose = answer.find(key);
+    if (pose == answer.end() || !pose->is_object()) continue;
+    double square = 0;
+    if (const auto position = pose->find("position"); position != pose->end())
+      for (const Json& part : *position) square += part.get<double>() * part.get<double>();
+    else
+      for (const char* axis : {"x", "y"}) square += std::pow(pose->value(axis, 0.0), 2);
+    const double distance = std::sqrt(square);
+    if (distance > far_length * scale.length)
+      return fmt::format("the answer is {:.6g} m away, {:.3g} times the robot's size ({})", distance,
+                         distance / scale.length, human(scale.length, Dimension::length));
+  }
+  return {};
+}
+
+}  // namespace
+
+RobotScale scale_of(const AnyRobot& robot) {
+  RobotScale scale;
+  const double height = std::visit(
+      []<class Pose>(const Pose& pose) {
+        if constexpr (std::is_same_v<Pose, PlanarPose>)
+          return std::hypot(pose.x, pose.y);
+        else
+          return pose.position.norm();
+      },
+      home(robot));
+  double stiffness = 0;
+  std::visit(
+      [&](const auto& r) {
+        r.for_each_leg([&]<class L>(const L& leg, const LegPlace&, int) {
+          double size = leg.base.p.norm() + leg.platform_point.norm() + height;
+          if constexpr (requires { leg.size(); }) size += leg.size();
+          scale.length = std::max(scale.length, size);
+          if constexpr (BearsLoad<L>)
+            stiffness += leg.link.bending_stiffness();
+          else if (leg.backbone.youngs_modulus && leg.backbone.diameter)
+            stiffness +=
+                *leg.backbone.youngs_modulus * std::numbers::pi / 64 * std::pow(*leg.backbone.diameter, 4);
+        });
+      },
+      robot.model);
+  if (scale.length > 0) scale.force = stiffness / (scale.length * scale.length);
+  return scale;
+}
+
+RobotScale scale_of(const SerialRobot& robot) {
+  double length = robot.length();
+  for (const Section& section : robot.sections)
+    if (section.is_extensible()) length += section.most_extension;
+  return {.length = length};
+}
+
+std::string unit_hint(const Node& query, const Json& answer, const RobotScale& scale, const Node& robot,
+                      std::span<const InputOfLeg> inputs) {
+  Search search(scale, inputs);
+  search.query(query);
+  search.settings(query, robot);
+  return search.found().empty() ? far_answer(answer, scale) : search.found();
+}
+
+}  // namespace sinew::inline v0

@@ -1,0 +1,59 @@
+#include "robot/arguments.hpp"
+
+#include "sinew/robot/assembly.hpp"
+
+namespace sinew::inline v0 {
+namespace {
+
+Report bad_input() {
+  Report report;
+  report.status = Status::bad_input;
+  return report;
+}
+
+Report wrong_space(bool is_planar, std::string_view name) {
+  Report report = bad_input();
+  report.message.append("the ");
+  report.message.append(name);
+  report.message.append(is_planar ? " is spatial and the robot is planar: give a PlanarPose"
+                                  : " is planar and the robot is spatial: give a SpatialPose");
+  return report;
+}
+
+Report wrong_coordinates(std::size_t found, int needed) {
+  Report report = bad_input();
+  report.message.append("the robot has ");
+  append_number(report.message, needed);
+  report.message.append(" link coordinates, ");
+  append_number(report.message, static_cast<int>(found));
+  report.message.append(" were given");
+  return report;
+}
+
+}  // namespace
+
+bool is_planar(const AnyRobot& robot) { return dof(robot) == Planar::dof; }
+
+Report check_workspace(const AnyRobot& robot, const Workspace& work) {
+  if (work.robot && work.robot == robot.identity) return {};
+  Report report = bad_input();
+  report.message.append("the workspace was made for another robot: make one of this robot, Workspace(robot)");
+  return report;
+}
+
+Report check_arguments(const AnyRobot& robot, const AnyPose& pose, const Workspace& work,
+                       std::string_view name) {
+  if (Report report = check_workspace(robot, work); !report.ok()) return report;
+  if (std::holds_alternative<PlanarPose>(pose) == is_planar(robot)) return {};
+  return wrong_space(is_planar(robot), name);
+}
+
+Report check_arguments(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates,
+                       const Workspace& work) {
+  if (Report report = check_arguments(robot, pose, work); !report.ok()) return report;
+  const int needed = coordinate_count(robot);
+  if (coordinates.size() == static_cast<std::size_t>(needed)) return {};
+  return wrong_coordinates(coordinates.size(), needed);
+}
+
+}  // namespace sinew::inline v0
