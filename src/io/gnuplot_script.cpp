@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
 #include "sinew/io/quantity.hpp"
+#include "sinew/io/visible.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -41,25 +44,136 @@ constexpr std::string_view hex(Colour colour) {  // Okabe & Ito, Color Universal
   return "#000000";
 }
 
-/// A string of gnuplot that means exactly this text. Between single quotes only the quote itself is special,
-/// and is doubled; but two quotes in a row, or one where a string begins, end it for gnuplot 5.4: these are
-/// put between double ones.
-std::string literal(std::string_view text) {
-  std::string out = "'";
-  bool is_beginning = true;
-  for (const char c : text) {
-    if (c == '\'') {
-      out += is_beginning ? "'.\"'\".'" : "''";
-    } else {
-      out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    }
-    is_beginning = c == '\'';
-  }
-  return out + '\'';
+/// Bytes that mean themselves in any string of gnuplot. No quote, backslash, backtick, bracket of a block or
+/// sign of a macro is among them.
+bool is_plain(char c) {
+  constexpr std::string_view others = " _.,:;()+-*/=<>[]^!?%&~";
+  const auto byte = static_cast<unsigned char>(c);
+  return byte >= 0x80 || std::isalnum(byte) || others.find(c) != std::string_view::npos;
 }
 
-std::string axis_title(const Axis& axis) {
-  return literal(axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, axis.unit));
+/// A string of gnuplot that is exactly these bytes. What is not plain is written as its octal number, which
+/// gnuplot puts in after it has found where the string ends and what in it is a command.
+std::string literal_bytes(std::string_view bytes) {
+  if (std::ranges::all_of(bytes, is_plain)) return fmt::format("'{}'", bytes);
+  std::string out = "\"";
+  bool follows_number = false;  // whose digits gnuplot reads on, however many
+  for (const char c : bytes) {
+    const bool is_number = !is_plain(c) || (follows_number && std::isdigit(static_cast<unsigned char>(c)));
+    out += is_number ? fmt::format("\\{:03o}", unsigned{static_cast<unsigned char>(c)}) : std::string(1, c);
+    follows_number = is_number;
+  }
+  return out + '"';
+}
+
+/// On one line, each sign of gnuplot's markup as itself.
+std::string escaped(std::string_view text) {
+  constexpr std::string_view signs = "{}^_@&~\\";
+  std::string out;
+  for (const char c : visible_line(text)) {
+    if (signs.find(c) != std::string_view::npos) out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+/// In gnuplot's markup, which the parts alone decide about.
+std::string markup(const Text& text) {
+  std::string out;
+  for (const Text::Part& part : text.parts()) {
+    const std::string inside = escaped(part.text);
+    switch (part.style) {
+      case Text::Style::upright:
+        out += inside;
+        break;
+      case Text::Style::italic:
+        out += "{/:Italic " + inside + '}';
+        break;
+      case Text::Style::subscript:
+        out += "_{" + inside + '}';
+        break;
+      case Text::Style::superscript:
+        out += "^{" + inside + '}';
+        break;
+    }
+  }
+  return out;
+}
+
+/// Of a character, about: a page's unit is 1/15 of the size of the font.
+constexpr double character_width = 8.6, line_height = 19;
+
+/// Characters of UTF-8.
+std::size_t length(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
+}
+
+double width_of(const Text& text) { return character_width * static_cast<double>(length(text.plain())); }
+
+/// Broken at spaces into lines of at most this width, where words allow; as even as few lines can be.
+std::vector<Text> lines_of(const Text& text, double width) {
+  const double whole = width_of(text), count = std::ceil(whole / std::max(width, 1.0));
+  if (count <= 1) return {text};
+  const double most = std::min(width, whole / count + 8 * character_width);
+  std::vector<Text> lines(1);
+  Text word;
+  const auto end_word = [&] {
+    const bool is_first = lines.back().empty();
+    if (!is_first && width_of(lines.back()) + width_of(word) > most) {
+      lines.emplace_back();
+      std::string bare = word.parts().empty() ? "" : word.parts().front().text;
+      Text rest(std::string_view(bare).substr(bare.starts_with(' ') ? 1 : 0),
+                word.parts().empty() ? Text::Style::upright : word.parts().front().style);
+      for (std::size_t k = 1; k < word.parts().size(); ++k)
+        rest += Text(word.parts()[k].text, word.parts()[k].style);
+      word = std::move(rest);
+    }
+    lines.back() += word;
+    word.clear();
+  };
+  for (const Text::Part& part : text.parts()) {
+    std::string_view rest = part.text;
+    for (std::size_t space = rest.find(' ', 1); space != std::string_view::npos; space = rest.find(' ', 1)) {
+      word += Text(rest.substr(0, space), part.style);
+      end_word();
+      rest.remove_prefix(space);
+    }
+    if (rest.starts_with(' ') && !word.empty()) end_word();
+    word += Text(rest, part.style);
+  }
+  end_word();
+  return lines;
+}
+
+/// A string of gnuplot that shows these lines.
+std::string literal(const std::vector<Text>& lines) {
+  std::string bytes;
+  for (const Text& line : lines) bytes += (&line == lines.data() ? "" : "\n") + markup(line);
+  return literal_bytes(bytes);
+}
+
+/// A string of gnuplot that shows this text, on one line.
+std::string literal(const Text& text) { return literal_bytes(markup(text)); }
+
+/// The room that panels have on their page.
+struct Cell {
+  double width, height;  ///< [units of the page]
+  double right;          ///< of its right edge, of the page's width
+  double page_width;
+};
+
+/// A line that gnuplot skips: no end of a line, nor a backslash, which would go on with the next one.
+std::string comment(std::string_view text) {
+  std::string line(text);
+  std::ranges::replace(line, '\n', ' ');
+  line = visible_line(line);
+  std::ranges::replace(line, '\\', '/');
+  return "# " + line + '\n';
+}
+
+std::string axis_title(const Axis& axis, double room) {
+  return literal(lines_of(with_unit(axis.label, axis.unit), room));
 }
 
 std::string bound(const std::optional<double>& value) { return value ? si_text(*value) : "*"; }
@@ -189,35 +303,112 @@ std::string series_block(const Panel& panel, const std::string& name, const Seri
   return is_edge ? outside_block(name, series, *panel.map) : data_block(name, series, panel.eye.has_value());
 }
 
-bool has_negative(const std::vector<double>& values) {
-  return std::ranges::any_of(values, [](double value) { return value < 0; });
+/// `('converged' 0, 'unstable' 1)`
+std::string word_tics(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    text += fmt::format("{}{} {}", k == 0 ? "(" : ", ", literal(words[k]), k);
+  return text + ')';
 }
 
-/// Whether numbers at its bar have a minus.
-bool has_negative_scale(const Panel& panel) {
-  if (panel.map) return has_negative(panel.map->values);
-  return std::ranges::any_of(panel.series, [](const Series& series) { return has_negative(series.shades); });
+/// Cividis (Nuñez, Anderton, Renslow 2018), at equal steps.
+constexpr std::array<unsigned, 10> cividis{0x00224e, 0x123570, 0x3b496c, 0x575d6d, 0x707173,
+                                           0x8a8678, 0xa59c74, 0xc3b369, 0xe1cc55, 0xfee838};
+
+/// Its colour at a part of the way.
+unsigned cividis_at(double part) {
+  const double place = part * (cividis.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), cividis.size() - 2);
+  unsigned colour = 0;
+  for (const unsigned shift : {16U, 8U, 0U}) {
+    const auto channel = [&](std::size_t k) { return static_cast<double>(cividis[k] >> shift & 0xffU); };
+    const double mixed = std::lerp(channel(below), channel(below + 1), place - static_cast<double>(below));
+    colour |= static_cast<unsigned>(std::lround(mixed)) << shift;
+  }
+  return colour;
 }
 
-/// The colours and their bar, for which gnuplot leaves too little room; for numbers with a minus even less.
-std::string scale_lines(const ColourScale& scale, bool is_negative, bool has_cells) {
-  // Cividis (Nuñez, Anderton, Renslow 2018), at equal steps.
+/// Of numbers shades that run into each other, of words one colour each.
+std::string palette(std::size_t words) {
+  std::string text;
+  const auto add = [&text](double at, unsigned colour) {
+    text += fmt::format("{}{} '#{:06x}'", text.empty() ? "" : ", ", at, colour);
+  };
+  for (std::size_t k = 0; words == 0 && k < cividis.size(); ++k) add(static_cast<double>(k), cividis[k]);
+  for (std::size_t k = 0; k < words; ++k) {
+    const unsigned colour =
+        cividis_at(words > 1 ? static_cast<double>(k) / static_cast<double>(words - 1) : 0.5);
+    add(static_cast<double>(k), colour);
+    add(static_cast<double>(k + 1), colour);
+  }
+  return fmt::format("  set palette defined ({})\n", text);
+}
+
+/// Ends of the values that colours show.
+std::array<double, 2> ends_of(const std::vector<double>& values) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : values)
+    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  return low <= high ? std::array{low, high} : std::array{0.0, 1.0};
+}
+
+/// What stands at a bar of colours: its numbers and how wide they are.
+struct BarTics {
+  std::string tics;
+  double characters;
+};
+
+BarTics bar_tics(const ColourScale& scale, const std::array<double, 2>& values, double height) {
+  if (!scale.words.empty()) {
+    std::size_t longest = 0;
+    for (const std::string& word : scale.words) longest = std::max(longest, length(visible_line(word)));
+    return {word_tics(scale.words), static_cast<double>(longest)};
+  }
+  if (scale.log) return {"autofreq", 6};
+  const double low = scale.low.value_or(values[0]), high = scale.high.value_or(values[1]);
+  if (!(low < high)) return {"autofreq", 8};
+  const double step = round_step(high - low, std::clamp(std::floor(height / (2.2 * line_height)), 2.0, 10.0));
+  std::size_t longest = 0;
+  for (double k = std::ceil(low / step - 1e-9); k * step <= high * (1 + 1e-9) && longest < 20; ++k)
+    longest = std::max(longest, fmt::format("{:.6g}", k * step + 0.0).size());
+  return {si_text(step), static_cast<double>(longest)};
+}
+
+/// The colours and their bar. gnuplot leaves too little room for its numbers and its name: these stand clear
+/// of each other and of what is beside the panel.
+std::string scale_lines(const ColourScale& scale, const std::array<double, 2>& values, bool has_cells,
+                        const Cell& cell) {
+  const double inside = cell.height - 4.5 * line_height;
+  const std::vector<Text> label = lines_of(scale.label, inside);
+  const auto [tics, characters] = bar_tics(scale, values, inside);
+  const double beside = 34 + 10 * characters + line_height * static_cast<double>(label.size()) + 12;
+  const double room = (0.075 * (cell.width - 80) + beside) / 1.075;
   return fmt::format(
-      "{}  set cbrange [{}:{}]\n  set cblabel {}{}\n{}  set rmargin 9\n"
-      "  set palette defined (0 '#00224e', 1 '#123570', 2 '#3b496c', 3 '#575d6d', 4 '#707173', 5 '#8a8678', "
-      "6 '#a59c74', 7 '#c3b369', 8 '#e1cc55', 9 '#fee838')\n",
-      scale.log ? "  set logscale cb\n" : "", bound(scale.low), bound(scale.high), literal(scale.label),
-      is_negative ? " offset 2,0" : "", has_cells ? "  unset grid\n" : "");
+             "{}  set cbrange [{}:{}]\n  set cbtics {}\n  set cblabel {} offset {:.2f},0\n{}  set rmargin at "
+             "screen {:.4f}\n",
+             scale.log ? "  set logscale cb\n" : "", scale.words.empty() ? bound(scale.low) : "-0.5",
+             scale.words.empty() ? bound(scale.high) : fmt::format("{}.5", scale.words.size() - 1), tics,
+             literal(label), 0.6 + 0.25 * characters, has_cells ? "  unset grid\n" : "",
+             cell.right - room / cell.page_width) +
+         palette(scale.words.size());
 }
 
 /// The frame just around the cells, and their colours.
-std::string map_lines(const HeatMap& map) {
+std::string map_lines(const HeatMap& map, const Cell& cell) {
   const auto range = [](char axis, const std::vector<double>& places) {
     const auto [low, high] = frame(places);
     return fmt::format("  set {}range [{}:{}]\n", axis, si_text(low), si_text(high));
   };
   return range('x', map.x) + range('y', map.y) +
-         scale_lines({map.label, map.low, map.high, map.log}, has_negative(map.values), true);
+         scale_lines({map.label, map.low, map.high, map.log, map.words}, ends_of(map.values), true, cell);
+}
+
+/// Of the points that have a shade.
+std::string shade_lines(const Panel& panel, const Cell& cell) {
+  std::vector<double> values;
+  for (const Series& series : panel.series)
+    values.insert(values.end(), series.shades.begin(), series.shades.end());
+  return scale_lines(*panel.scale, ends_of(values), false, cell);
 }
 
 /// Cells reach a little over their neighbours, the further the smaller they are: else the page shines through
@@ -266,20 +457,36 @@ std::vector<std::string> strokes(const Series& series) {
   return {};
 }
 
-std::string_view key(Legend legend) {
-  switch (legend) {
+/// Rows of the legend below the panel: as many entries side by side as have room under its axes, as gnuplot
+/// has it.
+std::size_t key_rows(const Panel& panel, double width) {
+  double widest = 0;
+  std::size_t count = 0;
+  for (const Series& series : panel.series)
+    if (!series.label.empty()) widest = std::max(widest, 1.1 * width_of(series.label)), ++count;
+  if (count == 0) return 0;
+  const double beside = panel.map || panel.scale ? 230 : 110;
+  constexpr double sample = 70;  // what is beside the text
+  const auto columns =
+      static_cast<std::size_t>(std::max(1.0, std::floor((width - beside) / (widest + sample))));
+  return (count + columns - 1) / columns;
+}
+
+std::string key(const Panel& panel, double width) {
+  switch (panel.legend) {
     case Legend::none:
       return "unset key";
     case Legend::top_left:
-      return "set key inside top left Left reverse";
+      return "set key inside top left Left reverse maxrows auto";
     case Legend::top_right:
-      return "set key inside top right Left reverse";
+      return "set key inside top right Left reverse maxrows auto";
     case Legend::bottom_left:
-      return "set key inside bottom left Left reverse";
+      return "set key inside bottom left Left reverse maxrows auto";
     case Legend::bottom_right:
-      return "set key inside bottom right Left reverse";
+      return "set key inside bottom right Left reverse maxrows auto";
     case Legend::below:
-      return "set key below center Left reverse";
+      return fmt::format("set key below center Left reverse maxrows {}",
+                         std::max<std::size_t>(key_rows(panel, width), 1));
   }
   return "unset key";
 }
@@ -293,23 +500,26 @@ std::string after_axes(const Panel& panel) {
          (is_tiny(panel.y) ? "  set format y\n" : "");
 }
 
-std::string axis_lines(char axis, const Axis& of) {
+std::string axis_lines(char axis, const Axis& of, double room) {
   return fmt::format(
       "  set {0}label {1}\n  {2} logscale {0}\n  set {0}range [{3}:{4}]\n  set {0}tics {5}\n{6}", axis,
-      axis_title(of), of.log ? "set" : "unset", bound(of.low), bound(of.high),
-      of.step ? si_text(*of.step) : "autofreq",
-      is_tiny(of) ? fmt::format("  set format {} '%g'\n", axis) : "");
+      axis_title(of, room), of.log ? "set" : "unset", bound(of.low), bound(of.high),
+      !of.words.empty() ? word_tics(of.words)
+      : of.step         ? si_text(*of.step)
+                        : "autofreq",
+      is_tiny(of) ? fmt::format("  set format {} '10^{{%L}}'\n", axis) : "");
 }
 
-std::string note_lines(const std::vector<Note>& notes) {
-  constexpr std::array sides{"right", "center", "left"};  // of the text: a note on the left ends at its point
-  constexpr std::array offsets{-0.8, 0.0, 0.8};
+std::string note_lines(const Panel& panel) {
+  // Of the text: a note on the left ends at its point.
+  constexpr std::array sides{"right", "center", "left", "center", "center"};
+  constexpr std::array offsets{"-0.8,0", "0,0", "0.8,0", "0,0.8", "0,-0.8"};
   std::string text = "  unset label\n";
-  for (const Note& note : notes) {
+  for (const Note& note : panel.notes) {
     const auto side = static_cast<std::size_t>(note.side);
-    text +=
-        fmt::format("  set label {} at {},{} {} offset {},0 textcolor rgb '{}' front\n", literal(note.text),
-                    si_text(note.x), si_text(note.y), sides[side], offsets[side], hex(note.colour));
+    text += fmt::format("  set label {} at {},{}{} {} offset {} textcolor rgb '{}' front\n",
+                        literal(note.text), si_text(note.x), si_text(note.y),
+                        panel.eye ? "," + si_text(note.z) : "", sides[side], offsets[side], hex(note.colour));
   }
   return text;
 }
@@ -317,8 +527,7 @@ std::string note_lines(const std::vector<Note>& notes) {
 /// Takes back what the scale of a panel set.
 std::string after_scale(const Panel& panel) {
   const bool is_log = panel.map ? panel.map->log : panel.scale->log;
-  return fmt::format("  set rmargin -1\n{}{}", is_log ? "  unset logscale cb\n" : "",
-                     has_negative_scale(panel) ? "  set cblabel offset 0,0\n" : "");
+  return fmt::format("  set rmargin -1\n  set cbtics autofreq\n{}", is_log ? "  unset logscale cb\n" : "");
 }
 
 /// What is plotted after what there already is, one stroke a line.
@@ -376,7 +585,7 @@ std::string space_axis(char name, const Axis& of, const std::array<double, 2>& r
   const double span = range[1] - range[0], step = of.step.value_or(round_step(span, 5));
   const double inset = (name == 'z' ? 0.01 : 0.06) * span;
   const double first = std::ceil((range[0] + inset) / step) * step + 0.0;
-  std::string text = fmt::format("  set {}label {} rotate parallel{}\n", name, axis_title(of),
+  std::string text = fmt::format("  set {}label {} rotate parallel{}\n", name, axis_title(of, 1e9),
                                  name == 'z' ? "" : " offset 0,-0.8");
   text += fmt::format("  unset logscale {0}\n  set {0}range [{1}:{2}]\n", name, si_text(range[0]),
                       si_text(range[1]));
@@ -397,21 +606,23 @@ double zoom(const Eye& eye, const std::array<double, 3>& box, double width, doub
 }
 
 /// A panel in space; what it sets is taken back for those after it.
-std::string space_lines(const Panel& panel, std::size_t index, double width, double height) {
+std::string space_lines(const Panel& panel, std::size_t index, const Cell& cell) {
   const std::array x = ends(panel.x, panel.series, &Series::x), y = ends(panel.y, panel.series, &Series::y),
                    z = ends(panel.z, panel.series, &Series::z);
   const std::array box{x[1] - x[0], y[1] - y[0], z[1] - z[0]};
-  std::string text = fmt::format("  set title {}\n  {}\n", literal(panel.title), key(panel.legend));
+  std::string text = fmt::format("  set title {}\n  {}\n", literal(lines_of(panel.title, 0.9 * cell.width)),
+                                 key(panel, cell.width));
   const double side = std::fmod(panel.eye->turn, 180) < 90 ? 1 : -1;  // on which the y axis is seen
   text += space_axis('x', panel.x, x, -0.3 * side) + space_axis('y', panel.y, y, 0.6 * side) +
           space_axis('z', panel.z, z, 0);
   text += fmt::format(
-      "  unset label\n  set size noratio\n  set lmargin 0\n  set rmargin 0\n  set bmargin 0\n  set tmargin "
+      "  set size noratio\n  set lmargin 0\n  set rmargin 0\n  set bmargin 0\n  set tmargin "
       "2\n  set view equal xyz\n  set view {},{},{:.4g}\n"
       "  set xyplane at {}\n  set pm3d noborder\n  set grid xtics ytics ztics vertical\n",
-      si_text(panel.eye->tilt), si_text(panel.eye->turn), zoom(*panel.eye, box, width, height),
+      si_text(panel.eye->tilt), si_text(panel.eye->turn), zoom(*panel.eye, box, cell.width, cell.height),
       si_text(z[0]));
-  if (panel.scale) text += scale_lines(*panel.scale, has_negative_scale(panel), false);
+  text += note_lines(panel);
+  if (panel.scale) text += shade_lines(panel, cell);
   Strokes all("  splot ");
   add_series(all, panel, index);
   text += all.text() + "  unset grid\n" + std::string(grid);
@@ -422,56 +633,83 @@ std::string space_lines(const Panel& panel, std::size_t index, double width, dou
   return text + (panel.scale ? after_scale(panel) : "");
 }
 
-std::string panel_lines(const Panel& panel, std::size_t index) {
-  std::string text = fmt::format("  set title {}\n", literal(panel.title));
-  text += axis_lines('x', panel.x) + axis_lines('y', panel.y);
-  const bool is_tight = panel.legend == Legend::below;  // gnuplot draws it over the name of the x axis
-  if (is_tight) text += "  set xlabel offset 0,0.5\n";
-  text +=
-      fmt::format("  {}\n  set size {}\n", key(panel.legend), panel.equal_aspect ? "ratio -1" : "noratio");
-  text += fmt::format("  set tmargin {}\n", panel.title.empty() ? "1.5" : "-1") + note_lines(panel.notes);
+std::string panel_lines(const Panel& panel, std::size_t index, const Cell& cell) {
+  std::string text = fmt::format("  set title {}\n", literal(lines_of(panel.title, 0.85 * cell.width)));
+  const double across = cell.width - (panel.map || panel.scale ? 230 : 110);
+  const double up = cell.height - 4.5 * line_height;
+  text += axis_lines('x', panel.x, across) + axis_lines('y', panel.y, up);
+  const bool is_below = panel.legend == Legend::below;  // gnuplot draws it over the name of the x axis
+  const std::size_t rows = is_below ? key_rows(panel, cell.width) : 0;
+  if (is_below) text += fmt::format("  set bmargin {:.4g}\n", 4 + 1.35 * static_cast<double>(rows));
+  text += fmt::format("  {}\n  set size {}\n", key(panel, cell.width),
+                      panel.equal_aspect ? "ratio -1" : "noratio");
+  text += fmt::format("  set tmargin {}\n", panel.title.empty() ? "1.5" : "-1") + note_lines(panel);
   Strokes all("  plot ");
   if (panel.map) {
-    text += map_lines(*panel.map);
+    text += map_lines(*panel.map, cell);
     all.add(map_stroke(*panel.map, index));
   } else if (panel.scale) {
-    text += scale_lines(*panel.scale, has_negative_scale(panel), false);
+    text += shade_lines(panel, cell);
   }
   add_series(all, panel, index);
-  text += all.text() + (is_tight ? "  set xlabel offset 0,0\n" : "") + after_axes(panel);
+  text += all.text() + (is_below ? "  set bmargin -1\n" : "") + after_axes(panel);
   if (!panel.map && !panel.scale) return text;
   return text + std::string(grid) + after_scale(panel);
 }
 
-std::string terminal_line(FigureFormat format, double width, double height) {
-  // The same page three times: the PNG at two pixels a unit, the PDF at 72 units an inch.
+/// The title, and below it what the figure leaves out; an empty one takes no room.
+std::vector<Text> title_lines(const Figure& figure, double width) {
+  std::vector<Text> all;
+  for (const Text& text : {figure.title, figure.remark})
+    if (!text.empty())
+      for (Text& line : lines_of(text, 0.95 * width)) all.push_back(std::move(line));
+  return all;
+}
+
+constexpr double points_per_inch = 72;
+
+/// Pixels an inch: of a printed page what journals ask for, of the screen's two for each of its own.
+double png_resolution(const FigureOptions& options) { return options.width > 0 ? 300 : 192; }
+
+/// The name of a font: what of it is no name could be more than that in an SVG.
+std::string font_name(const std::string& font) {
+  std::string name;
+  for (const char c : font)
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == ' ' || c == '-' || c == '_' || c == '.')
+      name += c;
+  return name.empty() ? "sans-serif" : name;
+}
+
+std::string terminal_line(FigureFormat format, const PageLayout& page, const FigureOptions& options) {
+  // The same page three times; the SVG in its own units.
+  const std::string font = font_name(options.font);
   switch (format) {
     case FigureFormat::svg:
       return fmt::format(
-          "set terminal svg noenhanced size {:.0f},{:.0f} dynamic font 'sans-serif,15' background "
-          "'#ffffff'",
-          width, height);
-    case FigureFormat::png:
+          "set terminal svg enhanced size {:.0f},{:.0f} dynamic font '{},15' background '#ffffff'",
+          page.width, page.height, font);
+    case FigureFormat::png: {
+      const double pixels = page.unit * png_resolution(options) / points_per_inch;  // a unit
       return fmt::format(
-          "set terminal pngcairo noenhanced size {:.0f},{:.0f} font 'sans-serif,11.25' fontscale 2 "
-          "linewidth 2 pointscale 2 background '#ffffff'",
-          2 * width, 2 * height);
+          "set terminal pngcairo enhanced size {:.0f},{:.0f} font '{},11.25' fontscale {:.6g} linewidth "
+          "{:.6g} pointscale {:.6g} background '#ffffff'",
+          pixels * page.width, pixels * page.height, font, pixels, pixels, pixels);
+    }
     case FigureFormat::pdf:
       return fmt::format(
-          "set terminal pdfcairo noenhanced size {:.4f}in,{:.4f}in font 'sans-serif,15' linewidth 1 "
-          "pointscale 0.75 background '#ffffff'",
-          width / 72, height / 72);
+          "set terminal pdfcairo enhanced size {:.4f}in,{:.4f}in font '{},{:.6g}' linewidth {:.6g} "
+          "pointscale {:.6g} background '#ffffff'",
+          page.unit * page.width / points_per_inch, page.unit * page.height / points_per_inch, font,
+          15 * page.unit, page.unit, 0.75 * page.unit);
   }
   return {};
 }
 
 std::string header_lines(const Figure& figure, const std::string& name, const FigureOptions& options) {
   std::string text, formats;
-  for (std::string comment : figure.comments) {
-    std::replace(comment.begin(), comment.end(), '\n', ' ');
-    text += "# " + comment + '\n';
-  }
-  text += fmt::format("# Draw again: gnuplot {}.gp\n\nset encoding utf8\nset minussign\n\n", name);
+  for (const std::string& line : figure.comments) text += comment(line);
+  if (!name.empty()) text += comment(fmt::format("Draw again: gnuplot {}.gp", name));
+  text += "\nset encoding utf8\nset minussign\n\n";
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     if (figure.panels[p].map) text += data_block(map_name(p), *figure.panels[p].map) + '\n';
     for (std::size_t s = 0; s < figure.panels[p].series.size(); ++s)
@@ -482,8 +720,22 @@ std::string header_lines(const Figure& figure, const std::string& name, const Fi
   text += fmt::format("do for [format in '{}'] {{\n", formats);
   for (const FigureFormat format : options.formats)
     text += fmt::format("  if (format eq '{}') {{ {} }}\n", extension(format),
-                        terminal_line(format, figure.width, figure.height));
-  return text + fmt::format("  set output {}.'.'.format\n", literal(name));
+                        terminal_line(format, page_of(figure, options), options));
+  // "./": a name that begins with a bar would be a command. Without a name: to stdout.
+  return name.empty() ? text
+                      : text + fmt::format("  set output {}.format\n", literal_bytes("./" + name + '.'));
+}
+
+/// Fowler, Noll and Vo: tells what a person changed, not what somebody forged.
+std::uint64_t checksum(std::string_view text) {
+  std::uint64_t sum = 0xcbf29ce484222325U;
+  for (const char c : text) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return sum;
+}
+
+/// The last line of a script.
+std::string seal(std::string_view script) {
+  return fmt::format("# As sinew wrote it: {:016x}\n", checksum(script));
 }
 
 }  // namespace
@@ -508,24 +760,70 @@ std::string_view extension(FigureFormat format) noexcept {
   return "svg";
 }
 
+PageLayout page_of(const Figure& figure, const FigureOptions& options) {
+  constexpr double screen = 11.25, print = 8;  // [pt]
+  const double size = options.font_size > 0 ? options.font_size : options.width > 0 ? print : screen;
+  const double unit = size / 15;
+  const int columns = std::max(figure.columns, 1);
+  const auto count = std::max<std::size_t>(figure.panels.size(), 1);
+  if (!(options.width > 0) && size == screen) return {figure.width, figure.height, unit, columns};
+  const double points = options.width > 0 ? options.width / 25.4 * 72 : 0.75 * figure.width;
+  PageLayout page{points / unit, 0, unit, columns};
+  constexpr double narrowest = 330;  // that a panel with its numbers still is one
+  page.columns = std::clamp(static_cast<int>(page.width / narrowest), 1, columns);
+  const auto rows_of = [count](int side) {
+    return static_cast<double>((count + static_cast<std::size_t>(side) - 1) / static_cast<std::size_t>(side));
+  };
+  // What is inside of the axes keeps its form; the room that texts need around it does not change.
+  const bool has_bar = std::ranges::any_of(
+      figure.panels, [](const Panel& panel) { return panel.map.has_value() || panel.scale.has_value(); });
+  double below = 0;
+  const double before = figure.width / columns, now = page.width / page.columns;
+  for (const Panel& panel : figure.panels)
+    if (panel.legend == Legend::below)
+      below = std::max(below, 1.35 * line_height *
+                                  (static_cast<double>(key_rows(panel, now)) -
+                                   static_cast<double>(key_rows(panel, before))));
+  const double beside = has_bar ? 230 : 110, above = 95;
+  const double titles = line_height * static_cast<double>(title_lines(figure, page.width).size());
+  const double form = (figure.height / rows_of(columns) - above) / std::max(before - beside, 1.0);
+  const double inside = std::max(now - beside, 60.0) * std::clamp(form, 0.3, 3.0);
+  page.height = rows_of(page.columns) * (inside + above + std::max(below, 0.0)) + titles;
+  return page;
+}
+
 std::string gnuplot_script(const Figure& figure, const std::string& name, const FigureOptions& options) {
-  const auto columns = static_cast<std::size_t>(std::max(figure.columns, 1));
+  const PageLayout page = page_of(figure, options);
+  const auto columns = static_cast<std::size_t>(page.columns);
   const std::size_t rows = std::max<std::size_t>((figure.panels.size() + columns - 1) / columns, 1);
   std::string text = header_lines(figure, name, options);
   text += "  set border 31 lw 1 lc rgb '#444444'\n  set tics out nomirror\n" + std::string(grid) +
           "  set key samplen 2.5 spacing 1.25\n";
+  const std::vector<Text> title = title_lines(figure, page.width);
+  const double width = page.width / static_cast<double>(columns);
+  const double height =
+      (page.height - line_height * static_cast<double>(title.size())) / static_cast<double>(rows);
   // One margin for all, so that the axes of stacked panels stand above each other.
-  const bool has_room_of_its_own = std::ranges::any_of(
-      figure.panels, [](const Panel& panel) { return panel.map || panel.scale || panel.eye; });
+  const bool has_room_of_its_own = std::ranges::any_of(figure.panels, [](const Panel& panel) {
+    return panel.map || panel.scale || panel.eye || !panel.y.words.empty();
+  });
   if (columns == 1 && !has_room_of_its_own) text += "  set lmargin 11\n  set rmargin 3\n";
   text += fmt::format("  set multiplot layout {},{}{}\n", rows, columns,
-                      figure.title.empty() ? "" : " title " + literal(figure.title));
-  const double width = figure.width / static_cast<double>(columns),
-               height = figure.height / static_cast<double>(rows);
-  for (std::size_t p = 0; p < figure.panels.size(); ++p)
-    text += figure.panels[p].eye ? space_lines(figure.panels[p], p, width, height)
-                                 : panel_lines(figure.panels[p], p);
-  return text + "  unset multiplot\n  unset output\n}\n";
+                      title.empty() ? "" : " title " + literal(title));
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+    const Cell cell{width, height, static_cast<double>(p % columns + 1) / static_cast<double>(columns),
+                    page.width};
+    text += figure.panels[p].eye ? space_lines(figure.panels[p], p, cell)
+                                 : panel_lines(figure.panels[p], p, cell);
+  }
+  text += "  unset multiplot\n  unset output\n}\n";
+  return name.empty() ? text : text + seal(text);
+}
+
+bool is_as_written(std::string_view script) {
+  const std::size_t size = seal({}).size();
+  return script.size() >= size &&
+         script.substr(script.size() - size) == seal(script.substr(0, script.size() - size));
 }
 
 }  // namespace sinew::inline v0

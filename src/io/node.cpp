@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "sinew/io/quantity.hpp"
+#include "sinew/io/visible.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -230,7 +231,7 @@ std::string one_line(std::string_view text, std::size_t limit) {
   std::string result(text.substr(0, size));
   std::ranges::replace_if(
       result, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
-  return size < text.size() ? result + "..." : result;
+  return visible(size < text.size() ? result + "..." : result);
 }
 
 std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", one_line(text, 60)); }
@@ -279,6 +280,7 @@ bool NodeBuilder::key(std::string_view key, int line, int column) {
     stop("duplicate_key", line, column,
          fmt::format("{} is given twice{}{}; keep one.", in_quotes(key), map.empty() ? "" : " in " + map,
                      line > 0 ? fmt::format("; it was first given at line {}", first->second) : ""));
+    if (errors_.size() >= 100) return false;  // nobody mends more at once
   }
   level.next = {.key = std::string(key), .line = line, .column = column, .value = {}};
   level.has_key = true;

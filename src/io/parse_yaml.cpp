@@ -164,6 +164,18 @@ struct View : std::streambuf {
   }
 };
 
+/// Where more brackets are open than any document has levels, in whatever they stand; past the end if
+/// nowhere. yaml-cpp keeps a line of them, 250 bytes each, before it tells of the first.
+std::size_t too_many_open(std::string_view text) {
+  constexpr std::size_t most = 10'000;
+  std::size_t open = 0, at = 0;
+  for (; at < text.size() && open < most; ++at) {
+    if (text[at] == '[' || text[at] == '{') ++open;
+    if ((text[at] == ']' || text[at] == '}') && open > 0) --open;
+  }
+  return open < most ? text.size() : at;
+}
+
 void parse_into(NodeBuilder& builder, std::string_view text) {
   View view(text);
   std::istream stream(&view);
@@ -236,6 +248,10 @@ Expected<Document> parse_yaml(std::string_view text, std::string source) {
     const auto [line, column] = position_of(text, good);
     builder.stop("not_utf8", line, column,
                  "this is not plain text; save the file as UTF-8, without control characters.");
+  } else if (const std::size_t deep = too_many_open(text); deep < text.size()) {
+    const auto [line, column] = position_of(text, deep);
+    builder.stop("too_deep", line, column,
+                 fmt::format("more than {} levels of lists and maps.", NodeBuilder::depth_limit));
   } else {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors write it; it is no column
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());

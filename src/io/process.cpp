@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,6 +39,28 @@ struct Stream {
   }
 };
 
+/// A text that a child reads, in memory: no file of it is anywhere, and no pipe fills up.
+struct Input {
+  int file = -1, reason = 0;
+
+  explicit Input(std::string_view text) {
+    if (text.empty()) return;
+    file = memfd_create("input", MFD_CLOEXEC);
+    while (file >= 0 && !text.empty()) {
+      const ssize_t done = write(file, text.data(), text.size());
+      if (done < 0 && errno == EINTR) continue;
+      if (done <= 0) break;
+      text.remove_prefix(static_cast<std::size_t>(done));
+    }
+    if (file < 0 || !text.empty() || lseek(file, 0, SEEK_SET) != 0) reason = errno;
+  }
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+  ~Input() {
+    if (file >= 0) close(file);
+  }
+};
+
 /// Until both streams end; both at once, so that neither fills up and stops the child.
 void read_all(Stream& output, Stream& messages) {
   while (output.ends[0] >= 0 || messages.ends[0] >= 0) {
@@ -65,8 +88,14 @@ std::string ProcessResult::complaint() const {
   return said;
 }
 
-ProcessResult run_process(std::vector<std::string> arguments, const std::filesystem::path& folder) {
+ProcessResult run_process(std::vector<std::string> arguments, const std::filesystem::path& folder,
+                          std::string_view input) {
   ProcessResult result;
+  const Input given(input);
+  if (given.reason != 0) {
+    result.spawn_error = given.reason;
+    return result;
+  }
   Stream output{{-1, -1}, &result.output, std::numeric_limits<std::size_t>::max()},
       messages{{-1, -1}, &result.messages, 4000};
   if (!output.open() || !messages.open()) {
@@ -80,7 +109,10 @@ ProcessResult run_process(std::vector<std::string> arguments, const std::filesys
   words.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  if (given.file >= 0)
+    posix_spawn_file_actions_adddup2(&actions, given.file, STDIN_FILENO);
+  else
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, output.ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, messages.ends[1], STDERR_FILENO);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());

@@ -81,9 +81,12 @@ Reader Reader::required(std::string_view key, std::string_view meaning) {
   const std::string path = joined(path_, key);
   if (!expect(Node::Kind::map, "a map of keys")) return {document_, sink_, nullptr, path};
   const Node* value = node_->find(key);
+  const bool is_null = value && value->kind == Node::Kind::null;  // as for optional keys: null is no value
+  const std::string at = is_null && value->line > 0 ? where(value->line, value->column, path) : place();
+  if (is_null) value = nullptr;
   if (!value) {
     const std::string in = name(*node_, path_);
-    report("missing_key", place(),
+    report("missing_key", at,
            fmt::format("missing key {}{}{}.", in_quotes(key), in.empty() ? "" : " in " + in,
                        meaning.empty() ? "" : fmt::format(" ({})", meaning)));
   }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "io/builtin.hpp"
+#include "io/robot_size.hpp"
 #include "sinew/base/limits.hpp"
 #include "sinew/io/parse.hpp"
 #include "sinew/io/read_pose.hpp"
@@ -258,10 +259,35 @@ LegT read_closing_leg(Reader& leg, Reader& link, Reader& closure) {
   return result;
 }
 
+/// What people ask for that no leg has yet is called by its name, with what there is instead.
+bool is_supported(Reader& leg) {
+  constexpr std::string_view one_link =
+      "a leg has one link in this version: model it by one link of the same length, or a lone arm of several "
+      "sections by kind: serial";
+  constexpr std::string_view one_tendon =
+      "a link is bent in one plane, by one tendon and its twin, in this version; sections with three or four "
+      "tendons are for robots of kind: serial";
+  if (!leg.is(Node::Kind::map)) return true;  // said by whoever reads it
+  if (const auto links = leg.optional("links")) {
+    links->refuse("not_available", one_link);
+    return false;
+  }
+  auto link = leg.optional("link");
+  if (link && link->is(Node::Kind::list)) {
+    link->refuse("not_available", one_link);
+    return false;
+  }
+  auto tendons = leg.optional("tendons");
+  if (!tendons && link && link->is(Node::Kind::map)) tendons = link->optional("tendons");
+  if (tendons) tendons->refuse("not_available", one_tendon);
+  return !tendons;
+}
+
 /// The kind of leg that link and closure name, out of all kinds of one space; none where there is no such
 /// kind.
 template <class... Legs>
 std::optional<AnyLeg<Legs...>> read_leg(Reader& leg, TypeList<Legs...>) {
+  if (!is_supported(leg)) return {};
   Reader link = leg.required("link", "{type, length, ...}"), closure = leg.required("closure", "{type, ...}");
   const auto kind = [](Reader& part, std::vector<std::string_view> names) {
     std::ranges::sort(names);
@@ -274,7 +300,8 @@ std::optional<AnyLeg<Legs...>> read_leg(Reader& leg, TypeList<Legs...>) {
   const auto read_if = [&]<class LegT>(std::type_identity<LegT>) {
     if constexpr (BearsLoad<LegT>) {
       if (LegT::Link::name != link_name) return false;
-      result.kind = read_rod(leg, link, closure, kind(closure, {Ball::name, Clamp::name}) == Clamp::name);
+      result.kind =
+          LegT(read_rod(leg, link, closure, kind(closure, {Ball::name, Clamp::name}) == Clamp::name));
     } else {
       if (closure_name.empty()) closure_name = kind(closure, {Legs::Closure::name...});
       if (LegT::Link::name != link_name || LegT::Closure::name != closure_name) return false;
@@ -527,10 +554,18 @@ void check_head(Reader& robot) {
       kind->refuse("not_available", "this reads parallel robots; load_serial reads this one");
 }
 
-/// Every leg written out in full: architecture expanded, defaults merged in.
+/// Every leg written out in full: architecture expanded, defaults merged in. What no robot can have is
+/// refused first: the defaults are copied into each leg, and legs are compared with each other.
 Expected<Document> listed(const Document& document) {
+  if (auto fits = check_size(document); !fits) return tl::unexpected(fits.error());
   Expected<Document> longer = expanded(document);
   if (!longer) return longer;
+  const Node* list = longer->root.find("legs");
+  if (const std::size_t count = list ? list->items.size() : 0; count > max_rows)
+    return failure(
+        "too_many_legs", place(document, list->line, list->column),
+        fmt::format("legs: there are {} legs; this build carries at most {} constraints and {} actuators.",
+                    count, max_rows, max_rows));
   const Node* defaults = longer->root.find("defaults");
   Node* legs = longer->root.find("legs");
   if (!defaults || !legs) return longer;
@@ -540,13 +575,29 @@ Expected<Document> listed(const Document& document) {
 
 }  // namespace
 
+Expected<void> check_size(const Document& document) {
+  constexpr std::size_t most = 5000;  // of 24 legs with all that they can have about a thousand
+  const auto count = [](const auto& self, const Node& node) -> std::size_t {
+    std::size_t values = 1;
+    for (const Node& item : node.items) values += self(self, item);
+    for (const Member& member : node.members) values += self(self, member.value);
+    return values;
+  };
+  const std::size_t values = count(count, document.root);
+  if (values <= most) return {};
+  return failure("too_large", document.source,
+                 fmt::format("it has {} values; a robot has at most {}.", values, most));
+}
+
 Expected<AnyRobot> read_robot(const Document& document) {
+  if (auto fits = check_size(document); !fits) return tl::unexpected(fits.error());
   const Expected<Document> longer = expanded(document);
   if (!longer) return tl::unexpected(longer.error());
-  const Document whole = listed(*longer).value();
+  const Expected<Document> whole = listed(*longer);
+  if (!whole) return tl::unexpected(whole.error());
   Errors errors;
   Reader robot =
-      Reader(*longer, errors).over(whole.root);  // a shared default is named as such, and told once
+      Reader(*longer, errors).over(whole->root);  // a shared default is named as such, and told once
   check_head(robot);
   const auto is_final = [](const Error& error) { return error.code == "not_available"; };
   if (!robot.is(Node::Kind::map) || std::ranges::any_of(errors, is_final)) return tl::unexpected(errors);
@@ -622,19 +673,26 @@ Expected<Document> with(const Document& document, const std::string& path, Node 
   } else if (of_legs || of_sections) {
     auto longer = expanded(document);
     if (!longer) return longer;
-    Document whole = listed(*longer).value();
-    if (auto there = set(whole.root, path, value); !there) return tl::unexpected(there.error());
+    Expected<Document> whole = listed(*longer);
+    if (!whole) return whole;
+    if (auto there = set(whole->root, path, value); !there) return tl::unexpected(there.error());
     changed = std::move(*longer);
-    if (auto done = make_own(changed, whole, path); !done) return tl::unexpected(done.error());
+    if (auto done = make_own(changed, *whole, path); !done) return tl::unexpected(done.error());
   }
   // A place of its own, in no file: an error about the value is then named by its path, and told once.
   value.line = -1;
   value.column = static_cast<int>(std::hash<std::string>{}(path)&0x7fffffffU);
   if (const auto done = set(changed.root, path, std::move(value)); !done) return tl::unexpected(done.error());
+  if (auto fits = check_size(changed); !fits) return tl::unexpected(fits.error());
   return changed;
 }
 
 Expected<Document> with(const Document& document, std::span<const Member> settings) {
+  constexpr std::size_t most = 500;  // each copies the document
+  if (settings.size() > most)
+    return failure("too_large", "set",
+                   fmt::format("set has {} values; give at most {} at once, or another robot file.",
+                               settings.size(), most));
   Expected<Document> changed = document;
   for (const bool of_legs : {false, true})
     for (const Member& setting : settings)

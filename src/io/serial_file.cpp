@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "io/robot_size.hpp"
 #include "sinew/base/limits.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/reader.hpp"
@@ -146,6 +147,14 @@ void read_actuation(Reader& robot, SerialRobot& result) {
   }
 }
 
+/// Where a file gives none: a steel tendon as long as the robot stretches by 0.03 % at 60 MPa, and no encoder
+/// tells less than its step. With 0 a rounded number would be slack.
+double usual_tolerance(const SerialRobot& robot) {
+  constexpr double strain = 3e-4;
+  const double step = robot.motor ? 1 / robot.motor->counts_per_length() : 0;
+  return std::max(strain * robot.length(), step);
+}
+
 SerialRobot read_listed(Reader& robot) {
   SerialRobot result;
   const Reader version = robot.required("sinew", "version of the file format: 1");
@@ -155,18 +164,22 @@ SerialRobot read_listed(Reader& robot) {
   result.name = robot.required("name").text();
   if (const auto geometry = robot.optional("geometry"))
     result.geometry_inferred = geometry->choice({"given", "inferred"}) == "inferred";
-  if (const auto tolerance = robot.optional("tolerance"))
+  const auto tolerance = robot.optional("tolerance");
+  if (tolerance)
     result.tolerance = tolerance->quantity(Dimension::length, {.low = 0, .high = Range::size().high});
   Reader sections = robot.required("sections", "a list, one entry a section, or {count, ...}");
   if (sections.node()) {
     auto items = sections.items();
     if (items.empty()) sections.fail("too_few_sections", "there is none; list at least one section.");
-    if (items.size() > max_sections)
+    if (items.size() > max_sections) {
       sections.fail("too_many_sections", fmt::format("there are {} sections; this build carries at most {}.",
                                                      items.size(), max_sections));
+      items.clear();
+    }
     for (Reader& section : items) result.sections.push_back(read_section(section));
   }
   read_actuation(robot, result);
+  if (!tolerance) result.tolerance = usual_tolerance(result);
   robot.close();
   return result;
 }
@@ -199,6 +212,7 @@ Expected<Document> expanded_sections(const Document& document) {
 }
 
 Expected<SerialRobot> read_serial_robot(const Document& document) {
+  if (auto fits = check_size(document); !fits) return tl::unexpected(fits.error());
   const Expected<Document> longer = expanded_sections(document);
   if (!longer) return tl::unexpected(longer.error());
   Errors errors;

@@ -3,35 +3,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <system_error>
+#include <unordered_set>
 #include <utility>
 
 #include "sinew/base/assert.hpp"
+#include "sinew/io/node.hpp"
 #include "sinew/io/quantity.hpp"
+#include "sinew/io/read_bytes.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 30U;
+constexpr std::size_t most_columns = 100'000;
+constexpr std::size_t most_over = 1000;  // cells of a row beyond its columns, which are only counted
 constexpr std::size_t most_errors = 20;  // of one file: after that it is not this kind of file
 
-/// Quoted as RFC 4180 has it where the text would not read back as one cell, or a heading as a comment.
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r#") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  return quoted + '"';
-}
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // of spreadsheets
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// Quoted as RFC 4180 has it where the text would not read back as one cell, or a heading as a comment.
+std::string csv_cell(const std::string& text) {
+  const bool is_kept = text.find_first_of(",\"\n\r#") == std::string::npos && !text.empty() &&
+                       trimmed(text) == text && !text.starts_with(byte_order_mark);
+  if (is_kept) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
 }
 
 /// Reads the lines of one CSV text and collects what is wrong with them.
@@ -40,7 +46,7 @@ class CsvReader {
   CsvReader(std::string_view text, const std::string& source) : text_(text), source_(source) {}
 
   Expected<Table> table() {
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // the byte order mark of spreadsheets
+    if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
     std::string_view line;
     while (errors_.size() < most_errors && next(line)) take(line);
     if (errors_.empty() && table_.columns.empty())
@@ -75,22 +81,28 @@ class CsvReader {
   }
 
   void take_heading(std::string_view line) {
-    for (const std::string& cell : cells(line)) {
+    const std::vector<std::string> names = cells(line, most_columns + 1);
+    if (names.size() > most_columns)
+      return error("too_many_columns",
+                   fmt::format("there are more than {} columns; give fewer", most_columns));
+    std::unordered_set<std::string> known;
+    for (const std::string& cell : names) {
       Column column = Column::named(cell);
-      if (table_.find(column.name) != nullptr)
+      if (!known.insert(column.name).second)
         error("duplicate_column",
-              fmt::format("the column \"{}\" is there twice; names must differ", column.name));
+              fmt::format("the column {} is there twice; names must differ", in_quotes(column.name)));
       table_.columns.push_back(std::move(column));
     }
   }
 
   void take_row(std::string_view line) {
-    const std::vector<std::string> row = cells(line);
+    const std::vector<std::string> row = cells(line, table_.columns.size() + most_over);
     if (row.size() != table_.columns.size()) {
       error("wrong_cell_count",
-            fmt::format("{} cells, but the heading has {}; leave a cell empty where there is no "
+            fmt::format("{}{} cells, but the heading has {}; leave a cell empty where there is no "
                         "value",
-                        row.size(), table_.columns.size()));
+                        row.size() == table_.columns.size() + most_over ? "at least " : "", row.size(),
+                        table_.columns.size()));
       return;
     }
     for (std::size_t i = 0; i < row.size(); ++i) table_.columns[i].values.push_back(number(row[i], i));
@@ -99,16 +111,15 @@ class CsvReader {
   double number(const std::string& cell, std::size_t column) {
     if (cell.empty()) return missing;
     if (const auto value = parse_number(cell)) return *value;
-    error("not_a_number",
-          fmt::format("column \"{}\": \"{}\" is not a number; write a decimal number, or nothing",
-                      table_.columns[column].name, cell));
+    error("not_a_number", fmt::format("column {}: {} is not a number; write a decimal number, or nothing",
+                                      in_quotes(table_.columns[column].name), in_quotes(cell)));
     return missing;
   }
 
-  /// Cells of one line; a quoted cell does not reach over lines.
-  std::vector<std::string> cells(std::string_view line) {
+  /// Cells of one line, `most` of them; a quoted cell does not reach over lines.
+  std::vector<std::string> cells(std::string_view line, std::size_t most) {
     std::vector<std::string> found;
-    while (true) {
+    while (found.size() < most) {
       found.push_back(line.starts_with('"') ? quoted(line) : plain(line));
       if (line.empty()) return found;
       if (!line.starts_with(',')) {
@@ -117,6 +128,7 @@ class CsvReader {
       }
       line.remove_prefix(1);
     }
+    return found;
   }
 
   static std::string plain(std::string_view& line) {
@@ -144,6 +156,7 @@ class CsvReader {
   }
 
   void error(std::string_view code, std::string message) {
+    if (errors_.size() >= most_errors) return;
     errors_.push_back({std::string(code), fmt::format("{}:{}", source_, line_), std::move(message)});
   }
 
@@ -153,9 +166,6 @@ class CsvReader {
   Table table_;
   Errors errors_;
 };
-
-/// `reason` of the system for what has just failed.
-std::string last_reason() { return std::generic_category().message(errno); }
 
 }  // namespace
 
@@ -175,7 +185,8 @@ Table::Table(std::initializer_list<std::string_view> headings) {
 
 void Table::add_row(Numbers row) {
   SINEW_EXPECTS(row.size() == columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) columns[i].values.push_back(row[i]);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    columns[i].values.push_back(i < row.size() ? row[i] : std::numeric_limits<double>::quiet_NaN());
 }
 
 const Column* Table::find(std::string_view name) const {
@@ -195,15 +206,20 @@ std::string to_csv(const Table& table) {
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     text += (i == 0 ? "" : ",") + csv_cell(table.columns[i].heading());
   text += '\n';
+  std::vector<double> values(table.columns.size());
   for (std::size_t row = 0; row < table.row_count(); ++row) {
-    for (std::size_t i = 0; i < table.columns.size(); ++i) {
-      const double value = table.columns[i].values[row];
-      if (i > 0) text += ',';
-      if (std::isfinite(value)) text += si_text(value);
-    }
-    text += '\n';
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = table.columns[i].values[row];
+    append_csv_row(text, values);
   }
   return text;
+}
+
+void append_csv_row(std::string& text, Numbers row) {
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (i > 0) text += ',';
+    if (std::isfinite(row[i])) text += si_text(row[i]);
+  }
+  text += '\n';
 }
 
 Expected<Table> parse_csv(std::string_view text, const std::string& source) {
@@ -215,34 +231,8 @@ Expected<void> write_csv(const Table& table, const std::filesystem::path& path) 
 }
 
 Expected<Table> read_csv(const std::filesystem::path& path) {
-  std::error_code code;
-  if (!std::filesystem::exists(path, code))
-    return failure("file_missing", path.string(), "there is no such file; check the path");
-  if (std::filesystem::is_directory(path, code))
-    return failure("file_unreadable", path.string(), "this is a folder; give the path of a file");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    return failure("file_unreadable", path.string(), fmt::format("cannot be read: {}", last_reason()));
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  return parse_csv(text, path.string());
-}
-
-Expected<void> write_text(std::string_view text, const std::filesystem::path& path) {
-  std::error_code code;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), code);
-  if (code)
-    return failure(
-        "file_unwritable", path.string(),
-        fmt::format("its folder cannot be made: {}; give a folder you may write to", code.message()));
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (!file)
-    return failure("file_unwritable", path.string(),
-                   fmt::format("cannot be written: {}; give a folder you may write to", last_reason()));
-  return {};
+  const auto text = read_bytes(path, most_bytes);
+  return text ? parse_csv(*text, path.string()) : tl::unexpected(text.error());
 }
 
 }  // namespace sinew::inline v0

@@ -99,8 +99,9 @@ TEST(Figure, TheScriptHoldsItsDataAndNoDate) {
   EXPECT_NE(script.find("$panel3_map << EOD\n-1 5 1\n0 5 2\n-1 15 4\n0 15 5\n1 15 6\nEOD\n"),
             std::string::npos)
       << "a cell without a value is left out";
-  EXPECT_NE(script.find("set xlabel 'x_1 [m]'"), std::string::npos);
-  EXPECT_NE(script.find("it''s `date`"), std::string::npos);
+  EXPECT_NE(script.find(R"x(set xlabel "x\134_1 (m)")x"), std::string::npos);
+  EXPECT_NE(script.find(R"(\042q\042 it\047s \140date\140 \044x \134\134n)"), std::string::npos);
+  EXPECT_EQ(script.find('`'), std::string::npos);
   EXPECT_EQ(script.find("/tmp"), std::string::npos);
 }
 
@@ -128,6 +129,38 @@ TEST(Figure, DrawsEveryMarkInEveryFormatAndTheSameBytesAgain) {
   for (std::size_t i = 0; i < files->size(); ++i) EXPECT_EQ(bytes((*files)[i]), first[i]) << (*files)[i];
 }
 
+TEST(FigureText, SetsSymbolsOfOursAndUnitsAndNothingElse) {
+  using Style = Text::Style;
+  const Text pose = formula("‖U_p‖ of x^-2");
+  ASSERT_EQ(pose.parts().size(), 6U);
+  EXPECT_EQ(pose.parts()[1], (Text::Part{"U", Style::italic}));
+  EXPECT_EQ(pose.parts()[2], (Text::Part{"p", Style::subscript}));
+  EXPECT_EQ(pose.parts()[5], (Text::Part{"−2", Style::superscript}));
+  EXPECT_EQ(with_unit("v_{2}", "").parts().size(), 1U);
+  EXPECT_EQ(with_unit(formula("φ"), "deg").plain(), "φ (°)");
+  EXPECT_EQ(unit_text("10⁻⁶ m^4").parts().back(), (Text::Part{"4", Style::superscript}));
+  EXPECT_EQ(unit_text("m_{2} ^x").parts().size(), 1U) << "what is no unit is literal";
+}
+
+TEST(Figure, HasTheWidthThatIsAskedForInEveryFormat) {
+  const Folder folder;
+  const FigureOptions paper{.formats = {FigureFormat::svg, FigureFormat::png, FigureFormat::pdf},
+                            .width = 85,
+                            .font = "DejaVu Sans' onload='x"};
+  const Figure figure = one_of_each();
+  const auto files = write_figure(figure, folder.path / "f", paper);
+  ASSERT_TRUE(files) << to_string(files.error());
+  const std::string svg = bytes((*files)[1]), png = bytes((*files)[2]), pdf = bytes((*files)[3]);
+  EXPECT_NE(svg.find("<svg \n width=\"85mm\" height=\""), std::string::npos) << svg.substr(0, 200);
+  EXPECT_EQ(svg.find("onload="), std::string::npos);  // a name of a font is no markup
+  EXPECT_NEAR(png_number(png, 16), 85 / 25.4 * 300, 1);
+  EXPECT_EQ(png.substr(37, 4), "pHYs");
+  EXPECT_NE(pdf.find("/MediaBox [ 0 0 240"), std::string::npos);
+  EXPECT_EQ(page_of(figure, paper).columns, 1) << "three panels side by side have no room";
+  EXPECT_EQ(page_of(figure, {.width = 180}).columns, 2);
+  EXPECT_EQ(page_of(figure, {}).width, 900);
+}
+
 TEST(Figure, AnEmptyPanelIsAnEmptyFrame) {
   const Folder folder;
   const Panel empty{.title = "nothing",
@@ -143,7 +176,7 @@ TEST(Figure, TheFrameOfAMapIsAroundItsCellsAndItsColoursAreLabelled) {
   EXPECT_NE(script.find("set xrange [-1.5:1.5]"), std::string::npos);
   EXPECT_NE(script.find("set yrange [0:20]"), std::string::npos);
   EXPECT_NE(script.find("set cbrange [*:*]"), std::string::npos);
-  EXPECT_NE(script.find("set cblabel 'it''s κ'"), std::string::npos);
+  EXPECT_NE(script.find(R"(set cblabel "it\047s κ")"), std::string::npos);
 }
 
 TEST(Figure, AMapWithoutAnyValueIsAnEmptyFrame) {
@@ -164,8 +197,9 @@ TEST(Figure, AMapWithoutAnyValueIsAnEmptyFrame) {
 
 TEST(Figure, QuotesOfATextEndNoString) {
   const Folder folder;
-  for (const std::string text : {"'", "''", "'''", "a''b", "''a'", "'; system 'touch hacked'; '", "a' b' c'",
-                                 "'.system('touch hacked').'", "\\'", "\"'\"", "`touch hacked`"}) {
+  for (const std::string text :
+       {"'", "''", "'''", "a''b", "''a'", "'; system 'touch hacked'; '", "a' b' c'",
+        "'.system('touch hacked').'", "\\'", "\"'\"", "`touch hacked`", "'0", "1'23\"456|78#9", "{7}7"}) {
     const Panel panel{.title = text,
                       .x = {.label = text, .unit = ""},
                       .y = {.label = "y", .unit = text},
@@ -178,7 +212,7 @@ TEST(Figure, QuotesOfATextEndNoString) {
     std::size_t count = 0;  // two titles, the x axis, legend, note
     for (std::size_t at = svg.find(whole); at != std::string::npos; at = svg.find(whole, at + 1)) ++count;
     EXPECT_GE(count, 5U) << text;
-    EXPECT_NE(svg.find(">y [" + text + "]<"), std::string::npos) << text;
+    EXPECT_NE(svg.find(">y (" + text + ")<"), std::string::npos) << text;
     EXPECT_FALSE(fs::exists(folder.path / "hacked"));
   }
 }
@@ -187,7 +221,7 @@ TEST(Figure, APanelInSpaceHasOneScaleAndTakesBackWhatItSets) {
   const std::string script = gnuplot_script(one_of_each(), "f");
   for (const char* line :
        {"$panel4_1 << EOD\n0 0 0\n1 1 5\n2 0 5\n0 1 9\nEOD\n", "set view equal xyz\n  set view 70,40,",
-        "set zlabel 'it''s z [mm]'", "set zrange [0:10]", "splot $panel4_1 using 1:2:3 with lines",
+        R"x(set zlabel "it\047s z (mm)")x", "set zrange [0:10]", "splot $panel4_1 using 1:2:3 with lines",
         "with polygons fs transparent solid 0.2 fc rgb '#0072b2' notitle", "unset zlabel"})
     EXPECT_NE(script.find(line), std::string::npos) << line;
 }
@@ -197,7 +231,7 @@ TEST(Figure, ALogAxisOfTinyNumbersIsWrittenInPowersAndTakesThatBack) {
   EXPECT_EQ(gnuplot_script(figure, "f").find("set format"), std::string::npos);
   figure.panels[0].y.low = 1e-7;
   const std::string script = gnuplot_script(figure, "f");
-  const std::size_t set = script.find("set format y '%g'\n"), back = script.find("set format y\n");
+  const std::size_t set = script.find("set format y '10^{%L}'\n"), back = script.find("set format y\n");
   EXPECT_LT(set, back);
   EXPECT_LT(back, script.find("set title", script.find("set title") + 1));  // before the next panel
 }
@@ -206,7 +240,7 @@ TEST(Figure, ShadedPointsHaveAColumnMoreAndALabelledBar) {
   const std::string script = gnuplot_script(one_of_each(), "f");
   EXPECT_NE(script.find("$panel5_1 << EOD\n0 1 -5\n\n2 3 7\nEOD\n"), std::string::npos);
   EXPECT_NE(script.find("plot $panel5_1 using 1:2:3 with points lc palette pt 7"), std::string::npos);
-  EXPECT_NE(script.find("set cblabel 'U_p^{2} <b> & \"q\" it''s `date` $x"), std::string::npos);
+  EXPECT_NE(script.find(R"(set cblabel "U\134_p\134^\134\173\062\134\175 <b>)"), std::string::npos);
 }
 
 TEST(Figure, ManyCellsAreOneImageAndFewAreRectangles) {

@@ -151,7 +151,7 @@ TEST(Reader, NodesOfTheWrongKindAreErrorsNotCrashes) {
        {"number = 5; give a map of keys.",
         "list is a list; give a force (\"2 N\", \"50 mN\", or 2 for newtons).",
         "map is a map; give text, in quotes if it looks like a number.", "text = \"word\"; give a list.",
-        "flag = true; give a whole number (3).", "nothing is empty; give true or false.",
+        "flag = true; give a whole number (3).", "f.yaml:6:10: missing key \"nothing\".",
         "list is a list; give one of a, b.", "number = 5; give a list of 3 values, each a length"})
     EXPECT_NE(text.find(message), std::string::npos) << message << "\n" << text;
   EXPECT_EQ(text.find("absent", text.find("missing key \"absent\"") + 15), std::string::npos)

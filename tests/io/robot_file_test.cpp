@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "every_robot.hpp"
+#include "paths.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/io/parse.hpp"
+#include "sinew/io/serial_file.hpp"
 
 namespace sinew::test {
 namespace {
@@ -43,7 +47,7 @@ TEST(RobotFile, ListsLegsOrNamesAnArchitectureOrIsBuiltInCodeAllTheSame) {
   expect_same_motion(*listed, *named);
   expect_same_motion(*listed, rfr_in_code());
   expect_same_motion(*listed, load("3-rfr").value());
-  expect_same_motion(*listed, load(std::string(SINEW_SOURCE_DIR) + "/robots/3-rfr.yaml").value());
+  expect_same_motion(*listed, load(std::string(source_folder) + "/robots/3-rfr.yaml").value());
   EXPECT_EQ(named->model.index(), 0U);  // alike legs take the static path
 }
 
@@ -276,7 +280,7 @@ TEST(RobotFile, TiedLegsShareAnActuator) {
   // A pose at which the tied legs need different lengths cannot be held.
   const Inverse no = inverse(*robot, PlanarPose{0.02, 0.01, 0.1}, {}, work);
   EXPECT_EQ(no.report.status, Status::unreachable);
-  EXPECT_NE(no.report.message.view().find("inputs[1] moves several legs"), std::string_view::npos);
+  EXPECT_NE(no.report.message.view().find("legs[1] and those tied to it have one actuator"), std::string_view::npos);
 }
 
 TEST(RobotFile, FourLegsAreARedundantRobot) {
@@ -329,6 +333,49 @@ TEST(RobotFile, ErrorsOfSharedDefaultsAreToldOnce) {
   ASSERT_FALSE(robot);
   ASSERT_EQ(robot.error().size(), 1U) << to_string(robot.error());
   EXPECT_EQ(robot.error()[0].where, "robot.yaml:4:29");
+}
+
+std::string many(const std::string& begin, const std::string& one, int count, const std::string& end) {
+  std::string text = head + begin;
+  for (int i = 0; i < count; ++i) text += one + ", ";
+  return text + end;
+}
+
+/// Some of these took a minute, or all memory, of a text of one MiB.
+TEST(RobotFile, WhatNoRobotHasCostsAsMuchAsItIsLong) {
+  const auto code = [](const std::string& text) {
+    const auto document = parse_yaml(text, "robot.yaml");
+    const auto robot = document ? read_robot(*document) : tl::unexpected(document.error());
+    EXPECT_FALSE(robot);
+    return robot.error().front().code;
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(code(many("legs: [", "{}", 190'000, "]")), "too_large");
+  EXPECT_EQ(code(many("legs: [", "0", 190'000, "]")), "too_large");
+  EXPECT_EQ(code(many("defaults: {a: [", "0", 90'000, "]}") +
+                 many("\nlegs: [", "{}", 90'000, "]").substr(head.size())),
+            "too_large");
+  EXPECT_EQ(code(many("kind: serial\nsections: [", "{}", 190'000, "]")), "too_large");
+  const auto sections =
+      read_serial_robot(parse_yaml(many("kind: serial\nsections: [", "{}", 4000, "]"), "robot.yaml").value());
+  EXPECT_EQ(sections.error().front().code, "too_many_sections");
+  EXPECT_EQ(code(many("legs: [", "{}", 4000, "]")), "too_many_legs");
+  EXPECT_EQ(code(many("a: {", "a: 1", 90'000, "}")), "duplicate_key");
+  EXPECT_EQ(code(head + "a: " + std::string(1'000'000, '[')), "too_deep");
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+            20);  // 1 on its own
+}
+
+TEST(RobotFile, SettingsAreNoMoreThanARobotHas) {
+  const Document document = read_robot_file("3-rfr").value();
+  std::vector<Member> settings(500, {"legs[0].link.length", 0, 0, make_node(0.2)});
+  EXPECT_TRUE(with(document, settings));
+  settings.push_back(settings.back());
+  EXPECT_EQ(with(document, settings).error().front().code, "too_large");
+  Node list;
+  list.kind = Node::Kind::list;
+  list.items.resize(5000);
+  EXPECT_EQ(with(document, "legs[0].link.length", list).error().front().code, "too_large");
 }
 
 }  // namespace

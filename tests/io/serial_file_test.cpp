@@ -80,6 +80,14 @@ TEST(SerialFile, WhatIsWrongIsNamed) {
   EXPECT_NE(error(many + "]").find("at most 12"), std::string::npos);
 }
 
+TEST(SerialFile, WithoutAToleranceAMicrometreIsNoSlack) {
+  const std::string one = "[" + std::string(section) + "]";
+  EXPECT_NEAR(read(one).value().tolerance, 3e-4 * read(one).value().length(), 1e-15);
+  EXPECT_EQ(read(one, "tolerance: 0\n").value().tolerance, 0);
+  EXPECT_EQ(read(one, "tolerance: ~\nmotor: {lead: 1 mm, counts: 2}\n").value().tolerance,
+            0.5e-3);  // a count of it
+}
+
 TEST(SerialFile, LengthsThatVary) {
   const auto with_extension = [](const char* type, const char* extension) {
     return fmt::format(

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -56,6 +57,38 @@ TEST(Table, ReadsBackWhatItWrote) {
   EXPECT_EQ(read->find("#c"), &read->columns[2]);
   EXPECT_EQ(read->find("missing"), nullptr);
   EXPECT_EQ(to_csv(*read), to_csv(table));
+}
+
+TEST(Table, HeadingsOfBlanksComeBack) {
+  for (const char* name : {"", " ", " a ", "\xEF\xBB\xBF",
+                           "\xEF\xBB\xBF"
+                           "a"}) {
+    Table table{name};
+    table.add_row({1.0});
+    const auto read = parse_csv(to_csv(table), "t.csv");
+    ASSERT_TRUE(read) << to_string(read.error());
+    EXPECT_EQ(read->columns[0].name, name);
+    EXPECT_EQ(read->row_count(), 1U);
+  }
+}
+
+TEST(Table, WideTablesAreReadInLinearTimeAndEndlessOnesRefused) {
+  std::string heading, row;
+  for (int k = 0; k < 100000; ++k) {
+    heading += (k ? ",c" : "c") + std::to_string(k);
+    row += k ? ",1" : "1";
+  }
+  const auto wide =
+      parse_csv(heading + '\n' + row + '\n', "t.csv");  // a minute where each name is compared with all
+  ASSERT_TRUE(wide) << to_string(wide.error());
+  EXPECT_EQ(wide->columns.size(), 100000U);
+  EXPECT_NE(error_of(heading + ",one_more\n").find("[too_many_columns]"), std::string::npos);
+  EXPECT_NE(error_of("a\n" + std::string(5'000'000, ',')).find("at least 1001 cells"), std::string::npos);
+  std::string bad = "c0";
+  for (int k = 1; k < 100; ++k) bad += ",c" + std::to_string(k);
+  const auto many = parse_csv(bad + '\n' + bad + '\n', "t.csv");
+  ASSERT_FALSE(many);
+  EXPECT_EQ(many.error().size(), 20U) << "also of one line";
 }
 
 RC_GTEST_PROP(Table, EveryFiniteNumberComesBackToTheBit, (std::vector<std::uint64_t> bits)) {
@@ -121,6 +154,17 @@ TEST(Table, FilesAreWrittenWithTheirFoldersAndRead) {
   const auto read = read_csv(path);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->columns[0].values[0], 0.25);
+}
+
+TEST(Table, PipesAreNotWaitedFor) {
+  const Folder folder;
+  ASSERT_EQ(mkfifo((folder.path / "p.csv").c_str(), 0600), 0);
+  for (const fs::path& path : {folder.path / "p.csv", fs::path("/dev/zero")}) {
+    const auto read = read_csv(path);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().front().code, "file_unreadable");
+    EXPECT_NE(read.error().front().message.find("pipe or a device"), std::string::npos);
+  }
 }
 
 TEST(Table, FilesThatCannotBeReadOrWrittenAreErrors) {

@@ -36,7 +36,7 @@ TEST(Verilog, EveryWordIsFilledIn) {
       EXPECT_TRUE(file.text[at + 1] == '=' || file.text[at + 1] == ' ') << file.text.substr(at, 40);
 }
 
-/// Those that tests/golden/good/export_c_header shows.
+/// Those that tests/golden/good/export_c_header.txt shows.
 TEST(Verilog, NumbersAreThoseOfTheHeader) {
   const std::string core = exported("arm").at(0).text;
   for (const char* number : {"hash 90d7d214", "-16'sd18335", "-16'sd16291", "limit <= 16'sd3431"})

@@ -1,14 +1,13 @@
 """schema/robot.schema.json and the reader must judge robot files alike.
 
-usage: schema_test.py SINEW_COMMAND
+usage: schema_test.py SINEW_COMMAND JUDGE
 
 Every robot file of the tree is good for both. Each is then broken in every way that a schema can see: a key left out,
 an unknown key, a value of another kind, sign or unit, a list of another length. Both must judge the broken file alike.
+JUDGE reads as the command does, thousands of files in one process; some are given to the command as well.
 """
-import concurrent.futures
 import copy
 import json
-import os
 import pathlib
 import re
 import subprocess
@@ -24,7 +23,7 @@ with warnings.catch_warnings():
     import jsonschema
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-COMMAND = ""
+COMMAND = JUDGE = ""
 SCHEMA = json.loads((ROOT / "schema/robot.schema.json").read_text(encoding="utf-8"))
 
 # What a schema cannot say: relations between values. The reader alone refuses these.
@@ -108,6 +107,17 @@ def judge_by_reader(text):
     return set(re.findall(r" \[(\w+)\]$", done.stderr, flags=re.M)) or {done.stderr}
 
 
+def judge_all(texts):
+    """The codes of each file. Every hundredth is judged by the command, too."""
+    done = subprocess.run([JUDGE], input="".join(text + "\n" for text in texts), capture_output=True, text=True,
+                          check=True, timeout=240)
+    codes = [set(line.split()) for line in done.stdout.splitlines()]
+    assert len(codes) == len(texts), f"{len(texts)} files, {len(codes)} verdicts"
+    for text, found in list(zip(texts, codes))[::100]:
+        assert judge_by_reader(text) == found, f"the command says otherwise than {found} of {text}"
+    return codes
+
+
 class Schema(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -121,8 +131,7 @@ class Schema(unittest.TestCase):
     def agree(self, cases):
         """Both judge every (what, file) alike."""
         texts = [json.dumps(root) for _, root in cases]  # JSON is YAML
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            codes = list(pool.map(judge_by_reader, texts))
+        codes = judge_all(texts)
         differences = []
         for (what, root), found in zip(cases, codes):
             complaint = self.complaint(root)
@@ -352,5 +361,5 @@ class Schema(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    COMMAND = sys.argv.pop(1)
+    COMMAND, JUDGE = sys.argv.pop(1), sys.argv.pop(1)
     unittest.main()

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "paths.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "study/tdpcr/example51.hpp"
@@ -75,7 +76,7 @@ TEST(Fig9, TheSingularPoseHasNoIndices) {
 }
 
 TEST(Example51, DivergenceRatesEqualTheReference) {
-  const auto robot = load(SINEW_SOURCE_DIR "/robots/3-rfr.yaml");
+  const auto robot = load(std::string(source_folder) + "/robots/3-rfr.yaml");
   ASSERT_TRUE(robot);
   Workspace work(*robot);
   const auto rates = example51::rates(example51::sample(*robot, 1, work).value());
@@ -86,7 +87,7 @@ TEST(Example51, DivergenceRatesEqualTheReference) {
 }
 
 TEST(Example51, IndicesApproachTheirRatesToFirstOrder) {
-  const auto robot = load(SINEW_SOURCE_DIR "/robots/3-rfr.yaml");
+  const auto robot = load(std::string(source_folder) + "/robots/3-rfr.yaml");
   Workspace work(*robot);
   const auto rates = example51::rates(example51::sample(*robot, 1, work).value());
   for (const double left : {1e-3, 1e-4, 1e-5}) {
@@ -99,7 +100,7 @@ TEST(Example51, IndicesApproachTheirRatesToFirstOrder) {
 }
 
 TEST(Example51, ClosedFormOfTheDeterminantHoldsOffTheTrajectory) {
-  const auto robot = load(SINEW_SOURCE_DIR "/robots/3-rfr.yaml");
+  const auto robot = load(std::string(source_folder) + "/robots/3-rfr.yaml");
   Workspace work(*robot);
   for (const PlanarPose pose : {PlanarPose{0.01, -0.02, 0.3}, {-0.02, 0.015, 1.4}, {0.005, 0.01, -0.2}}) {
     const double determinant = velocity(*robot, pose, {0.0, 0.0, 0.0}, work).determinant;

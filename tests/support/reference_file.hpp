@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "paths.hpp"
+
 namespace sinew::test {
 
 template <class Json = nlohmann::json>
@@ -16,7 +18,7 @@ const Json& reference_file(const std::string& path_in_tests) {
   static std::map<std::string, Json> files;
   auto [entry, is_new] = files.try_emplace(path_in_tests);
   if (is_new) {
-    std::ifstream file(SINEW_SOURCE_DIR "/tests/" + path_in_tests);
+    std::ifstream file(std::string(source_folder) + "/tests/" + path_in_tests);
     if (!file) throw std::runtime_error("missing tests/" + path_in_tests);
     entry->second = Json::parse(file);
   }

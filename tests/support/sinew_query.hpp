@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "paths.hpp"
 #include "reference_file.hpp"
 
 namespace sinew::test {
@@ -28,7 +29,7 @@ inline std::vector<Json> ask(const std::string& robot, const std::vector<Json>& 
     std::ofstream in(folder / "in.jsonl");
     for (const Json& query : queries) in << query.dump() << '\n';
   }
-  const std::string line = std::string(SINEW_COMMAND) + " query '" + robot + "' < " +
+  const std::string line = std::string(command_path) + " query '" + robot + "' < " +
                            (folder / "in.jsonl").string() + " > " + (folder / "out.jsonl").string();
   const int status = std::system(line.c_str());  // NOLINT: a test, and the line is ours
   if (status != 0) throw std::runtime_error("sinew query ended with status " + std::to_string(status));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sinew/base/error.hpp"
+#include "sinew/io/figure_text.hpp"
 
 namespace sinew::inline v0 {
 
@@ -31,7 +32,7 @@ enum class Mark {
 
 /// One curve. Where a coordinate is not finite the line is interrupted.
 struct Series {
-  std::string label;  ///< in the legend; empty: not there
+  Text label;  ///< in the legend; empty: not there
   std::vector<double> x, y;
   Mark mark = Mark::line;
   Colour colour = Colour::blue;
@@ -43,9 +44,11 @@ struct Series {
 /// Colours of cividis (dark blue to yellow; even steps for every colour vision) and the bar that explains
 /// them.
 struct ColourScale {
-  std::string label;
+  Text label;
   std::optional<double> low = {}, high = {};  ///< ends of the colours; default: what the values need
   bool log = false;
+  std::vector<std::string> words =
+      {};  ///< of the values 0, 1, ...: each has one colour, and its name at the bar
 };
 
 /// Values at the points of a grid, each a cell of one colour of cividis. It lies below the curves. A value
@@ -54,25 +57,28 @@ struct ColourScale {
 struct HeatMap {
   std::vector<double> x, y;                   ///< where the columns and rows are, in order
   std::vector<double> values;                 ///< x fastest
-  std::string label;                          ///< of the colour bar
+  Text label;                                 ///< of the colour bar
   std::optional<double> low = {}, high = {};  ///< ends of the colours; default: what the values need
   bool log = false;                           ///< of the colours
+  std::vector<std::string> words = {};        ///< as those of a ColourScale
 };
 
 /// A text at a point of the panel, in its coordinates.
 struct Note {
-  std::string text;
+  Text text;
   double x, y;
-  enum class Side { left, centre, right } side = Side::right;  ///< of the point
+  enum class Side { left, centre, right, above, below } side = Side::right;  ///< of the point
   Colour colour = Colour::black;
+  double z = 0;  ///< in a panel with an eye
 };
 
 struct Axis {
-  std::string label;
-  std::string unit;  ///< appended in brackets; empty: none
+  Text label;
+  std::string unit;  ///< appended in parentheses, as `unit_text` sets it; empty: none
   bool log = false;
   std::optional<double> low = {}, high = {};  ///< default: what the data need
   std::optional<double> step = {};            ///< between numbered tics; of a log axis a factor
+  std::vector<std::string> words = {};        ///< at 0, 1, ... in place of numbers
 };
 
 /// From where a panel in space is seen, from far away: equal lengths along an axis look equal anywhere.
@@ -84,7 +90,7 @@ struct Eye {
 enum class Legend { none, top_left, top_right, bottom_left, bottom_right, below };
 
 struct Panel {
-  std::string title;
+  Text title;
   Axis x, y;
   std::vector<Series> series;
   std::vector<Note> notes = {};
@@ -93,19 +99,20 @@ struct Panel {
   std::optional<HeatMap> map = {};
   std::optional<ColourScale> scale = {};  ///< of the series' shades, where there is no map
   Axis z = {};
-  std::optional<Eye> eye = {};  ///< makes the panel one in space, x, y and z to one scale; without notes
+  std::optional<Eye> eye = {};  ///< makes the panel one in space, x, y and z to one scale
 };
 
 /// A round distance (1, 2 or 5 times a power of ten) that is `span` / `most` or the next larger one.
 SINEW_API double round_step(double span, double most);
 
-/// Panels in a grid, row by row. Text is taken literally: no markup.
+/// Panels in a grid, row by row. A string is taken literally: no markup.
 struct Figure {
-  std::string title;  ///< above the panels; may be empty
+  Text title;  ///< above the panels; may be empty
   std::vector<Panel> panels;
   int columns = 1;                    ///< of the grid
-  double width = 800, height = 600;   ///< [px of the SVG]; the PNG has twice as many
+  double width = 800, height = 600;   ///< [px of the SVG, 96 an inch]; the PNG has twice as many
   std::vector<std::string> comments;  ///< at the top of the script: what this is and whence
+  Text remark = {};                   ///< below the title: what is left out, say
 };
 
 enum class FigureFormat { svg, png, pdf };
@@ -115,15 +122,34 @@ SINEW_API std::string_view extension(FigureFormat format) noexcept;  ///< `svg`
 struct FigureOptions {
   std::vector<FigureFormat> formats = {FigureFormat::svg, FigureFormat::png};
   std::string gnuplot = "gnuplot";  ///< a program on PATH, or a path to one
+  bool replaces_edited_script = false;
+  double width = 0;                 ///< of the page [mm]; 0: as the figure says
+  std::string font = "sans-serif";  ///< letters, digits, spaces and `-_.`; anything else is left out
+  double font_size = 0;             ///< [pt]; 0: 8 at a width, else 11.25
 };
 
-/// The script that draws `name.svg` and the like into the folder it is run in. The same figure gives the same
-/// bytes.
+/// What a figure is laid out on: of the width that the options say, with no more panels side by side than
+/// have room. Where they say nothing it is the figure's own.
+struct PageLayout {
+  double width, height;  ///< in units of 1/15 of the size of the font
+  double unit;           ///< [pt]
+  int columns;           ///< of the grid of panels
+};
+SINEW_API PageLayout page_of(const Figure& figure, const FigureOptions& options);
+
+/// The script that draws `name.svg` and the like into the folder it is run in; without a name, to stdout. The
+/// same figure gives the same bytes. No text of the figure, nor the name, is code in it. Its last line is a
+/// checksum.
 SINEW_API std::string gnuplot_script(const Figure& figure, const std::string& name,
                                      const FigureOptions& options = {});
 
-/// Writes `stem.gp` and runs it. The files written: the script first, then one for each format. Where gnuplot
-/// is missing or fails the script stays. Codes: `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`.
+/// Whether a script is as `gnuplot_script` made it; else somebody changed it.
+SINEW_API bool is_as_written(std::string_view script);
+
+/// Draws a figure. The files written: its script `stem.gp` first, then one for each format; all of them are
+/// put in place at the end, or none. Where gnuplot is missing or fails the script alone is written. Codes:
+/// `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`, and `script_edited` where the script of an earlier
+/// figure was changed since.
 /// @param stem path without extension; its folder is made if need be
 SINEW_API Expected<std::vector<std::filesystem::path>> write_figure(const Figure& figure,
                                                                     const std::filesystem::path& stem,

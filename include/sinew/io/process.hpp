@@ -3,6 +3,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/base/export.hpp"
@@ -22,7 +23,9 @@ struct SINEW_API ProcessResult {
   std::string complaint() const;
 };
 
-/// Runs a program, by name or path, in a folder, with nothing to read, and waits for its end.
-SINEW_API ProcessResult run_process(std::vector<std::string> arguments, const std::filesystem::path& folder);
+/// Runs a program, by name or path, in a folder, and waits for its end.
+/// @param input what it reads on stdin
+SINEW_API ProcessResult run_process(std::vector<std::string> arguments, const std::filesystem::path& folder,
+                                    std::string_view input = {});
 
 }  // namespace sinew::inline v0

@@ -53,6 +53,9 @@ struct Table {
 
 SINEW_API std::string to_csv(const Table& table);
 
+/// Appends one row, as `to_csv` writes it: for tables that are longer than memory.
+SINEW_API void append_csv_row(std::string& text, Numbers row);
+
 /// The table in a CSV text. A comment is a line that starts with `#`; empty lines are skipped.
 /// Codes: `no_heading`, `duplicate_column`, `wrong_cell_count`, `not_a_number`, `csv_syntax`.
 /// @param source names the text in errors

@@ -121,7 +121,7 @@ Figure figure_of(const Section& section, const SectionDiagram& diagram) {
   lsk::add_frontiers(disc, diagram, reach * degree);
   disc.series.push_back(lsk::dot(example(), Mark::circles, Colour::black, "θ = 120°, φ = 35°", 2));
   for (Series& series : disc.series)
-    if (series.label.starts_with("tendon")) series.label.clear();
+    if (series.label.plain().starts_with("tendon")) series.label.clear();
   disc.notes = {{"tendon 1", 32, 222, Note::Side::right, Colour::vermillion},
                 {"tendon 2", -112, -222, Note::Side::right, Colour::blue},
                 {"tendon 3", -240, 128, Note::Side::right, Colour::purple}};

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <utility>
 
+#include "sinew/io/write_file.hpp"
+
 namespace sinew::inline v0 {
 namespace {
 
@@ -22,6 +24,8 @@ constexpr std::uint64_t log_magic = 0x31676f6c77656e73U;    // "snewlog1"
 constexpr std::uint64_t chunk_magic = 0x316b6e7563776e73U;  // "snwcunk1"
 /// A killed process loses nothing that was written; a machine without power loses so much.
 constexpr std::chrono::seconds between_flushes{20};
+constexpr std::string_view not_a_log =
+    "is no log of a sweep, or is damaged; remove it, or give another --output";
 
 struct Header {
   std::uint64_t magic = log_magic;
@@ -41,8 +45,6 @@ std::uint64_t checksum_of(const Record& record, std::span<const std::byte> bytes
   const std::uint64_t seed = record.chunk * 0x9e3779b97f4a7c15U + record.size;
   return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
 }
-
-std::string reason() { return std::strerror(errno); }
 
 /// All of it, or the errno.
 bool write_all(int file, std::uint64_t at, std::span<const std::byte> bytes) {
@@ -107,17 +109,23 @@ Expected<ChunkLog> ChunkLog::open(const std::filesystem::path& path, const Diges
     std::error_code ignored;  // opening tells
     std::filesystem::create_directories(path.parent_path(), ignored);
   }
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0)
-    return failure("file_unwritable", path.string(),
-                   fmt::format("cannot be written: {}; give a folder you may write to", reason()));
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (file < 0) return failure("file_unwritable", path.string(), unwritable(errno));
   ChunkLog log(path, file, chunks);
   if (::flock(file, LOCK_EX | LOCK_NB) != 0)
     return failure("in_use", path.string(),
                    "another sweep is writing it; wait for it, or give another --output");
   struct stat status = {};
   ::fstat(file, &status);
+  if (!S_ISREG(status.st_mode)) return failure("not_a_log", path.string(), not_a_log);
   if (status.st_size < static_cast<off_t>(sizeof(Header))) {  // new, or killed while it was begun
+    const auto size = static_cast<std::size_t>(status.st_size);
+    std::array<std::byte, sizeof(Header)> begun{};
+    const auto magic = bytes_of(log_magic);
+    if (!read_all(file, 0, std::span(begun).first(size)) ||
+        !std::ranges::equal(std::span(begun).first(std::min(size, magic.size())),
+                            magic.first(std::min(size, magic.size()))))
+      return failure("not_a_log", path.string(), not_a_log);
     if (const auto done = log.write_header(key); !done) return tl::unexpected(done.error());
     return log;
   }
@@ -135,7 +143,7 @@ Expected<void> ChunkLog::write_header(const Digest& key) {
   Header header{.chunks = places_.size(), .key = key};
   header.checksum = checksum_of(header);
   if (::ftruncate(file_, 0) != 0 || !write_all(file_, 0, bytes_of(header)))
-    return failure("file_unwritable", path_.string(), fmt::format("cannot be written: {}", reason()));
+    return failure("file_unwritable", path_.string(), unwritable(errno));
   end_ = sizeof(Header);
   return {};
 }
@@ -144,8 +152,7 @@ Expected<void> ChunkLog::check_header(const Digest& key) {
   Header header;
   if (!read_all(file_, 0, std::as_writable_bytes(std::span(&header, 1))) || header.magic != log_magic ||
       header.checksum != checksum_of(header))
-    return failure("not_a_log", path_.string(),
-                   "is no log of a sweep, or is damaged; remove it, or give another --output");
+    return failure("not_a_log", path_.string(), not_a_log);
   if (header.key != key || header.chunks != places_.size())
     return failure(
         "other_sweep", path_.string(),
@@ -174,7 +181,7 @@ Expected<void> ChunkLog::recover() {
     end_ += sizeof(Record) + record.size;
   }
   if (::ftruncate(file_, static_cast<off_t>(end_)) != 0)
-    return failure("file_unwritable", path_.string(), fmt::format("cannot be written: {}", reason()));
+    return failure("file_unwritable", path_.string(), unwritable(errno));
   return {};
 }
 
@@ -182,10 +189,10 @@ Expected<void> ChunkLog::append(std::size_t chunk, std::span<const std::byte> by
   Record record{.chunk = chunk, .size = bytes.size()};
   record.checksum = checksum_of(record, bytes);
   if (!write_all(file_, end_, bytes_of(record)) || !write_all(file_, end_ + sizeof(Record), bytes)) {
-    const std::string why = reason();
+    const std::string why = unwritable(errno);
     [[maybe_unused]] const int cut = ::ftruncate(file_, static_cast<off_t>(end_));  // else recovery does
     return failure("write_failed", path_.string(),
-                   fmt::format("cannot be written: {}; make room and go on with --resume", why));
+                   fmt::format("{}; the chunks are kept, go on with --resume", why));
   }
   count_ += !has(chunk);
   places_[chunk] = {end_ + sizeof(Record), bytes.size()};

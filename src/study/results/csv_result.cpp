@@ -1,18 +1,14 @@
 /// Results as CSV: a line a sample, the grid written out; for results that people open in a spreadsheet.
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "sinew/io/node.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/table.hpp"
+#include "sinew/io/write_file.hpp"
 #include "study/results/result_file.hpp"
 
 namespace sinew::inline v0 {
@@ -20,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view part_ending = ".part";
 constexpr std::size_t longest_fact = 200;  ///< texts of whole files stay out of a table
 
 /// `# fit x[m] = 0.1 (e1^2 - e2^2) + ...; rms 1e-5, largest 3e-5, relative 0.01, 121 samples`, or
@@ -47,9 +44,9 @@ class CsvResult : public ResultFile {
  public:
   CsvResult(const fs::path& path, ResultLayout layout)
       : path_(path),
-        part_(path.string() + ".part"),
         layout_(std::move(layout)),
-        file_(std::fopen(part_.c_str(), "wb")) {
+        file_(FileWriter::open(path, part_ending)) {
+    if (!file_) remember(file_.error());
     std::string head;
     if (!layout_.title.empty()) head += "# " + one_line(layout_.title, 200) + '\n';
     for (const Fact& fact : layout_.provenance)
@@ -70,13 +67,10 @@ class CsvResult : public ResultFile {
     if (layout_.has_status) add("status", "");
     put(head + cells + '\n');
   }
-  ~CsvResult() override {
-    if (file_) std::fclose(file_);
-    std::error_code ignored;
-    if (!is_finished_) fs::remove(part_, ignored);
+  Expected<void> begun() const override {
+    if (reason_.empty()) return {};
+    return failure("file_unwritable", path_.string(), reason_);
   }
-
-  Expected<void> begun() const override { return outcome(); }
   bool wants_axes() const override { return true; }
 
   Expected<void> write(const ResultRows& rows) override {
@@ -98,56 +92,40 @@ class CsvResult : public ResultFile {
 
   Expected<void> finish(std::span<const FittedTerms> fits) override {
     for (const FittedTerms& fit : fits) put(fit_lines(fit));
-    if (file_ && std::fclose(std::exchange(file_, nullptr)) != 0) remember();
-    if (reason_.empty()) reason_ = put_in_place(part_, path_);
-    is_finished_ = reason_.empty();
+    if (reason_.empty())
+      if (const auto done = file_->finish(); !done) remember(done.error());
     return outcome();
   }
 
  private:
-  void remember() {
-    if (reason_.empty()) reason_ = std::strerror(errno);
+  void remember(const Errors& errors) {
+    if (reason_.empty()) reason_ = errors.front().message;
   }
   void put(const std::string& text) {
-    if (!file_ || std::fwrite(text.data(), 1, text.size(), file_) != text.size()) remember();
+    if (!reason_.empty()) return;
+    if (const auto done = file_->write(text); !done) remember(done.error());
   }
   Expected<void> outcome() const {
     if (reason_.empty()) return {};
-    return failure("write_failed", path_.string(),
-                   fmt::format("cannot be written: {}; the chunks are kept, go on with --resume", reason_));
+    return failure("write_failed", path_.string(), reason_ + "; the chunks are kept, go on with --resume");
   }
 
-  fs::path path_, part_;
+  fs::path path_;
   ResultLayout layout_;
-  std::FILE* file_;
+  Expected<FileWriter> file_;
   std::string reason_;
-  bool is_finished_ = false;
 };
 
 }  // namespace
 
 std::string recorded_fact(const fs::path& path, const std::string& name) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return {};
   if (path.extension() == ".h5") return recorded_hdf5_fact(path, name);
   std::ifstream file(path);
   const std::string head = fmt::format("# {}: ", name);
   for (std::string line; std::getline(file, line) && line.starts_with('#');)
     if (line.starts_with(head)) return line.substr(head.size());
-  return {};
-}
-
-std::string put_in_place(const fs::path& part, const fs::path& path) {
-  const auto sync = [](const fs::path& what) {
-    const int file = ::open(what.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool good = file >= 0 && ::fsync(file) == 0;
-    const std::string why = good ? "" : std::strerror(errno);
-    if (file >= 0) ::close(file);
-    return why;
-  };
-  if (std::string why = sync(part); !why.empty()) return why;
-  std::error_code code;
-  fs::rename(part, path, code);
-  if (code) return code.message();
-  sync(path.has_parent_path() ? path.parent_path() : fs::path("."));  // the name; not every system can
   return {};
 }
 
@@ -163,9 +141,9 @@ Errors refuse_result_name(const fs::path& path) {
 
 Expected<std::unique_ptr<ResultFile>> create_result(const fs::path& path, ResultLayout layout) {
   if (Errors errors = refuse_result_name(path); !errors.empty()) return tl::unexpected(std::move(errors));
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored))
-    return failure("file_unwritable", path.string(), "is a folder; give a file: -o results.h5");
+  if (path.extension() == ".h5" && is_stream(path))
+    return failure("file_unwritable", path.string(),
+                   "is no regular file, and HDF5 is not written front to back; give a file, or write .csv");
   auto file =
       path.extension() == ".csv" ? create_csv(path, std::move(layout)) : create_hdf5(path, std::move(layout));
   if (const auto begun = file->begun(); !begun) return tl::unexpected(begun.error());

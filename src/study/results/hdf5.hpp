@@ -34,7 +34,11 @@ class Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-void be_quiet();  ///< the library prints no errors of its own
+void be_quiet();    ///< the library prints no errors of its own, and loads no code that a file asks for
+int last_reason();  ///< errno of the system of the last call that failed; EIO where there was none
+/// Whether the system has failed since `be_quiet`, also where nobody looked: what a write has put off a
+/// handle does when it closes itself.
+bool has_failed();
 
 /// A text as an attribute of an object, or as a dataset where it may be long.
 bool put_attribute(hid_t object, const char* name, const std::string& text);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "sinew/io/write_file.hpp"
 #include "study/results/hdf5.hpp"
 #include "study/results/result_file.hpp"
 
@@ -67,34 +68,36 @@ class Hdf5Result : public ResultFile {
  public:
   Hdf5Result(const fs::path& path, ResultLayout layout)
       : path_(path),
-        part_(path.string() + ".part"),
-        layout_(std::move(layout)) {
+        layout_(std::move(layout)),
+        place_(FileWriter::open(path, ".part")) {
     hdf5::be_quiet();
+    if (!place_) {
+      reason_ = place_.error().front().message;
+      return;
+    }
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);  // what every reader reads
     H5Pset_obj_track_times(creation, false);                       // the same data, the same bytes
     H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    file_ = Handle(H5Fcreate(part_.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
-    ok_ = file_.ok() && create_columns();
+    file_ = Handle(H5Fcreate(place_->part().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
+    check(file_.ok() && create_columns());
   }
-  ~Hdf5Result() override {
-    if (is_finished_) return;
-    close();
-    std::error_code ignored;
-    fs::remove(part_, ignored);
-  }
+  ~Hdf5Result() override { close(); }
 
-  Expected<void> begun() const override { return outcome(); }
+  Expected<void> begun() const override {
+    if (reason_.empty()) return {};
+    return failure("file_unwritable", path_.string(), reason_);
+  }
   bool wants_axes() const override { return !layout_.is_grid; }  // else they are scales
 
   Expected<void> write(const ResultRows& rows) override {
     const std::size_t axes = layout_.is_grid ? 0 : layout_.axes.size();
-    for (std::size_t c = 0; ok_ && c < data_.size(); ++c) {
+    for (std::size_t c = 0; reason_.empty() && c < data_.size(); ++c) {
       const bool is_axis = c < axes, is_status = c >= axes + layout_.columns.size();
       const std::size_t at = (is_axis ? c : c - axes) * rows.count;
       const void* values = is_status ? static_cast<const void*>(rows.statuses.data())
                                      : (is_axis ? rows.axes : rows.columns).data() + at;
-      ok_ = put(data_[c], rows, values, is_status);
+      check(put(data_[c], rows, values, is_status));
       pending_ += rows.count * (is_status ? sizeof(SampleStatus) : sizeof(double));
     }
     if (pending_ > bytes_to_send) send();
@@ -102,27 +105,28 @@ class Hdf5Result : public ResultFile {
   }
 
   Expected<void> finish(std::span<const FittedTerms> fits) override {
-    ok_ = ok_ && put_provenance() && put_fits(fits);
-    ok_ = close() && ok_;
-    ok_ = ok_ && put_in_place(part_, path_).empty();
-    is_finished_ = ok_;
+    if (reason_.empty()) check(put_provenance() && put_fits(fits));
+    check(close() && !hdf5::has_failed());
+    if (reason_.empty())
+      if (const auto done = place_->finish(); !done) reason_ = done.error().front().message;
     return outcome();
   }
 
  private:
+  /// Why the library failed, of the first failure that there was.
+  void check(bool is_good) {
+    if (!is_good && reason_.empty()) reason_ = unwritable(hdf5::last_reason());
+  }
   Expected<void> outcome() const {
-    if (ok_) return {};
-    return failure("write_failed", path_.string(),
-                   "cannot be written: no room on the disc, or not a folder you may write to; the chunks are "
-                   "kept, go on "
-                   "with --resume");
+    if (reason_.empty()) return {};
+    return failure("write_failed", path_.string(), reason_ + "; the chunks are kept, go on with --resume");
   }
 
   /// On their way to the disc while more is being written, so that the end need not wait for all of it.
   void send() {
     pending_ = 0;
 #ifdef SYNC_FILE_RANGE_WRITE
-    const int file = ::open(part_.c_str(), O_WRONLY | O_CLOEXEC);
+    const int file = ::open(place_->part().c_str(), O_WRONLY | O_CLOEXEC);
     if (file < 0) return;
     ::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);
     ::close(file);
@@ -298,13 +302,14 @@ class Hdf5Result : public ResultFile {
     return data.ok() && H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
   }
 
-  fs::path path_, part_;
+  fs::path path_;
   ResultLayout layout_;
+  Expected<FileWriter> place_;
+  std::string reason_;
   std::vector<hsize_t> shape_;
   Handle file_;
   std::vector<Handle> scales_, data_;  ///< axes that are columns first, status last
   std::size_t pending_ = 0;            ///< bytes written since they were sent
-  bool ok_ = false, is_finished_ = false;
 };
 
 }  // namespace

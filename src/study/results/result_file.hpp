@@ -54,10 +54,7 @@ class ResultFile {
   virtual Expected<void> finish(std::span<const FittedTerms> fits) = 0;
 };
 
-/// Puts a finished file in its place, on the disc before what it was made of may go. The error, if any.
-std::string put_in_place(const std::filesystem::path& part, const std::filesystem::path& path);
-
-/// By the file's ending: `.h5` or `.csv`. Codes: `unknown_format`, `write_failed`.
+/// By the file's ending: `.h5` or `.csv`. Codes: `unknown_format`, `file_unwritable`.
 Expected<std::unique_ptr<ResultFile>> create_result(const std::filesystem::path& path, ResultLayout layout);
 Errors refuse_result_name(const std::filesystem::path& path);
 

@@ -25,6 +25,7 @@ class QuerySampler {
   void operator()(const SampleBlock& block) {
     // anew for each block: what was solved before must not show in the last digits
     TreeSession session = TreeSession::open(study_.robot_document).value();
+    session.stop_on(StopToken(*block.stop));
     last_.reset();
     for (std::size_t k = 0; k < block.count && !*block.stop; ++k, ++*block.done) {
       for (const Placeholder& place : places_) put(*place.node, block.axis(*place.axis, k));

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <thread>
 
+#include "sinew/io/write_file.hpp"
 #include "sinew/study/cluster.hpp"
 #include "sinew/study/sweep.hpp"
 #include "study/sweep/executor.hpp"
@@ -84,7 +85,7 @@ class Worker {
   std::vector<SampleStatus> statuses_;
 };
 
-/// Calls the caller's progress a few times a second while it lives.
+/// Calls the caller's progress while it lives: often, since the answer may be to stop.
 class Ticker {
  public:
   Ticker(const SweepOptions& options, SweepProgress progress, Pulse& pulse) {
@@ -96,7 +97,7 @@ class Ticker {
           progress.done = progress.resumed + pulse.samples;
           progress.seconds = seconds_since(begin);
           if (!options.progress(progress)) pulse.stop = true;
-          wakes_.wait_for(lock, end, std::chrono::milliseconds(200), [&] { return end.stop_requested(); });
+          wakes_.wait_for(lock, end, std::chrono::milliseconds(50), [&] { return end.stop_requested(); });
         }
       });
   }
@@ -157,18 +158,37 @@ class Sweep {
       summary_.was_complete = true;
       return {};
     }
+    if (!fs::exists(path, ignored))
+      if (auto spared = spare(); !spared) return spared;
     auto log = ChunkLog::open(path, key, plan_.chunks().count(),
                               options_.resume ? ChunkLog::Open::resume : ChunkLog::Open::create);
     if (!log) return tl::unexpected(log.error());
     log_ = std::move(*log);
     // what could not be written at the end is not begun; this leaves nothing
-    if (const auto trial = create_result(options_.output, plan_.layout(options_)); !trial) {
-      if (log_->count() == 0) log_->remove();
-      return tl::unexpected(trial.error());
-    }
+    const bool is_read_once = is_stream(options_.output) && options_.output.extension() == ".csv";
+    if (!is_read_once)
+      if (const auto trial = create_result(options_.output, plan_.layout(options_)); !trial) {
+        if (log_->count() == 0) log_->remove();
+        return tl::unexpected(trial.error());
+      }
     for (std::size_t c = 0; c < plan_.chunks().count(); ++c)
       if (log_->has(c)) summary_.resumed += plan_.chunks()[c].count;
     return {};
+  }
+
+  /// Results are hours of work: none are replaced that nobody said could go.
+  Expected<void> spare() const {
+    std::error_code ignored;
+    if (options_.replaces_results || !fs::is_regular_file(options_.output, ignored) ||
+        fs::file_size(options_.output, ignored) == 0)
+      return {};
+    const bool is_same = recorded_fact(options_.output, "key") == hexadecimal(plan_.key());
+    return failure(
+        "result_exists", options_.output.string(),
+        is_same ? "holds the results of this very sweep; --resume takes them as they are, --force computes "
+                  "them anew"
+                : "is there, and holds something else than this sweep; --force replaces it, or give another "
+                  "--output");
   }
 
   void compute() {

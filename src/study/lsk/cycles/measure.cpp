@@ -139,14 +139,15 @@ Expected<void> write_sources(const Robots& robots, const fs::path& folder) {
   return write_text(controller_header(robots.neutral_table, "neutral"), folder / "neutral.h");
 }
 
-/// The simulator of this build: beside the command, or on PATH.
+/// The simulator of this build: beside the command, which lies in bin or in libexec/sinew; or on PATH.
 std::string simulator_path() {
   if (const char* named = std::getenv("SINEW_SIMULATE"))
     return fs::path(named).has_parent_path() ? fs::absolute(named).string()
                                              : named;  // it runs in another folder
   std::error_code ignored;
   const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& place : {beside / "sinew-simulate", beside.parent_path() / "bin" / "sinew-simulate"})
+  for (const fs::path& place : {beside / "sinew-simulate", beside.parent_path() / "bin" / "sinew-simulate",
+                                beside.parent_path().parent_path() / "bin" / "sinew-simulate"})
     if (fs::exists(place, ignored)) return place.string();
   return "sinew-simulate";
 }
