@@ -3,37 +3,59 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <cctype>
 
-#include "sinew/io/parse.hpp"
 #include "sinew/io/quantity.hpp"
+#include "sinew/io/visible.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
+#include "waiting.hpp"
 
 namespace sinew::cli {
 namespace {
 
-/// A text that begins with a field of the query, with the option of that field instead: `--pose.x` for
-/// `pose.x`.
-std::string as_option(std::string where) {
-  for (const auto& [path, option] : {std::pair("until.limit", "limit"), std::pair("until.wrench", "until")})
-    if (where.starts_with(path)) where.replace(0, std::string_view(path).size(), option);
-  const std::string field = where.substr(0, where.find_first_of(".[ :"));
-  std::string name = field;
+/// The option of a field of queries, without dashes; empty where there is none.
+std::string option_of(std::string_view field) {
+  constexpr std::pair<std::string_view, std::string_view> others[] = {
+      {"until.limit", "limit"},   {"until.wrench", "until"}, {"to.inputs", "to-inputs"},
+      {"to.wrench", "to-wrench"}, {"to.pose", "to"},         {"branches", "all"}};
+  for (const auto& [path, option] : others)
+    if (field == path) return std::string(option);
+  std::string name(field);
   std::ranges::replace(name, '_', '-');
   const bool is_option = std::ranges::any_of(verbs(), [&](const Verb& verb) {
     return std::ranges::find(verb.options, std::string_view(name)) != verb.options.end();
   });
-  return is_option ? "--" + name + where.substr(field.size()) : where;
+  return is_option ? name : std::string();
+}
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// Fields of the query as a path begins with them, or alone: `until.limit`, `pose`.
+std::size_t field_size(std::string_view path) {
+  const auto end_of = [&](std::size_t from) {
+    while (from < path.size() && is_word(path[from])) ++from;
+    return from;
+  };
+  const std::size_t first = end_of(0);
+  if (first + 1 < path.size() && path[first] == '.' && is_word(path[first + 1])) {
+    const std::size_t second = end_of(first + 1);
+    if (!option_of(path.substr(0, second)).empty()) return second;
+  }
+  return first;
 }
 
 }  // namespace
 
 std::string json_text(std::string_view text) {
+  constexpr std::string_view special = "\b\f\n\r\t", letters = "bfnrt";
   std::string quoted = "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
+    if (c == '"' || c == '\\')
+      quoted += {'\\', c};
+    else if (const std::size_t known = special.find(c); known != std::string_view::npos)
+      quoted += {'\\', letters[known]};
+    else if (static_cast<unsigned char>(c) < 0x20)
       quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
     else
       quoted += c;
@@ -41,28 +63,90 @@ std::string json_text(std::string_view text) {
   return quoted + '"';
 }
 
-std::string as_json(const Node& node) {
-  const auto list = [](const auto& parts, const auto& write) {
-    std::string text;
-    for (const auto& part : parts) text += (text.empty() ? "" : ", ") + write(part);
-    return text;
+namespace {
+
+/// A long answer has a million values: into one text.
+void append_json(const Node& node, std::string& text) {
+  const auto list = [&](char open, const auto& parts, char close, const auto& write) {
+    text += open;
+    for (const auto& part : parts) {
+      if (&part != parts.data()) text += ',';
+      write(part);
+    }
+    text += close;
   };
   switch (node.kind) {
     case Node::Kind::null:
-      return "null";
-    case Node::Kind::boolean:
-      return node.boolean ? "true" : "false";
-    case Node::Kind::number:
-      return si_text(node.number);
-    case Node::Kind::string:
-      return json_text(node.text);
-    case Node::Kind::list:
-      return "[" + list(node.items, as_json) + "]";
-    case Node::Kind::map:
+      text += "null";
       break;
+    case Node::Kind::boolean:
+      text += node.boolean ? "true" : "false";
+      break;
+    case Node::Kind::number:
+      text += node.text.empty() ? si_text(node.number) : node.text;
+      break;
+    case Node::Kind::string:
+      text += json_text(node.text);
+      break;
+    case Node::Kind::list:
+      list('[', node.items, ']', [&](const Node& item) { append_json(item, text); });
+      break;
+    case Node::Kind::map:
+      list('{', node.members, '}', [&](const Member& member) {
+        text += json_text(member.key) + ':';
+        append_json(member.value, text);
+      });
   }
-  return "{" +
-         list(node.members, [](const Member& m) { return json_text(m.key) + ": " + as_json(m.value); }) + "}";
+}
+
+}  // namespace
+
+std::string as_json(const Node& node) {
+  std::string text;
+  append_json(node, text);
+  return text;
+}
+
+Node map_of(std::vector<Member> members) {
+  Node map;
+  map.kind = Node::Kind::map;
+  map.members = std::move(members);
+  return map;
+}
+
+Node list_of(std::vector<Node> items) {
+  Node list;
+  list.kind = Node::Kind::list;
+  list.items = std::move(items);
+  return list;
+}
+
+std::string as_option(std::string_view where) {
+  const std::size_t size = field_size(where);
+  const std::string name = option_of(where.substr(0, size));
+  return name.empty() ? std::string(where) : fmt::format("--{}{}", name, where.substr(size));
+}
+
+/// A word is a field where it cannot be anything else: it has an underscore, a member or an index, or a value
+/// after a colon, as in `model: prb`.
+std::string in_options(std::string_view message) {
+  std::string text;
+  for (std::size_t at = 0; at < message.size();) {
+    const bool is_inside =
+        at > 0 && (is_word(message[at - 1]) ||
+                   std::string_view(".-\"/[").find(message[at - 1]) != std::string_view::npos);
+    const std::size_t size = is_word(message[at]) && !is_inside ? field_size(message.substr(at)) : 0;
+    const std::string_view word = message.substr(at, size), rest = message.substr(at + size);
+    const bool has_member = rest.size() > 1 && (rest[0] == '[' || (rest[0] == '.' && is_word(rest[1])));
+    const bool has_value = rest.starts_with(": ") && (word == "model" || word == "law" || word == "hold");
+    const bool is_field = has_member || has_value || word.find('_') != std::string_view::npos ||
+                          word.find('.') != std::string_view::npos;
+    const std::string name = size > 0 && is_field ? option_of(word) : std::string();
+    text += name.empty() ? std::string(message.substr(at, std::max<std::size_t>(size, 1))) : "--" + name;
+    at += std::max<std::size_t>(size, 1);
+    if (!name.empty() && has_value) ++at;  // --model prb
+  }
+  return text;
 }
 
 std::string json_error(const Errors& errors) {
@@ -74,17 +158,16 @@ std::string json_error(const Errors& errors) {
                      json_text(errors.front().where), json_text(message));
 }
 
-Answer ask(Session& session, const std::string& query) {
-  Answer answer{session.answer(query), {}};
-  auto tree = parse_json(answer.line, "answer");
-  if (!tree) throw std::runtime_error("an answer cannot be read: " + to_string(tree.error()));
-  answer.tree = std::move(*tree);
-  return answer;
+Answer ask(Session& session, const Document& query, bool is_quiet) {
+  finish_what_is_begun();
+  session.stop_on(stop_token());
+  const Waiting line(is_quiet);
+  return {session.answer(query)};
 }
 
 std::string Answer::text(std::string_view path) const {
   const Node* node = find(path);
-  return node ? node->text : std::string();
+  return node ? visible_line(node->text) : std::string();
 }
 
 std::optional<double> Answer::number(std::string_view path) const {
@@ -95,15 +178,25 @@ std::optional<double> Answer::number(std::string_view path) const {
 Errors Answer::errors() const {
   if (!find("error")) return {};
   const std::string where = text("error.where"), said = text("error.message");
-  if (where == "query") return {{text("error.code"), "", said}};  // the command line as a whole
-  return {{text("error.code"), as_option(where), said.starts_with(where) ? as_option(said) : said}};
+  constexpr std::string_view unknown = "unknown key \"";
+  if (said.starts_with(unknown)) {  // an option of the verb that this robot or question has no use for
+    const std::string key = said.substr(unknown.size(), said.find('"', unknown.size()) - unknown.size());
+    if (const std::string name = option_of(key); !name.empty())
+      return {{text("error.code"), "--" + name,
+               "this robot, or what is asked of it, has no use for it; leave it out"}};
+  }
+  if (where == "query") return {{text("error.code"), "", in_options(said)}};  // the command line as a whole
+  return {{text("error.code"), as_option(where),
+           said.starts_with(where)
+               ? as_option(where) + in_options(std::string_view(said).substr(where.size()))
+               : in_options(said)}};
 }
 
 int exit_code(const Answer& answer) {
   if (answer.find("error")) return bad_input;
   const std::string status = answer.text("status");
   if (status == "converged") return solved;
-  return status == "iteration_limit" ? stopped : no_solution;
+  return status == "iteration_limit" || status == "stopped" ? stopped : no_solution;
 }
 
 std::vector<double> numbers(const Node* list) {

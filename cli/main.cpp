@@ -13,7 +13,7 @@ namespace sinew::cli {
 namespace {
 
 int usage(std::string_view verb, std::string_view code, std::string_view text) {
-  message(fmt::format("sinew{}{}: {} [{}]", verb.empty() ? "" : " ", verb, text, code));
+  message(fmt::format("sinew{}{}: {} [{}]", verb.empty() ? "" : " ", verb, text, code), Style::bad);
   return bad_input;
 }
 
@@ -26,13 +26,20 @@ std::string maybe(std::string_view word, const std::vector<std::string_view>& kn
 int unknown_verb(std::string_view word) {
   std::vector<std::string_view> names;
   for (const Verb& verb : verbs()) names.push_back(verb.name);
-  if (word.starts_with('-'))
-    return usage("", "unknown_option",
-                 fmt::format("unknown option {}; write a verb first, then its options: sinew forward --help",
-                             in_quotes(word)));
+  if (word.starts_with('-')) {
+    const std::string_view bare = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+    const std::string hint =
+        bare == "v" ? "; did you mean --version?" : maybe(bare, {"version", "help"}, "--");
+    return usage(
+        "", "unknown_option",
+        fmt::format("unknown option {}{}", in_quotes(word),
+                    !hint.empty() ? hint : "; write a verb first, then its options: sinew forward --help"));
+  }
+  names.push_back("version");
   return usage("", "unknown_verb",
                fmt::format("unknown verb {}{} Verbs: {}.", in_quotes(word),
-                           maybe(word, names).empty() ? "." : maybe(word, names), fmt::join(names, ", ")));
+                           maybe(word, names).empty() ? "." : maybe(word, names),
+                           fmt::join(names.begin(), names.end() - 1, ", ")));
 }
 
 int refuse_option(const Verb& verb, const std::string& word) {
@@ -102,7 +109,7 @@ int run(const Verb& verb, std::vector<std::string> words) {
     if (texts.size() > 1 && !option(name).repeats)
       return usage(verb.name, "duplicate_option",
                    fmt::format("--{} is given {} times; keep one.", name, texts.size()));
-  if (verb.operand == "ROBOT" && arguments.operands.empty())
+  if (verb.operand.starts_with("ROBOT") && arguments.operands.empty())
     return usage(
         verb.name, "missing_robot",
         fmt::format("which robot? Give a robot file or the name of a built-in robot: {}", verb.example));
@@ -117,7 +124,7 @@ int run(std::vector<std::string> words) {
     return bad_input;
   }
   const std::string first = words.front();
-  if (first == "--version" || first == "-V") {
+  if (first == "--version" || first == "-V" || first == "version") {
     print(fmt::format("sinew {}\n", version()));
     return solved;
   }
@@ -142,6 +149,7 @@ int main(int argc, char** argv) {
   } catch (const OutputLost& lost) {
     if (lost.code == EPIPE) return stopped;  // nobody reads any more, as in `| head`
     message(fmt::format("sinew: stdout cannot be written: {}", std::strerror(lost.code)));
+    return stopped;
   } catch (const std::exception& error) {
     message(
         fmt::format("sinew: internal error: {}; please report it with the command line and the robot file.",

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "show.hpp"
 #include "sinew/io/parse.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/math/so3.hpp"
+#include "terminal.hpp"
 
 namespace sinew::cli {
 namespace {
@@ -72,6 +74,12 @@ std::string member_name(std::string_view option) {
   return name;
 }
 
+std::string option_name(std::string_view member) {
+  std::string name(member);
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
+
 /// A value of `--set` as YAML reads it.
 Expected<Node> value_of(std::string_view text) {
   if (!text.starts_with('[') && !text.starts_with('{')) return plain_scalar(text);
@@ -87,8 +95,15 @@ class Request {
     member("query", json_text(query));
   }
 
+  void member(std::string_view key, Node value) {
+    members_.push_back({.key = std::string(key), .value = std::move(value)});
+  }
   void member(std::string_view key, std::string_view json) {
-    text_ += fmt::format("{}{}: {}", text_.empty() ? "" : ", ", json_text(key), json);
+    auto value = parse_json(json, "--" + option_name(key));
+    if (value)
+      member(key, std::move(value->root));
+    else  // text of the command line that is no text
+      errors_.insert(errors_.end(), value.error().begin(), value.error().end());
   }
   void fail(std::string_view code, std::string_view option, std::string_view message) {
     errors_.push_back({std::string(code), fmt::format("--{}", option), std::string(message)});
@@ -115,8 +130,9 @@ class Request {
   void whole_number(std::string_view option, std::string_view key);
   void set();
 
-  Expected<std::string> done() const {
-    return errors_.empty() ? Expected<std::string>("{" + text_ + "}") : tl::unexpected(errors_);
+  Expected<Document> done() {
+    if (!errors_.empty()) return tl::unexpected(errors_);
+    return Document{"query", map_of(std::move(members_))};
   }
 
  private:
@@ -127,7 +143,7 @@ class Request {
 
   std::string_view query_;
   const Arguments& arguments_;
-  std::string text_;
+  std::vector<Member> members_;
   Errors errors_;
 };
 
@@ -170,15 +186,16 @@ void Request::poses(const Robot& robot) {
                       *file, column.name, column.unit));
     columns.push_back(found);
   }
-  std::string list;
+  std::vector<Node> list;
+  list.reserve(table->row_count());
   for (std::size_t k = 0; k < table->row_count(); ++k) {
     std::vector<double> row;
     for (const Column* column : columns) row.push_back(column->values[k]);
     if (!std::ranges::all_of(row, [](double value) { return std::isfinite(value); }))
       return fail("not_a_number", "poses", fmt::format("{}: pose {} has an empty cell.", *file, k + 1));
-    list += (list.empty() ? "" : ", ") + json_pose(row);
+    list.push_back(parse_json(json_pose(row), "poses").value().root);
   }
-  member("poses", "[" + list + "]");
+  member("poses", list_of(std::move(list)));
 }
 
 void Request::pose(std::string_view option, const Robot& robot, std::string_view key) {
@@ -200,7 +217,13 @@ void Request::pose(std::string_view option, const Robot& robot, std::string_view
   const auto dimensions = count == 3   ? lengths_then(2, Dimension::angle, 1)
                           : count == 6 ? lengths_then(3, Dimension::angle, 3)
                                        : lengths_then(3, Dimension::number, 4);
-  member(key.empty() ? member_name(option) : std::string(key), json_pose(values(option, parts, dimensions)));
+  const std::vector<double> numbers = values(option, parts, dimensions);
+  // the query holds a quaternion, which no longer tells
+  for (std::size_t k = 3; k < numbers.size() && count == 6; ++k)
+    if (std::abs(numbers[k]) > 2 * std::numbers::pi)
+      message(fmt::format("--{}: a rotation of {:.6g} rad is {:.3g} turns; did you mean \"{:.6g} deg\"?",
+                          option, numbers[k], std::abs(numbers[k]) / (2 * std::numbers::pi), numbers[k]));
+  member(key.empty() ? member_name(option) : std::string(key), json_pose(numbers));
 }
 
 void Request::independent() {
@@ -287,13 +310,13 @@ void Request::wrench(const Robot& robot) {
 
 /// What changes along a curve of equilibria: `to` and its members.
 void Request::target(const Robot& robot) {
-  std::string outer;
-  std::swap(outer, text_);
+  std::vector<Member> outer;
+  std::swap(outer, members_);
   inputs("to-inputs", robot, "inputs");
   if (arguments_.has("to-wrench")) member("wrench", wrench("to-wrench", robot));
   pose("to", robot, "pose");
-  std::swap(outer, text_);
-  if (!outer.empty()) member("to", "{" + outer + "}");
+  std::swap(outer, members_);
+  if (!outer.empty()) member("to", map_of(std::move(outer)));
 }
 
 /// Of the parameter along a curve: LOW, HIGH.
@@ -439,11 +462,7 @@ void Request::whole_number(std::string_view option, std::string_view key) {
 void Request::set() {
   const auto changes = settings(arguments_);
   if (!changes) return fail(changes.error().front().code, "set", changes.error().front().message);
-  std::string members;
-  for (const Member& change : *changes)
-    members +=
-        fmt::format("{}{}: {}", members.empty() ? "" : ", ", json_text(change.key), as_json(change.value));
-  if (!changes->empty()) member("set", "{" + members + "}");
+  if (!changes->empty()) member("set", map_of(*changes));
 }
 
 }  // namespace
@@ -479,36 +498,44 @@ Expected<Robot> open(const Arguments& arguments) {
   about.word("theta-is", "theta_is");
   const auto query = about.done();
   if (!query) return tl::unexpected(query.error());
-  Answer description = ask(*session, *query);
+  const bool is_quiet = arguments.has("quiet");
+  Answer description = ask(*session, *query, is_quiet);
   if (const Errors errors = description.errors(); !errors.empty()) return tl::unexpected(errors);
   std::vector<Input> inputs;
   for (const Node& input : description.find("inputs")->items)
     inputs.push_back({input.find("name")->text, input.find("unit")->text});
   const bool is_spatial = description.text("space") == "spatial";
   const bool is_on_rods = description.text("model") == "rod";
-  return Robot{std::move(*session), std::move(description), std::move(inputs), is_spatial, is_on_rods};
+  return Robot{
+      std::move(*session), std::move(description), std::move(inputs), is_spatial, is_on_rods, is_quiet};
 }
 
 Expected<Robot> open_with_platform(const Arguments& arguments) {
   auto robot = open(arguments);
   if (robot && is_serial(*robot))
-    return tl::unexpected(
-        Errors{{"not_available", "",
-                fmt::format("{} is a serial robot; {} is for robots with a platform in this version",
-                            robot->description.text("robot"), arguments.verb)}});
+    return tl::unexpected(Errors{
+        {"not_available", "",
+         fmt::format(
+             "{} is a serial robot; {} is for robots with a platform in this version. Of a serial robot ask "
+             "forward, inverse, analyse or diagram, pose by pose",
+             robot->description.text("robot"), arguments.verb)}});
   return robot;
 }
 
-std::string at_home(const Robot& robot) {
-  if (is_serial(robot)) return R"("configuration": [])";  // straight
+Member at_home(const Robot& robot) {
+  if (is_serial(robot)) return {.key = "configuration", .value = list_of({})};  // straight
   const Node& home = *robot.description.find("home");
-  if (!robot.is_on_rods || robot.inputs.size() == 6) return fmt::format(R"("pose": {})", as_json(home));
-  const auto number_at = [&](std::string_view path) { return si_text(number(home, path)); };
-  return fmt::format(R"("independent": {{"z": {}, "e1": {}, "e2": {}}})", number_at("position[2]"),
-                     number_at("quaternion[1]"), number_at("quaternion[2]"));
+  if (!robot.is_on_rods || robot.inputs.size() == 6) return {.key = "pose", .value = home};
+  std::vector<Member> free;
+  for (const auto& [key, path] :
+       {std::pair("z", "position[2]"), std::pair("e1", "quaternion[1]"), std::pair("e2", "quaternion[2]")})
+    free.push_back({.key = key, .value = make_node(number(home, path))});
+  return {.key = "independent", .value = map_of(std::move(free))};
 }
 
-Expected<std::string> request(std::string_view query, const Arguments& arguments, const Robot& robot) {
+Answer ask(Robot& robot, const Document& query) { return ask(robot.session, query, robot.is_quiet); }
+
+Expected<Document> request(std::string_view query, const Arguments& arguments, const Robot& robot) {
   Request request(query, arguments);
   const bool is_curve = arguments.verb == "branches";
   request.pose("pose", robot);

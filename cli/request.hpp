@@ -21,6 +21,7 @@ struct Robot {
   std::vector<Input> inputs;
   bool is_spatial;
   bool is_on_rods;  ///< its legs bear load
+  bool is_quiet;    ///< says nothing while it solves
 
   /// The SI unit of all inputs; empty where they differ.
   std::string input_unit() const;
@@ -30,15 +31,17 @@ Expected<Robot> open(const Arguments& arguments);
 /// The same; an error where that is a serial robot.
 Expected<Robot> open_with_platform(const Arguments& arguments);
 
-/// The members of a query about the robot's home: its `pose`, of a serial robot `configuration`, of a robot
-/// on rods its `independent` coordinates.
-std::string at_home(const Robot& robot);
+/// What puts a query at the robot's home: its `pose`, of a serial robot `configuration`, of a robot on rods
+/// its `independent` coordinates.
+Member at_home(const Robot& robot);
 
 /// What `--set` changes of the robot, `{path: value}`.
 Expected<std::vector<Member>> settings(const Arguments& arguments);
 
-/// The query that the options of a verb stand for (`--pose "10 mm, 0, 5 deg"`, `--set path=value`, ...), as
-/// JSON.
-Expected<std::string> request(std::string_view query, const Arguments& arguments, const Robot& robot);
+/// The query that the options of a verb stand for (`--pose "10 mm, 0, 5 deg"`, `--set path=value`, ...). A
+/// tree, which no limit of texts binds: the path of a file may be long.
+Expected<Document> request(std::string_view query, const Arguments& arguments, const Robot& robot);
+/// Puts it; the answer may be an error.
+Answer ask(Robot& robot, const Document& query);
 
 }  // namespace sinew::cli

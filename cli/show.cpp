@@ -10,6 +10,7 @@
 
 #include "sinew/math/so3.hpp"
 #include "sinew/solve/report.hpp"
+#include "terminal.hpp"
 #include "text_table.hpp"
 
 namespace sinew::cli {
@@ -215,11 +216,10 @@ std::string show_report(const Answer& answer) {
   std::string text = to_string(report);
   if (!answer.number("residual")) text = "converged";  // in closed form
   if (is_on_rods(answer) || answer.find("wrench_sensitivity") || answer.find("curves")) {
-    text.resize(text.size() - 2);  // a residual of rods is relative, and has no unit
-    if (answer.find("curves")) return text + '\n';
-    text += ", stable";  // else the answer is not a converged one
+    text.resize(text.size() - 2);                    // a residual of rods is relative, and has no unit
+    if (!answer.find("curves")) text += ", stable";  // else the answer is not a converged one
   }
-  return text + '\n';
+  return styled(text, Style::good) + '\n';
 }
 
 }  // namespace sinew::cli

@@ -36,8 +36,8 @@ std::string show_path(const Node& rows, const Robot& robot);
 bool is_on_rods(const Answer& answer);
 /// What an answer has beside pose and legs: energies and what was wanted.
 std::string show_equilibrium(const Answer& answer, const Robot& robot);
-/// One row an equilibrium of the same inputs and load.
-std::string show_equilibria(const Answer& answer);
+/// One row an equilibrium: of the same inputs and load, or of the same pose and load.
+std::string show_equilibria(const Answer& answer, const Robot& robot);
 std::string show_rod_velocity(const Answer& answer, const Robot& robot);
 /// Pose, and the wrench that the rods' forces tell.
 std::string show_sensed(const Answer& answer);

@@ -83,7 +83,11 @@ std::string show_load(const Answer& answer) {
       "load: {} times the wrench of --until, {}\n", six_digits(answer.number("load").value_or(0)),
       why == "limit"         ? "the limit"
       : why == "bifurcation" ? "a bifurcation: beyond it the equilibrium does not hold by itself"
-                             : "a fold: beyond it no equilibrium is nearby");
+      : why == "stability"   ? "stability: beyond it the moment drives the equilibrium away"
+      : why == "straight"    ? "straight: a rod is pulled straight"
+      : why == "sharp"       ? "sharp: the rods bend more sharply than is resolved"
+      : why == "fold"        ? "a fold: beyond it no equilibrium is nearby"
+                             : why);
 }
 
 }  // namespace
@@ -105,26 +109,30 @@ std::string show_equilibrium(const Answer& answer, const Robot& robot) {
   return text;
 }
 
-std::string show_equilibria(const Answer& answer) {
+std::string show_equilibria(const Answer& answer, const Robot& robot) {
   const auto& solutions = answer.find("solutions")->items;
-  const auto columns = pose_columns(true);
+  const bool is_forward = answer.text("query") == "forward";  // else one pose is held, by several lengths
+  const std::vector<Input> columns = is_forward ? pose_columns(true) : robot.inputs;
   const bool has_potential =
       std::ranges::any_of(solutions, [](const Node& one) { return one.find("potential") != nullptr; });
-  std::vector<std::string> header{"equilibrium"};
+  std::vector<std::string> header{is_forward ? "equilibrium" : "solution"};
   for (const Input& column : columns) header.push_back(heading(column.name, column.unit));
   if (has_potential) header.push_back(heading("potential", "J"));
   header.emplace_back("unstable_directions");
   TextTable table(std::move(header));
   for (std::size_t k = 0; k < solutions.size(); ++k) {
     std::vector<std::string> row{fmt::format("{}", k + 1)};
-    const auto pose = pose_values(*solutions[k].find("pose"));
-    for (std::size_t j = 0; j < pose.size(); ++j) row.push_back(cell(pose[j], columns[j].unit));
+    const auto values =
+        is_forward ? pose_values(*solutions[k].find("pose")) : numbers(solutions[k].find("inputs"));
+    for (std::size_t j = 0; j < values.size(); ++j) row.push_back(cell(values[j], columns[j].unit));
     if (has_potential) row.push_back(cell(number(solutions[k], "potential"), "J"));
     row.push_back(six_digits(number(solutions[k], "unstable_directions")));
     table.add(std::move(row));
   }
-  return table.text() +
-         fmt::format("at least {} equilibri{}\n", solutions.size(), solutions.size() == 1 ? "um" : "a");
+  const bool is_one = solutions.size() == 1;
+  return table.text() + (is_forward
+                             ? fmt::format("at least {} equilibri{}\n", solutions.size(), is_one ? "um" : "a")
+                             : fmt::format("at least {} solution{}\n", solutions.size(), is_one ? "" : "s"));
 }
 
 std::string show_rod_velocity(const Answer& answer, const Robot& robot) {

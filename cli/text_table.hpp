@@ -1,6 +1,7 @@
 /// @file text_table.hpp
 /// Tables for people: aligned columns, the unit in the header, lengths in mm and angles in deg.
 #pragma once
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,13 +12,18 @@ namespace sinew::cli {
 /// space, so that awk can read what people read.
 class TextTable {
  public:
-  explicit TextTable(std::vector<std::string> header, std::string_view gap = "  ")
-      : gap_(gap),
-        rows_{std::move(header)} {}
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  std::string text() const;
+  explicit TextTable(std::vector<std::string> header, std::string_view gap = "  ") : gap_(gap) {
+    add(std::move(header));
+  }
+  void add(std::vector<std::string> row);  ///< a cell stays on its line, whatever its text has
+  /// @param width of a line, as `line_width` has it: columns of words are then broken at blanks, as far as
+  /// words allow. 0: lines as long as they are.
+  std::string text(std::size_t width = 0) const;
 
  private:
+  /// The widths of columns that fit into a line, or come closest to that.
+  std::vector<std::size_t> fitted(std::vector<std::size_t> widths, std::size_t line) const;
+
   std::string gap_;
   std::vector<std::vector<std::string>> rows_;
 };

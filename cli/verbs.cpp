@@ -92,6 +92,10 @@ constexpr std::array options{
         "that is printed with the address"},
     Option{"port", "PORT", "of serve; default 8765, 0 is any that is free"},
     Option{"resume", "", "go on with what an interrupted run left; without it, begin"},
+    Option{"force", "",
+           "replace results that are there, or of a figure its script that was changed by hand; without it "
+           "both are "
+           "kept and the command refuses"},
     Option{"threads", "N", "threads of this process; default one a core"},
     Option{
         "isa", "NAME",
@@ -122,9 +126,15 @@ constexpr std::array options{
     Option{"ry", "AXIS", "y of it"},
     Option{"rz", "AXIS", "z of it"},
     Option{"log-y", "", "logarithmic y axis"},
+    Option{"all-statuses", "",
+           "draw samples of a sweep that did not converge, too; without it they are left out and counted"},
     Option{"title", "TEXT", "title of the figure"},
+    Option{"width", "LENGTH",
+           "of the figure on paper: 85 mm is one column of a journal, 180 mm two; text then has 8 points"},
+    Option{"font", "NAME,SIZE", "of the figure's texts; the size in points may be left out: \"Times,9\""},
     Option{"json", "", "the answer as one line of JSON, SI and radians"},
     Option{"quiet", "", "only data on stdout and errors on stderr", 'q'},
+    Option{"man", "", "all verbs and options as a page for man, on stdout"},
     Option{"help", "", "this text", 'h'},
 };
 
@@ -162,6 +172,8 @@ const std::array table{
         "A platform that hinges hold in planes: sinew inverse 3prs --independent \"0.54 m, 0.1, 0.05\"\n"
         "One on rods: sinew inverse 3pfs-g2 --independent \"0.39 m, 0.1, 0.05\" --wrench \"0, 0, -5 N, 0, 0, "
         "0\"\n"
+        "A pose on six rods can be held on several branches: --start names the lengths to begin near, --all "
+        "finds\nothers. "
         "The tip of a serial robot: sinew inverse nottingham-tpcj --position \"60 mm, 20 mm, 120 mm\" "
         "--direction \"1, "
         "0, 1\"",
@@ -211,8 +223,8 @@ const std::array table{
     Verb{"diagram",
          "ROBOT",
          "what the tendons of one section of a serial robot leave it free to do",
-         {"section", "changes", "measured", "model", "tolerance", "envelope", "limit", "output", "set",
-          "json", "quiet", "help"},
+         {"section", "changes", "measured", "model", "tolerance", "envelope", "limit", "output", "width",
+          "font", "force", "set", "json", "quiet", "help"},
          {"changes"},
          "Exact: the tendons agree on one bend. Indeterminate: some are slack, the section can be anywhere "
          "in the "
@@ -239,8 +251,10 @@ const std::array table{
     Verb{"branches",
          "ROBOT",
          "the curve of equilibria of a robot on rods along inputs, a load or a pose, through folds",
-         {"inputs", "pose", "independent", "wrench", "gravity", "start", "to-inputs", "to-wrench", "to",
-          "range", "backward", "samples", "all", "max-iterations", "output", "set", "json", "quiet", "help"},
+         {"inputs",    "pose",           "independent", "wrench", "gravity",  "start",
+          "to-inputs", "to-wrench",      "to",          "range",  "backward", "samples",
+          "all",       "max-iterations", "output",      "width",  "font",     "force",
+          "set",       "json",           "quiet",       "help"},
          {"to-inputs", "to-wrench", "to"},
          "The curve begins at the inputs, pose or independent coordinates given, and is followed by its arc\n"
          "length: where the load or the inputs cannot go further, a fold, it turns back, on another branch.\n"
@@ -257,8 +271,8 @@ const std::array table{
         "map",
         "ROBOT",
         "singularities over a grid of poses: a table, or a heat map",
-        {"x", "y", "z", "phi", "rx", "ry", "rz", "bending", "elbow", "curvature", "output", "set", "quiet",
-         "help"},
+        {"x", "y", "z", "phi", "rx", "ry", "rz", "bending", "elbow", "curvature", "output", "width", "font",
+         "force", "set", "quiet", "help"},
         {},
         "An axis is one value or FROM : TO : COUNT. For each pose, the first axis running fastest, the table "
         "tells\n"
@@ -283,7 +297,7 @@ const std::array table{
     Verb{"sweep",
          "[STUDY]",
          "one query at many samples, on all cores or a cluster, into a file of results",
-         {"output", "resume", "threads", "isa", "compress", "set", "list", "json", "quiet", "help"},
+         {"output", "resume", "force", "threads", "isa", "compress", "set", "list", "json", "quiet", "help"},
          {},
          "A study file names the robot, the query, the axes that vary (a grid, random or listed samples), "
          "what\n"
@@ -299,11 +313,12 @@ const std::array table{
          "sinew sweep 3-rfr-workspace -o workspace.h5",
          run_sweep},
     Verb{"check",
-         "ROBOT",
-         "read a robot file and say what it means, or everything that is wrong with it",
+         "ROBOT|STUDY",
+         "read a robot or study file and say what it means, or everything that is wrong with it",
          {"json", "quiet", "help"},
          {},
-         "Values that are allowed but unlikely are warned of on stderr. --json gives the answer to describe.",
+         "Values that are allowed but unlikely are warned of on stderr. --json gives the answer to describe. "
+         "Of a study\nthe samples and columns are said that sinew sweep would give.",
          "sinew check 3-rfr",
          run_check},
     Verb{
@@ -331,6 +346,15 @@ const std::array table{
         "the robot that is named; nothing is written; no request leaves this machine.",
         "sinew serve 3-rfr",
         run_serve},
+    Verb{"list",
+         "[robots|studies|figures]",
+         "what comes with sinew, a line each",
+         {"json", "quiet", "help"},
+         {},
+         "Robots are for every verb, studies for sinew sweep, figures and tables of the papers for sinew "
+         "reproduce.",
+         "sinew list robots",
+         run_list},
     Verb{"new",
          "[KIND]",
          "a commented robot or study file to start from, on stdout",
@@ -350,12 +374,14 @@ const std::array table{
     Verb{"plot",
          "RESULT|ROBOT",
          "a figure of a table of results, or of a robot",
-         {"output",      "as",       "title",     "x",         "y",        "value",
-          "at",          "colour",   "log-y",     "log-value", "view",     "pose",
-          "independent", "bending",  "elbow",     "curvature", "inputs",   "configuration",
-          "changes",     "start",    "wrench",    "gravity",   "theta-is", "model",
-          "section",     "measured", "tolerance", "envelope",  "limit",    "set",
-          "quiet",       "help"},
+         {"output",  "as",        "title",     "width",        "font",
+          "x",       "y",         "value",     "at",           "colour",
+          "log-y",   "log-value", "view",      "pose",         "independent",
+          "bending", "elbow",     "curvature", "inputs",       "configuration",
+          "changes", "start",     "wrench",    "gravity",      "theta-is",
+          "model",   "section",   "measured",  "tolerance",    "envelope",
+          "limit",   "set",       "force",     "all-statuses", "quiet",
+          "help"},
          {"output"},
          "RESULT is an .h5 or .csv file of sweep, track or map; lengths are drawn in mm, angles in deg. "
          "Lines, or "
@@ -376,19 +402,21 @@ const std::array table{
          "sinew plot 3-rfr --pose \"10 mm, -5 mm, 10 deg\" -o fig.svg",
          run_plot},
     Verb{"completion",
-         "bash",
+         "bash|zsh|fish",
          "a script that completes this command's lines",
          {"help"},
          {},
-         "",
+         "An installed sinew has them in place. By hand:\n"
+         "  sinew completion zsh > ~/.zfunc/_sinew       with fpath+=~/.zfunc before compinit in ~/.zshrc\n"
+         "  sinew completion fish > ~/.config/fish/completions/sinew.fish",
          "sinew completion bash > sinew.bash",
          run_completion},
     Verb{"help",
          "[VERB|units]",
          "this text, that of a verb, or the units that numbers may carry",
-         {"help"},
+         {"man", "help"},
          {},
-         "",
+         "All of it as one page: sinew help --man | man -l -",
          "sinew help units",
          run_help},
 };
@@ -401,6 +429,8 @@ const Verb* find_verb(std::string_view name) {
   const auto found = std::ranges::find(table, name, &Verb::name);
   return found == table.end() ? nullptr : &*found;
 }
+
+std::span<const Option> all_options() { return options; }
 
 const Option& option(std::string_view name) {
   const auto found = std::ranges::find(options, name, &Option::name);

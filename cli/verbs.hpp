@@ -48,6 +48,7 @@ struct Verb {
 std::span<const Verb> verbs();
 const Verb* find_verb(std::string_view name);
 const Option& option(std::string_view name);
+std::span<const Option> all_options();
 
 /// @name Texts
 /// @{
@@ -55,6 +56,9 @@ std::vector<std::string_view> study_names();  ///< papers and their items
 std::string help();
 std::string help(const Verb& verb);
 std::string help_units();
+std::vector<std::string_view> kind_names();  ///< what `new` makes
+std::vector<std::string> unit_advice();      ///< a line for each kind of quantity
+std::string manual();                        ///< a page for man, of all verbs and options
 /// @}
 
 /// @name What the verbs do; the answer is the exit code
@@ -67,9 +71,12 @@ int run_map(const Arguments& arguments);
 int run_sweep(const Arguments& arguments);
 int run_query(const Arguments& arguments);
 int run_check(const Arguments& arguments);
+int check_study(const Arguments& arguments);  ///< of check, what is no robot
 int run_export(const Arguments& arguments);
 int run_serve(const Arguments& arguments);
 int run_new(const Arguments& arguments);
+int new_study(const Arguments& arguments);  ///< of new, a study
+int run_list(const Arguments& arguments);
 int run_reproduce(const Arguments& arguments);
 int run_plot(const Arguments& arguments);
 int run_completion(const Arguments& arguments);

@@ -76,12 +76,13 @@ Figure diagram_figure(const Answer& answer, const Robot& robot, std::size_t sect
         for (const Node& part : point.items) limit = std::max(limit, std::abs(part.number / degree));
   const double reach = 1.25 * std::max(limit, 1e-3);
   const bool is_twin = robot.description.text(fmt::format("sections[{}].type", section)) == "tpcj";
-  Panel panel{.title = answer.text("class"),
-              .x = {.label = is_twin ? "β₁" : "θ cos φ", .unit = "deg", .low = -reach, .high = reach},
-              .y = {.label = is_twin ? "β₂" : "θ sin φ", .unit = "deg", .low = -reach, .high = reach},
-              .series = {},
-              .legend = Legend::below,
-              .equal_aspect = true};
+  Panel panel{
+      .title = answer.text("class"),
+      .x = {.label = formula(is_twin ? "β_1" : "θ cos φ"), .unit = "deg", .low = -reach, .high = reach},
+      .y = {.label = formula(is_twin ? "β_2" : "θ sin φ"), .unit = "deg", .low = -reach, .high = reach},
+      .series = {},
+      .legend = Legend::below,
+      .equal_aspect = true};
   const Node* boundary = answer.find("boundary");
   if (boundary && boundary->items.size() > 2)
     panel.series.push_back(points_of(boundary, Mark::polygon, Colour::green, 1.5, "free"));

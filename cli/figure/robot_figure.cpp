@@ -1,5 +1,7 @@
 #include "figure/robot_figure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +15,7 @@ namespace sinew::cli {
 namespace {
 
 constexpr std::array<std::vector<double> Series::*, 3> coordinates{&Series::x, &Series::y, &Series::z};
-constexpr std::array axis_names{"x", "y", "z"};
+const std::array axis_names{formula("x"), formula("y"), formula("z")};
 
 /// The curve of a list of points in metres, in mm; of a planar one z is 0.
 Series curve(const Node& points, Mark mark, Colour colour, double width, std::string label = {}) {
@@ -27,7 +29,8 @@ Series curve(const Node& points, Mark mark, Colour colour, double width, std::st
 /// The label of the first of many alike.
 std::string once(std::size_t i, const char* label) { return i == 0 ? std::string(label) : std::string(); }
 
-/// As Fig. 10 of [TDPCR]: backbones, tendons, platform, joints, and the lines along which the closures pull.
+/// As Fig. 10 of [TDPCR]: backbones, tendons, platform, joints, struts, and of legs without one the lines
+/// along which the closures pull.
 std::vector<Series> drawing(const Answer& shape, const Node& legs) {
   std::vector<Series> all;
   const auto add = [&all](const Node& points, Mark mark, Colour colour, double width,
@@ -39,10 +42,14 @@ std::vector<Series> drawing(const Answer& shape, const Node& legs) {
   const auto is = [&](std::size_t i, std::string_view link) {
     return at(legs.items[i], "link.type")->text == link;
   };
+  const auto has_strut = [&](std::size_t i) {
+    const Node* closure = at(legs.items[i], "closure.type");
+    return closure && closure->text.ends_with("strut");
+  };
   const auto& lines = shape.find("lines")->items;
-  std::size_t line = 0;
+  std::size_t line = 0, strut = 0;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    if (!is(i, "rod"))  // its tip is on the platform
+    if (!is(i, "rod") && !has_strut(i))  // a rod's tip is on the platform
       add(lines[i], Mark::dashed, Colour::vermillion, 1.5, once(line++, "line of the leg"));
   const auto& tendons = shape.find("tendons")->items;
   for (std::size_t i = 0; i < tendons.size(); ++i)
@@ -59,7 +66,16 @@ std::vector<Series> drawing(const Answer& shape, const Node& legs) {
       named.push_back(name);
     add(backbones[i], Mark::line, Colour::blue, 3, name);
   }
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (has_strut(i)) add(lines[i], Mark::line, Colour::vermillion, 3, once(strut++, "strut"));
   add(*shape.find("base"), Mark::circles, Colour::black, 1.5);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (has_strut(i)) {  // the joint between link and strut
+      Node joint;
+      joint.kind = Node::Kind::list;
+      joint.items = {lines[i].items.front()};
+      add(joint, Mark::circles, Colour::black, 1.5);
+    }
   add(platform, Mark::circles, Colour::black, 1.5);
   return all;
 }
@@ -102,8 +118,8 @@ std::vector<Series> serial_drawing(const Answer& shape) {
   return all;
 }
 
-/// Axes around the drawing: a little larger than it, and none so much narrower than the longest that its
-/// numbers would not stand.
+/// Axes around the drawing: larger than it, so that the numbers of its legs have room, and none so much
+/// narrower than the longest that its numbers would not stand.
 std::array<Axis, 3> axes_around(const std::vector<Series>& all) {
   std::array<Axis, 3> axes;
   double longest = 0;
@@ -117,7 +133,7 @@ std::array<Axis, 3> axes_around(const std::vector<Series>& all) {
   }
   for (Axis& axis : axes) {
     const double middle = 0.5 * (*axis.low + *axis.high);
-    const double half = std::max({0.53 * (*axis.high - *axis.low), 0.2 * longest, 1e-3});
+    const double half = std::max({0.5 * (*axis.high - *axis.low) + 0.08 * longest, 0.2 * longest, 1e-3});
     axis.low = middle - half;
     axis.high = middle + half;
   }
@@ -131,8 +147,77 @@ void set_step(std::initializer_list<Axis*> axes, double most) {
   for (Axis* axis : axes) axis->step = round_step(longest, most);
 }
 
+/// Where the legs begin, in mm, in their order; a serial robot has none.
+std::vector<std::array<double, 3>> feet(const Answer& shape) {
+  std::vector<std::array<double, 3>> all;
+  const Node* base = shape.find("base");
+  if (!base) return all;
+  for (const Node& point : base->items) {
+    std::array<double, 3> foot{};
+    for (std::size_t c = 0; c < std::min(foot.size(), point.items.size()); ++c)
+      foot[c] = 1e3 * point.items[c].number;
+    all.push_back(foot);
+  }
+  return all;
+}
+
+/// How far something leaves a point of the picture in a direction.
+struct Direction {
+  double across, up;
+};
+
+/// The numbers of the legs where these begin, `1` is `legs[0]`: on the side that the curves leave free. Legs
+/// that begin at one place of the picture have one text.
+/// @param places of the picture, in units of which `reach` are as far as a number needs
+void number_legs(Panel& panel, const std::vector<std::array<double, 3>>& at,
+                 const std::vector<std::array<double, 2>>& places,
+                 const std::vector<std::vector<std::array<double, 2>>>& curves, double reach) {
+  constexpr std::array sides{
+      std::pair{Note::Side::below, Direction{0, -1}}, std::pair{Note::Side::left, Direction{-1, 0}},
+      std::pair{Note::Side::right, Direction{1, 0}}, std::pair{Note::Side::above, Direction{0, 1}}};
+  std::vector<char> is_done(at.size(), 0);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (is_done[i]) continue;
+    std::string text;
+    for (std::size_t k = i; k < at.size(); ++k)
+      if (std::hypot(places[k][0] - places[i][0], places[k][1] - places[i][1]) < 0.6 * reach) {
+        is_done[k] = 1;
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", k + 1);
+      }
+    double best = -1;
+    Note note{.text = text, .x = at[i][0], .y = at[i][1], .z = at[i][2]};
+    for (const auto& [side, direction] : sides) {
+      const double longer =
+          0.5 * reach * static_cast<double>(text.size() - 1) * (direction.across != 0 ? 0.5 : 0);
+      const std::array<double, 2> middle{places[i][0] + direction.across * (reach + longer),
+                                         places[i][1] + direction.up * reach};
+      double free = 2 * reach;  // more is no better
+      for (const auto& curve : curves)
+        for (const auto& point : curve)
+          free = std::min(free, std::hypot(point[0] - middle[0], point[1] - middle[1]));
+      if (free > best * 1.001) best = free, note.side = side;
+    }
+    panel.notes.push_back(std::move(note));
+  }
+}
+
+/// Points along a curve so near each other that a text between them would be met.
+std::vector<std::array<double, 2>> along(const std::vector<std::array<double, 2>>& corners, double step) {
+  std::vector<std::array<double, 2>> all;
+  for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+    const double length = std::hypot(corners[k + 1][0] - corners[k][0], corners[k + 1][1] - corners[k][1]);
+    const int count = std::clamp(static_cast<int>(length / step), 1, 200);
+    for (int j = 0; j < count; ++j)
+      all.push_back({std::lerp(corners[k][0], corners[k + 1][0], double(j) / count),
+                     std::lerp(corners[k][1], corners[k + 1][1], double(j) / count)});
+  }
+  if (!corners.empty()) all.push_back(corners.back());
+  return all;
+}
+
 /// The drawing as seen along the third axis.
-Panel projection(std::vector<Series> all, const std::array<Axis, 3>& axes, std::size_t x, std::size_t y) {
+Panel projection(std::vector<Series> all, const std::array<Axis, 3>& axes, std::size_t x, std::size_t y,
+                 const std::vector<std::array<double, 3>>& starts) {
   for (Series& series : all) {
     std::array<std::vector<double>, 3> places{std::move(series.x), std::move(series.y), std::move(series.z)};
     series.x = std::move(places[x]);
@@ -146,7 +231,25 @@ Panel projection(std::vector<Series> all, const std::array<Axis, 3>& axes, std::
               .notes = {},
               .legend = Legend::below,
               .equal_aspect = true};
-  set_step({&panel.x, &panel.y}, 10);
+  const double extent = std::max(*panel.x.high - *panel.x.low, *panel.y.high - *panel.y.low);
+  const double reach = 0.035 * extent;
+  std::vector<std::vector<std::array<double, 2>>> curves;
+  for (const Series& series : panel.series) {
+    std::vector<std::array<double, 2>> corners;
+    for (std::size_t k = 0; k < series.x.size(); ++k) corners.push_back({series.x[k], series.y[k]});
+    if (series.mark == Mark::circles)
+      curves.push_back(std::move(corners));
+    else
+      curves.push_back(along(corners, 0.3 * reach));
+  }
+  std::vector<std::array<double, 3>> places;
+  std::vector<std::array<double, 2>> flat;
+  for (const auto& start : starts) {
+    places.push_back({start[x], start[y], 0});
+    flat.push_back({start[x], start[y]});
+  }
+  number_legs(panel, places, flat, curves, reach);
+  set_step({&panel.x, &panel.y}, 8);
   return panel;
 }
 
@@ -155,14 +258,37 @@ Panel space(std::vector<Series> all, std::array<Axis, 3> axes, const Answer& sha
   if (const Node* base = shape.find("base"); base && base->items.size() > 2)
     all.insert(all.begin(), curve(*base, Mark::polygon, Colour::grey, 1, "base"));
   set_step({&axes[0], &axes[1], &axes[2]}, 10);
-  return {.title = {},
-          .x = axes[0],
-          .y = axes[1],
-          .series = std::move(all),
-          .notes = {},
-          .legend = Legend::top_left,
-          .z = axes[2],
-          .eye = eye};
+  Panel panel{.title = {},
+              .x = axes[0],
+              .y = axes[1],
+              .series = std::move(all),
+              .notes = {},
+              .legend = Legend::below,
+              .z = axes[2],
+              .eye = eye};
+  const double tilt = eye.tilt * std::numbers::pi / 180, turn = eye.turn * std::numbers::pi / 180;
+  const auto seen = [&](double x, double y, double z) {
+    const double back = -x * std::sin(turn) + y * std::cos(turn);
+    return std::array{x * std::cos(turn) + y * std::sin(turn), back * std::cos(tilt) + z * std::sin(tilt)};
+  };
+  double extent = 0;
+  for (const Axis& axis : axes) extent = std::max(extent, *axis.high - *axis.low);
+  const double reach = 0.03 * extent;
+  std::vector<std::vector<std::array<double, 2>>> curves;
+  for (const Series& series : panel.series) {
+    std::vector<std::array<double, 2>> corners;
+    for (std::size_t k = 0; k < series.x.size(); ++k)
+      corners.push_back(seen(series.x[k], series.y[k], series.z[k]));
+    if (series.mark == Mark::circles)
+      curves.push_back(std::move(corners));
+    else
+      curves.push_back(along(corners, 0.3 * reach));
+  }
+  const auto starts = feet(shape);
+  std::vector<std::array<double, 2>> flat;
+  for (const auto& start : starts) flat.push_back(seen(start[0], start[1], start[2]));
+  number_legs(panel, starts, flat, curves, reach);
+  return panel;
 }
 
 }  // namespace
@@ -176,11 +302,12 @@ Figure robot_figure(const Answer& shape, const Robot& robot, const std::optional
   if (eye) {
     figure.panels = {space(all, axes, shape, *eye)};
   } else if (is_serial(robot)) {
-    figure.panels = {projection(all, axes, 0, 2), projection(all, axes, 1, 2)};
+    figure.panels = {projection(all, axes, 0, 2, {}), projection(all, axes, 1, 2, {})};
   } else {
     figure.height = 700;
-    figure.panels = {projection(all, axes, 0, 1)};
-    if (robot.is_spatial) figure.panels.insert(figure.panels.begin(), projection(all, axes, 0, 2));
+    const auto starts = feet(shape);
+    figure.panels = {projection(all, axes, 0, 1, starts)};
+    if (robot.is_spatial) figure.panels.insert(figure.panels.begin(), projection(all, axes, 0, 2, starts));
   }
   figure.columns = static_cast<int>(figure.panels.size());
   if (!eye) figure.width = 700 * figure.columns;

@@ -7,14 +7,28 @@
 #include <cmath>
 #include <limits>
 
+#include "figure/quantity_name.hpp"
 #include "figure/table_grid.hpp"
 #include "sinew/io/contour.hpp"
+#include "sinew/io/node.hpp"
 #include "text_table.hpp"
 
 namespace sinew::cli {
 namespace {
 
+constexpr std::size_t most_curves = 100;
 constexpr std::size_t most_vector_points = 200'000;  // beyond that an .svg or .pdf does not open in a minute
+
+using Words = std::vector<std::string>;
+
+bool has_words(const Column& column, const Words& words) { return column.name == "status" && !words.empty(); }
+
+/// Above and below the first and the last word.
+void name_places(Axis& axis, const Words& words) {
+  axis.words = words;
+  axis.low = -0.5;
+  axis.high = static_cast<double>(words.size()) - 0.5;
+}
 
 std::vector<const Column*> columns_to_draw(const Table& table, const Column* x, const std::string* list,
                                            Errors& errors) {
@@ -22,6 +36,11 @@ std::vector<const Column*> columns_to_draw(const Table& table, const Column* x, 
   if (!list) {
     for (const Column& other : table.columns)
       if (&other != x) result.push_back(&other);
+    if (result.size() > most_curves)
+      errors.push_back(
+          {"too_many_columns", "--y",
+           fmt::format("there are {} columns to draw, and {} at most are told apart; name some: --y {}.",
+                       result.size(), most_curves, in_quotes(result.front()->name))});
     return result;
   }
   for (std::string_view rest = *list;;) {
@@ -34,7 +53,8 @@ std::vector<const Column*> columns_to_draw(const Table& table, const Column* x, 
 }
 
 /// One colour after the other, each with its entry in the legend.
-Panel curves(const Column& x, const std::vector<const Column*>& ys, bool is_log, Mark mark, double width) {
+Panel curves(const Column& x, const std::vector<const Column*>& ys, bool is_log, bool is_ours, Mark mark,
+             double width) {
   std::vector<Scale> scales;
   for (const Column* y : ys) scales.push_back(scale_of(*y, is_log));
   if (ys.size() > 1)  // of one unit, one scale
@@ -46,15 +66,16 @@ Panel curves(const Column& x, const std::vector<const Column*>& ys, bool is_log,
       std::ranges::all_of(scales, [&](const Scale& scale) { return scale.unit == scales.front().unit; });
   const Scale along = scale_of(x);
   Panel panel{.title = {},
-              .x = {.label = x.name, .unit = along.unit},
-              .y = {.label = ys.size() == 1 ? ys[0]->name : "", .unit = has_one_unit ? scales[0].unit : ""},
+              .x = {.label = quantity_name(x.name, is_ours), .unit = along.unit},
+              .y = {.label = ys.size() == 1 ? quantity_name(ys[0]->name, is_ours) : common_name(ys),
+                    .unit = has_one_unit ? scales[0].unit : ""},
               .series = {}};
   constexpr std::array colours{Colour::blue, Colour::vermillion, Colour::green, Colour::orange,
                                Colour::sky,  Colour::purple,     Colour::black, Colour::yellow};
   for (std::size_t i = 0; i < ys.size(); ++i)
-    panel.series.push_back({.label = ys.size() == 1 ? ""
-                                     : has_one_unit ? ys[i]->name
-                                                    : titled(*ys[i], scales[i]),
+    panel.series.push_back({.label = ys.size() == 1 ? Text()
+                                     : has_one_unit ? quantity_name(ys[i]->name, is_ours)
+                                                    : titled(*ys[i], scales[i], is_ours),
                             .x = along.shown(x.values),
                             .y = scales[i].shown(ys[i]->values),
                             .mark = mark,
@@ -79,7 +100,8 @@ bool has_equal_axes(const Column& x, const Column& y) {
 }
 
 /// Points coloured by a column; those without a value of it stay, in grey.
-Expected<Panel> coloured_points(Panel panel, const Column& colour, bool log) {
+Expected<Panel> coloured_points(Panel panel, const Column& colour, bool log, bool is_ours,
+                                const Words& words) {
   const Scale scale = scale_of(colour, log);
   const auto values = scale.shown(colour.values);
   const auto is_known = [](double value) { return std::isfinite(value); };
@@ -91,12 +113,13 @@ Expected<Panel> coloured_points(Panel panel, const Column& colour, bool log) {
         "not_positive", "--log-value",
         fmt::format("some values of {} are not above 0 and have no logarithm; leave it out.", colour.name));
   const auto [low, high] = colour_ends(values, log);
-  panel.scale = ColourScale{.label = titled(colour, scale), .low = low, .high = high, .log = log};
+  panel.scale = ColourScale{.label = titled(colour, scale, is_ours), .low = low, .high = high, .log = log};
+  if (has_words(colour, words)) panel.scale->words = words;
   if (!std::ranges::all_of(values, is_known)) {
     Series rest = panel.series.front();
     for (std::size_t k = 0; k < values.size(); ++k)
       if (is_known(values[k])) rest.x[k] = rest.y[k] = std::numeric_limits<double>::quiet_NaN();
-    rest.label = fmt::format("no {}", colour.name);
+    rest.label = Text("no value: ") + quantity_name(colour.name, is_ours);
     rest.colour = Colour::grey;
     panel.series.insert(panel.series.begin(), std::move(rest));
     panel.legend = Legend::below;
@@ -126,7 +149,8 @@ bool meet(const Column& x, const Column& y) {
   return false;
 }
 
-Expected<Figure> plane_figure(const Table& table, const Arguments& arguments, bool is_line) {
+Expected<Figure> plane_figure(const Table& table, const Arguments& arguments, bool is_line,
+                              const Words& words) {
   Errors errors;
   const std::string* name = arguments.text("x");
   const Column* x = name ? column(table, *name, "x", errors) : first_that_varies(table);
@@ -151,15 +175,20 @@ Expected<Figure> plane_figure(const Table& table, const Arguments& arguments, bo
   const auto rows = static_cast<double>(std::max<std::size_t>(table.row_count(), 1));
   const double dot = std::min(3.0, 8 * std::pow(rows, -0.2));
   const bool is_log = arguments.has("log-y");
-  Panel panel = curves(*x, ys, is_log, is_line ? Mark::line : Mark::points, is_line ? 2 : dot);
+  const bool is_ours = is_of_sinew(table);
+  Panel panel = curves(*x, ys, is_log, is_ours, is_line ? Mark::line : Mark::points, is_line ? 2 : dot);
   panel.equal_aspect = !is_line && !is_log && ys.size() == 1 && has_equal_axes(*x, *ys.front());
-  if (!is_line && ys.size() > 1) panel.legend = Legend::below;
+  if (ys.size() > (is_line ? 4U : 1U)) panel.legend = Legend::below;
+  if (has_words(*x, words)) name_places(panel.x, words);
+  if (ys.size() == 1 && has_words(*ys.front(), words) && !is_log) name_places(panel.y, words);
   if (colour) {
-    auto coloured = coloured_points(std::move(panel), *colour, arguments.has("log-value"));
+    auto coloured = coloured_points(std::move(panel), *colour, arguments.has("log-value"), is_ours, words);
     if (!coloured) return tl::unexpected(coloured.error());
     panel = std::move(*coloured);
   }
   Figure figure;
+  constexpr double row = 26;  // of the legend
+  if (panel.legend == Legend::below) figure.height += row * static_cast<double>(panel.series.size());
   figure.panels = {std::move(panel)};
   return figure;
 }
@@ -180,7 +209,12 @@ HeatMap with_even_cells(const HeatMap& map) {
     const auto k = static_cast<std::size_t>(above - places.begin());
     return k == places.size() || (k > 0 && value - places[k - 1] <= places[k] - value) ? k - 1 : k;
   };
-  HeatMap result{.x = even(map.x), .y = even(map.y), .values = {}, .label = map.label, .log = map.log};
+  HeatMap result{.x = even(map.x),
+                 .y = even(map.y),
+                 .values = {},
+                 .label = map.label,
+                 .log = map.log,
+                 .words = map.words};
   for (const double y : result.y)
     for (const double x : result.x)
       result.values.push_back(map.values[nearest(map.y, y) * map.x.size() + nearest(map.x, x)]);
@@ -200,20 +234,25 @@ void set_page(Figure& figure, const Panel& panel) {
   const HeatMap& map = *panel.map;
   const double ratio = (map.y.back() - map.y.front()) / (map.x.back() - map.x.front());
   const bool is_wide = panel.equal_aspect && ratio < 1;
-  figure.width = beside + side * (panel.equal_aspect && ratio > 1 ? std::max(1 / ratio, 0.4) : 1);
+  figure.width = beside + (map.words.empty() ? 0 : 60) +
+                 side * (panel.equal_aspect && ratio > 1 ? std::max(1 / ratio, 0.4) : 1);
   figure.height = below + side * (is_wide ? std::max(ratio, 0.4) : 1);
 }
 
-Expected<Figure> map_figure(const Table& table, const Arguments& arguments, bool has_lines) {
+Expected<Figure> map_figure(const Table& table, const Arguments& arguments, bool has_lines,
+                            const FigureOptions& paper, const Words& words) {
   const auto columns = map_columns(table, arguments);
   if (!columns) return tl::unexpected(columns.error());
   auto map = heat_map(table, *columns, arguments.has("log-value"));
   if (!map) return tl::unexpected(map.error());
+  if (has_words(*columns->value, words)) map->words = words;
   constexpr std::size_t many_cells = 20'000;
   if (map->values.size() > many_cells && !(is_even(map->x) && is_even(map->y))) *map = with_even_cells(*map);
-  const auto axis = [](const Column& of, const std::vector<double>& places) {
-    return Axis{
-        .label = of.name, .unit = scale_of(of).unit, .step = round_step(places.back() - places.front(), 8)};
+  const bool is_ours = is_of_sinew(table);
+  const auto axis = [is_ours](const Column& of, const std::vector<double>& places) {
+    return Axis{.label = quantity_name(of.name, is_ours),
+                .unit = scale_of(of).unit,
+                .step = round_step(places.back() - places.front(), 8)};
   };
   Panel panel{.title = {},
               .x = axis(*columns->x, map->x),
@@ -224,8 +263,11 @@ Expected<Figure> map_figure(const Table& table, const Arguments& arguments, bool
               .map = std::move(*map)};
   Figure figure;
   set_page(figure, panel);
-  if (has_lines) add_contours(panel, contour_levels(*panel.map), figure.width, figure.height);
   figure.panels = {std::move(panel)};
+  if (has_lines) {
+    const PageLayout page = page_of(figure, paper);
+    add_contours(figure.panels[0], contour_levels(*figure.panels[0].map), page.width, page.height);
+  }
   return figure;
 }
 
@@ -240,10 +282,11 @@ std::string_view table_kind(const Table& table, const Arguments& arguments) {
   return is_map ? "map" : "line";
 }
 
-Expected<Figure> table_figure(const Table& table, std::string_view kind, const Arguments& arguments) {
+Expected<Figure> table_figure(const Table& table, std::string_view kind, const Arguments& arguments,
+                              const FigureOptions& paper, const std::vector<std::string>& words) {
   const bool has_cells = kind == "map" || kind == "contour";
-  return has_cells ? map_figure(table, arguments, kind == "contour")
-                   : plane_figure(table, arguments, kind == "line");
+  return has_cells ? map_figure(table, arguments, kind == "contour", paper, words)
+                   : plane_figure(table, arguments, kind == "line", words);
 }
 
 }  // namespace sinew::cli

@@ -12,6 +12,9 @@ namespace sinew::cli {
 std::string_view table_kind(const Table& table, const Arguments& arguments);
 
 /// `line`, `points`, `map` or `contour`, as the options say.
-Expected<Figure> table_figure(const Table& table, std::string_view kind, const Arguments& arguments);
+/// @param paper which lines with numbers on them depend on
+/// @param words for the numbers 0, 1, ... of a column `status`; empty where it is one like any other
+Expected<Figure> table_figure(const Table& table, std::string_view kind, const Arguments& arguments,
+                              const FigureOptions& paper, const std::vector<std::string>& words);
 
 }  // namespace sinew::cli

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "figure/quantity_name.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/io/quantity.hpp"
 #include "text_table.hpp"
@@ -182,10 +183,13 @@ const Column* column(const Table& table, std::string_view name, std::string_view
   std::vector<std::string_view> names;
   for (const Column& known : table.columns) names.push_back(known.name);
   const std::string_view hint = closest(name, names);
+  constexpr std::size_t most_names = 40;
+  const std::string_view more = names.size() > most_names ? ", ..." : "";
+  if (names.size() > most_names) names.resize(most_names);
   errors.push_back({"unknown_column", fmt::format("--{}", option),
-                    fmt::format("no column {}{} Columns: {}.", in_quotes(name),
+                    fmt::format("no column {}{} Columns: {}{}.", in_quotes(name),
                                 hint.empty() ? "." : fmt::format("; did you mean {}?", in_quotes(hint)),
-                                fmt::join(names, ", "))});
+                                fmt::join(names, ", "), more)});
   return nullptr;
 }
 
@@ -214,8 +218,8 @@ Scale scale_of(const Column& column, bool is_log) {
   return scale;
 }
 
-std::string titled(const Column& column, const Scale& scale) {
-  return scale.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, scale.unit);
+Text titled(const Column& column, const Scale& scale, bool is_ours) {
+  return with_unit(quantity_name(column.name, is_ours), scale.unit);
 }
 
 std::array<double, 2> colour_ends(const std::vector<double>& values, bool log) {
@@ -261,6 +265,8 @@ GridAxes grid_axes(const Table& table) {
 Expected<Cut> cut(Table table, const Arguments& arguments) {
   Errors errors;
   std::string place;
+  Text shown_place;
+  const bool is_ours = is_of_sinew(table);
   std::vector<char> stays(table.row_count(), 1);
   for (const std::string_view text : places_given(arguments)) {
     const auto where = chosen(table, text, errors);
@@ -269,6 +275,11 @@ Expected<Cut> cut(Table table, const Arguments& arguments) {
       if (where->places.nearest(where->column->values[row]) != where->index) stays[row] = 0;
     place += fmt::format("{}{} = {}", place.empty() ? "" : ", ", where->column->name,
                          shown_number(where->places.values()[where->index], where->column->unit));
+    const Shown people = shown(where->column->unit);
+    shown_place += (shown_place.empty() ? Text() : Text(", ")) +
+                   place_name(where->column->name,
+                              six_digits(where->places.values()[where->index] * people.factor, 1e-3),
+                              people.unit, is_ours);
   }
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   if (place.empty()) return Cut{std::move(table), {}};
@@ -280,7 +291,7 @@ Expected<Cut> cut(Table table, const Arguments& arguments) {
   }
   if (table.row_count() == 0)
     return failure("no_values", "--at", fmt::format("no row is at {}; give fewer of them.", place));
-  return Cut{std::move(table), std::move(place)};
+  return Cut{std::move(table), std::move(shown_place)};
 }
 
 Expected<MapColumns> map_columns(const Table& table, const Arguments& arguments) {
@@ -331,7 +342,7 @@ Expected<HeatMap> heat_map(const Table& table, const MapColumns& columns, bool l
   HeatMap map{.x = scale_of(x).shown(across.values()),
               .y = scale_of(y).shown(up.values()),
               .values = std::vector<double>(across.count() * up.count(), missing),
-              .label = titled(value, scale),
+              .label = titled(value, scale, is_of_sinew(table)),
               .log = log};
   std::vector<char> is_seen(map.values.size(), 0);
   std::size_t known = 0, not_positive = 0;

@@ -27,8 +27,8 @@ struct Scale {
 };
 /// @param is_log of a logarithmic axis, which numbers powers of ten by itself
 Scale scale_of(const Column& column, bool is_log = false);
-/// `determinant [10⁻⁶ m^4]`
-std::string titled(const Column& column, const Scale& scale);
+/// `det J (10⁻⁶ m⁴)`
+Text titled(const Column& column, const Scale& scale, bool is_ours);
 
 /// Round ends of the colours of some values, of which at least one is finite, so that the bar has a number at
 /// both; of logarithmic colours powers of ten where the values reach over less than two.
@@ -44,7 +44,7 @@ GridAxes grid_axes(const Table& table);
 /// A part of a table, and how it was chosen.
 struct Cut {
   Table table;
-  std::string place;  ///< `phi = 30 deg`; empty where nothing was cut
+  Text place;  ///< `φ = 30°`; empty where nothing was cut
 };
 /// The rows that `--at "phi=30 deg, z=0.4"` leaves: of each column the values nearest to those.
 Expected<Cut> cut(Table table, const Arguments& arguments);

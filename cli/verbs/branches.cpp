@@ -7,10 +7,12 @@
 #include <limits>
 #include <numeric>
 
+#include "figure/quantity_name.hpp"
 #include "figure_file.hpp"
 #include "question.hpp"
 #include "sinew/io/figure.hpp"
 #include "sinew/io/table.hpp"
+#include "sinew/io/visible.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 
@@ -118,8 +120,8 @@ class Diagram {
     const Input& column = columns_[coordinate];
     const Shown unit = shown(column.unit);
     Panel panel{.title = {},
-                .x = {.label = "parameter", .unit = {}},
-                .y = {.label = column.name, .unit = std::string(unit.unit)},
+                .x = {.label = "Parameter", .unit = {}},
+                .y = {.label = quantity_name(column.name, true), .unit = std::string(unit.unit)},
                 .series = {},
                 .notes = {},
                 .legend = Legend::below};
@@ -171,7 +173,7 @@ class Diagram {
   }
 
   static void label_once(Panel& panel) {
-    std::vector<std::string> known;
+    std::vector<Text> known;
     for (Series& series : panel.series) {
       if (std::ranges::find(known, series.label) != known.end())
         series.label.clear();
@@ -189,7 +191,7 @@ Figure picture(const Answer& answer, const Robot& robot, bool is_led_by_pose) {
   const Diagram diagram(answer, is_led_by_pose ? robot.inputs : pose_columns(true), is_led_by_pose);
   const auto [first, second] = diagram.farthest();
   Figure figure;
-  figure.title = "equilibria of " + answer.text("robot");
+  figure.title = "Equilibria of " + answer.text("robot");
   figure.panels = {diagram.panel(first), diagram.panel(second)};
   figure.columns = 2;
   figure.width = 1400;
@@ -210,16 +212,17 @@ int run_branches(const Arguments& arguments) {
   const std::string* file = arguments.text("output");
   const bool is_table = file && file->ends_with(".csv");
   if (file && !is_table)
-    if (const Errors errors = refuse_format(*file); !errors.empty())
+    if (const Errors errors = refuse_figure(arguments, *file); !errors.empty())
       return refuse_question(arguments, errors);
   const auto answer = put("track", arguments, *robot);
   if (!answer) return refuse_question(arguments, answer.error());
-  const bool has_curves = answer->find("curves") != nullptr;
+  const bool has_curves =
+      answer->find("curves") && answer->find("equilibria");  // not where it was stopped before
   std::string shown = has_curves ? show_events(*answer) : "";
   if (has_curves && is_table) {
     const auto written = write_csv(table_of(*answer, *robot), *file);
     if (!written) return refuse_question(arguments, written.error());
-    shown += arguments.has("quiet") ? "" : *file + '\n';
+    shown += arguments.has("quiet") ? "" : visible_line(*file) + '\n';
   } else if (has_curves && file) {
     if (const int exit = write_figure_file(arguments, picture(*answer, *robot, arguments.has("to")), *file);
         exit != solved)

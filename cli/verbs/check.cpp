@@ -1,14 +1,17 @@
-/// check: what a robot file means, or everything that is wrong with it.
+/// check: what a robot file means, or everything that is wrong with it; of studies, see study.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
 #include <numbers>
 
 #include "show.hpp"
+#include "sinew/io/parse.hpp"
 #include "sinew/io/quantity.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 
@@ -22,10 +25,16 @@ struct Checked {
 };
 
 Checked put_questions(Robot robot) {
-  const std::string at = at_home(robot),
-                    want = robot.is_on_rods ? R"(, "want": ["sensitivity", "margins", "stability"])" : "";
-  Answer home = ask(robot.session, R"({"query": "inverse", )" + at + want + "}"),
-         velocity = ask(robot.session, R"({"query": "velocity", )" + at + "}");
+  const auto put = [&](std::string_view query, std::vector<std::string_view> want) {
+    std::vector<Member> members{{.key = "query", .value = make_node(query)}, at_home(robot)};
+    std::vector<Node> words;
+    for (const std::string_view word : want) words.push_back(make_node(word));
+    if (!words.empty()) members.push_back({.key = "want", .value = list_of(std::move(words))});
+    return ask(robot, {"query", map_of(std::move(members))});
+  };
+  using Words = std::vector<std::string_view>;
+  Answer home = put("inverse", robot.is_on_rods ? Words{"sensitivity", "margins", "stability"} : Words{}),
+         velocity = put("velocity", {});
   return {std::move(robot), std::move(home), std::move(velocity)};
 }
 
@@ -303,20 +312,33 @@ void warn(const Checked& checked) {
     message("warning: the home pose cannot be reached: " + checked.home.text("message"));
 }
 
+/// A study file, or a name that is no robot's: what has a query and axes is not taken for a robot.
+bool may_be_study(const std::string& name) {
+  const auto text = read_robot_text(name);
+  if (!text) return name.find_first_of("./") == std::string::npos;  // else the file's own error says more
+  const auto document = parse_yaml(*text, name);
+  if (!document) return false;
+  const auto has_any = [&](std::initializer_list<std::string_view> keys) {
+    return std::ranges::any_of(keys, [&](std::string_view key) { return document->root.find(key); });
+  };
+  return has_any({"query", "axes", "random", "listed"}) && !has_any({"legs", "sections", "architecture"});
+}
+
 }  // namespace
 
 int run_check(const Arguments& arguments) {
+  if (may_be_study(arguments.operand())) return check_study(arguments);
   auto robot = open(arguments);
   if (!robot) {
     if (arguments.has("json")) print(json_error(robot.error()) + '\n');
     return refuse(arguments.verb, robot.error());
   }
   if (is_serial(*robot)) {
-    print(arguments.has("json") ? robot->description.line + '\n' : show_serial_robot(*robot));
+    print(arguments.has("json") ? robot->description.line() + '\n' : show_serial_robot(*robot));
     return solved;
   }
   const Checked checked = put_questions(std::move(*robot));
-  print(arguments.has("json") ? checked.robot.description.line + '\n' : show(checked));
+  print(arguments.has("json") ? checked.robot.description.line() + '\n' : show(checked));
   if (!arguments.has("quiet")) warn(checked);
   return solved;
 }

@@ -13,11 +13,14 @@ int run_diagram(const Arguments& arguments) {
   if (!robot) return refuse_question(arguments, robot.error());
   const auto answer = put("diagram", arguments, *robot);
   if (!answer) return refuse_question(arguments, answer.error());
-  if (arguments.has("json")) print(answer->line + '\n');
+  if (arguments.has("json")) print(answer->line() + '\n');
   if (const Errors errors = answer->errors(); !errors.empty()) return refuse(arguments.verb, errors);
   if (!answer->converged())
     message(fmt::format("diagram {}: {}: {}", answer->text("robot"), answer->text("status"),
-                        answer->text("message")));
+                        in_options(answer->text("message"))),
+            Style::bad);
+  else if (const std::string said = answer->text("message"); !said.empty())
+    message(fmt::format("diagram {}: {}", answer->text("robot"), in_options(said)));
   if (!answer->find("class")) return exit_code(*answer);
   const std::size_t section = section_of(arguments);
   if (const std::string* file = arguments.text("output"))

@@ -9,7 +9,8 @@
 #include "sinew/io/export.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
-#include "sinew/io/table.hpp"
+#include "sinew/io/visible.hpp"
+#include "sinew/io/write_file.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -77,17 +78,24 @@ Expected<ControllerTable> read_table(const Arguments& arguments, const Language&
   return model ? make_controller_table(*robot, *model) : tl::unexpected(model.error());
 }
 
-/// One file into the file that is named, or on stdout; several into the folder that is named.
+/// One file into the file that is named, or on stdout; several into the folder that is named, all or none.
 Expected<void> write(const std::vector<ExportedFile>& files, const Arguments& arguments) {
   const std::string* output = arguments.text("output");
   if (files.size() == 1 && !output) return print(files[0].text), Expected<void>();
+  std::string names;
+  std::vector<FileWriter> writers;
   for (const ExportedFile& file : files) {
     const std::filesystem::path path = files.size() == 1
                                            ? std::filesystem::path(*output)
                                            : std::filesystem::path(output ? *output : ".") / file.name;
-    if (auto written = write_text(file.text, path); !written) return written;
-    if (!arguments.has("quiet")) print(path.string() + '\n');
+    auto writer = FileWriter::open(path);
+    if (!writer) return tl::unexpected(std::move(writer.error()));
+    if (auto written = writer->write(file.text); !written) return written;
+    writers.push_back(std::move(*writer));
+    names += visible_line(path.string()) + '\n';
   }
+  if (auto done = finish_together(writers); !done) return done;
+  if (!arguments.has("quiet")) print(names);
   return {};
 }
 

@@ -6,13 +6,16 @@
 #include <array>
 #include <bit>
 #include <cstdio>
+#include <functional>
 
+#include "figure_file.hpp"
 #include "map_figure.hpp"
 #include "question.hpp"
-#include "sinew/io/parse.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
+#include "sinew/io/visible.hpp"
+#include "sinew/io/write_file.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {
@@ -40,11 +43,9 @@ std::vector<int> signs(const Node* list) {
 Expected<Subject> subject(const Arguments& arguments, Robot& opened) {
   auto query = request("inverse", arguments, opened);
   if (!query) return tl::unexpected(query.error());
-  query->pop_back();  // its closing brace
-  *query += fmt::format(", {}}}", at_home(opened));
-  if (Errors errors = ask(opened.session, *query).errors(); !errors.empty())
-    return tl::unexpected(std::move(errors));
-  const Document tree = parse_json(*query, "query").value();
+  query->root.members.push_back(at_home(opened));
+  if (Errors errors = ask(opened, *query).errors(); !errors.empty()) return tl::unexpected(std::move(errors));
+  const Document& tree = *query;
   const auto file = read_robot_file(arguments.operand());
   if (!file) return tl::unexpected(file.error());
   const Node* set = at(tree.root, "set");
@@ -120,80 +121,120 @@ Expected<PoseGrid> read_grid(const Arguments& arguments, const AnyRobot& robot,
   return errors.empty() ? Expected<PoseGrid>(grid) : tl::unexpected(errors);
 }
 
-/// In SI.
-Table table_of(const SingularityMap& map, const std::vector<Input>& axes, std::string_view robot) {
+/// The heading of the table, without rows; in SI.
+std::string heading_of(const PoseGrid& grid, const std::vector<Input>& axes, std::string_view robot) {
   Table table;
   table.comments = {fmt::format("sinew {}: map {}", version(), robot)};
   for (const Input& axis : axes) table.columns.push_back({axis.name, axis.unit, {}});
-  for (const char* heading : {"reachable", map.grid.is_spatial ? "determinant[m^9]" : "determinant[m^4]",
+  for (const char* heading : {"reachable", grid.is_spatial ? "determinant[m^9]" : "determinant[m^4]",
                               "inverse_condition", "inverse_condition_homogenised", "type_1", "type_2"})
     table.columns.push_back(Column::named(heading));
-  for (std::size_t k = 0; k < map.samples.size(); ++k) {
-    const auto place = map.grid.coordinates(k);
-    const MapSample& sample = map.samples[k];
-    std::vector<double> row(place.begin(), place.begin() + static_cast<std::ptrdiff_t>(axes.size()));
-    const bool known = sample.is_reachable;
-    for (const double value :
-         {known ? 1.0 : 0.0, sample.determinant, sample.inverse_condition,
-          sample.inverse_condition_homogenised, known ? std::popcount(sample.type_1) : MapSample::absent,
-          known ? double(sample.is_type_2) : MapSample::absent})
-      row.push_back(value);
-    table.add_row(row);
-  }
-  return table;
+  return to_csv(table);
 }
 
-/// A line on the terminal that counts; nothing where stderr is none.
+void append_row(std::string& text, const PoseGrid& grid, std::size_t k, const MapSample& sample) {
+  const auto place = grid.coordinates(k);
+  const bool known = sample.is_reachable;
+  std::array<double, 12> row{};
+  auto end = std::copy_n(place.begin(), grid.axis_count(), row.begin());
+  for (const double value :
+       {known ? 1.0 : 0.0, sample.determinant, sample.inverse_condition, sample.inverse_condition_homogenised,
+        known ? std::popcount(sample.type_1) : MapSample::absent,
+        known ? double(sample.is_type_2) : MapSample::absent})
+    *end++ = value;
+  append_csv_row(text, {row.data(), static_cast<std::size_t>(end - row.begin())});
+}
+
+/// A line on the terminal that counts; none where stderr is none. Ctrl-C ends the map.
 Progress counter(bool quiet) {
-  if (quiet || isatty(STDERR_FILENO) == 0) return {};
-  return [](std::size_t done, std::size_t total) {
-    if (done < total)
+  const bool is_silent = quiet || isatty(STDERR_FILENO) == 0;
+  return [is_silent](std::size_t done, std::size_t total) {
+    if (is_silent) return !interrupted();
+    if (done < total && !interrupted())
       fmt::print(stderr, "\r{:.0f} % of {} poses", 100 * double(done) / double(total), total);
     else
       fmt::print(stderr, "\r\033[K");
-    return true;
+    return !interrupted();
   };
 }
 
-/// `1521 poses: 145 reachable, 0 at a type II, 0 at a type I`.
-std::string summary(const SingularityMap& map) {
-  const auto count = [&](auto&& what) { return std::ranges::count_if(map.samples, what); };
-  return fmt::format("{} poses: {} reachable, {} at a type II, {} at a type I\n", map.samples.size(),
-                     count([](const MapSample& sample) { return sample.is_reachable; }),
-                     count([](const MapSample& sample) { return sample.is_type_2; }),
-                     count([](const MapSample& sample) { return sample.type_1 != 0; }));
-}
+/// What a map comes to, while its samples pass.
+struct Tally {
+  std::size_t poses = 0, reachable = 0, type_2 = 0, type_1 = 0;
 
-/// The format of a figure that an extension names.
-std::optional<FigureFormat> figure_format(const std::filesystem::path& file) {
-  for (const FigureFormat format : {FigureFormat::svg, FigureFormat::png, FigureFormat::pdf})
-    if (file.extension() == fmt::format(".{}", extension(format))) return format;
-  return {};
-}
-
-/// Writes what the name of the file asks for; the names of the files written, a line each.
-Expected<std::string> write(const SingularityMap& map, const Subject& subject, const std::vector<Input>& axes,
-                            const std::filesystem::path& file) {
-  const std::string& robot = subject.robot.name;
-  const auto format = figure_format(file);
-  if (!format) {
-    const auto written = write_csv(table_of(map, axes, robot), file);
-    return written ? Expected<std::string>(file.string() + '\n') : tl::unexpected(written.error());
+  void add(const MapSample& sample) {
+    ++poses;
+    reachable += sample.is_reachable;
+    type_2 += sample.is_type_2;
+    type_1 += sample.type_1 != 0;
   }
+  /// `1521 poses: 145 reachable, 0 at a type II, 0 at a type I`
+  std::string text() const {
+    return fmt::format("{} poses: {} reachable, {} at a type II, {} at a type I\n", poses, reachable, type_2,
+                       type_1);
+  }
+};
+
+/// Where text goes: a file in the making, or stdout.
+using Write = std::function<Expected<void>(std::string_view text)>;
+
+/// The rows go to `write` as they are computed, some at a time: a map has any length in constant memory.
+Expected<Tally> write_rows(const Subject& subject, const PoseGrid& grid, const Progress& progress,
+                           const Write& write) {
+  constexpr std::size_t rows_at_once = 256;
+  const std::size_t total = grid.size();
   Workspace work(subject.robot);
+  Tally tally;
+  std::string rows;
+  Expected<void> written = write(heading_of(grid, pose_columns(grid.is_spatial), subject.robot.name));
+  if (!written || !progress(0, total)) return written.map([&] { return tally; });
+  visit_map(subject.robot, grid, subject.branch(), work, [&](std::size_t k, const MapSample& sample) {
+    tally.add(sample);
+    append_row(rows, grid, k, sample);
+    if ((k + 1) % rows_at_once != 0 && k + 1 < total) return true;
+    written = write(rows);
+    rows.clear();
+    return written.has_value() && progress(k + 1, total);
+  });
+  return written.map([&] { return tally; });
+}
+
+Expected<Tally> write_table(const Subject& subject, const PoseGrid& grid, const Progress& progress,
+                            const std::string* file) {
+  if (!file)
+    return write_rows(subject, grid, progress,
+                      [](std::string_view text) { return print(text), Expected<void>(); });
+  auto writer = FileWriter::open(*file);
+  if (!writer) return tl::unexpected(writer.error());
+  auto tally =
+      write_rows(subject, grid, progress, [&](std::string_view text) { return writer->write(text); });
+  if (tally && tally->poses == grid.size())  // else the file stays as it was
+    if (auto done = writer->finish(); !done) return tl::unexpected(done.error());
+  return tally;
+}
+
+/// A heat map. Its values are kept: gnuplot reads all of them.
+Expected<Tally> draw(const Subject& subject, const PoseGrid& grid, const std::vector<Input>& axes,
+                     const Arguments& arguments, const Progress& progress, int& exit) {
+  Workspace work(subject.robot);
+  const SingularityMap map = singularity_map(subject.robot, grid, subject.branch(), work, progress);
+  Tally tally;
+  for (const MapSample& sample : map.samples) tally.add(sample);
+  if (!map.is_complete()) return tally;
   const Probe probe = [&](const AnyPose& pose) {
     return map_sample(subject.robot, pose, subject.branch(), work);
   };
-  const auto written = write_figure(map_figure(map, probe, axes, robot),
-                                    std::filesystem::path(file).replace_extension(), {.formats = {*format}});
-  if (!written) return tl::unexpected(written.error());
-  std::string names;
-  for (const auto& path : *written) names += path.string() + '\n';
-  return names;
+  exit = write_figure_file(arguments, map_figure(map, probe, axes, subject.robot.name),
+                           *arguments.text("output"));
+  return tally;
 }
 
-Errors refuse_file(const std::string& file, const PoseGrid& grid, const std::vector<Input>& axes) {
-  if (figure_format(file)) return refuse_to_draw(grid, axes);
+Errors refuse_file(const Arguments& arguments, const std::string& file, const PoseGrid& grid,
+                   const std::vector<Input>& axes) {
+  if (refuse_format(file).empty()) {
+    const auto paper = page_options(arguments);
+    return paper ? refuse_to_draw(grid, axes) : paper.error();
+  }
   if (file.ends_with(".csv")) return {};
   return {{"unknown_format", "--output",
            fmt::format("{}: the file ends in .csv, or for a heat map in .svg, .png or .pdf: -o map.csv.",
@@ -221,20 +262,25 @@ int run_map(const Arguments& arguments) {
   if (!grid) return refuse("map", grid.error());
   const std::string* file = arguments.text("output");
   if (file)
-    if (const Errors errors = refuse_file(*file, *grid, axes); !errors.empty()) return refuse("map", errors);
+    if (const Errors errors = refuse_file(arguments, *file, *grid, axes); !errors.empty())
+      return refuse("map", errors);
 
-  Workspace work(asked->robot);
-  const SingularityMap map =
-      singularity_map(asked->robot, *grid, asked->branch(), work, counter(arguments.has("quiet")));
-  if (!file) {
-    print(to_csv(table_of(map, axes, asked->robot.name)));
-  } else {
-    const auto written = write(map, *asked, axes, *file);
-    if (!written) return refuse("map", written.error());
-    if (!arguments.has("quiet")) print(*written + summary(map));
+  const bool is_table_on_screen = !file && isatty(STDOUT_FILENO) != 0;
+  const Progress progress = counter(arguments.has("quiet") || is_table_on_screen);
+  const bool is_figure = file && refuse_format(*file).empty();
+  int exit = solved;
+  const Expected<Tally> tally = is_figure ? draw(*asked, *grid, axes, arguments, progress, exit)
+                                          : write_table(*asked, *grid, progress, file);
+  if (!tally) return refuse("map", tally.error());
+  if (exit != solved) return exit;
+  if (tally->poses < grid->size()) {
+    message(fmt::format("map {}: stopped after {} of {} poses; {}", asked->robot.name, tally->poses,
+                        grid->size(), file ? "nothing was written" : "these are written"));
+    return stopped;
   }
-  if (std::ranges::any_of(map.samples, &MapSample::is_reachable)) return solved;
-  message(fmt::format("map {}: unreachable: no pose of the grid", asked->robot.name));
+  if (file && !arguments.has("quiet")) print((is_figure ? "" : visible_line(*file) + '\n') + tally->text());
+  if (tally->reachable > 0) return solved;
+  message(fmt::format("map {}: unreachable: no pose of the grid", asked->robot.name), Style::bad);
   return no_solution;
 }
 

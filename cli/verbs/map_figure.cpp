@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "figure/quantity_name.hpp"
 #include "text_table.hpp"
 
 namespace sinew::cli {
@@ -103,17 +104,17 @@ Series zero_curve(const Slice& slice) {
   return curve;
 }
 
-/// `phi = 30 deg`.
-std::string named(const Input& axis, double value) {
+/// `φ = 30°`.
+Text named(const Input& axis, double value) {
   const Shown human = shown(axis.unit);
-  return fmt::format("{} = {} {}", axis.name, six_digits(value * human.factor, 1), human.unit);
+  return place_name(axis.name, six_digits(value * human.factor, 1), human.unit, true);
 }
 
-/// `, phi = 30 deg`: where the axes that do not vary are.
-std::string fixed_axes(const PoseGrid& grid, const std::vector<Input>& axes) {
-  std::string text;
+/// `, φ = 30°`: where the axes that do not vary are.
+Text fixed_axes(const PoseGrid& grid, const std::vector<Input>& axes) {
+  Text text;
   for (std::size_t a = 0; a < axes.size(); ++a)
-    if (grid.axes[a].count == 1) text += ", " + named(axes[a], grid.axes[a].from);
+    if (grid.axes[a].count == 1) text += Text(", ") + named(axes[a], grid.axes[a].from);
   return text;
 }
 
@@ -130,8 +131,9 @@ std::string remark(const Slice& slice) {
 
 Axis axis_of(const Input& axis, const std::vector<double>& values, double most_tics) {
   const double span = std::abs(values.back() - values.front());
-  return {
-      .label = axis.name, .unit = std::string(shown(axis.unit).unit), .step = round_step(span, most_tics)};
+  return {.label = quantity_name(axis.name, true),
+          .unit = std::string(shown(axis.unit).unit),
+          .step = round_step(span, most_tics)};
 }
 
 /// So wide that with equal axes little of the page would be left to it.
@@ -146,7 +148,7 @@ Panel panel(const Slice& slice, const std::vector<Input>& axes, double most_tics
                .values = {},
                .label = "1 / condition number (homogenised)",
                .low = 0,
-               .high = highest};
+               .high = std::ceil(20 * highest - 1e-9) / 20};
   for (std::size_t j = 0; j < slice.rows(); ++j)
     for (std::size_t i = 0; i < slice.columns(); ++i)
       heat.values.push_back(slice.at(i, j).inverse_condition_homogenised);
@@ -200,8 +202,15 @@ Figure map_figure(const SingularityMap& map, const Probe& probe, const std::vect
     figure.panels.push_back(std::move(next));
   }
   const bool has_curve = std::ranges::any_of(figure.panels, [](const Panel& p) { return !p.series.empty(); });
-  figure.title = fmt::format("{}{} (white: out of reach{})", robot, fixed_axes(map.grid, axes),
-                             has_curve ? "; red line: type II" : "");
+  figure.title = Text(robot) + fixed_axes(map.grid, axes);
+  const auto reached = std::ranges::count_if(map.samples, &MapSample::is_reachable);
+  const auto all = static_cast<std::ptrdiff_t>(map.samples.size());
+  std::string remark;
+  if (reached < all)  // the words of `plot`
+    remark = fmt::format("{} of {} samples converged; not drawn: {} unreachable (white)", reached, all,
+                         all - reached);
+  if (has_curve) remark += fmt::format("{}red line: type II", remark.empty() ? "" : "; ");
+  figure.remark = remark;
   figure.columns = std::min(3, third.count);
   figure.width = has_slices ? 480 * figure.columns : 760;
   figure.height = has_slices ? 400 * ((third.count + 2) / 3) + 40 : 640;

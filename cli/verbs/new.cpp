@@ -1,4 +1,4 @@
-/// new: a commented robot file to start from.
+/// new: a commented robot file to start from, or a study.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 
 #include "sinew/io/node.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/study/study.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 #include "verbs.hpp"
@@ -28,11 +27,17 @@ constexpr std::array kinds{
     Kind{"6-UFS", "6-ufs", "spatial, short form: six links between free joints, 6 inputs"},
     Kind{"3-PRS", "3prs", "spatial, short form, rigid: carriages on rails, struts on hinges, 3 inputs"},
     Kind{"3PFS", "3pfs", "spatial, legs listed, elastic: three pairs of rods that bear load, 3 inputs"},
+    Kind{"6PFS", "6pfs", "spatial, legs listed, elastic: six rods on three ball joints, 6 inputs"},
+    Kind{"hexapod", "hexapod", "spatial, legs listed, elastic: six rods clamped at the platform, 6 inputs"},
+    Kind{"2PRS-1PFS", "2prs-1pfs", "spatial, legs listed: a pair of elastic rods beside struts, 3 inputs"},
     Kind{"planar", "mixed-legs", "legs listed: a chord, a strut, and a strut on a motor, 4 inputs"},
     Kind{"two-legged", "two-legged",
          "planar, legs listed, fully determined: a pinned link on a motor and a chord"},
     Kind{"four-legged", "four-legged", "planar, legs listed, redundantly constrained: four chords"},
     Kind{"serial", "serial", "sections one after the other, bent by tendons, 3 or more inputs each"},
+    Kind{"three-arcs", "three-arcs", "serial: three smooth arcs, 3 tendons each"},
+    Kind{"extensible", "extensible", "serial: sections that bend and change their length"},
+    Kind{"snake", "snake", "serial: alike sections of twin pivots, in one line"},
     Kind{"spatial", "spatial", "legs listed: six links in pairs from three shared base points"},
 };
 
@@ -54,9 +59,7 @@ std::string list() {
 }
 
 int refuse_kind(const std::string& word) {
-  std::vector<std::string_view> names;
-  for (const Kind& kind : kinds) names.push_back(kind.name);
-  names.push_back(study);
+  const auto names = kind_names();
   const std::string_view hint = closest(word, names);
   return refuse("new", {{"unknown_choice", in_quotes(word),
                          fmt::format("no such kind{} There are: {}.",
@@ -66,16 +69,20 @@ int refuse_kind(const std::string& word) {
 
 }  // namespace
 
+std::vector<std::string_view> kind_names() {
+  std::vector<std::string_view> names;
+  for (const Kind& kind : kinds) names.push_back(kind.name);
+  names.push_back(study);
+  return names;
+}
+
 int run_new(const Arguments& arguments) {
   if (arguments.operands.empty()) {  // nothing to print into a file: the kinds are a message
     message("sinew new: which kind? For example: sinew new 3-RFR > mine.yaml [missing_kind]\n\n" + list());
     return bad_input;
   }
   const std::string word = arguments.operand();
-  if (word == study) {
-    print(builtin_study("3-rfr-workspace"));
-    return solved;
-  }
+  if (word == study) return new_study(arguments);
   const auto kind = std::ranges::find_if(kinds, [&](const Kind& row) { return is_same(row.name, word); });
   if (kind == kinds.end()) return refuse_kind(word);
   print(robot_template(kind->file));

@@ -11,6 +11,7 @@
 #include "figure/robot_figure.hpp"
 #include "figure/table_figure.hpp"
 #include "figure/table_grid.hpp"
+#include "figure/table_status.hpp"
 #include "figure_file.hpp"
 #include "question.hpp"
 #include "request.hpp"
@@ -38,10 +39,10 @@ const std::vector<Kind>& kinds() {
     std::vector<std::string_view> seen = place;
     seen.push_back("view");
     return std::vector<Kind>{
-        {"line", true, {"x", "y", "log-y", "at"}},
-        {"points", true, {"x", "y", "log-y", "at", "colour", "log-value"}},
-        {"map", true, {"x", "y", "at", "value", "log-value"}},
-        {"contour", true, {"x", "y", "at", "value", "log-value"}},
+        {"line", true, {"x", "y", "log-y", "at", "all-statuses"}},
+        {"points", true, {"x", "y", "log-y", "at", "colour", "log-value", "all-statuses"}},
+        {"map", true, {"x", "y", "at", "value", "log-value", "all-statuses"}},
+        {"contour", true, {"x", "y", "at", "value", "log-value", "all-statuses"}},
         {"sides", false, place},
         {"3d", false, seen},
         {"diagram",
@@ -74,7 +75,7 @@ Errors refuse_kind(std::string_view name, bool is_of_table) {
 
 /// Options that shape other kinds of figures only.
 Errors refuse_idle(const Arguments& arguments, std::string_view name) {
-  constexpr std::array always{"output", "as", "title", "quiet", "help"};
+  constexpr std::array always{"output", "as", "title", "width", "font", "force", "quiet", "help"};
   const Kind& kind = *std::ranges::find(kinds(), name, &Kind::name);
   Errors errors;
   for (const auto& [option, texts] : arguments.options) {
@@ -94,14 +95,13 @@ Errors refuse_idle(const Arguments& arguments, std::string_view name) {
 
 /// The answer that a figure is drawn from. Nothing where there is none; `exit` then says why. One that does
 /// not hold is drawn, and `exit` says so.
-std::optional<Answer> asked(Robot& robot, const std::string& query, std::string_view needs, int& exit) {
-  Answer answer = ask(robot.session, query);
+std::optional<Answer> asked(Robot& robot, const Document& query, std::string_view needs, int& exit) {
+  Answer answer = ask(robot, query);
   exit = exit_code(answer);
   if (const Errors errors = answer.errors(); !errors.empty())
     refuse("plot", errors);
-  else if (!answer.converged())
-    message(
-        fmt::format("plot {}: {}: {}", answer.text("robot"), answer.text("status"), answer.text("message")));
+  else if (const std::string said = in_options(answer.text("message")); !answer.converged() || !said.empty())
+    message(fmt::format("plot {}: {}: {}", answer.text("robot"), answer.text("status"), said));
   if (!answer.find(needs)) return {};
   return answer;
 }
@@ -134,15 +134,15 @@ Expected<Eye> eye_of(const Arguments& arguments) {
 }
 
 /// The robot's shape at the asked configuration, default its home.
-Expected<std::string> shape_query(const Arguments& arguments, const Robot& robot) {
+Expected<Document> shape_query(const Arguments& arguments, const Robot& robot) {
   auto query = request("shape", arguments, robot);
   constexpr std::array places{"pose", "independent", "inputs", "configuration", "changes"};
   if (!query || std::ranges::any_of(places, [&](auto place) { return arguments.has(place); })) return query;
   if (robot.is_on_rods && robot.inputs.size() != 3 && robot.inputs.size() != 6)
     return failure("missing_option", "",
                    fmt::format("--inputs is missing: which lengths have the {} rods?", robot.inputs.size()));
-  query->pop_back();  // its closing brace
-  return *query + fmt::format(", {}}}", at_home(robot));
+  query->root.members.push_back(at_home(robot));
+  return query;
 }
 
 std::optional<Figure> picture(const Arguments& arguments, std::string_view kind, int& exit) {
@@ -175,14 +175,31 @@ std::optional<Figure> picture(const Arguments& arguments, std::string_view kind,
 Expected<Figure> result(const Arguments& arguments, const std::string* kind) {
   auto table = read_result(arguments.operand());
   if (!table) return tl::unexpected(table.error());
-  const bool has_title = arguments.operand().ends_with(".h5") && !table->comments.empty();
+  const bool has_title = arguments.operand().ends_with(".h5") && !table->comments.empty() &&
+                         !table->comments.front().starts_with("status:");
   const std::string title = has_title ? table->comments.front() : std::string();
-  const auto part = cut(std::move(*table), arguments);
+  auto part = cut(std::move(*table), arguments);
   if (!part) return tl::unexpected(part.error());
   const std::string_view name = kind ? std::string_view(*kind) : table_kind(part->table, arguments);
   if (Errors errors = refuse_idle(arguments, name); !errors.empty()) return tl::unexpected(std::move(errors));
-  auto figure = table_figure(part->table, name, arguments);
-  if (figure) figure->title = title + (title.empty() || part->place.empty() ? "" : ", ") + part->place;
+  const auto names_status = [&](std::string_view option) {
+    const std::string* text = arguments.text(option);
+    return text && (',' + *text + ',').find(",status,") != std::string::npos;
+  };
+  const bool is_of_statuses = names_status("value") || names_status("colour") || names_status("y");
+  const bool draws_all = arguments.has("all-statuses") || is_of_statuses;
+  const Statuses statuses(part->table);
+  if (statuses.has_others() && !draws_all) statuses.leave_out(part->table, arguments.text("x"));
+  if (is_of_statuses || names_status("x"))
+    statuses.number(part->table);
+  else if (!statuses.words().empty())  // no quantity that anybody did not ask for
+    std::erase_if(part->table.columns, [](const Column& column) { return column.name == "status"; });
+  const auto paper = page_options(arguments);
+  if (!paper) return tl::unexpected(paper.error());
+  auto figure = table_figure(part->table, name, arguments, *paper, statuses.words());
+  if (!figure) return figure;
+  figure->title = Text(title) + (title.empty() || part->place.empty() ? "" : ", ") + part->place;
+  figure->remark = statuses.remark(draws_all);
   return figure;
 }
 
@@ -193,7 +210,7 @@ int run_plot(const Arguments& arguments) {
     return refuse("plot", {{"missing_result", "RESULT|ROBOT",
                             "what is to be drawn? Give an .h5 or .csv file, or a robot."}});
   const std::string *output = arguments.text("output"), *kind = arguments.text("as");
-  if (const Errors errors = refuse_format(*output); !errors.empty()) return refuse("plot", errors);
+  if (const Errors errors = refuse_figure(arguments, *output); !errors.empty()) return refuse("plot", errors);
   const bool is_table = arguments.operand().ends_with(".csv") || arguments.operand().ends_with(".h5");
   if (kind)
     if (const Errors errors = refuse_kind(*kind, is_table); !errors.empty()) return refuse("plot", errors);

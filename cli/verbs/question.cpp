@@ -20,7 +20,7 @@ std::string show(const Answer& answer, const Robot& robot) {
   text += '\n' + show_legs(*answer.find("legs"));
   if (is_on_rods(answer)) {
     text += '\n' + show_equilibrium(answer, robot);
-    if (answer.find("solutions")) text += '\n' + show_equilibria(answer);
+    if (answer.find("solutions")) text += '\n' + show_equilibria(answer, robot);
   } else if (const Node* solutions = answer.find("solutions"))
     text += '\n' + (is_forward ? show_assembly_modes(answer) : show_working_modes(*solutions, robot));
   return text;
@@ -28,9 +28,13 @@ std::string show(const Answer& answer, const Robot& robot) {
 
 /// Why there is no solution, or what the solution leaves out.
 void explain(const Answer& answer, std::string_view verb) {
-  const std::string said = answer.text("message");
-  message(fmt::format("{} {}: {}{}", verb, answer.text("robot"), answer.text("status"),
-                      said.empty() ? "" : ": " + said));
+  const std::string said = in_options(answer.text("message"));
+  const std::string status = answer.text("status");
+  const auto style = answer.converged()     ? std::optional<Style>()
+                     : status == "unstable" ? Style::doubtful
+                                            : Style::bad;
+  message(fmt::format("{} {}: {}{}", verb, answer.text("robot"), status, said.empty() ? "" : ": " + said),
+          style);
 }
 
 }  // namespace
@@ -41,7 +45,7 @@ int refuse_question(const Arguments& arguments, const Errors& errors) {
 }
 
 int conclude(const Answer& answer, const Arguments& arguments, const std::string& shown) {
-  if (arguments.has("json")) print(answer.line + '\n');
+  if (arguments.has("json")) print(answer.line() + '\n');
   if (const Errors errors = answer.errors(); !errors.empty()) return refuse(arguments.verb, errors);
   if (!arguments.has("json") && !shown.empty())
     print(shown + (answer.converged() && !arguments.has("quiet") ? show_report(answer) : ""));
@@ -50,9 +54,9 @@ int conclude(const Answer& answer, const Arguments& arguments, const std::string
 }
 
 Expected<Answer> put(std::string_view query, const Arguments& arguments, Robot& robot) {
-  const auto text = request(query, arguments, robot);
-  if (!text) return tl::unexpected(text.error());
-  return ask(robot.session, *text);
+  const auto asked = request(query, arguments, robot);
+  if (!asked) return tl::unexpected(asked.error());
+  return ask(robot, *asked);
 }
 
 int run_question(const Arguments& arguments) {

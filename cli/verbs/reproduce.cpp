@@ -24,7 +24,7 @@ std::vector<StudyItem> wanted(std::string_view what) {
 std::string list(std::span<const StudyItem> items) {
   TextTable table({"item", "title"});
   for (const StudyItem& item : items) table.add({std::string(item.id), std::string(item.title)});
-  return table.text();
+  return table.text(line_width());
 }
 
 int refuse_item(const std::string& what) {
@@ -41,7 +41,7 @@ std::string show(const Reproduction& made) {
   TextTable table({"quantity", "paper", "ours", "difference", "verdict"}, " | ");
   for (const Finding& finding : made.findings)
     table.add({finding.quantity, finding.paper, finding.ours, finding.difference, finding.verdict});
-  std::string text = fmt::format("{}: {}\n{}", made.id, made.title, table.text());
+  std::string text = fmt::format("{}: {}\n{}", made.id, made.title, table.text(line_width()));
   for (const auto& file : made.files) text += file.string() + '\n';
   return text;
 }

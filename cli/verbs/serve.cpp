@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "server/assets.hpp"
 #include "server/server.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -48,6 +49,10 @@ int run_serve(const Arguments& arguments) {
   if (!arguments.has("quiet")) {
     if (server->url().find("token") != std::string::npos)
       message("Whoever has this address can ask this machine to compute. It is not encrypted.");
+    if (server::assets().size() == 1)
+      message(
+          "Built without the page; to get it: ./run.sh serve, or configure with -D SINEW_WEB=ON (Node 18 and "
+          "npm).");
     message("Ctrl-C ends it.");
   }
   std::jthread watch([](const std::stop_token& over) {

@@ -72,6 +72,7 @@ int run_query(const Arguments& arguments) {
   auto session = Session::open(arguments.operand());
   if (!session) return refuse(arguments.verb, session.error());
   finish_what_is_begun();
+  session->stop_on(stop_token());  // the line under way is answered, with status stopped
   Lines lines;
   std::string line;
   for (Lines::Kind kind; (kind = lines.next(line)) != Lines::Kind::end;) {

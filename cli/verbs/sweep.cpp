@@ -9,10 +9,11 @@
 #include "request.hpp"
 #include "sinew/io/parse.hpp"
 #include "sinew/io/quantity.hpp"
+#include "sinew/io/visible.hpp"
 #include "sinew/study/cluster.hpp"
-#include "sinew/study/sweep.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
+#include "verbs/study.hpp"
 
 namespace sinew::cli {
 namespace {
@@ -40,7 +41,7 @@ int list_studies() {
   TextTable table({"study", "title"});
   for (const std::string_view name : builtin_study_names())
     if (const auto study = read_study(std::string(name))) table.add({std::string(name), study->title});
-  print(table.text());
+  print(table.text(line_width()));
   return solved;
 }
 
@@ -48,16 +49,7 @@ int list_studies() {
 int list(const Study& study) {
   const auto columns = sweep_columns(study);
   if (!columns) return refuse("sweep", columns.error());
-  std::vector<std::string> axes, names;
-  for (std::size_t a = 0; a < columns->axes.size(); ++a) {
-    const bool is_grid = study.sampling == Study::Sampling::grid;
-    axes.push_back(heading(columns->axes[a]) + (is_grid ? fmt::format(" ({})", columns->dimensions[a]) : ""));
-  }
-  for (const auto& column : columns->columns) names.push_back(heading(column));
-  print(fmt::format(
-      "{}robot    {}\nsamples  {}\naxes     {}\ncolumns  {}\nsampler  {}, {} chunks of up to {}\n",
-      study.title.empty() ? "" : fmt::format("title    {}\n", study.title), study.robot, study.samples,
-      fmt::join(axes, ", "), fmt::join(names, ", "), columns->sampler, columns->chunks, columns->chunk));
+  print(show_study(study, *columns));
   if (!columns->warning.empty()) message(fmt::format("sinew sweep: {}", columns->warning));
   return solved;
 }
@@ -193,6 +185,7 @@ int run_sweep(const Arguments& arguments) {
   options.output = arguments.has("output") ? std::filesystem::path(*arguments.text("output"))
                                            : std::filesystem::path(arguments.operand()).stem().concat(".h5");
   options.resume = arguments.has("resume");
+  options.replaces_results = arguments.has("force");
   options.threads = whole(arguments, "threads", 1, most_threads, 0, errors);
   options.compression = whole(arguments, "compress", 0, 9, 0, errors);
   options.command = command_of(arguments);
@@ -219,8 +212,8 @@ int run_sweep(const Arguments& arguments) {
   const auto summary = sweep(std::move(*study), options);
   line.reset();
   if (!summary) {
-    if (speaks || summary.error().front().code != "other_rank") refuse("sweep", summary.error());
-    return summary.error().front().code == "write_failed" ? stopped : bad_input;
+    return speaks || summary.error().front().code != "other_rank" ? refuse("sweep", summary.error())
+                                                                  : bad_input;
   }
   if (!speaks) return solved;
   if (!summary->warning.empty()) message(fmt::format("sinew sweep: {}", summary->warning));
@@ -237,7 +230,7 @@ int run_sweep(const Arguments& arguments) {
     if (!is_quiet) message(fmt::format("{} is complete already", options.output.string()));
     return solved;
   }
-  if (!is_quiet) print(options.output.string() + '\n' + report(*summary));
+  if (!is_quiet) print(visible_line(options.output.string()) + '\n' + report(*summary));
   for (const FittedTerms& fit : summary->fits) print_fit(fit);
   return solved;
 }

@@ -5,6 +5,7 @@
 
 #include "question.hpp"
 #include "sinew/io/table.hpp"
+#include "sinew/io/visible.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {
@@ -20,8 +21,10 @@ std::vector<Input> columns_of(const Answer& answer, const Robot& robot) {
   add(pose_columns(robot.is_spatial));
   const Node* angles = answer.find("rows[0].angles");
   add(angles ? angle_columns(*angles, robot) : robot.inputs);
-  for (std::size_t i = 0; !angles && i < robot.description.find("legs")->items.size(); ++i)
-    add({{fmt::format("legs[{}].curvature", i), "1/m"}});
+  const auto& legs = robot.description.find("legs")->items;
+  for (std::size_t i = 0; !angles && i < legs.size(); ++i)
+    if (const Node* type = at(legs[i], "link.type"); !type || type->text != "rail")  // a strut does not bend
+      add({{fmt::format("legs[{}].curvature", i), "1/m"}});
   add({{"condition", ""}, {"condition_homogenised", ""}, {"closure_error", "m"}});
   return columns;
 }
@@ -71,7 +74,7 @@ int run_track(const Arguments& arguments) {
   if (rows && file) {
     const auto written = write_csv(table_of(*answer, *robot), *file);
     if (!written) return refuse_question(arguments, written.error());
-    shown = arguments.has("quiet") ? "" : *file + '\n';
+    shown = arguments.has("quiet") ? "" : visible_line(*file) + '\n';
   }
   return conclude(*answer, arguments, shown);
 }

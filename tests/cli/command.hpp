@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "paths.hpp"
+
 namespace sinew::test {
 
 struct Outcome {
@@ -70,13 +72,13 @@ inline Outcome run_program(std::vector<std::string> words, const std::filesystem
 
 inline Outcome run_command(std::vector<std::string> arguments, const std::filesystem::path& folder,
                            const std::filesystem::path& input = "/dev/null") {
-  arguments.insert(arguments.begin(), SINEW_COMMAND);
+  arguments.insert(arguments.begin(), command_path);
   return run_program(std::move(arguments), folder, input);
 }
 
 /// A line for /bin/sh, with the command on PATH.
 inline Outcome run_shell(const std::string& line, const std::filesystem::path& folder) {
-  const std::string bin = std::filesystem::path(SINEW_COMMAND).parent_path();
+  const std::string bin = std::filesystem::path(command_path).parent_path();
   return run_program({"/bin/sh", "-c", "PATH='" + bin + "':$PATH; " + line}, folder);
 }
 

@@ -1,11 +1,14 @@
-// What the command says, word for word. Each folder below tests/golden that holds a `cmd` is a case:
+// What the command says, word for word. Each file below tests/golden is a case:
 //
-//     cmd         arguments, one a line; run in a copy of the folder
-//     stdin       what it reads, if it reads anything
-//     *.yaml      robot files
-//     expected    exit code, stdout, stderr
+//     $ sinew check mine.yaml --quiet       the command, as a shell takes it
+//     === mine.yaml                         files it finds in its folder, any number; "stdin" is what it
+//     reads sinew: 1
+//     === exit 2
+//     === stdout
+//     === stderr
+//     mine.yaml:7:19: ...
 //
-// SINEW_UPDATE_GOLDEN=1 writes `expected` anew; read the difference before you keep it.
+// SINEW_UPDATE_GOLDEN=1 writes what is below "=== exit" anew; read the difference before you keep it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,19 +17,20 @@
 #include <regex>
 
 #include "command.hpp"
+#include "paths.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace sinew::test;
 
-const fs::path golden = fs::path(SINEW_SOURCE_DIR) / "tests" / "golden";
+const fs::path golden = fs::path(source_folder) / "tests" / "golden";
 
 std::vector<std::string> cases() {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(golden))
-    if (entry.path().filename() == "cmd")
-      names.push_back(fs::relative(entry.path().parent_path(), golden).string());
+    if (entry.path().extension() == ".txt")
+      names.push_back(fs::relative(entry.path(), golden).replace_extension().string());
   std::ranges::sort(names);
   return names;
 }
@@ -74,22 +78,51 @@ std::string without_rounding(const std::string& output) {
 }
 
 std::string written_down(const Outcome& outcome) {
-  return fmt::format("exit {}\n--- stdout\n{}--- stderr\n{}", outcome.exit, without_rounding(outcome.out),
+  return fmt::format("=== exit {}\n=== stdout\n{}=== stderr\n{}", outcome.exit, without_rounding(outcome.out),
                      without_rounding(outcome.err));
+}
+
+/// A file of tests/golden, in its parts.
+struct Case {
+  std::string asked;                                       ///< all that is above the answer
+  std::string answered;                                    ///< from "=== exit" on
+  std::string command;                                     ///< the first line, without its "$ "
+  std::vector<std::pair<std::string, std::string>> files;  ///< name and text
+};
+
+Case read_case(const fs::path& path) {
+  const std::string text = read_text(path), mark = "\n=== ";
+  const std::size_t end = text.find(mark + "exit ") + 1;
+  Case result;
+  result.asked = text.substr(0, end);
+  result.answered = text.substr(end);
+  std::size_t at = result.asked.find('\n');
+  result.command = result.asked.substr(2, at - 2);
+  while (at + 1 < end) {  // at the line feed before a mark
+    const std::size_t name = at + mark.size(), line = text.find('\n', name), next = text.find(mark, line);
+    result.files.emplace_back(text.substr(name, line - name), text.substr(line + 1, next - line));
+    at = next;
+  }
+  return result;
 }
 
 class Golden : public testing::TestWithParam<std::string> {};
 
 TEST_P(Golden, IsWhatTheCommandSays) {
-  const fs::path folder = golden / GetParam();
+  const fs::path path = golden / (GetParam() + ".txt");
+  const Case one = read_case(path);
+  ASSERT_TRUE(one.command.starts_with("sinew ") || one.command == "sinew") << one.command;
   const Scratch scratch;
-  fs::copy(folder, scratch.path(), fs::copy_options::recursive);
-  const fs::path input = fs::exists(folder / "stdin") ? folder / "stdin" : fs::path("/dev/null");
+  bool has_input = false;
+  for (const auto& [name, text] : one.files) {
+    write_text(scratch.path() / name, text);
+    has_input = has_input || name == "stdin";
+  }
   const std::string said =
-      written_down(run_command(lines_of(read_text(folder / "cmd")), scratch.path(), input));
+      written_down(run_shell(one.command + (has_input ? " <stdin" : ""), scratch.path()));
   const char* update = std::getenv("SINEW_UPDATE_GOLDEN");
-  if (update && *update == '1') write_text(folder / "expected", said);
-  EXPECT_EQ(read_text(folder / "expected"), said);
+  if (update && *update == '1') write_text(path, one.asked + said);
+  EXPECT_EQ(one.answered, said);
 }
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "command.hpp"
+#include "paths.hpp"
 
 namespace {
 
@@ -39,14 +40,14 @@ axes:
 /// Starts the command, and kills it after a while; whether it had ended before.
 bool is_done_within(const std::vector<std::string>& words, const std::filesystem::path& folder,
                     std::chrono::microseconds patience) {
-  std::vector<std::string> all{SINEW_COMMAND};
+  std::vector<std::string> all{command_path};
   all.insert(all.end(), words.begin(), words.end());
   std::vector<char*> argv;
   for (std::string& word : all) argv.push_back(word.data());
   argv.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
-    if (chdir(folder.c_str()) == 0) execv(SINEW_COMMAND, argv.data());
+    if (chdir(folder.c_str()) == 0) execv(command_path, argv.data());
     _exit(127);
   }
   const auto end = std::chrono::steady_clock::now() + patience;
@@ -64,8 +65,8 @@ bool is_done_within(const std::vector<std::string>& words, const std::filesystem
 }
 
 TEST(SweepCommand, SurvivesFiftyKills) {
-  const Scratch here;
   for (const std::string& study : {rods, queries}) {
+    const Scratch here;
     write_text(here.path() / "study.yaml", study);
     const auto begin = std::chrono::steady_clock::now();
     ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "-o", "whole.h5"}, here.path()).exit, 0);
@@ -99,7 +100,7 @@ TEST(SweepCommand, OutOfRoomKeepsWhatThereWas) {  // a limit on files stands for
   write_text(here.path() / "study.yaml", rods);
   ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "-o", "whole.h5"}, here.path()).exit, 0);
   const std::string start = std::string("trap '' XFSZ; ulimit -f ");
-  const std::string run = std::string("; ") + SINEW_COMMAND + " sweep study.yaml -q --resume -o parts.h5";
+  const std::string run = std::string("; ") + command_path + " sweep study.yaml -q --resume -o parts.h5";
   const auto size = std::filesystem::file_size(here.path() / "whole.h5") / 1024;
   for (const auto room : {size / 4, size / 2, size - 8}) {  // in the log, in the log, in the file
     const Outcome full = run_shell(start + std::to_string(room) + run, here.path());
@@ -134,15 +135,15 @@ TEST(SweepCommand, ThreeRanksGiveTheSameBytes) {
   GTEST_SKIP() << "MPI leaves memory behind, and takes over that of the process";
 #endif
   if (std::system("command -v mpirun >/dev/null") != 0) GTEST_SKIP() << "no mpirun";
-  const Scratch here;
   for (const std::string& study : {rods, queries}) {
+    const Scratch here;
     write_text(here.path() / "study.yaml", study);
     const Outcome alone = run_command({"sweep", "study.yaml", "-q", "-o", "alone.h5"}, here.path());
     ASSERT_EQ(alone.exit, 0) << alone.err;
     const Outcome together =
         run_shell(std::string("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
                               "mpirun --oversubscribe -n 3 ") +
-                      SINEW_COMMAND + " sweep study.yaml -o together.h5",
+                      command_path + " sweep study.yaml -o together.h5",
                   here.path());
     ASSERT_EQ(together.exit, 0) << together.err;
     EXPECT_NE(together.out.find("3 ranks"), std::string::npos) << together.out;
@@ -150,9 +151,9 @@ TEST(SweepCommand, ThreeRanksGiveTheSameBytes) {
     const Outcome refused =
         run_shell(std::string("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
                               "mpirun --oversubscribe -n 3 ") +
-                      SINEW_COMMAND + " sweep study.yaml -o /dev/null/all.h5",
+                      command_path + " sweep study.yaml -o /dev/null/all.h5",
                   here.path());
-    EXPECT_EQ(refused.exit, 2) << refused.err;
+    EXPECT_EQ(refused.exit, 4) << refused.err;
     EXPECT_NE(refused.err.find("[file_unwritable]"), std::string::npos) << refused.err;
   }
 }
@@ -198,7 +199,7 @@ TEST(SweepCommand, BaselineIsTheSameWhateverTheMachineHas) {
   write_text(here.path() / "study.yaml", rods);
   ASSERT_EQ(
       run_command({"sweep", "study.yaml", "-q", "--isa", "baseline", "-o", "one.csv"}, here.path()).exit, 0);
-  const Outcome other = run_shell(std::string("env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2 ") + SINEW_COMMAND +
+  const Outcome other = run_shell(std::string("env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2 ") + command_path +
                                       " sweep study.yaml -q --isa baseline -o other.csv",
                                   here.path());
   ASSERT_EQ(other.exit, 0) << other.err;
