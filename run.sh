@@ -67,7 +67,7 @@ touch -d '1 second ago' build/release/.job
 "$sinew" reproduce tdpcr/fig9 -o out
 echo
 echo "Its workspace, a sweep over 88 837 poses:"
-"$sinew" sweep 3-rfr-workspace -o out/3-rfr-workspace.h5
+"$sinew" sweep 3-rfr-workspace --force -o out/3-rfr-workspace.h5
 "$sinew" plot out/3-rfr-workspace.h5 --as contour --value reached -o out/3-rfr-workspace.svg
 echo
 echo "Figures:"

@@ -2,7 +2,8 @@
 # Installs what is missing, builds everything with warnings as errors, and runs the tests.
 #
 #   ./test.sh                all tests
-#   ./test.sh -R Arc         arguments go to ctest
+#   ./test.sh -R kinematics  arguments go to ctest
+#   GTEST_FILTER='Arc*' ./test.sh -R link    some tests of a layer
 #   ./test.sh --yes ...      installs packages without asking
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")"

@@ -17,6 +17,10 @@ if(SINEW_SANITIZE)
   target_compile_options(sinew_options INTERFACE
     -fsanitize=${SINEW_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(sinew_options INTERFACE -fsanitize=${SINEW_SANITIZE})
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang AND SINEW_SANITIZE MATCHES "(address|thread)")
+    string(TOUPPER ${CMAKE_MATCH_1} sanitizer)
+    target_compile_definitions(sinew_options INTERFACE __SANITIZE_${sanitizer}__)  # as gcc does
+  endif()
 endif()
 
 # -O2 in Release: measured as fast as -O3 on these kernels and quicker to build. Only where nobody chose otherwise,

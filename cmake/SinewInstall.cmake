@@ -21,6 +21,13 @@ if(TARGET sinew_command)
     set_target_properties(sinew_command PROPERTIES INSTALL_RPATH "$ORIGIN/${sinew_bin_to_lib}")
   endif()
   install(TARGETS sinew_command)
+  if(TARGET sinew_command_whole)
+    if(BUILD_SHARED_LIBS)
+      file(RELATIVE_PATH sinew_whole_to_lib ${CMAKE_INSTALL_FULL_LIBEXECDIR}/sinew ${CMAKE_INSTALL_FULL_LIBDIR})
+      set_target_properties(sinew_command_whole PROPERTIES INSTALL_RPATH "$ORIGIN/${sinew_whole_to_lib}")
+    endif()
+    install(TARGETS sinew_command_whole DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/sinew)
+  endif()
 endif()
 if(TARGET sinew_simulate)
   install(TARGETS sinew_simulate)  # reproduce lsk/fig8 looks for it beside the command
@@ -30,7 +37,9 @@ foreach(folder robots schema studies)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${sinew_data_dir})
   endif()
 endforeach()
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CITATION.cff
+  DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})  # where the README links to
 
 # What a consumer has to find is read off the exported target: its public libraries, and in a static library the
 # private ones too ($<LINK_ONLY:...>).

@@ -1,18 +1,17 @@
-/// The ten lines of the README: a pose, its tendons, and back.
+/// The ten lines of the README: a pose from three tendon lengths, and a pose out of reach.
 #include <cstdio>
 
 #include "sinew/sinew.hpp"
 
 int main() {
-  auto robot = sinew::load("3-rfr").value();  // or a file: "robots/3-rfr.yaml"
-  sinew::Workspace work(robot);               // all memory, once; one per thread
+  auto robot = sinew::load("3-rfr");  // or a file: "robots/3-rfr.yaml"
+  if (!robot) return std::puts(sinew::to_string(robot.error()).c_str()), 2;
+  sinew::Workspace work(*robot);  // all memory, once; one per thread
 
-  auto there = sinew::inverse(robot, sinew::PlanarPose{0.010, -0.005, 0.1}, {}, work);
-  std::printf("tendons %.3f %.3f %.3f mm\n", 1e3 * there.inputs[0], 1e3 * there.inputs[1],
-              1e3 * there.inputs[2]);
+  auto at = sinew::forward(*robot, {0.193, 0.189, 0.187}, {}, work);  // no heap, no throw, bounded steps
+  auto pose = std::get<sinew::PlanarPose>(at.pose);
+  std::printf("x %.3f mm, y %.3f mm, phi %.4f rad\n", 1e3 * pose.x, 1e3 * pose.y, pose.phi);
 
-  auto back = sinew::forward(robot, {0.193, 0.189, 0.187}, {}, work);  // no heap, no throw, bounded steps
-  if (!back.ok()) return 3;
-  auto pose = std::get<sinew::PlanarPose>(back.pose);
-  std::printf("pose %.3f mm, %.3f mm, %.4f rad\n", 1e3 * pose.x, 1e3 * pose.y, pose.phi);
+  auto far = sinew::inverse(*robot, sinew::PlanarPose{0.3, 0, 0}, {}, work);
+  if (!far.ok()) std::puts(sinew::to_string(far.report).c_str());
 }

@@ -8,10 +8,13 @@ add_test(NAME tools.equations COMMAND Python3::Interpreter ${tools_dir}/equation
 add_test(NAME tools.selftest COMMAND Python3::Interpreter ${packaging_dir}/tools_test.py)
 set_tests_properties(tools.layers tools.equations tools.selftest PROPERTIES LABELS tools TIMEOUT 60)
 
-# The README shows what happens.
+# The README and the pages show what happens.
 if(TARGET sinew_command AND TARGET example_first)
-  add_test(NAME readme COMMAND Python3::Interpreter ${tools_dir}/readme.py ${PROJECT_SOURCE_DIR}/README.md
-    $<TARGET_FILE_DIR:sinew_command> ${PROJECT_SOURCE_DIR}/examples/first.cpp $<TARGET_FILE:example_first>)
+  add_test(NAME readme COMMAND Python3::Interpreter ${tools_dir}/readme.py --command $<TARGET_FILE_DIR:sinew_command>
+    --examples ${PROJECT_SOURCE_DIR}/examples --programs $<TARGET_FILE_DIR:example_first>
+    README.md docs/tour.md docs/cpp.md docs/robot-files.md docs/protocol.md WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  add_test(NAME tools.facts COMMAND Python3::Interpreter ${tools_dir}/facts.py $<TARGET_FILE:sinew_command>)
+  set_tests_properties(tools.facts PROPERTIES LABELS tools TIMEOUT 60)
   set_tests_properties(readme PROPERTIES LABELS tools TIMEOUT 120)
 endif()
 
@@ -38,9 +41,11 @@ if(NOT SYSTEM_PYTHON)
   set(SYSTEM_PYTHON ${Python3_EXECUTABLE} CACHE FILEPATH "Python with jsonschema and yaml" FORCE)
 endif()
 if(TARGET sinew_command)
+  add_executable(schema_judge ${CMAKE_CURRENT_LIST_DIR}/schema/judge.cpp)
+  target_link_libraries(schema_judge PRIVATE sinew sinew_options)
   add_test(NAME schema.robot COMMAND ${SYSTEM_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/schema/schema_test.py
-    $<TARGET_FILE:sinew_command>)
-  set_tests_properties(schema.robot PROPERTIES LABELS tools TIMEOUT 300 PROCESSORS 2)
+    $<TARGET_FILE:sinew_command> $<TARGET_FILE:schema_judge>)
+  set_tests_properties(schema.robot PROPERTIES LABELS tools TIMEOUT 300)
   add_test(NAME schema.study COMMAND ${SYSTEM_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/schema/study_schema_test.py
     $<TARGET_FILE:sinew_command>)
   set_tests_properties(schema.study PROPERTIES LABELS tools TIMEOUT 300)

@@ -7,13 +7,14 @@
 #include <fstream>
 
 #include "noise.hpp"
+#include "paths.hpp"
 #include "protocol/session.h"
 #include "simulator/drives.hpp"
 
 namespace sinew::firmware {
 namespace {
 
-const std::string folder = SINEW_FIRMWARE_FOLDER;
+const std::string folder = test::firmware_folder;
 const std::vector<int> straight(bend_count, 0);
 
 struct Bench {
@@ -252,7 +253,7 @@ TEST(FirmwareSimulated, NothingButAFreshValidFrameMovesTheDrives) {
 
 /// Lines of the README's transcript: `> ` to the firmware, `< ` from it.
 std::string transcript(const std::string& mark) {
-  std::ifstream readme(SINEW_SOURCE_DIR "/firmware/README.md");
+  std::ifstream readme(std::string(test::source_folder) + "/firmware/README.md");
   std::string lines;
   for (std::string line; std::getline(readme, line);)
     if (line.starts_with(mark)) lines += line.substr(mark.size()) + '\n';

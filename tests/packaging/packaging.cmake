@@ -62,6 +62,18 @@ endif()
 
 if(MODE STREQUAL "install" AND EXISTS ${prefix}/bin/sinew)
   run(${prefix}/bin/sinew --version)
+  run(${prefix}/bin/sinew sweep --list)  # of the second program
+  foreach(text man/man1/sinew.1 bash-completion/completions/sinew zsh/site-functions/_sinew fish/vendor_completions.d/sinew.fish)
+    if(NOT EXISTS ${prefix}/share/${text})
+      message(FATAL_ERROR "share/${text} is not installed")
+    endif()
+  endforeach()
+  foreach(page README.md CITATION.cff docs/tour.md docs/images/page.png)
+    file(GLOB installed ${prefix}/share/doc/*/${page})
+    if(NOT installed)
+      message(FATAL_ERROR "${page} is not installed")
+    endif()
+  endforeach()
 endif()
 
 if(NOT MODE STREQUAL "shared")
