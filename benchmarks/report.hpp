@@ -20,6 +20,7 @@ struct Row {
   std::function<void()> run, run_baseline;  ///< one operation each
   std::string accuracy;                     ///< what was reached, in words and numbers
   double items = 1;                         ///< in one operation of ours; times are of one of them
+  std::string published = {};               ///< what a public code takes for it, of docs/performance.md
 };
 
 inline std::vector<Row>& rows() {
@@ -83,10 +84,12 @@ inline int main(int argc, char** argv) {
                  theirs = medians.nanoseconds[row.what + " / " + row.baseline];
     if (ours == 0) continue;  // filtered out
     const double slow = slowest_of_1000(row.run, operation);
-    std::printf("%-44s %10.0f %10s %12.0f %7.1f  %s; %s\n", row.what.c_str(), ours,
+    std::printf("%-44s %10.0f %10s %12.0f %7.1f  %s; %s%s%s\n", row.what.c_str(), ours,
                 slow > 0 ? std::to_string(std::lround(slow / row.items)).c_str() : "-", theirs, theirs / ours,
-                row.baseline.c_str(), row.accuracy.c_str());
+                row.baseline.c_str(), row.accuracy.c_str(), row.published.empty() ? "" : "; ",
+                row.published.c_str());
   }
+  std::printf("Baselines are what one writes first from a paper. Public codes: docs/performance.md\n");
   return 0;
 }
 

@@ -68,3 +68,10 @@ foreach(mode install subdirectory shared)
   set_tests_properties(packaging.${mode} PROPERTIES LABELS packaging TIMEOUT 600 PROCESSORS 2)
 endforeach()
 set_tests_properties(packaging.install PROPERTIES PROCESSORS 1)
+
+# A stranger's way, from the installation to a figure and a program of one's own.
+if(TARGET sinew_command)
+  add_test(NAME packaging.stranger COMMAND ${packaging_dir}/stranger.sh ${PROJECT_BINARY_DIR}
+    ${CMAKE_CURRENT_BINARY_DIR}/packaging/stranger ${CMAKE_CXX_COMPILER})
+  set_tests_properties(packaging.stranger PROPERTIES LABELS packaging TIMEOUT 300)
+endif()

@@ -55,6 +55,12 @@ def main():
         wrong += [f"docs/robot-files.md does not name {key}.type {t}" for t in sorted(types(schema, key)) if not named(files, t)]
     wrong += [f"docs/protocol.md does not name the status {s}" for s in statuses if not named(protocol, s)]
     wrong += [f"docs/protocol.md does not name the query {q}" for q in queries if not named(protocol, q)]
+    # the public codes' figures that benchmarks print are those of the page
+    page, named_times = text("docs/performance.md"), text("benchmarks/hexapod.cpp")
+    for time, unit in re.findall(r"(\d+) (ns|us)\b[^\"]*?(?:,| to)", "".join(re.findall(r'"public code[^"]*"', named_times))):
+        micro = float(time) / (1000 if unit == "ns" else 1)
+        shown = (f"{micro:g} µs", f"{micro / 1000:g} ms")
+        wrong += [] if any(s in page for s in shown) else [f"docs/performance.md does not name {time} {unit}"]
     print("\n".join(wrong) or f"{len(robots)} robots, {len(kinds)} kinds, {len(statuses)} statuses, queries {queries}: all there")
     return bool(wrong)
 

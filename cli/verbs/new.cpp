@@ -30,15 +30,15 @@ constexpr std::array kinds{
     Kind{"6PFS", "6pfs", "spatial, legs listed, elastic: six rods on three ball joints, 6 inputs"},
     Kind{"hexapod", "hexapod", "spatial, legs listed, elastic: six rods clamped at the platform, 6 inputs"},
     Kind{"2PRS-1PFS", "2prs-1pfs", "spatial, legs listed: a pair of elastic rods beside struts, 3 inputs"},
-    Kind{"planar", "mixed-legs", "legs listed: a chord, a strut, and a strut on a motor, 4 inputs"},
+    Kind{"planar", "mixed-legs", "planar, legs listed: a chord, a strut, and a strut on a motor, 4 inputs"},
     Kind{"two-legged", "two-legged",
          "planar, legs listed, fully determined: a pinned link on a motor and a chord"},
     Kind{"four-legged", "four-legged", "planar, legs listed, redundantly constrained: four chords"},
-    Kind{"serial", "serial", "sections one after the other, bent by tendons, 3 or more inputs each"},
+    Kind{"spatial", "spatial", "spatial, legs listed: six links in pairs from three shared base points"},
+    Kind{"serial", "serial", "serial: sections one after the other, bent by tendons, 3 or more inputs each"},
     Kind{"three-arcs", "three-arcs", "serial: three smooth arcs, 3 tendons each"},
     Kind{"extensible", "extensible", "serial: sections that bend and change their length"},
     Kind{"snake", "snake", "serial: alike sections of twin pivots, in one line"},
-    Kind{"spatial", "spatial", "legs listed: six links in pairs from three shared base points"},
 };
 
 /// No robot, but a file to start from as well.

@@ -161,14 +161,17 @@ TEST(RobotFile, AShortFormNamesWhatIsMissingOrTooMuch) {
 TEST(RobotFile, ATemplateIsReachedRegularlyAtHomeAndBack) {
   for (const std::string_view name : robot_template_names()) {
     SCOPED_TRACE(name);
-    if (name == "serial") continue;  // that is read in serial_file_test.cpp
-    const auto robot = read(std::string(robot_template(name)));
+    const std::string text(robot_template(name));
+    if (text.find("kind: serial") != text.npos) continue;  // those are read in serial_file_test.cpp
+    const auto robot = read(text);
     ASSERT_TRUE(robot) << to_string(robot.error());
     Workspace work(*robot);
     const AnyPose at_home = home(*robot);
     if (bears_load(*robot)) {
-      const double height = std::get<SpatialPose>(at_home).position[2];
-      const Equilibrium there = inverse_equilibrium(*robot, {height, 0, 0}, {}, work);
+      const auto& pose = std::get<SpatialPose>(at_home);
+      const Equilibrium there = input_count(*robot) == 3
+                                    ? inverse_equilibrium(*robot, {pose.position[2], 0, 0}, {}, work)
+                                    : inverse_equilibrium(*robot, pose, {}, work);
       EXPECT_TRUE(there.report.ok()) << to_string(there.report);
       continue;
     }

@@ -56,6 +56,18 @@ TEST(SerialFile, TemplateOfSerialRobotsReads) {
   EXPECT_EQ(robot.stretch->stiffness, 15e3);
 }
 
+TEST(SerialFile, EveryTemplateOfASerialRobotReads) {
+  int count = 0;
+  for (const std::string_view name : robot_template_names()) {
+    const std::string text(robot_template(name));
+    if (text.find("kind: serial") == text.npos) continue;
+    const auto robot = read_serial_robot(parse_yaml(text, "serial.yaml").value());
+    EXPECT_TRUE(robot) << name << ": " << to_string(robot.error());
+    ++count;
+  }
+  EXPECT_EQ(count, 4);
+}
+
 TEST(SerialFile, AnglesMayBeListed) {
   const auto robot = read(
       "{count: 2, type: neutral, segments: 7, joint: 2 mm, tendons: {radius: 2 mm, angle: [10 deg, 50 "
