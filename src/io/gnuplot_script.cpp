@@ -500,12 +500,22 @@ std::string after_axes(const Panel& panel) {
          (is_tiny(panel.y) ? "  set format y\n" : "");
 }
 
+/// The numbers of an axis as far apart as it wants them, or further, where they would run into each other.
+double step_with_room(const Axis& of, double room) {
+  if (!of.low || !of.high || of.log) return *of.step;
+  const double span = std::abs(*of.high - *of.low);
+  const auto characters = [&](double end) { return si_text(std::trunc(end / *of.step) * *of.step).size(); };
+  const std::size_t widest = std::max(characters(*of.low), characters(*of.high));
+  const double most = room / (character_width * (static_cast<double>(widest) + 1.5));
+  return std::max(*of.step, round_step(span, std::max(most, 1.0)));
+}
+
 std::string axis_lines(char axis, const Axis& of, double room) {
   return fmt::format(
       "  set {0}label {1}\n  {2} logscale {0}\n  set {0}range [{3}:{4}]\n  set {0}tics {5}\n{6}", axis,
       axis_title(of, room), of.log ? "set" : "unset", bound(of.low), bound(of.high),
       !of.words.empty() ? word_tics(of.words)
-      : of.step         ? si_text(*of.step)
+      : of.step         ? si_text(axis == 'x' ? step_with_room(of, room) : *of.step)
                         : "autofreq",
       is_tiny(of) ? fmt::format("  set format {} '10^{{%L}}'\n", axis) : "");
 }
