@@ -22,8 +22,7 @@ namespace sinew::bench {
 namespace {
 
 /// The public code of docs/performance.md, timed on another machine.
-constexpr const char *public_warm =
-                         "public code 260000 ns to 3e-10, 126000 ns to 1e-6 (docs/performance.md)",
+constexpr const char *public_warm = "public code 260000 ns to 3e-10, 126000 ns to 1e-6 (docs/performance.md)",
                      *public_cold = "public code 2500 us, 194 of 200 solved (docs/performance.md)",
                      *public_tilted = "public code 1250 us, 106 of 200 solved (docs/performance.md)";
 

@@ -15,9 +15,6 @@ web_packages=(nodejs npm)
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
                python3-yaml python3-h5py ccache libopenmpi-dev openmpi-bin
                gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys "${web_packages[@]}" chromium)
-# What the sanitized tests are compiled with: in half of gcc's time.
-# shellcheck disable=SC2034
-sanitizer_packages=(clang libclang-rt-14-dev llvm)
 
 say() { printf '%s\n' "$*" >&2; }
 

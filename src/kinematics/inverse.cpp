@@ -169,7 +169,8 @@ class Problem {
     });
     if (!report.ok() || work_.solution_count[i] > 0) return report;
     report = name(Status::unreachable, "legs", i);
-    report.message.append("and those tied to it have one actuator, and no value of it closes them all at this pose");
+    report.message.append(
+        "and those tied to it have one actuator, and no value of it closes them all at this pose");
     return report;
   }
 

@@ -10,8 +10,9 @@
 #include "robot/rod_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0 {
+namespace sinew::inline v0::rod_kernels {
 namespace HWY_NAMESPACE {
+using namespace packs::HWY_NAMESPACE;
 /// Horner's rule for several arguments at once, so that a coefficient is loaded once for all.
 template <std::size_t M, std::size_t Terms>
 HWY_INLINE void polynomial(const double (&coefficient)[Terms], const Pack* z, Pack* value) {
@@ -813,7 +814,7 @@ void TruncationFine(std::span<const FineRods> groups, double* largest) { truncat
 const char* InstructionSet() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v0::rod_kernels
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

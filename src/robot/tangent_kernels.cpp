@@ -9,17 +9,19 @@
 #include "robot/tangent_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0 {
+namespace sinew::inline v0::tangent_kernels {
 namespace HWY_NAMESPACE {
+using namespace packs::HWY_NAMESPACE;
+using packs::HWY_NAMESPACE::sum;
 
 constexpr int degree = TangentState::degree;
-constexpr int packs = static_cast<int>(hn::MaxLanes(tag));
+constexpr int pack_size = static_cast<int>(hn::MaxLanes(tag));
 
 /// Calls `use(group, lane)` with every pack of rods.
 template <class Groups, class Use>
 HWY_INLINE void each_pack(Groups groups, Use&& use) {
   for (auto& rods : groups)
-    for (int i = 0; i < rod_lanes; i += packs) use(rods, i);
+    for (int i = 0; i < rod_lanes; i += pack_size) use(rods, i);
 }
 
 HWY_INLINE Pack3 difference(const Pack3& a, const Pack3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -634,7 +636,7 @@ void Apply(std::span<TangentRods> groups, int elements, const double* step, cons
 /// Of all elements the largest sum of squares of the two highest Legendre coefficients of t′.
 void Truncation(std::span<const TangentRods> groups, int elements, double* largest) {
   const auto& basis = LobattoBasis<element_degree>::get();
-  for (int i = 0; i < rod_lanes; i += packs) {
+  for (int i = 0; i < rod_lanes; i += pack_size) {
     Pack worst = all(0);
     for (const TangentRods& rods : groups)
       for (int e = 0; e < elements; ++e) {
@@ -655,7 +657,7 @@ void Truncation(std::span<const TangentRods> groups, int elements, double* large
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v0::tangent_kernels
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -283,7 +283,8 @@ TEST(RobotFile, TiedLegsShareAnActuator) {
   // A pose at which the tied legs need different lengths cannot be held.
   const Inverse no = inverse(*robot, PlanarPose{0.02, 0.01, 0.1}, {}, work);
   EXPECT_EQ(no.report.status, Status::unreachable);
-  EXPECT_NE(no.report.message.view().find("legs[1] and those tied to it have one actuator"), std::string_view::npos);
+  EXPECT_NE(no.report.message.view().find("legs[1] and those tied to it have one actuator"),
+            std::string_view::npos);
 }
 
 TEST(RobotFile, FourLegsAreARedundantRobot) {

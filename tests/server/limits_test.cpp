@@ -36,15 +36,23 @@ Options with_limits(double query, double time) {
   return options;
 }
 
+/// Instrumented code gets to where it can stop later.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double patience = 10;
+#else
+constexpr double patience = 1;
+#endif
+
 TEST(Limits, AQueryThatTakesTooLongIsStoppedAndTheNextOneIsNot) {
   Desk desk(with_limits(0.3, 20));
   const std::string path = "/api/query?robot=" + desk.opened("hexapod-heavy");
   json answer;
-  EXPECT_LT(time_of([&] { answer = json::parse(desk.post(path, endless)); }), 1);
+  EXPECT_LT(time_of([&] { answer = json::parse(desk.post(path, endless)); }), patience);
   EXPECT_EQ(answer["status"], "stopped");
   EXPECT_NE(answer["message"].get<std::string>().find("POST /api/jobs"), std::string::npos)
       << answer["message"];
-  EXPECT_LT(time_of([&] { answer = json::parse(desk.post(path, "[" + endless + "," + quick + "]")); }), 1);
+  EXPECT_LT(time_of([&] { answer = json::parse(desk.post(path, "[" + endless + "," + quick + "]")); }),
+            patience);
   EXPECT_EQ(answer[0]["status"], "stopped");
   EXPECT_EQ(answer[1], json::parse(desk.post(path, quick)));
 }
@@ -56,7 +64,7 @@ TEST(Limits, TheQueriesOfARequestShareItsTime) {
   EXPECT_LT(time_of([&] {
               answers = json::parse(desk.post(path, "[" + endless + "," + endless + "," + endless + "]"));
             }),
-            1.2);
+            1.2 * patience);
   EXPECT_EQ(answers[0]["status"], "stopped");
   EXPECT_TRUE(answers[1].contains("error") || answers[1]["status"] == "stopped");  // as the machine has time
   EXPECT_EQ(answers[2]["error"]["code"], "too_slow");
@@ -72,7 +80,7 @@ TEST(Limits, AQueryEndsWhenItsClientLeaves) {
               "\r\n\r\n" + endless);
     std::this_thread::sleep_for(200ms);  // it has the one place to compute
   }
-  EXPECT_LT(time_of([&] { desk.post(path, quick); }), 1);
+  EXPECT_LT(time_of([&] { desk.post(path, quick); }), patience);
   EXPECT_EQ(desk.status, 200);
 }
 
@@ -100,7 +108,7 @@ TEST(Limits, AServerThatStopsWaitsForNoQuery) {
     EXPECT_TRUE(!answer || json::parse(answer->body)["status"] == "stopped");
   });
   std::this_thread::sleep_for(200ms);
-  EXPECT_LT(time_of([&] { desk.reset(); }), 1);
+  EXPECT_LT(time_of([&] { desk.reset(); }), patience);
   client.join();
 }
 

@@ -11,8 +11,9 @@
 
 #include "sinew/kinematics/serial.hpp"
 
+// A namespace of its own: others have a `load` and a `store` for each instruction set, too.
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0 {
+namespace sinew::inline v0::serial_lanes {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -131,20 +132,28 @@ void TendonChanges(const SerialWorkspace& maps, kernel::Model model, std::span<c
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v0::serial_lanes
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace sinew::inline v0 {
+namespace serial_lanes {
 
 HWY_EXPORT(TendonChanges);
+
+void tendon_changes(std::span<const double> bends, kernel::Model model, std::span<double> changes,
+                    const SerialWorkspace& work, std::size_t poses) {
+  HWY_DYNAMIC_DISPATCH(TendonChanges)(work, model, bends, changes, poses);
+}
+
+}  // namespace serial_lanes
 
 void tendon_changes_batch(std::span<const double> bends, kernel::Model model, std::span<double> changes,
                           const SerialWorkspace& work) {
   const std::size_t poses = work.bends.empty() ? 0 : bends.size() / (2 * work.bends.size());
   if (bends.size() != poses * 2 * work.bends.size() || changes.size() != poses * work.changes.size())
     return void(std::ranges::fill(changes, std::numeric_limits<double>::quiet_NaN()));
-  if (poses > 0) HWY_DYNAMIC_DISPATCH(TendonChanges)(work, model, bends, changes, poses);
+  if (poses > 0) serial_lanes::tendon_changes(bends, model, changes, work, poses);
 }
 
 }  // namespace sinew::inline v0
