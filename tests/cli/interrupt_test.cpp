@@ -18,8 +18,8 @@ using namespace sinew::test;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// Soon, for a machine that has other work to do.
-constexpr auto soon = 1000ms;
+/// Soon, for a machine that has other work to do, and for a track that writes the samples it has.
+constexpr auto soon = 3000ms;
 
 /// The command under way, its output in files; stderr and the controlling terminal may be a pseudo-terminal.
 class Running {
