@@ -159,7 +159,7 @@ TEST(Interrupt, TheLineUnderWayOfAStreamIsAnsweredAndNoOther) {
 
 TEST(Interrupt, AStreamThatWaitsEndsWithoutAnAnswer) {
   Running run({"query", "3-rfr"}, Running::Errors::file, "\n");
-  std::this_thread::sleep_for(300ms);
+  std::this_thread::sleep_for(700ms);
   run.interrupt();
   ASSERT_TRUE(run.ends_within(soon));
   EXPECT_EQ(run.exit(), 4);
@@ -169,7 +169,7 @@ TEST(Interrupt, AStreamThatWaitsEndsWithoutAnAnswer) {
 TEST(Terminal, ShowsThatItIsSolvingAndHowToStopIt) {
   Running run(long_work, Running::Errors::terminal);
   ASSERT_TRUE(run.shows("solving; Ctrl-C stops it")) << run.screen();
-  EXPECT_TRUE(run.screen().starts_with("\r0.")) << run.screen();
+  EXPECT_EQ(run.screen().find_first_of(".s"), 2U) << run.screen();  // "\r0.5 s ...", later on a busy machine
   run.press_control_c();
   ASSERT_TRUE(run.shows("stopping; Ctrl-C again ends it at once", 500ms) || run.shows("stopped", soon))
       << run.screen();
