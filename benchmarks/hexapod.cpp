@@ -153,7 +153,6 @@ void compare_forward(const char* name, double stride, const InstructionSet& isa)
            fmt::format("position to {:.0e} m, {:.1f} iterations, {} failures", worst, iterations, failures)});
 }
 
-/// What one evaluation and one linearisation cost: against the number of rods, eight of which share the
 /// The classical fourth-order method on p, R, m of an inextensible rod, n constant: what most codes use.
 Vec3<double> runge_kutta_tip(const SpatialRod& rod, double length, const RodState<double>& base, int steps) {
   struct Slope {
@@ -209,6 +208,7 @@ void print_orders(Median&& median) {
   }
 }
 
+/// What one evaluation and one linearisation cost: against the number of rods, eight of which share the
 /// lanes, and of elements, whose polynomials are of order 8.
 void print_costs() {
   fmt::print("{:>6} {:>9} {:>7} {:>14} {:>16}\n", "rods", "elements", "order", "evaluation[ns]",

@@ -9,6 +9,7 @@
 #include "sinew/io/process.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/io/write_file.hpp"
+#include "sinew/kernel/crc32.h"
 
 namespace sinew::inline v0 {
 namespace {
@@ -32,16 +33,6 @@ void set_size(std::string& svg, const PageLayout& page) {
                                 page.unit * page.height * mm));
 }
 
-/// Of a chunk of a PNG (ISO 3309).
-std::uint32_t cyclic_check(std::string_view bytes) {
-  std::uint32_t sum = 0xffffffffU;
-  for (const char c : bytes) {
-    sum ^= static_cast<unsigned char>(c);
-    for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1U) ^ ((sum & 1U) != 0 ? 0xedb88320U : 0U);
-  }
-  return ~sum;
-}
-
 /// 300 pixels an inch, after the header: programs then place it at its width on paper.
 void set_resolution(std::string& png) {
   constexpr std::size_t header = 33;  // signature and IHDR
@@ -53,7 +44,9 @@ void set_resolution(std::string& png) {
     return bytes;
   };
   const std::string chunk = "pHYs" + number(a_metre) + number(a_metre) + '\1';
-  png.insert(header, number(9) + chunk + number(cyclic_check(chunk)));
+  kernel::Crc32 sum;
+  sum.add_text(chunk);
+  png.insert(header, number(9) + chunk + number(sum.value()));
 }
 
 /// The bytes of one format. gnuplot reads from memory and writes into a pipe: it opens no file, so that no

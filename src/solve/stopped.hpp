@@ -6,13 +6,17 @@
 
 namespace sinew::inline v0 {
 
-/// Replaces status and message where a stop was requested; residual and iterations stay those of the best
-/// iterate.
-inline bool note_stop(StopToken stop, Report& report) {
-  if (!stop.stop_requested()) return false;
+/// Status and message of it; residual and iterations stay those of the best iterate.
+inline void say_stopped(Report& report) {
   report.status = Status::stopped;
   report.message = std::string_view("stopped on request before the answer was complete");
-  return true;
+}
+
+/// The same where a stop was requested.
+inline bool note_stop(StopToken stop, Report& report) {
+  const bool is_stopped = stop.stop_requested();
+  if (is_stopped) say_stopped(report);
+  return is_stopped;
 }
 
 }  // namespace sinew::inline v0

@@ -19,6 +19,12 @@ using Signs = CurveSigns;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// Under one the stiffness is no symmetric matrix.
+template <class System>
+bool has_moment(const System& system) {
+  return system.wrench().template tail<3>() != Vec3<double>::Zero();
+}
+
 /// Follows curves and writes down what is met.
 template <class System>
 class CurveWriter {
@@ -191,7 +197,7 @@ class CurveWriter {
       const bool crosses = last.is_odd != next.is_odd;
       // a fold alone changes one direction of a robot whose inputs are held; under a moment the symmetric
       // part of the stiffness, which counts them, loses it before
-      if (!crosses && (gained == 0 || (is_fold && std::abs(gained) == 1 && !has_moment()))) break;
+      if (!crosses && (gained == 0 || (is_fold && std::abs(gained) == 1 && !has_moment(system_)))) break;
       const auto sign = [&] {
         const Signs here = tracer_.signs();
         return here.is_odd != last.is_odd || here.unstable != last.unstable ? 1.0 : -1.0;
@@ -212,8 +218,6 @@ class CurveWriter {
     }
     return last.unstable;
   }
-
-  bool has_moment() const { return system_.wrench().template tail<3>() != Vec3<double>::Zero(); }
 
   CurveEvent event_of(const Signs& last, const Signs& beyond, bool is_fold) const {
     if (tracer_.null_space(null_tolerance).multiplicity > 0 && (last.along > 0) == (beyond.along > 0))
@@ -539,7 +543,7 @@ class LoadWalk {
       const Signs beyond = signs();
       constexpr double level = 1e-4;  // dλ/ds at a fold, to rounding
       const LoadEnd why = std::abs(beyond.along) < level ? LoadEnd::fold
-                          : beyond.is_odd != last_.is_odd || beyond.own != last_.own || !has_moment()
+                          : beyond.is_odd != last_.is_odd || beyond.own != last_.own || !has_moment(system_)
                               ? LoadEnd::bifurcation
                               : LoadEnd::stability;
       begun_ = tracer_.before();  // the last that holds
@@ -556,11 +560,9 @@ class LoadWalk {
     return Found::end;
   }
 
-  bool has_moment() const { return system_.wrench().template tail<3>() != Vec3<double>::Zero(); }
-
   /// Where the symmetric part of the stiffness loses its definiteness. False where that is not on the curve.
   bool note_definiteness(const Signs& next, const Step& ahead, double stride) {
-    if (load_.definite_until >= 0 || next.unstable <= first_.unstable || !has_moment()) return true;
+    if (load_.definite_until >= 0 || next.unstable <= first_.unstable || !has_moment(system_)) return true;
     tracer_.before() = begun_;
     const auto is_kept = [&] { return tracer_.signs().unstable <= first_.unstable ? 1.0 : -1.0; };
     if (!tracer_.locate(ahead, stride, is_kept, false)) return false;

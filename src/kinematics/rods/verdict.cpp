@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/stopped.hpp"
+
 namespace sinew::inline v0 {
 namespace {
 
@@ -50,8 +52,7 @@ Report explain(const System& system, const RodPathEnd& end, const RodFold& fold,
   report.iterations = end.iterations;
   report.residual = end.residual;
   if (end.stopped) {
-    report.status = Status::stopped;
-    report.message.append("stopped on request before the answer was complete");
+    say_stopped(report);
     return report;
   }
   if (end.ran_out) {
