@@ -9,7 +9,7 @@
 #include "serial_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace chord_error_test {
 
 using kernel::Model;
 using std::numbers::pi;
@@ -273,5 +273,5 @@ TEST(LinearConsequences, PosesWithoutArcsAreLeftOut) {
   EXPECT_EQ(linear_consequences(robot, 0, 1).commanded.mean, 0);
 }
 
-}  // namespace
+}  // namespace chord_error_test
 }  // namespace sinew::test

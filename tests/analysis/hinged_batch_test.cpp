@@ -8,7 +8,7 @@
 #include "every_robot.hpp"
 
 namespace sinew::test {
-namespace {
+namespace hinged_batch_test {
 
 using Tripod = ParallelRobot<Leg<Spatial, Rail, SlideDrive, HingedStrut>>;
 
@@ -169,5 +169,5 @@ TEST(HingedBatch, AnswersAPoseAlikeAmongAnyOthers) {
   });
 }
 
-}  // namespace
+}  // namespace hinged_batch_test
 }  // namespace sinew::test

@@ -8,7 +8,7 @@
 #include "line_cases.hpp"
 
 namespace sinew::test {
-namespace {
+namespace lines_test {
 
 constexpr double pi = 3.14159265358979323846, infinity = std::numeric_limits<double>::infinity(),
                  nan = std::numeric_limits<double>::quiet_NaN();
@@ -186,5 +186,5 @@ TEST(LineClass, CountsALegWithoutALineAsAbsent) {
   }
 }
 
-}  // namespace
+}  // namespace lines_test
 }  // namespace sinew::test

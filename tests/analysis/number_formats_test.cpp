@@ -12,7 +12,7 @@
 #include "serial_robots.hpp"
 #include "sinew/kernel/fixed.h"
 
-namespace {
+namespace number_formats_test {
 
 using namespace sinew;
 using namespace sinew::test;
@@ -247,4 +247,4 @@ TEST(CodedFixed, WrapsAroundAndRoundsDownAsIntegersDo) {
   EXPECT_EQ(static_cast<double>(Down(0x1p-8) * Down(0.5)), 0);
 }
 
-}  // namespace
+}  // namespace number_formats_test

@@ -5,7 +5,7 @@
 #include "serial_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace serial_shape_test {
 
 class SerialShapes : public testing::TestWithParam<kernel::Backbone> {
  protected:
@@ -49,5 +49,5 @@ TEST_P(SerialShapes, HaveTendonsOfTheLengthsOfExactPcc) {  // @verifies LSK (1),
 INSTANTIATE_TEST_SUITE_P(Kinds, SerialShapes,
                          testing::Values(kernel::Backbone::twin_pivot, kernel::Backbone::neutral));
 
-}  // namespace
+}  // namespace serial_shape_test
 }  // namespace sinew::test

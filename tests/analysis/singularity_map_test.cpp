@@ -7,7 +7,7 @@
 #include "sinew/analysis/velocity.hpp"
 
 namespace sinew::test {
-namespace {
+namespace singularity_map_test {
 
 /// Numbers of an independent implementation.
 const nlohmann::json& reference() { return test::reference_file("data/tdpcr/singular.json"); }
@@ -156,5 +156,5 @@ TEST(SingularityMap, HandsItsSamplesOverInTheOrderOfTheGrid) {
   EXPECT_EQ(visit_map(robot, grid, {}, work, [](std::size_t k, const MapSample&) { return k < 4; }), 5U);
 }
 
-}  // namespace
+}  // namespace singularity_map_test
 }  // namespace sinew::test

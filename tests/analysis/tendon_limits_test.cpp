@@ -8,7 +8,7 @@
 #include "serial_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace tendon_limits_test {
 
 using kernel::Backbone;
 using kernel::Model;
@@ -171,5 +171,5 @@ TEST(TendonLimits, ToleranceAddsWhatTheRobotSays) {
   EXPECT_EQ(parts.sum(), parts.step + parts.stretch + parts.friction);
 }
 
-}  // namespace
+}  // namespace tendon_limits_test
 }  // namespace sinew::test

@@ -6,7 +6,7 @@
 #include "sinew/analysis/velocity.hpp"
 
 namespace sinew::test {
-namespace {
+namespace tripod_loci_test {
 
 constexpr TripodSize size{0.25, 0.125, 0.35};
 constexpr double degree = std::numbers::pi / 180;
@@ -79,5 +79,5 @@ TEST(TripodLoci, TheDeterminantIsThatOfTheVelocityEquations) {  // and the same 
   EXPECT_FALSE(forward_locus(size, std::nan("")));
 }
 
-}  // namespace
+}  // namespace tripod_loci_test
 }  // namespace sinew::test

@@ -6,7 +6,7 @@
 #include "sinew/analysis/velocity.hpp"
 
 namespace sinew::test {
-namespace {
+namespace type_2_distance_test {
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -169,5 +169,5 @@ TEST(TypeTwoDistance, OfATripodIsWhereItsTiltIsAndNoneWhereItsHingesDoNotLetIt) 
   }
 }
 
-}  // namespace
+}  // namespace type_2_distance_test
 }  // namespace sinew::test

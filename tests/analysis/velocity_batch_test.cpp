@@ -6,7 +6,7 @@
 #include "every_robot.hpp"
 
 namespace sinew::test {
-namespace {
+namespace velocity_batch_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -198,5 +198,5 @@ TEST(VelocityBatch, AnswersWithNothingForARobotItDoesNotServe) {
 #endif
 }
 
-}  // namespace
+}  // namespace velocity_batch_test
 }  // namespace sinew::test

@@ -8,7 +8,7 @@
 #include "sinew/analysis/shape.hpp"
 
 namespace sinew::test {
-namespace {
+namespace velocity_test {
 
 class EveryRobotMoves : public testing::TestWithParam<std::string> {
  protected:
@@ -219,5 +219,5 @@ TEST(Shape, LegsRunFromTheirBaseToTheirPlatformPoint) {
   }
 }
 
-}  // namespace
+}  // namespace velocity_test
 }  // namespace sinew::test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <csignal>
 
-namespace {
+namespace command_test {
 
 using namespace sinew::test;
 
@@ -389,4 +389,4 @@ TEST(Reproduce, PrintsTheTableAndTheFilesItWrote) {
   EXPECT_NE(outcome.out.find(" | holds"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace command_test

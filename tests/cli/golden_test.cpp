@@ -19,7 +19,7 @@
 #include "command.hpp"
 #include "paths.hpp"
 
-namespace {
+namespace golden_test {
 
 namespace fs = std::filesystem;
 using namespace sinew::test;
@@ -134,4 +134,4 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Command, Golden, testing::ValuesIn(cases()), test_name);
 
-}  // namespace
+}  // namespace golden_test

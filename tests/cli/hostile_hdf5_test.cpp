@@ -4,7 +4,7 @@
 
 #include "command.hpp"
 
-namespace {
+namespace hostile_hdf5_test {
 
 using namespace sinew::test;
 
@@ -64,4 +64,4 @@ TEST(HostileHdf5, EndsWithANamedErrorInLittleMemory) {
     EXPECT_EQ(plot(name).exit, 0) << name;
 }
 
-}  // namespace
+}  // namespace hostile_hdf5_test

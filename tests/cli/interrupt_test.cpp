@@ -12,7 +12,7 @@
 #include "command.hpp"
 #include "paths.hpp"
 
-namespace {
+namespace interrupt_test {
 
 using namespace sinew::test;
 using namespace std::chrono_literals;
@@ -198,4 +198,4 @@ TEST(Terminal, ShowsNothingWhenQuietAndAFileNeverDoes) {
   EXPECT_EQ(into_a_file.err(), "");
 }
 
-}  // namespace
+}  // namespace interrupt_test

@@ -5,7 +5,7 @@
 
 #include "command.hpp"
 
-namespace {
+namespace long_answers_test {
 
 using namespace sinew::test;
 
@@ -56,4 +56,4 @@ TEST(LongAnswers, AreTheSameAsAStreamPrintsThem) {
   EXPECT_TRUE(verb.out == stream.out);
 }
 
-}  // namespace
+}  // namespace long_answers_test

@@ -6,7 +6,7 @@
 #include "command.hpp"
 #include "paths.hpp"
 
-namespace {
+namespace map_test {
 
 using namespace sinew::test;
 
@@ -63,4 +63,4 @@ TEST(Map, AReaderThatLeavesEndsIt) {
   EXPECT_EQ(outcome.err, "");
 }
 
-}  // namespace
+}  // namespace map_test

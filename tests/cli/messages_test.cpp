@@ -8,7 +8,7 @@
 
 #include "command.hpp"
 
-namespace {
+namespace messages_test {
 
 using namespace sinew::test;
 using Words = std::vector<std::string>;
@@ -175,4 +175,4 @@ TEST(Messages, NumbersFarOutsideTheRobotAreHintedAt) {
   }
 }
 
-}  // namespace
+}  // namespace messages_test

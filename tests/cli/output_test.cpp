@@ -9,7 +9,7 @@
 #include "command.hpp"
 #include "paths.hpp"
 
-namespace {
+namespace output_test {
 
 using namespace sinew::test;
 namespace fs = std::filesystem;
@@ -374,4 +374,4 @@ TEST(Output, FiguresLeaveOutWhatDidNotConvergeAndSaySo) {
   EXPECT_NE(script({}).find("1000 0 2"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace output_test

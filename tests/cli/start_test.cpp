@@ -6,7 +6,7 @@
 #include "command.hpp"
 #include "paths.hpp"
 
-namespace {
+namespace start_test {
 
 namespace fs = std::filesystem;
 using namespace sinew::test;
@@ -55,4 +55,4 @@ TEST(Start, WithoutTheOtherProgramItSaysWhatIsMissing) {
       << outcome.err;
 }
 
-}  // namespace
+}  // namespace start_test

@@ -11,7 +11,7 @@
 #include "command.hpp"
 #include "paths.hpp"
 
-namespace {
+namespace sweep_test {
 
 using namespace sinew::test;
 
@@ -206,4 +206,4 @@ TEST(SweepCommand, BaselineIsTheSameWhateverTheMachineHas) {
   EXPECT_EQ(read_text(here.path() / "one.csv"), read_text(here.path() / "other.csv"));
 }
 
-}  // namespace
+}  // namespace sweep_test

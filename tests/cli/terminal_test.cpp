@@ -7,7 +7,7 @@
 #include "command.hpp"
 #include "paths.hpp"
 
-namespace {
+namespace terminal_test {
 
 using namespace sinew::test;
 
@@ -106,4 +106,4 @@ TEST(Tables, OfReproduceAreBrokenAtBlanks) {
   }
 }
 
-}  // namespace
+}  // namespace terminal_test

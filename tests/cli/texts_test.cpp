@@ -7,7 +7,7 @@
 
 #include "command.hpp"
 
-namespace {
+namespace texts_test {
 
 using namespace sinew::test;
 
@@ -192,4 +192,4 @@ TEST(Version, IsFoundHoweverItIsAskedFor) {
   EXPECT_NE(run_command({"versoin"}, here.path()).err.find("did you mean version?"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace texts_test

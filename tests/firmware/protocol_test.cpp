@@ -6,7 +6,7 @@
 #include "noise.hpp"
 
 namespace sinew::firmware {
-namespace {
+namespace protocol_test {
 
 const std::vector<int> straight(bend_count, 0);
 
@@ -376,5 +376,5 @@ TEST(FirmwareSession, NothingButAFreshValidFrameMovesTheDrives) {
   }
 }
 
-}  // namespace
+}  // namespace protocol_test
 }  // namespace sinew::firmware

@@ -12,7 +12,7 @@
 #include "simulator/drives.hpp"
 
 namespace sinew::firmware {
-namespace {
+namespace simulated_test {
 
 const std::string folder = test::firmware_folder;
 const std::vector<int> straight(bend_count, 0);
@@ -306,5 +306,5 @@ TEST(FirmwareSimulator, SaysWhatIsWrong) {
   }
 }
 
-}  // namespace
+}  // namespace simulated_test
 }  // namespace sinew::firmware

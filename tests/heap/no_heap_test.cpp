@@ -12,10 +12,8 @@
 #include "sinew/kinematics/resolved_rate.hpp"
 #include "sinew/kinematics/serial_inverse.hpp"
 
-namespace {
-std::atomic<long> allocations{0};
-void* volatile kept = nullptr;  // so that the compiler cannot elide the allocation
-}
+static std::atomic<long> allocations{0};
+static void* volatile kept = nullptr;  // so that the compiler cannot elide the allocation
 
 #if !defined(__SANITIZE_ADDRESS__)
 extern "C" void* __libc_malloc(std::size_t);                 // NOLINT: glibc's name
@@ -36,7 +34,7 @@ extern "C" void* aligned_alloc(std::size_t a, std::size_t size) {
 #endif
 
 namespace sinew::test {
-namespace {
+namespace no_heap_test {
 
 template <class Work>
 long allocations_of(Work&& run) {
@@ -197,5 +195,5 @@ TEST(NoHeapOfSerialRobots, FromTendonsToTipAndBack) {
   }
 }
 
-}  // namespace
+}  // namespace no_heap_test
 }  // namespace sinew::test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace contour_test {
 
 using namespace sinew;
 
@@ -125,4 +125,4 @@ TEST(RoundStep, IsOneTwoOrFive) {
   EXPECT_DOUBLE_EQ(round_step(0.003, 10), 0.0005);
 }
 
-}  // namespace
+}  // namespace contour_test

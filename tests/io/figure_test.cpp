@@ -7,7 +7,7 @@
 #include <iterator>
 #include <limits>
 
-namespace {
+namespace figure_test {
 
 using namespace sinew;
 namespace fs = std::filesystem;
@@ -305,4 +305,4 @@ TEST(Figure, AFolderThatCannotBeWrittenIsAnError) {
   EXPECT_EQ(files.error().front().code, "file_unwritable");
 }
 
-}  // namespace
+}  // namespace figure_test

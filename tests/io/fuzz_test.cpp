@@ -6,7 +6,7 @@
 #include "sinew/io/parse.hpp"
 #include "sinew/io/reader.hpp"
 
-namespace {
+namespace fuzz_test {
 
 using namespace sinew;
 
@@ -127,4 +127,4 @@ TEST(Fuzz, PathsNeverCrash) {
   }
 }
 
-}  // namespace
+}  // namespace fuzz_test

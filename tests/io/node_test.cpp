@@ -4,7 +4,7 @@
 
 #include "sinew/io/parse.hpp"
 
-namespace {
+namespace node_test {
 
 using namespace sinew;
 
@@ -105,4 +105,4 @@ TEST(Node, QuotesStayOnOneLineAndCutBetweenCharacters) {
   EXPECT_EQ(in_quotes(text + "µµ"), "\"" + text + "...\"");
 }
 
-}  // namespace
+}  // namespace node_test

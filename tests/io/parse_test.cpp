@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace {
+namespace parse_test {
 
 using namespace sinew;
 using Kind = Node::Kind;
@@ -291,4 +291,4 @@ TEST_F(ReadFile, SaysWhyItCannot) {
   EXPECT_EQ(code(write(std::string("a: 1 #") + std::string(document_size_limit - 6, ' '))), "");
 }
 
-}  // namespace
+}  // namespace parse_test

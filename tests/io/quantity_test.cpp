@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace {
+namespace quantity_test {
 
 using namespace sinew;
 using std::numbers::pi;
@@ -180,4 +180,4 @@ TEST(Quantity, EveryDimensionHasItsWords) {
   EXPECT_EQ(noun(Dimension::line_load), "a load by length");
 }
 
-}  // namespace
+}  // namespace quantity_test

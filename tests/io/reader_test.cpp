@@ -6,7 +6,7 @@
 
 #include "sinew/io/parse.hpp"
 
-namespace {
+namespace reader_test {
 
 using namespace sinew;
 
@@ -320,4 +320,4 @@ TEST(FieldReader, SaysEverythingThatIsWrong) {
   EXPECT_EQ(arc.segments, 2);
 }
 
-}  // namespace
+}  // namespace reader_test

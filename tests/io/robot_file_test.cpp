@@ -12,7 +12,7 @@
 #include "sinew/io/serial_file.hpp"
 
 namespace sinew::test {
-namespace {
+namespace robot_file_test {
 
 Expected<AnyRobot> read(const std::string& yaml) {
   return read_robot(parse_yaml(yaml, "robot.yaml").value());
@@ -382,5 +382,5 @@ TEST(RobotFile, SettingsAreNoMoreThanARobotHas) {
   EXPECT_EQ(with(document, "legs[0].link.length", list).error().front().code, "too_large");
 }
 
-}  // namespace
+}  // namespace robot_file_test
 }  // namespace sinew::test

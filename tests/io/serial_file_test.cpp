@@ -8,7 +8,7 @@
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::test {
-namespace {
+namespace serial_file_test {
 
 constexpr std::string_view section =
     "{type: tpcj, segments: 8, joint: 2.375 mm, disc: {height: 2 mm, radius: 3 mm}, tendons: {radius: 2.45 "
@@ -137,5 +137,5 @@ TEST(SerialFile, OneSectionOfManyCanBeChanged) {
   EXPECT_EQ(all.sections[4].segments, 6);
 }
 
-}  // namespace
+}  // namespace serial_file_test
 }  // namespace sinew::test

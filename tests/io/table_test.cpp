@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-namespace {
+namespace table_test {
 
 using namespace sinew;
 namespace fs = std::filesystem;
@@ -183,4 +183,4 @@ TEST(Table, FilesThatCannotBeReadOrWrittenAreErrors) {
   }
 }
 
-}  // namespace
+}  // namespace table_test

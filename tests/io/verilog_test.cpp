@@ -5,7 +5,7 @@
 #include "sinew/io/serial_file.hpp"
 
 namespace sinew {
-namespace {
+namespace verilog_test {
 
 std::vector<ExportedFile> exported(const std::string& name) {
   SerialRobot robot = load_serial("nottingham-tpcj").value();
@@ -43,5 +43,5 @@ TEST(Verilog, NumbersAreThoseOfTheHeader) {
     EXPECT_NE(core.find(number), std::string::npos) << number;
 }
 
-}  // namespace
+}  // namespace verilog_test
 }  // namespace sinew

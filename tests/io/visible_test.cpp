@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace visible_test {
 
 using sinew::visible, sinew::visible_line;
 
@@ -27,4 +27,4 @@ TEST(Visible, BytesThatAreNoTextAreNumbers) {
   EXPECT_EQ(visible("\xc0\xaf"), "\\xc0\\xaf");  // overlong
 }
 
-}  // namespace
+}  // namespace visible_test

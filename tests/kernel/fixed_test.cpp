@@ -6,7 +6,7 @@
 #include <cstdint>
 
 namespace sinew::kernel {
-namespace {
+namespace fixed_test {
 
 // What overflows is no constant: these compile only where nothing does.
 static_assert(Fixed<32, 16>(Fixed<32, 17>::from_raw(2147483647)).raw == 1073741824);
@@ -45,5 +45,5 @@ TEST(Fixed, ConversionsGiveTheNearest) {
   expect_nearest<Fixed<8, 0>, Fixed<8, 7>>();
 }
 
-}  // namespace
+}  // namespace fixed_test
 }  // namespace sinew::kernel

@@ -3,7 +3,7 @@
 #include "sinew/kernel/tendon_pair.h"
 
 namespace sinew::kernel {
-namespace {
+namespace kernel_test {
 
 TEST(Kernel, TendonPairIsComputedAtCompileTimeInFloat) {
   constexpr TendonPair<float> pair{0.2F, 0.005F};
@@ -12,5 +12,5 @@ TEST(Kernel, TendonPairIsComputedAtCompileTimeInFloat) {
   EXPECT_NEAR(static_cast<double>(pair.curvature(pair.tendon_1(5.0F))), 5.0, 1e-4);
 }
 
-}  // namespace
+}  // namespace kernel_test
 }  // namespace sinew::kernel

@@ -10,7 +10,7 @@
 #include "sinew/kernel/tendon_state.h"
 
 namespace sinew::kernel {
-namespace {
+namespace section_test {
 
 constexpr double limit = 24 * std::numbers::pi / 180, mm = 1;
 
@@ -167,5 +167,5 @@ TEST(KernelTendonState, ComesFromWhatIsBeyondTheModel) {  // [LSK] section 4.1
   EXPECT_NEAR(tendon_slack(change + 0.3, bent, robot.directions[0][1]), 0.3, 1e-15);
 }
 
-}  // namespace
+}  // namespace section_test
 }  // namespace sinew::kernel

@@ -17,7 +17,7 @@
 #include "sinew/sinew.hpp"
 
 namespace sinew {
-namespace {
+namespace arguments_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const AnyPose planar = PlanarPose{0.01, 0, 0}, spatial = SpatialPose{{0, 0, 0.2}, {1, 0, 0, 0}};
@@ -215,5 +215,5 @@ TEST(Arguments, SerialQuestionsOfAnotherRobotAreAnswered) {
   EXPECT_TRUE(std::isnan(work.extensions[0]));
 }
 
-}  // namespace
+}  // namespace arguments_test
 }  // namespace sinew

@@ -12,7 +12,7 @@
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::test {
-namespace {
+namespace chain_equilibrium_test {
 
 using Json = nlohmann::json;
 
@@ -443,5 +443,5 @@ TEST(ChainEquilibrium, TipWrenchesAreTheirs) {  // @verifies TDPCR (54), (55)
   }
 }
 
-}  // namespace
+}  // namespace chain_equilibrium_test
 }  // namespace sinew::test

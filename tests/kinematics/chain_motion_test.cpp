@@ -11,7 +11,7 @@
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::test {
-namespace {
+namespace chain_motion_test {
 
 template <class Space>
 ChainRobot<Space> chains_of(const char* file, ChainModel model = ChainModel::even) {
@@ -219,5 +219,5 @@ TEST(ChainMotion, SaysWhereAChainCannotFollow) {
   EXPECT_NE(report.message.view().find("legs["), std::string_view::npos);
 }
 
-}  // namespace
+}  // namespace chain_motion_test
 }  // namespace sinew::test

@@ -10,7 +10,7 @@
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {
-namespace {
+namespace chain_properties_test {
 
 AnyRobot robot_of(const char* name) { return *load(name); }
 
@@ -208,5 +208,5 @@ TEST(ChainsOfManyLinks, AreArcs) {
   expect_order<Planar>("3-frr", PlanarPose{0, 0, 0.1}, ChainModel::weighted, 2);
 }
 
-}  // namespace
+}  // namespace chain_properties_test
 }  // namespace sinew::test

@@ -5,7 +5,7 @@
 #include "every_robot.hpp"
 
 namespace sinew::test {
-namespace {
+namespace constrained_pose_test {
 
 using PrsLeg = Leg<Spatial, Rail, SlideDrive, HingedStrut>;
 
@@ -99,5 +99,5 @@ TEST(Settled, IsInThePlanesNearbyAndStaysThere) {
   EXPECT_EQ(motion(any, settled(free, any)).norm(), 0);
 }
 
-}  // namespace
+}  // namespace constrained_pose_test
 }  // namespace sinew::test

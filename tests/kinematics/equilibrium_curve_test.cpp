@@ -9,7 +9,7 @@
 #include "sinew/kinematics/equilibrium_curve.hpp"
 
 namespace sinew::test {
-namespace {
+namespace equilibrium_curve_test {
 
 AnyRobot builtin(const char* name) { return load(name).value(); }
 
@@ -241,5 +241,5 @@ TEST(EquilibriumCurve, RefusesWhatIsNoCurve) {
   EXPECT_EQ(equilibrium_curves(rods, how, work).at(0).points.size(), 2u);
 }
 
-}  // namespace
+}  // namespace equilibrium_curve_test
 }  // namespace sinew::test

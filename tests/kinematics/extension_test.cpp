@@ -12,7 +12,7 @@
 #include "sinew/kinematics/serial_inverse.hpp"
 
 namespace sinew::test {
-namespace {
+namespace extension_test {
 
 using kernel::Backbone;
 using kernel::Model;
@@ -325,5 +325,5 @@ TEST(KernelExtension, RunsThereAndBackOnAController) {
   }
 }
 
-}  // namespace
+}  // namespace extension_test
 }  // namespace sinew::test

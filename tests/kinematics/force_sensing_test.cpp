@@ -9,7 +9,7 @@
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::test {
-namespace {
+namespace force_sensing_test {
 
 /// A platform under a load, and what its rods pull.
 struct Loaded {
@@ -123,5 +123,5 @@ INSTANTIATE_TEST_SUITE_P(Robots, ForceSensing,
                            return name;
                          });
 
-}  // namespace
+}  // namespace force_sensing_test
 }  // namespace sinew::test

@@ -11,7 +11,7 @@
 #include "sinew/kinematics/equilibrium.hpp"
 
 namespace sinew::test {
-namespace {
+namespace hexapod_test {
 
 AnyRobot builtin(const char* name) { return load(name).value(); }
 
@@ -246,5 +246,5 @@ TEST(Hexapod, GravityOfAQuestionIsItsOwn) {
   EXPECT_GT(change, 1e-6);
 }
 
-}  // namespace
+}  // namespace hexapod_test
 }  // namespace sinew::test

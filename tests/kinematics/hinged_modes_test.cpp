@@ -9,15 +9,13 @@
 #include "kinematics/closing.hpp"
 #include "kinematics/three_circles.hpp"
 #include "sinew/analysis/tripod_loci.hpp"
+#include "uniform.hpp"
 
 namespace sinew::test {
-namespace {
+namespace hinged_modes_test {
 
 using Legs = std::array<Reach<3>, 3>;
 
-double uniform(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 Vec3<double> point(std::mt19937& random, double size = 1) {
   return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
 }
@@ -203,5 +201,5 @@ TEST(HingedModes, OfLegsThatAreNoneAreRefused) {
   EXPECT_FALSE(are_hinged(std::span<const Reach<3>>(legs).first(2)));
 }
 
-}  // namespace
+}  // namespace hinged_modes_test
 }  // namespace sinew::test

@@ -5,7 +5,7 @@
 #include "sinew/kinematics/assembly_modes.hpp"
 
 namespace sinew::test {
-namespace {
+namespace kinematics_test {
 
 const PlanarPose& planar(const AnyPose& pose) { return std::get<PlanarPose>(pose); }
 
@@ -329,5 +329,5 @@ TEST(Forward, NoIterationsIsAnAnswerToo) {
   EXPECT_EQ(planar(answer.pose).x, 0);
 }
 
-}  // namespace
+}  // namespace kinematics_test
 }  // namespace sinew::test

@@ -5,7 +5,7 @@
 #include "planar_modes_cases.hpp"
 
 namespace sinew::test {
-namespace {
+namespace planar_modes_limits_test {
 
 /// Points on a coarse grid: equal points, parallel legs, merging modes of any multiplicity, continua.
 TEST(PlanarModes, OfDegenerateRobotsHoldTheTruePoseOrSaySingular) {
@@ -144,5 +144,5 @@ TEST(PlanarModes, OfNastyNumbersEndHonestly) {
   EXPECT_EQ(planar_modes(Legs{{{0, inf}, 1, {0, 0}}}).report.status, Status::left_domain);
 }
 
-}  // namespace
+}  // namespace planar_modes_limits_test
 }  // namespace sinew::test

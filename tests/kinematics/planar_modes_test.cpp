@@ -6,7 +6,7 @@
 #include "reference_file.hpp"
 
 namespace sinew::test {
-namespace {
+namespace planar_modes_test {
 
 Point json_point(const nlohmann::json& json) { return {json[0].get<double>(), json[1].get<double>()}; }
 
@@ -182,5 +182,5 @@ TEST(PlanarModes, HalfATurnIsAnOrdinaryAngle) {
   }
 }
 
-}  // namespace
+}  // namespace planar_modes_test
 }  // namespace sinew::test

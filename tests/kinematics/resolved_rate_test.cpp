@@ -6,7 +6,7 @@
 #include "serial_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace resolved_rate_test {
 
 using kernel::Backbone;
 
@@ -180,5 +180,5 @@ TEST_P(ResolvedRateOf, NoMotionTakesNone) {
 
 INSTANTIATE_TEST_SUITE_P(Backbones, ResolvedRateOf, testing::Values(Backbone::twin_pivot, Backbone::neutral));
 
-}  // namespace
+}  // namespace resolved_rate_test
 }  // namespace sinew::test

@@ -16,7 +16,7 @@
 #include "sinew/kinematics/equilibrium_curve.hpp"
 
 namespace sinew::test {
-namespace {
+namespace rod_agreement_test {
 
 double distance(const SpatialPose& a, const SpatialPose& b) {
   const SE3<double> p = SE3<double>::from(a), q = SE3<double>::from(b);
@@ -316,5 +316,5 @@ TEST(RodAgreement, ALoadDoesNotDependOnItsLimit) {
   }
 }
 
-}  // namespace
+}  // namespace rod_agreement_test
 }  // namespace sinew::test

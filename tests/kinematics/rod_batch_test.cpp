@@ -7,7 +7,7 @@
 #include "sinew/kinematics/equilibrium.hpp"
 
 namespace sinew::test {
-namespace {
+namespace rod_batch_test {
 
 /// Poses of these rows, all at once, and what is found for each alone.
 struct Both {
@@ -136,5 +136,5 @@ TEST(RodBatch, JudgesStabilityAsOneByOne) {
   EXPECT_GT(unstable, 0);
 }
 
-}  // namespace
+}  // namespace rod_batch_test
 }  // namespace sinew::test

@@ -6,7 +6,7 @@
 #include "rod_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace rod_path_test {
 
 /// A tripod at rest at home, linearised, and memory.
 struct Path {
@@ -207,5 +207,5 @@ TEST(RodPath,
   EXPECT_LT(path.system.factors().smallest_pivot(), 1e-4);
 }
 
-}  // namespace
+}  // namespace rod_path_test
 }  // namespace sinew::test

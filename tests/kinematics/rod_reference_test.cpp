@@ -6,7 +6,7 @@
 #include "rod_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace rod_reference_test {
 
 using judge::Json;
 
@@ -127,5 +127,5 @@ TEST(RodReference, AllMultipleEquilibriaFromAStartBeside) {
   EXPECT_EQ(unstable, 4);
 }
 
-}  // namespace
+}  // namespace rod_reference_test
 }  // namespace sinew::test

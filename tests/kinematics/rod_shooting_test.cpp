@@ -6,7 +6,7 @@
 #include "shooting_3pfs.hpp"
 
 namespace sinew::test {
-namespace {
+namespace rod_shooting_test {
 
 /// The unknowns (32) of the equilibrium a system holds.
 judge::Vector37<double> unknowns(const RodSystem& system) {
@@ -60,5 +60,5 @@ TEST(RodShooting, ThePapersNewtonStaysWhereItIsStarted) {  // @verifies 3PFS (24
   }
 }
 
-}  // namespace
+}  // namespace rod_shooting_test
 }  // namespace sinew::test

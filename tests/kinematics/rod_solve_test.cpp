@@ -8,7 +8,7 @@
 #include "rod_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace rod_solve_test {
 
 /// A robot with the memory of its solver.
 struct Solver {
@@ -477,5 +477,5 @@ TEST(RodLay, HoldsAPoseAtGivenLengths) {
   EXPECT_LE(solver.work.system.evaluate(), 1e-10);                      // at rest all the same
 }
 
-}  // namespace
+}  // namespace rod_solve_test
 }  // namespace sinew::test

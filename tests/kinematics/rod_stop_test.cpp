@@ -12,7 +12,7 @@
 #include "sinew/kinematics/force_sensing.hpp"
 
 namespace sinew::test {
-namespace {
+namespace rod_stop_test {
 
 using Clock = std::chrono::steady_clock;
 
@@ -143,5 +143,5 @@ TEST(RodStop, ARunningSolveEndsSoonAfterTheRequest) {
   }
 }
 
-}  // namespace
+}  // namespace rod_stop_test
 }  // namespace sinew::test

@@ -8,7 +8,7 @@
 #include "serial_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace serial_inverse_test {
 
 using kernel::Backbone;
 
@@ -331,5 +331,5 @@ TEST(BoundedStep, IsTheBestWithinTheBounds) {
                                      << all;  // the others cycled, and are within the bounds
 }
 
-}  // namespace
+}  // namespace serial_inverse_test
 }  // namespace sinew::test

@@ -5,7 +5,7 @@
 #include "serial_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace serial_motion_test {
 
 using Matrix = Eigen::Matrix<long double, 4, 4>;
 using kernel::Backbone;
@@ -185,5 +185,5 @@ TEST(SerialMotion, StraightRobotHasTheLengthOfItsParts) {
   EXPECT_NEAR(robot.length(), 0.175, 1e-16);
 }
 
-}  // namespace
+}  // namespace serial_motion_test
 }  // namespace sinew::test

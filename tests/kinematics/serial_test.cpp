@@ -5,7 +5,7 @@
 #include "serial_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace serial_test {
 
 using kernel::Model;
 
@@ -212,5 +212,5 @@ INSTANTIATE_TEST_SUITE_P(Kinds, SerialRobots,
 
 TEST(SerialRobot, IsAsLongAsThePaperSays) { EXPECT_NEAR(nottingham().length(), 0.175, 1e-16); }
 
-}  // namespace
+}  // namespace serial_test
 }  // namespace sinew::test

@@ -8,7 +8,7 @@
 #include "reference_file.hpp"
 
 namespace sinew::test {
-namespace {
+namespace spatial_modes_test {
 
 using Legs = std::vector<Reach<3>>;
 
@@ -272,5 +272,5 @@ TEST(SpatialModes, WorkIsBoundedAsAsked) {
   EXPECT_EQ(cut.poses.size(), 12);  // by Newton alone
 }
 
-}  // namespace
+}  // namespace spatial_modes_test
 }  // namespace sinew::test

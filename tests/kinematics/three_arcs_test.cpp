@@ -11,7 +11,7 @@
 #include "reference_file.hpp"
 
 namespace sinew::test {
-namespace {
+namespace three_arcs_test {
 
 constexpr double pi = std::numbers::pi;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -378,5 +378,5 @@ TEST(ThreeArcs, NumbersOutsideTheDomainAreRefused) {
   EXPECT_EQ(status({}, {Vec3<double>(0, 0, 1), {nan, 0, 0, 0}}), Status::left_domain);
 }
 
-}  // namespace
+}  // namespace three_arcs_test
 }  // namespace sinew::test

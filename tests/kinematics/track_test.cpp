@@ -5,7 +5,7 @@
 #include "every_robot.hpp"
 
 namespace sinew::test {
-namespace {
+namespace track_test {
 
 /// Smallest singular value of J with unit lines at where a track is.
 double distance_from_type_2(const AnyRobot& robot, const Track& track, Workspace& work) {
@@ -252,5 +252,5 @@ TEST_F(Redundant, ChangesItsMotionNoMoreThanThePoseAsks) {  // no part of the ch
   EXPECT_LT(idle_change(Objective::smooth), 0.1 * idle_change(Objective::none));
 }
 
-}  // namespace
+}  // namespace track_test
 }  // namespace sinew::test

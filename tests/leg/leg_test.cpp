@@ -8,7 +8,7 @@
 #include "sinew/robot/catalog.hpp"
 
 namespace sinew::test {
-namespace {
+namespace leg_test {
 
 template <class First, class Second>
 struct AsTypes;
@@ -286,5 +286,5 @@ TEST(UniversalJoint, ItsSecondAxisIsTheNormalOfTheBendingPlane) {  // e = unit(g
   }
 }
 
-}  // namespace
+}  // namespace leg_test
 }  // namespace sinew::test

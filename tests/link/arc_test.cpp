@@ -5,7 +5,7 @@
 #include "sinew/link/arc.hpp"
 
 namespace sinew {
-namespace {
+namespace arc_test {
 
 const Arc link{0.2};
 
@@ -93,5 +93,5 @@ TEST(Arc, PointsOfTheBackboneEndAtTheTipAndStartAtTheBase) {
   EXPECT_GT(cross(link.side(3.0, s), tangent), 0.99);
 }
 
-}  // namespace
+}  // namespace arc_test
 }  // namespace sinew

@@ -9,7 +9,7 @@
 #include "check_jacobian.hpp"
 
 namespace sinew::test {
-namespace {
+namespace bent_joint_test {
 
 constexpr BentJoint joint{.length = 0.2375, .disc = 0.2}, arc{.length = 1, .disc = 0};
 constexpr JacobianCheck whole{.unit = 1};  // all numbers compared are of size 1
@@ -138,5 +138,5 @@ TEST(BentMotion, OneAfterAnotherMovesAsBoth) {
   }
 }
 
-}  // namespace
+}  // namespace bent_joint_test
 }  // namespace sinew::test

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace sinew {
-namespace {
+namespace elastica_map_test {
 
 using std::numbers::pi;
 
@@ -358,5 +358,5 @@ TEST(ElasticaMap, SaysWhyThereIsNothing) {
     EXPECT_TRUE(elastica_map(tip).equilibria.empty());
 }
 
-}  // namespace
+}  // namespace elastica_map_test
 }  // namespace sinew

@@ -11,7 +11,7 @@
 #include "rod_3pfs.hpp"
 
 namespace sinew {
-namespace {
+namespace elastica_test {
 
 using std::numbers::pi;
 
@@ -329,5 +329,5 @@ TEST(ElasticaUnderForce, WhatIsNotANumberOrTooLargeIsNotAnswered) {
   EXPECT_TRUE(std::isnan(elastica(Vec2<double>(0, 1.1e4)).tip[1]));
 }
 
-}  // namespace
+}  // namespace elastica_test
 }  // namespace sinew

@@ -13,7 +13,7 @@
 #include "sinew/link/elastica_map.hpp"
 
 namespace sinew {
-namespace {
+namespace held_rod_test {
 
 using std::numbers::pi;
 using test::any_rod;
@@ -334,5 +334,5 @@ TEST(HeldRod, StretchesWhereItMay) {
   EXPECT_EQ(unstable_directions(rod, length, x.base, clamped), 0);
 }
 
-}  // namespace
+}  // namespace held_rod_test
 }  // namespace sinew

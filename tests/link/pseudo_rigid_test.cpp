@@ -13,7 +13,7 @@
 #include "sinew/link/elastica.hpp"
 
 namespace sinew {
-namespace {
+namespace pseudo_rigid_test {
 
 using Eigen::MatrixXd, Eigen::VectorXd;
 using Json = nlohmann::json;
@@ -233,5 +233,5 @@ TEST(PseudoRigid, ClampedAndPulledAcrossItTendsToTheElastica) {
   EXPECT_NEAR(order(error(ChainModel::even, 16), error(ChainModel::even, 32)), 1, 0.15);
 }
 
-}  // namespace
+}  // namespace pseudo_rigid_test
 }  // namespace sinew

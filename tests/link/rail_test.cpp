@@ -5,7 +5,7 @@
 #include "check_jacobian.hpp"
 
 namespace sinew::test {
-namespace {
+namespace rail_test {
 
 TEST(Rail, ItsTipIsTheSlideAlongY) {  // @verifies 3PFS (13)
   const Rail rail;
@@ -18,5 +18,5 @@ TEST(Rail, ItsTipIsTheSlideAlongY) {  // @verifies 3PFS (13)
   }
 }
 
-}  // namespace
+}  // namespace rail_test
 }  // namespace sinew::test

@@ -16,7 +16,7 @@
 #include "sinew/link/elastica.hpp"
 
 namespace sinew {
-namespace {
+namespace spatial_rod_test {
 
 using std::numbers::pi;
 using test::any_rod;
@@ -332,5 +332,5 @@ TEST(SpatialRod, PotentialIsThatOfTheLoadAlone) {
   EXPECT_NEAR(tip.potential, potential, 1e-10);
 }
 
-}  // namespace
+}  // namespace spatial_rod_test
 }  // namespace sinew

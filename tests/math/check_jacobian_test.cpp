@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace sinew::test {
-namespace {
+namespace check_jacobian_test {
 
 constexpr auto bend = []<class S>(const Vec<S, 2>& x) {
   using std::cos, std::sin;
@@ -40,5 +40,5 @@ TEST(CheckJacobian, CallsShapesAndNanWrong) {
   EXPECT_TRUE(std::isinf(check_jacobian(bend, x, bend_jacobian(x) * std::nan(""))));
 }
 
-}  // namespace
+}  // namespace check_jacobian_test
 }  // namespace sinew::test

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace sinew {
-namespace {
+namespace entire_test {
 
 using Real = long double;
 using Complex = std::complex<double>;
@@ -172,5 +172,5 @@ TEST(Entire, FloatIsAsExactForItsSize) {
   compare(sinc5<float>, sinc5<double>, 6 * eps);
 }
 
-}  // namespace
+}  // namespace entire_test
 }  // namespace sinew

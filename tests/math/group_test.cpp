@@ -12,7 +12,7 @@
 #include "sinew/math/so3.hpp"
 
 namespace sinew {
-namespace {
+namespace group_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -233,5 +233,5 @@ TEST(SE3, PoseRoundTripIsCanonical) {
   EXPECT_EQ(pose.quaternion, (std::array<double, 4>{0.5, -0.5, -0.5, 0.5}));
 }
 
-}  // namespace
+}  // namespace group_test
 }  // namespace sinew

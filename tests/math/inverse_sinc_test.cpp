@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace sinew {
-namespace {
+namespace inverse_sinc_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -74,5 +74,5 @@ RC_GTEST_PROP(InverseSinc, RoundTripWithinTheConditionNumber, (std::uint32_t bit
   RC_ASSERT(std::abs(back - x) <= 3 * eps * x + moved);
 }
 
-}  // namespace
+}  // namespace inverse_sinc_test
 }  // namespace sinew

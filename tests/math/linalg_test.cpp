@@ -12,9 +12,7 @@
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define COUNTS_ALLOCATIONS 1
-namespace {
-thread_local long allocations = 0;
-}
+static thread_local long allocations = 0;
 extern "C" void* __libc_malloc(std::size_t);
 extern "C" void* malloc(std::size_t size) {
   ++allocations;
@@ -23,7 +21,7 @@ extern "C" void* malloc(std::size_t size) {
 #endif
 
 namespace sinew {
-namespace {
+namespace linalg_test {
 
 using Dense = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -192,5 +190,5 @@ TEST(Linalg, NothingAllocatesUpToTheLargestSize) {
 }
 #endif
 
-}  // namespace
+}  // namespace linalg_test
 }  // namespace sinew

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace sinew {
-namespace {
+namespace polygon_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -226,5 +226,5 @@ TEST(DiscCut, ThinAndTouchingOnesDoNoHarm) {
   EXPECT_EQ(area(cut_with_disc(square, 0)), 0);
 }
 
-}  // namespace
+}  // namespace polygon_test
 }  // namespace sinew

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace sinew {
-namespace {
+namespace polynomial_test {
 
 /// Π (x − r) times a factor.
 std::vector<double> with_roots(const std::vector<double>& roots, std::vector<double> p = {1}) {
@@ -68,5 +68,5 @@ TEST(Polynomial, NothingComesOfNothing) {
   EXPECT_LE(real_roots(std::array<double, 7>{}, {}).count, 63);
 }
 
-}  // namespace
+}  // namespace polynomial_test
 }  // namespace sinew

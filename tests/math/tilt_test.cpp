@@ -6,7 +6,7 @@
 #include <random>
 
 namespace sinew {
-namespace {
+namespace tilt_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -118,5 +118,5 @@ TEST(TiltTorsion, WhatIsNotSeenIsZero) {
   }
 }
 
-}  // namespace
+}  // namespace tilt_test
 }  // namespace sinew

@@ -6,7 +6,7 @@
 #include "sinew/math/se3.hpp"
 
 namespace sinew {
-namespace {
+namespace vec_test {
 
 static_assert(Scalar<double> && Scalar<float> && Scalar<std::complex<double>>);
 static_assert(!Scalar<int> && !Scalar<const char*>);
@@ -41,5 +41,5 @@ TEST(Vec, ProductsAreAnalyticWhereEigenConjugates) {
   EXPECT_EQ(z.squaredNorm(), 1.0);
 }
 
-}  // namespace
+}  // namespace vec_test
 }  // namespace sinew

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace sinew::test::shooting {
-namespace {
+namespace rod_test {
 
 double largest(const Section<double>& a, const Section<double>& b) {
   double worst = 0;
@@ -127,5 +127,5 @@ TEST(Reintegration, NeverAcceptsWhatIsNoNumber) {
     EXPECT_TRUE(std::isnan(x));
 }
 
-}  // namespace
+}  // namespace rod_test
 }  // namespace sinew::test::shooting

@@ -9,7 +9,7 @@
 #include "reference_3pfs.hpp"
 
 namespace sinew::test::shooting {
-namespace {
+namespace shooting_test {
 
 /// Largest error of a row over the largest entry of that row: a row has one unit of measure.
 double row_error(const Matrix6& m, const Json& json) {
@@ -196,5 +196,5 @@ TEST(Shooting, BaselineIsAsGoodAsItsRungeKutta) {
   EXPECT_GT(off, 1e-12);  // else it did not use its own method
 }
 
-}  // namespace
+}  // namespace shooting_test
 }  // namespace sinew::test::shooting

@@ -9,7 +9,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace chain_shape_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -321,5 +321,5 @@ TEST(ChainShape, SaysOneThingOnce) {
   EXPECT_EQ(code("3-rfrr", {{"inputs", {0, 0.15, 2, 0.15, 4, 0.15}}}), "not_available");
 }
 
-}  // namespace
+}  // namespace chain_shape_test
 }  // namespace sinew::test

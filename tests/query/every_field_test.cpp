@@ -15,7 +15,7 @@
 #include "paths.hpp"
 #include "sinew/query/session.hpp"
 
-namespace {
+namespace every_field_test {
 
 using namespace sinew;
 using Json = nlohmann::ordered_json;
@@ -171,4 +171,4 @@ TEST_F(EveryField, TheCorpusAsksEveryQueryThatARobotKnows) {
                                           "track", "velocity"}));
 }
 
-}  // namespace
+}  // namespace every_field_test

@@ -5,7 +5,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace extension_query_test {
 
 const std::string robot = std::string(source_folder) + "/examples/robots/serial.yaml";
 
@@ -108,5 +108,5 @@ TEST(ExtensionQuery, AllArcsAreOfFixedLength) {
   EXPECT_EQ(answer["error"]["code"], "not_available") << answer;
 }
 
-}  // namespace
+}  // namespace extension_query_test
 }  // namespace sinew::test

@@ -6,7 +6,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace reference_chains_test {
 
 const Json& statics() { return read_json("data/tdpcr/statics.json"); }
 const Json& statics2() { return read_json("data/tdpcr/statics2.json"); }
@@ -225,5 +225,5 @@ TEST(ChainQuery, ForwardAndInverseUndoOneAnother) {
   }
 }
 
-}  // namespace
+}  // namespace reference_chains_test
 }  // namespace sinew::test

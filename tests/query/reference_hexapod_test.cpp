@@ -7,7 +7,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace reference_hexapod_test {
 
 struct Set {
   const char *robot, *file;
@@ -140,5 +140,5 @@ TEST(TripodInverse, AllIsOfSixRods) {
   EXPECT_EQ(asked["error"]["code"], "not_available") << asked;
 }
 
-}  // namespace
+}  // namespace reference_hexapod_test
 }  // namespace sinew::test

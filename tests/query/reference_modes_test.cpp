@@ -7,7 +7,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace reference_modes_test {
 
 /// Curvature of a link whose chord is known, positive; by halving, independent of the library.
 double curvature_of(double chord, double length) {
@@ -131,5 +131,5 @@ TEST(ReferenceModes, Of6UfsAreAllThereAre) {  // the reference's counts are lowe
   }
 }
 
-}  // namespace
+}  // namespace reference_modes_test
 }  // namespace sinew::test

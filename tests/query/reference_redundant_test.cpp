@@ -6,7 +6,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace reference_redundant_test {
 
 Json pose_of(const Json& p) { return {{"x", p[0]}, {"y", p[1]}, {"phi", p[2]}}; }
 
@@ -140,5 +140,5 @@ TEST(Reference, FichtersPosesOf6UfsLeaveAScrewFree) {
   }
 }
 
-}  // namespace
+}  // namespace reference_redundant_test
 }  // namespace sinew::test

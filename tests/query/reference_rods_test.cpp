@@ -7,7 +7,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace reference_rods_test {
 
 const Json everything = {"stiffness", "stability", "margins", "sensitivity"};
 
@@ -261,5 +261,5 @@ TEST(ReferenceRods, CosseratRodsOfAnotherSourceAreNear) {
   }
 }
 
-}  // namespace
+}  // namespace reference_rods_test
 }  // namespace sinew::test

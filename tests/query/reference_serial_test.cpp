@@ -6,7 +6,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace reference_serial_test {
 
 double number(const Json& text) { return std::stod(text.get<std::string>()); }
 
@@ -172,5 +172,5 @@ TEST(SerialQuery, DrawsTheDiagramsOfTheReference) {  // [LSK] section 4
   }
 }
 
-}  // namespace
+}  // namespace reference_serial_test
 }  // namespace sinew::test

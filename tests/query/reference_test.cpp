@@ -6,7 +6,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace reference_test {
 
 Json pose_of(const Json& p) { return {{"x", p[0]}, {"y", p[1]}, {"phi", p[2]}}; }
 
@@ -187,5 +187,5 @@ TEST(Query, AnswersHoldNoNullAndRepeatTheirId) {
   for (const Json& answer : answers) EXPECT_EQ(answer.dump().find("null"), std::string::npos) << answer;
 }
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace sinew::test

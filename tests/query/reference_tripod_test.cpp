@@ -8,7 +8,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace reference_tripod_test {
 
 const Json& reference() { return read_json("data/tripod/rigid_cases.json"); }
 Json independent(const Json& p) { return {{"z", p["z"]}, {"e1", p["e1"]}, {"e2", p["e2"]}}; }
@@ -70,5 +70,5 @@ TEST(ReferenceTripod, EveryModeLeadsBack) {
     EXPECT_LT(relative_error(there[k]["inputs"], p["rho"]), 1e-12);
 }
 
-}  // namespace
+}  // namespace reference_tripod_test
 }  // namespace sinew::test

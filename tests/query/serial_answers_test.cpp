@@ -5,7 +5,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace serial_answers_test {
 
 Json ask_one(const std::string& robot, const Json& query) { return ask(robot, {query}).front(); }
 
@@ -103,5 +103,5 @@ TEST(SerialAnswers, AShapeIsNotLargerThanAMillionPoints) {
   EXPECT_EQ(answer["error"]["code"], "out_of_range") << answer.dump().substr(0, 200);
 }
 
-}  // namespace
+}  // namespace serial_answers_test
 }  // namespace sinew::test

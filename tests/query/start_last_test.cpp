@@ -5,7 +5,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace start_last_test {
 
 /// A walk of small steps along the first input, for the robot's model.
 struct Walk {
@@ -163,5 +163,5 @@ TEST(StartLast, IsOneWordAndOfASearch) {
   EXPECT_EQ(code({{"query", "inverse"}, {"pose", pose}, {"start", "last"}}), "wrong_type");
 }
 
-}  // namespace
+}  // namespace start_last_test
 }  // namespace sinew::test

@@ -9,7 +9,7 @@
 #include "sinew/query/session.hpp"
 
 namespace sinew {
-namespace {
+namespace stop_test {
 
 using Clock = std::chrono::steady_clock;
 
@@ -92,5 +92,5 @@ TEST(Stop, WithoutARequestNothingChanges) {
   EXPECT_EQ(plain.answer(query), watched.answer(query));
 }
 
-}  // namespace
+}  // namespace stop_test
 }  // namespace sinew

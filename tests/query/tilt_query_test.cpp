@@ -6,7 +6,7 @@
 #include "sinew_query.hpp"
 
 namespace sinew::test {
-namespace {
+namespace tilt_query_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -107,5 +107,5 @@ TEST(TiltQuery, SaysOneThingOnce) {
             "unknown_key");
 }
 
-}  // namespace
+}  // namespace tilt_query_test
 }  // namespace sinew::test

@@ -8,7 +8,7 @@
 #include "sinew/query/session.hpp"
 
 namespace sinew::test {
-namespace {
+namespace torque_query_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -122,5 +122,5 @@ TEST(TorqueQuery, SlipsAreTold) {
   EXPECT_TRUE(open(hexapod("diameter: 1 mm, material: {E: 207 GPa}", "spin: held", ", spin: free")));
 }
 
-}  // namespace
+}  // namespace torque_query_test
 }  // namespace sinew::test

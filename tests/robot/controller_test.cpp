@@ -11,7 +11,7 @@
 #include "sinew/kernel/polar.h"
 
 namespace sinew {
-namespace {
+namespace controller_test {
 
 using kernel::Fixed;
 using kernel::Stored;
@@ -466,5 +466,5 @@ TEST(PolarBend, IsOfTheAngleAndItsDirection) {
   }
 }
 
-}  // namespace
+}  // namespace controller_test
 }  // namespace sinew

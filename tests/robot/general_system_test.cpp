@@ -11,7 +11,7 @@
 #include "rod_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace general_system_test {
 
 /// What a rod may do beside bending, and how its ends are held.
 struct Kind {
@@ -472,5 +472,5 @@ TEST(GeneralSystem, HoldsThePosesThatItsLengthsLeadTo) {
   }
 }
 
-}  // namespace
+}  // namespace general_system_test
 }  // namespace sinew::test

@@ -11,7 +11,7 @@
 #include "paths.hpp"
 
 namespace sinew::test {
-namespace {
+namespace jacobian_test {
 
 std::vector<std::string> every_robot() {
   std::vector<std::string> names;
@@ -108,5 +108,5 @@ INSTANTIATE_TEST_SUITE_P(All, EveryRobotsJacobians, testing::ValuesIn(every_robo
   return (robot.param.find('/') == std::string::npos ? "builtin_" : "file_") + name;
 });
 
-}  // namespace
+}  // namespace jacobian_test
 }  // namespace sinew::test

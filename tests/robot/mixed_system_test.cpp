@@ -11,7 +11,7 @@
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {
-namespace {
+namespace mixed_system_test {
 
 AnyRobot builtin(const char* name) { return load(name).value(); }
 
@@ -286,5 +286,5 @@ TEST(MixedSystem, SaysWhatItCannotDo) {
   EXPECT_NE(nowhere.report.message.view().find("cannot"), std::string_view::npos);
 }
 
-}  // namespace
+}  // namespace mixed_system_test
 }  // namespace sinew::test

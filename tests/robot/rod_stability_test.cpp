@@ -8,7 +8,7 @@
 #include "sinew/link/elastica_map.hpp"
 
 namespace sinew::test {
-namespace {
+namespace rod_stability_test {
 
 /// A system of one rod of unit length and stiffness. Only its rod is of interest: nothing else holds the
 /// platform.
@@ -230,5 +230,5 @@ TEST(PoseLanes, CountUnstableDirectionsAsOneByOne) {
     EXPECT_GT(seen[std::size_t(count)], 5) << count;  // the samples were worth it
 }
 
-}  // namespace
+}  // namespace rod_stability_test
 }  // namespace sinew::test

@@ -8,7 +8,7 @@
 #include "rod_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace rod_system_test {
 
 /// Calls `use(robot, system)` with random robots of these numbers of rods, laid at random poses.
 template <class Use>
@@ -387,5 +387,5 @@ TEST(RodSystem, PutsTheSumOfItsRodsOnThePlatform) {
   });
 }
 
-}  // namespace
+}  // namespace rod_system_test
 }  // namespace sinew::test

@@ -9,7 +9,7 @@
 #include "rod_robots.hpp"
 
 namespace sinew::test {
-namespace {
+namespace tangent_system_test {
 
 /// What a rod may do beside bending, and how its tip is held.
 struct Kind {
@@ -327,5 +327,5 @@ TEST(TangentSystem, CoordinatesHoldTheState) {
   EXPECT_LT(other.evaluate(), 1e-9);
 }
 
-}  // namespace
+}  // namespace tangent_system_test
 }  // namespace sinew::test

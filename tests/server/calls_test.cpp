@@ -11,7 +11,7 @@
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::server {
-namespace {
+namespace calls_test {
 
 using nlohmann::json;
 using Texts = std::vector<std::string_view>;
@@ -127,5 +127,5 @@ TEST(Calls, TellWhatHasNoRoomLeft) {
   EXPECT_EQ(answers[1]["error"]["code"], "too_large");
 }
 
-}  // namespace
+}  // namespace calls_test
 }  // namespace sinew::server

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace sinew::server {
-namespace {
+namespace guard_test {
 
 Refusal local(Caller caller) { return Guard("127.0.0.1", 8765).judge(caller); }
 
@@ -48,5 +48,5 @@ TEST(Guard, LoopbackIsThisMachineAlone) {
     EXPECT_FALSE(is_loopback(address));
 }
 
-}  // namespace
+}  // namespace guard_test
 }  // namespace sinew::server

@@ -19,7 +19,7 @@
 #include "paths.hpp"
 
 namespace sinew::server {
-namespace {
+namespace http_fuzz_test {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
@@ -263,5 +263,5 @@ TEST(HttpFuzz, WhateverComesIsAnsweredInWholeRepliesOrNotAtAll) {
   EXPECT_GT(answered, sent / 4);
 }
 
-}  // namespace
+}  // namespace http_fuzz_test
 }  // namespace sinew::server

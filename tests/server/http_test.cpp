@@ -16,7 +16,7 @@
 #include "desk.hpp"
 
 namespace sinew::server {
-namespace {
+namespace http_test {
 
 constexpr const char* inverse = R"({"id": 7, "query": "inverse", "pose": {"x": 0.01, "y": 0, "phi": 0}})";
 
@@ -312,5 +312,5 @@ TEST(Http, ABodyThatIsRefusedIsNotTheNextRequest) {
   }
 }
 
-}  // namespace
+}  // namespace http_test
 }  // namespace sinew::server

@@ -14,7 +14,7 @@
 #include "desk.hpp"
 
 namespace sinew::server {
-namespace {
+namespace job_http_test {
 
 using namespace std::chrono_literals;
 
@@ -379,5 +379,5 @@ TEST(JobHttp, QueriesAreAnsweredWhileJobsRunAndManyListen) {
   for (std::thread& listener : listeners) listener.join();
 }
 
-}  // namespace
+}  // namespace job_http_test
 }  // namespace sinew::server

@@ -19,7 +19,7 @@
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::server {
-namespace {
+namespace jobs_test {
 
 using namespace std::chrono_literals;
 using nlohmann::json;
@@ -284,5 +284,5 @@ TEST(Scratch, GoesWithItsJobAndWithWhatOthersLeft) {
   std::filesystem::remove_all(used);
 }
 
-}  // namespace
+}  // namespace jobs_test
 }  // namespace sinew::server

@@ -10,7 +10,7 @@
 #include "desk.hpp"
 
 namespace sinew::server {
-namespace {
+namespace limits_test {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
@@ -112,5 +112,5 @@ TEST(Limits, AServerThatStopsWaitsForNoQuery) {
   client.join();
 }
 
-}  // namespace
+}  // namespace limits_test
 }  // namespace sinew::server

@@ -18,7 +18,7 @@
 #include "server/http/listener.hpp"
 
 namespace sinew::server {
-namespace {
+namespace wire_test {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
@@ -414,5 +414,5 @@ TEST(Head, IsReadOneWayOrRefused) {
   EXPECT_EQ(read_head(line + "Content-Length: 12 \r\n\r\n")->body, 12U);
 }
 
-}  // namespace
+}  // namespace wire_test
 }  // namespace sinew::server

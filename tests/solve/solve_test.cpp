@@ -4,7 +4,7 @@
 #include "sinew/solve/roots.hpp"
 
 namespace sinew {
-namespace {
+namespace solve_test {
 
 /// Intersection of a circle and a line y = height: two roots, one double, or none.
 struct CircleAndLine {
@@ -131,5 +131,5 @@ TEST(Report, IsOneLine) {
   EXPECT_EQ(to_string(report), "stalled after 4 iterations, residual 5.0e-14 m: legs[1] misses by 3 mm");
 }
 
-}  // namespace
+}  // namespace solve_test
 }  // namespace sinew

@@ -8,7 +8,7 @@
 
 #include "study_folder.hpp"
 
-namespace {
+namespace chunk_log_test {
 
 using namespace sinew;
 using test::Folder;
@@ -118,4 +118,4 @@ TEST(ChunkLog, IsOfOneSweepAndOneProcess) {
   EXPECT_FALSE(ChunkLog::open("/dev/full/log", key, chunks, ChunkLog::Open::create));
 }
 
-}  // namespace
+}  // namespace chunk_log_test

@@ -8,7 +8,7 @@
 #include "study/sweep/samples.hpp"
 #include "study_support.hpp"
 
-namespace {
+namespace derived_test {
 
 using namespace sinew;
 using test::bytes;
@@ -271,4 +271,4 @@ outputs: {determinant: determinant}
   EXPECT_EQ(done->statuses[converged], 3U);
 }
 
-}  // namespace
+}  // namespace derived_test

@@ -7,7 +7,7 @@
 
 #include "study_support.hpp"
 
-namespace {
+namespace joint_fit_test {
 
 using namespace sinew;
 using test::column;
@@ -176,4 +176,4 @@ TEST(JointFit, SaysWhatIsWrong) {
     EXPECT_EQ(code_of(fit), code) << fit;
 }
 
-}  // namespace
+}  // namespace joint_fit_test

@@ -7,7 +7,7 @@
 #include "study_folder.hpp"
 
 namespace sinew {
-namespace {
+namespace lsk_cycles_test {
 
 /// The program of 5 sections, run once. Skipped where there is no cross compiler or simulator.
 class Cycles : public testing::Test {
@@ -77,5 +77,5 @@ TEST_F(Cycles, GrowWithTheSectionsAsFigure8Claims) {
   EXPECT_EQ(made.files.size(), 5U);
 }
 
-}  // namespace
+}  // namespace lsk_cycles_test
 }  // namespace sinew

@@ -12,7 +12,7 @@
 #include "sinew/study/reproduce.hpp"
 #include "study_folder.hpp"
 
-namespace {
+namespace lsk_test {
 
 using namespace sinew;
 using namespace sinew::test;
@@ -221,4 +221,4 @@ TEST(Lsk, WithoutGnuplotTheTableTheFindingsAndTheScriptStay) {
     EXPECT_TRUE(fs::exists(folder.path / "lsk" / name));
 }
 
-}  // namespace
+}  // namespace lsk_test

@@ -16,7 +16,7 @@
 #include "sinew/io/table.hpp"
 #include "study/tdpcr/example51.hpp"
 
-namespace {
+namespace reproduce_test {
 
 using namespace sinew;
 namespace fs = std::filesystem;
@@ -192,4 +192,4 @@ TEST(Reproduce, ABarInAFindingDoesNotEndItsCell) {
       << to_markdown(made);
 }
 
-}  // namespace
+}  // namespace reproduce_test

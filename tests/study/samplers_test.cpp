@@ -11,7 +11,7 @@
 #include "study/sweep/samples.hpp"
 #include "study_support.hpp"
 
-namespace {
+namespace samplers_test {
 
 using namespace sinew;
 using test::Folder;
@@ -303,4 +303,4 @@ TEST(AnswerPath, KnowsUnits) {
   EXPECT_EQ(unit_of_answer("type_1.count"), "");
 }
 
-}  // namespace
+}  // namespace samplers_test

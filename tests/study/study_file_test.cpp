@@ -8,7 +8,7 @@
 #include "study/sweep/terms.hpp"
 #include "study_support.hpp"
 
-namespace {
+namespace study_file_test {
 
 using namespace sinew;
 using test::Folder;
@@ -213,4 +213,4 @@ TEST(Chunks, ASnakeVisitsNeighbours) {
   EXPECT_EQ(values, straight);
 }
 
-}  // namespace
+}  // namespace study_file_test

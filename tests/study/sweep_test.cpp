@@ -8,7 +8,7 @@
 
 #include "study_support.hpp"
 
-namespace {
+namespace sweep_test {
 
 using namespace sinew;
 using test::bytes;
@@ -292,4 +292,4 @@ TEST(ReadResult, SaysWhatItCannotRead) {
   EXPECT_EQ(read_result(folder.path / "none.h5").error().front().code, "file_missing");
 }
 
-}  // namespace
+}  // namespace sweep_test

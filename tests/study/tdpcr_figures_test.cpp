@@ -14,7 +14,7 @@
 #include "study/tdpcr/example51.hpp"
 #include "study_folder.hpp"
 
-namespace {
+namespace tdpcr_figures_test {
 
 using namespace sinew;
 namespace fs = std::filesystem;
@@ -209,4 +209,4 @@ TEST(Compare, WhatIsNotANumberFails) {
   EXPECT_EQ(compare::printed("q", 1, std::nan(""), "m").verdict, "differs");
 }
 
-}  // namespace
+}  // namespace tdpcr_figures_test

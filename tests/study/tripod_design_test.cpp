@@ -13,7 +13,7 @@
 #include "sinew/study/reproduce.hpp"
 #include "study_folder.hpp"
 
-namespace {
+namespace tripod_design_test {
 
 using namespace sinew;
 using namespace sinew::test;
@@ -228,4 +228,4 @@ TEST(TripodDesign, AFolderThatCannotBeWrittenIsAnError) {
   EXPECT_FALSE(reproduce("3pfs/design", folder.path / "file"));
 }
 
-}  // namespace
+}  // namespace tripod_design_test

@@ -19,7 +19,7 @@
 #include "study/tripod/example.hpp"
 #include "study_folder.hpp"
 
-namespace {
+namespace tripod_figures_test {
 
 using namespace sinew;
 using namespace sinew::test;
@@ -411,4 +411,4 @@ TEST(Figure, OutsideOfAMapIsThePage) {
   EXPECT_NE(script().find("unset logscale cb"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace tripod_figures_test

@@ -14,7 +14,7 @@
 #include "study/tripod/loads/loads.hpp"
 #include "study_folder.hpp"
 
-namespace {
+namespace tripod_loads_test {
 
 using namespace sinew;
 using namespace sinew::test;
@@ -271,4 +271,4 @@ TEST(TripodLoadItems, TablesHaveAFindingForEveryCell) {
   expect_all_but_the_pictures_without_gnuplot("table2");
 }
 
-}  // namespace
+}  // namespace tripod_loads_test

@@ -13,7 +13,7 @@
 #include "study/tripod/swept.hpp"
 #include "study_folder.hpp"
 
-namespace {
+namespace tripod_parasitic_test {
 
 using namespace sinew;
 using namespace sinew::test;
@@ -157,4 +157,4 @@ TEST(Equation36, IsTheSameInTheStudyAndInTheFigure) {
   EXPECT_LT(paper->columns[1].relative, 0.12);
 }
 
-}  // namespace
+}  // namespace tripod_parasitic_test

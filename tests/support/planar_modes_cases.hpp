@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sinew/kinematics/planar_modes.hpp"
+#include "uniform.hpp"
 
 namespace sinew::test {
 
@@ -15,9 +16,6 @@ using Legs = std::vector<Reach<2>>;
 using Point = Vec2<double>;
 inline constexpr double pi = std::numbers::pi;
 
-inline double uniform(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 inline Point point(std::mt19937& random, double size = 1) {
   return {uniform(random, -size, size), uniform(random, -size, size)};
 }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "sinew/robot/any_robot.hpp"
+#include "uniform.hpp"
 
 namespace sinew::test {
 
@@ -16,10 +17,6 @@ struct RandomFields {
   template <class T>
   void operator()(std::string_view, std::optional<T>&, Dimension, Range, std::string_view) const {}
 };
-
-inline double uniform(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution(low, high)(random);
-}
 
 /// Anywhere about the origin, turned anyhow.
 template <class Space>

@@ -12,7 +12,7 @@
 #include "sinew/kernel/direction.h"
 
 namespace sinew {
-namespace {
+namespace diagram_test {
 
 using Json = nlohmann::json;
 using Point = Vec2<double>;
@@ -658,5 +658,5 @@ TEST(SectionDiagram, WrongQuestionsAreRefused) {
             Status::left_domain);
 }
 
-}  // namespace
+}  // namespace diagram_test
 }  // namespace sinew

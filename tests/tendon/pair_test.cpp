@@ -4,7 +4,7 @@
 #include "sinew/tendon/swivel_drive.hpp"
 
 namespace sinew {
-namespace {
+namespace pair_test {
 
 constexpr kernel::TendonPair<double> pair{0.2, 0.005};
 
@@ -56,5 +56,5 @@ TEST(SwivelDrive, TheChordLiesHalfABendBesideTheTangent) {  // @verifies TDPCR (
   }
 }
 
-}  // namespace
+}  // namespace pair_test
 }  // namespace sinew
