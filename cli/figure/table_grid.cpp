@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "figure/quantity_name.hpp"
+#include "sinew/base/numbers.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/io/quantity.hpp"
 #include "text_table.hpp"
@@ -17,7 +18,6 @@
 namespace sinew::cli {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 /// The values that a column has, in order; what differs by rounding alone is one.
@@ -341,7 +341,7 @@ Expected<HeatMap> heat_map(const Table& table, const MapColumns& columns, bool l
   const Scale scale = scale_of(value, log);
   HeatMap map{.x = scale_of(x).shown(across.values()),
               .y = scale_of(y).shown(up.values()),
-              .values = std::vector<double>(across.count() * up.count(), missing),
+              .values = std::vector<double>(across.count() * up.count(), not_a_number),
               .label = titled(value, scale, is_of_sinew(table)),
               .log = log};
   std::vector<char> is_seen(map.values.size(), 0);

@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "figure/quantity_name.hpp"
+#include "sinew/base/numbers.hpp"
 #include "text_table.hpp"
 
 namespace sinew::cli {
 namespace {
 
 constexpr int most_panels = 9;
-constexpr double missing = MapSample::absent;
 
 std::vector<std::size_t> varying(const PoseGrid& grid) {
   std::vector<std::size_t> result;
@@ -68,7 +68,7 @@ double zero_between(const Slice& slice, std::size_t a, std::size_t b) {
     condition = sample.inverse_condition_homogenised;
     ((signed_volume(sample) < 0) == (start < 0) ? low : high) = middle;
   }
-  return condition < 1e-6 ? high : missing;
+  return condition < 1e-6 ? high : not_a_number;
 }
 
 /// The pieces of the curve of zero determinant in the cell from column i and row j.
@@ -91,8 +91,8 @@ void add_zeros(const Slice& slice, std::size_t i, std::size_t j, Series& curve) 
     curve.x.push_back(ends[k][0]);
     curve.y.push_back(ends[k][1]);
     if (k % 2 == 0) continue;
-    curve.x.push_back(missing);
-    curve.y.push_back(missing);
+    curve.x.push_back(not_a_number);
+    curve.y.push_back(not_a_number);
   }
 }
 

@@ -14,10 +14,6 @@
 namespace sinew::cli {
 namespace {
 
-std::string heading(const std::pair<std::string, std::string>& column) {
-  return column.second.empty() ? column.first : fmt::format("{}[{}]", column.first, column.second);
-}
-
 /// `{"name","unit"}`, of an axis of a grid with its number of values.
 std::string as_json(const std::pair<std::string, std::string>& column, std::size_t count = 0) {
   return fmt::format("{{\"name\":{},\"unit\":{}{}}}", json_text(column.first), json_text(column.second),
@@ -50,6 +46,10 @@ Errors unknown(const std::string& name) {
 }
 
 }  // namespace
+
+std::string heading(const std::pair<std::string, std::string>& column) {
+  return column.second.empty() ? column.first : fmt::format("{}[{}]", column.first, column.second);
+}
 
 std::string show_study(const Study& study, const SweepColumns& columns) {
   std::vector<std::string> axes, names;

@@ -32,10 +32,6 @@ int whole(const Arguments& arguments, std::string_view name, int least, int most
   return otherwise;
 }
 
-std::string heading(const std::pair<std::string, std::string>& column) {
-  return column.second.empty() ? column.first : fmt::format("{}[{}]", column.first, column.second);
-}
-
 /// The studies that come with sinew.
 int list_studies() {
   TextTable table({"study", "title"});

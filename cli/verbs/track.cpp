@@ -1,17 +1,14 @@
 /// track: the inputs along a path of the platform, as a table for people or a file of numbers.
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "question.hpp"
+#include "sinew/base/numbers.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/io/visible.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {
 namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<Input> columns_of(const Answer& answer, const Robot& robot) {
   std::vector<Input> columns{{"sample", ""}};
@@ -50,7 +47,7 @@ Table table_of(const Answer& answer, const Robot& robot) {
     }
     for (const char* path : {"indices.condition", "indices.condition_homogenised", "closure_error"}) {
       const Node* value = at(rows[k], path);
-      row.push_back(value ? value->number : missing);
+      row.push_back(value ? value->number : not_a_number);
     }
     table.add_row(row);
   }

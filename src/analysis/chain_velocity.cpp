@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "sinew/base/numbers.hpp"
+
 namespace sinew::inline v0 {
 namespace {
-
-constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
 /// 2-norm of the rows of J⁻¹ diag(|gᵢ|) from `first` on.
 template <class Space>
@@ -53,7 +53,8 @@ ChainVelocity<Space> chain_velocity(const ChainRobot<Space>& robot, const typena
   std::array<double, max_rows> sigma;
   singular_values(MatrixView(J.data(), dof, dof), sigma);
   const double condition = sigma[0] / sigma[static_cast<std::size_t>(dof - 1)];
-  velocity.indices = {condition < 1e15 ? condition : absent, velocity.type_2.condition, absent, absent};
+  velocity.indices = {condition < 1e15 ? condition : not_a_number, velocity.type_2.condition, not_a_number,
+                      not_a_number};
   velocity.determinant = determinant(MatrixView(J.data(), dof, dof));
   Rows inverse;
   if (velocity.type_2.singular ||

@@ -4,16 +4,15 @@
 
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
+#include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-constexpr double absent = std::numeric_limits<double>::quiet_NaN();
-
 /// σmax/σmin; absent beyond 1e15, where it says how the matrix was rounded and not what it is.
 double condition(std::span<const double> sigma) {
   const double ratio = sigma.front() / sigma.back();
-  return ratio < 1e15 ? ratio : absent;
+  return ratio < 1e15 ? ratio : not_a_number;
 }
 
 /// 2-norm of a block of rows of U.
@@ -66,8 +65,8 @@ Velocity nothing_yet(const Reduced& reduced, Workspace& work) {
                   .J = reduced.J,
                   .K = reduced.K,
                   .U = MatrixView(work.U.data(), 0, reduced.K.cols()),
-                  .determinant = absent,
-                  .indices = {absent, absent, absent, absent},
+                  .determinant = not_a_number,
+                  .indices = {not_a_number, not_a_number, not_a_number, not_a_number},
                   .type_1 = {},
                   .type_2 = {}};
   answer.report.residual = reduced.closure_error;

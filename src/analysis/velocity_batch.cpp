@@ -5,6 +5,7 @@
 #include "analysis/velocity_lanes.hpp"
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
+#include "sinew/base/numbers.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::inline v0 {
@@ -13,7 +14,6 @@ namespace {
 using velocity_lanes::ChordLeg, velocity_lanes::ChordRobot, velocity_lanes::HingedLeg,
     velocity_lanes::HingedRobot, velocity_lanes::LaneRobot;
 
-constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t poses_at_a_time = 512;
 
 template <class LegT>
@@ -121,7 +121,7 @@ class OneByOne {
     put(out_.is_type_2, k, std::uint8_t{0});
     for (const std::span<double> numbers : {out_.inputs, out_.curvatures, out_.determinant, out_.condition,
                                             out_.condition_homogenised, out_.position, out_.rotation})
-      for (std::size_t at = k; at < numbers.size(); at += total_) numbers[at] = absent;
+      for (std::size_t at = k; at < numbers.size(); at += total_) numbers[at] = not_a_number;
   }
 
  private:
@@ -191,7 +191,7 @@ std::size_t velocity_batch(const AnyRobot& robot, const PoseBatch& batch, const 
     for (std::size_t k = 0; k < total; ++k) one_by_one.put_nothing(k, Status::left_domain);
     return 0;
   }
-  if (!has_arc(robot)) std::ranges::fill(out.curvatures, absent);
+  if (!has_arc(robot)) std::ranges::fill(out.curvatures, not_a_number);
   const LaneRobot lanes = lane_robot(robot, batch);
   std::size_t left = 0;
   std::array<std::uint8_t, poses_at_a_time> doubtful;

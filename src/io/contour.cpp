@@ -9,10 +9,10 @@
 #include <unordered_map>
 #include <utility>
 
+#include "sinew/base/numbers.hpp"
+
 namespace sinew::inline v0 {
 namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// A point in the units of the axes.
 using Point = std::array<double, 2>;
@@ -92,7 +92,7 @@ class Crossings {
       before = std::exchange(here, next[0] != before ? next[0] : next[1]);
     }
     if (here == start) add(points_[start].at);  // closed
-    add({missing, missing});
+    add({not_a_number, not_a_number});
   }
 
   const HeatMap& map_;
@@ -186,7 +186,7 @@ void place_label(const Page& page, const Series& line, std::size_t begin, std::s
                  std::vector<Label>& labels) {
   if (length_of(page, line, begin, end) < 5 * reach[0]) return;
   double best = 4;
-  Label label{{missing, missing}, reach};
+  Label label{{not_a_number, not_a_number}, reach};
   const std::size_t stride = std::max<std::size_t>(1, (end - begin) / 400);
   for (std::size_t k = begin; k < end; k += stride) {
     const Point at = page.at(line.x[k], line.y[k]);
@@ -217,11 +217,11 @@ Series without(const Series& line, const std::vector<Label>& labels, const Page&
         to = std::min(to, std::max(one, other));
       }
       if (from >= to) continue;
-      if (from == 0) result.x.back() = result.y.back() = missing;
+      if (from == 0) result.x.back() = result.y.back() = not_a_number;
       const auto between = [&](double part) {
         return Point{std::lerp(line.x[k], line.x[k + 1], part), std::lerp(line.y[k], line.y[k + 1], part)};
       };
-      if (from > 0) add(between(from)[0], between(from)[1]), add(missing, missing);
+      if (from > 0) add(between(from)[0], between(from)[1]), add(not_a_number, not_a_number);
       if (to < 1) add(between(to)[0], between(to)[1]);
       break;
     }

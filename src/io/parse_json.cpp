@@ -10,9 +10,9 @@ namespace sinew::inline v0 {
 namespace {
 
 /// Events of nlohmann's parser into the builder. It calls every function by name; false ends it.
-class Handler {
+class JsonEvents {
  public:
-  Handler(NodeBuilder& builder, std::string_view text) : builder_(builder), text_(text) {}
+  JsonEvents(NodeBuilder& builder, std::string_view text) : builder_(builder), text_(text) {}
 
   bool null() { return builder_.scalar({}); }
   bool boolean(bool value) { return builder_.scalar(make_node(value)); }
@@ -77,7 +77,7 @@ Expected<Document> parse_json(std::string_view text, std::string source) {
     builder.stop("not_utf8", 0, 0,
                  fmt::format("this is not plain UTF-8 text, at line {}, column {}.", line, column));
   } else {
-    Handler handler(builder, text);
+    JsonEvents handler(builder, text);
     nlohmann::json::sax_parse(text.begin(), text.end(), &handler);
   }
   return builder.finish();

@@ -22,9 +22,9 @@ constexpr std::string_view unclosed_quote = "a quote is opened and never closed.
 struct Stop {};
 
 /// Events of yaml-cpp into the builder; its marks count from 0.
-class Handler : public YAML::EventHandler {
+class YamlEvents : public YAML::EventHandler {
  public:
-  Handler(NodeBuilder& builder, std::string_view text) : builder_(builder), text_(text) {}
+  YamlEvents(NodeBuilder& builder, std::string_view text) : builder_(builder), text_(text) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (documents_++ == 0) return;
@@ -179,7 +179,7 @@ std::size_t too_many_open(std::string_view text) {
 void parse_into(NodeBuilder& builder, std::string_view text) {
   View view(text);
   std::istream stream(&view);
-  Handler handler(builder, text);
+  YamlEvents handler(builder, text);
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(handler)) {

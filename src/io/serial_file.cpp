@@ -155,7 +155,7 @@ double usual_tolerance(const SerialRobot& robot) {
   return std::max(strain * robot.length(), step);
 }
 
-SerialRobot read_listed(Reader& robot) {
+SerialRobot read_serial(Reader& robot) {
   SerialRobot result;
   const Reader version = robot.required("sinew", "version of the file format: 1");
   if (version.integer() != 1 && version.node())
@@ -217,7 +217,7 @@ Expected<SerialRobot> read_serial_robot(const Document& document) {
   if (!longer) return tl::unexpected(longer.error());
   Errors errors;
   Reader robot(*longer, errors);
-  SerialRobot result = read_listed(robot);
+  SerialRobot result = read_serial(robot);
   if (!errors.empty()) return tl::unexpected(errors);
   return result;
 }

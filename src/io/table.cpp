@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sinew/base/assert.hpp"
+#include "sinew/base/numbers.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/read_bytes.hpp"
@@ -16,7 +17,6 @@
 namespace sinew::inline v0 {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 30U;
 constexpr std::size_t most_columns = 100'000;
 constexpr std::size_t most_over = 1000;  // cells of a row beyond its columns, which are only counted
@@ -109,11 +109,11 @@ class CsvReader {
   }
 
   double number(const std::string& cell, std::size_t column) {
-    if (cell.empty()) return missing;
+    if (cell.empty()) return not_a_number;
     if (const auto value = parse_number(cell)) return *value;
     error("not_a_number", fmt::format("column {}: {} is not a number; write a decimal number, or nothing",
                                       in_quotes(table_.columns[column].name), in_quotes(cell)));
-    return missing;
+    return not_a_number;
   }
 
   /// Cells of one line, `most` of them; a quoted cell does not reach over lines.

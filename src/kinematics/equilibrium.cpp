@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/at.hpp"
 #include "kinematics/rods/batch.hpp"
 #include "kinematics/rods/energy.hpp"
 #include "kinematics/rods/hold.hpp"
@@ -14,8 +15,6 @@
 
 namespace sinew::inline v0 {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Equilibrium refused(const Report& report) {
   Equilibrium answer;

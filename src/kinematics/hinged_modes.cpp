@@ -14,8 +14,7 @@ namespace sinew::inline v0 {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr double same_pose = 1e-6;  // a double mode is known to the root of the rounding error only
-constexpr int samples = 720;        // of the first angle; ten times as many where a root is missed
+constexpr int samples = 720;  // of the first angle; ten times as many where a root is missed
 /// Roots of the polynomial this near to a real one count as real [rad]: where a pair of complex ones is near,
 /// the smaller one tells.
 constexpr std::array margins{1e-3, 1e-5};

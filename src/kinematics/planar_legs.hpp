@@ -12,9 +12,9 @@ namespace sinew::inline v0 {
 
 /// The legs in units of their size and about the shortest: there the pose is (s, R) with s = A₁→B₁, and leg i
 /// closes where |s + R bᵢ − aᵢ| is its distance.
-class PlanarLegs {
+class ScaledLegs {
  public:
-  explicit PlanarLegs(std::span<const Reach<2>> legs) : legs_(legs) {
+  explicit ScaledLegs(std::span<const Reach<2>> legs) : legs_(legs) {
     for (std::size_t i = 1; i < legs.size(); ++i)
       if (legs[i].distance < legs[first_].distance) first_ = i;
     for (const Reach<2>& leg : legs) size_ = std::max({size_, leg.distance, extent(leg)});
@@ -69,7 +69,7 @@ struct NormalEquations {
   }
 };
 
-inline NormalEquations normal_equations(const PlanarLegs& legs, const SE2<double>& pose) {
+inline NormalEquations normal_equations(const ScaledLegs& legs, const SE2<double>& pose) {
   NormalEquations normal;
   for (std::size_t i = 0; i < legs.count(); ++i) {
     const Reach<2> leg = legs[i];

@@ -16,7 +16,7 @@ using V = Vec2<double>;
 using Motion = SE2<double>;
 
 /// Do the rows of J, moments measured by the platform's extent, span hardly any volume?
-bool is_singular(const PlanarLegs& legs, const Motion& pose) {
+bool is_singular(const ScaledLegs& legs, const Motion& pose) {
   double arm = 0;
   for (std::size_t i = 0; i < legs.count(); ++i) arm = std::max(arm, legs[i].platform_point.norm());
   const Mat<double, 3, 3> gram = normal_equations(legs, pose).matrix;
@@ -26,7 +26,7 @@ bool is_singular(const PlanarLegs& legs, const Motion& pose) {
 /// The poses found so far.
 class Found {
  public:
-  explicit Found(const PlanarLegs& legs) : legs_(legs) {}
+  explicit Found(const ScaledLegs& legs) : legs_(legs) {}
 
   void add(Motion pose) {
     if (!(pose.p.allFinite() && std::isfinite(pose.c + pose.s))) return;  // a maximum hides a NaN
@@ -91,7 +91,7 @@ class Found {
     return false;
   }
 
-  const PlanarLegs& legs_;
+  const ScaledLegs& legs_;
   std::array<Motion, PlanarModes::most> poses_;
   int count_ = 0;
   bool overfull_ = false;
@@ -131,7 +131,7 @@ void Found::write(PlanarModes& modes, std::span<const Reach<2>> legs) const {
 
 /// B₁ is pinned: the platform turns about it until leg j closes, |R b − a| = D, the law of cosines. False if
 /// no leg stops it.
-bool turn_about_pin(const PlanarLegs& legs, Found& found) {
+bool turn_about_pin(const ScaledLegs& legs, Found& found) {
   const auto grip = [&](std::size_t i) { return legs[i].anchor.norm() * legs[i].platform_point.norm(); };
   std::size_t j = 0;
   for (std::size_t i = 1; i < legs.count(); ++i)
@@ -153,7 +153,7 @@ bool turn_about_pin(const PlanarLegs& legs, Found& found) {
 }
 
 /// How the search ended, and in words.
-void judge(std::span<const Reach<2>> given, const PlanarLegs& legs, const Found& found, bool binds,
+void judge(std::span<const Reach<2>> given, const ScaledLegs& legs, const Found& found, bool binds,
            Report& report) {
   if (!found.overfull() && binds && !found.empty()) return;
   const bool torn = found.empty() && are_torn(given, report);
@@ -172,7 +172,7 @@ void judge(std::span<const Reach<2>> given, const PlanarLegs& legs, const Found&
 
 /// The shortest leg, the one that differs most from it, and of the rest the one that binds these two best.
 /// False if none does: then the other legs say nothing new.
-bool choose(const PlanarLegs& legs, Sextic& sextic) {
+bool choose(const ScaledLegs& legs, Sextic& sextic) {
   const auto differs = [&](std::size_t i) {
     return legs[i].anchor.squaredNorm() + legs[i].platform_point.squaredNorm();
   };
@@ -208,7 +208,7 @@ PlanarModes planar_modes(std::span<const Reach<2>> legs) {
         "a point or distance of a leg is not a number, too large to be squared, or a negative distance");
     return modes;
   }
-  const PlanarLegs scaled(legs);
+  const ScaledLegs scaled(legs);
   Found found(scaled);
   bool binds = false;
   if (Sextic sextic; scaled.constraints() < 3) {

@@ -22,10 +22,11 @@ Coefficients<N + M - 1> operator*(const Coefficients<N>& a, const Coefficients<M
 /// g₀ + g_c cos φ + g_s sin φ, times 1 + T².
 Coefficients<3> quadratic(double g0, double gc, double gs) { return {g0 + gc, 2 * gs, g0 - gc}; }
 
-constexpr int samples = 8;  // more than the six zeros of F
+constexpr int compass_points = 8;  // more than the six zeros of F
 constexpr double diagonal = 0.70710678118654752;
-const std::array<V, samples> compass = {V(1, 0),  V(diagonal, diagonal),   V(0, 1),  V(-diagonal, diagonal),
-                                        V(-1, 0), V(-diagonal, -diagonal), V(0, -1), V(diagonal, -diagonal)};
+const std::array<V, compass_points> compass = {
+    V(1, 0),  V(diagonal, diagonal),   V(0, 1),  V(-diagonal, diagonal),
+    V(-1, 0), V(-diagonal, -diagonal), V(0, -1), V(diagonal, -diagonal)};
 
 }  // namespace
 

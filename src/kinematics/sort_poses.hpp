@@ -9,6 +9,9 @@
 
 namespace sinew::inline v0 {
 
+/// Below this two poses are one: a double mode is known to the root of the rounding error only.
+inline constexpr double same_pose = 1e-6;
+
 /// z descending, then y, then x, then the quaternion; coordinates that differ by rounding count as equal.
 inline void sort_poses(std::span<SpatialPose> poses, double size) {
   const auto key = [size](const SpatialPose& pose) {

@@ -14,7 +14,6 @@ namespace sinew::inline v0 {
 namespace {
 
 using namespace detail;
-constexpr double same_pose = 1e-6;  // a double mode is known to the root of the rounding error only
 
 Complex square(const Vec<Complex, 4>& e) { return (e.array() * e.array()).sum(); }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "link/tip_gaps.hpp"
+#include "sinew/base/numbers.hpp"
 #include "sinew/math/inverse_sinc.hpp"
 #include "sinew/math/linalg.hpp"
 #include "sinew/solve/newton.hpp"
@@ -15,7 +15,6 @@ namespace {
 using Turn = SO3<double>;
 using Point = Vec3<double>;
 constexpr double path_tolerance = 1e-6;  // of the length, on the way
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Any unit vector at right angles.
 Point beside(const Point& v) {
@@ -296,8 +295,8 @@ bool is_answerable(const SpatialRod& rod, const SE3<double>& base, double length
 
 HeldRod unanswered() {
   HeldRod held;
-  held.stiffness.setConstant(nan);
-  held.feed.setConstant(nan);
+  held.stiffness.setConstant(not_a_number);
+  held.feed.setConstant(not_a_number);
   return held;
 }
 

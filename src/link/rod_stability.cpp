@@ -9,7 +9,7 @@
 namespace sinew::inline v0 {
 namespace {
 
-using Matrix = Mat<double, 6, 6>;
+using Matrix6 = Mat<double, 6, 6>;
 constexpr int most_pieces = 256;
 constexpr double free_turn = 1e-5;  // EI/L: what resists less turns freely
 
@@ -25,7 +25,7 @@ struct Units {
 /// A piece between two sections, by what it resists to their motions (translation, rotation vector): the
 /// wrenches on it are  far = Kff z_far + Kfn z_near  and  near = Knf z_far + Knn z_near.
 struct Piece {
-  Matrix far_far, far_near, near_far, near_near;
+  Matrix6 far_far, far_near, near_far, near_near;
 };
 
 /// False where the far end cannot be moved every way.
@@ -36,7 +36,7 @@ bool find_piece(const Units& unit, const Mat<double, 12, 10>& rate, Piece& piece
   const Mat<double, 12, 10> r = row.asDiagonal() * rate;
   Eigen::Matrix<double, 6, 6, Eigen::RowMajor> by_wrench;
   by_wrench << r.topLeftCorner<6, 3>() * unit.force, r.block<6, 3>(0, 3) * unit.moment;
-  Matrix wrench, pose = Matrix::Zero(), moved = Matrix::Zero();
+  Matrix6 wrench, pose = Matrix6::Zero(), moved = Matrix6::Zero();
   wrench << r.bottomLeftCorner<6, 3>() * unit.force, r.block<6, 3>(6, 3) * unit.moment;
   pose.topLeftCorner<3, 3>().setIdentity();
   pose.rightCols<3>() = r.block<6, 3>(0, 6);
@@ -44,7 +44,7 @@ bool find_piece(const Units& unit, const Mat<double, 12, 10>& rate, Piece& piece
 
   // z_far = pose z_near + by_wrench w_near,  w_far = moved z_near + wrench w_near,  near = −w_near
   Eigen::Matrix<double, 6, 12, Eigen::RowMajor> right, solved;
-  right << Matrix::Identity(), -pose;
+  right << Matrix6::Identity(), -pose;
   if (!solve(MatrixView(by_wrench.data(), 6, 6), MatrixView(right.data(), 6, 12),
              {solved.data(), static_cast<std::size_t>(solved.size())}))
     return false;
@@ -98,10 +98,10 @@ class Assembly {
   }
 
   bool append(const Piece& next) {
-    Matrix joint = stiffness_ + next.near_near;
+    Matrix6 joint = stiffness_ + next.near_near;
     const Inertia found = inertia<6>(joint);
     unstable_ += found.negative;
-    if (found.has_free_turn) joint += 2 * free_turn * Matrix::Identity();
+    if (found.has_free_turn) joint += 2 * free_turn * Matrix6::Identity();
     const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> left = joint, right = next.near_far;
     Eigen::Matrix<double, 6, 6, Eigen::RowMajor> solved;
     if (!solve(MatrixView(left.data(), 6, 6), MatrixView(right.data(), 6, 6), {solved.data(), 36}))
@@ -118,7 +118,7 @@ class Assembly {
   }
 
  private:
-  Matrix stiffness_ = Matrix::Zero();
+  Matrix6 stiffness_ = Matrix6::Zero();
   int unstable_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "sinew/base/assert.hpp"
+#include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -18,7 +19,6 @@ using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 using Small3 = Eigen::Matrix<double, 3, 3>;
 using Target = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Sizes are checked in release builds too: they may come from a robot file, and Eigen would write past its
 /// array.
@@ -90,7 +90,7 @@ void singular_values_3x3(const MatrixView& a_, std::span<double> out) {
 void singular_values(const MatrixView& a, std::span<double> out) {
   SINEW_EXPECTS(static_cast<Eigen::Index>(out.size()) >= std::min(a.rows(), a.cols()));
   const Eigen::Index count = std::min(a.rows(), a.cols());
-  if (!fits(a) || !a.allFinite()) return void(std::fill_n(out.begin(), count, nan));
+  if (!fits(a) || !a.allFinite()) return void(std::fill_n(out.begin(), count, not_a_number));
   if (a.rows() == 3 && a.cols() == 3) return singular_values_3x3(a, out);
   const Eigen::JacobiSVD<Small> svd(a);
   std::copy_n(svd.singularValues().data(), count, out.begin());
@@ -102,9 +102,9 @@ Svd svd(const MatrixView& a) {
   result.rows = static_cast<int>(a.rows());
   result.columns = static_cast<int>(a.cols());
   if (!a.allFinite()) {
-    result.sigma_data.fill(nan);
-    result.u_data.fill(nan);
-    result.v_data.fill(nan);
+    result.sigma_data.fill(not_a_number);
+    result.u_data.fill(not_a_number);
+    result.v_data.fill(not_a_number);
     return result;
   }
   const Eigen::JacobiSVD<Small> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -139,7 +139,7 @@ int least_norm(const MatrixView& a, std::span<const double> b, std::span<double>
                 static_cast<Eigen::Index>(out.size()) >= a.cols());
   const Svd parts = svd(a);
   if (parts.count() == 0 || !std::isfinite(parts.sigma().front()))
-    return std::fill_n(out.begin(), a.cols(), nan), 0;
+    return std::fill_n(out.begin(), a.cols(), not_a_number), 0;
   const int r = rank(parts.sigma(), tolerance);
   const auto u = parts.u(), v = parts.v();
   std::fill_n(out.begin(), a.cols(), 0.0);
@@ -155,8 +155,8 @@ int least_norm(const MatrixView& a, std::span<const double> b, std::span<double>
 void symmetric_eigenvalues(const MatrixView& a, std::span<double> values, std::span<double> vectors) {
   const bool square = fits(a) && a.rows() == a.cols() && values.size() == static_cast<std::size_t>(a.rows());
   SINEW_EXPECTS(square);
-  std::fill(values.begin(), values.end(), nan);
-  std::fill(vectors.begin(), vectors.end(), nan);
+  std::fill(values.begin(), values.end(), not_a_number);
+  std::fill(vectors.begin(), vectors.end(), not_a_number);
   if (!square || !a.allFinite()) return;
   const Small symmetric = 0.5 * (a + a.transpose());
   const Eigen::SelfAdjointEigenSolver<Small> found(
@@ -170,7 +170,7 @@ void symmetric_eigenvalues(const MatrixView& a, std::span<double> values, std::s
 
 double determinant(const MatrixView& a) {
   SINEW_EXPECTS(a.rows() == a.cols());
-  if (!fits(a)) return nan;
+  if (!fits(a)) return not_a_number;
   return Eigen::PartialPivLU<Small>(a).determinant();
 }
 

@@ -12,7 +12,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::size_t at(int row, int column, int columns) { return static_cast<std::size_t>(row * columns + column); }
+std::size_t cell(int row, int column, int columns) {
+  return static_cast<std::size_t>(row * columns + column);
+}
 
 /// Rows of one leg into J, K and s; its closure error [m].
 template <class LegT, class Frame>
@@ -25,9 +27,9 @@ double assemble_leg(const LegT& leg, const LegPlace& place, const Frame& platfor
   const Mat<double, LegT::rows, LegT::inputs> g_a = blocks.g_q * leg.input_rate();
   for (int i = 0; i < LegT::rows; ++i) {
     const int row = i < LegT::driven_rows ? place.row + i : place.plane;
-    for (int j = 0; j < dof; ++j) work.J[at(row, j, dof)] = blocks.g_x(i, j);
-    for (int j = 0; j < LegT::inputs; ++j) work.K[at(row, place.input + j, inputs)] = -g_a(i, j);
-    work.s[at(row, 0, 1)] = -blocks.g[i];
+    for (int j = 0; j < dof; ++j) work.J[cell(row, j, dof)] = blocks.g_x(i, j);
+    for (int j = 0; j < LegT::inputs; ++j) work.K[cell(row, place.input + j, inputs)] = -g_a(i, j);
+    work.s[cell(row, 0, 1)] = -blocks.g[i];
   }
   const double misfit = LegT::misfit(blocks);
   return std::isfinite(misfit) ? misfit : infinity;
@@ -102,7 +104,7 @@ Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, RodWorkOf<Sy
   std::copy(missing.begin(), missing.end(), work.s.begin());
   for (int j = 0; j < inputs; ++j) {
     const Vec<double, 6> feed = system.feed_wrench(j);
-    for (int i = 0; i < 6; ++i) work.K[at(i, j, inputs)] = -feed[i];
+    for (int i = 0; i < 6; ++i) work.K[cell(i, j, inputs)] = -feed[i];
   }
   return {MatrixView(work.J.data(), 6, 6), MatrixView(work.K.data(), 6, inputs), work.s, system.rod_error(),
           0};

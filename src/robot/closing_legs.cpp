@@ -3,13 +3,13 @@
 #include <cmath>
 #include <complex>
 
+#include "base/at.hpp"
+
 namespace sinew::inline v0 {
 namespace {
 
 using Complex = std::complex<double>;
 constexpr double tiny = 1e-100;  // a complex step: no difference is taken
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The pose after an imaginary step along one of its six motions.
 SE3<Complex> stepped(const SE3<double>& pose, int motion) {

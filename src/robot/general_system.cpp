@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/at.hpp"
 #include "link/tip_gaps.hpp"
+#include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
 using Vector6 = Vec<double, 6>;
 using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Of a leg's frame, whose +y is the tangent: that of the section, whose third axis it is.
 SO3<double> section_of(const SO3<double>& leg) {
@@ -84,11 +82,11 @@ Mat<double, 6, 6> carried(const Vec3<double>& arm) {
 /// Where a rod does not determine its force: nothing that follows is a number.
 void spoil(GeneralRod& rod) {
   rod.is_regular = false;
-  rod.by_twist.setConstant(nan);
-  rod.handed.setConstant(nan);
-  rod.by_length.setConstant(nan);
-  rod.feed.setConstant(nan);
-  rod.fix.setConstant(nan);
+  rod.by_twist.setConstant(not_a_number);
+  rod.handed.setConstant(not_a_number);
+  rod.by_length.setConstant(not_a_number);
+  rod.feed.setConstant(not_a_number);
+  rod.fix.setConstant(not_a_number);
 }
 
 /// Everything kept of the last linearisation.
@@ -230,7 +228,7 @@ double GeneralSystem::evaluate(bool) {
     rod.potential = tip.potential;
     rod.arm = R * rod.platform_point;
     rod.gap = gaps_of(rod, platform_).gap(rod.tip);
-    if (tip.status != Status::converged) rod.gap.setConstant(nan);
+    if (tip.status != Status::converged) rod.gap.setConstant(not_a_number);
     rod_error_ = std::max(rod_error_, rod.gap.lpNorm<Eigen::Infinity>());
     nothing += rod.gap.sum() * 0;
     sum_ += on_platform(rod, wrench_of(rod));

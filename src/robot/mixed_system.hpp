@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/at.hpp"
 #include "robot/closing_legs.hpp"
 #include "robot/tangent_system.hpp"
 
@@ -177,7 +178,6 @@ class MixedSystem : public Rods {
   }
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   bool is_rod(int feed) const { return feed < Rods::rods(); }
   int own(int feed) const { return feed - Rods::rods(); }
   int rows_of(int leg) const {

@@ -2,13 +2,12 @@
 /// The pose of a robot's own space out of the variant at the edge.
 #pragma once
 #include <cmath>
-#include <limits>
 
+#include "sinew/base/numbers.hpp"
 #include "sinew/robot/any_robot.hpp"
 
 namespace sinew::inline v0 {
 
-inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 inline PlanarPose nowhere(Planar) { return {not_a_number, not_a_number, not_a_number}; }
 inline SpatialPose nowhere(Spatial) { return {Vec3<double>::Constant(not_a_number), {1, 0, 0, 0}}; }
 

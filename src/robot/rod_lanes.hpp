@@ -5,11 +5,18 @@
 #include <cstddef>
 
 #include "link/galerkin.hpp"
+#include "sinew/math/vec.hpp"
 
 namespace sinew::inline v0 {
 
 inline constexpr int rod_lanes = 8;
 using RodLane = double[rod_lanes];
+
+/// Three lanes hold the vectors of so many rods: that of rod i.
+inline Vec3<double> vector_of(const RodLane* lanes, int i) { return {lanes[0][i], lanes[1][i], lanes[2][i]}; }
+inline void put(const Vec3<double>& v, RodLane* lanes, int i) {
+  for (int k = 0; k < 3; ++k) lanes[k][i] = v[k];
+}
 
 /// What Newton's method moves, and what a path is resumed from.
 /// @tparam N Gauss nodes a rod

@@ -5,15 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "base/at.hpp"
+
 namespace sinew::inline v0 {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-Vec3<double> vector_of(const RodLane* lanes, int i) { return {lanes[0][i], lanes[1][i], lanes[2][i]}; }
-void put(const Vec3<double>& v, RodLane* lanes, int i) {
-  for (int k = 0; k < 3; ++k) lanes[k][i] = v[k];
-}
 
 template <class Group>
 const auto& basis_of(const Group&) {

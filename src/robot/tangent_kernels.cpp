@@ -1,8 +1,9 @@
 // Compiled once for each instruction set; Highway chooses among them at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "robot/tangent_kernels.cpp"
-#define HWY_DISABLED_TARGETS (HWY_SSE4 | HWY_AVX3_DL)  // as rod_kernels.cpp
-#include <hwy/foreach_target.h>                        // must come before highway.h
+#include "base/instruction_sets.hpp"  // must come before foreach_target.h
+
+#include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
 #include "robot/packs-inl.hpp"

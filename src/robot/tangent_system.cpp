@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "robot/tangent_kernels.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
 constexpr int degree = TangentState::degree;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-Vec3<double> vector_of(const RodLane* lanes, int i) { return {lanes[0][i], lanes[1][i], lanes[2][i]}; }
-void put(const Vec3<double>& v, RodLane* lanes, int i) {
-  for (int k = 0; k < 3; ++k) lanes[k][i] = v[k];
-}
 
 /// The lanes of so many nodes' tangents.
 void copy_tangents(const RodLane (*from)[3], int nodes, RodLane (*to)[3]) {

@@ -9,6 +9,10 @@
 
 namespace sinew::inline v0::compare {
 
+std::vector<std::string> provenance(std::string_view id, std::string_view what, std::string_view robot) {
+  return {fmt::format("sinew {}, study {}: {}", version(), id, what), std::string(robot)};
+}
+
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
 std::string small(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }

@@ -3,11 +3,16 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "sinew/io/figure.hpp"
 #include "sinew/study/reproduce.hpp"
 
 namespace sinew::inline v0::compare {
+
+/// The first lines of a result's file: version, study, what it has, and of which robot.
+std::vector<std::string> provenance(std::string_view id, std::string_view what, std::string_view robot);
 
 std::string number(double value);  ///< six digits
 std::string small(double value);   ///< a difference: two digits

@@ -1,13 +1,18 @@
 /// @file numbers.hpp
-/// A read-only view of numbers that also binds to a braced list: `forward(robot, {0.19, 0.19, 0.18}, ...)`.
+/// A read-only view of numbers that also binds to a braced list: `forward(robot, {0.19, 0.19, 0.18}, ...)`;
+/// and what stands for a number that there is not.
 #pragma once
 #include <initializer_list>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "sinew/base/export.hpp"
 
 namespace sinew::inline v0 {
+
+/// In results: not solved, not asked for, or not defined there. An empty cell of a table.
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// For parameters only: a braced list lives until the call returns.
 struct Numbers : std::span<const double> {

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "kinematics/rods/verdict.hpp"
 
 namespace sinew::inline v0 {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 RodBatch::RodBatch(RodWork& work, const SE3<double>& home)
     : work_(&work),

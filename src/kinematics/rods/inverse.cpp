@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "kinematics/rods/start.hpp"
 #include "kinematics/rods/verdict.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 RodCoordinates coordinates_of(const SE3<double>& pose) {
   const SO3<double> q = pose.R.canonical();

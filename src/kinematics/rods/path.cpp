@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v0 {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A step of the platform as one length [m].
 double size_of(const Vec<double, 6>& twist, double radius) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "kinematics/rods/verdict.hpp"
 #include "solve/stopped.hpp"
 
@@ -10,8 +11,6 @@ namespace sinew::inline v0 {
 namespace {
 
 constexpr int count = 6;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The platform's pose by the axial forces, at fixed lengths.
 template <class System>

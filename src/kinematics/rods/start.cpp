@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "kinematics/rods/verdict.hpp"
 
 namespace sinew::inline v0 {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 template <class System>
 RodTarget target_of(const System& system, Numbers inputs, const Vec<double, 6>& wrench) {

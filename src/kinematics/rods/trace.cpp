@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/at.hpp"
 #include "kinematics/rods/energy.hpp"
 #include "kinematics/rods/tracer.hpp"
 #include "kinematics/rods/verdict.hpp"
@@ -16,8 +17,6 @@ namespace {
 
 using Step = Vec<double, 7>;
 using Signs = CurveSigns;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Under one the stiffness is no symmetric matrix.
 template <class System>

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/at.hpp"
 #include "kinematics/rods/trace.hpp"
 
 namespace sinew::inline v0 {
@@ -222,8 +223,6 @@ class Tracer {
 
  private:
   using Twist = Vec<double, 6>;
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
   /// Unit vector along the curve, towards `ahead`: where others cross, what of it goes on.
   void find_tangent(const Step& ahead) {
     const NullSpace space = null_space(1e-2);

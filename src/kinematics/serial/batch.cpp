@@ -1,8 +1,8 @@
 // Compiled once for each instruction set; Highway chooses among them at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kinematics/serial/batch.cpp"
-// SSSE3 is what every x86-64 of the last fifteen years has; what lies between is not worth its compile time.
-#define HWY_DISABLED_TARGETS (HWY_SSE4 | HWY_AVX3_DL)
+#include "base/instruction_sets.hpp"  // must come before foreach_target.h
+
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 

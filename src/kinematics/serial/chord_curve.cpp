@@ -8,7 +8,7 @@ namespace sinew::inline v0 {
 namespace detail {
 namespace {
 
-constexpr double rounding = 1e-14;  // of f, where lengths are of the size of 1
+constexpr double curve_rounding = 1e-14;  // of f, where lengths are of the size of 1
 
 double cross_2d(const Vec2<double>& a, const Vec2<double>& b) { return a[0] * b[1] - a[1] * b[0]; }
 
@@ -133,7 +133,7 @@ void ChordCurve::fill_bulges(Piece& piece, const ChordOfBend& chord) const {
 }
 
 bool ChordCurve::trim(Piece& piece) const {
-  const double margin = rounding;
+  const double margin = curve_rounding;
   for (int i = 0; i < 3; ++i) {
     set_radius(piece);
     if (piece.middle.norm() - piece.radius > limit + rounding) return false;

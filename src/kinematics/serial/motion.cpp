@@ -1,13 +1,13 @@
 /// Poses of a serial robot's sections and the Jacobian of its tip.
 #include <algorithm>
-#include <limits>
 
 #include "sinew/kinematics/serial.hpp"
+
+#include "sinew/base/numbers.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 const SE3<double> nowhere{Vec3<double>::Constant(not_a_number), SO3<double>::identity()};
 
 }  // namespace

@@ -1,8 +1,8 @@
 /// Bends and tendon changes of serial robots, by the kernel's maps.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "sinew/base/numbers.hpp"
 #include "sinew/kernel/tendon_state.h"
 #include "sinew/kinematics/serial.hpp"
 
@@ -10,7 +10,6 @@ namespace sinew::inline v0 {
 namespace {
 
 using kernel::Model;
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 using Pull = kernel::Pull<double>;
 
 kernel::Bend<double> kernel_bend(const Bend& bend) { return {bend.x(), bend.y()}; }

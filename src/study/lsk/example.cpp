@@ -11,9 +11,10 @@
 namespace sinew::inline v0::lsk {
 
 std::vector<std::string> provenance(const std::string& id, const std::string& what) {
-  return {fmt::format("sinew {}, study {}: {}", version(), id, what),
-          "Barrientos-Diez et al. 2020, Table 2: 5 sections, 8 segments, 3 tendons, L = 2.375 mm, h = 2 mm, "
-          "r_c = 2.45 mm, delta_m = m 24 deg"};
+  return compare::provenance(
+      id, what,
+      "Barrientos-Diez et al. 2020, Table 2: 5 sections, 8 segments, 3 tendons, L = 2.375 mm, h = 2 mm, "
+      "r_c = 2.45 mm, delta_m = m 24 deg");
 }
 
 std::vector<double> changes_of(const Section& section, const Bend& bend, double slack) {

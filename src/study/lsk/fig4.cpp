@@ -18,8 +18,8 @@ namespace {
 
 using lsk::degree;
 
-constexpr double drawn_in = -3e-3;  ///< Δl of tendon 1 [m]
-constexpr double reach = 30;        ///< of the panels [deg]
+constexpr double drawn_in = -3e-3;   ///< Δl of tendon 1 [m]
+constexpr double single_reach = 30;  ///< of the panels [deg]
 
 /// The bend on the frontier of tendon 1 that has β₁ = 18°.
 Bend example(const Section& section) {
@@ -117,7 +117,7 @@ Finding factor(const Section& section, const std::vector<double>& changes, const
 Panel one_tendon(const Section& section, const HalfPlane& frontier) {
   const Vec2<double> foot = frontier.offset * frontier.normal;
   const Polygon ends = lsk::visible(frontier, section.limit);
-  Panel out = lsk::plane("(a) tendon 1, drawn in by 3 mm", reach, "β₁", "β₂", 12);
+  Panel out = lsk::plane("(a) tendon 1, drawn in by 3 mm", single_reach, "β₁", "β₂", 12);
   out.series = {lsk::closed(sides_of(frontier, section.limit).free, Mark::polygon, Colour::green, ""),
                 lsk::closed(lsk::square(section.limit), Mark::outline, Colour::black, ""),
                 lsk::line({0, 0}, foot, Mark::line, Colour::blue, "", 2.5),
@@ -136,7 +136,7 @@ Panel one_tendon(const Section& section, const HalfPlane& frontier) {
 }
 
 Panel three_tendons(const Section& section, const SectionDiagram& diagram, const Bend& meant) {
-  Panel out = lsk::plane("(b) all three: they meet in the bend asked for", reach, "β₁", "β₂", 12);
+  Panel out = lsk::plane("(b) all three: they meet in the bend asked for", single_reach, "β₁", "β₂", 12);
   out.series = {lsk::closed(lsk::square(section.limit), Mark::outline, Colour::black, "")};
   lsk::add_frontiers(out, diagram, section.limit);
   out.series.push_back(lsk::dot(meant, Mark::circles, Colour::black, "", 2));

@@ -17,7 +17,7 @@ namespace {
 
 using lsk::degree;
 
-constexpr double reach = 36;  ///< of the panels [deg]
+constexpr double state_reach = 36;  ///< of the panels [deg]
 
 /// A bend, how much more its three tendons are paid out, and what that makes of them.
 struct Situation {
@@ -117,13 +117,13 @@ std::vector<Finding> findings(const Section& section, const std::vector<Situatio
 }
 
 Panel panel(const Section& section, const Situation& s) {
-  Panel out = lsk::plane(s.name, reach, "β₁", "β₂", 12);
+  Panel out = lsk::plane(s.name, state_reach, "β₁", "β₂", 12);
   out.series.push_back(lsk::closed(lsk::square(section.limit), Mark::outline, Colour::black, ""));
   if (s.diagram.boundary.size() > 2)
     out.series.push_back(lsk::closed(s.diagram.boundary, Mark::polygon, Colour::green, ""));
   if (s.expected == TendonsAgree::inconsistent)
     out.series.push_back(lsk::closed(between(s.diagram), Mark::polygon, Colour::grey, ""));
-  lsk::add_frontiers(out, s.diagram, reach * degree);
+  lsk::add_frontiers(out, s.diagram, state_reach * degree);
   out.series.push_back(lsk::dot(s.meant, Mark::circles, Colour::black, "", 2));
   return out;
 }

@@ -18,8 +18,8 @@ namespace {
 using lsk::degree;
 
 constexpr double theta = 120 * degree, phi = 35 * degree;
-constexpr double travel = 6e-3;  ///< of a tendon either way [m]
-constexpr double reach = 240;    ///< of the panels [deg]
+constexpr double travel = 6e-3;      ///< of a tendon either way [m]
+constexpr double polar_reach = 240;  ///< of the panels [deg]
 
 Bend example() { return {theta * std::cos(phi), theta * std::sin(phi)}; }
 
@@ -30,7 +30,7 @@ Polygon actuator_polygon(Section section, int tendons) {
   return lsk::diagram_of(section, slack, {Envelope::Kind::actuator, travel}).boundary;
 }
 
-Table table_of(const SectionDiagram& diagram, const std::vector<double>& changes, const Section& section) {
+Table polar_table(const SectionDiagram& diagram, const std::vector<double>& changes, const Section& section) {
   Table table{"tendon", "delta[deg]", "change[mm]", "foot_theta[deg]", "foot_phi[deg]"};
   table.comments = lsk::provenance("lsk/fig6", "neutral backbone: vector of each tendon of section 1, polar");
   table.comments.push_back("theta = 120 deg, phi = 35 deg");
@@ -109,7 +109,7 @@ void add_polar_grid(Panel& panel, double limit) {
 }
 
 Panel empty(const char* title, double limit, const char* label) {
-  Panel out = lsk::plane(title, reach, "θ cos φ", "θ sin φ", 60);
+  Panel out = lsk::plane(title, polar_reach, "θ cos φ", "θ sin φ", 60);
   add_polar_grid(out, limit);
   out.series.push_back(lsk::closed(lsk::circle(limit), Mark::outline, Colour::black, label));
   out.legend = Legend::below;
@@ -118,7 +118,7 @@ Panel empty(const char* title, double limit, const char* label) {
 
 Figure figure_of(const Section& section, const SectionDiagram& diagram) {
   Panel disc = empty("(a) neutral backbone: radius θ, direction φ", section.limit, "θ ≤ 192°");
-  lsk::add_frontiers(disc, diagram, reach * degree);
+  lsk::add_frontiers(disc, diagram, polar_reach * degree);
   disc.series.push_back(lsk::dot(example(), Mark::circles, Colour::black, "θ = 120°, φ = 35°", 2));
   for (Series& series : disc.series)
     if (series.label.plain().starts_with("tendon")) series.label.clear();
@@ -149,8 +149,8 @@ Expected<Reproduction> lsk_fig6(const StudyItem& item, const std::filesystem::pa
   Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
   add_point(result.findings, section, diagram, changes);
   add_envelopes(result.findings, section);
-  return lsk::write_all(std::move(result), table_of(diagram, changes, section), figure_of(section, diagram),
-                        folder, "fig6");
+  return lsk::write_all(std::move(result), polar_table(diagram, changes, section),
+                        figure_of(section, diagram), folder, "fig6");
 }
 
 }  // namespace sinew::inline v0

@@ -60,9 +60,9 @@ Table table_of(const Formats& all) {
 
 // ---------------------------------------------------------------- findings
 
-std::string percent(double error) { return fmt::format("{:.3g} %", 100 * error); }
-std::string percent(const LengthError& error) {
-  return percent(error.mean) + " (" + percent(error.largest) + ")";
+std::string in_percent(double error) { return fmt::format("{:.3g} %", 100 * error); }
+std::string in_percent(const LengthError& error) {
+  return in_percent(error.mean) + " (" + in_percent(error.largest) + ")";
 }
 
 Finding derived(std::string quantity, std::string ours, bool holds) {
@@ -78,15 +78,15 @@ std::string where_it_overflows(const FormatErrors::Coded& coded) {
 Finding finding_of(const FormatErrors& f) {
   const bool small = f.nearest.linear.mean<under, larger = f.nearest.quotient.mean> f.nearest.linear.mean;
   std::string ours = fmt::format("(6) {}; (7) {}; by the chord factor {}; rounded inputs alone {}",
-                                 percent(f.nearest.quotient), percent(f.nearest.linear),
-                                 percent(f.nearest.chord), percent(f.inputs.mean));
+                                 in_percent(f.nearest.quotient), in_percent(f.nearest.linear),
+                                 in_percent(f.nearest.chord), in_percent(f.inputs.mean));
   if (f.coded) ours += fmt::format("; L/β overflows {}", where_it_overflows(*f.coded));
   return {fmt::format("{}: mean error (largest)", f.name),
           f.coded ? "(7) under 1 %, (6) larger" : "(7) under 1 %", ours, "",
           small && (larger || !f.coded) ? "holds" : "fails"};
 }
 
-const FormatErrors& named(const Formats& all, std::string_view name) {
+const FormatErrors& format_named(const Formats& all, std::string_view name) {
   return *std::ranges::find(all, name, &FormatErrors::name);
 }
 
@@ -102,7 +102,7 @@ Finding overflow_finding(const Formats& all) {
   const auto some = fixed_of(all, 16, 16);
   std::string ours;
   for (const FormatErrors* f : some)
-    ours += fmt::format("{}{} {}", ours.empty() ? "" : ", ", f->name, percent(f->nearest.quotient.mean));
+    ours += fmt::format("{}{} {}", ours.empty() ? "" : ", ", f->name, in_percent(f->nearest.quotient.mean));
   return derived(
       "16 bits: the fewer before the point, the worse is (6), by overflow of L/β", ours,
       std::ranges::is_sorted(some, {}, [](const FormatErrors* f) { return f->nearest.quotient.mean; }));
@@ -135,11 +135,12 @@ Finding wrapping_finding(const Formats& all) {
 Finding rounding_finding(const Formats& all) {
   double most = 0;
   for (const FormatErrors* f : fixed_of(all, 16, 32)) most = std::max(most, f->coded->down.linear.mean);
-  const LengthErrors& down = named(all, "Q7.8").coded->down;
-  return {"16 bits and more, every result rounded down by a shift", "(7) under 1 %",
-          fmt::format("(7) {} at most; Q7.8: (6) {}, (7) {}, by the chord factor {}", percent(most),
-                      percent(down.quotient.mean), percent(down.linear.mean), percent(down.chord.mean)),
-          "", most < under ? "holds" : "fails"};
+  const LengthErrors& down = format_named(all, "Q7.8").coded->down;
+  return {
+      "16 bits and more, every result rounded down by a shift", "(7) under 1 %",
+      fmt::format("(7) {} at most; Q7.8: (6) {}, (7) {}, by the chord factor {}", in_percent(most),
+                  in_percent(down.quotient.mean), in_percent(down.linear.mean), in_percent(down.chord.mean)),
+      "", most < under ? "holds" : "fails"};
 }
 
 Finding short_finding(const Formats& all) {
@@ -147,8 +148,9 @@ Finding short_finding(const Formats& all) {
   bool breaks = true;
   for (const FormatErrors* f : fixed_of(all, 8, 8)) {
     const double down = f->coded->down.linear.mean;
-    ours += fmt::format("{}{} {}, rounded down {}, rounded inputs alone {}", ours.empty() ? "" : "; ",
-                        f->name, percent(f->nearest.linear.mean), percent(down), percent(f->inputs.mean));
+    ours +=
+        fmt::format("{}{} {}, rounded down {}, rounded inputs alone {}", ours.empty() ? "" : "; ", f->name,
+                    in_percent(f->nearest.linear.mean), in_percent(down), in_percent(f->inputs.mean));
     breaks = breaks && down > under;
   }
   return derived("8 bits rounded down are too few for (7) too: they hardly hold L, r and β", ours, breaks);
@@ -185,8 +187,8 @@ constexpr Curve quotient{"constant curvature, (6) as printed",
                          5,
                          [](const FormatErrors& f) { return f.nearest.quotient; },
                          -0.2};
-constexpr Curve linear{"linearised, (7)", Mark::points, Colour::vermillion, 5,
-                       [](const FormatErrors& f) { return f.nearest.linear; }};
+constexpr Curve linearised{"linearised, (7)", Mark::points, Colour::vermillion, 5,
+                           [](const FormatErrors& f) { return f.nearest.linear; }};
 constexpr Curve chord{"constant curvature by the chord factor",
                       Mark::points,
                       Colour::green,
@@ -229,7 +231,7 @@ Panel formats_panel(const Formats& all) {
               {}};
   add_curve(panel, inputs, all, lowest);
   add_curve(panel, quotient, all, 80 * lowest);
-  add_curve(panel, linear, all, lowest);
+  add_curve(panel, linearised, all, lowest);
   add_curve(panel, chord, all, 16 * lowest);
   panel.series.push_back({"1 %", {0.4, end}, {1, 1}, Mark::dashed, Colour::black, 1.5});
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -245,7 +247,7 @@ Panel point_panel(const Formats& all) {
               {.label = "bits before the point", .unit = "", .low = 1.5, .high = 7.5, .step = 1},
               {.label = "mean error", .unit = "%", .log = true, .low = 1e-3, .high = highest},
               {}};
-  for (const Curve* curve : {&wrapping, &quotient, &linear, &chord, &inputs}) {
+  for (const Curve* curve : {&wrapping, &quotient, &linearised, &chord, &inputs}) {
     Series series = series_of(*curve);
     for (const FormatErrors* f : fixed_of(all, 16, 16)) {
       series.x.push_back(*f->integer_bits);

@@ -55,7 +55,7 @@ std::vector<std::string> names_in(hid_t file) {
   return names;
 }
 
-Error refused(const fs::path& path, const std::string& column, std::string_view why) {
+Error column_error(const fs::path& path, const std::string& column, std::string_view why) {
   return {"file_unreadable", path.string(), fmt::format("its column {} {}", in_quotes(column), why)};
 }
 
@@ -99,7 +99,7 @@ Expected<std::vector<Data>> columns_of(hid_t file, const fs::path& path) {
     if (H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT) < 0) continue;
     if (link.type != H5L_TYPE_HARD)
       return tl::unexpected(
-          Errors{refused(path, name, "is a link, which is not followed; give a file that has it")});
+          Errors{column_error(path, name, "is a link, which is not followed; give a file that has it")});
     Data data{.name = name,
               .unit = {},
               .shape = {},
@@ -179,7 +179,7 @@ Expected<Table> read_hdf5(const fs::path& path) {
         fmt::format("has {} samples in {} columns, too many to read at once", first->size(), data->size()));
   if (const std::string_view why = objection(*first, *file_size);
       !why.empty())  // axes are written out as long
-    return tl::unexpected(Errors{refused(path, first->name, why)});
+    return tl::unexpected(Errors{column_error(path, first->name, why)});
   Table table;
   std::vector<double> values;
   std::string meanings;
@@ -188,9 +188,9 @@ Expected<Table> read_hdf5(const fs::path& path) {
     const bool is_axis = one.is_scale && scales < shape.size() && one.size() == shape[scales];
     if (!is_axis && one.shape != shape) continue;
     if (const std::string_view why = objection(one, *file_size); !why.empty())
-      return tl::unexpected(Errors{refused(path, one.name, why)});
+      return tl::unexpected(Errors{column_error(path, one.name, why)});
     if (!read(one, values))
-      return tl::unexpected(Errors{refused(path, one.name, "cannot be read; the file is damaged")});
+      return tl::unexpected(Errors{column_error(path, one.name, "cannot be read; the file is damaged")});
     table.columns.push_back({one.name, one.unit, is_axis ? written_out(values, shape, scales) : values});
     scales += is_axis;
     if (one.name == "status") meanings = status_comment(one.handle);

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "sinew/analysis/velocity_batch.hpp"
+#include "sinew/base/numbers.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "study/samplers/query_entries.hpp"
 
 namespace sinew::inline v0 {
 namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// What of a batch becomes a column.
 enum class Field {
@@ -257,7 +255,7 @@ class PoseSampler {
     for (std::size_t k = 0; k < n; ++k) {
       const Status found = statuses_[k];
       const bool is_there = found == Status::converged || found == Status::singular;
-      block.output(o, k) = !is_there ? missing
+      block.output(o, k) = !is_there ? not_a_number
                            : is_flag ? (output.field == Field::type_1 ? type_1_ : type_2_)[k]
                                      : column(output.field)[output.row * n + k];
     }

@@ -1,17 +1,15 @@
 /// Samples by queries, one after the other.
 #include <cmath>
 #include <exception>
-#include <limits>
 
 #include "query/tree_session.hpp"
+#include "sinew/base/numbers.hpp"
 #include "study/samplers/answer_path.hpp"
 #include "study/samplers/placeholders.hpp"
 #include "study/samplers/sampler.hpp"
 
 namespace sinew::inline v0 {
 namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 class QuerySampler {
  public:
@@ -35,7 +33,7 @@ class QuerySampler {
 
  private:
   SampleStatus sample(TreeSession& session, const SampleBlock& block, std::size_t k) {
-    for (std::size_t o = 0; o < paths_.size(); ++o) block.output(o, k) = missing;
+    for (std::size_t o = 0; o < paths_.size(); ++o) block.output(o, k) = not_a_number;
     try {
       const bool continues = last_.has_value();
       Json answer = session.answer(query_, study_.is_path ? &last_ : nullptr);

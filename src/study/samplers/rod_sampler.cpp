@@ -1,17 +1,15 @@
 /// Forward kinematics of robots on rods, for studies that vary the inputs and ask for the pose.
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <memory>
 
+#include "sinew/base/numbers.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "study/samplers/query_entries.hpp"
 
 namespace sinew::inline v0 {
 namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array<std::string_view, 7> pose_paths{
     "pose.position[0]",   "pose.position[1]",   "pose.position[2]",  "pose.quaternion[0]",
@@ -73,7 +71,7 @@ class RodSampler {
     const bool is_solved = statuses_[k] == Status::converged || statuses_[k] == Status::unstable;
     for (std::size_t o = 0; o < asked_.outputs.size(); ++o) {
       const std::size_t which = asked_.outputs[o];
-      block.output(o, k) = !is_solved  ? missing
+      block.output(o, k) = !is_solved  ? not_a_number
                            : which < 3 ? pose.position[static_cast<Eigen::Index>(which)]
                                        : pose.quaternion[which - 3];
     }

@@ -3,8 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "sinew/base/numbers.hpp"
 #include "study/sweep/terms.hpp"
 
 namespace sinew::inline v0 {
@@ -13,7 +13,6 @@ namespace {
 constexpr Eigen::Index rows_at_once = 256;
 /// A term that the others make up to this relative size is not determined: folding rounds a million times.
 constexpr double collinear = 1e-11;
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -67,10 +66,10 @@ void StreamedFit::fold() {
 
 void StreamedFit::solve() {
   const std::size_t n = fit_->coefficients.size();
-  result_.deviations.assign(n, missing);
+  result_.deviations.assign(n, not_a_number);
   result_.coefficients = fit_->known;
   if (result_.is_given) return;
-  result_.coefficients.assign(n, missing);
+  result_.coefficients.assign(n, not_a_number);
   fold();
   find_coefficients();
 }
@@ -125,7 +124,8 @@ FittedTerms StreamedFit::result() const {
   }
   done.rms = std::sqrt(all / (samples * static_cast<double>(sums_.size())));
   const auto is_other = [&](const FittedColumn& column) { return column.unit != done.columns.front().unit; };
-  if (std::ranges::any_of(done.columns, is_other)) done.rms = done.largest = missing;  // metres and radians
+  if (std::ranges::any_of(done.columns, is_other))
+    done.rms = done.largest = not_a_number;  // metres and radians
   return done;
 }
 

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "sinew/base/numbers.hpp"
 #include "study/sweep/terms.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 /// Of the size of what is summed: some thousand roundings.
 constexpr double rounding = 1e-12;
 
@@ -30,7 +29,7 @@ class Sieve {
     if (n == block.count) return sampler_(block);
     *block.done += block.count - n;
     std::ranges::fill(block.statuses, left_out);
-    std::ranges::fill(block.outputs, missing);
+    std::ranges::fill(block.outputs, not_a_number);
     if (n == 0) return;
     axes_.resize(one_.size() * n);
     outputs_.resize(study_.outputs.size() * n);

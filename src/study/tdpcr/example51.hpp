@@ -2,9 +2,12 @@
 /// The example of TDPCR section 5.1: robot, trajectory, and what can be derived of both by hand.
 /// Theory: docs/theory/example51.md
 #pragma once
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
+#include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/base/error.hpp"
 #include "sinew/robot/any_robot.hpp"
@@ -23,6 +26,22 @@ struct Printed {
   std::array<Vec2<double>, 3> base_points() const;      ///< a_i [m]
   std::array<Vec2<double>, 3> platform_points() const;  ///< b_i [m], in the platform's frame
 };
+
+/// What its figures have in common, as their files say it.
+inline constexpr const char* all_bend_positive =
+    "Wen & Burgner-Kahrs, section 5.1: planar 3-RFR, constant curvature, every leg bending positive";
+inline constexpr const char* tendon_1_actuated =
+    "Wen & Burgner-Kahrs, section 5.1: planar 3-RFR, constant curvature, tendon 1 of each leg actuated";
+inline constexpr const char* six_links =
+    "Wen & Burgner-Kahrs, section 5.1: planar 3-RFR, n = 6 pseudo-rigid links a leg, joints 2..6, least norm";
+
+/// Largest distance between corresponding points [m].
+template <class Points>
+double farthest(const Points& a, const Polyline& b) {
+  double most = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
 
 /// x = 0.03 η, y = 0, φ = η π/3.  @implements TDPCR (68)-(70)
 PlanarPose pose(double eta);

@@ -25,11 +25,6 @@ using drawing::Point;
 using example51::Printed, example51::Sample;
 using std::numbers::pi;
 
-std::vector<std::string> provenance(const char* what) {
-  return {fmt::format("sinew {}, study tdpcr/fig10: {}", version(), what),
-          "Wen & Burgner-Kahrs, section 5.1: planar 3-RFR, constant curvature, every leg bending positive"};
-}
-
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// One leg's line: a unit direction and the moment of that direction about the base's origin.
@@ -191,7 +186,8 @@ Expected<Finding> elsewhere(const AnyRobot& robot, Workspace& work) {
 Table table_of(const Sample& last, const PlanarShape& picture) {
   Table table{"leg",         "base_x[m]", "base_y[m]", "platform_x[m]",  "platform_y[m]", "direction_x",
               "direction_y", "moment[m]", "chord[m]",  "curvature[1/m]", "tendon_1[m]"};
-  table.comments = provenance("the legs and their lines in the last pose");
+  table.comments = compare::provenance("tdpcr/fig10", "the legs and their lines in the last pose",
+                                       example51::all_bend_positive);
   table.comments.push_back("line: unit direction, moment of it about the base's origin");
   const std::vector<Line> lines = lines_of(picture);
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -231,7 +227,11 @@ Figure figure_of(const Sample& last, const PlanarShape& picture) {
   const double y = std::abs(met.y()) < 1e-12 ? 0.0 : 1e3 * met.y();
   panel.notes.push_back(
       drawing::text(fmt::format("C = ({:.3f}, {:.3g}) mm", 1e3 * met.x(), y), words, Note::Side::right));
-  return {.title = "", .panels = {panel}, .width = 760, .height = 740, .comments = provenance("Fig. 10")};
+  return {.title = "",
+          .panels = {panel},
+          .width = 760,
+          .height = 740,
+          .comments = compare::provenance("tdpcr/fig10", "Fig. 10", example51::all_bend_positive)};
 }
 
 }  // namespace

@@ -25,12 +25,6 @@ using Index = double Indices::*;
 
 constexpr std::size_t first = 0, last = 58;  // pose 59 is singular
 
-std::vector<std::string> provenance(const char* what) {
-  return {fmt::format("sinew {}, study tdpcr/fig11: {}", version(), what),
-          "Wen & Burgner-Kahrs, section 5.1: planar 3-RFR, n = 6 pseudo-rigid links a leg, joints 2..6, "
-          "least norm"};
-}
-
 Table table_of(const Chains& chains) {
   Table table{"k",
               "eta",
@@ -43,7 +37,7 @@ Table table_of(const Chains& chains) {
   for (int leg = 1; leg <= 3; ++leg)
     for (int joint = 2; joint <= 6; ++joint)
       table.columns.push_back(Column::named(fmt::format("theta_{}{}[rad]", leg, joint)));
-  table.comments = provenance("indices along the trajectory");
+  table.comments = compare::provenance("tdpcr/fig11", "indices along the trajectory", example51::six_links);
   table.comments.push_back(
       "position, rotation: 2-norms of the blocks of U, eq. (40); empty where J is singular");
   for (std::size_t k = 0; k < chains.size(); ++k) {
@@ -188,7 +182,7 @@ Figure figure_of(const std::vector<Sample>& arcs, const Chains& chains, const ex
                 .panels = {},
                 .width = 760,
                 .height = 1000,
-                .comments = provenance("Fig. 11")};
+                .comments = compare::provenance("tdpcr/fig11", "Fig. 11", example51::six_links)};
   figure.panels.push_back(example51::index_panel(
       example51::log_axis("condition number of J", "", 1, 3000),
       {curve("as the paper has it (m and m²)", &Indices::condition, chains)}, limit.condition));

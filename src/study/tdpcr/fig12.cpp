@@ -19,12 +19,6 @@ using drawing::Point;
 using example51::ChainSample;
 using std::numbers::pi;
 
-std::vector<std::string> provenance(const char* what) {
-  return {fmt::format("sinew {}, study tdpcr/fig12: {}", version(), what),
-          "Wen & Burgner-Kahrs, section 5.1: planar 3-RFR, n = 6 pseudo-rigid links a leg, joints 2..6, "
-          "least norm"};
-}
-
 std::vector<Polyline> chains_of(const ChainRobot<Planar>& robot, const ChainSample& sample) {
   std::vector<Polyline> chains;
   for (std::size_t i = 0; i < robot.legs.size(); ++i)
@@ -35,7 +29,8 @@ std::vector<Polyline> chains_of(const ChainRobot<Planar>& robot, const ChainSamp
 
 Table table_of(const std::vector<Polyline>& chains) {
   Table table{"leg", "joint", "x[m]", "y[m]"};
-  table.comments = provenance("base points, joints and tips in the last pose");
+  table.comments = compare::provenance("tdpcr/fig12", "base points, joints and tips in the last pose",
+                                       example51::six_links);
   for (std::size_t i = 0; i < chains.size(); ++i)
     for (std::size_t j = 0; j < chains[i].size(); ++j)
       table.add_row(std::array{static_cast<double>(i + 1), static_cast<double>(j + 1), chains[i][j].x(),
@@ -74,7 +69,11 @@ Figure figure_of(const ChainSample& last, const std::vector<Polyline>& chains, c
   panel.notes.push_back(drawing::text(
       fmt::format("C = ({:.3f}, {:.3g}) mm", 1e3 * met.x(), std::abs(met.y()) < 1e-12 ? 0.0 : 1e3 * met.y()),
       words, Note::Side::right));
-  return {.title = "", .panels = {panel}, .width = 760, .height = 740, .comments = provenance("Fig. 12")};
+  return {.title = "",
+          .panels = {panel},
+          .width = 760,
+          .height = 740,
+          .comments = compare::provenance("tdpcr/fig12", "Fig. 12", example51::six_links)};
 }
 
 }  // namespace

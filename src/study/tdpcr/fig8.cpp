@@ -25,12 +25,7 @@ using Values = std::vector<double>;
 
 constexpr int samples = 2001;  // points of a curve in the picture
 
-std::vector<std::string> provenance(const char* what) {
-  return {fmt::format("sinew {}, study tdpcr/fig8: {}", version(), what),
-          "Wen & Burgner-Kahrs, section 5.1: planar 3-RFR, constant curvature, every leg bending positive"};
-}
-
-double length(const Polyline& points) {
+double polyline_length(const Polyline& points) {
   double sum = 0;
   for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
   return sum;
@@ -66,8 +61,8 @@ Legs legs_of(const Sample& home, const PlanarShape& picture) {
       .chord = {}, .curvature = home.curvatures, .tendon_1 = home.tendons, .drawn_1 = {}, .drawn_2 = {}};
   for (std::size_t i = 0; i < picture.base.size(); ++i) {
     legs.chord.push_back((picture.platform[i] - picture.base[i]).norm());
-    legs.drawn_1.push_back(length(picture.tendons[i][0]));
-    legs.drawn_2.push_back(length(picture.tendons[i][1]));
+    legs.drawn_1.push_back(polyline_length(picture.tendons[i][0]));
+    legs.drawn_2.push_back(polyline_length(picture.tendons[i][1]));
   }
   return legs;
 }
@@ -77,13 +72,6 @@ Legs legs_of(const Sample& home, const PlanarShape& picture) {
 double farthest(std::span<const double> values, double from) {
   double most = 0;
   for (const double value : values) most = std::max(most, std::abs(value - from));
-  return most;
-}
-
-template <class Points>
-double farthest(const Points& a, const Polyline& b) {
-  double most = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) most = std::max(most, (a[i] - b[i]).norm());
   return most;
 }
 
@@ -122,10 +110,10 @@ void add_geometry(std::vector<Finding>& findings, const Sample& home, const Plan
   findings.push_back(compare::printed("tendon offset d", paper.tendon_offset, tendon, "m"));
   findings.push_back(compare::printed("backbone length ℓ_i", paper.backbone_length, straight, "m"));
   findings.push_back(compare::given("base points a_1, a_2, a_3", "at 90°, 210°, 330°", angles(picture.base),
-                                    farthest(paper.base_points(), picture.base), 1e-15, "m"));
-  findings.push_back(compare::given("platform points b_1, b_2, b_3", "at 30°, 150°, 270°",
-                                    angles(picture.platform),
-                                    farthest(paper.platform_points(), picture.platform), 1e-15, "m"));
+                                    example51::farthest(paper.base_points(), picture.base), 1e-15, "m"));
+  findings.push_back(
+      compare::given("platform points b_1, b_2, b_3", "at 30°, 150°, 270°", angles(picture.platform),
+                     example51::farthest(paper.platform_points(), picture.platform), 1e-15, "m"));
   const auto triangle = [&](const char* quantity, const Polyline& corners, double radius) {
     const Values found = sides(corners);
     findings.push_back(compare::claimed(fmt::format("{} = {:.6f} mm", quantity, 1e3 * sqrt3 * radius),
@@ -169,7 +157,8 @@ void add_state(std::vector<Finding>& findings, const Sample& home) {
 Table table_of(const Legs& legs, const PlanarShape& picture) {
   Table table{"leg",      "base_x[m]",      "base_y[m]",       "platform_x[m]", "platform_y[m]",
               "chord[m]", "curvature[1/m]", "bend_angle[rad]", "tendon_1[m]",   "tendon_2[m]"};
-  table.comments = provenance("the legs in the initial configuration");
+  table.comments = compare::provenance("tdpcr/fig8", "the legs in the initial configuration",
+                                       example51::all_bend_positive);
   for (std::size_t i = 0; i < picture.base.size(); ++i) {
     const double ell = Printed{}.backbone_length;
     table.add_row({static_cast<double>(i + 1), picture.base[i].x(), picture.base[i].y(),
@@ -287,7 +276,7 @@ Figure figure_of(const PlanarShape& picture, const Legs& legs) {
           .columns = 2,
           .width = 1240,
           .height = 640,
-          .comments = provenance("Fig. 8")};
+          .comments = compare::provenance("tdpcr/fig8", "Fig. 8", example51::all_bend_positive)};
 }
 
 }  // namespace

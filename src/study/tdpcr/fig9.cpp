@@ -26,12 +26,6 @@ using std::numbers::pi;
 using Samples = std::vector<Sample>;
 using Index = double Indices::*;
 
-std::vector<std::string> provenance(const char* what) {
-  return {
-      fmt::format("sinew {}, study tdpcr/fig9: {}", version(), what),
-      "Wen & Burgner-Kahrs, section 5.1: planar 3-RFR, constant curvature, tendon 1 of each leg actuated"};
-}
-
 // ---------------------------------------------------------------- table
 
 Table table_of(const Samples& samples) {
@@ -51,7 +45,8 @@ Table table_of(const Samples& samples) {
               "curvature_1[1/m]",
               "curvature_2[1/m]",
               "curvature_3[1/m]"};
-  table.comments = provenance("indices along the trajectory");
+  table.comments =
+      compare::provenance("tdpcr/fig9", "indices along the trajectory", example51::tendon_1_actuated);
   table.comments.push_back(
       "position, rotation: 2-norms of the blocks of U, eq. (39); empty where J is singular");
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -66,14 +61,6 @@ Table table_of(const Samples& samples) {
 
 // ---------------------------------------------------------------- findings
 
-/// Largest distance between corresponding points.
-template <class Points>
-double farthest(const Points& a, const Polyline& b) {
-  double most = a.size() == b.size() ? 0 : std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) most = std::max(most, (a[i] - b[i]).norm());
-  return most;
-}
-
 void add_geometry(std::vector<Finding>& findings, const AnyRobot& robot, const Samples& samples) {
   const Printed paper;
   // The picture of the home pose, x = y = φ = 0, shows the robot's points as section 5.1 prints them.
@@ -85,8 +72,8 @@ void add_geometry(std::vector<Finding>& findings, const AnyRobot& robot, const S
       printed("platform circumradius R_p", paper.platform_radius, home.platform[0].norm(), "m"));
   findings.push_back(printed("tendon offset d", paper.tendon_offset, tendon.norm(), "m"));
   findings.push_back(printed("backbone length ℓ_i", paper.backbone_length, straight, "m"));
-  const double base = farthest(paper.base_points(), home.base);
-  const double platform = farthest(paper.platform_points(), home.platform);
+  const double base = example51::farthest(paper.base_points(), home.base);
+  const double platform = example51::farthest(paper.platform_points(), home.platform);
   const auto verdict = [](double off) { return off < 1e-15 ? "agrees" : "differs"; };
   findings.push_back({"base points a_1, a_2, a_3", "at 90°, 210°, 330°", "the same points",
                       small(base) + " m at most", verdict(base)});
@@ -190,7 +177,7 @@ Figure indices_figure(const Samples& samples) {
                 .panels = {},
                 .width = 760,
                 .height = 1000,
-                .comments = provenance("Fig. 9")};
+                .comments = compare::provenance("tdpcr/fig9", "Fig. 9", example51::tendon_1_actuated)};
   figure.panels.push_back(example51::index_panel(
       example51::log_axis("condition number of J", "", 1, 3000),
       {curve("as the paper has it (m and m²)", &Indices::condition, Colour::blue, samples),
@@ -249,7 +236,8 @@ Figure poses_figure(const AnyRobot& robot, const Samples& samples) {
                 .columns = 2,
                 .width = 1200,
                 .height = 500,
-                .comments = provenance("the first pose and the last, Fig. 10")};
+                .comments = compare::provenance("tdpcr/fig9", "the first pose and the last, Fig. 10",
+                                                example51::tendon_1_actuated)};
   figure.panels.push_back(pose_panel(robot, samples.front(), "k = 0: x = 0, φ = 0", 1.9));
   Panel last = pose_panel(robot, samples.back(), "k = 59: x = 30 mm, φ = 60°, type II singular", 1.45);
   const Polyline meeting{samples.back().type_2.point.value_or(Vec3<double>::Zero()).head<2>()};

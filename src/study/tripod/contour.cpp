@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "sinew/base/numbers.hpp"
 #include "sinew/io/contour.hpp"
 
 namespace sinew::inline v0::contour {
 namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// A point in the units of the axes.
 using Point = std::array<double, 2>;
@@ -30,7 +28,7 @@ double interpolated(const HeatMap& map, double x, double y) {
   const double column = std::floor(across), row = std::floor(up);
   if (!(column >= 0 && row >= 0 && column + 1 < static_cast<double>(map.x.size()) &&
         row + 1 < static_cast<double>(map.y.size())))
-    return missing;
+    return not_a_number;
   const auto i = static_cast<std::size_t>(column), j = static_cast<std::size_t>(row);
   const double low = std::lerp(value(map, i, j), value(map, i + 1, j), across - column);
   const double high = std::lerp(value(map, i, j + 1), value(map, i + 1, j + 1), across - column);
@@ -42,7 +40,7 @@ Point first_on_ray(const HeatMap& map, double level, double direction) {
   constexpr int steps = 2000;
   const Point middle{0.5 * (map.x.front() + map.x.back()), 0.5 * (map.y.front() + map.y.back())};
   const double reach = 0.5 * std::hypot(map.x.back() - map.x.front(), map.y.back() - map.y.front());
-  double before = missing;
+  double before = not_a_number;
   for (int k = 0; k <= steps; ++k) {
     const double radius = reach * k / steps;
     const Point here{middle[0] + radius * std::cos(direction), middle[1] + radius * std::sin(direction)};
@@ -50,7 +48,7 @@ Point first_on_ray(const HeatMap& map, double level, double direction) {
     if (before * off <= 0 || std::abs(off) < 1e-12) return here;
     before = off;
   }
-  return {missing, missing};
+  return {not_a_number, not_a_number};
 }
 
 /// The level at a place of its line, which leaves room for it; nothing where the place is none.
@@ -62,7 +60,7 @@ void write_on(Panel& panel, Series& line, const Point& at, double level) {
   const double across = width * (0.006 + 0.0135 * static_cast<double>(text.size() + (level < 0))),
                up = 0.026 * height;
   for (std::size_t k = 0; k < line.x.size(); ++k)
-    if (std::abs(line.x[k] - at[0]) < across && std::abs(line.y[k] - at[1]) < up) line.x[k] = missing;
+    if (std::abs(line.x[k] - at[0]) < across && std::abs(line.y[k] - at[1]) < up) line.x[k] = not_a_number;
   if (level < 0) text.insert(0, "−");
   panel.notes.push_back({std::move(text), at[0], at[1], Note::Side::centre, line.colour});
 }

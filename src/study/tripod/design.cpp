@@ -12,7 +12,7 @@ namespace {
 
 using tripod::Designs, tripod::Loaded, tripod::Measures;
 
-std::vector<std::string> provenance(const char* what) {
+std::vector<std::string> design_provenance(const char* what) {
   return {fmt::format("sinew {}, study 3pfs/design: {}", version(), what),
           "root mean squares over tilts to 20 degrees at z = h; rigid: x, y of the 3PRS at the same tilts, "
           "Altuzarra et al. 2023, (10)",
@@ -34,7 +34,7 @@ std::vector<double> row(std::vector<double> first, const Measures& of) {
 Table table_of(const Designs& made) {
   Table table{"base_radius[mm]", "height[mm]", "pair_angle[deg]", "e3",         "twist[deg]", "shift[mm]",
               "distance[mm]",    "relative",   "drift[mm]",       "square[mm]", "poses"};
-  table.comments = provenance("unloaded tripods, platform radius 125 mm, by their dimensions");
+  table.comments = design_provenance("unloaded tripods, platform radius 125 mm, by their dimensions");
   for (std::size_t i = 0; i < made.radii.size(); ++i)
     for (std::size_t j = 0; j < made.heights.size(); ++j)
       for (std::size_t k = 0; k < made.angles.size(); ++k)
@@ -45,7 +45,7 @@ Table table_of(const Designs& made) {
 Table table_of(std::span<const Loaded> presets) {
   Table table{"preset",    "height[mm]",   "load",     "diameter[mm]", "e3",         "twist[deg]",
               "shift[mm]", "distance[mm]", "relative", "drift[mm]",    "square[mm]", "poses"};
-  table.comments = provenance("presets 3pfs-g1 and 3pfs-g2 under load, by the diameter of their rods");
+  table.comments = design_provenance("presets 3pfs-g1 and 3pfs-g2 under load, by the diameter of their rods");
   table.comments.push_back("preset: 1 3pfs-g1, 2 3pfs-g2");
   std::string loads = "load:";
   for (std::size_t k = 0; k < std::size(tripod::load_names); ++k)

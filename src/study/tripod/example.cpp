@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "sinew/analysis/velocity.hpp"
+#include "sinew/base/numbers.hpp"
 #include "sinew/kinematics/inverse.hpp"
 #include "sinew/math/tilt.hpp"
 
@@ -16,7 +16,6 @@ namespace {
 using std::numbers::pi;
 using Model = ParallelRobot<Leg<Spatial, Rail, SlideDrive, HingedStrut>>;
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr double degree = pi / 180;
 
 void add_point(Series& series, double radius, double direction) {
@@ -31,8 +30,8 @@ void add_arc(const TripodSize& size, double middle, Series& series) {
   const double end = gap(size);
   for (int k = -half; k <= half; ++k) {
     const double off = std::abs(k) / static_cast<double>(half) * (pi / 3 - end);
-    const double radius =
-        std::abs(k) == half ? inverse_radius(size, end) : forward_locus(size, pi / 3 - off).value_or(missing);
+    const double radius = std::abs(k) == half ? inverse_radius(size, end)
+                                              : forward_locus(size, pi / 3 - off).value_or(not_a_number);
     add_point(series, radius, middle + (k < 0 ? -off : off));
   }
 }
@@ -49,7 +48,7 @@ double inverse_sector(const TripodSize& size, double direction) {
 
 TripodSize size_of(const AnyRobot& robot) {
   const auto* model = std::get_if<Model>(&robot.model);
-  if (!model || model->legs.empty()) return {missing, missing, missing};
+  if (!model || model->legs.empty()) return {not_a_number, not_a_number, not_a_number};
   const auto& leg = model->legs.front();
   return {leg.base.p.norm(), leg.platform_point.norm(), leg.closure.length};
 }
@@ -75,11 +74,13 @@ std::vector<double> places() {
 
 bool Sample::is_reached() const { return !std::isnan(forward_norm); }
 double Sample::frobenius() const { return std::hypot(rises[0], rises[1], rises[2]); }
-double Sample::largest() const { return is_reached() ? *std::ranges::max_element(rises) : missing; }
-double Sample::smallest() const { return is_reached() ? *std::ranges::min_element(rises) : missing; }
+double Sample::largest() const { return is_reached() ? *std::ranges::max_element(rises) : not_a_number; }
+double Sample::smallest() const { return is_reached() ? *std::ranges::min_element(rises) : not_a_number; }
 
 Sample sample(const AnyRobot& robot, const Independent& at, Workspace& work) {
-  Sample out{at.e1, at.e2, {missing, missing, missing}, missing, missing, missing, missing};
+  Sample out{at.e1,        at.e2,        {not_a_number, not_a_number, not_a_number},
+             not_a_number, not_a_number, not_a_number,
+             not_a_number};
   const ConstrainedPose place = constrained_pose(robot, at);
   if (!place.ok()) return out;
   const Inverse legs = inverse(robot, place.pose, {}, work);
@@ -105,7 +106,7 @@ double change_with_height(const AnyRobot& robot, const std::vector<Sample>& all,
   double most = 0;
   for (std::size_t k = 0; k < all.size(); k += 7) {
     const Sample other = sample(robot, {other_height, all[k].e1, all[k].e2}, work);
-    if (all[k].is_reached() != other.is_reached()) return missing;
+    if (all[k].is_reached() != other.is_reached()) return not_a_number;
     if (!other.is_reached()) continue;
     const double here = off(all[k], other);
     most = here <= most ? most : here;
@@ -139,7 +140,7 @@ Areas areas(const TripodSize& size) {
   double sum = 0;
   for (int k = 0; k <= pieces; ++k) {
     const double radius =
-        k == 0 ? inverse_radius(size, end) : forward_locus(size, end + k * step).value_or(missing);
+        k == 0 ? inverse_radius(size, end) : forward_locus(size, end + k * step).value_or(not_a_number);
     sum += (k == 0 || k == pieces ? 1 : k % 2 ? 4 : 2) * radius * radius;
   }
   // of twelve sectors of 30° the inverse locus; of six of 60° the first: each half of ∫ ρ² dα
@@ -165,8 +166,8 @@ Series forward_curve(const TripodSize& size, double width) {
       .label = {}, .x = {}, .y = {}, .mark = Mark::line, .colour = Colour::vermillion, .width = width};
   for (const int middle : {60, 180, 300}) {
     add_arc(size, middle * degree, series);
-    series.x.push_back(missing);
-    series.y.push_back(missing);
+    series.x.push_back(not_a_number);
+    series.y.push_back(not_a_number);
   }
   return series;
 }

@@ -18,6 +18,12 @@ namespace sinew::inline v0::tripod {
 /// Below (19), [m].
 inline constexpr TripodSize printed{.base_radius = 0.25, .platform_radius = 0.125, .strut_length = 0.35};
 
+/// What figures have in common, as their files say it.
+inline constexpr const char* of_unit_radius =
+    "Altuzarra et al. 2023, section 3.1: 3PRS, platform radius r = 1, operation mode e3 = 0";
+inline constexpr const char* as_printed =
+    "Altuzarra et al. 2023, section 3.1: 3PRS, r_A = 0.25 m, L = 0.35 m, r = 0.125 m, e3 = 0";
+
 /// What a robot of these three legs is like, by the first; NaN for any other robot.
 TripodSize size_of(const AnyRobot& robot);
 

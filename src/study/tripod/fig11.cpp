@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
+#include "sinew/base/numbers.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
@@ -18,7 +18,6 @@ namespace {
 
 using tripod::Preset, tripod::presets, tripod::heights, tripod::Swept;
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr double printed_rmse[] = {0.0132, 0.0095, 0.0065};  // for h = 0.2, 0.4, 0.6 m
 
 /// One of the parasitic coordinates.
@@ -28,7 +27,7 @@ struct Coordinate {
 };
 constexpr Coordinate e3{"e3", "e₃", "", 1}, x{"x", "x_p", "mm", 1e3}, y{"y", "y_p", "mm", 1e3};
 
-struct PresetStudies {
+struct PresetHeights {
   const Preset* preset;
   AnyRobot robot;
   Swept near, exact;  ///< poses near the three heights, and at them
@@ -40,7 +39,7 @@ struct Rigid {
 
   double at(const Coordinate& what, double z, double e1, double e2) const {
     const ConstrainedPose pose = constrained_pose(robot, {z, e1, e2});
-    if (!pose.ok()) return missing;
+    if (!pose.ok()) return not_a_number;
     if (what.column == x.column) return pose.pose.position.x();
     return what.column == y.column ? pose.pose.position.y() : pose.pose.quaternion[3];
   }
@@ -59,22 +58,22 @@ std::vector<std::size_t> rows_near(const Swept& study, std::size_t height) {
 }
 
 /// Parasitic turns of the same tilts at the height exactly.
-double rmse_at_height(const PresetStudies& of, std::size_t height) {
+double rmse_at_height(const PresetHeights& of, std::size_t height) {
   Workspace work(of.robot);
   std::vector<double> turns;
   for (const std::size_t k : rows_near(of.near, height)) {
     const Equilibrium held = inverse_equilibrium(
         of.robot, IndependentPose{heights[height], of.near["e1"][k], of.near["e2"][k]}, {}, work);
-    turns.push_back(held.is_solved() ? held.pose.quaternion[3] : missing);
+    turns.push_back(held.is_solved() ? held.pose.quaternion[3] : not_a_number);
   }
   return tripod::root_mean_square(turns);
 }
 
-std::string name_of(const PresetStudies& of, std::size_t height) {
+std::string name_of(const PresetHeights& of, std::size_t height) {
   return fmt::format("{}, h = {} m", of.preset->name, heights[height]);
 }
 
-void add_turns(std::vector<Finding>& findings, const PresetStudies& of) {
+void add_turns(std::vector<Finding>& findings, const PresetHeights& of) {
   for (std::size_t i = 0; i < std::size(heights); ++i) {
     const auto rows = rows_near(of.near, i);
     const double ours = tripod::root_mean_square(tripod::at_rows(of.near["e3"], rows));
@@ -87,7 +86,7 @@ void add_turns(std::vector<Finding>& findings, const PresetStudies& of) {
   }
 }
 
-void add_shifts(std::vector<Finding>& findings, const PresetStudies& of, const Coordinate& what,
+void add_shifts(std::vector<Finding>& findings, const PresetHeights& of, const Coordinate& what,
                 const Rigid& rigid) {
   const std::vector<double> twin = rigid.all(what, of.near, "z");
   for (std::size_t i = 0; i < std::size(heights); ++i) {
@@ -121,13 +120,13 @@ void add_reasons(std::vector<Finding>& findings, const Coordinate& what) {
        "", "for information"});
 }
 
-Table table_of(std::span<const PresetStudies> all, const Coordinate& what, const Rigid& rigid) {
+Table table_of(std::span<const PresetHeights> all, const Coordinate& what, const Rigid& rigid) {
   const std::string heading = what.unit.empty() ? std::string(what.column) : std::string(what.column) + "[m]";
   Table table{"preset", "h[m]", "z[m]", "e1", "e2", heading, "rigid_" + heading};
   table.comments = {fmt::format("sinew {}: {} of the flexible tripod and of the 3PRS, [3PFS] section 4",
                                 version(), what.column)};
   double number = 1;
-  for (const PresetStudies& of : all) {
+  for (const PresetHeights& of : all) {
     const auto twin = rigid.all(what, of.near, "z");
     for (std::size_t i = 0; i < std::size(heights); ++i)
       for (const std::size_t k : rows_near(of.near, i))
@@ -147,7 +146,7 @@ std::string label_of(const Coordinate& what) {
   return what.unit.empty() ? std::string(what.label) : fmt::format("{} [{}]", what.label, what.unit);
 }
 
-Panel map_panel(const PresetStudies& of, std::size_t height, const std::vector<double>& values,
+Panel map_panel(const PresetHeights& of, std::size_t height, const std::vector<double>& values,
                 const Coordinate& what, std::string title) {
   Panel panel = tripod::tilt_panel(std::move(title), 0.32);
   panel.map = tripod::height_map(of.exact, heights[height], scaled(values, what.scale), label_of(what));
@@ -155,7 +154,7 @@ Panel map_panel(const PresetStudies& of, std::size_t height, const std::vector<d
   return panel;
 }
 
-Series dots(const PresetStudies& of, std::size_t height) {
+Series dots(const PresetHeights& of, std::size_t height) {
   const auto rows = rows_near(of.near, height);
   return {.label = "",
           .x = tripod::at_rows(of.near["e1"], rows),
@@ -165,7 +164,7 @@ Series dots(const PresetStudies& of, std::size_t height) {
           .width = 3};
 }
 
-Figure figure_of(std::span<const PresetStudies> all, const Coordinate& what, const Rigid& rigid) {
+Figure figure_of(std::span<const PresetHeights> all, const Coordinate& what, const Rigid& rigid) {
   const bool shows_rigid = what.column != e3.column;  // its e₃ is 0
   Figure figure{.title = "",
                 .panels = {},
@@ -174,7 +173,7 @@ Figure figure_of(std::span<const PresetStudies> all, const Coordinate& what, con
                 .height = 960,
                 .comments = {fmt::format("sinew {}: parasitic {} over the tilts", version(), what.column),
                              "white dots: poses of the joint space whose root mean square is compared"}};
-  for (const PresetStudies& of : all) {
+  for (const PresetHeights& of : all) {
     for (std::size_t i = 0; i < std::size(heights); ++i) {
       figure.panels.push_back(
           map_panel(of, i, of.exact[what.column], what,
@@ -193,7 +192,7 @@ Expected<Reproduction> reproduce_coordinate(const StudyItem& item, const std::fi
   auto twin = load("3prs");
   if (!twin) return tl::unexpected(twin.error());
   const Rigid rigid{std::move(*twin)};
-  std::vector<PresetStudies> all;
+  std::vector<PresetHeights> all;
   Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
   for (const Preset& preset : presets) {
     auto near = tripod::swept(preset.parasitic, folder), exact = tripod::swept(preset.height, folder);

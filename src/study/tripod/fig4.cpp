@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "sinew/base/numbers.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "study/compare.hpp"
@@ -20,20 +21,14 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr double radius = 1;  ///< r [m], as the figure has it
 
 /// A place of the grid and the pose there; NaN outside the disc.
 struct Parasitic {
   double e1, e2;
-  double x = missing, y = missing, e0 = missing, e3 = missing;
-  double beside = missing;  ///< largest distance of a platform point from its plane [m]
+  double x = not_a_number, y = not_a_number, e0 = not_a_number, e3 = not_a_number;
+  double beside = not_a_number;  ///< largest distance of a platform point from its plane [m]
 };
-
-std::vector<std::string> provenance(const char* what) {
-  return {fmt::format("sinew {}, study 3pfs/fig4: {}", version(), what),
-          "Altuzarra et al. 2023, section 3.1: 3PRS, platform radius r = 1, operation mode e3 = 0"};
-}
 
 Parasitic parasitic(const AnyRobot& robot, const Independent& at) {
   Parasitic out{at.e1, at.e2};
@@ -58,7 +53,8 @@ std::vector<Parasitic> everywhere(const AnyRobot& robot) {
 
 Table table_of(const std::vector<Parasitic>& all) {
   Table table{"e1", "e2", "x[m]", "y[m]", "e0", "tilt[deg]"};
-  table.comments = provenance("parasitic motions over the unit disc");
+  table.comments =
+      compare::provenance("3pfs/fig4", "parasitic motions over the unit disc", tripod::of_unit_radius);
   for (const Parasitic& p : all)
     if (!std::isnan(p.e0))
       table.add_row({p.e1, p.e2, p.x, p.y, p.e0, tripod::tilt(std::min(1.0, std::hypot(p.e1, p.e2)))});
@@ -205,7 +201,7 @@ Figure figure_of(const std::vector<Parasitic>& all) {
           .columns = 3,
           .width = 1500,
           .height = 440,
-          .comments = provenance("Fig. 4")};
+          .comments = compare::provenance("3pfs/fig4", "Fig. 4", tripod::of_unit_radius)};
 }
 
 }  // namespace

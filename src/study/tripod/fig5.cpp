@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "sinew/analysis/velocity.hpp"
+#include "sinew/base/numbers.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/kinematics/inverse.hpp"
@@ -22,12 +23,6 @@ namespace {
 using std::numbers::pi, std::numbers::sqrt3;
 
 constexpr double degree = pi / 180;
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<std::string> provenance(const char* what) {
-  return {fmt::format("sinew {}, study 3pfs/fig5: {}", version(), what),
-          "Altuzarra et al. 2023, section 3.1: 3PRS, r_A = 0.25 m, L = 0.35 m, r = 0.125 m, e3 = 0"};
-}
 
 /// Both loci in every direction of a whole degree.
 struct Locus {
@@ -38,14 +33,15 @@ struct Locus {
 std::vector<Locus> loci_of(const TripodSize& size) {
   std::vector<Locus> loci;
   for (int k = 0; k < 360; ++k)
-    loci.push_back({static_cast<double>(k), inverse_locus(size, k * degree).value_or(missing),
-                    forward_locus(size, k * degree).value_or(missing)});
+    loci.push_back({static_cast<double>(k), inverse_locus(size, k * degree).value_or(not_a_number),
+                    forward_locus(size, k * degree).value_or(not_a_number)});
   return loci;
 }
 
 Table table_of(const std::vector<Locus>& loci) {
   Table table{"direction[deg]", "inverse", "inverse_tilt[deg]", "forward", "forward_tilt[deg]"};
-  table.comments = provenance("loci by the direction from e1 towards e2, as |(e1, e2)| and as tilt");
+  table.comments = compare::provenance(
+      "3pfs/fig5", "loci by the direction from e1 towards e2, as |(e1, e2)| and as tilt", tripod::as_printed);
   table.comments.push_back("forward is empty where the inverse locus comes first");
   for (const Locus& at : loci)
     table.add_row({at.direction, at.inverse, tripod::tilt(at.inverse), at.forward, tripod::tilt(at.forward)});
@@ -204,8 +200,8 @@ Series hyperbola(const TripodSize& size, int leg) {
       series.x.push_back(u * std::cos(turn) - v * std::sin(turn));
       series.y.push_back(u * std::sin(turn) + v * std::cos(turn));
     }
-    series.x.push_back(missing);
-    series.y.push_back(missing);
+    series.x.push_back(not_a_number);
+    series.y.push_back(not_a_number);
   }
   return series;
 }
@@ -240,7 +236,11 @@ Figure figure_of(const TripodSize& size, const std::vector<Locus>& loci) {
   mark(loci[330].inverse, 330, Note::Side::right);
   mark(loci[180].forward, 180, Note::Side::right);
   mark(loci[330].forward, 330, Note::Side::left);
-  return {.title = "", .panels = {panel}, .width = 760, .height = 820, .comments = provenance("Fig. 5")};
+  return {.title = "",
+          .panels = {panel},
+          .width = 760,
+          .height = 820,
+          .comments = compare::provenance("3pfs/fig5", "Fig. 5", tripod::as_printed)};
 }
 
 }  // namespace

@@ -20,14 +20,10 @@ using std::numbers::pi;
 using tripod::Sample;
 using Samples = std::vector<Sample>;
 
-std::vector<std::string> provenance(const char* what) {
-  return {fmt::format("sinew {}, study 3pfs/fig6: {}", version(), what),
-          "Altuzarra et al. 2023, section 3.1: 3PRS, r_A = 0.25 m, L = 0.35 m, r = 0.125 m, e3 = 0"};
-}
-
-Table table_of(const Samples& all) {
+Table index_table(const Samples& all) {
   Table table{"e1", "e2", "rise_1[m]", "rise_2[m]", "rise_3[m]", "frobenius[m]", "largest[m]", "smallest[m]"};
-  table.comments = provenance("J_IK, eq. (18), over the tilts inside the loci (19)");
+  table.comments = compare::provenance("3pfs/fig6", "J_IK, eq. (18), over the tilts inside the loci (19)",
+                                       tripod::as_printed);
   table.comments.push_back(
       "rise_i: (b_i - c_i).k, the diagonal; largest: 2-norm; smallest: 1/2-norm of the inverse");
   for (const Sample& s : all)
@@ -157,7 +153,7 @@ Panel panel(const TripodSize& size, const Samples& all, double (Sample::*value)(
   return tripod::map_panel(size, std::move(title), std::move(map), levels);
 }
 
-Figure figure_of(const TripodSize& size, const Samples& all) {
+Figure index_figure(const TripodSize& size, const Samples& all) {
   return {.title = "",
           .panels = {panel(size, all, &Sample::frobenius, "‖J_IK‖, Frobenius [m]", 0.35, 0.57,
                            {{{0.45, 0.55}, {90}}, {{0.5}, {150}}, {{0.4}, {}}}),
@@ -168,7 +164,7 @@ Figure figure_of(const TripodSize& size, const Samples& all) {
           .columns = 3,
           .width = 1500,
           .height = 480,
-          .comments = provenance("Fig. 6")};
+          .comments = compare::provenance("3pfs/fig6", "Fig. 6", tripod::as_printed)};
 }
 
 }  // namespace
@@ -185,11 +181,12 @@ Expected<Reproduction> tripod_fig6(const StudyItem& item, const std::filesystem:
   add_values(result.findings, *robot, size, all, work);
 
   result.files.push_back(folder / "fig6.csv");
-  if (auto done = write_csv(table_of(all), result.files.back()); !done) return tl::unexpected(done.error());
+  if (auto done = write_csv(index_table(all), result.files.back()); !done)
+    return tl::unexpected(done.error());
   if (auto done = compare::write_findings(result, folder / "fig6.md"); !done)
     return tl::unexpected(done.error());
   Errors errors;
-  compare::add_figure(result, errors, figure_of(size, all), folder / "fig6");
+  compare::add_figure(result, errors, index_figure(size, all), folder / "fig6");
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   return result;
 }

@@ -21,14 +21,11 @@ using std::numbers::pi;
 using tripod::Sample;
 using Samples = std::vector<Sample>;
 
-std::vector<std::string> provenance(const char* what) {
-  return {fmt::format("sinew {}, study 3pfs/fig7: {}", version(), what),
-          "Altuzarra et al. 2023, section 3.1: 3PRS, r_A = 0.25 m, L = 0.35 m, r = 0.125 m, e3 = 0"};
-}
-
-Table table_of(const Samples& all) {
+Table forward_table(const Samples& all) {
   Table table{"e1", "e2", "frobenius", "determinant[m^6]", "position[m/m]", "rotation[rad/m]"};
-  table.comments = provenance("the left matrix of eq. (17), and U, over the tilts inside the loci (19)");
+  table.comments = compare::provenance(
+      "3pfs/fig7", "the left matrix of eq. (17), and U, over the tilts inside the loci (19)",
+      tripod::as_printed);
   table.comments.push_back(
       "frobenius: of the matrix, in SI; position, rotation: 2-norms of the blocks of U, t = U.rates");
   for (const Sample& s : all)
@@ -152,7 +149,7 @@ Panel panel(const TripodSize& size, const Samples& all, double Sample::*value, s
   return tripod::map_panel(size, std::move(title), std::move(map), levels);
 }
 
-Figure figure_of(const TripodSize& size, const Samples& all) {
+Figure forward_figure(const TripodSize& size, const Samples& all) {
   return {.title = "",
           .panels = {panel(size, all, &Sample::forward_norm, "‖J_FK‖, Frobenius [SI]", 1.844, 1.8495, false,
                            {{{1.847, 1.849}, {90}}, {{1.845, 1.846, 1.848}, {}}}),
@@ -163,7 +160,7 @@ Figure figure_of(const TripodSize& size, const Samples& all) {
           .columns = 3,
           .width = 1500,
           .height = 480,
-          .comments = provenance("Fig. 7")};
+          .comments = compare::provenance("3pfs/fig7", "Fig. 7", tripod::as_printed)};
 }
 
 }  // namespace
@@ -192,11 +189,12 @@ Expected<Reproduction> tripod_fig7(const StudyItem& item, const std::filesystem:
   findings.push_back(symmetry(*robot, work));
 
   result.files.push_back(folder / "fig7.csv");
-  if (auto done = write_csv(table_of(all), result.files.back()); !done) return tl::unexpected(done.error());
+  if (auto done = write_csv(forward_table(all), result.files.back()); !done)
+    return tl::unexpected(done.error());
   if (auto done = compare::write_findings(result, folder / "fig7.md"); !done)
     return tl::unexpected(done.error());
   Errors errors;
-  compare::add_figure(result, errors, figure_of(size, all), folder / "fig7");
+  compare::add_figure(result, errors, forward_figure(size, all), folder / "fig7");
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   return result;
 }

@@ -17,10 +17,6 @@ std::vector<double> times(std::vector<double> values, double factor) {
   return values;
 }
 
-std::size_t index_of(const std::vector<double>& values, double wanted) {
-  return static_cast<std::size_t>(std::ranges::find(values, wanted) - values.begin());
-}
-
 Panel over_angle(std::string title, Axis y, Legend legend) {
   return {
       .title = std::move(title),

@@ -59,10 +59,6 @@ Finding levers(const Designs& made) {
           "", "for information"};
 }
 
-Index index_of(const std::vector<double>& values, double wanted) {
-  return static_cast<Index>(std::ranges::find(values, wanted) - values.begin());
-}
-
 /// Guides below the platform's points make more of narrow pairs than distant guides of wide ones.
 Finding near_guides(const Designs& made) {
   const Index wide = made.radii.size() - 1, narrow = index_of(made.angles, 3),

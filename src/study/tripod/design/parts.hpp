@@ -1,6 +1,7 @@
 /// @file parts.hpp
 /// What 3pfs/design is made of: tables, findings, the figure.
 #pragma once
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,11 @@
 #include "study/tripod/design/measures.hpp"
 
 namespace sinew::inline v0::tripod {
+
+/// Where a value is among those of a dimension.
+inline std::size_t index_of(const std::vector<double>& values, double wanted) {
+  return static_cast<std::size_t>(std::ranges::find(values, wanted) - values.begin());
+}
 
 /// Over the height and the pair angle, without load.
 void add_dimension_findings(std::vector<Finding>& findings, const Designs& made);
