@@ -12,7 +12,6 @@
 namespace sinew::inline v0 {
 namespace {
 
-using kernel::Backbone;
 using kernel::Model;
 
 /// A joint and a tendon at this distance from the backbone, towards the bend.
