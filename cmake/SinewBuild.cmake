@@ -14,9 +14,10 @@ if(SINEW_WARNINGS_AS_ERRORS)
   target_compile_options(sinew_options INTERFACE -Werror)
 endif()
 if(SINEW_SANITIZE)
-  # Without the checks of pointers that the processor or AddressSanitizer makes too: a fifth of the time of compiling.
+  # Without the checks of every pointer, which AddressSanitizer and Eigen make too: a third of the time of compiling.
   target_compile_options(sinew_options INTERFACE
-    -fsanitize=${SINEW_SANITIZE} -fno-sanitize=null,object-size,vptr -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=${SINEW_SANITIZE} -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr
+    -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(sinew_options INTERFACE -fsanitize=${SINEW_SANITIZE})
   if(CMAKE_CXX_COMPILER_ID MATCHES Clang AND SINEW_SANITIZE MATCHES "(address|thread)")
     string(TOUPPER ${CMAKE_MATCH_1} sanitizer)
