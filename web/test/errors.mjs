@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import {answers, blank, differs, launch, numbers, open, picture, rested, serve, settled, shot, tab, then, verdict} from './harness.mjs';
+import {answers, blank, differs, hold, launch, numbers, open, picture, rested, serve, settled, shot, tab, then, verdict} from './harness.mjs';
 
 /** A server that goes away and comes back, with none of its robots. */
 export async function connection(browser) {
@@ -25,20 +25,18 @@ export async function connection(browser) {
 
 /** An answer that takes long: a ring, then words and a way out; sliders stay live, only the newest question is kept. */
 export async function slow(browser, url) {
-  const {page, done} = await open(browser, url, '3-rfr'), asked = [];
-  await page.route('**/api/query*', async (route) => {
-    asked.push(route.request().postData());
-    await new Promise((wait) => setTimeout(wait, 1600));
-    await route.continue().catch(() => undefined);
-  });
+  const {page, done} = await open(browser, url, '3-rfr'), held = await hold(page);
   const slider = page.locator('#inputs input[type=range]').first(), count = await answers(page);
   for (let i = 0; i < 5; ++i) await slider.press('ArrowRight');
   await page.locator('#verdict.waiting').waitFor();
   await page.locator('#verdict', {hasText: 'solving…'}).waitFor();
   await shot(page, 'slow');
+  await held.next();
   await settled(page, count);
+  await held.arrival(2);
+  assert.equal(held.asked.filter((text) => /"forward"/.test(text)).length, 2, 'of five questions the first and the newest are asked');
+  await held.next();
   await settled(page, count + 1);
-  assert.equal(asked.filter((text) => /"forward"/.test(text)).length, 2, 'of five questions the first and the newest are asked');
   await slider.press('ArrowRight');
   await page.locator('#verdict').getByRole('button', {name: 'Cancel'}).click();
   assert.equal(await page.locator('#status').innerText(), 'cancelled');

@@ -80,6 +80,30 @@ export async function rested(page) {
   await until(page, () => page.evaluate(() => document.documentElement.dataset.rests === document.documentElement.dataset.answers), 'it came not to rest');
 }
 
+/** Keeps back requests till they are let go, so that it does not matter how long a busy machine takes for what is done meanwhile. */
+export async function hold(page, pattern = '**/api/query*') {
+  const asked = [], held = [], go = (route) => route?.continue().catch(() => undefined);  // the page may have cancelled it
+  let isHeld = true, arrived = () => undefined;
+  await page.route(pattern, (route) => {
+    asked.push(route.request().postData());
+    arrived();
+    if (!isHeld) return go(route);
+    held.push(route);
+  });
+  return {
+    asked,
+    /** Waits for so many requests in all. */
+    arrival: async (count) => { while (asked.length < count) await new Promise((next) => { arrived = next; }); },
+    /** Of one, the oldest. */
+    next: () => go(held.shift()),
+    /** Of all, and of those to come. */
+    release: async () => {
+      isHeld = false;
+      await Promise.all(held.splice(0).map(go));
+    },
+  };
+}
+
 /** Does something and waits for its answer. */
 export async function then(page, act) {
   const count = await answers(page);

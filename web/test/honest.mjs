@@ -4,7 +4,7 @@ import {execFileSync} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import {answers, blank, differs, fill, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
+import {answers, blank, differs, fill, hold, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
 
 const command = (page) => page.locator('#command').innerText();
 const value = (page, id) => page.locator(`#${id}`).inputValue();
@@ -32,7 +32,7 @@ export async function not_answered(browser, url) {
   };
   for (const [width, height] of [[390, 844], [1280, 800]]) {
     const {page, done} = await open(browser, url, '3-rfr', {width, height}), before = await picture(page);
-    await answer(page, (route) => new Promise((wait) => setTimeout(wait, 1500)).then(() => route.continue()).catch(() => undefined));
+    await hold(page, query);
     await step(page);
     await page.locator('#verdict strong', {hasText: 'SOLVING'}).waitFor();
     assert.ok(await page.locator('#answer.stale').count());
@@ -234,11 +234,11 @@ export async function choices(browser, url) {
   assert.equal(await numbers(second.page), other, 'the link shows another solution');
   await second.done();
   const count = await answers(page);
-  await page.route('**/api/query*', (route) => setTimeout(() => route.continue().catch(() => undefined), 200));
+  const held = await hold(page);
   await go.click();
   await page.locator('#undo').click();  // while that is on its way
+  await held.release();
   await settled(page, count + 1);
-  await page.unroute('**/api/query*');
   await rested(page);
   assert.equal(await numbers(page), other, 'an answer that came late leads away');
   await then(page, () => page.locator('#undo').click());
