@@ -1,7 +1,7 @@
 // The Design screen, each part of it as people use it.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {answer, answers, blank, differs, fill, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
+import {answer, answers, blank, differs, drawn, fill, linked, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
 
 /** Every robot at two sizes and in both themes: each slider moves the picture and the answer. */
 export async function everyRobot(browser, url) {
@@ -62,9 +62,9 @@ export async function links(browser, url) {
     await first.page.locator('#view').press('ArrowRight');
     await first.page.evaluate(() => document.activeElement.blur());
     await rested(first.page);
-    await first.page.waitForTimeout(400);
+    const link = await linked(first.page);
     assert.match(await verdict(first.page), /SOLVED/, hash);
-    await then(second.page, () => second.page.goto(first.page.url()));
+    await then(second.page, () => second.page.goto(link));
     await rested(second.page);
     assert.equal(await numbers(second.page), await numbers(first.page), hash);
     const [one, other] = [await picture(first.page), await picture(second.page)];
@@ -216,8 +216,7 @@ export async function response(browser, url) {
   const back = page.locator('#verdict').getByRole('button', {name: /^Go to ℓ₁ = /});
   await then(page, () => back.click());
   assert.match(await verdict(page), /SOLVED/);
-  await page.locator('#robot').selectOption('3pfs-g2');
-  await page.waitForTimeout(300);
+  await then(page, () => page.locator('#robot').selectOption('3pfs-g2'));
   await rested(page);
   await page.locator('#strip').getByRole('button', {name: 'energy'}).click();
   await shot(page, 'response-rods');
@@ -257,7 +256,7 @@ export async function ghosts(browser, url) {
   const haunted = await picture(page);
   await shot(page, 'ghost');
   await page.locator('#view').press('g');
-  await page.waitForTimeout(100);
+  await drawn(page);
   differs(await picture(page), haunted);
   assert.doesNotMatch(await numbers(page), /ghost/);
   await page.locator('#against').selectOption('3pfs-g1');
@@ -372,7 +371,7 @@ export async function keyboard(browser, url) {
   await page.locator('#view').focus();
   const seen = await picture(page);
   await page.keyboard.press('ArrowRight');
-  await page.waitForTimeout(100);
+  await drawn(page);
   differs(await picture(page), seen);
   await then(page, () => page.keyboard.press('h'));
   await page.keyboard.press('?');

@@ -19,8 +19,8 @@ export async function connection(browser) {
   await settled(page, count);
   assert.match(await verdict(page), /SOLVED/);
   assert.match(await page.locator('#status').innerText(), /converged/);
-  second.server.kill('SIGINT');
   await done(/ERR_|404/);
+  second.server.kill('SIGINT');
 }
 
 /** An answer that takes long: a ring, then words and a way out; sliders stay live, only the newest question is kept. */
@@ -90,9 +90,9 @@ export async function disk(browser) {
   await page.locator('#robot option:checked', {hasText: 'mine.yaml (modified)'}).waitFor({state: 'attached'});  // no longer what the file says
   assert.match(await page.locator('#command').innerText(), /--set "platform\.radius=61 mm"/);
   await rested(page);
+  await done();
   server.kill('SIGINT');
   rmSync(folder, {recursive: true});
-  await done();
 }
 
 /** No WebGL: the same picture by simpler means, and a word about it. */
@@ -117,6 +117,6 @@ export async function token(browser) {
   await settled(page, 0);
   assert.match(await verdict(page), /SOLVED/);
   assert.doesNotMatch(page.url(), /token/);
-  server.kill('SIGINT');
   await done(/403/);
+  server.kill('SIGINT');
 }

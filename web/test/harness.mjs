@@ -1,7 +1,7 @@
 // What the tests of the page share: a server, a browser in which nothing may go wrong, and waiting.
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
-import {mkdirSync} from 'node:fs';
+import {mkdirSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {createInterface} from 'node:readline';
 import {chromium} from 'playwright-core';
@@ -22,10 +22,33 @@ export const launch = (...more) => chromium.launch({
          '--disable-sync', '--enable-unsafe-swiftshader', ...more],
 });
 
-/** A page on which nothing may go wrong: no error on its console, no request to anyone else. `done` says so and closes it. */
-export async function blank(browser, {width = 1280, height = 800, theme = 'light', ...more} = {}) {
-  const context = await browser.newContext({viewport: {width, height}, colorScheme: theme, permissions: ['clipboard-read', 'clipboard-write'], ...more});
-  const page = await context.newPage(), wrong = [];
+const spare = new WeakMap();  // by browser: pages whose case is done
+
+/** Opening a window costs Chromium more than all else that most cases do: a page that is done goes on as the next one's. */
+async function lend(browser, {width, height, theme, reducedMotion = null, isOwn, ...more}) {
+  const page = (isOwn ? null : spare.get(browser)?.pop()) ?? await (await browser.newContext({permissions: ['clipboard-read', 'clipboard-write'], ...more})).newPage();
+  await page.setViewportSize({width, height});
+  await page.emulateMedia({media: null, colorScheme: theme, reducedMotion});
+  return page;
+}
+
+/** Nothing of what was done with it may be found by the next case. */
+async function takeBack(browser, page) {
+  page.removeAllListeners();
+  await page.unrouteAll({behavior: 'ignoreErrors'});
+  await page.evaluate(() => { localStorage.clear(); sessionStorage.clear(); });
+  await page.context().clearCookies();
+  await page.goto(new URL('/api/version', page.url()).href);  // of the same site, so Chromium keeps the process
+  await page.mouse.move(0, 0);
+  spare.set(browser, [...(spare.get(browser) ?? []), page]);
+}
+
+/**
+ * A page on which nothing may go wrong: no error on its console, no request to anyone else. `done` says so and gives it back.
+ * @param options isOwn: a new one, for cases that leave something in it; so has one with options of Playwright's
+ */
+export async function blank(browser, {width = 1280, height = 800, theme = 'light', reducedMotion, ...more} = {}) {
+  const isOwn = Object.keys(more).length > 0, page = await lend(browser, {...more, width, height, theme, reducedMotion, isOwn}), wrong = [];
   page.on('console', (line) => line.type() === 'error' && wrong.push(line.text()));
   page.on('pageerror', (error) => wrong.push(error.stack));
   page.on('request', (request) => {
@@ -36,7 +59,7 @@ export async function blank(browser, {width = 1280, height = 800, theme = 'light
   const done = async (allowed = /^$/) => {
     await fits(page);
     assert.deepEqual(wrong.filter((line) => !allowed.test(line)), []);
-    await context.close();
+    await (isOwn ? page.context().close() : takeBack(browser, page));
   };
   return {page, done};
 }
@@ -54,31 +77,53 @@ export const answers = (page) => page.evaluate(() => Number(document.documentEle
 export const numbers = (page) => page.locator('#numbers').innerText();
 export const answer = (page) => page.locator('#right').innerText();
 export const verdict = (page) => page.locator('#verdict strong').innerText();
-export const picture = (page) => page.locator('#view').screenshot();
-export const shot = (page, name) => page.screenshot({path: join(folder, `${name}.png`)});
+
+const sessions = new WeakMap();
+
+/** Playwright's own screenshots take three times as long: they wait for fonts, hide carets and pack more than a comparison needs. */
+async function capture(page, clip) {
+  if (!sessions.has(page)) sessions.set(page, page.context().newCDPSession(page));
+  const {data} = await (await sessions.get(page)).send('Page.captureScreenshot', {format: 'png', optimizeForSpeed: true, ...(clip && {clip: {...clip, scale: 1}})});
+  return Buffer.from(data, 'base64');
+}
+
+export const picture = async (page) => capture(page, await page.evaluate(() => {
+  const {left, top, width, height} = document.getElementById('view').getBoundingClientRect();
+  return {x: Math.floor(left), y: Math.floor(top), width: Math.ceil(width), height: Math.ceil(height)};
+}));
+export const shot = async (page, name) => writeFileSync(join(folder, `${name}.png`), await capture(page));
 
 /** Of screenshots: unlike them assert.deepEqual would print every byte. */
 export const differs = (a, b, what = '') => assert.ok(!a.equals(b), `${what}: the picture did not change`);
 export const same = (a, b, what = '') => assert.ok(a.equals(b), `${what}: another picture`);
 
-async function until(page, is, what) {
-  for (let i = 0; i < 1500; ++i) {
-    if (await is()) return;
-    await page.waitForTimeout(10);
-  }
-  assert.fail(what);
-}
+/**
+ * Waits for what the page says of itself, two pictures long. It is the page that looks: asking it time and again keeps it from its work.
+ * @param after how many answers; null: it is at rest
+ */
+const told = (page, after) => page.evaluate(([count, longest]) => new Promise((done) => {
+  const root = document.documentElement, is = () => (count === null ? root.dataset.rests === root.dataset.answers : Number(root.dataset.answers ?? 0) > count);
+  const watch = new MutationObserver(() => is() && end(true)), late = setTimeout(() => end(false), longest);
+  const end = (was) => {
+    watch.disconnect();
+    clearTimeout(late);
+    requestAnimationFrame(() => requestAnimationFrame(() => done(was)));
+  };
+  if (is()) end(true);
+  else watch.observe(root, {attributes: true});
+}), [after, 60e3]);
 
 /** Waits for the picture of an answer after so many. */
-export async function settled(page, after) {
-  await until(page, async () => (await answers(page)) > after, 'no answer came');
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-}
+export const settled = async (page, after) => assert.ok(await told(page, after), 'no answer came');
 
 /** Waits for what is asked when nothing moves. */
-export async function rested(page) {
-  await until(page, () => page.evaluate(() => document.documentElement.dataset.rests === document.documentElement.dataset.answers), 'it came not to rest');
-}
+export const rested = async (page) => assert.ok(await told(page, null), 'it came not to rest');
+
+/** Waits for the picture of what was done, where nothing is asked for it. */
+export const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done()))));
+
+/** The address, which the page writes 200 ms after it has changed: its timers end in the order of their times. */
+export const linked = (page) => page.evaluate(() => new Promise((done) => setTimeout(() => done(location.href), 250)));
 
 /** Keeps back requests till they are let go, so that it does not matter how long a busy machine takes for what is done meanwhile. */
 export async function hold(page, pattern = '**/api/query*') {

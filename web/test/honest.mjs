@@ -4,13 +4,12 @@ import {execFileSync} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import {answers, blank, differs, fill, hold, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
+import {answers, blank, differs, fill, hold, linked, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
 
 const command = (page) => page.locator('#command').innerText();
 const value = (page, id) => page.locator(`#${id}`).inputValue();
 const slider = (page, i = 0) => page.locator('#inputs input[type=range]').nth(i);
 const way = (page, name) => page.locator('#verdict').getByRole('button', {name});
-const linked = (page) => page.waitForTimeout(300);  // the address is written a little later
 
 /** What the page says while its picture and numbers are not those of what is asked. */
 async function isStale(page, word, why = /./) {
@@ -172,8 +171,7 @@ export async function edited(browser, url) {
   await checked('values');
   assert.deepEqual(await png(), ['3-frr-modified.png', await command(page)]);
   await shot(page, 'modified');
-  await linked(page);
-  const shown = await numbers(page), link = page.url(), second = await blank(browser);
+  const shown = await numbers(page), link = await linked(page), second = await blank(browser);
   await then(second.page, () => second.page.goto(link));
   await rested(second.page);
   assert.equal(await numbers(second.page), shown, 'a link shows what it was copied from');
@@ -195,9 +193,8 @@ export async function edited(browser, url) {
   const [, words] = await png();
   assert.ok(words.startsWith(await command(page)) && words.includes('tendon_offset: 4 mm'), words);
   await shot(page, 'modified-file');
-  await linked(page);
-  const more = await numbers(page), stranger = await blank(browser);
-  await stranger.page.goto(page.url());
+  const more = await numbers(page), changed = await linked(page), stranger = await blank(browser);
+  await stranger.page.goto(changed);
   await stranger.page.locator('#status', {hasText: 'the link shows another 3-frr than is here'}).waitFor();
   await stranger.done();
   await change(page, 'planar', 'plane');  // no robot any more
@@ -228,8 +225,8 @@ export async function choices(browser, url) {
   await rested(page);
   const other = await numbers(page), second = await blank(browser);
   assert.notEqual(other, first);
-  await linked(page);
-  await then(second.page, () => second.page.goto(page.url()));
+  const link = await linked(page);
+  await then(second.page, () => second.page.goto(link));
   await rested(second.page);
   assert.equal(await numbers(second.page), other, 'the link shows another solution');
   await second.done();
@@ -291,7 +288,7 @@ export async function reaches(browser, url) {
 
 /** A drag out of reach leads back; a third search does what the first did; text is copied where no page may write to the clipboard. */
 export async function ways_back(browser, url) {
-  const {page, done} = await blank(browser);
+  const {page, done} = await blank(browser, {isOwn: true});
   await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', {value: undefined}));
   await page.goto(`${url}#robot=3-rfr`);
   await settled(page, 0);

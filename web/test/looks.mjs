@@ -67,7 +67,7 @@ export async function sizes(browser, url) {
   await drawer.page.locator('#verdict').waitFor({state: 'hidden'});
   await drawer.page.locator('#view').press(']');
   await drawer.page.locator('#verdict').waitFor();
-  await drawer.page.waitForTimeout(300);
+  await drawer.page.evaluate(() => Promise.all(document.getAnimations().map(({finished}) => finished)));
   await shot(drawer.page, 'drawer');
   await drawer.page.keyboard.press('Escape');
   await drawer.page.locator('#verdict').waitFor({state: 'hidden'});

@@ -48,7 +48,7 @@ export async function latency(browser, url) {
 export async function first_picture(browser, url) {
   const times = [];
   for (let i = 0; i < 5; ++i) {
-    const {page, done} = await blank(browser), begin = performance.now();
+    const {page, done} = await blank(browser, {isOwn: true}), begin = performance.now();
     await page.goto(`${url}#robot=3-rfr`);
     await settled(page, 0);
     times.push(performance.now() - begin);
