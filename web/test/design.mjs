@@ -77,11 +77,11 @@ export async function links(browser, url) {
 
 /** The command that is copied gives, in a shell, the numbers that are shown. */
 export async function commands(browser, url) {
+  const {page, done} = await blank(browser);
   for (const hash of ['robot=3-rfr&inputs=0.19,0.189,0.188', 'robot=3-rfr&asked=pose&pose=0.01,0,0.1&bending=1,-1,1', 'robot=6-ufs&asked=pose&pose=0.01,0,0.19,0.2,1,0.1',
                       'robot=3prs&asked=pose&pose=0.5,0.1,0.05', 'robot=hexapod&asked=pose&pose=0.01,0,0.4,0.1,0,0&load=0,0,-0.5,0,0,0', 'robot=3pfs-g2&inputs=0.44,0.42,0.41&load=1,0,-5,0,0,0',
                       'robot=3-frr&model=prb&joints=4&load=0.01,0,0', 'robot=hexapod-heavy&gravity=off', 'robot=nottingham-tpcj&inputs=0.1,0.1,0,0.1,0,0,0,0,0.1,0&model=lsk',
                       'robot=nottingham-neutral&asked=pose&pose=0.03,0.02,0.16']) {
-    const {page, done} = await blank(browser);
     await then(page, () => page.goto(`${url}#${hash}`));
     await rested(page);
     assert.match(await verdict(page), /SOLVED/, hash);
@@ -91,14 +91,16 @@ export async function commands(browser, url) {
     const all = (pose) => (pose.position ? [...pose.position, ...pose.quaternion] : [pose.x, pose.y, pose.phi]);
     const mine = all(shown.pose ?? shown.tip), its = all(answer.pose ?? answer.tip);
     for (const [i, value] of its.entries()) assert.ok(Math.abs(value - mine[i]) < 1e-8, `${text}\n${its}\n${mine}`);
-    await done();
   }
+  await done();
 }
 
 /** Poses ask for inputs: in the plane, of three rods, of a platform held in all directions, of a serial robot. */
 export async function poses(browser, url) {
+  const {page, done} = await blank(browser);
   for (const name of ['3-rfr', '3pfs-g2', '3prs', 'hexapod', '6-ufs', 'nottingham-tpcj']) {
-    const {page, done} = await open(browser, url, name);
+    await then(page, () => page.goto(`${url}#robot=${name}`));
+    await rested(page);
     await tab(page, 'Pose');
     const isArm = name === 'nottingham-tpcj', sliders = page.locator('#pose input[type=range]');
     for (let i = 0; i < await sliders.count(); ++i) {
@@ -112,9 +114,10 @@ export async function poses(browser, url) {
     assert.ok(await page.locator('#inputs .answered').count(), 'the answered side is marked');
     await rested(page);
     await shot(page, `pose-${name}`);
-    await done();
   }
-  const {page, done} = await open(browser, url, '3-rfr'), before = await picture(page);
+  await then(page, () => page.goto(`${url}#robot=3-rfr`));
+  await rested(page);
+  const before = await picture(page);
   await tab(page, 'Pose');
   await then(page, () => page.getByRole('button', {name: 'leg 2 bends minus'}).click());
   differs(await picture(page), before);
