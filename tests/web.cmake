@@ -2,9 +2,15 @@
 find_program(CHROMIUM chromium)
 mark_as_advanced(CHROMIUM)
 if(SINEW_WEB AND CHROMIUM)
-  add_test(NAME web.page COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/web/test/page.mjs $<TARGET_FILE:sinew_command> ${CHROMIUM}
-                                 ${CMAKE_BINARY_DIR}/screenshots)
-  set_tests_properties(web.page PROPERTIES LABELS web TIMEOUT 1200 COST 1000)  # the longest begins first
+  # Each with a server and a browser of its own, so that they run beside each other. The longest tests begin first.
+  set(web_robots robots)
+  set(web_design design)
+  set(web_page errors honest looks speed)
+  foreach(name robots design page)
+    add_test(NAME web.${name} COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/web/test/page.mjs $<TARGET_FILE:sinew_command> ${CHROMIUM}
+                                      ${CMAKE_BINARY_DIR}/screenshots ${web_${name}})
+    set_tests_properties(web.${name} PROPERTIES LABELS web TIMEOUT 1200 COST 1000)
+  endforeach()
 else()
   message(STATUS "The page is not tested: that needs SINEW_WEB, Node and Debian's chromium")
 endif()

@@ -1,31 +1,7 @@
 // The Design screen, each part of it as people use it.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {answer, answers, blank, differs, drawn, fill, linked, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
-
-/** Every robot at two sizes and in both themes: each slider moves the picture and the answer. */
-export async function everyRobot(browser, url) {
-  const {robots} = await (await fetch(new URL('/api/robots', url))).json();
-  for (const [width, height, theme] of [[1280, 800, 'light'], [390, 844, 'dark'], [1280, 800, 'dark'], [390, 844, 'light']]) {
-    const {page, done} = await blank(browser, {width, height, theme});
-    for (const {name, kind} of robots) {
-      await then(page, () => page.goto(`${url}#robot=${name}`));
-      assert.match(await verdict(page), /SOLVED/, name);
-      assert.equal(await page.locator('#robot').inputValue(), name);
-      const sliders = page.locator('#inputs input[type=range]'), count = width === 1280 && theme === 'light' ? await sliders.count() : 1;
-      for (let i = 0; i < count; ++i) {
-        const before = await picture(page), said = await answer(page);
-        await then(page, () => sliders.nth(i).press('ArrowRight'));
-        if (width === 1280) assert.notEqual(await answer(page), said, `${name}, slider ${i + 1}: the answer did not change`);
-        differs(await picture(page), before, `${name}, slider ${i + 1}`);
-        if (count > 1 && kind !== 'serial') await then(page, () => sliders.nth(i).press('0'));
-      }
-      if (width === 1280 && theme === 'light' && name !== 'hexapod-torsion') await rested(page);  // whose strip takes some seconds
-      await shot(page, `${name}-${width}-${theme}`);
-    }
-    await done();
-  }
-}
+import {answers, blank, differs, drawn, fill, linked, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
 
 /** What is typed, wrong and right; links; units. */
 export async function words(browser, url) {

@@ -9,6 +9,9 @@ import {chromium} from 'playwright-core';
 export const [, , sinew, executablePath, folder] = process.argv;
 mkdirSync(folder, {recursive: true});
 
+/** All that may be combined is, and what is measured is measured for long. */
+export const isThorough = process.env.SINEW_TEST_THOROUGH === '1';
+
 export async function serve(...options) {
   const all = ['serve', ...(options.includes('--port') ? options : [...options, '--port', '0']), '-q'];
   const server = spawn(sinew, all, {stdio: ['ignore', 'pipe', 'inherit']});

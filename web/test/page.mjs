@@ -1,15 +1,20 @@
-// node page.mjs SINEW CHROMIUM FOLDER [CASE ...]: the page of sinew serve in a real browser; screenshots go to FOLDER.
+// node page.mjs SINEW CHROMIUM FOLDER [MODULE|CASE ...]: the page of sinew serve in a real browser; screenshots go to FOLDER.
+import assert from 'node:assert/strict';
 import * as design from './design.mjs';
 import * as errors from './errors.mjs';
 import {launch, serve} from './harness.mjs';
 import * as honest from './honest.mjs';
 import * as looks from './looks.mjs';
+import * as robots from './robots.mjs';
 import * as speed from './speed.mjs';
 
-const wanted = process.argv.slice(5), {server, url} = await serve(), browser = await launch();
+const modules = {robots, design, errors, honest, looks, speed}, wanted = process.argv.slice(5);
+const cases = Object.entries(modules).flatMap(([module, all]) => Object.entries(all).map(([name, run]) => ({module, name, run})));
+for (const one of wanted) assert.ok(cases.some(({module, name}) => one === module || one === name), `${one} is no module and no case`);
+const {server, url} = await serve(), browser = await launch();
 try {
-  for (const [name, run] of Object.entries({...design, ...errors, ...honest, ...looks, ...speed})) {
-    if (wanted.length > 0 && !wanted.includes(name)) continue;
+  for (const {module, name, run} of cases) {
+    if (wanted.length > 0 && !wanted.includes(module) && !wanted.includes(name)) continue;
     const begin = performance.now();
     await run(browser, url).catch((error) => { throw new Error(`${name}: ${error.message}`, {cause: error}); });
     console.log(`${name}: ${((performance.now() - begin) / 1000).toFixed(1)} s`);
