@@ -12,6 +12,8 @@ mkdirSync(folder, {recursive: true});
 /** All that may be combined is, and what is measured is measured for long. */
 export const isThorough = process.env.SINEW_TEST_THOROUGH === '1';
 
+const patience = 120e3;  // ms; on a busy machine even a page takes half a minute to load, and only what never comes is wrong
+
 export async function serve(...options) {
   const all = ['serve', ...(options.includes('--port') ? options : [...options, '--port', '0']), '-q'];
   const server = spawn(sinew, all, {stdio: ['ignore', 'pipe', 'inherit']});
@@ -30,6 +32,7 @@ const spare = new WeakMap();  // by browser: pages whose case is done
 /** Opening a window costs Chromium more than all else that most cases do: a page that is done goes on as the next one's. */
 async function lend(browser, {width, height, theme, reducedMotion = null, isOwn, ...more}) {
   const page = (isOwn ? null : spare.get(browser)?.pop()) ?? await (await browser.newContext({permissions: ['clipboard-read', 'clipboard-write'], ...more})).newPage();
+  page.setDefaultTimeout(patience);
   await page.setViewportSize({width, height});
   await page.emulateMedia({media: null, colorScheme: theme, reducedMotion});
   return page;
@@ -114,7 +117,7 @@ const told = (page, after) => page.evaluate(([count, longest]) => new Promise((d
   };
   if (is()) end(true);
   else watch.observe(root, {attributes: true});
-}), [after, 60e3]);
+}), [after, patience]);
 
 /** Waits for the picture of an answer after so many. */
 export const settled = async (page, after) => assert.ok(await told(page, after), 'no answer came');
