@@ -1,5 +1,5 @@
 /// 3pfs/design: rows of its tables against tripods solved here tilt by tilt, and measured by other formulas;
-/// the findings and the files. Few tests, because each runs alone and makes it all again.
+/// the findings and the files.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
