@@ -19,13 +19,18 @@ using namespace sinew;
 using namespace sinew::test;
 namespace fs = std::filesystem;
 
+/// Studies are run once, and the items find them there.
+const fs::path& folder() {
+  static const Folder all;
+  return all.path;
+}
+
 /// One item, made once for all tests that only read.
 struct Made {
-  Folder folder;
   Reproduction reproduction;
 
   explicit Made(const std::string& item) {
-    auto made = reproduce("3pfs/" + item, folder.path);
+    auto made = reproduce("3pfs/" + item, folder());
     EXPECT_TRUE(made) << to_string(made.error());
     if (made) reproduction = *made;
   }
@@ -44,9 +49,8 @@ const Made& made(const std::string& item) {
 }
 
 const tripod::Swept& study(const std::string& name) {
-  static const Folder folder;
   static std::map<std::string, tripod::Swept> all;
-  if (!all.contains(name)) all.emplace(name, tripod::swept(name, folder.path).value());
+  if (!all.contains(name)) all.emplace(name, tripod::swept(name, folder() / "3pfs").value());
   return all.at(name);
 }
 
@@ -61,7 +65,7 @@ TEST_P(FlexibleFigure, IsMadeWithItsFiles) {
   }
   for (const fs::path& file : item.reproduction.files) EXPECT_GT(fs::file_size(file), 100u) << file;
   for (const char* ending : {".svg", ".png", ".gp", ".md"})
-    EXPECT_TRUE(fs::exists(item.folder.path / "3pfs" / (GetParam() + std::string(ending)))) << ending;
+    EXPECT_TRUE(fs::exists(folder() / "3pfs" / (GetParam() + std::string(ending)))) << ending;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FlexibleFigure,
