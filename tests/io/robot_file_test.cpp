@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-
+#include "cpu_time.hpp"
 #include "every_robot.hpp"
 #include "paths.hpp"
 #include "sinew/analysis/velocity.hpp"
@@ -353,7 +352,7 @@ TEST(RobotFile, WhatNoRobotHasCostsAsMuchAsItIsLong) {
     EXPECT_FALSE(robot);
     return robot.error().front().code;
   };
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = cpu_seconds();
   EXPECT_EQ(code(many("legs: [", "{}", 190'000, "]")), "too_large");
   EXPECT_EQ(code(many("legs: [", "0", 190'000, "]")), "too_large");
   EXPECT_EQ(code(many("defaults: {a: [", "0", 90'000, "]}") +
@@ -366,8 +365,7 @@ TEST(RobotFile, WhatNoRobotHasCostsAsMuchAsItIsLong) {
   EXPECT_EQ(code(many("legs: [", "{}", 4000, "]")), "too_many_legs");
   EXPECT_EQ(code(many("a: {", "a: 1", 90'000, "}")), "duplicate_key");
   EXPECT_EQ(code(head + "a: " + std::string(1'000'000, '[')), "too_deep");
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-            20);  // 1 on its own
+  EXPECT_LT(cpu_seconds() - begin, 20);  // 1, or several under a sanitizer
 }
 
 TEST(RobotFile, SettingsAreNoMoreThanARobotHas) {

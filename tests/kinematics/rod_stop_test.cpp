@@ -6,6 +6,7 @@
 #include <functional>
 #include <thread>
 
+#include "cpu_time.hpp"
 #include "rod_robots.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium_curve.hpp"
@@ -14,7 +15,9 @@
 namespace sinew::test {
 namespace rod_stop_test {
 
-using Clock = std::chrono::steady_clock;
+/// Computed after the request, by all threads: a hundred milliseconds of a machine that has nothing else to
+/// do.
+constexpr double most_seconds = 0.1;
 
 /// One public function, on a workspace that holds an equilibrium; whether its answer says it was stopped.
 struct Question {
@@ -105,9 +108,9 @@ TEST(RodStop, ATokenStoppedBeforeIsSeenAtOnce) {
       work.stop = {};
       ASSERT_TRUE(equilibrium(robot, home, {}, work).is_solved());
       work.stop = StopToken(flag);
-      const auto begun = Clock::now();
+      const double begun = cpu_seconds();
       EXPECT_TRUE(question.ask(robot, work));
-      EXPECT_LT(Clock::now() - begun, std::chrono::milliseconds(100));
+      EXPECT_LT(cpu_seconds() - begun, most_seconds);
     }
   }
 }
@@ -123,10 +126,10 @@ TEST(RodStop, ARunningSolveEndsSoonAfterTheRequest) {
       work.stop = {};
       ASSERT_TRUE(equilibrium(robot, home, {}, work).is_solved());
       std::atomic<bool> flag{false};
-      Clock::time_point asked;
+      double asked = 0;
       std::thread other([&] {
         std::this_thread::sleep_for(std::chrono::milliseconds(40));
-        asked = Clock::now();
+        asked = cpu_seconds();
         flag = true;
       });
       work.stop = StopToken(flag);
@@ -134,9 +137,9 @@ TEST(RodStop, ARunningSolveEndsSoonAfterTheRequest) {
         if (work.stop.stop_requested()) continue;
         equilibrium(robot, home, {}, work);  // curves leave none behind
       }
-      const auto ended = Clock::now();
+      const double ended = cpu_seconds();
       other.join();
-      EXPECT_LT(ended - asked, std::chrono::milliseconds(100));
+      EXPECT_LT(ended - asked, most_seconds);
       work.stop = {};  // and the workspace goes on
       EXPECT_TRUE(equilibrium(robot, home, {}, work).is_solved());
     }
