@@ -46,8 +46,10 @@ if(TARGET sinew_command)
   add_test(NAME schema.robot COMMAND ${SYSTEM_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/schema/schema_test.py
     $<TARGET_FILE:sinew_command> $<TARGET_FILE:schema_judge>)
   set_tests_properties(schema.robot PROPERTIES LABELS tools TIMEOUT 300)
+  add_executable(schema_study_judge ${CMAKE_CURRENT_LIST_DIR}/schema/study_judge.cpp)
+  target_link_libraries(schema_study_judge PRIVATE sinew_study sinew_options)
   add_test(NAME schema.study COMMAND ${SYSTEM_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/schema/study_schema_test.py
-    $<TARGET_FILE:sinew_command>)
+    $<TARGET_FILE:sinew_command> $<TARGET_FILE:schema_study_judge>)
   set_tests_properties(schema.study PROPERTIES LABELS tools TIMEOUT 300)
 endif()
 
