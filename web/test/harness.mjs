@@ -55,7 +55,11 @@ async function takeBack(browser, page) {
  */
 export async function blank(browser, {width = 1280, height = 800, theme = 'light', reducedMotion, ...more} = {}) {
   const isOwn = Object.keys(more).length > 0, page = await lend(browser, {...more, width, height, theme, reducedMotion, isOwn}), wrong = [];
-  page.on('console', (line) => line.type() === 'error' && wrong.push(line.text()));
+  page.on('console', (line) => {
+    const {url} = line.location(), path = URL.canParse(url) ? new URL(url).pathname : '';
+    // an icon is asked for by the browser, for the bare answer that a lent page rests on; the page has its own
+    if (line.type() === 'error' && path !== '/favicon.ico') wrong.push(`${line.text()} ${path}`);
+  });
   page.on('pageerror', (error) => wrong.push(error.stack));
   page.on('request', (request) => {
     const {protocol, hostname} = new URL(request.url());
