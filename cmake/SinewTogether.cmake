@@ -39,7 +39,8 @@ function(sinew_together result target)
       math(EXPR begin "(${group} - 1) * ${count} / ${groups}")
       math(EXPR length "${group} * ${count} / ${groups} - ${begin}")
       list(SUBLIST files ${begin} ${length} members)
-      # relative, so that a checkout elsewhere compiles the same text: ccache then has it
+      # Relative, and where the build runs: a checkout elsewhere, or sinew inside another project, compiles the same text
+      # of the same name, and ccache has it.
       set(text "")
       foreach(file IN LISTS members)
         file(RELATIVE_PATH file ${PROJECT_SOURCE_DIR} ${file})
@@ -47,7 +48,7 @@ function(sinew_together result target)
       endforeach()
       file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${folder})
       string(REPLACE "/" "_" name ${name})
-      set(source ${CMAKE_CURRENT_BINARY_DIR}/together/${target}/${name}_${group}.cpp)
+      set(source ${CMAKE_BINARY_DIR}/sinew_together/${target}/${name}_${group}.cpp)
       file(CONFIGURE OUTPUT ${source} CONTENT "${text}" @ONLY)
       # the first file's own options are the folder's
       list(GET members 0 first)

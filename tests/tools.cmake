@@ -67,7 +67,7 @@ foreach(mode install subdirectory shared)
     -D COMPILER=${CMAKE_CXX_COMPILER} -D LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER} -D BUILD_TYPE=${CMAKE_BUILD_TYPE}
     -D "FLAGS=${CMAKE_CXX_FLAGS}" -D WARNINGS_AS_ERRORS=${SINEW_WARNINGS_AS_ERRORS}
     -P ${packaging_dir}/packaging.cmake)
-  set_tests_properties(packaging.${mode} PROPERTIES LABELS packaging TIMEOUT 600 PROCESSORS 2)
+  set_tests_properties(packaging.${mode} PROPERTIES LABELS packaging TIMEOUT 1500 PROCESSORS 2)
 endforeach()
 set_tests_properties(packaging.install PROPERTIES PROCESSORS 1)
 
