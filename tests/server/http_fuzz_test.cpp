@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "thorough.hpp"
 #include "wire.hpp"
 // It has httplib: last.
 #include "desk.hpp"
@@ -184,7 +185,7 @@ class Maker {
 
 double seconds_of_fuzzing() {
   const char* told = std::getenv("SINEW_FUZZ_SECONDS");
-  return told ? std::atof(told) : 10;
+  return told ? std::atof(told) : test::count_of(3, 10);
 }
 
 /// Nothing where the text is made of whole replies, each known by its status.

@@ -11,6 +11,7 @@
 
 #include "sinew/io/robot_file.hpp"
 #include "sinew/query/session.hpp"
+#include "thorough.hpp"
 #include "wire.hpp"
 // It has httplib: last.
 #include "desk.hpp"
@@ -193,9 +194,9 @@ int errors_of_clients(Desk& desk, int rounds) {
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int many = 50;
+const int many = 50;
 #else
-constexpr int many = 5000;
+const int many = test::count_of(2000, 5000);
 #endif
 
 TEST(Http, TwentyClientsGetTheirAnswersInFlatMemory) {
@@ -266,9 +267,9 @@ class Malformed {
 };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int malformed = 2000;
+const int malformed = 2000;
 #else
-constexpr int malformed = 10'000;
+const int malformed = test::count_of(3000, 10'000);
 #endif
 
 TEST(Http, NothingMalformedBreaksItOrReadsAFile) {

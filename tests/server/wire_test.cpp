@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "server/http/head.hpp"
+#include "thorough.hpp"
 #include "wire.hpp"
 // They have httplib: last.
 #include "desk.hpp"
@@ -23,14 +24,18 @@ namespace wire_test {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
+/// Milliseconds, and what a busy machine makes of them: less than a connection has for its request, 30, or
+/// sends for without an answer, 20.
+constexpr double most_seconds = 10;
+
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::size_t stride = 61;
+const std::size_t stride = 61;
 #else
-constexpr std::size_t stride = 1;
+const std::size_t stride = test::count_of<std::size_t>(5, 1);
 #endif
 
 struct Smuggler {
@@ -75,8 +80,9 @@ TEST(Wire, NoPartOfABodyIsARequestFromAnyByteOn) {
       {"DELETE /api/jobs/0", ""},
       {"GET /", ""},
       {"PUT /api/query", ""}};
+  std::size_t first = 0;  // each begins one byte later, so that together they have every byte
   for (const auto& [line, headers] : requests)
-    for (std::size_t offset = 0; offset < 4500; offset += stride) {
+    for (std::size_t offset = first++ % stride; offset < 4500; offset += stride) {
       const std::string answer = smuggler.ask(line, headers, offset);
       const std::string found = statuses(answer);
       ASSERT_FALSE(smuggler.finds(answer)) << line << ' ' << headers << offset << '\n' << answer;
@@ -148,7 +154,7 @@ TEST(Wire, ALongAnswerBeforeTheEndIsWholeWhateverComesAfterItsRequest) {
                     request = "POST /api/query?robot=" + desk.opened("3-rfr") + " HTTP/1.1\r\n" + host +
                               "Content-Type: application/json\r\nConnection: close\r\nContent-Length: " +
                               std::to_string(query.size()) + "\r\n\r\n" + query;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < test::count_of(5, 20); ++i) {
     Wire wire(desk.port);
     wire.send(request);
     std::this_thread::sleep_for(2ms);  // it is read by itself
@@ -297,7 +303,7 @@ TEST(Wire, SlowConnectionsLockNobodyOut) {
     is_over = true;
     drip.join();
     EXPECT_GE(longest, 0) << begin;
-    EXPECT_LT(longest, 1) << begin;
+    EXPECT_LT(longest, most_seconds) << begin;
   }
 }
 
@@ -319,7 +325,7 @@ TEST(Wire, ThoseWhoComeAgainAndAgainLockNobodyOut) {
   is_over = true;
   for (std::thread& flood : floods) flood.join();
   EXPECT_GE(longest, 0);
-  EXPECT_LT(longest, 5);
+  EXPECT_LT(longest, most_seconds);
 }
 
 TEST(Wire, ARequestThatDoesNotComeWholeInTimeIsTold) {
@@ -334,12 +340,14 @@ TEST(Wire, ARequestThatDoesNotComeWholeInTimeIsTold) {
     Wire wire(desk.port);
     const auto begin = Clock::now();
     wire.send(bytes);
+    std::atomic<bool> is_told = false;
     std::thread drip([&] {  // each byte is in time
-      for (int i = 0; i < 20; ++i, std::this_thread::sleep_for(30ms)) wire.send("a");
+      for (; !is_told && seconds_since(begin) < 20; std::this_thread::sleep_for(30ms)) wire.send("a");
     });
-    EXPECT_EQ(statuses(wire.receive()), status);
+    EXPECT_EQ(statuses(wire.receive(30'000)), status);
+    is_told = true;
     EXPECT_TRUE(wire.has_ended);
-    EXPECT_LT(seconds_since(begin), 0.6);
+    EXPECT_LT(seconds_since(begin), most_seconds);
     drip.join();
   }
 }
@@ -353,7 +361,7 @@ TEST(Wire, AServerThatStopsWaitsForNoConnection) {
   }
   const auto begin = Clock::now();
   desk.reset();
-  EXPECT_LT(seconds_since(begin), 0.5);
+  EXPECT_LT(seconds_since(begin), most_seconds);
 }
 
 TEST(Wire, AHandlerThatThrowsIsAnsweredAndTheServerGoesOn) {
