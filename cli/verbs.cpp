@@ -366,7 +366,7 @@ const std::array table{
     Verb{"reproduce",
          "[PAPER[/ITEM]]",
          "figures and tables of the papers: ours beside theirs",
-         {"output", "list", "json", "quiet", "help"},
+         {"output", "width", "font", "force", "list", "json", "quiet", "help"},
          {},
          "Without an argument all of them.",
          "sinew reproduce --list",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "figure_file.hpp"
 #include "request.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
@@ -78,10 +79,13 @@ int run_reproduce(const Arguments& arguments) {
     print(list(items));
     return solved;
   }
+  auto page = page_options(arguments);
+  if (!page) return refuse("reproduce", page.error());
+  page->replaces_edited_script = arguments.has("force");
   const std::string* folder = arguments.text("output");
   int exit = solved;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const auto made = reproduce(items[i].id, folder ? *folder : "out");
+    const auto made = reproduce(items[i].id, folder ? *folder : "out", *page);
     if (!made) {
       exit = refuse("reproduce", made.error());
       continue;

@@ -84,7 +84,7 @@ Expected<void> spare(const fs::path& script) {
   return failure(
       "script_edited", script.string(),
       "is not as sinew wrote it, and would be lost; draw it with gnuplot as it is, give the figure another "
-      "name, or remove it (sinew plot, map, branches and diagram replace it with --force)");
+      "name, or remove it (the command replaces it with --force)");
 }
 
 }  // namespace

@@ -457,19 +457,36 @@ std::vector<std::string> strokes(const Series& series) {
   return {};
 }
 
+/// What is beside the text of an entry of the legend.
+constexpr double key_sample = 70;
+
+/// What a legend has for texts beside the samples of its lines, within axes or below them.
+double key_room(const Panel& panel, double width) {
+  const double beside = panel.map || panel.scale ? 230 : 110;
+  return width - beside - key_sample;
+}
+
+/// The name of a series as a legend shows it.
+std::vector<Text> key_lines(const Panel& panel, const Series& series, double width) {
+  constexpr double safe = 1.1;  // letters are not all as wide as one is on average
+  if (panel.eye) return {series.label};
+  return lines_of(series.label, std::max(key_room(panel, width), 8 * character_width) / safe);
+}
+
 /// Rows of the legend below the panel: as many entries side by side as have room under its axes, as gnuplot
 /// has it.
 std::size_t key_rows(const Panel& panel, double width) {
   double widest = 0;
-  std::size_t count = 0;
-  for (const Series& series : panel.series)
-    if (!series.label.empty()) widest = std::max(widest, 1.1 * width_of(series.label)), ++count;
+  std::size_t count = 0, lines = 0;
+  for (const Series& series : panel.series) {
+    if (series.label.empty()) continue;
+    widest = std::max(widest, 1.1 * width_of(series.label));
+    ++count, lines += key_lines(panel, series, width).size();
+  }
   if (count == 0) return 0;
-  const double beside = panel.map || panel.scale ? 230 : 110;
-  constexpr double sample = 70;  // what is beside the text
-  const auto columns =
-      static_cast<std::size_t>(std::max(1.0, std::floor((width - beside) / (widest + sample))));
-  return (count + columns - 1) / columns;
+  const auto columns = static_cast<std::size_t>(
+      std::max(1.0, std::floor((key_room(panel, width) + key_sample) / (widest + key_sample))));
+  return columns == 1 ? lines : (count + columns - 1) / columns;
 }
 
 std::string key(const Panel& panel, double width) {
@@ -561,7 +578,8 @@ std::string columns_of(const Series& series, bool in_space) {
   return fmt::format("1:2{}{}", in_space ? ":3" : "", series.shades.empty() ? "" : in_space ? ":4" : ":3");
 }
 
-void add_series(Strokes& strokes_of_panel, const Panel& panel, std::size_t index) {
+/// @param width of the panel, in which its legend has to have room
+void add_series(Strokes& strokes_of_panel, const Panel& panel, std::size_t index, double width) {
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const Series& series = panel.series[i];
     if (series.mark == Mark::outside && !panel.map) continue;  // nothing lies outside
@@ -570,9 +588,13 @@ void add_series(Strokes& strokes_of_panel, const Panel& panel, std::size_t index
       all.front() = fmt::format("with polygons fs transparent solid 0.2 fc rgb '{}'", hex(series.colour));
     for (std::size_t k = 0; k < all.size(); ++k) {
       const bool named = k + 1 == all.size() && !series.label.empty();
+      const std::vector<Text> lines = named ? key_lines(panel, series, width) : std::vector<Text>{};
       strokes_of_panel.add(fmt::format("{} using {} {}{}", data_name(index, i),
                                        columns_of(series, panel.eye.has_value()), all[k],
-                                       named ? " title " + literal(series.label) : " notitle"));
+                                       named ? " title " + literal(lines.front()) : " notitle"));
+      // gnuplot gives an entry one line
+      for (std::size_t line = 1; line < lines.size(); ++line)
+        strokes_of_panel.add("keyentry with lines lt nodraw title " + literal(lines[line]));
     }
   }
 }
@@ -634,7 +656,7 @@ std::string space_lines(const Panel& panel, std::size_t index, const Cell& cell)
   text += note_lines(panel);
   if (panel.scale) text += shade_lines(panel, cell);
   Strokes all("  splot ");
-  add_series(all, panel, index);
+  add_series(all, panel, index, cell.width);
   text += all.text() + "  unset grid\n" + std::string(grid);
   text +=
       "  set xlabel '' norotate offset 0,0\n  set ylabel '' rotate offset 0,0\n  unset zlabel\n"
@@ -661,7 +683,7 @@ std::string panel_lines(const Panel& panel, std::size_t index, const Cell& cell)
   } else if (panel.scale) {
     text += shade_lines(panel, cell);
   }
-  add_series(all, panel, index);
+  add_series(all, panel, index, cell.width);
   text += all.text() + (is_below ? "  set bmargin -1\n" : "") + after_axes(panel);
   if (!panel.map && !panel.scale) return text;
   return text + std::string(grid) + after_scale(panel);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sinew/io/table.hpp"
-
 namespace sinew::inline v0::compare {
 
 std::vector<std::string> provenance(std::string_view id, std::string_view what, std::string_view robot) {
@@ -36,20 +34,6 @@ Finding claimed(std::string quantity, std::string paper, std::string ours, doubl
   Finding finding = given(std::move(quantity), std::move(paper), std::move(ours), off, bound, unit);
   finding.verdict = off <= bound ? "holds" : "fails";
   return finding;
-}
-
-Expected<void> write_findings(Reproduction& result, const std::filesystem::path& path) {
-  result.files.push_back(path);
-  return write_text(to_markdown(result), path);
-}
-
-void add_figure(Reproduction& result, Errors& errors, const Figure& figure,
-                const std::filesystem::path& stem) {
-  if (const auto files = write_figure(figure, stem)) {
-    result.files.insert(result.files.end(), files->begin(), files->end());
-  } else {
-    errors.insert(errors.end(), files.error().begin(), files.error().end());
-  }
 }
 
 }  // namespace sinew::inline v0::compare

@@ -1,12 +1,10 @@
 /// @file compare.hpp
-/// Ours beside the paper's: the rows of a reproduction and the files it leaves.
+/// Ours beside the paper's: the rows of a reproduction.
 #pragma once
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "sinew/io/figure.hpp"
 #include "sinew/study/reproduce.hpp"
 
 namespace sinew::inline v0::compare {
@@ -27,12 +25,5 @@ Finding given(std::string quantity, std::string paper, std::string ours, double 
 /// A claim: `holds` where `off`, how far ours is from it, is at most `bound`. NaN fails.
 Finding claimed(std::string quantity, std::string paper, std::string ours, double off, double bound,
                 const char* unit);
-
-/// The findings as a file, so that they are there where the figures cannot be drawn.
-Expected<void> write_findings(Reproduction& result, const std::filesystem::path& path);
-
-/// One figure that cannot be drawn does not keep the others from being written.
-void add_figure(Reproduction& result, Errors& errors, const Figure& figure,
-                const std::filesystem::path& stem);
 
 }  // namespace sinew::inline v0::compare

@@ -3,43 +3,57 @@
 /// reproduce.cpp.
 #pragma once
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "sinew/io/figure.hpp"
+#include "sinew/io/table.hpp"
 #include "sinew/study/reproduce.hpp"
 
 namespace sinew::inline v0 {
 
-/// Makes the files of an item in `folder` and compares.
-using StudyFunction = Expected<Reproduction> (*)(const StudyItem& item, const std::filesystem::path& folder);
+/// What an item found and has to show. `reproduce` writes it into the item's folder.
+struct ItemResult {
+  std::vector<Finding> findings;
+  std::vector<std::filesystem::path> swept;             ///< files that its sweeps have written there
+  std::vector<std::pair<std::string, Table>> tables;    ///< by the names of their files, without extension
+  std::vector<std::pair<std::string, Figure>> figures;  ///< the same
+};
 
-Expected<Reproduction> tdpcr_fig8(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tdpcr_fig9(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tdpcr_fig10(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tdpcr_fig11(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tdpcr_fig12(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tdpcr_chains(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig4(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig5(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig6(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig7(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig9(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig10(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig11(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig12(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig13(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_equation36(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig14(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig15(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_fig16(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_table1(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_table2(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> tripod_design(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> lsk_fig3(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> lsk_fig4(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> lsk_fig5(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> lsk_fig6(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> lsk_fig7(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> lsk_fig8(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> lsk_fig9(const StudyItem& item, const std::filesystem::path& folder);
-Expected<Reproduction> lsk_numbers(const StudyItem& item, const std::filesystem::path& folder);
+/// Computes an item and compares.
+/// @param folder for results of sweeps, which are written as they are computed
+using StudyFunction = Expected<ItemResult> (*)(const StudyItem& item, const std::filesystem::path& folder);
+
+Expected<ItemResult> tdpcr_fig8(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tdpcr_fig9(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tdpcr_fig10(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tdpcr_fig11(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tdpcr_fig12(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tdpcr_chains(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig4(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig5(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig6(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig7(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig9(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig10(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig11(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig12(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig13(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_equation36(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig14(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig15(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_fig16(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_table1(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_table2(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> tripod_design(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> lsk_fig3(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> lsk_fig4(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> lsk_fig5(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> lsk_fig6(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> lsk_fig7(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> lsk_fig8(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> lsk_fig9(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> lsk_numbers(const StudyItem& item, const std::filesystem::path& folder);
 
 }  // namespace sinew::inline v0

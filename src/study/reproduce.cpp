@@ -1,5 +1,6 @@
 #include "sinew/study/reproduce.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -65,17 +66,47 @@ std::string cell(const std::string& text) {
   return out;
 }
 
+/// Tables, the findings and then the figures: what cannot be drawn, without gnuplot say, keeps nothing else
+/// from being there.
+Expected<Reproduction> written(const StudyItem& item, const ItemResult& made,
+                               const std::filesystem::path& folder, const FigureOptions& page) {
+  Reproduction result{std::string(item.id), std::string(item.title), made.findings, made.swept};
+  for (const auto& [name, table] : made.tables) {
+    result.files.push_back(folder / (name + ".csv"));
+    if (auto done = write_csv(table, result.files.back()); !done)
+      return tl::unexpected(std::move(done.error()));
+  }
+  result.files.push_back(folder / (std::string(item.id.substr(item.id.find('/') + 1)) + ".md"));
+  if (auto done = write_text(to_markdown(result), result.files.back()); !done)
+    return tl::unexpected(std::move(done.error()));
+  Errors errors;
+  for (const auto& [name, figure] : made.figures) {
+    const auto files = write_figure(figure, folder / name, page);
+    if (files)
+      result.files.insert(result.files.end(), files->begin(), files->end());
+    else
+      errors.insert(errors.end(), files.error().begin(), files.error().end());
+  }
+  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  return result;
+}
+
 }  // namespace
 
 std::span<const StudyItem> study_items() { return items; }
 
-Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out) {
-  std::string known;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].id == id) return functions[i](items[i], out / std::string(id.substr(0, id.find('/'))));
-    known += (known.empty() ? "" : ", ") + std::string(items[i].id);
+Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out,
+                                 const FigureOptions& page) {
+  const auto item = std::ranges::find(items, id, &StudyItem::id);
+  if (item == items.end()) {
+    std::string known;
+    for (const StudyItem& one : items) known += (known.empty() ? "" : ", ") + std::string(one.id);
+    return failure("unknown_study", id, "there is no such figure or table here; there are: " + known);
   }
-  return failure("unknown_study", id, "there is no such figure or table here; there are: " + known);
+  const std::filesystem::path folder = out / std::string(id.substr(0, id.find('/')));
+  const auto made = functions[static_cast<std::size_t>(item - items.begin())](*item, folder);
+  if (!made) return tl::unexpected(made.error());
+  return written(*item, *made, folder, page);
 }
 
 std::string to_markdown(const Reproduction& reproduction) {

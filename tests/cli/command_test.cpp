@@ -374,7 +374,8 @@ TEST(Plot, DrawsNothingWhereTheRobotCannotBe) {
 
 TEST(Reproduce, PrintsTheTableAndTheFilesItWrote) {
   const Scratch here;
-  const Outcome outcome = run_command({"reproduce", "tdpcr/fig9", "-o", "made"}, here.path());
+  const Outcome outcome =
+      run_command({"reproduce", "tdpcr/fig9", "-o", "made", "--width", "85 mm"}, here.path());
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
   const auto lines = lines_of(outcome.out);
   EXPECT_TRUE(lines.at(0).starts_with("tdpcr/fig9: "));
@@ -387,6 +388,7 @@ TEST(Reproduce, PrintsTheTableAndTheFilesItWrote) {
   }
   EXPECT_GE(files, 2);
   EXPECT_NE(outcome.out.find(" | holds"), std::string::npos);
+  EXPECT_NE(read_text(here.path() / "made" / "tdpcr" / "fig9.svg").find("width=\"85mm\""), std::string::npos);
 }
 
 }  // namespace command_test

@@ -159,6 +159,23 @@ TEST(Reproduce, WithoutGnuplotTheTableTheFindingsAndTheScriptsStay) {
   EXPECT_FALSE(fs::exists(folder.path / "tdpcr" / "fig9.png"));
 }
 
+TEST(Reproduce, FiguresAreOnThePageThatIsAskedForAndEditedScriptsStay) {
+  const Folder folder;
+  FigureOptions page{.formats = {FigureFormat::svg}, .width = 85};
+  const auto made = reproduce("lsk/fig3", folder.path, page);
+  ASSERT_TRUE(made) << to_string(made.error());
+  const fs::path script = folder.path / "lsk" / "fig3.gp", svg = folder.path / "lsk" / "fig3.svg";
+  EXPECT_EQ(made->files, (std::vector<fs::path>{folder.path / "lsk" / "fig3.csv",
+                                                folder.path / "lsk" / "fig3.md", script, svg}));
+  EXPECT_NE(bytes(svg).find("width=\"85mm\""), std::string::npos);
+  std::ofstream(script, std::ios::app) << "# a change\n";
+  const auto again = reproduce("lsk/fig3", folder.path, page);
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().front().code, "script_edited");
+  page.replaces_edited_script = true;
+  EXPECT_TRUE(reproduce("lsk/fig3", folder.path, page));
+}
+
 TEST(Reproduce, WithoutACrossCompilerFigure8OfLskSaysSo) {
   const Folder folder;
   const EmptyPath nothing;

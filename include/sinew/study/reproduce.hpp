@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sinew/base/error.hpp"
+#include "sinew/io/figure.hpp"
 
 namespace sinew::inline v0 {
 
@@ -37,8 +38,10 @@ struct Reproduction {
 
 /// Makes one item again; its files go to `out`/paper/. What is written before an error stays: without gnuplot
 /// the table, the findings and the scripts of the figures are there. Codes: `unknown_study`,
-/// `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`.
-SINEW_API Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out);
+/// `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`, `script_edited`.
+/// @param page of the figures: width, font, formats, and whether scripts that were edited are replaced
+SINEW_API Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out,
+                                           const FigureOptions& page = {});
 
 /// The findings as a Markdown table.
 SINEW_API std::string to_markdown(const Reproduction& reproduction);

@@ -136,16 +136,4 @@ void add_frontiers(Panel& panel, const SectionDiagram& diagram, double reach) {
   }
 }
 
-Expected<Reproduction> write_all(Reproduction result, const Table& table, const Figure& figure,
-                                 const std::filesystem::path& folder, const std::string& name) {
-  result.files.push_back(folder / (name + ".csv"));
-  if (auto done = write_csv(table, result.files.back()); !done) return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / (name + ".md")); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure, folder / name);
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
-  return result;
-}
-
 }  // namespace sinew::inline v0::lsk

@@ -61,10 +61,4 @@ Polygon visible(const HalfPlane& frontier, double reach);
 /// Frontiers of all tendons, named, and from the origin the vectors they are perpendicular to.
 void add_frontiers(Panel& panel, const SectionDiagram& diagram, double reach);
 
-// ---------------------------------------------------------------- files
-
-/// Table, findings and figure as `name.csv`, `name.md`, `name.svg` and so on.
-Expected<Reproduction> write_all(Reproduction result, const Table& table, const Figure& figure,
-                                 const std::filesystem::path& folder, const std::string& name);
-
 }  // namespace sinew::inline v0::lsk

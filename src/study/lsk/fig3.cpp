@@ -102,13 +102,12 @@ Figure figure_of(const std::vector<Lengths>& all) {
 
 }  // namespace
 
-Expected<Reproduction> lsk_fig3(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> lsk_fig3(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load_serial("nottingham-tpcj");
   if (!robot) return tl::unexpected(robot.error());
   const Section& section = robot->sections.front();
   const std::vector<Lengths> all = curve(section);
-  return lsk::write_all({std::string(item.id), std::string(item.title), findings(section, all), {}},
-                        table_of(all), figure_of(all), folder, "fig3");
+  return ItemResult{findings(section, all), {}, {{"fig3", table_of(all)}}, {{"fig3", figure_of(all)}}};
 }
 
 }  // namespace sinew::inline v0

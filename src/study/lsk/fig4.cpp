@@ -157,17 +157,19 @@ Figure figure_of(const Section& section, const SectionDiagram& diagram, const Be
 
 }  // namespace
 
-Expected<Reproduction> lsk_fig4(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> lsk_fig4(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load_serial("nottingham-tpcj");
   if (!robot) return tl::unexpected(robot.error());
   const Section& section = robot->sections.front();
   const Bend meant = example(section);
   const std::vector<double> changes = lsk::changes_of(section, meant, 0);
   const SectionDiagram diagram = lsk::diagram_of(section, changes);
-  Reproduction result{std::string(item.id), std::string(item.title), findings(section, diagram, meant), {}};
-  result.findings.push_back(factor(section, changes, meant));
-  return lsk::write_all(std::move(result), table_of(diagram, changes, section),
-                        figure_of(section, diagram, meant), folder, "fig4");
+  std::vector<Finding> all = findings(section, diagram, meant);
+  all.push_back(factor(section, changes, meant));
+  return ItemResult{std::move(all),
+                    {},
+                    {{"fig4", table_of(diagram, changes, section)}},
+                    {{"fig4", figure_of(section, diagram, meant)}}};
 }
 
 }  // namespace sinew::inline v0

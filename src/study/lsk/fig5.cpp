@@ -144,13 +144,13 @@ Figure figure_of(const Section& section, const std::vector<Situation>& all) {
 
 }  // namespace
 
-Expected<Reproduction> lsk_fig5(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> lsk_fig5(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load_serial("nottingham-tpcj");
   if (!robot) return tl::unexpected(robot.error());
   const Section& section = robot->sections.front();
   const std::vector<Situation> all = situations(section);
-  return lsk::write_all({std::string(item.id), std::string(item.title), findings(section, all), {}},
-                        table_of(all), figure_of(section, all), folder, "fig5");
+  return ItemResult{
+      findings(section, all), {}, {{"fig5", table_of(all)}}, {{"fig5", figure_of(section, all)}}};
 }
 
 }  // namespace sinew::inline v0

@@ -140,17 +140,18 @@ Figure figure_of(const Section& section, const SectionDiagram& diagram) {
 
 }  // namespace
 
-Expected<Reproduction> lsk_fig6(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> lsk_fig6(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load_serial("nottingham-neutral");
   if (!robot) return tl::unexpected(robot.error());
   const Section& section = robot->sections.front();
   const std::vector<double> changes = lsk::changes_of(section, example(), 0);
   const SectionDiagram diagram = lsk::diagram_of(section, changes);
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   add_point(result.findings, section, diagram, changes);
   add_envelopes(result.findings, section);
-  return lsk::write_all(std::move(result), polar_table(diagram, changes, section),
-                        figure_of(section, diagram), folder, "fig6");
+  result.tables.emplace_back("fig6", polar_table(diagram, changes, section));
+  result.figures.emplace_back("fig6", figure_of(section, diagram));
+  return result;
 }
 
 }  // namespace sinew::inline v0

@@ -154,11 +154,13 @@ Figure figure_of() {
 
 }  // namespace
 
-Expected<Reproduction> lsk_fig7(const StudyItem& item, const std::filesystem::path& folder) {
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+Expected<ItemResult> lsk_fig7(const StudyItem&, const std::filesystem::path&) {
+  ItemResult result;
   add_errors(result.findings);
   add_fits(result.findings);
-  return lsk::write_all(std::move(result), table_of(), figure_of(), folder, "fig7");
+  result.tables.emplace_back("fig7", table_of());
+  result.figures.emplace_back("fig7", figure_of());
+  return result;
 }
 
 }  // namespace sinew::inline v0

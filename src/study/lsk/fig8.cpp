@@ -212,26 +212,19 @@ Figure figure_of(const Runs& runs) {
 }
 
 /// What the item comes to where there is nothing to measure with.
-Reproduction not_measured(const StudyItem& item, const Errors& errors) {
-  Finding finding{"cycles on an ATmega2560", "drawn, not printed", "not measured: " + errors[0].message, "",
-                  "for information"};
-  return {std::string(item.id), std::string(item.title), {finding}, {}};
+Finding not_measured(const Errors& errors) {
+  return {"cycles on an ATmega2560", "drawn, not printed", "not measured: " + errors[0].message, "",
+          "for information"};
 }
 
 }  // namespace
 
-Expected<Reproduction> lsk_fig8(const StudyItem& item, const fs::path& folder) {
+Expected<ItemResult> lsk_fig8(const StudyItem&, const fs::path& folder) {
   const auto tools = lsk::find_cycles_tools();
-  if (!tools) {
-    Reproduction result = not_measured(item, tools.error());
-    if (auto written = compare::write_findings(result, folder / "fig8.md"); !written)
-      return tl::unexpected(written.error());
-    return result;
-  }
+  if (!tools) return ItemResult{{not_measured(tools.error())}, {}, {}, {}};
   const auto runs = measure_all(*tools, folder / "fig8-firmware");
   if (!runs) return tl::unexpected(runs.error());
-  return lsk::write_all({std::string(item.id), std::string(item.title), findings(*runs), {}},
-                        table_of(*runs, *tools), figure_of(*runs), folder, "fig8");
+  return ItemResult{findings(*runs), {}, {{"fig8", table_of(*runs, *tools)}}, {{"fig8", figure_of(*runs)}}};
 }
 
 }  // namespace sinew::inline v0

@@ -270,10 +270,9 @@ Figure figure_of(const Formats& all) {
 
 }  // namespace
 
-Expected<Reproduction> lsk_fig9(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> lsk_fig9(const StudyItem&, const std::filesystem::path&) {
   const Formats all = formats();
-  return lsk::write_all({std::string(item.id), std::string(item.title), findings(all), {}}, table_of(all),
-                        figure_of(all), folder, "fig9");
+  return ItemResult{findings(all), {}, {{"fig9", table_of(all)}}, {{"fig9", figure_of(all)}}};
 }
 
 }  // namespace sinew::inline v0

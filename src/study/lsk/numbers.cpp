@@ -302,12 +302,12 @@ Panel slack_panel(const SerialRobot& robot, const LinearConsequences& random) {
 
 }  // namespace
 
-Expected<Reproduction> lsk_numbers(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> lsk_numbers(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load_serial("nottingham-tpcj"), neutral = load_serial("nottingham-neutral");
   if (!robot) return tl::unexpected(robot.error());
   if (!neutral) return tl::unexpected(neutral.error());
   const LinearConsequences random = linear_consequences(*robot, poses, seed);
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   add_sizes(result.findings, *robot);
   add_sensitivity_and_travel(result.findings, *robot);
   add_counts(result.findings);
@@ -320,7 +320,9 @@ Expected<Reproduction> lsk_numbers(const StudyItem& item, const std::filesystem:
                       .width = 1500,
                       .height = 460,
                       .comments = lsk::provenance("lsk/numbers", "travel, evaluations, slack")};
-  return lsk::write_all(std::move(result), table_of(*robot, random), figure, folder, "numbers");
+  result.tables.emplace_back("numbers", table_of(*robot, random));
+  result.figures.emplace_back("numbers", figure);
+  return result;
 }
 
 }  // namespace sinew::inline v0

@@ -144,8 +144,8 @@ Panel panel_of(const char* title, const char* unit, bool is_chord) {
 
 }  // namespace
 
-Expected<Reproduction> tdpcr_chains(const StudyItem& item, const std::filesystem::path& folder) {
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+Expected<ItemResult> tdpcr_chains(const StudyItem&, const std::filesystem::path&) {
+  ItemResult result;
   Table table{"moment[N m]", "force[N]", "weighted", "n", "chord_error[m]", "turn_error[rad]"};
   table.comments = provenance();
   for (const Case& load : cases)
@@ -163,10 +163,7 @@ Expected<Reproduction> tdpcr_chains(const StudyItem& item, const std::filesystem
                                                         : 2,
                                       "rad"));
     }
-  result.files.push_back(folder / "chains.csv");
-  if (auto done = write_csv(table, result.files.back()); !done) return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / "chains.md"); !done)
-    return tl::unexpected(done.error());
+  result.tables.emplace_back("chains", table);
   Figure figure{.title = "Pseudo-rigid chains against the elastica",
                 .panels = {},
                 .columns = 2,
@@ -175,9 +172,7 @@ Expected<Reproduction> tdpcr_chains(const StudyItem& item, const std::filesystem
                 .comments = provenance()};
   figure.panels.push_back(panel_of("chord", "µm", true));
   figure.panels.push_back(panel_of("turn: what tendons feel", "mrad", false));
-  Errors errors;
-  compare::add_figure(result, errors, figure, folder / "chains");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.figures.emplace_back("chains", figure);
   return result;
 }
 

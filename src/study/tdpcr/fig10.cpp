@@ -236,7 +236,7 @@ Figure figure_of(const Sample& last, const PlanarShape& picture) {
 
 }  // namespace
 
-Expected<Reproduction> tdpcr_fig10(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tdpcr_fig10(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load("3-rfr");
   if (!robot) return tl::unexpected(robot.error());
   Workspace work(*robot);
@@ -244,7 +244,7 @@ Expected<Reproduction> tdpcr_fig10(const StudyItem& item, const std::filesystem:
   if (!last) return tl::unexpected(last.error());
   const PlanarShape picture = shape(*robot, last->pose, last->curvatures, 101);
 
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   add_pose(result.findings, *last, picture);
   add_lines(result.findings, *last, picture);
   add_rank(result.findings, *last, picture);
@@ -253,14 +253,8 @@ Expected<Reproduction> tdpcr_fig10(const StudyItem& item, const std::filesystem:
   if (!others) return tl::unexpected(std::move(others.error()));
   result.findings.push_back(std::move(*others));
 
-  result.files.push_back(folder / "fig10.csv");
-  if (auto done = write_csv(table_of(*last, picture), result.files.back()); !done)
-    return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / "fig10.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure_of(*last, picture), folder / "fig10");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back("fig10", table_of(*last, picture));
+  result.figures.emplace_back("fig10", figure_of(*last, picture));
   return result;
 }
 

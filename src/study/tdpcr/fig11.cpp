@@ -202,7 +202,7 @@ Figure figure_of(const std::vector<Sample>& arcs, const Chains& chains, const ex
 
 }  // namespace
 
-Expected<Reproduction> tdpcr_fig11(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tdpcr_fig11(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load("3-rfr");
   if (!robot) return tl::unexpected(robot.error());
   const auto arcs = example51::trajectory(*robot);
@@ -217,7 +217,7 @@ Expected<Reproduction> tdpcr_fig11(const StudyItem& item, const std::filesystem:
   if (!near_end) return tl::unexpected(near_end.error());
   const example51::Rates limit = example51::rates(arcs->back(), chains->back());
 
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   auto& findings = result.findings;
   findings.push_back(growth("condition number of J", &Indices::condition, "", *chains));
   findings.push_back(growth("‖U_θp‖", &Indices::position, " m/rad", *chains));
@@ -230,14 +230,8 @@ Expected<Reproduction> tdpcr_fig11(const StudyItem& item, const std::filesystem:
   add_artefact(findings, *arcs, *chains, *on_chains);
   findings.push_back(chord_forces(*chains, *on_chains));
 
-  result.files.push_back(folder / "fig11.csv");
-  if (auto done = write_csv(table_of(*chains), result.files.back()); !done)
-    return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / "fig11.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure_of(*arcs, *chains, limit), folder / "fig11");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back("fig11", table_of(*chains));
+  result.figures.emplace_back("fig11", figure_of(*arcs, *chains, limit));
   return result;
 }
 

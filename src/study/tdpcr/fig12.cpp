@@ -78,7 +78,7 @@ Figure figure_of(const ChainSample& last, const std::vector<Polyline>& chains, c
 
 }  // namespace
 
-Expected<Reproduction> tdpcr_fig12(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tdpcr_fig12(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load("3-rfr");
   if (!robot) return tl::unexpected(robot.error());
   const auto on_chains = example51::chains(*robot);
@@ -91,7 +91,7 @@ Expected<Reproduction> tdpcr_fig12(const StudyItem& item, const std::filesystem:
   const Point met =
       type.point.value_or(Vec3<double>::Constant(std::numeric_limits<double>::quiet_NaN())).head<2>();
 
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   auto& findings = result.findings;
   const bool as_claimed = type.singular && type.rank == 2 && type.kind == LineClass::concurrent;
   findings.push_back(
@@ -117,14 +117,8 @@ Expected<Reproduction> tdpcr_fig12(const StudyItem& item, const std::filesystem:
                                   most * 180 / pi, 100 * least),
                       "", "for information"});
 
-  result.files.push_back(folder / "fig12.csv");
-  if (auto done = write_csv(table_of(chains), result.files.back()); !done)
-    return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / "fig12.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure_of(last, chains, met), folder / "fig12");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back("fig12", table_of(chains));
+  result.figures.emplace_back("fig12", figure_of(last, chains, met));
   return result;
 }
 

@@ -281,7 +281,7 @@ Figure figure_of(const PlanarShape& picture, const Legs& legs) {
 
 }  // namespace
 
-Expected<Reproduction> tdpcr_fig8(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tdpcr_fig8(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load("3-rfr");
   if (!robot) return tl::unexpected(robot.error());
   Workspace work(*robot);
@@ -290,20 +290,13 @@ Expected<Reproduction> tdpcr_fig8(const StudyItem& item, const std::filesystem::
   const PlanarShape picture = shape(*robot, home->pose, home->curvatures, samples);
   const Legs legs = legs_of(*home, picture);
 
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   add_geometry(result.findings, *home, picture);
   add_legs(result.findings, legs);
   add_state(result.findings, *home);
 
-  result.files.push_back(folder / "fig8.csv");
-  if (auto done = write_csv(table_of(legs, picture), result.files.back()); !done)
-    return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / "fig8.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure_of(shape(*robot, home->pose, home->curvatures, 101), legs),
-                      folder / "fig8");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back("fig8", table_of(legs, picture));
+  result.figures.emplace_back("fig8", figure_of(shape(*robot, home->pose, home->curvatures, 101), legs));
   return result;
 }
 

@@ -20,7 +20,7 @@
 namespace sinew::inline v0 {
 namespace {
 
-using compare::add_figure, compare::number, compare::printed, compare::small, compare::write_findings;
+using compare::number, compare::printed, compare::small;
 using example51::Printed, example51::Sample;
 using std::numbers::pi;
 using Samples = std::vector<Sample>;
@@ -248,7 +248,7 @@ Figure poses_figure(const AnyRobot& robot, const Samples& samples) {
 
 }  // namespace
 
-Expected<Reproduction> tdpcr_fig9(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tdpcr_fig9(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load("3-rfr");
   if (!robot) return tl::unexpected(robot.error());
   const auto samples = example51::trajectory(*robot);
@@ -257,20 +257,15 @@ Expected<Reproduction> tdpcr_fig9(const StudyItem& item, const std::filesystem::
   const auto near_end = example51::sample(*robot, 1 - 1e-5, work);
   if (!near_end) return tl::unexpected(near_end.error());
 
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   add_geometry(result.findings, *robot, *samples);
   add_indices(result.findings, *samples);
   add_singularity(result.findings, *samples);
   add_rates(result.findings, samples->back(), *near_end);
 
-  result.files.push_back(folder / "fig9.csv");
-  if (auto done = write_csv(table_of(*samples), result.files.back()); !done)
-    return tl::unexpected(done.error());
-  if (auto done = write_findings(result, folder / "fig9.md"); !done) return tl::unexpected(done.error());
-  Errors errors;
-  add_figure(result, errors, indices_figure(*samples), folder / "fig9");
-  add_figure(result, errors, poses_figure(*robot, *samples), folder / "fig9-poses");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back("fig9", table_of(*samples));
+  result.figures.emplace_back("fig9", indices_figure(*samples));
+  result.figures.emplace_back("fig9-poses", poses_figure(*robot, *samples));
   return result;
 }
 

@@ -64,7 +64,7 @@ Table table_of(std::span<const Loaded> presets) {
 
 }  // namespace
 
-Expected<Reproduction> tripod_design(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_design(const StudyItem&, const std::filesystem::path& folder) {
   const auto study = tripod::swept("3pfs-design", folder);
   if (!study) return tl::unexpected(study.error());
   const auto low = tripod::swept("3pfs-g1-diameter", folder),
@@ -74,24 +74,16 @@ Expected<Reproduction> tripod_design(const StudyItem& item, const std::filesyste
   const Designs made = tripod::designs(*study);
   const std::vector<Loaded> presets{tripod::loaded(*low, "G1", 200), tripod::loaded(*high, "G2", 400)};
 
-  Reproduction result{
-      std::string(item.id), std::string(item.title), {}, {study->file, low->file, high->file}};
+  ItemResult result{{}, {study->file, low->file, high->file}, {}, {}};
   tripod::add_dimension_findings(result.findings, made);
   tripod::add_lever_findings(result.findings, made);
   if (auto done = tripod::add_load_findings(result.findings, presets, *low); !done)
     return tl::unexpected(done.error());
   tripod::add_recommendations(result.findings, made, presets);
 
-  for (const auto& [name, table] :
-       {std::pair{"design.csv", table_of(made)}, {"diameter.csv", table_of(presets)}}) {
-    result.files.push_back(folder / name);
-    if (auto done = write_csv(table, result.files.back()); !done) return tl::unexpected(done.error());
-  }
-  if (auto done = compare::write_findings(result, folder / "design.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, tripod::design_figure(made, presets), folder / "design");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back("design", table_of(made));
+  result.tables.emplace_back("diameter", table_of(presets));
+  result.figures.emplace_back("design", tripod::design_figure(made, presets));
   return result;
 }
 

@@ -195,19 +195,15 @@ Figure figure_of(const Swept& study) {
 
 }  // namespace
 
-Expected<Reproduction> tripod_equation36(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_equation36(const StudyItem&, const std::filesystem::path& folder) {
   const auto study = tripod::swept("3pfs-equation-36", folder);
   if (!study) return tl::unexpected(study.error());
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {study->file}};
+  ItemResult result{{}, {study->file}, {}, {}};
   add_errors(result.findings, *study);
   add_coefficients(result.findings, *study);
   add_signs(result.findings);
   add_reasons(result.findings);
-  if (auto done = compare::write_findings(result, folder / "equation36.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure_of(*study), folder / "equation36");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.figures.emplace_back("equation36", figure_of(*study));
   return result;
 }
 

@@ -88,8 +88,8 @@ Panel joint_panel(const PresetStudies& of, std::size_t i) {
 
 }  // namespace
 
-Expected<Reproduction> tripod_fig10(const StudyItem& item, const std::filesystem::path& folder) {
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+Expected<ItemResult> tripod_fig10(const StudyItem&, const std::filesystem::path& folder) {
+  ItemResult result;
   Figure figure{.title = "", .panels = {}, .columns = 3, .width = 1500, .height = 960, .comments = {}};
   figure.comments = {fmt::format("sinew {}: inputs that keep a height, [3PFS] Fig. 10", version())};
   for (const Preset& preset : presets) {
@@ -97,15 +97,11 @@ Expected<Reproduction> tripod_fig10(const StudyItem& item, const std::filesystem
     if (!exact) return tl::unexpected(exact.error());
     if (!near) return tl::unexpected(near.error());
     const PresetStudies of{&preset, std::move(*exact), std::move(*near)};
-    result.files.push_back(of.exact.file);
+    result.swept.push_back(of.exact.file);
     add_findings(result.findings, of);
     for (std::size_t i = 0; i < std::size(heights); ++i) figure.panels.push_back(joint_panel(of, i));
   }
-  if (auto done = compare::write_findings(result, folder / "fig10.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure, folder / "fig10");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.figures.emplace_back("fig10", figure);
   return result;
 }
 

@@ -187,13 +187,13 @@ Figure figure_of(std::span<const PresetHeights> all, const Coordinate& what, con
   return figure;
 }
 
-Expected<Reproduction> reproduce_coordinate(const StudyItem& item, const std::filesystem::path& folder,
-                                            const Coordinate& what) {
+Expected<ItemResult> reproduce_coordinate(const StudyItem& item, const std::filesystem::path& folder,
+                                          const Coordinate& what) {
   auto twin = load("3prs");
   if (!twin) return tl::unexpected(twin.error());
   const Rigid rigid{std::move(*twin)};
   std::vector<PresetHeights> all;
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   for (const Preset& preset : presets) {
     auto near = tripod::swept(preset.parasitic, folder), exact = tripod::swept(preset.height, folder);
     auto robot = load(preset.robot);
@@ -201,8 +201,8 @@ Expected<Reproduction> reproduce_coordinate(const StudyItem& item, const std::fi
     if (!exact) return tl::unexpected(exact.error());
     if (!robot) return tl::unexpected(robot.error());
     all.push_back({&preset, std::move(*robot), std::move(*near), std::move(*exact)});
-    result.files.push_back(all.back().near.file);
-    result.files.push_back(all.back().exact.file);
+    result.swept.push_back(all.back().near.file);
+    result.swept.push_back(all.back().exact.file);
     if (what.column == e3.column)
       add_turns(result.findings, all.back());
     else
@@ -210,26 +210,20 @@ Expected<Reproduction> reproduce_coordinate(const StudyItem& item, const std::fi
   }
   add_reasons(result.findings, what);
   const std::string name(item.id.substr(item.id.find('/') + 1));
-  result.files.push_back(folder / (name + ".csv"));
-  if (auto done = write_csv(table_of(all, what, rigid), result.files.back()); !done)
-    return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / (name + ".md")); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure_of(all, what, rigid), folder / name);
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back(name, table_of(all, what, rigid));
+  result.figures.emplace_back(name, figure_of(all, what, rigid));
   return result;
 }
 
 }  // namespace
 
-Expected<Reproduction> tripod_fig11(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_fig11(const StudyItem& item, const std::filesystem::path& folder) {
   return reproduce_coordinate(item, folder, e3);
 }
-Expected<Reproduction> tripod_fig12(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_fig12(const StudyItem& item, const std::filesystem::path& folder) {
   return reproduce_coordinate(item, folder, x);
 }
-Expected<Reproduction> tripod_fig13(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_fig13(const StudyItem& item, const std::filesystem::path& folder) {
   return reproduce_coordinate(item, folder, y);
 }
 

@@ -206,26 +206,21 @@ Figure figure_of(const std::vector<Parasitic>& all) {
 
 }  // namespace
 
-Expected<Reproduction> tripod_fig4(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_fig4(const StudyItem&, const std::filesystem::path&) {
   auto file = load("3prs");
   if (!file) return tl::unexpected(file.error());
   const AnyRobot robot = tripod::with_platform_radius(std::move(*file), radius);
   const std::vector<Parasitic> all = everywhere(robot);
 
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   result.findings.push_back(
       compare::printed("platform radius r", radius, tripod::size_of(robot).platform_radius, "m"));
   add_equations(result.findings, all);
   add_shape(result.findings, robot, all);
   result.findings.push_back(null_of_e0(robot));
 
-  result.files.push_back(folder / "fig4.csv");
-  if (auto done = write_csv(table_of(all), result.files.back()); !done) return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / "fig4.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure_of(all), folder / "fig4");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back("fig4", table_of(all));
+  result.figures.emplace_back("fig4", figure_of(all));
   return result;
 }
 

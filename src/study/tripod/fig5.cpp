@@ -245,14 +245,14 @@ Figure figure_of(const TripodSize& size, const std::vector<Locus>& loci) {
 
 }  // namespace
 
-Expected<Reproduction> tripod_fig5(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_fig5(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load("3prs");
   if (!robot) return tl::unexpected(robot.error());
   Workspace work(*robot);
   const TripodSize size = tripod::size_of(*robot);
   const std::vector<Locus> loci = loci_of(size);
 
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   add_size(result.findings, size);
   result.findings.push_back(plus_sign(size));
   add_inverse(result.findings, size, loci);
@@ -260,13 +260,8 @@ Expected<Reproduction> tripod_fig5(const StudyItem& item, const std::filesystem:
   add_forward(result.findings, *robot, size, loci, work);
   add_areas(result.findings, size);
 
-  result.files.push_back(folder / "fig5.csv");
-  if (auto done = write_csv(table_of(loci), result.files.back()); !done) return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / "fig5.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure_of(size, loci), folder / "fig5");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back("fig5", table_of(loci));
+  result.figures.emplace_back("fig5", figure_of(size, loci));
   return result;
 }
 

@@ -169,25 +169,19 @@ Figure index_figure(const TripodSize& size, const Samples& all) {
 
 }  // namespace
 
-Expected<Reproduction> tripod_fig6(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_fig6(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load("3prs");
   if (!robot) return tl::unexpected(robot.error());
   Workspace work(*robot);
   const TripodSize size = tripod::size_of(*robot);
   const Samples all = tripod::samples(*robot, work);
 
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   add_definition(result.findings, size, all);
   add_values(result.findings, *robot, size, all, work);
 
-  result.files.push_back(folder / "fig6.csv");
-  if (auto done = write_csv(index_table(all), result.files.back()); !done)
-    return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / "fig6.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, index_figure(size, all), folder / "fig6");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back("fig6", index_table(all));
+  result.figures.emplace_back("fig6", index_figure(size, all));
   return result;
 }
 

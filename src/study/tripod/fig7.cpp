@@ -165,7 +165,7 @@ Figure forward_figure(const TripodSize& size, const Samples& all) {
 
 }  // namespace
 
-Expected<Reproduction> tripod_fig7(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_fig7(const StudyItem&, const std::filesystem::path&) {
   const auto robot = load("3prs");
   if (!robot) return tl::unexpected(robot.error());
   Workspace work(*robot);
@@ -173,7 +173,7 @@ Expected<Reproduction> tripod_fig7(const StudyItem& item, const std::filesystem:
   const Samples all = tripod::samples(*robot, work);
   const Sample home = tripod::sample(*robot, {tripod::height, 0, 0}, work);
 
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+  ItemResult result;
   std::vector<Finding>& findings = result.findings;
   findings.push_back({"norm of the FK Jacobian, (17)", "not defined; numbers not printed",
                       "Frobenius of the left matrix; 2-norms of the blocks of U = J_FK⁻¹ (J_IK; 0)", "",
@@ -188,14 +188,8 @@ Expected<Reproduction> tripod_fig7(const StudyItem& item, const std::filesystem:
   findings.push_back(height(*robot, all, home.determinant, work));
   findings.push_back(symmetry(*robot, work));
 
-  result.files.push_back(folder / "fig7.csv");
-  if (auto done = write_csv(forward_table(all), result.files.back()); !done)
-    return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / "fig7.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, forward_figure(size, all), folder / "fig7");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back("fig7", forward_table(all));
+  result.figures.emplace_back("fig7", forward_figure(size, all));
   return result;
 }
 

@@ -97,23 +97,19 @@ Panel workspace(const Preset& preset, const Swept& study) {
 
 }  // namespace
 
-Expected<Reproduction> tripod_fig9(const StudyItem& item, const std::filesystem::path& folder) {
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+Expected<ItemResult> tripod_fig9(const StudyItem&, const std::filesystem::path& folder) {
+  ItemResult result;
   Figure figure{.title = "", .panels = {}, .columns = 2, .width = 1200, .height = 1060, .comments = {}};
   figure.comments = {fmt::format("sinew {}: joint space and workspace, [3PFS] Fig. 9", version())};
   for (const Preset& preset : presets) {
     const auto study = tripod::swept(preset.workspace, folder);
     if (!study) return tl::unexpected(study.error());
-    result.files.push_back(study->file);
+    result.swept.push_back(study->file);
     add_findings(result.findings, preset, *study);
     figure.panels.push_back(joint_space(preset, *study));
     figure.panels.push_back(workspace(preset, *study));
   }
-  if (auto done = compare::write_findings(result, folder / "fig9.md"); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure, folder / "fig9");
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.figures.emplace_back("fig9", figure);
   return result;
 }
 

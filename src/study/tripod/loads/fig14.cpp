@@ -105,14 +105,14 @@ Figure figure_of(const StudyItem& item, Load load, const std::vector<PresetLoads
 }
 
 /// G1 and G2 run; their files go into the reproduction.
-Expected<std::vector<PresetLoads>> presets_under(Load load, Reproduction& result,
+Expected<std::vector<PresetLoads>> presets_under(Load load, ItemResult& result,
                                                  const std::filesystem::path& folder) {
   std::vector<PresetLoads> presets;
   for (std::size_t p = 0; p < 2; ++p) {
     const tripod::LoadedGeometry& geometry = tripod::loaded_geometries[p];
     auto study = tripod::swept(geometry.study, folder);
     if (!study) return tl::unexpected(study.error());
-    result.files.push_back(study->file);
+    result.swept.push_back(study->file);
     std::vector<std::size_t> layer = tripod::middle_layer(*study);
     presets.push_back(
         {geometry.name, std::move(*study), {tripod::Rods::thin, load, tripod::load_steps}, layer});
@@ -120,36 +120,30 @@ Expected<std::vector<PresetLoads>> presets_under(Load load, Reproduction& result
   return presets;
 }
 
-Expected<Reproduction> loaded_poses(const StudyItem& item, Load load, const std::filesystem::path& folder) {
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+Expected<ItemResult> loaded_poses(const StudyItem& item, Load load, const std::filesystem::path& folder) {
+  ItemResult result;
   const auto presets = presets_under(load, result, folder);
   if (!presets) return tl::unexpected(presets.error());
   for (const PresetLoads& preset : *presets)
     tripod::add_load_claims(result.findings, preset.name, preset.study, load);
 
   const std::string stem(item.id.substr(item.id.find('/') + 1));
-  result.files.push_back(folder / (stem + ".csv"));
-  if (auto done = write_csv(table_of(item, load, *presets), result.files.back()); !done)
-    return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / (stem + ".md")); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure_of(item, load, *presets), folder / stem);
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back(stem, table_of(item, load, *presets));
+  result.figures.emplace_back(stem, figure_of(item, load, *presets));
   return result;
 }
 
 }  // namespace
 
-Expected<Reproduction> tripod_fig14(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_fig14(const StudyItem& item, const std::filesystem::path& folder) {
   return loaded_poses(item, Load::force_z, folder);
 }
 
-Expected<Reproduction> tripod_fig15(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_fig15(const StudyItem& item, const std::filesystem::path& folder) {
   return loaded_poses(item, Load::moment_x, folder);
 }
 
-Expected<Reproduction> tripod_fig16(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_fig16(const StudyItem& item, const std::filesystem::path& folder) {
   return loaded_poses(item, Load::moment_y, folder);
 }
 

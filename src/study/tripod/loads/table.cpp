@@ -109,12 +109,12 @@ Figure figure_of(const StudyItem& item, const PrintedTable& paper, const Compare
 }
 
 /// The studies run; their files go into the reproduction.
-Expected<ComparedTables> compared(bool is_steel, Reproduction& result, const std::filesystem::path& folder) {
+Expected<ComparedTables> compared(bool is_steel, ItemResult& result, const std::filesystem::path& folder) {
   ComparedTables all;
   for (const tripod::LoadedGeometry& geometry : tripod::loaded_geometries) {
     const auto study = tripod::swept(geometry.study, folder);
     if (!study) return tl::unexpected(study.error());
-    result.files.push_back(study->file);
+    result.swept.push_back(study->file);
     all.ours.push_back({geometry.name, is_steel ? "210 GPa" : "",
                         relative_rms(*study, is_steel ? Rods::thick_steel : Rods::thin)});
     if (is_steel) all.beside.push_back({geometry.name, "83 GPa", relative_rms(*study, Rods::thick)});
@@ -122,32 +122,26 @@ Expected<ComparedTables> compared(bool is_steel, Reproduction& result, const std
   return all;
 }
 
-Expected<Reproduction> table(const StudyItem& item, const PrintedTable& paper, bool is_steel,
-                             const std::filesystem::path& folder) {
-  Reproduction result{std::string(item.id), std::string(item.title), {}, {}};
+Expected<ItemResult> table(const StudyItem& item, const PrintedTable& paper, bool is_steel,
+                           const std::filesystem::path& folder) {
+  ItemResult result;
   const auto all = compared(is_steel, result, folder);
   if (!all) return tl::unexpected(all.error());
   tripod::add_table_findings(result.findings, paper, *all);
 
   const std::string stem = paper.stem;
-  result.files.push_back(folder / (stem + ".csv"));
-  if (auto done = write_csv(table_of(item, paper, *all), result.files.back()); !done)
-    return tl::unexpected(done.error());
-  if (auto done = compare::write_findings(result, folder / (stem + ".md")); !done)
-    return tl::unexpected(done.error());
-  Errors errors;
-  compare::add_figure(result, errors, figure_of(item, paper, *all), folder / stem);
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  result.tables.emplace_back(stem, table_of(item, paper, *all));
+  result.figures.emplace_back(stem, figure_of(item, paper, *all));
   return result;
 }
 
 }  // namespace
 
-Expected<Reproduction> tripod_table1(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_table1(const StudyItem& item, const std::filesystem::path& folder) {
   return table(item, tripod::table_1, false, folder);
 }
 
-Expected<Reproduction> tripod_table2(const StudyItem& item, const std::filesystem::path& folder) {
+Expected<ItemResult> tripod_table2(const StudyItem& item, const std::filesystem::path& folder) {
   return table(item, tripod::table_2, true, folder);
 }
 
