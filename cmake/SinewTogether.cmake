@@ -59,6 +59,8 @@ function(sinew_together result target)
       if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         # what a group makes of types and constants that each file has for itself
         list(APPEND options -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
+      elseif(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+        list(APPEND options -Wno-shadow)
       endif()
       set_source_files_properties(${source} PROPERTIES INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR} COMPILE_OPTIONS "${options}")
       list(APPEND sources ${source})

@@ -8,6 +8,7 @@
 
 #include "command.hpp"
 #include "paths.hpp"
+#include "sanitizers.hpp"
 #include "thorough.hpp"
 
 namespace output_test {
@@ -126,9 +127,7 @@ void PrintTo(const Writing& writing, std::ostream* stream) { *stream << writing.
 class EachWriteFails : public testing::TestWithParam<Writing> {};
 
 TEST_P(EachWriteFails, TheOldFileStaysAndTheReasonIsSaid) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer has to be loaded first";
-#endif
+  if (addresses_are_checked) GTEST_SKIP() << "the sanitizer has to be loaded first";
   const Writing& writing = GetParam();
   const QuickGnuplot gnuplot;
   const Scratch here;

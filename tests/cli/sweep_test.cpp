@@ -11,17 +11,14 @@
 
 #include "command.hpp"
 #include "paths.hpp"
+#include "sanitizers.hpp"
 #include "thorough.hpp"
 
 namespace sweep_test {
 
 using namespace sinew::test;
 
-#ifdef __SANITIZE_ADDRESS__
-const int values = 15;  // instrumented code is slow
-#else
-const int values = count_of(31, 53);
-#endif
+const int values = addresses_are_checked ? 15 : count_of(31, 53);  // instrumented code is slow
 
 const std::string rods =
     "sinew: 1\nrobot: 3pfs-g2\nquery: {query: forward, inputs: [$a, $b, $c]}\naxes:\n" + [] {
@@ -136,9 +133,7 @@ TEST(SweepCommand, BeginsNoSweepOverAnother) {
 }
 
 TEST(SweepCommand, ThreeRanksGiveTheSameBytes) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "MPI leaves memory behind, and takes over that of the process";
-#endif
+  if (addresses_are_checked) GTEST_SKIP() << "MPI leaves memory behind, and takes over that of the process";
   if (std::system("command -v mpirun >/dev/null") != 0) GTEST_SKIP() << "no mpirun";
   for (const std::string& study : {rods, queries}) {
     const Scratch here;

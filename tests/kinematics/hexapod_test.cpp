@@ -5,6 +5,7 @@
 
 #include "kinematics/rods/hold.hpp"
 #include "rod_robots.hpp"
+#include "sanitizers.hpp"
 #include "shooting_hexapod.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/io/robot_file.hpp"
@@ -196,9 +197,7 @@ TEST(Hexapod, TiedRodsHoldNoPose) {
 }
 
 TEST(Hexapod, SeveralEquilibriaAreOfTheQuestionsGravity) {
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "a hundred and sixty searches take too long here";
-#endif
+  if (test::addresses_are_checked) GTEST_SKIP() << "a hundred and sixty searches take too long here";
   const AnyRobot robot = builtin("hexapod-heavy");
   Workspace work(robot);
   const std::vector<double> inputs(6, 0.45);

@@ -10,6 +10,7 @@
 #include "check_jacobian.hpp"
 #include "random_rod.hpp"
 #include "reference_file.hpp"
+#include "sanitizers.hpp"
 #include "sinew/link/elastica_map.hpp"
 
 namespace sinew {
@@ -129,13 +130,7 @@ TEST(HeldRod, IsFoundFromAnArcNearlyAlways) {
 }
 
 /// Properties that hold dozens of rods a case let most cases be, under sanitizers nearly all.
-bool is_let_be() {
-#if defined(__SANITIZE_ADDRESS__)
-  return *rc::gen::inRange(0, 20) != 0;
-#else
-  return *rc::gen::inRange(0, 3) != 0;
-#endif
-}
+bool is_let_be() { return *rc::gen::inRange(0, test::addresses_are_checked ? 20 : 3) != 0; }
 
 RC_GTEST_PROP(HeldRod, StiffnessAndFeedAreTheDerivatives, ()) {
   if (is_let_be()) return;

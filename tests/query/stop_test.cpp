@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cpu_time.hpp"
+#include "sanitizers.hpp"
 #include "sinew/query/session.hpp"
 
 namespace sinew {
@@ -42,11 +43,7 @@ TEST_P(StopOf, ARequestBeforeTheStartIsAnsweredAtOnce) {
 
 /// What is computed after the request. Solves look at the flag every millisecond or so; the solutions that
 /// all six-leg robots start from, found once in a process, take longer.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double most_seconds = 10;
-#else
-constexpr double most_seconds = 1;
-#endif
+const double most_seconds = test::is_instrumented ? 10 : 1;
 TEST_P(StopOf, ARequestOnTheWayEndsIt) {
   std::atomic<bool> flag{false};
   double requested = 0;

@@ -9,6 +9,7 @@
 #include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/solve.hpp"
 #include "rod_robots.hpp"
+#include "sanitizers.hpp"
 
 namespace sinew::test {
 namespace general_system_test {
@@ -89,13 +90,7 @@ void finest(System& system) {
 }
 
 /// Samples of a kind: one under AddressSanitizer, where steps take ten times as long.
-int samples(int usual) {
-#if defined(__SANITIZE_ADDRESS__)
-  return std::min(usual, 1);
-#else
-  return usual;
-#endif
-}
+int samples(int usual) { return test::addresses_are_checked ? std::min(usual, 1) : usual; }
 
 TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
   for (const Kind& kind : without_torque) {

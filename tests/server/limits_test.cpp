@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "cpu_time.hpp"
+#include "sanitizers.hpp"
 #include "wire.hpp"
 // It has httplib: last.
 #include "desk.hpp"
@@ -38,11 +39,7 @@ Options with_limits(double query, double time) {
 }
 
 /// Instrumented code gets to where it can stop later.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double patience = 10;
-#else
-constexpr double patience = 1;
-#endif
+const double patience = test::is_instrumented ? 10 : 1;
 
 TEST(Limits, AQueryThatTakesTooLongIsStoppedAndTheNextOneIsNot) {
   Desk desk(with_limits(0.3, 20));

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "sanitizers.hpp"
 #include "server/http/head.hpp"
 #include "thorough.hpp"
 #include "wire.hpp"
@@ -32,11 +33,7 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-const std::size_t stride = 61;
-#else
-const std::size_t stride = test::count_of<std::size_t>(5, 1);
-#endif
+const std::size_t stride = test::is_instrumented ? 61 : test::count_of<std::size_t>(5, 1);
 
 struct Smuggler {
   explicit Smuggler(int port)

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "sanitizers.hpp"
 #include "sinew/study/reproduce.hpp"
 #include "study/lsk/cycles/measure.hpp"
 #include "study_folder.hpp"
@@ -61,9 +62,8 @@ TEST_F(Cycles, DoNotDependOnTheNumbersWhereAnAvrMultiplies) {
 }
 
 TEST_F(Cycles, GrowWithTheSectionsAsFigure8Claims) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "a program of another processor, ten times: nothing here for a sanitizer";
-#endif
+  if (test::addresses_are_checked)
+    GTEST_SKIP() << "a program of another processor, ten times: nothing here for a sanitizer";
   const test::Folder folder;
   const Reproduction made = reproduce("lsk/fig8", folder.path).value();
   int claims = 0;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sanitizers.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
@@ -214,9 +215,7 @@ void expect_files() {
 }
 
 TEST(TripodDesign, EveryClaimHoldsAdviceFollowsAndFilesAreThere) {
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "minutes of sweeps, which the test above runs too";
-#endif
+  if (test::addresses_are_checked) GTEST_SKIP() << "minutes of sweeps, which the test above runs too";
   expect_claims();
   expect_advice();
   expect_files();

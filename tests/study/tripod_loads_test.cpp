@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "sanitizers.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
@@ -220,9 +221,7 @@ std::set<std::string> what_fails(const Reproduction& item) {
 }
 
 TEST(TripodLoadItems, FiguresFailOnlyWhatIsNotSo) {
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "minutes of sweeps, one of which the tests above run too";
-#endif
+  if (test::addresses_are_checked) GTEST_SKIP() << "minutes of sweeps, one of which the tests above run too";
   EXPECT_EQ(what_fails(made("fig14")), std::set<std::string>{"G2: e_1, e_2 contract"});
   EXPECT_EQ(made("fig14").findings.size(), 16u);
   for (const char* name : {"fig15", "fig16"}) {
@@ -250,9 +249,7 @@ void expect_stiffnesses(const std::string& geometry) {
 }
 
 TEST(TripodLoadItems, TablesHaveAFindingForEveryCell) {
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "minutes of sweeps, one of which the tests above run too";
-#endif
+  if (test::addresses_are_checked) GTEST_SKIP() << "minutes of sweeps, one of which the tests above run too";
   for (const auto& [name, agreeing] : {std::pair{"table1", 36}, {"table2", 40}}) {
     const Reproduction& item = made(name);
     EXPECT_TRUE(what_fails(item).empty());

@@ -72,6 +72,15 @@ Vec<double, N> damped_step(const Linearised<N>& system, double damping) {
   return -normal.ldlt().solve(Vec<double, N>(system.jacobian.transpose() * system.residual));
 }
 
+// Of the sizes that robots have; compiling them takes a second or two each.
+#define SINEW_NEWTON_STEPS(N)                                                                       \
+  extern template SINEW_API bool newton_step<N>(const Linearised<N>& system, Vec<double, N>& step); \
+  extern template SINEW_API Vec<double, N> damped_step<N>(const Linearised<N>& system, double damping);
+SINEW_NEWTON_STEPS(3)
+SINEW_NEWTON_STEPS(6)
+SINEW_NEWTON_STEPS(8)
+#undef SINEW_NEWTON_STEPS
+
 /// One run of the solver: the best iterate and what is known there.
 template <class P>
 class Newton {

@@ -59,7 +59,7 @@ inline int run(const char* name, const std::vector<std::string>& corpus,
                const std::function<bool(const std::string&)>& use) {
   constexpr unsigned seconds_an_input = 5;
   const char* text = std::getenv("SINEW_FUZZ_SECONDS");
-  const std::chrono::duration<double> whole(text ? std::atof(text) : 10.0);
+  const std::chrono::duration<double> whole(text ? std::atof(text) : 4.0);
   const auto begin = std::chrono::steady_clock::now();
   std::mt19937_64 random(20240607);
   std::size_t inputs = 0, bad = 0;
