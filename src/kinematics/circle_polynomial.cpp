@@ -1,6 +1,7 @@
 #include "kinematics/circle_polynomial.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -79,27 +80,78 @@ double CirclePolynomial::strength() const {
   return largest;
 }
 
-std::optional<int> CirclePolynomial::count_real(double margin) const {
-  constexpr double shortest = 1e-7;
-  double argument = 0;
-  const auto below_axis = [&](double t) { return at({t, -margin}); };
-  double t = 0, step = 0.05;
-  Complex here = below_axis(0);
-  while (t < turn) {  // steps over which the argument turns by little
-    const double ahead = std::min(t + step, turn);
-    const Complex there = below_axis(ahead), half = below_axis(0.5 * (t + ahead));
-    const double first = std::arg(half / here), second = std::arg(there / half);
-    if (!(std::abs(first) < 0.5 && std::abs(second) < 0.5)) {
-      step /= 2;
+std::optional<double> CirclePolynomial::turning(Complex from, Complex to, double margin) const {
+  constexpr double shortest = 1e-7, longest = 0.05;
+  struct Sample {
+    Complex value;
+    double pace;  ///< by how much it changes of itself: 1/distance of a root, summed over roots
+  };
+  const double length = std::abs(to - from);
+  const Complex along = (to - from) / length;
+  const auto sample = [&](double s) {
+    const double apart = 0.25 * margin;
+    const Complex t = from + s * along, value = at(t);
+    return Sample{value, std::abs((at(t + apart * along) - value) / (apart * value))};
+  };
+  double argument = 0, s = 0, step = longest;
+  Sample here = sample(0);
+  while (s < length) {
+    const double ahead = std::min(s + step, length);
+    const Sample half = sample(0.5 * (s + ahead)), there = sample(ahead);
+    const double first = std::arg(half.value / here.value), second = std::arg(there.value / half.value);
+    // Two roots near each other turn the argument by 2π, which looks like none: the pace tells that they are
+    // near.
+    const double pace = std::max({here.pace, half.pace, there.pace});
+    if (!(std::abs(first) < 0.5 && std::abs(second) < 0.5 && 0.5 * (ahead - s) * pace < 1)) {
+      step = 0.5 * (ahead - s);
       if (step < shortest) return {};
       continue;
     }
     argument += first + second;
-    t = ahead;
+    s = ahead;
     here = there;
-    step = std::min(2 * step, 0.05);
+    step = std::min(2 * step, longest);
   }
-  return static_cast<int>(std::lround(argument / std::numbers::pi));
+  return argument;
+}
+
+bool CirclePolynomial::others_are_real(double t) const {
+  constexpr double nearly = 1e-4;  // reached by all between two of the angles that are asked for
+  const Vec3<double> angle(1, std::cos(t), std::sin(t));
+  for (const Mat<double, 3, 3>* to : {&to_second_, &to_third_}) {
+    const Vec3<double> q = *to * angle;
+    if (q[1] * q[1] - 4 * q[0] * q[2] < -nearly * q.squaredNorm()) return false;
+  }
+  return true;
+}
+
+std::optional<int> CirclePolynomial::count_real(double margin) const {
+  constexpr int samples = 720;
+  const auto angle = [](int k) { return turn * k / samples; };
+  int start = 0;
+  while (start < samples && others_are_real(angle(start))) ++start;
+  if (start == samples) {
+    const auto argument = turning({0, -margin}, {turn, -margin}, margin);
+    if (!argument) return {};
+    return static_cast<int>(std::lround(*argument / std::numbers::pi));
+  }
+  // Around each interval, from the real axis down, along and up again: the other half of the way mirrors it.
+  double argument = 0, begin = 0;
+  for (int k = start; k < start + samples; ++k) {
+    const bool is_inside = others_are_real(angle(k)), enters = others_are_real(angle(k + 1));
+    if (!is_inside && enters) begin = angle(k);
+    if (!is_inside || enters) continue;
+    const double end = angle(k + 1);
+    const std::array<Complex, 4> corners{begin, {begin, -margin}, {end, -margin}, end};
+    for (std::size_t side = 0; side < 3; ++side) {
+      const auto part = turning(corners[side], corners[side + 1], margin);
+      if (!part) return {};
+      argument += *part;
+    }
+  }
+  const double count = argument / std::numbers::pi;
+  if (!(std::abs(count - std::round(count)) < 0.1)) return {};
+  return static_cast<int>(std::lround(count));
 }
 
 }  // namespace sinew::inline v0

@@ -21,12 +21,16 @@ class CirclePolynomial {
   double strength() const;
 
   /// How many roots are real, or nearer to that than `margin` [rad], multiple ones as often as they are, by
-  /// the argument principle; none where that cannot be told.
+  /// the argument principle; none where that cannot be told. Only those where the other two angles are real
+  /// or nearly: where they are not no mode is, but a robot with a mirror has roots there.
   std::optional<int> count_real(double margin) const;
 
  private:
   /// F at an angle, over its terms: a positive factor that does not change its argument.
   std::complex<double> at(const std::complex<double>& t) const;
+  /// Change of its argument along a straight line; none where roots are too near to it.
+  std::optional<double> turning(std::complex<double> from, std::complex<double> to, double margin) const;
+  bool others_are_real(double t) const;
 
   Mat<double, 3, 3> to_second_, to_third_, between_;
 };

@@ -18,6 +18,7 @@ constexpr int samples = 720;  // of the first angle; ten times as many where a r
 /// Roots of the polynomial this near to a real one count as real [rad]: where a pair of complex ones is near,
 /// the smaller one tells.
 constexpr std::array margins{1e-3, 1e-5};
+constexpr double least_strength = 1e-12;  ///< of a polynomial that is not 0 everywhere
 
 /// The two angles at which A + B cos t + C sin t vanishes; where it has none, twice the one at which it comes
 /// nearest.
@@ -58,7 +59,7 @@ class Search {
         best = strength;
         first_ = i;
       }
-    if (!(best > 1e-12)) return false;
+    if (!(best > least_strength)) return false;
     follow(samples);
     if (!is_complete()) follow(10 * samples);
     modes_.is_complete = is_complete();
@@ -74,16 +75,22 @@ class Search {
   };
   using Branches = std::array<Place, 4>;
 
-  /// Whether every root of the polynomial is accounted for.
+  /// Whether every real root of the polynomial of some angle is accounted for. Complex modes come in pairs,
+  /// so that the real ones are even in number.
   bool is_complete() const {
-    const CirclePolynomial F(circles_, first_);
     int known = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(modes_.count); ++k)
       known += is_merged(legs_, closing_.size(), found_[k]) ? 2 : 1;
-    return std::ranges::any_of(margins, [&](double margin) {
-      const std::optional<int> count = F.count_real(margin);
-      return count && *count <= known;
-    });
+    if (known % 2 != 0) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const CirclePolynomial F(circles_, (first_ + i) % 3);
+      if (F.strength() > least_strength && std::ranges::any_of(margins, [&](double margin) {
+            const std::optional<int> count = F.count_real(margin);
+            return count && *count <= known;
+          }))
+        return true;
+    }
+    return false;
   }
 
   Branches at(double t) const {
