@@ -11,7 +11,8 @@ inline constexpr bool addresses_are_checked = false;
 #endif
 
 #ifdef __SANITIZE_THREAD__
-inline constexpr bool is_instrumented = true;  ///< by AddressSanitizer or ThreadSanitizer, and several times slower
+inline constexpr bool is_instrumented =
+    true;  ///< by AddressSanitizer or ThreadSanitizer, and several times slower
 #else
 inline constexpr bool is_instrumented = addresses_are_checked;
 #endif
