@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "sinew/analysis/number_formats.hpp"
-#include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"
 

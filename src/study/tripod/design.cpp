@@ -3,7 +3,6 @@
 /// docs/tripod-design.md
 #include <fmt/format.h>
 
-#include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/tripod/design/parts.hpp"
 

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "sinew/io/table.hpp"
-#include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/tripod/loads/claims.hpp"
 #include "study/tripod/tilt_plane.hpp"

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "sinew/io/table.hpp"
-#include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/tripod/loads/loads.hpp"
 #include "study/tripod/loads/table_findings.hpp"
