@@ -197,8 +197,8 @@ TEST(ElasticaMap, IndicesAreThoseOfTheSecondVariationInABasis) {
   for (int k = 0; k < 400; ++k) {
     const ElasticaEquilibrium e = elastica_equilibrium(random.local_force(160));
     const Indices exact{e.unstable_in_plane, e.unstable_out_of_plane};
-    EXPECT_EQ(indices_in_basis(e, 26), exact) << describe(e);
-    EXPECT_EQ(indices_in_basis(e, 34), exact) << describe(e);
+    EXPECT_EQ(indices_in_basis(e, 34), exact) << describe(e);  // 26 miss one beside a fold, at a force of 150
+    EXPECT_EQ(indices_in_basis(e, 42), exact) << describe(e);
     ++in_plane[static_cast<std::size_t>(std::min(exact.in_plane, 2))];
     ++out_of_plane[static_cast<std::size_t>(std::min(exact.out_of_plane, 2))];
   }
