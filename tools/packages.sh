@@ -8,6 +8,9 @@ build_packages=(build-essential cmake ninja-build pkgconf libeigen3-dev libyaml-
                 libfmt-dev libexpected-dev libhwy-dev libtbb-dev libhdf5-dev libmd-dev libxxhash-dev libcpp-httplib-dev gnuplot-nox)
 # ... what building the page of the viewer needs, ...
 web_packages=(nodejs npm)
+# ... what the tests under sanitizers need: clang compiles instrumented code in half of GCC's time, ...
+# shellcheck disable=SC2034
+sanitizer_packages=(clang lld libclang-rt-14-dev)
 # ... and what the tests and benchmarks need beside it. ccache saves compiling the library again for the packaging tests.
 # Last, what builds and runs the firmware: the cross compilers of ATmega2560 and Cortex-M with their simulators, the
 # tools of the Verilog core, and a browser.
