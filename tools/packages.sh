@@ -17,7 +17,7 @@ sanitizer_packages=(clang lld libclang-rt-14-dev)
 # shellcheck disable=SC2034
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
                python3-yaml python3-h5py ccache libopenmpi-dev openmpi-bin
-               gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys "${web_packages[@]}" chromium)
+               gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys "${web_packages[@]}" chromium-headless-shell)
 
 say() { printf '%s\n' "$*" >&2; }
 
