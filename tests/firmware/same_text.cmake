@@ -1,9 +1,13 @@
 # Two programs print the same: -D HERE=PROGRAM "-D THERE=COMMAND;ARGUMENT;..." -P same_text.cmake
+include(${CMAKE_CURRENT_LIST_DIR}/../passed.cmake)
+list(GET THERE -1 program)
+sinew_passed_before(${program}.passed ${HERE} ${THERE} ${CMAKE_CURRENT_LIST_FILE})
 execute_process(COMMAND ${HERE} OUTPUT_VARIABLE here COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${THERE} OUTPUT_VARIABLE there RESULT_VARIABLE result)
 if(here STREQUAL there AND result EQUAL 0 AND NOT here STREQUAL "")
   string(REGEX MATCH "^[^\n]*" head "${here}")
   message(STATUS "the same text: ${head}")
+  sinew_passes()
   return()
 endif()
 string(REPLACE "\n" ";" here "${here}")

@@ -1,6 +1,12 @@
 # Yosys finds as many multipliers in a robot's core as docs/theory/controller.md counts, on both families.
-#   cmake -D SINEW= -D ROBOT= -D SOURCE= -D MULTIPLIERS= -P cells.cmake
+#   cmake -D SINEW= -D ROBOT= -D SOURCE= -D WORK= -D YOSYS= -D MULTIPLIERS= -P cells.cmake
 cmake_minimum_required(VERSION 3.25)
+file(REMOVE_RECURSE ${WORK})
+execute_process(COMMAND ${SINEW} export ${ROBOT} --to verilog -o ${WORK} --quiet COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${YOSYS} --version OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB exported ${WORK}/*)
+include(${CMAKE_CURRENT_LIST_DIR}/../passed.cmake)
+sinew_passed_before(${WORK}.passed ${exported} ${SOURCE}/tools/fpga_cells.sh "${version}" ${MULTIPLIERS} ${CMAKE_CURRENT_LIST_FILE})
 execute_process(COMMAND ${SOURCE}/tools/fpga_cells.sh ${SINEW} ${ROBOT} OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
 message(STATUS "${said}")
 foreach(family Spartan-6 ECP5)
@@ -8,3 +14,4 @@ foreach(family Spartan-6 ECP5)
     message(FATAL_ERROR "not ${MULTIPLIERS} multipliers of a ${family}")
   endif()
 endforeach()
+sinew_passes()

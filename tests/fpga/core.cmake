@@ -7,6 +7,11 @@ execute_process(COMMAND ${SINEW} export ${ROBOT} --to verilog -o ${WORK} --quiet
 execute_process(COMMAND ${SINEW} export ${ROBOT} --to c-header -o ${WORK}/robot_table.h --quiet COMMAND_ERROR_IS_FATAL ANY)
 file(GLOB core ${WORK}/*_core.v)
 cmake_path(GET core STEM name)
+execute_process(COMMAND ${VERILATOR} --version OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB exported ${WORK}/*)
+file(GLOB kernel ${SOURCE}/kernel/include/sinew/kernel/*.h)
+include(${CMAKE_CURRENT_LIST_DIR}/../passed.cmake)
+sinew_passed_before(${WORK}.passed ${exported} ${kernel} ${SOURCE}/tests/fpga/core_test.cpp "${version}" ${CMAKE_CURRENT_LIST_FILE})
 
 # Bits that rounding drops are not used, and all modules of a core are in one file.
 execute_process(COMMAND ${VERILATOR} --lint-only -Wall -Wno-UNUSED -Wno-DECLFILENAME --top-module ${name} ${core}
@@ -19,3 +24,4 @@ execute_process(
           ${core} ${SOURCE}/tests/fpga/core_test.cpp
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK}/build/Vcore 100000 COMMAND_ERROR_IS_FATAL ANY)
+sinew_passes()
