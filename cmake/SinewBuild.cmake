@@ -21,12 +21,6 @@ if(SINEW_SANITIZE)
     -fsanitize=${SINEW_SANITIZE} -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr
     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(sinew_options INTERFACE -fsanitize=${SINEW_SANITIZE})
-  # Programs of a hundred megabytes each: LLVM's linker takes a third of the time.
-  find_program(LLD ld.lld)
-  mark_as_advanced(LLD)
-  if(LLD AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
-    target_link_options(sinew_options INTERFACE -fuse-ld=lld)
-  endif()
   if(CMAKE_CXX_COMPILER_ID MATCHES Clang AND SINEW_SANITIZE MATCHES "(address|thread)")
     string(TOUPPER ${CMAKE_MATCH_1} sanitizer)
     target_compile_definitions(sinew_options INTERFACE __SANITIZE_${sanitizer}__)  # as gcc does
@@ -43,3 +37,16 @@ set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# sinew_link_quickly(): the quickest linker there is, for targets that come after. Tests and benchmarks link the library
+# into half a hundred programs after each change, and GNU's ld takes three times as long.
+macro(sinew_link_quickly)
+  find_program(LLD ld.lld)
+  find_program(GOLD ld.gold)
+  mark_as_advanced(LLD GOLD)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "^(GNU|Clang)$" AND LLD)
+    add_link_options(-fuse-ld=lld)
+  elseif(CMAKE_CXX_COMPILER_ID MATCHES "^(GNU|Clang)$" AND GOLD)
+    add_link_options(-fuse-ld=gold)
+  endif()
+endmacro()

@@ -4,19 +4,21 @@
 #include <algorithm>
 
 #include "command.hpp"
+#include "thorough.hpp"
 
 namespace long_answers_test {
 
 using namespace sinew::test;
 
-TEST(LongAnswers, APathOfAHundredThousandPosesGoesIntoAFileAndIsReadAgain) {
+TEST(LongAnswers, APathOfManyPosesGoesIntoAFileAndIsReadAgain) {
   const Scratch here;
+  const std::size_t poses = count_of<std::size_t>(20000, 100000);
   const Outcome outcome = run_command({"track", "3-rfr", "--from", "0, 0, 0", "--to", "10 mm, 5 mm, 20 deg",
-                                       "--samples", "100000", "-o", "path.csv"},
+                                       "--samples", std::to_string(poses), "-o", "path.csv"},
                                       here.path());
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   const std::string path = read_text(here.path() / "path.csv");
-  EXPECT_EQ(lines_of(path).size(), 100002U);  // comment, heading
+  EXPECT_EQ(lines_of(path).size(), poses + 2);  // comment, heading
   const Outcome again =
       run_command({"track", "3-rfr", "--poses", "path.csv", "-o", "again.csv"}, here.path());
   EXPECT_EQ(again.exit, 0) << again.err;

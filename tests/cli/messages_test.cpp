@@ -111,9 +111,9 @@ TEST(Messages, NameOptionsAndNotTheFieldsOfQueries) {
                                            {"track", {"from"}},
                                            {"branches", {"to-wrench"}},
                                            {"map", {"x"}}};
-  // A process takes long to begin: every option of every verb is put to robots of two or three kinds of
+  // A process takes long to begin: every option of every verb is put to robots of one or two kinds of
   // seven, in turn, beside each thing that the verb may need.
-  const auto every = count_of<std::size_t>(3, 1);
+  const auto every = count_of<std::size_t>(5, 1);
   std::size_t turn = 0;
   int count = 0, refused = 0;
   for (const auto& [verb, needs] : verbs) {
