@@ -6,8 +6,9 @@ if(SINEW_WEB AND CHROMIUM)
   # Each with a server and a browser of its own, so that they run beside each other. The longest tests begin first.
   set(web_robots robots)
   set(web_design design)
-  set(web_page errors honest looks speed)
-  foreach(name robots design page)
+  set(web_honest honest speed)
+  set(web_page errors looks)
+  foreach(name robots design honest page)
     add_test(NAME web.${name} COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/web/test/page.mjs $<TARGET_FILE:sinew_command> ${CHROMIUM}
                                       ${CMAKE_BINARY_DIR}/screenshots ${web_${name}})
     set_tests_properties(web.${name} PROPERTIES LABELS web TIMEOUT 1200 COST 1000)
