@@ -58,7 +58,7 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 get_target_property(eigen_include Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 add_test(NAME headers.public COMMAND Python3::Interpreter ${tools_dir}/headers.py ${CMAKE_CXX_COMPILER}
   ${CMAKE_CURRENT_BINARY_DIR}/headers ${eigen_include})
-set_tests_properties(headers.public PROPERTIES LABELS tools TIMEOUT 600 PROCESSORS 2)
+set_tests_properties(headers.public PROPERTIES LABELS tools TIMEOUT 600 PROCESSORS 2 COST 900)  # begins early
 
 # A user's project, with sinew installed, as a subdirectory, and as a shared library.
 foreach(mode install subdirectory shared)
@@ -68,7 +68,7 @@ foreach(mode install subdirectory shared)
     -D COMPILER=${CMAKE_CXX_COMPILER} -D LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER} -D BUILD_TYPE=${CMAKE_BUILD_TYPE}
     -D "FLAGS=${CMAKE_CXX_FLAGS}" -D WARNINGS_AS_ERRORS=${SINEW_WARNINGS_AS_ERRORS}
     -P ${packaging_dir}/packaging.cmake)
-  set_tests_properties(packaging.${mode} PROPERTIES LABELS packaging TIMEOUT 1500 PROCESSORS 2)
+  set_tests_properties(packaging.${mode} PROPERTIES LABELS packaging TIMEOUT 1500 PROCESSORS 2 COST 800)
 endforeach()
 set_tests_properties(packaging.install PROPERTIES PROCESSORS 1)
 

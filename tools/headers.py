@@ -46,33 +46,37 @@ def main():
     version = subprocess.run([compiler, "--version"], capture_output=True, text=True, check=True).stdout
     core = work / "core.hpp"
     core.write_text("#include <Eigen/Core>\n")
-    subprocess.run([compiler, *flags, "-x", "c++-header", core, "-o", f"{core}.gch"], check=True)
 
     passed_file = work / "passed.json"
     passed = json.loads(passed_file.read_text()) if passed_file.is_file() else {}
     known = {}
 
+    def name_of(header):
+        return str(header.relative_to(ROOT))
+
+    def key_of(header):
+        text = version + " ".join(flags) + "".join(file.read_text() for file in sorted(closure(header, known)[0]))
+        return hashlib.sha256(text.encode()).hexdigest()
+
     def check(header):
-        ours, others = closure(header, known)
-        text = version + " ".join(flags) + "".join(file.read_text() for file in sorted(ours))
-        name, key = str(header.relative_to(ROOT)), hashlib.sha256(text.encode()).hexdigest()
-        if passed.get(name) == key:
-            return name, key, None
+        others = closure(header, known)[1]
         precompiled = ["-include", core] if "Eigen/Core" in others else []
         result = subprocess.run([compiler, *flags, *precompiled, "-fsyntax-only", "-x", "c++", header],
                                 capture_output=True, text=True)
-        return name, key, None if result.returncode == 0 else result.stderr
+        return None if result.returncode == 0 else result.stderr
 
     headers = sorted(FOLDERS[0].rglob("*.hpp"))
-    for header in headers:
-        closure(header, known)
+    keys = {name_of(header): key_of(header) for header in headers}
+    changed = [header for header in headers if passed.get(name_of(header)) != keys[name_of(header)]]
+    if changed:
+        subprocess.run([compiler, *flags, "-x", "c++-header", core, "-o", f"{core}.gch"], check=True)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        results = list(pool.map(check, headers))
-    passed_file.write_text(json.dumps({name: key for name, key, error in results if error is None}))
-    failed = [(name, error) for name, _, error in results if error is not None]
-    for name, error in failed:
+        errors = list(pool.map(check, changed))
+    failed = {name_of(header): error for header, error in zip(changed, errors) if error is not None}
+    passed_file.write_text(json.dumps({name: key for name, key in keys.items() if name not in failed}))
+    for name, error in failed.items():
         print(f"{name} does not compile alone:\n{error}")
-    print(f"{len(headers)} headers, {len(failed)} that do not compile alone")
+    print(f"{len(headers)} headers, {len(changed)} of them changed; {len(failed)} do not compile alone")
     return 1 if failed else 0
 
 

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "thorough.hpp"
+
 namespace sinew {
 namespace polygon_test {
 
@@ -53,8 +55,9 @@ double extent(const std::vector<HalfPlane>& lines, const Vec2<double>& way) {
 
 TEST(Polygon, VerticesAreThoseOfTheCommonPart) {
   std::mt19937 random(1);
+  const int samples = test::count_of(400, 2000);
   int bounded = 0;
-  for (int sample = 0; sample < 2000; ++sample) {
+  for (int sample = 0; sample < samples; ++sample) {
     const auto lines = around_origin(random, 3 + sample % 6);
     const auto found = intersection(lines);
     bool leaves = false;  // in some direction no line is ever met
@@ -73,12 +76,12 @@ TEST(Polygon, VerticesAreThoseOfTheCommonPart) {
       EXPECT_GE(on, 2);
     }
   }
-  EXPECT_GT(bounded, 1000);
+  EXPECT_GT(bounded, samples / 2);
 }
 
 TEST(Polygon, AreaIsThatOfTheCommonPart) {
   std::mt19937 random(2);
-  for (int sample = 0; sample < 20; ++sample) {
+  for (int sample = 0; sample < test::count_of(5, 20); ++sample) {
     const auto lines = around_origin(random, 7);
     const auto found = intersection(lines);
     if (!found || area(*found) > 10) continue;
@@ -165,8 +168,9 @@ TEST(Polygon, TriangleMinusALikeTriangleIsAHexagon) {
 
 TEST(DiscCut, AreaIsExactWithItsSegments) {
   std::mt19937 random(5);
+  const int samples = test::count_of(15, 60);
   int round = 0;
-  for (int sample = 0; sample < 60; ++sample) {
+  for (int sample = 0; sample < samples; ++sample) {
     const auto lines = around_origin(random, 4);
     const auto polygon = intersection(lines);
     if (!polygon) continue;
@@ -183,7 +187,7 @@ TEST(DiscCut, AreaIsExactWithItsSegments) {
       for (const HalfPlane& h : lines) EXPECT_GT(h.depth(x), -1e-13);
     }
   }
-  EXPECT_GT(round, 10);
+  EXPECT_GT(round, samples / 6);
 }
 
 TEST(DiscCut, PartsAwayFromTheOriginAreFoundToo) {

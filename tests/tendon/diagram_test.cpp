@@ -10,6 +10,7 @@
 
 #include "reference_file.hpp"
 #include "sinew/kernel/direction.h"
+#include "thorough.hpp"
 
 namespace sinew {
 namespace diagram_test {
@@ -317,7 +318,7 @@ double searched_margin(const Asked& asked, double half, Point centre) {
 TEST(SectionDiagram, NoAllowedBendHasMoreMargin) {
   Random random(6);
   for (const auto model : {kernel::Model::linear, kernel::Model::exact})
-    for (int sample = 0; sample < 40; ++sample) {
+    for (int sample = 0; sample < test::count_of(12, 40); ++sample) {
       Asked asked = any_question(random, model, 3 + sample % 4);
       const auto found = asked.answer();
       ASSERT_TRUE(found.report.ok()) << found.report.message.view();
@@ -372,7 +373,7 @@ double searched_area(const Asked& asked, double half) {
 TEST(SectionDiagram, AreaIsThatOfTheFreeAllowedBends) {
   Random random(7);
   for (const auto model : {kernel::Model::linear, kernel::Model::exact})
-    for (int sample = 0; sample < 12; ++sample) {
+    for (int sample = 0; sample < test::count_of(6, 12); ++sample) {
       Asked asked = any_question(random, model, 3 + sample % 3);
       const auto found = asked.answer();
       ASSERT_TRUE(found.report.ok());
@@ -568,7 +569,7 @@ TEST(SectionDiagram,
 
 TEST(SectionOutline, IsWhereSomeBendsOfBothAgreeWithAllTendons) {
   Random random(9);
-  for (int sample = 0; sample < 20; ++sample) {
+  for (int sample = 0; sample < test::count_of(8, 20); ++sample) {
     Asked own(twin_pivot, 3 + sample % 2, 48 * deg, {sample % 3 == 0 ? Kind::disc : Kind::square, 24 * deg});
     Asked previous(twin_pivot, 3, 24 * deg, own.question.envelope);
     const Point before(random(-0.1, 0.1), random(-0.1, 0.1)), x(random(-0.4, 0.4), random(-0.4, 0.4));
