@@ -35,10 +35,11 @@ TEST(Help, TheExampleOfEveryVerbWorksAsPrinted) {
     EXPECT_EQ(help.out, run_command({"help", verb}, here.path()).out);
     const std::string line = example(help.out);
     ASSERT_FALSE(line.empty()) << verb;
-    const std::string call = verb == "serve"  // it stays until it is told to end
-                                 ? "sinew serve 3-rfr --port 0 -q >url & while [ ! -s url ] && kill -0 $!; do "
-                                   "sleep 0.02; done; kill $!; wait $!"
-                                 : line;
+    const std::string call =
+        verb == "serve"  // it stays until it is told to end
+            ? "sinew serve 3-rfr --port 0 -q >url & while [ ! -s url ] && kill -0 $!; do "
+              "sleep 0.02; done; kill $!; wait $!"
+            : line;
     const Outcome outcome = run_shell(call, here.path());
     EXPECT_EQ(outcome.exit, 0) << line << outcome.err;
     EXPECT_EQ(outcome.err, "") << line;
