@@ -92,7 +92,7 @@ TEST(Settled, IsInThePlanesNearbyAndStaysThere) {
     const AnyPose any = pose_near_home(robot, random), there = settled(robot, any);
     EXPECT_LT(beside(robot, std::get<SpatialPose>(there)), 1e-14);
     EXPECT_LT(motion(there, settled(robot, there)).norm(), 1e-14);
-    EXPECT_LT(motion(any, there).norm(), 1.2);  // as far as home, which is in its planes, at the most
+    EXPECT_LT(motion(any, there).norm(), 1.2);  // about as far as home, in the planes too, is from it
   }
   const AnyRobot free = load("6-ufs").value();
   const AnyPose any = pose_near_home(free, random);

@@ -22,9 +22,6 @@ using namespace sinew::test;
 using namespace sinew::tripod;
 namespace fs = std::filesystem;
 
-/// Of instrumented sweeps, which study.sweep runs shorter ones of.
-constexpr const char* minutes = "minutes of sweeps";
-
 constexpr std::size_t x = 0, y = 1, z = 2, e3 = 3;  // of tripod::variables
 
 /// Studies are run once, and the items find them there.
@@ -110,7 +107,6 @@ AnyRobot robot_of(Rods rods) {
 }
 
 TEST(TripodLoads, RelativeRmsIsThatOfEquilibriaSolvedOneByOne) {
-  if (test::addresses_are_checked) GTEST_SKIP() << minutes;
   const Swept& all = study("3pfs-g2-loads");
   const std::vector<std::size_t> some{5, 140, 300, 444, 600, 728};
   for (const auto& [rods, load, wrench] :
@@ -159,7 +155,6 @@ void expect_vectors_turned(const Swept& all) {
 }
 
 TEST(TripodLoads, PosesHaveTheSymmetryOfTheRobot) {
-  if (test::addresses_are_checked) GTEST_SKIP() << minutes;
   const Swept& all = study("3pfs-g2-loads");
   const auto poses = [&](Load load, const char* variable) {
     return pairs_of(all, {Rods::thin, load, load_steps}, variable).loaded;
@@ -226,7 +221,7 @@ std::set<std::string> what_fails(const Reproduction& item) {
 }
 
 TEST(TripodLoadItems, FiguresFailOnlyWhatIsNotSo) {
-  if (test::addresses_are_checked) GTEST_SKIP() << minutes;
+  if (test::addresses_are_checked) GTEST_SKIP() << "minutes of sweeps, one of which the tests above run too";
   EXPECT_EQ(what_fails(made("fig14")), std::set<std::string>{"G2: e_1, e_2 contract"});
   EXPECT_EQ(made("fig14").findings.size(), 16u);
   for (const char* name : {"fig15", "fig16"}) {
@@ -254,7 +249,7 @@ void expect_stiffnesses(const std::string& geometry) {
 }
 
 TEST(TripodLoadItems, TablesHaveAFindingForEveryCell) {
-  if (test::addresses_are_checked) GTEST_SKIP() << minutes;
+  if (test::addresses_are_checked) GTEST_SKIP() << "minutes of sweeps, one of which the tests above run too";
   for (const auto& [name, agreeing] : {std::pair{"table1", 36}, {"table2", 40}}) {
     const Reproduction& item = made(name);
     EXPECT_TRUE(what_fails(item).empty());

@@ -336,13 +336,13 @@ TEST(SectionDiagram, NoAllowedBendHasMoreMargin) {
 /// bisection. Columns are spread twice: over all bends, and over those where the first ones found any.
 double searched_area(const Asked& asked, double half) {
   constexpr int columns = 200, steps = 150;
+  const double step = 2 * half / steps;
   const auto is_in = [&](double x, double y) {
     return asked.allows({x, y}) && asked.least_slack({x, y}) >= 0;
   };
   const auto length_at = [&](double x) {
     double length = 0;
     for (int j = 0; j < steps; ++j) {
-      const double step = 2 * half / steps;
       double y = -half + j * step, next = y + step;
       const bool low_in = is_in(x, y), high_in = is_in(x, next);
       if (low_in && high_in) length += step;
