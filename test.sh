@@ -18,4 +18,4 @@ fi
 
 need_packages "$yes" "${build_packages[@]}" "${test_packages[@]}"
 build_preset dev
-exec ctest --preset dev -j3 --no-label-summary "$@"
+exec ctest --preset dev -j4 --no-label-summary "$@"

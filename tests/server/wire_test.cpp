@@ -274,7 +274,11 @@ double longest_wait(int port, int requests, const char* from = "127.0.0.1") {
     const auto begin = Clock::now();
     Wire wire(port, from);
     wire.send("GET /api/version HTTP/1.1\r\n" + host + "Connection: close\r\n\r\n");
-    if (statuses(wire.receive()) != "200") return -1;
+    const std::string answer = wire.receive();
+    if (statuses(answer) != "200") {
+      ADD_FAILURE() << "request " << i << " was answered after " << seconds_since(begin) << " s: " << answer;
+      return -1;
+    }
     longest = std::max(longest, seconds_since(begin));
   }
   return longest;

@@ -56,8 +56,8 @@ export async function bench(to) {
       answer.writeHead(200, {'Content-Type': `${types[path]}; charset=utf-8`, 'Content-Security-Policy': policy});
       return answer.end(files.get(path));
     }
-    const {host, port} = new URL(to), {'content-type': type} = asked.headers;
-    asked.pipe(request({hostname: '127.0.0.1', port, path: asked.url, method: asked.method, headers: {Host: host, ...(type && {'Content-Type': type})}}, (reply) => {
+    const {host, port} = new URL(to), {'content-type': type, 'content-length': length} = asked.headers;
+    asked.pipe(request({hostname: '127.0.0.1', port, path: asked.url, method: asked.method, headers: {Host: host, ...(type && {'Content-Type': type}), ...(length && {'Content-Length': length})}}, (reply) => {
       answer.writeHead(reply.statusCode, {'Content-Type': reply.headers['content-type']});
       reply.pipe(answer);
     }));

@@ -4,7 +4,7 @@ import {writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {inflateSync} from 'node:zlib';
 import {bench} from './bench.mjs';
-import {blank, differs, folder, launch, same, serve} from './harness.mjs';
+import {blank, differs, folder, isThorough, launch, same, serve} from './harness.mjs';
 
 const layers = ['rods', 'tendons', 'discs', 'frames', 'lines', 'labels', 'ghost', 'grid'], views = ['side', 'top', 'front', 'tip'];
 
@@ -430,13 +430,14 @@ async function plain(browser, url) {
 }
 
 const both = {robots, parts, cameras, names, hand, saved, scale}, wanted = process.argv.slice(5), {server, url: to} = await serve(), {server: own, url} = await bench(to);
+const long = ['robots', 'parts', 'cameras', 'scale', 'speed', 'slow'];  // thoroughly, or asked for by name
 const suites = {webgl: {...both, lookout, fingers, places, rest, speed, slow, sketches}, svg: {plain, ...both}};
 try {
   for (const [kind, cases] of Object.entries(suites)) {
-    const browser = await launch(...(kind === 'svg' ? ['--disable-gpu', '--disable-software-rasterizer', '--disable-webgl', '--disable-webgl2'] : []));
+    const browser = await launch({hasWebGL: kind === 'webgl'});
     try {
       for (const [name, run] of Object.entries(cases)) {
-        if (wanted.length > 0 && !wanted.includes(name)) continue;
+        if (wanted.length > 0 ? !wanted.includes(name) : long.includes(name) && !isThorough) continue;
         const begin = performance.now();
         await run(browser, url, kind).catch((error) => { throw new Error(`${name} by ${kind}: ${error.message}`, {cause: error}); });
         console.log(`${name} by ${kind}: ${((performance.now() - begin) / 1000).toFixed(1)} s`);
