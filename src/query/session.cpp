@@ -164,6 +164,16 @@ struct TreeSession::State {
   Document document;
   Opened opened;
   StopToken stop = {};
+  /// The robot that the last query asked about which changed it: the next one often changes it alike.
+  struct Altered {
+    Node set, theta_is;  ///< as it was asked
+    Opened opened;
+  };
+  std::optional<Altered> kept = {};
+
+  /// The robot with the query's `set` and `theta_is` applied; null if it has neither, or if (with errors
+  /// noted) that gives no robot.
+  Opened* altered(Reader& query, Errors& errors);
 };
 struct Session::State {
   TreeSession session;
@@ -200,25 +210,37 @@ bool read_tilt(Reader& query, const Opened& opened) {
   return is_wanted;
 }
 
-/// The robot with the query's `set` and `theta_is` applied; null if it has neither, or if (with errors noted)
-/// that gives no robot.
-std::optional<Opened> altered(const Document& document, Reader& query, Errors& errors) {
-  const auto set = query.optional("set");
-  const auto theta_is = query.optional("theta_is");
-  if (!set && !theta_is) return {};
-  if (set) set->members();  // notes it where this is no map
-  const auto changed =
-      with(document, set ? std::span<const Member>(set->node()->members) : std::span<const Member>());
-  auto robot = changed ? open_robot(*changed) : tl::unexpected(changed.error());
-  if (!robot) {
-    errors.insert(errors.end(), robot.error().begin(), robot.error().end());
-    return {};
-  }
-  if (theta_is) choose_theta(*robot, *theta_is, read_theta_is(*theta_is));
-  return std::move(*robot);
+/// Whether two nodes say the same, wherever they stand.
+bool is_same(const Node& a, const Node& b) {
+  return a.kind == b.kind && a.boolean == b.boolean && a.number == b.number && a.text == b.text &&
+         std::ranges::equal(a.items, b.items, is_same) &&
+         std::ranges::equal(a.members, b.members, [](const Member& one, const Member& other) {
+           return one.key == other.key && is_same(one.value, other.value);
+         });
 }
 
 }  // namespace
+
+Opened* TreeSession::State::altered(Reader& query, Errors& errors) {
+  const auto set = query.optional("set");
+  const auto theta_is = query.optional("theta_is");
+  if (!set && !theta_is) return nullptr;
+  if (set) set->members();  // notes it where this is no map
+  const Node settings = set ? *set->node() : Node{}, theta = theta_is ? *theta_is->node() : Node{};
+  if (errors.empty() && kept && is_same(kept->set, settings) && is_same(kept->theta_is, theta))
+    return &kept->opened;
+  kept.reset();
+  const auto changed = with(document, settings.members);
+  auto robot = changed ? open_robot(*changed) : tl::unexpected(changed.error());
+  if (!robot) {
+    errors.insert(errors.end(), robot.error().begin(), robot.error().end());
+    return nullptr;
+  }
+  if (theta_is) choose_theta(*robot, *theta_is, read_theta_is(*theta_is));
+  if (!errors.empty()) return nullptr;
+  kept.emplace(Altered{settings, theta, std::move(*robot)});
+  return &kept->opened;
+}
 
 TreeSession::TreeSession(std::unique_ptr<State> state) : state_(std::move(state)) {}
 TreeSession::TreeSession(TreeSession&&) noexcept = default;
@@ -240,7 +262,7 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
   if (!errors.empty()) return error_answer(id, errors);
   const auto* own = std::get_if<Platform>(&state_->opened);
   const bool on_chains = own && reads_chains(query, own->robot, kind);
-  std::optional<Opened> other = altered(state_->document, query, errors);
+  Opened* const other = state_->altered(query, errors);
   if (!errors.empty()) return error_answer(id, errors);
   Opened& opened = other ? *other : state_->opened;
 

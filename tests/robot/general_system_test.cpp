@@ -10,6 +10,7 @@
 #include "kinematics/rods/solve.hpp"
 #include "rod_robots.hpp"
 #include "sanitizers.hpp"
+#include "thorough.hpp"
 
 namespace sinew::test {
 namespace general_system_test {
@@ -169,10 +170,11 @@ TEST(GeneralSystem, ComesToRestWhereTheFieldOfTangentsDoes) {
 }
 
 TEST(GeneralSystem, StiffnessAndFeedAreTheDerivativesOfTheWrench) {
+  const int count = samples(test::count_of(1, 2));
   for (const Kind& kind : general) {
     RodRandom random(11);
     int tried = 0;
-    for (int sample = 0; sample < samples(2); ++sample) {
+    for (int sample = 0; sample < count; ++sample) {
       const RodRobot robot = robot_of(kind, random);
       GeneralSystem system(robot);
       if (!begin(system, robot, random)) continue;
@@ -211,7 +213,7 @@ TEST(GeneralSystem, StiffnessAndFeedAreTheDerivativesOfTheWrench) {
       EXPECT_LT((axial - rows).cwiseAbs().maxCoeff() / size, 1e-6) << kind.name;
       EXPECT_LT((by_length - feed).cwiseAbs().maxCoeff() / feed.cwiseAbs().maxCoeff(), 1e-6) << kind.name;
     }
-    EXPECT_GE(tried, samples(2)) << kind.name;
+    EXPECT_GE(tried, count) << kind.name;
   }
 }
 

@@ -185,7 +185,7 @@ class Maker {
 
 double seconds_of_fuzzing() {
   const char* told = std::getenv("SINEW_FUZZ_SECONDS");
-  return told ? std::atof(told) : test::count_of(3, 10);
+  return told ? std::atof(told) : test::count_of(2, 10);
 }
 
 /// Nothing where the text is made of whole replies, each known by its status.
