@@ -9,6 +9,7 @@ namespace detail {
 namespace {
 
 constexpr double curve_rounding = 1e-14;  // of f, where lengths are of the size of 1
+constexpr double limit_rounding = 1e-12;  // of a bend at its limit [rad]
 
 double cross_2d(const Vec2<double>& a, const Vec2<double>& b) { return a[0] * b[1] - a[1] * b[0]; }
 
@@ -136,7 +137,7 @@ bool ChordCurve::trim(Piece& piece) const {
   const double margin = curve_rounding;
   for (int i = 0; i < 3; ++i) {
     set_radius(piece);
-    if (piece.middle.norm() - piece.radius > limit + rounding) return false;
+    if (piece.middle.norm() - piece.radius > limit + limit_rounding) return false;
     const Value f = value(*this, piece.middle);
     const double reach = std::abs(dot(f.gradient, piece.along)) * piece.half[0] +
                          std::abs(dot(f.gradient, piece.across())) * piece.half[1] +
