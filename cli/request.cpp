@@ -467,6 +467,17 @@ void Request::set() {
 
 }  // namespace
 
+int whole_option(const Arguments& arguments, std::string_view name, int least, int most, int otherwise,
+                 Errors& errors) {
+  const std::string* text = arguments.text(name);
+  if (!text) return otherwise;
+  const auto value = parse_quantity(*text, Dimension::count);
+  if (value && *value >= least && *value <= most) return static_cast<int>(*value);
+  errors.push_back({"out_of_range", fmt::format("--{}", name),
+                    fmt::format("{} is no whole number from {} to {}.", in_quotes(*text), least, most)});
+  return otherwise;
+}
+
 Expected<std::vector<Member>> settings(const Arguments& arguments) {
   std::vector<Member> members;
   const auto given = arguments.options.find("set");

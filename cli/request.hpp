@@ -38,6 +38,10 @@ Member at_home(const Robot& robot);
 /// What `--set` changes of the robot, `{path: value}`.
 Expected<std::vector<Member>> settings(const Arguments& arguments);
 
+/// A whole number that an option gives, within bounds; `otherwise` without it, and after an error.
+int whole_option(const Arguments& arguments, std::string_view name, int least, int most, int otherwise,
+                 Errors& errors);
+
 /// The query that the options of a verb stand for (`--pose "10 mm, 0, 5 deg"`, `--set path=value`, ...). A
 /// tree, which no limit of texts binds: the path of a file may be long.
 Expected<Document> request(std::string_view query, const Arguments& arguments, const Robot& robot);

@@ -101,6 +101,12 @@ constexpr std::array options{
         "isa", "NAME",
         "instruction set: native (default), avx512, avx2, or baseline, whose results are the same bytes on "
         "every machine"},
+#ifdef SINEW_WITH_PLAN
+    Option{"seed", "N",
+           "of random numbers; one seed, one answer; default 1, of scene the dimensions as they are"},
+    Option{"time-limit", "TIME", "after which plan gives up; default 60 s"},
+    Option{"check", "PLAN", "no new plan: whether this one, an .h5 or .csv file, holds in the scene"},
+#endif
     Option{"compress", "LEVEL", "of HDF5, 0 (none, default) to 9"},
     Option{"list", "", "only list what there is; of sweep what it would do"},
     Option{"as", "NAME",
@@ -363,6 +369,31 @@ const std::array table{
          "Without a kind the kinds are listed. Every file works as it is; change it and check it.",
          "sinew new 3-RFR > mine.yaml",
          run_new},
+#ifdef SINEW_WITH_PLAN
+    Verb{
+        "plan",
+        "SCENE",
+        "a way in through clutter for a serial robot, checked by FCL",
+        {"output", "seed", "threads", "time-limit", "check", "json", "quiet", "help"},
+        {},
+        "A scene file names the robot, where its base is and moves, the solids around, and where the tip is "
+        "to\n"
+        "get (docs/scenes.md); sinew new scene prints one. -o FILE.h5 or FILE.csv, default the scene's name\n"
+        "with .plan.h5: a row a step, between which everything moves straight. Exit code 3 where no way was\n"
+        "found, with what is in the way.",
+        "sinew new scene > wall.yaml && sinew plan wall.yaml -o plan.csv",
+        run_plan},
+    Verb{"scene",
+         "compressor",
+         "a scene to plan in, with its meshes: a stand-in for the compressor of an engine",
+         {"output", "seed", "set", "list", "quiet", "help"},
+         {},
+         "Writes DIR/scene.yaml and an STL file of each solid into -o DIR, default compressor. --seed N "
+         "draws\n"
+         "another one. --set NAME=VALUE changes a dimension; --list names them all.",
+         "sinew scene compressor -o engine --set port_diameter=\"10 mm\"",
+         run_scene},
+#endif
     Verb{"reproduce",
          "[PAPER[/ITEM]]",
          "figures and tables of the papers: ours beside theirs",

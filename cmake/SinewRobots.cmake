@@ -67,3 +67,17 @@ std::span<const BuiltinFile> builtin_firmware() {
 
 }  // namespace sinew::inline v0
 ]])
+
+# A scene to start from, for `sinew new scene`.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/scenes/wall.yaml)
+file(READ ${PROJECT_SOURCE_DIR}/examples/scenes/wall.yaml scene_text)
+file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/scene_template.cpp @ONLY CONTENT
+[[// Generated from examples/scenes/wall.yaml.
+#include "sinew/plan/scene.hpp"
+
+namespace sinew::inline v0 {
+
+std::string_view scene_template() { return R"sinew(@scene_text@)sinew"; }
+
+}  // namespace sinew::inline v0
+]])

@@ -20,18 +20,6 @@ namespace {
 
 constexpr int most_threads = 1024;
 
-/// A whole number of an option, within bounds.
-int whole(const Arguments& arguments, std::string_view name, int least, int most, int otherwise,
-          Errors& errors) {
-  const std::string* text = arguments.text(name);
-  if (!text) return otherwise;
-  const auto value = parse_quantity(*text, Dimension::count);
-  if (value && *value >= least && *value <= most) return static_cast<int>(*value);
-  errors.push_back({"out_of_range", fmt::format("--{}", name),
-                    fmt::format("{} is no whole number from {} to {}.", in_quotes(*text), least, most)});
-  return otherwise;
-}
-
 /// The studies that come with sinew.
 int list_studies() {
   TextTable table({"study", "title"});
@@ -182,8 +170,8 @@ int run_sweep(const Arguments& arguments) {
                                            : std::filesystem::path(arguments.operand()).stem().concat(".h5");
   options.resume = arguments.has("resume");
   options.replaces_results = arguments.has("force");
-  options.threads = whole(arguments, "threads", 1, most_threads, 0, errors);
-  options.compression = whole(arguments, "compress", 0, 9, 0, errors);
+  options.threads = whole_option(arguments, "threads", 1, most_threads, 0, errors);
+  options.compression = whole_option(arguments, "compress", 0, 9, 0, errors);
   options.command = command_of(arguments);
   const std::string isa = arguments.has("isa") ? *arguments.text("isa") : "native";
   // The mathematical library chooses by the machine too; it is told when the process starts.

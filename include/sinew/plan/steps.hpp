@@ -1,0 +1,26 @@
+/// @file steps.hpp
+/// Where an inserted robot is, step by step. Between two steps its stage and all its bends move straight from
+/// the one to the other, in proportion.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "sinew/base/export.hpp"
+#include "sinew/robot/serial.hpp"
+
+namespace sinew::inline v0 {
+
+struct InsertionStep {
+  double stage = 0;             ///< how far the base was moved [m]
+  std::vector<Bend> bends;      ///< of every section [rad]
+  double clearance = 0;         ///< least distance between robot and solids [m]; < 0: they overlap
+  int solid = -1;               ///< where it is; −1: none is near
+  Vec3<double> place{0, 0, 0};  ///< point of the backbone there [m]
+};
+
+/// More steps on the curves through these: by the stage, shape-preserving (Fritsch, Butland), so that no bend
+/// leaves the interval of its neighbours. The given steps are among them.
+/// @param most_stage between two of the answer [m], > 0
+SINEW_API std::vector<InsertionStep> interpolated(std::span<const InsertionStep> steps, double most_stage);
+
+}  // namespace sinew::inline v0

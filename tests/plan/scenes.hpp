@@ -1,0 +1,76 @@
+/// @file scenes.hpp
+/// Scenes of tests of insertion.
+#pragma once
+#include <cmath>
+#include <vector>
+
+#include "sinew/io/serial_file.hpp"
+#include "sinew/plan/compressor.hpp"
+#include "sinew/plan/scene.hpp"
+
+namespace sinew::test {
+
+/// Nothing around; the robot's tip is at the origin where its stage is at 0, and goes along z.
+inline InsertionScene open_scene(const char* robot = "nottingham-tpcj") {
+  InsertionScene scene;
+  scene.name = "open";
+  scene.robot_name = robot;
+  scene.robot = load_serial(robot).value();
+  scene.base.p = Vec3<double>(0, 0, -scene.robot.length());
+  scene.stage_limit = 0.15;
+  scene.target.tip = Vec3<double>(0.02, 0.01, 0.1);
+  return scene;
+}
+
+inline Mesh named(Mesh mesh, const char* name, const Vec3<double>& position) {
+  mesh.name = name;
+  return moved(std::move(mesh), {position, {}});
+}
+
+/// The stand-in for a compressor, without its files.
+inline InsertionScene compressor_of(const Compressor& compressor) {
+  InsertionScene scene = open_scene();
+  scene.name = "compressor";
+  scene.base.p.z() -= compressor.case_thickness;
+  scene.stage_limit = compressor.stage_limit;
+  scene.target.tip = compressor.target;
+  scene.solids = compressor_meshes(compressor);
+  return scene;
+}
+
+inline double distance_of(const Vec3<double>& a, const Vec3<double>& b) {
+  return std::sqrt(squared_norm(Vec3<double>(a - b)));
+}
+
+/// Point of a triangle nearest to p, by projection on its plane and on its edges: slow and plain.
+inline Vec3<double> nearest_on_triangle(const Vec3<double>& p, const Vec3<double>& a, const Vec3<double>& b,
+                                        const Vec3<double>& c) {
+  const Vec3<double> n = cross(Vec3<double>(b - a), Vec3<double>(c - a));
+  const double nn = squared_norm(n);
+  const Vec3<double> q = p - n * (dot(Vec3<double>(p - a), n) / nn);
+  const auto side = [&](const Vec3<double>& from, const Vec3<double>& to) {
+    return dot(cross(Vec3<double>(to - from), Vec3<double>(q - from)), n) >= 0;
+  };
+  if (side(a, b) && side(b, c) && side(c, a)) return q;
+  Vec3<double> best = a;
+  for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
+    const Vec3<double> along = to - from;
+    const double t = std::min(1.0, std::max(0.0, dot(Vec3<double>(p - from), along) / squared_norm(along)));
+    const Vec3<double> on = from + t * along;
+    if (distance_of(p, on) < distance_of(p, best)) best = on;
+  }
+  return best;
+}
+
+/// Least distance of a point from all surfaces of a scene.
+inline double slow_distance(const Vec3<double>& p, const std::vector<Mesh>& solids) {
+  double best = 1e9;
+  for (const Mesh& mesh : solids)
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const auto at = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
+      best = std::min(best, distance_of(p, nearest_on_triangle(p, at(a), at(b), at(c))));
+    }
+  return best;
+}
+
+}  // namespace sinew::test
