@@ -35,13 +35,6 @@ int unknown_verb(std::string_view word) {
         fmt::format("unknown option {}{}", in_quotes(word),
                     !hint.empty() ? hint : "; write a verb first, then its options: sinew forward --help"));
   }
-#ifndef SINEW_WITH_PLAN
-  if (word == "plan" || word == "scene")
-    return usage("", "not_built",
-                 fmt::format("this sinew was built without planning, which {} needs: install FCL and assimp "
-                             "(libfcl-dev, libassimp-dev) and build it again.",
-                             word));
-#endif
   names.push_back("version");
   return usage("", "unknown_verb",
                fmt::format("unknown verb {}{} Verbs: {}.", in_quotes(word),

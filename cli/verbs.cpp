@@ -101,12 +101,10 @@ constexpr std::array options{
         "isa", "NAME",
         "instruction set: native (default), avx512, avx2, or baseline, whose results are the same bytes on "
         "every machine"},
-#ifdef SINEW_WITH_PLAN
     Option{"seed", "N",
            "of random numbers; one seed, one answer; default 1, of scene the dimensions as they are"},
     Option{"time-limit", "TIME", "after which plan gives up; default 60 s"},
     Option{"check", "PLAN", "no new plan: whether this one, an .h5 or .csv file, holds in the scene"},
-#endif
     Option{"compress", "LEVEL", "of HDF5, 0 (none, default) to 9"},
     Option{"list", "", "only list what there is; of sweep what it would do"},
     Option{"as", "NAME",
@@ -369,7 +367,6 @@ const std::array table{
          "Without a kind the kinds are listed. Every file works as it is; change it and check it.",
          "sinew new 3-RFR > mine.yaml",
          run_new},
-#ifdef SINEW_WITH_PLAN
     Verb{
         "plan",
         "SCENE",
@@ -393,7 +390,6 @@ const std::array table{
          "another one. --set NAME=VALUE changes a dimension; --list names them all.",
          "sinew scene compressor -o engine --set port_diameter=\"10 mm\"",
          run_scene},
-#endif
     Verb{"reproduce",
          "[PAPER[/ITEM]]",
          "figures and tables of the papers: ours beside theirs",

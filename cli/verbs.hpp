@@ -72,13 +72,13 @@ int run_sweep(const Arguments& arguments);
 int run_query(const Arguments& arguments);
 int run_check(const Arguments& arguments);
 int check_study(const Arguments& arguments);  ///< of check, what is no robot
+int check_scene(const Arguments& arguments);
 int run_export(const Arguments& arguments);
 int run_serve(const Arguments& arguments);
 int run_new(const Arguments& arguments);
 int new_study(const Arguments& arguments);  ///< of new, a study
-int new_scene(const Arguments& arguments);  ///< of new, a scene; only where it was built with sinew::plan
-int run_scene(const Arguments& arguments);  ///< likewise
-int run_plan(const Arguments& arguments);   ///< likewise
+int run_scene(const Arguments& arguments);
+int run_plan(const Arguments& arguments);
 int run_list(const Arguments& arguments);
 int run_reproduce(const Arguments& arguments);
 int run_plot(const Arguments& arguments);

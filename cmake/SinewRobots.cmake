@@ -1,5 +1,5 @@
 # Robot and study files go into the libraries as text: robots/*.yaml and studies/*.yaml, so that `sinew forward 3-rfr`
-# works from any folder, and examples/robots/*.yaml, which `sinew new` prints.
+# works from any folder, and examples/robots/*.yaml and examples/scenes/wall.yaml, which `sinew new` prints.
 function(sinew_robot_rows folder result)
   file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.yaml)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
@@ -26,9 +26,12 @@ endforeach()
 sinew_robot_rows(studies study_rows)
 sinew_robot_rows(robots robot_rows)
 sinew_robot_rows(examples/robots template_rows)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/scenes/wall.yaml)
+file(READ ${PROJECT_SOURCE_DIR}/examples/scenes/wall.yaml scene_text)
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/builtin_robots.cpp @ONLY CONTENT
-[[// Generated from robots/*.yaml and examples/robots/*.yaml.
+[[// Generated from robots/*.yaml and examples.
 #include "io/builtin.hpp"
+#include "sinew/io/robot_file.hpp"
 
 namespace sinew::inline v0 {
 
@@ -43,6 +46,8 @@ std::span<const BuiltinRobot> robot_templates() {
 @template_rows@  };
   return robots;
 }
+
+std::string_view scene_template() { return R"sinew(@scene_text@)sinew"; }
 
 }  // namespace sinew::inline v0
 ]])
@@ -64,20 +69,6 @@ std::span<const BuiltinFile> builtin_firmware() {
 @firmware_rows@  };
   return files;
 }
-
-}  // namespace sinew::inline v0
-]])
-
-# A scene to start from, for `sinew new scene`.
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/scenes/wall.yaml)
-file(READ ${PROJECT_SOURCE_DIR}/examples/scenes/wall.yaml scene_text)
-file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/scene_template.cpp @ONLY CONTENT
-[[// Generated from examples/scenes/wall.yaml.
-#include "sinew/plan/scene.hpp"
-
-namespace sinew::inline v0 {
-
-std::string_view scene_template() { return R"sinew(@scene_text@)sinew"; }
 
 }  // namespace sinew::inline v0
 ]])

@@ -11,6 +11,9 @@ web_packages=(nodejs npm)
 # ... what the tests under sanitizers need: clang compiles instrumented code in half of GCC's time, ...
 # shellcheck disable=SC2034
 sanitizer_packages=(clang lld libclang-rt-14-dev)
+# ... what planning needs (sinew::plan, which is left out without it), ...
+# shellcheck disable=SC2034
+plan_packages=(libfcl-dev libassimp-dev)
 # ... and what the tests and benchmarks need beside it. ccache saves compiling the library again for the packaging tests.
 # Last, what builds and runs the firmware: the cross compilers of ATmega2560 and Cortex-M with their simulators, the
 # tools of the Verilog core, and a browser.

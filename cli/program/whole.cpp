@@ -35,11 +35,9 @@ int run_plot(const Arguments& arguments) { return become_whole(arguments); }
 int run_completion(const Arguments& arguments) { return become_whole(arguments); }
 int run_list(const Arguments& arguments) { return become_whole(arguments); }
 int check_study(const Arguments& arguments) { return become_whole(arguments); }
-int new_study(const Arguments& arguments) { return become_whole(arguments); }
-#ifdef SINEW_WITH_PLAN
-int new_scene(const Arguments& arguments) { return become_whole(arguments); }
-int run_scene(const Arguments& arguments) { return become_whole(arguments); }
+int check_scene(const Arguments& arguments) { return become_whole(arguments); }
 int run_plan(const Arguments& arguments) { return become_whole(arguments); }
-#endif
+int run_scene(const Arguments& arguments) { return become_whole(arguments); }
+int new_study(const Arguments& arguments) { return become_whole(arguments); }
 
 }  // namespace sinew::cli

@@ -324,9 +324,17 @@ bool may_be_study(const std::string& name) {
   return has_any({"query", "axes", "random", "listed"}) && !has_any({"legs", "sections", "architecture"});
 }
 
+bool is_scene(const std::string& name) {
+  const auto text = read_robot_text(name);
+  const auto document = text ? parse_yaml(*text, name) : tl::unexpected(Errors{});
+  const Node* kind = document ? document->root.find("kind") : nullptr;
+  return kind && kind->text == "scene";
+}
+
 }  // namespace
 
 int run_check(const Arguments& arguments) {
+  if (is_scene(arguments.operand())) return check_scene(arguments);
   if (may_be_study(arguments.operand())) return check_study(arguments);
   auto robot = open(arguments);
   if (!robot) {

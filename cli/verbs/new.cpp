@@ -41,12 +41,8 @@ constexpr std::array kinds{
     Kind{"snake", "snake", "serial: alike sections of twin pivots, in one line"},
 };
 
-/// No robot, but a file to start from as well.
-constexpr std::string_view study = "study";
-
-#ifdef SINEW_WITH_PLAN
-constexpr std::string_view scene = "scene";
-#endif
+/// No robots, but files to start from as well.
+constexpr std::string_view study = "study", scene = "scene";
 
 /// `3-rfr` is `3-RFR`.
 bool is_same(std::string_view a, std::string_view b) {
@@ -59,9 +55,7 @@ std::string list() {
   TextTable table({"kind", "what it is"});
   for (const Kind& kind : kinds) table.add({std::string(kind.name), std::string(kind.summary)});
   table.add({std::string(study), "of a robot: what sinew sweep runs"});
-#ifdef SINEW_WITH_PLAN
   table.add({std::string(scene), "of a serial robot: what it goes in through, for sinew plan"});
-#endif
   return table.text();
 }
 
@@ -80,9 +74,7 @@ std::vector<std::string_view> kind_names() {
   std::vector<std::string_view> names;
   for (const Kind& kind : kinds) names.push_back(kind.name);
   names.push_back(study);
-#ifdef SINEW_WITH_PLAN
   names.push_back(scene);
-#endif
   return names;
 }
 
@@ -93,9 +85,10 @@ int run_new(const Arguments& arguments) {
   }
   const std::string word = arguments.operand();
   if (word == study) return new_study(arguments);
-#ifdef SINEW_WITH_PLAN
-  if (word == scene) return new_scene(arguments);
-#endif
+  if (word == scene) {
+    print(scene_template());
+    return solved;
+  }
   const auto kind = std::ranges::find_if(kinds, [&](const Kind& row) { return is_same(row.name, word); });
   if (kind == kinds.end()) return refuse_kind(word);
   print(robot_template(kind->file));

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "answer.hpp"
 #include "request.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/serial_file.hpp"
@@ -205,8 +206,24 @@ void set_dimension(Compressor& compressor, const std::string& change, Errors& er
 
 }  // namespace
 
-int new_scene(const Arguments&) {
-  print(scene_template());
+int check_scene(const Arguments& arguments) {
+  const auto scene = load_scene(arguments.operand());
+  if (!scene) {
+    if (arguments.has("json")) print(json_error(scene.error()) + '\n');
+    return refuse(arguments.verb, scene.error());
+  }
+  std::size_t triangles = 0;
+  for (const Mesh& mesh : scene->solids) triangles += mesh.triangles.size();
+  if (arguments.has("json"))
+    print(fmt::format("{{\"scene\":{},\"robot\":{},\"solids\":{},\"triangles\":{}}}\n",
+                      json_text(scene->name), json_text(scene->robot_name), scene->solids.size(), triangles));
+  else
+    print(
+        fmt::format("scene    {}\nrobot    {}, {} long, moved by up to {}\nsolids   {}, of {} "
+                    "triangles\ntarget   ({}, {}, {})\n",
+                    arguments.operand(), scene->robot_name, mm(scene->robot.length()), mm(scene->stage_limit),
+                    scene->solids.size(), triangles, mm(scene->target.tip[0]), mm(scene->target.tip[1]),
+                    mm(scene->target.tip[2])));
   return solved;
 }
 

@@ -41,8 +41,11 @@ class SceneReader {
   SceneReader(const Document& document, const fs::path& folder) : root_(document, errors_), folder_(folder) {}
 
   Expected<InsertionScene> read() {
-    if (root_.required("scene", "version of this format").integer() != 1 && errors_.empty())
-      root_.fail("unknown_version", "this program reads `scene: 1`");
+    const Reader version = root_.required("sinew", "version of the file format: 1");
+    if (version.node() && version.integer() != 1)
+      version.refuse("unknown_version", "this sinew reads version 1");
+    const Reader kind = root_.required("kind", "what the file is: scene");
+    if (kind.node() && kind.text() != "scene") kind.refuse("unknown_kind", "write `kind: scene`");
     if (const auto name = root_.optional("name")) scene_.name = name->text();
     read_robot();
     scene_.base =

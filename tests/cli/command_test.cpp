@@ -41,6 +41,13 @@ TEST(Help, TheExampleOfEveryVerbWorksAsPrinted) {
               "sleep 0.02; done; kill $!; wait $!"
             : line;
     const Outcome outcome = run_shell(call, here.path());
+#ifndef SINEW_WITH_PLAN
+    if (verb == "plan" || verb == "scene") {
+      EXPECT_EQ(outcome.exit, 2);
+      EXPECT_NE(outcome.err.find("libfcl-dev"), std::string::npos) << outcome.err;
+      continue;
+    }
+#endif
     EXPECT_EQ(outcome.exit, 0) << line << outcome.err;
     EXPECT_EQ(outcome.err, "") << line;
   }
@@ -222,6 +229,9 @@ TEST(New, EveryKindIsGoodAsItIs) {
     const std::string kind = kinds[i].substr(0, kinds[i].find(' '));
     write_text(here.path() / "mine.yaml", run_command({"new", kind}, here.path()).out);
     const Outcome outcome = run_command({"check", "mine.yaml"}, here.path());
+#ifndef SINEW_WITH_PLAN
+    if (kind == "scene") continue;
+#endif
     EXPECT_EQ(outcome.exit, 0) << kind << outcome.err;
     EXPECT_EQ(outcome.err.find("home"), std::string::npos) << kind << outcome.err;
   }

@@ -27,7 +27,7 @@ says "help names its commands" 'inverse' sinew --help
 says "what there is" '3-rfr' sinew list
 
 # A robot of one's own of every kind: it reads, it is drawn.
-kinds=$({ sinew new || true; } 2>&1 | sed -n 's/^\([0-9a-zA-Z-]\+\)  .*/\1/p' | grep -vxE 'kind|study')
+kinds=$({ sinew new || true; } 2>&1 | sed -n 's/^\([0-9a-zA-Z-]\+\)  .*/\1/p' | grep -vxE 'kind|study|scene')
 count=0
 for kind in $kinds; do
   sinew new "$kind" >"$kind.yaml"

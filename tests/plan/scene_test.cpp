@@ -8,6 +8,7 @@
 
 #include "scenes.hpp"
 #include "sinew/io/parse.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "study_folder.hpp"
 
@@ -48,8 +49,10 @@ TEST(Scene, TheTemplateIsOne) {
 }
 
 TEST(Scene, WhatIsWrongIsNamed) {
-  EXPECT_EQ(first_code(with_line("scene:", "")), "missing_key");
-  EXPECT_EQ(first_code(with_line("scene:", "scene: 2")), "unknown_version");
+  EXPECT_EQ(first_code(with_line("sinew:", "")), "missing_key");
+  EXPECT_EQ(first_code(with_line("sinew:", "sinew: 2")), "unknown_version");
+  EXPECT_EQ(first_code(with_line("kind:", "")), "missing_key");
+  EXPECT_EQ(first_code(with_line("kind:", "kind: serial")), "unknown_kind");
   EXPECT_EQ(first_code(with_line("robot:", "robot: 3-rfr")), "not_serial");
   EXPECT_EQ(first_code(with_line("robot:", "robot: none.yaml")), "file_missing");
   EXPECT_EQ(first_code(with_line("robot:", "robot: [1]")), "wrong_type");

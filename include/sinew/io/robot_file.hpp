@@ -29,6 +29,9 @@ SINEW_API std::vector<std::string_view> builtin_robot_names();
 SINEW_API std::string_view robot_template(std::string_view name);
 SINEW_API std::vector<std::string_view> robot_template_names();
 
+/// Text of a commented scene file to start from: examples/scenes/wall.yaml. Format: docs/scenes.md
+SINEW_API std::string_view scene_template();
+
 /// The robot in a file, or the one of that name; or every error of the file at once, each with its line and
 /// column.
 ///

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sinew/io/node.hpp"
@@ -48,8 +47,5 @@ SINEW_API Expected<InsertionScene> read_scene(const Document& document, const st
 
 /// The scene in a file.
 SINEW_API Expected<InsertionScene> load_scene(const std::filesystem::path& path);
-
-/// Text of a commented scene file to start from.
-SINEW_API std::string_view scene_template();
 
 }  // namespace sinew::inline v0
