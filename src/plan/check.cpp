@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -98,16 +99,16 @@ class Examiner {
           continue;
         fcl::DistanceRequestd request(true);
         request.abs_err = 1e-9;
-        fcl::DistanceResultd result;
-        const double gap = fcl::distance(&thin, pose, solid.get(), here, request, result);
+        fcl::DistanceResultd result(most);  // nothing farther is looked for
+        const double gap = fcl::distance(solid.get(), here, &thin, pose, request, result);
         const double distance = (gap < 0 ? 0 : gap + thin_radius) - radius;
-        if (!(distance < best.distance)) continue;
+        if (!(distance < best.distance) || result.b1 == fcl::DistanceResultd::NONE) continue;
         best = {distance,
                 body_.section(i + 1),
                 static_cast<int>(m),
-                static_cast<int>(result.b2),
-                vector_of(result.nearest_points[0]),
-                vector_of(result.nearest_points[1])};
+                static_cast<int>(result.b1),
+                vector_of(result.nearest_points[1]),
+                vector_of(result.nearest_points[0])};
       }
     }
     return best;
@@ -118,7 +119,7 @@ class Examiner {
   bool touches(std::span<const double> more) const {
     const fcl::Transform3d here = fcl::Transform3d::Identity();
     fcl::CollisionRequestd request(1, false);
-    for (std::size_t i = 0; i + 1 < body_.size(); ++i) {
+    for (std::size_t i = body_.size() - 1; i-- > 0;) {  // the tip first, which is farthest off
       const double radius = radius_of(i) + std::max(more[i], more[i + 1]);
       const fcl::Capsuled thick(radius, length_of(i));
       std::optional<fcl::Transform3d> pose;
@@ -147,11 +148,15 @@ class Examiner {
   const Solids* solids_;
 };
 
+bool is_over(const InsertionCheckOptions& options) {
+  return options.stop.stop_requested() || std::chrono::steady_clock::now() > options.deadline;
+}
+
 /// Whether robots at all postures between two are clear: each point moves by at most its bound away from
 /// where it is in the middle, so a robot thicker by that is clear there, or both halves are.
 bool is_clear_between(Examiner& examiner, const std::vector<double>& from, const std::vector<double>& to,
                       const InsertionCheckOptions& options, std::size_t& poses) {
-  if (options.stop.stop_requested()) return false;
+  if (is_over(options)) return false;
   Body& body = examiner.body();
   std::vector<double> middle(from.size());
   for (std::size_t k = 0; k < from.size(); ++k) middle[k] = 0.5 * (from[k] + to[k]);
@@ -242,7 +247,7 @@ InsertionCheck check_insertion(const InsertionScene& scene, std::span<const Inse
     Examiner& examiner = examiners[thread];
     CheckedStep& step = check.steps[k];
     step.stage = steps[k].stage;
-    if (options.stop.stop_requested()) return;
+    if (is_over(options)) return;
     const std::vector<double> here = unknowns(steps[k]);
     examiner.body().place(here, false);
     step.spot = examiner.nearest(options.reach);
@@ -267,7 +272,7 @@ InsertionCheck check_insertion(const InsertionScene& scene, std::span<const Inse
     if (k + 1 < steps.size() && !is_clear_between(examiner, here, unknowns(steps[k + 1]), options, poses[k]))
       step.verdict = InsertionVerdict::touches;
   });
-  check.is_stopped = options.stop.stop_requested();
+  check.is_stopped = is_over(options);
   check.verdict = InsertionVerdict::clear;
   for (std::size_t k = 0; k < check.steps.size(); ++k) {
     check.poses += poses[k];

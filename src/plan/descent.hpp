@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "sinew/base/stop.hpp"
+#include "plan/deadline.hpp"
 
 namespace sinew::inline v0 {
 
@@ -44,7 +44,7 @@ struct DescentOptions {
   int most_steps = 40;
   double least_gain = 1e-6;  ///< it ends where a step lowers the cost by a smaller share
   double damping = 1e-3;     ///< at first, of the diagonal
-  StopToken stop;
+  Deadline deadline;
 };
 
 /// @param cost fills the quadratic

@@ -34,16 +34,21 @@ struct WayOut {
 class Planner {
  public:
   Planner(const InsertionScene& scene, const InsertionOptions& options)
-      : scene_(scene),
+      : begin_(std::chrono::steady_clock::now()),
+        scene_(scene),
         options_(options),
-        obstacles_(scene.solids),
-        begin_(std::chrono::steady_clock::now()) {
+        obstacles_(scene.solids) {
+    deadline_.stop = options.stop;
+    deadline_.at = begin_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                std::chrono::duration<double>(std::min(options.time_limit, 1e6)));
     const std::size_t threads =
         options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
     for (std::size_t t = 0; t < threads; ++t) {
       searches_.emplace_back(scene, obstacles_, coarse);
       fine_.emplace_back(scene, obstacles_, fine);
     }
+    for (std::vector<Search>* all : {&searches_, &fine_})
+      for (Search& search : *all) search.deadline = deadline_;
     goal_ = scene.clearance + std::max(0.3e-3, 0.2 * scene.clearance);
   }
 
@@ -52,6 +57,7 @@ class Planner {
          first += batch) {
       const std::size_t count = std::min(batch, static_cast<std::size_t>(options_.starts) - first);
       std::vector<Posture> poses = final_poses(first, count);
+      if (is_over()) break;
       result_.starts += static_cast<int>(count);
       for (const Posture& pose : poses) {
         if (is_over()) break;
@@ -68,11 +74,7 @@ class Planner {
   }
 
  private:
-  bool is_over() const {
-    return options_.stop.stop_requested() ||
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count() >
-               options_.time_limit;
-  }
+  bool is_over() const { return deadline_.is_over(); }
 
   void say(std::string_view phase, double share) const {
     if (options_.progress) options_.progress({phase, share});
@@ -195,7 +197,7 @@ class Planner {
     for (const double more : {0.0, 0.3e-3, 0.6e-3}) {
       if (is_over()) return false;
       say("smoothing", more / 0.9e-3);
-      smooth(way, fine_, goal_ + more, 40, options_.stop);
+      smooth(way, fine_, goal_ + more, 40);
       fine_.front().body.place(way.back(), false);
       if (!fine_.front().is_at_target()) return false;
       result_.tip_error = fine_.front().tip_error();
@@ -243,6 +245,7 @@ class Planner {
     InsertionCheckOptions options;
     options.threads = static_cast<unsigned>(searches_.size());
     options.stop = options_.stop;
+    options.deadline = deadline_.at;
     InsertionCheck check = check_insertion(scene_, steps, options);
     for (std::size_t k = 0; k < steps.size(); ++k) {
       const TightSpot& spot = check.steps[k].spot;
@@ -300,10 +303,11 @@ class Planner {
     return finished();
   }
 
+  std::chrono::steady_clock::time_point begin_;
+  Deadline deadline_;
   const InsertionScene& scene_;
   const InsertionOptions& options_;
   Obstacles obstacles_;
-  std::chrono::steady_clock::time_point begin_;
   std::vector<Search> searches_, fine_;
   double goal_ = 0;
   InsertionPlan result_;

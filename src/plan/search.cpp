@@ -117,6 +117,7 @@ Posture Search::descended(Posture x, const std::function<void(Quadratic&)>& more
   if (holds_stage) low[0] = high[0] = x[0];
   DescentOptions options;
   options.most_steps = most_steps;
+  options.deadline = deadline;
   descend(
       x, low, high,
       [&](std::span<const double> where, Quadratic& at) {

@@ -33,6 +33,7 @@ class Search {
   Body body;
   std::vector<double> lower, upper;
   double goal = 0;  ///< clearance that contact terms ask for [m]
+  Deadline deadline;
 
   /// Bends within the limits of their sections.
   void project(std::vector<double>& x) const;

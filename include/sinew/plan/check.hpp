@@ -2,6 +2,7 @@
 /// Whether a robot that goes in along given steps touches anything, found by FCL independently of the search:
 /// distances of every step, and a proof for what lies between. Theory: docs/theory/insertion.md
 #pragma once
+#include <chrono>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,7 @@ struct InsertionCheckOptions {
   double least_motion = 1e-6;  ///< the proof gives up where steps move the robot by less [m]
   unsigned threads = 0;
   StopToken stop;
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
 };
 
 /// @param steps as planned, or of a file, each of as many bends as the robot has sections
