@@ -57,10 +57,13 @@ export async function bench(to) {
       return answer.end(files.get(path));
     }
     const {host, port} = new URL(to), {'content-type': type, 'content-length': length} = asked.headers;
-    asked.pipe(request({hostname: '127.0.0.1', port, path: asked.url, method: asked.method, headers: {Host: host, ...(type && {'Content-Type': type}), ...(length && {'Content-Length': length})}}, (reply) => {
+    // each on a connection of its own: one that is kept may be closed by the server just as it is used again
+    const passed = request({hostname: '127.0.0.1', port, agent: false, path: asked.url, method: asked.method, headers: {Host: host, ...(type && {'Content-Type': type}), ...(length && {'Content-Length': length})}}, (reply) => {
       answer.writeHead(reply.statusCode, {'Content-Type': reply.headers['content-type']});
       reply.pipe(answer);
-    }));
+    });
+    passed.on('error', () => answer.destroy());  // the page sees it, as it would without what is between
+    asked.pipe(passed);
   });
   await new Promise((done) => server.listen(0, '127.0.0.1', done));
   return {server, url: `http://127.0.0.1:${server.address().port}/`};

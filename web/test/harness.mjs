@@ -17,6 +17,7 @@ const patience = 120e3;  // ms; on a busy machine even a page takes half a minut
 export async function serve(...options) {
   const all = ['serve', ...(options.includes('--port') ? options : [...options, '--port', '0']), '-q'];
   const server = spawn(sinew, all, {stdio: ['ignore', 'pipe', 'inherit']});
+  process.once('exit', () => server.kill('SIGKILL'));  // whatever ended this: left alone, it would hold the test's output open
   const url = await new Promise((resolve) => createInterface(server.stdout).once('line', resolve));
   return {server, url};
 }
