@@ -1,3 +1,4 @@
+// x
 #include "sinew/io/table.hpp"
 
 #include <fmt/format.h>
