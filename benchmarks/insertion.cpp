@@ -1,6 +1,5 @@
 /// Ways into the stand-in for a compressor by five seeds, and into ten that are drawn at random. Each way is
-/// checked by FCL. Beside them what plain sampling takes: RRTConnect of OMPL on all joints found none in 150
-/// s. Run: build/dev/bin/bench_insertion [SCENES]
+/// checked by FCL. Run: build/dev/bin/bench_insertion [SCENES]
 #include <fmt/format.h>
 
 #include <algorithm>

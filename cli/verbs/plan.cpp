@@ -11,6 +11,7 @@
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/serial_file.hpp"
 #include "sinew/io/visible.hpp"
+#include "sinew/kinematics/serial.hpp"
 #include "sinew/plan/compressor.hpp"
 #include "sinew/plan/insertion.hpp"
 #include "sinew/study/result.hpp"
@@ -120,7 +121,7 @@ std::string verdict_text(const InsertionScene& scene, const InsertionCheck& chec
         "slack tendons (tolerance {}) and model error ({}) may move the tip by up to {}; it would be clear "
         "with {:.1f} % of "
         "both\n",
-        mm(scene.robot.tolerance), mm(scene.model_error), mm(worst.off), 100 * check.allowed_share);
+        mm(scene.robot.tolerance), mm(scene.model_error), mm(check.off), 100 * check.allowed_share);
   return text;
 }
 
@@ -140,6 +141,16 @@ int check_plan(const Arguments& arguments, const InsertionScene& scene, unsigned
   if (!table) return refuse("plan", table.error());
   const auto steps = steps_of(*table, scene, file);
   if (!steps) return refuse("plan", steps.error());
+  for (std::size_t k = 0; k < steps->size(); ++k) {
+    const InsertionStep& step = (*steps)[k];
+    const Report report = check_limits(scene.robot, step.bends);
+    if (report.ok() && step.stage <= scene.stage_limit) continue;
+    message(fmt::format("sinew plan: {}: LIMIT EXCEEDED in row {}: {}", file, k,
+                        report.ok() ? fmt::format("the stage is at {}, its limit is {}", mm(step.stage),
+                                                  mm(scene.stage_limit))
+                                    : std::string(report.message.view())));
+    return no_solution;
+  }
   InsertionCheckOptions options;
   options.threads = threads;
   options.stop = stop_token();

@@ -3,12 +3,6 @@
 namespace sinew::inline v0 {
 namespace {
 
-/// Bend of the k-th joint of a section; of twin pivots the proximal one of a pair bends by β₂.
-Bend joint_bend(const Section& section, const Bend& bend, int k) {
-  if (!section.is_twin()) return bend / section.segments;
-  return k % 2 == 0 ? Bend(0, bend.y()) : Bend(bend.x(), 0);
-}
-
 /// Pose at a share of a joint's arc: a shorter arc, bent by as much less.
 SE3<double> along(double joint, const Bend& bend, double share) {
   return BentJoint{share * joint, 0}.pose(share * bend.x(), share * bend.y()).rigid();
@@ -26,7 +20,7 @@ struct Walk {
       const Section& section = robot.sections[m];
       auto& line = shape.backbones.emplace_back(1, end.p);
       for (int k = 0; k < section.segments; ++k) {
-        const Bend bend = joint_bend(section, bends[m], k);
+        const Bend bend = section.joint_bend(bends[m], k);
         for (int i = 1; i < samples; ++i)
           line.push_back(end.compose(along(section.joint, bend, static_cast<double>(i) / (samples - 1))).p);
         const SE3<double> face = end.compose(along(section.joint, bend, 1));

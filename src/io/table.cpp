@@ -1,4 +1,3 @@
-// x
 #include "sinew/io/table.hpp"
 
 #include <fmt/format.h>

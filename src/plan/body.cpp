@@ -6,23 +6,24 @@
 namespace sinew::inline v0 {
 namespace {
 
-/// What of a section's bend a joint has: all of one component of twin pivots, the proximal one of a pair
-/// bends by β₂; a share of both of neutral ones.
-struct JointShare {
-  double x, y;
-};
-JointShare joint_share(const Section& section, int joint) {
-  if (!section.is_twin()) return {1.0 / section.segments, 1.0 / section.segments};
-  return joint % 2 == 0 ? JointShare{0, 1} : JointShare{1, 0};
-}
-
 int pieces_of(double length, double spacing) {
   return std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-9)));
 }
 
-double radius_of(const Section& section) { return std::max(section.disc_radius, section.tendon_radius); }
-
 }  // namespace
+
+Posture posture_of(const InsertionStep& step) {
+  Posture x{step.stage};
+  for (const Bend& bend : step.bends) x.push_back(bend[0]), x.push_back(bend[1]);
+  return x;
+}
+
+InsertionStep step_of(std::span<const double> posture) {
+  InsertionStep step;
+  step.stage = posture[0];
+  for (std::size_t k = 1; k + 1 < posture.size(); k += 2) step.bends.emplace_back(posture[k], posture[k + 1]);
+  return step;
+}
 
 Body::Body(const InsertionScene& scene, double spacing)
     : robot_(&scene.robot),
@@ -31,7 +32,7 @@ Body::Body(const InsertionScene& scene, double spacing)
       unknowns_(posture_size(scene.robot)) {
   double arc = 0;
   const auto add = [&](int section) {
-    radii_.push_back(radius_of(robot_->sections[static_cast<std::size_t>(section)]));
+    radii_.push_back(robot_->sections[static_cast<std::size_t>(section)].outer_radius());
     arcs_.push_back(arc);
     sections_.push_back(section);
   };
@@ -50,8 +51,7 @@ Body::Body(const InsertionScene& scene, double spacing)
         }
       }
   }
-  // a piece of a joint that turns by dθ moves what is distal of its base by at most dθ times the arc from
-  // there
+  // a piece of a joint that turns by dθ moves what is distal by at most dθ times the arc from its base
   levers_.assign(radii_.size() * unknowns_, 0.0);
   for (std::size_t i = 0; i < radii_.size(); ++i) {
     levers_[i * unknowns_] = 1;
@@ -59,11 +59,11 @@ Body::Body(const InsertionScene& scene, double spacing)
       const Piece& piece = pieces_[k];
       if (!piece.is_joint) continue;
       const Section& section = robot_->sections[static_cast<std::size_t>(piece.section)];
-      const JointShare share = joint_share(section, piece.joint);
+      const Bend share = section.joint_bend(Bend(1, 1), piece.joint);
       const double lever = (arcs_[i] - arcs_[k]) * piece.share;
       const std::size_t at = i * unknowns_ + 1 + 2 * static_cast<std::size_t>(piece.section);
-      levers_[at] += lever * share.x;
-      levers_[at + 1] += lever * share.y;
+      levers_[at] += lever * share.x();
+      levers_[at + 1] += lever * share.y();
     }
   }
   points_.resize(radii_.size());
@@ -95,15 +95,15 @@ void Body::place(std::span<const double> posture, bool rates) {
         for (std::size_t k = 0; k < unknowns_; ++k) rate[k] = before[k] + cross(turns_[k], arm);
       continue;
     }
-    const JointShare share = joint_share(section, piece.joint);
-    const double x = share.x * piece.share, y = share.y * piece.share;
+    const Bend share = section.joint_bend(Bend(1, 1), piece.joint);
+    const double x = share.x() * piece.share, y = share.y() * piece.share;
     const BentMotion<double> bent =
         BentJoint{piece.length, 0, 1}.motion(x * posture[own], y * posture[own + 1]);
     const Vec3<double> arm = R * Vec3<double>(bent.pose.p[0], bent.pose.p[1], bent.pose.p[2]);
     points_[i + 1] = points_[i] + arm;
     if (rates) {
       for (std::size_t k = 0; k < unknowns_; ++k) rate[k] = before[k] + cross(turns_[k], arm);
-      double columns[4][3][2];
+      double columns[2][3][2];
       for (int j = 0; j < 3; ++j) bent.shift[j].store(columns[0][j]), bent.turn[j].store(columns[1][j]);
       for (int c = 0; c < 2; ++c) {
         const double scale = c == 0 ? x : y;
@@ -124,11 +124,11 @@ void Body::place(std::span<const double> posture, bool rates) {
 double Body::sagitta(std::size_t i) const {
   const Piece& piece = pieces_[i];
   if (!piece.is_joint) return 0;
-  const JointShare share =
-      joint_share(robot_->sections[static_cast<std::size_t>(piece.section)], piece.joint);
+  const Bend share =
+      robot_->sections[static_cast<std::size_t>(piece.section)].joint_bend(Bend(1, 1), piece.joint);
   const std::size_t own = 1 + 2 * static_cast<std::size_t>(piece.section);
   return 0.125 * piece.length * piece.share *
-         std::hypot(share.x * posture_[own], share.y * posture_[own + 1]);
+         std::hypot(share.x() * posture_[own], share.y() * posture_[own + 1]);
 }
 
 double Body::motion_bound(std::size_t i, std::span<const double> from, std::span<const double> to) const {

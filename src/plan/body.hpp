@@ -8,11 +8,15 @@
 
 #include "sinew/math/linalg.hpp"
 #include "sinew/plan/scene.hpp"
+#include "sinew/plan/steps.hpp"
 
 namespace sinew::inline v0 {
 
 /// Where a robot is: unknowns of all searches. `x` is the stage, then two bends a section.
 using Posture = std::vector<double>;
+
+Posture posture_of(const InsertionStep& step);
+InsertionStep step_of(std::span<const double> posture);
 
 inline std::size_t posture_size(const SerialRobot& robot) { return 1 + 2 * robot.sections.size(); }
 

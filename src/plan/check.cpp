@@ -16,6 +16,7 @@
 #include <fcl/geometry/shape/capsule.h>
 
 #include "plan/body.hpp"
+#include "plan/deadline.hpp"
 #include "plan/obstacles.hpp"
 #include "plan/parallel.hpp"
 
@@ -65,12 +66,6 @@ double box_gap(const fcl::AABBd& box, const Vec3<double>& from, const Vec3<doubl
     sum += out * out;
   }
   return sum;
-}
-
-std::vector<double> unknowns(const InsertionStep& step) {
-  std::vector<double> x{step.stage};
-  for (const Bend& bend : step.bends) x.push_back(bend[0]), x.push_back(bend[1]);
-  return x;
 }
 
 /// One robot among the solids, of one thread.
@@ -148,15 +143,11 @@ class Examiner {
   const Solids* solids_;
 };
 
-bool is_over(const InsertionCheckOptions& options) {
-  return options.stop.stop_requested() || std::chrono::steady_clock::now() > options.deadline;
-}
-
 /// Whether robots at all postures between two are clear: each point moves by at most its bound away from
 /// where it is in the middle, so a robot thicker by that is clear there, or both halves are.
 bool is_clear_between(Examiner& examiner, const std::vector<double>& from, const std::vector<double>& to,
-                      const InsertionCheckOptions& options, std::size_t& poses) {
-  if (is_over(options)) return false;
+                      double least_motion, const Deadline& deadline, std::size_t& poses) {
+  if (deadline.is_over()) return false;
   Body& body = examiner.body();
   std::vector<double> middle(from.size());
   for (std::size_t k = 0; k < from.size(); ++k) middle[k] = 0.5 * (from[k] + to[k]);
@@ -169,9 +160,9 @@ bool is_clear_between(Examiner& examiner, const std::vector<double>& from, const
   }
   ++poses;
   if (!examiner.touches(more)) return true;
-  if (most < options.least_motion) return false;
-  return is_clear_between(examiner, from, middle, options, poses) &&
-         is_clear_between(examiner, middle, to, options, poses);
+  if (most < least_motion) return false;
+  return is_clear_between(examiner, from, middle, least_motion, deadline, poses) &&
+         is_clear_between(examiner, middle, to, least_motion, deadline, poses);
 }
 
 /// How far points of the robot may be off, whatever it does: what the tolerance of tendons leaves free, and
@@ -232,7 +223,9 @@ InsertionCheck check_insertion(const InsertionScene& scene, std::span<const Inse
   InsertionCheck check;
   if (steps.empty()) return check;
   for (const InsertionStep& step : steps)
-    if (step.bends.size() != scene.robot.sections.size()) return check;
+    if (step.bends.size() != scene.robot.sections.size() ||
+        !std::ranges::all_of(posture_of(step), [](double x) { return std::isfinite(x); }))
+      return check;
   const Solids solids(scene.solids);
   const Obstacles obstacles(scene.solids);
   const std::size_t threads =
@@ -240,18 +233,19 @@ InsertionCheck check_insertion(const InsertionScene& scene, std::span<const Inse
   std::vector<Examiner> examiners;
   for (std::size_t t = 0; t < std::min(threads, steps.size()); ++t) examiners.emplace_back(scene, solids);
   const std::vector<double> off = offsets(scene, examiners.front().body());
+  check.off = off.back();
   check.steps.resize(steps.size());
+  const Deadline deadline{options.stop, options.deadline};
   std::atomic<int> level = share_levels;
   std::vector<std::size_t> poses(steps.size(), 0);
   in_parallel(steps.size(), examiners.size(), [&](std::size_t k, std::size_t thread) {
     Examiner& examiner = examiners[thread];
     CheckedStep& step = check.steps[k];
     step.stage = steps[k].stage;
-    if (is_over(options)) return;
-    const std::vector<double> here = unknowns(steps[k]);
+    if (deadline.is_over()) return;
+    const std::vector<double> here = posture_of(steps[k]);
     examiner.body().place(here, false);
     step.spot = examiner.nearest(options.reach);
-    step.off = off.back();
     // surfaces alone do not tell a robot within a solid; where it crosses none, one of its points is enough
     const Nearest inside = obstacles.nearest(examiner.body().point(0), 0);
     if (inside.mesh >= 0 && inside.distance < 0)
@@ -269,10 +263,11 @@ InsertionCheck check_insertion(const InsertionScene& scene, std::span<const Inse
       for (int known = level.load(); here_level < known && !level.compare_exchange_weak(known, here_level);) {
       }
     }
-    if (k + 1 < steps.size() && !is_clear_between(examiner, here, unknowns(steps[k + 1]), options, poses[k]))
+    if (k + 1 < steps.size() &&
+        !is_clear_between(examiner, here, posture_of(steps[k + 1]), options.least_motion, deadline, poses[k]))
       step.verdict = InsertionVerdict::touches;
   });
-  check.is_stopped = is_over(options);
+  check.is_stopped = deadline.is_over();
   check.verdict = InsertionVerdict::clear;
   for (std::size_t k = 0; k < check.steps.size(); ++k) {
     check.poses += poses[k];

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "plan/draw.hpp"
@@ -53,6 +52,11 @@ class Planner {
   }
 
   InsertionPlan plan() {
+    if (scene_.robot.sections.empty() || !(options_.step > 0)) {
+      result_.report.status = Status::bad_input;
+      result_.report.message = std::string_view("a robot with sections and a step > 0 are needed");
+      return finished();
+    }
     for (std::size_t first = 0; first < static_cast<std::size_t>(options_.starts) && !is_over();
          first += batch) {
       const std::size_t count = std::min(batch, static_cast<std::size_t>(options_.starts) - first);
@@ -200,18 +204,16 @@ class Planner {
       smooth(way, fine_, goal_ + more, 40);
       fine_.front().body.place(way.back(), false);
       if (!fine_.front().is_at_target()) return false;
-      result_.tip_error = fine_.front().tip_error();
+      const double tip_error = fine_.front().tip_error();
       std::vector<InsertionStep> steps;
-      for (const Posture& x : way) {
-        InsertionStep step;
-        step.stage = x[0];
-        for (std::size_t k = 1; k < x.size(); k += 2) step.bends.emplace_back(x[k], x[k + 1]);
-        steps.push_back(std::move(step));
-      }
+      for (const Posture& x : way) steps.push_back(step_of(x));
       std::vector<InsertionStep> all = interpolated(steps, options_.step / 2);
       const double size = measure(all);
       if (size >= scene_.clearance - between_points) {
-        if (is_checked(std::move(all))) return true;
+        if (is_checked(std::move(all))) {
+          result_.tip_error = tip_error;
+          return true;
+        }
       } else if (size < hopeless) {
         return false;
       }
@@ -225,9 +227,7 @@ class Planner {
     std::vector<Vec3<double>> places(steps.size());
     in_parallel(steps.size(), fine_.size(), [&](std::size_t k, std::size_t thread) {
       Search& search = fine_[thread];
-      Posture x{steps[k].stage};
-      for (const Bend& bend : steps[k].bends) x.push_back(bend[0]), x.push_back(bend[1]);
-      search.body.place(x, false);
+      search.body.place(posture_of(steps[k]), false);
       gaps[k] = search.gap(goal_);
       places[k] = search.body.point(gaps[k].point);
     });
@@ -288,7 +288,8 @@ class Planner {
     const std::optional<Blocked>& why = nearest_ ? nearest_ : final_;
     if (why) result_.blocked = *why;
     if (!why)
-      text = prefix + "nothing was tried";
+      text = prefix + (result_.ways > 0 ? "the ways that were found lose the target where they are made clear"
+                                        : "nothing was tried");
     else if (nearest_)
       text = fmt::format("{}no way in: {} is in the way at stage {}, at {}; {} of clearance are missing",
                          prefix, why->solid.empty() ? "nothing" : why->solid, mm(why->stage), at(why->place),

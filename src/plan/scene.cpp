@@ -105,7 +105,7 @@ class SceneReader {
     result.radius = port->required("radius").quantity(Dimension::length, Range::size());
     double thickest = 0;
     for (const Section& section : scene_.robot.sections)
-      thickest = std::max({thickest, section.disc_radius, section.tendon_radius});
+      thickest = std::max(thickest, section.outer_radius());
     if (errors_.empty() && result.radius < thickest + scene_.clearance)
       port->fail("port_too_small",
                  fmt::format("its radius is {}, the robot's {}: with a clearance of {} it does not go in",

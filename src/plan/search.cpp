@@ -10,8 +10,7 @@ constexpr double contact_scale = 0.05e-3, target_scale = 0.05e-3, direction_scal
 
 double least_radius(const SerialRobot& robot) {
   double least = 1e9;
-  for (const Section& section : robot.sections)
-    least = std::min(least, std::max(section.disc_radius, section.tendon_radius));
+  for (const Section& section : robot.sections) least = std::min(least, section.outer_radius());
   return least;
 }
 }  // namespace

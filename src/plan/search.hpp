@@ -1,8 +1,6 @@
 /// @file search.hpp
 /// What the searches of a plan share: robot and solids, limits, contact. One per thread.
 #pragma once
-#include <cstdint>
-
 #include "plan/body.hpp"
 #include "plan/descent.hpp"
 #include "plan/obstacles.hpp"

@@ -12,12 +12,6 @@
 namespace sinew::test {
 namespace insertion_test {
 
-Posture posture_of(const InsertionStep& step) {
-  Posture x{step.stage};
-  for (const Bend& bend : step.bends) x.push_back(bend[0]), x.push_back(bend[1]);
-  return x;
-}
-
 /// Least distance between the robot's surface and all triangles, by points so near to one another that no
 /// more than `missed` is overlooked.
 double slow_clearance(const InsertionScene& scene, const Posture& x, double within, double& missed) {
@@ -195,6 +189,18 @@ TEST(InsertionCheck, NothingIsJumpedOver) {
   EXPECT_GT(check.steps[0].spot.distance, 5e-3);
   EXPECT_GT(check.steps[1].spot.distance, 5e-3);
   EXPECT_EQ(check.verdict, InsertionVerdict::touches);
+}
+
+TEST(InsertionCheck, WhatIsNoNumberTouches) {
+  const InsertionScene scene = open_scene();
+  std::vector<InsertionStep> steps = straight(scene, {0, 0.01});
+  steps[1].bends[2].x() = std::nan("");
+  EXPECT_EQ(check_insertion(scene, steps).verdict, InsertionVerdict::touches);
+  steps[1].bends.pop_back();
+  EXPECT_EQ(check_insertion(scene, steps).verdict, InsertionVerdict::touches);
+  InsertionOptions options;
+  options.step = 0;
+  EXPECT_EQ(plan_insertion(scene, options).report.status, Status::bad_input);
 }
 
 TEST(InsertionCheck, WithinASolidItTouches) {

@@ -45,7 +45,11 @@ TEST(Scene, TheTemplateIsOne) {
   EXPECT_EQ(scene.robot.section_count(), 5);
   EXPECT_NEAR(scene.base.p.z(), -0.18, 1e-15);
   EXPECT_EQ(scene.axis, Vec3<double>(0, 0, 1));
-  EXPECT_NEAR(scene.solids[4].vertices[0].y(), scene.solids[4].vertices[0].y(), 0);
+  double low = 1, high = -1;  // the post lies along y
+  for (const Vec3<double>& p : scene.solids[4].vertices)
+    low = std::min(low, p.y()), high = std::max(high, p.y());
+  EXPECT_NEAR(low, -0.04, 1e-12);
+  EXPECT_NEAR(high, 0.04, 1e-12);
 }
 
 TEST(Scene, WhatIsWrongIsNamed) {

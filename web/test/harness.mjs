@@ -24,7 +24,7 @@ export async function serve(...options) {
 
 const plain = new WeakSet();  // browsers without WebGL
 
-/** @param hasWebGL by software, as Chromium of a machine without a screen has nothing else: half the work of a case that draws */
+/** @param hasWebGL by software, as Chromium of a machine without a screen has nothing else */
 export async function launch({hasWebGL = true} = {}) {
   const drawing = hasWebGL ? ['--enable-unsafe-swiftshader'] : ['--disable-gpu', '--disable-software-rasterizer', '--disable-webgl'];
   const browser = await chromium.launch({

@@ -34,7 +34,6 @@ struct CheckedStep {
   double stage = 0;  ///< [m]
   TightSpot spot;
   InsertionVerdict verdict = InsertionVerdict::touches;
-  double off = 0;  ///< how far the tip may be off: slack tendons and model error [m]
 };
 
 struct InsertionCheck {
@@ -44,6 +43,7 @@ struct InsertionCheck {
   std::size_t worst = 0;           ///< step that has it
   /// Where it is clear only if taut: it would be clear where all that may be off was this share of it.
   double allowed_share = 1;
+  double off = 0;           ///< how far the tip may be off: slack tendons and model error [m]
   std::size_t poses = 0;    ///< looked at for the proof
   bool is_stopped = false;  ///< not all was looked at
 };
@@ -56,7 +56,8 @@ struct InsertionCheckOptions {
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
 };
 
-/// @param steps as planned, or of a file, each of as many bends as the robot has sections
+/// @param steps as planned, or of a file, each of as many bends as the robot has sections, finite; else
+/// `touches`, without steps
 SINEW_API InsertionCheck check_insertion(const InsertionScene& scene, std::span<const InsertionStep> steps,
                                          const InsertionCheckOptions& options = {});
 

@@ -49,6 +49,14 @@ struct Section {
   double arc_length() const { return segments * joint; }              ///< N L [m]
   double length() const { return segments * (joint + disc_height); }  ///< of the whole section [m]
 
+  /// Of a section's bend what its k-th joint has; of twin pivots the proximal one of a pair bends by β₂.
+  Bend joint_bend(const Bend& bend, int k) const {
+    if (!is_twin()) return bend / segments;
+    return k % 2 == 0 ? Bend(0, bend.y()) : Bend(bend.x(), 0);
+  }
+  /// Of the tube that holds discs and tendons [m].
+  double outer_radius() const { return disc_radius > tendon_radius ? disc_radius : tendon_radius; }
+
   kernel::Section<double> map() const {
     return kernel::make_section<double>(backbone, segments, joint, tendon_radius);
   }
