@@ -14,13 +14,7 @@ namespace sinew::bench {
 namespace {
 
 InsertionScene scene_of(const Compressor& compressor) {
-  InsertionScene scene;
-  scene.robot = load_serial(compressor.robot).value();
-  scene.base.p = Vec3<double>(0, 0, -compressor.case_thickness - scene.robot.length());
-  scene.stage_limit = compressor.stage_limit;
-  scene.target.tip = compressor.target;
-  scene.solids = compressor_meshes(compressor);
-  return scene;
+  return compressor_scene(compressor, load_serial(compressor.robot).value());
 }
 
 /// Seconds; negative where no way was found.

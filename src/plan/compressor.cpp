@@ -181,7 +181,21 @@ std::vector<Mesh> compressor_meshes(const Compressor& c) {
   return all;
 }
 
-std::string compressor_scene(const Compressor& c, double robot_length) {
+InsertionScene compressor_scene(const Compressor& c, SerialRobot robot) {
+  InsertionScene scene;
+  scene.name = "compressor";
+  scene.robot_name = c.robot;
+  scene.base.p = Vec3<double>(0, 0, -c.case_thickness - robot.length());
+  scene.robot = std::move(robot);
+  scene.stage_limit = c.stage_limit;
+  scene.port = InsertionPort{{0, 0, 0}, c.port_diameter / 2};
+  scene.target.tip = c.target;
+  scene.solids = compressor_meshes(c);
+  return scene;
+}
+
+std::string compressor_scene_text(const Compressor& c, const SerialRobot& robot) {
+  const InsertionScene scene = compressor_scene(c, robot);
   const auto mm = [](double metres) { return human(metres, Dimension::length); };
   std::string text = fmt::format(
       "# A stand-in for a compressor: annulus of {} between hub and case, {} rows of blades, a port of {}.\n"
@@ -196,13 +210,13 @@ std::string compressor_scene(const Compressor& c, double robot_length) {
       "axis: [0, 0, 1]                   # in which the stage moves the base\n"
       "stage: {{limit: {}}}\n"
       "port: {{position: [0, 0, 0], radius: {}}}\n"
-      "target: {{tip: [{}, {}, {}], tolerance: 0.5 mm}}\n"
-      "margins: {{clearance: 0.5 mm}}\n"
+      "target: {{tip: [{}, {}, {}], tolerance: {}}}\n"
+      "margins: {{clearance: {}}}\n"
       "obstacles:\n",
-      mm(c.case_radius - c.hub_radius), c.rows.size(), mm(c.port_diameter), c.robot,
-      mm(-c.case_thickness - robot_length), mm(c.stage_limit), mm(c.port_diameter / 2), mm(c.target.x()),
-      mm(c.target.y()), mm(c.target.z()));
-  for (const Mesh& mesh : compressor_meshes(c))
+      mm(c.case_radius - c.hub_radius), c.rows.size(), mm(c.port_diameter), c.robot, mm(scene.base.p.z()),
+      mm(c.stage_limit), mm(c.port_diameter / 2), mm(c.target.x()), mm(c.target.y()), mm(c.target.z()),
+      mm(scene.target.tolerance), mm(scene.clearance));
+  for (const Mesh& mesh : scene.solids)
     text += fmt::format("  - {{name: {0}, mesh: {0}.stl, unit: mm}}\n", mesh.name);
   return text;
 }

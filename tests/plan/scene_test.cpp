@@ -100,10 +100,16 @@ TEST(Scene, WhatIsWrittenIsRead) {
     const Compressor compressor = seed == 0 ? Compressor{} : drawn_compressor(seed);
     for (const Mesh& mesh : compressor_meshes(compressor))
       ASSERT_TRUE(write_stl(mesh, folder.path / (mesh.name + ".stl")));
-    ASSERT_TRUE(write_text(compressor_scene(compressor, 0.175), folder.path / "scene.yaml"));
-    const InsertionScene scene = load_scene(folder.path / "scene.yaml").value();
-    EXPECT_EQ(scene.solids.size(), compressor_meshes(compressor).size());
-    EXPECT_LT(distance_of(scene.target.tip, compressor.target), 1e-6);
+    const InsertionScene made = compressor_of(compressor);
+    ASSERT_TRUE(write_text(compressor_scene_text(compressor, made.robot), folder.path / "scene.yaml"));
+    const InsertionScene read = load_scene(folder.path / "scene.yaml").value();
+    EXPECT_EQ(read.solids.size(), made.solids.size());
+    EXPECT_LT(distance_of(read.target.tip, made.target.tip), 1e-6);
+    EXPECT_LT(distance_of(read.base.p, made.base.p), 1e-9);
+    EXPECT_EQ(read.stage_limit, made.stage_limit);
+    EXPECT_EQ(read.clearance, made.clearance);
+    EXPECT_EQ(read.target.tolerance, made.target.tolerance);
+    EXPECT_NEAR(read.port.value().radius, made.port.value().radius, 1e-9);
   }
 }
 

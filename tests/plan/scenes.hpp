@@ -29,13 +29,7 @@ inline Mesh named(Mesh mesh, const char* name, const Vec3<double>& position) {
 
 /// The stand-in for a compressor, without its files.
 inline InsertionScene compressor_of(const Compressor& compressor) {
-  InsertionScene scene = open_scene();
-  scene.name = "compressor";
-  scene.base.p.z() -= compressor.case_thickness;
-  scene.stage_limit = compressor.stage_limit;
-  scene.target.tip = compressor.target;
-  scene.solids = compressor_meshes(compressor);
-  return scene;
+  return compressor_scene(compressor, load_serial(compressor.robot).value());
 }
 
 inline double distance_of(const Vec3<double>& a, const Vec3<double>& b) {

@@ -51,8 +51,10 @@ SINEW_API Errors compressor_errors(const Compressor& compressor);
 /// Its solids: `case`, `hub`, and every blade.
 SINEW_API std::vector<Mesh> compressor_meshes(const Compressor& compressor);
 
-/// The scene file to these meshes, each in an STL file of its name.
-/// @param robot_length of the robot: at stage 0 its tip is at the outside of the case [m]
-SINEW_API std::string compressor_scene(const Compressor& compressor, double robot_length);
+/// The task of getting in: at stage 0 the straight robot's tip is at the outside of the case.
+SINEW_API InsertionScene compressor_scene(const Compressor& compressor, SerialRobot robot);
+
+/// The same as a scene file, each solid in an STL file of its name.
+SINEW_API std::string compressor_scene_text(const Compressor& compressor, const SerialRobot& robot);
 
 }  // namespace sinew::inline v0
