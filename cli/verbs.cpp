@@ -105,6 +105,16 @@ constexpr std::array options{
            "of random numbers; one seed, one answer; default 1, of scene the dimensions as they are"},
     Option{"time-limit", "TIME", "after which plan gives up; default 60 s"},
     Option{"check", "PLAN", "no new plan: whether this one, an .h5 or .csv file, holds in the scene"},
+    Option{"along", "FILE",
+           "of drive the postures to drive along: a plan, .h5 or .csv, or any table with its columns"},
+    Option{"limits", "\"NAME=VALUE, ...\"",
+           "of drive: stage_speed, stage_acceleration, bend_speed, bend_acceleration, tendon_speed, "
+           "tendon_acceleration; may be repeated",
+           0, true},
+    Option{"rate", "HZ", "of drive: points a second; default 50"},
+    Option{"reverse", "", "of drive: from the last posture to the first, out again"},
+    Option{"stage-motor", "\"{lead: L, counts: N}\"",
+           "of drive: the motor of the linear stage, as `motor` of a robot"},
     Option{"compress", "LEVEL", "of HDF5, 0 (none, default) to 9"},
     Option{"list", "", "only list what there is; of sweep what it would do"},
     Option{"as", "NAME",
@@ -380,6 +390,20 @@ const std::array table{
         "found, with what is in the way.",
         "sinew new scene > wall.yaml && sinew plan wall.yaml -o plan.csv",
         run_plan},
+    Verb{
+        "drive",
+        "ROBOT",
+        "when a serial robot on a stage is where, along a plan: bends, tendons, motor counts",
+        {"along", "limits", "rate", "reverse", "model", "stage-motor", "set", "output", "json", "quiet",
+         "help"},
+        {"along"},
+        "The quickest motion from rest to rest through all postures within limits of speed and acceleration. "
+        "By the\nending of -o a table, .csv or .h5, or for ROS a JointTrajectory, .yaml; default the plan's "
+        "name with .drive.csv.\nTendon changes are exact and by LSK; counts, where motors are named, are "
+        "those of --model lsk (default) or pcc.\nDefaults: stage 5 mm/s and 25 mm/s^2, bends 0.5 rad/s and "
+        "2 rad/s^2, tendons 10 mm/s and 50 mm/s^2.",
+        "sinew drive nottingham-tpcj --along plan.csv --limits \"stage_speed=10 mm/s\" -o drive.csv",
+        run_drive},
     Verb{"scene",
          "compressor",
          "a scene to plan in, with its meshes: a stand-in for the compressor of an engine",

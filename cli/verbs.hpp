@@ -79,6 +79,7 @@ int run_new(const Arguments& arguments);
 int new_study(const Arguments& arguments);  ///< of new, a study
 int run_scene(const Arguments& arguments);
 int run_plan(const Arguments& arguments);
+int run_drive(const Arguments& arguments);
 int run_list(const Arguments& arguments);
 int run_reproduce(const Arguments& arguments);
 int run_plot(const Arguments& arguments);

@@ -37,6 +37,7 @@ int run_list(const Arguments& arguments) { return become_whole(arguments); }
 int check_study(const Arguments& arguments) { return become_whole(arguments); }
 int check_scene(const Arguments& arguments) { return become_whole(arguments); }
 int run_plan(const Arguments& arguments) { return become_whole(arguments); }
+int run_drive(const Arguments& arguments) { return become_whole(arguments); }
 int run_scene(const Arguments& arguments) { return become_whole(arguments); }
 int new_study(const Arguments& arguments) { return become_whole(arguments); }
 

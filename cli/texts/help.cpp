@@ -59,10 +59,13 @@ std::string help(const Verb& verb) {
 }
 
 std::vector<std::string> unit_advice() {
-  constexpr std::array dimensions{Dimension::length,       Dimension::angle,    Dimension::curvature,
-                                  Dimension::force,        Dimension::moment,   Dimension::pressure,
-                                  Dimension::mass,         Dimension::density,  Dimension::time,
-                                  Dimension::acceleration, Dimension::line_load};
+  constexpr std::array dimensions{Dimension::length,        Dimension::angle,
+                                  Dimension::curvature,     Dimension::force,
+                                  Dimension::moment,        Dimension::pressure,
+                                  Dimension::mass,          Dimension::density,
+                                  Dimension::time,          Dimension::acceleration,
+                                  Dimension::line_load,     Dimension::speed,
+                                  Dimension::angular_speed, Dimension::angular_acceleration};
   std::vector<std::string> lines;
   for (const Dimension dimension : dimensions) lines.emplace_back(advice(dimension));
   return lines;

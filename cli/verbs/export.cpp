@@ -5,10 +5,8 @@
 #include <array>
 #include <filesystem>
 
-#include "request.hpp"
+#include "serial_robot.hpp"
 #include "sinew/io/export.hpp"
-#include "sinew/io/robot_file.hpp"
-#include "sinew/io/serial_file.hpp"
 #include "sinew/io/visible.hpp"
 #include "sinew/io/write_file.hpp"
 #include "terminal.hpp"
@@ -47,32 +45,16 @@ int refuse_language(const std::string& word) {
                                         fmt::join(names, ", "))}});
 }
 
-/// The model by which a controller drives its tendons.
 Expected<kernel::Model> read_model(const Arguments& arguments, const Language& language) {
-  const std::string* model = arguments.text("model");
-  if (!model || *model == "lsk") return kernel::Model::linear;
-  if (*model != "pcc")
-    return failure("unknown_choice", "--model",
-                   fmt::format("{} is no model of tendons: write pcc or lsk", in_quotes(*model)));
-  if (!language.has_exact)
+  auto model = tendon_model(arguments);
+  if (model && *model == kernel::Model::exact && !language.has_exact)
     return failure("not_available", "--model",
                    fmt::format("{} is of lsk alone; c-header has pcc, too", language.name));
-  return kernel::Model::exact;
+  return model;
 }
 
 Expected<ControllerTable> read_table(const Arguments& arguments, const Language& language) {
-  auto document = read_robot_file(arguments.operand());
-  if (!document) return tl::unexpected(document.error());
-  const auto changes = settings(arguments);
-  if (!changes) return tl::unexpected(changes.error());
-  if (!is_serial(*document))
-    return failure("not_available", "",
-                   fmt::format("{} is no serial robot; these languages are for those in this version",
-                               arguments.operand()));
-  document =
-      expanded_sections(*document).and_then([&](const Document& listed) { return with(listed, *changes); });
-  if (!document) return tl::unexpected(document.error());
-  const auto robot = read_serial_robot(*document);
+  const auto robot = open_serial(arguments);
   if (!robot) return tl::unexpected(robot.error());
   const auto model = read_model(arguments, language);
   return model ? make_controller_table(*robot, *model) : tl::unexpected(model.error());

@@ -21,7 +21,7 @@ struct Words {
   std::string_view advice;
 };
 
-constexpr std::array<Words, 13> words{{
+constexpr std::array<Words, 16> words{{
     {Dimension::number, "", "a number", "a plain number (0.5)"},
     {Dimension::count, "", "a whole number", "a whole number (3)"},
     {Dimension::length, "m", "a length", R"(a length ("0.2 m", "200 mm", or 0.2 for metres))"},
@@ -38,6 +38,11 @@ constexpr std::array<Words, 13> words{{
     {Dimension::time, "s", "a time", R"(a time ("0.5 s", "500 ms", or 0.5 for seconds))"},
     {Dimension::line_load, "N/m", "a load by length",
      R"(a load by length ("0.5 N/m", "500 mN/m", or 0.5 for newtons a metre))"},
+    {Dimension::speed, "m/s", "a speed", R"(a speed ("5 mm/s", or 0.005 for m/s))"},
+    {Dimension::angular_speed, "rad/s", "an angular speed",
+     R"(an angular speed ("0.5 rad/s", "30 deg/s", or 0.5 for rad/s))"},
+    {Dimension::angular_acceleration, "rad/s^2", "an angular acceleration",
+     R"(an angular acceleration ("2 rad/s^2", "90 deg/s^2", or 2 for rad/s^2))"},
 }};
 static_assert([] {
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -95,6 +100,7 @@ constexpr std::array units{
     Unit{Dimension::density, "kg/m3", 0, alias},
     Unit{Dimension::density, "g/cm3", 3, alias},
     Unit{Dimension::acceleration, "m/s^2"},
+    Unit{Dimension::acceleration, "mm/s^2", -3},
     Unit{Dimension::acceleration, "m/s2", 0, alias},
     Unit{Dimension::time, "s"},
     Unit{Dimension::time, "ms", -3},
@@ -102,6 +108,12 @@ constexpr std::array units{
     Unit{Dimension::line_load, "N/m"},
     Unit{Dimension::line_load, "mN/m", -3},
     Unit{Dimension::line_load, "N/mm", 3},
+    Unit{Dimension::speed, "m/s"},
+    Unit{Dimension::speed, "mm/s", -3},
+    Unit{Dimension::angular_speed, "rad/s"},
+    Unit{Dimension::angular_speed, "deg/s", 0, false, 1, 180, std::numbers::pi},
+    Unit{Dimension::angular_acceleration, "rad/s^2"},
+    Unit{Dimension::angular_acceleration, "deg/s^2", 0, false, 1, 180, std::numbers::pi},
 };
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -274,6 +286,9 @@ std::string human(double si, Dimension dimension) {
   if (dimension == Dimension::length && std::abs(value) < 1000) {
     value *= 1000;
     symbol = "mm";
+  } else if (dimension == Dimension::speed && std::abs(value) < 1) {
+    value *= 1000;
+    symbol = "mm/s";
   } else if (dimension == Dimension::angle) {
     value = value / std::numbers::pi * 180;
     symbol = "deg";

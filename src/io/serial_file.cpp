@@ -127,16 +127,18 @@ Section read_section(Reader& section) {
   return result;
 }
 
+TendonMotor read_motor(Reader& motor) {
+  constexpr Range ratio{.low = 0, .high = 1e9, .low_excluded = true};
+  TendonMotor m;
+  m.lead = motor.required("lead", "way of the screw in one turn").quantity(Dimension::length, Range::size());
+  m.counts = motor.required("counts", "of the encoder in one turn").number(ratio);
+  if (const auto gear = motor.optional("gear")) m.gear = gear->number(ratio);
+  motor.close();
+  return m;
+}
+
 void read_actuation(Reader& robot, SerialRobot& result) {
-  if (auto motor = robot.optional("motor")) {
-    constexpr Range ratio{.low = 0, .high = 1e9, .low_excluded = true};
-    TendonMotor& m = result.motor.emplace();
-    m.lead =
-        motor->required("lead", "way of the screw in one turn").quantity(Dimension::length, Range::size());
-    m.counts = motor->required("counts", "of the encoder in one turn").number(ratio);
-    if (const auto gear = motor->optional("gear")) m.gear = gear->number(ratio);
-    motor->close();
-  }
+  if (auto motor = robot.optional("motor")) result.motor = read_motor(*motor);
   if (auto stretch = robot.optional("stretch")) {
     TendonStretch& s = result.stretch.emplace();
     s.stiffness =
@@ -230,6 +232,13 @@ Expected<SerialRobot> load_serial(const std::string& path_or_name) {
   Reader robot(*document, errors);
   robot.fail("wrong_kind", "is no serial robot; load reads it");
   return tl::unexpected(errors);
+}
+
+Expected<TendonMotor> read_motor(const Document& document) {
+  Errors errors;
+  Reader motor(document, errors);
+  const TendonMotor read = read_motor(motor);
+  return errors.empty() ? Expected<TendonMotor>(read) : tl::unexpected(errors);
 }
 
 }  // namespace sinew::inline v0

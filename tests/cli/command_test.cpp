@@ -26,6 +26,12 @@ std::string example(const std::string& help) {
   return begin == std::string::npos ? std::string() : help.substr(begin + 9);
 }
 
+/// A plan of nottingham-tpcj: straight, then further in with one bend.
+const std::string two_postures =
+    "stage[m],S0_beta_1[rad],S0_beta_2[rad],S1_beta_1[rad],S1_beta_2[rad],S2_beta_1[rad],S2_beta_2[rad],"
+    "S3_beta_1[rad],S3_beta_2[rad],S4_beta_1[rad],S4_beta_2[rad]\n0,0,0,0,0,0,0,0,0,0,0\n"
+    "0.01,0.1,0,0,0,0,0,0,0,0,0\n";
+
 TEST(Help, TheExampleOfEveryVerbWorksAsPrinted) {
   ASSERT_GE(verbs().size(), 9U);
   for (const std::string& verb : verbs()) {
@@ -40,6 +46,7 @@ TEST(Help, TheExampleOfEveryVerbWorksAsPrinted) {
             ? "sinew serve 3-rfr --port 0 -q >url & while [ ! -s url ] && kill -0 $!; do "
               "sleep 0.02; done; kill $!; wait $!"
             : line;
+    if (verb == "drive") write_text(here.path() / "plan.csv", two_postures);
     const Outcome outcome = run_shell(call, here.path());
 #ifndef SINEW_WITH_PLAN
     if (verb == "plan" || verb == "scene") {

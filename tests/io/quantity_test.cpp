@@ -74,6 +74,11 @@ TEST(Quantity, EveryUnitIsTheSiNumber) {
       {"500 mN / m", Dimension::line_load, 0.5},
       {"2 N/mm", Dimension::line_load, 2000},
       {"2 s", Dimension::time, 2},
+      {"5 mm/s", Dimension::speed, 0.005},
+      {"0.5 rad/s", Dimension::angular_speed, 0.5},
+      {"180 deg/s", Dimension::angular_speed, pi},
+      {"180 deg/s^2", Dimension::angular_acceleration, pi},
+      {"25 mm/s^2", Dimension::acceleration, 0.025},
       {"2 ms", Dimension::time, 0.002},
       {"2 us", Dimension::time, 2e-6},
       {"2 µs", Dimension::time, 2e-6},
@@ -162,6 +167,7 @@ TEST(Quantity, HumanTextIsInMillimetresAndDegrees) {
   EXPECT_EQ(human(0.175, Dimension::length), "175 mm");
   EXPECT_EQ(human(pi / 6, Dimension::angle), "30 deg");
   EXPECT_EQ(human(6e10, Dimension::pressure), "6e+10 Pa");
+  EXPECT_EQ(human(5e-3, Dimension::speed), "5 mm/s");
   EXPECT_EQ(human(-0.0, Dimension::number), "0");
   EXPECT_EQ(human(0.123456789, Dimension::moment), "0.123457 N m");
 }

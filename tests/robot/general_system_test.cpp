@@ -97,7 +97,7 @@ TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
   for (const Kind& kind : without_torque) {
     RodRandom random(3);
     int tried = 0;
-    for (int sample = 0; sample < samples(6); ++sample) {
+    for (int sample = 0; sample < samples(3); ++sample) {
       const RodRobot robot = robot_of(kind, random);
       for (const RodLeg& leg : robot.legs) ASSERT_TRUE(leg.is_torque_free());
       TangentSystem tangents(robot);
@@ -137,7 +137,7 @@ TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
         EXPECT_NEAR(p.largest_curvature, q.largest_curvature, 1e-2 * q.largest_curvature);
       }
     }
-    EXPECT_GE(tried, samples(3)) << kind.name;
+    EXPECT_GE(tried, samples(2)) << kind.name;
   }
 }
 
@@ -145,7 +145,7 @@ TEST(GeneralSystem, ComesToRestWhereTheFieldOfTangentsDoes) {
   for (const Kind& kind : without_torque) {
     RodRandom random(7);
     int tried = 0;
-    for (int sample = 0; sample < samples(4); ++sample) {
+    for (int sample = 0; sample < samples(2); ++sample) {
       const RodRobot robot = robot_of(kind, random);
       TangentWork tangents(robot, gravity);
       GeneralWork rods(robot, gravity);
@@ -165,7 +165,7 @@ TEST(GeneralSystem, ComesToRestWhereTheFieldOfTangentsDoes) {
       EXPECT_LT((p.R.matrix() - q.R.matrix()).norm(), 1e-9) << kind.name;
       EXPECT_EQ(unstable_directions(tangents.system), unstable_directions(rods.system)) << kind.name;
     }
-    EXPECT_GE(tried, samples(2)) << kind.name;
+    EXPECT_GE(tried, samples(1)) << kind.name;
   }
 }
 

@@ -24,6 +24,9 @@ enum class Dimension {
   acceleration,
   time,
   line_load,  ///< force per length
+  speed,
+  angular_speed,
+  angular_acceleration,  // the last: who goes through all ends here
 };
 
 /// An interval of allowed values; a bound may be excluded.

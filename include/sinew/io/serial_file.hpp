@@ -20,6 +20,9 @@ SINEW_API Expected<SerialRobot> load_serial(const std::string& path_or_name);
 /// The serial robot a document describes.
 SINEW_API Expected<SerialRobot> read_serial_robot(const Document& document);
 
+/// The motor a document describes: `lead`, `counts`, `gear`, as under the key `motor` of a robot.
+SINEW_API Expected<TendonMotor> read_motor(const Document& document);
+
 /// The same document with `sections: {count, ...}` written out as a list; unchanged if it is one.
 SINEW_API Expected<Document> expanded_sections(const Document& document);
 

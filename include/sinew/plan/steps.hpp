@@ -6,13 +6,11 @@
 #include <vector>
 
 #include "sinew/base/export.hpp"
-#include "sinew/robot/serial.hpp"
+#include "sinew/kinematics/trajectory.hpp"
 
 namespace sinew::inline v0 {
 
-struct InsertionStep {
-  double stage = 0;             ///< how far the base was moved [m]
-  std::vector<Bend> bends;      ///< of every section [rad]
+struct InsertionStep : SerialPosture {
   double clearance = 0;         ///< least distance between robot and solids [m]; < 0: they overlap
   int solid = -1;               ///< where it is; −1: none is near
   Vec3<double> place{0, 0, 0};  ///< point of the backbone there [m]

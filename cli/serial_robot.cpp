@@ -1,0 +1,35 @@
+#include "serial_robot.hpp"
+
+#include <fmt/format.h>
+
+#include "request.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/io/serial_file.hpp"
+#include "sinew/io/visible.hpp"
+
+namespace sinew::cli {
+
+Expected<SerialRobot> open_serial(const Arguments& arguments) {
+  auto document = read_robot_file(arguments.operand());
+  if (!document) return tl::unexpected(document.error());
+  const auto changes = settings(arguments);
+  if (!changes) return tl::unexpected(changes.error());
+  if (!is_serial(*document))
+    return failure("not_available", "",
+                   fmt::format("{} is no serial robot; {} is for those in this version", arguments.operand(),
+                               arguments.verb));
+  document =
+      expanded_sections(*document).and_then([&](const Document& listed) { return with(listed, *changes); });
+  if (!document) return tl::unexpected(document.error());
+  return read_serial_robot(*document);
+}
+
+Expected<kernel::Model> tendon_model(const Arguments& arguments) {
+  const std::string* model = arguments.text("model");
+  if (!model || *model == "lsk") return kernel::Model::linear;
+  if (*model == "pcc") return kernel::Model::exact;
+  return failure("unknown_choice", "--model",
+                 fmt::format("{} is no model of tendons: write pcc or lsk", in_quotes(*model)));
+}
+
+}  // namespace sinew::cli

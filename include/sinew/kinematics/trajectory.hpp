@@ -1,0 +1,56 @@
+/// @file trajectory.hpp
+/// When a serial robot on a linear stage is where: the quickest motion along given postures within limits of
+/// speed and acceleration. Theory: docs/theory/trajectory.md
+#pragma once
+#include <span>
+#include <vector>
+
+#include "sinew/robot/serial.hpp"
+#include "sinew/solve/report.hpp"
+
+namespace sinew::inline v0 {
+
+/// Where a serial robot on a linear stage is.
+struct SerialPosture {
+  double stage = 0;         ///< how far the base was moved [m]
+  std::vector<Bend> bends;  ///< of every section [rad]
+};
+
+/// Of every coordinate alike; all > 0.
+struct TrajectoryLimits {
+  double stage_speed = 5e-3;           ///< [m/s]
+  double stage_acceleration = 25e-3;   ///< [m/s²]
+  double bend_speed = 0.5;             ///< of each of a section's two bends [rad/s]
+  double bend_acceleration = 2;        ///< [rad/s²]
+  double tendon_speed = 10e-3;         ///< of each tendon, exact PCC [m/s]
+  double tendon_acceleration = 50e-3;  ///< [m/s²]
+};
+
+/// Where everything is at a time, and how it moves.
+struct TrajectoryPoint {
+  double time = 0;  ///< [s]
+  SerialPosture posture;
+  double stage_speed = 0, stage_acceleration = 0;     ///< [m/s], [m/s²]
+  std::vector<Bend> bend_speeds, bend_accelerations;  ///< [rad/s], [rad/s²]
+};
+
+struct Trajectory {
+  /// `converged`; `bad_input`; `left_domain`: a posture is beyond the robot's limits; the message says which.
+  Report report;
+  std::vector<TrajectoryPoint> points;  ///< from rest at time 0 to rest at `duration`, evenly but the last
+  double duration = 0;                  ///< [s]
+  TrajectoryLimits greatest{0, 0, 0, 0, 0, 0};  ///< speeds and accelerations that it reaches
+};
+
+/// The quickest motion from rest at the first posture to rest at the last, on a smooth curve that passes all
+/// and on which no coordinate leaves the interval of its neighbours (`ShapePreservingCurve`). Postures that
+/// repeat the one before are left out.
+/// @param period between points [s], > 0
+SINEW_API Trajectory time_optimal_trajectory(const SerialRobot& robot,
+                                             std::span<const SerialPosture> postures,
+                                             const TrajectoryLimits& limits, double period);
+
+/// Most points that a trajectory may have.
+inline constexpr std::size_t trajectory_point_limit = 10'000'000;
+
+}  // namespace sinew::inline v0
