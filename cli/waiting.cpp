@@ -37,6 +37,11 @@ Waiting::~Waiting() {
   thread_.join();
 }
 
+void Waiting::say(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  what_ = what;
+}
+
 void Waiting::show() {
   const auto begin = std::chrono::steady_clock::now();
   const auto is_over = [this] { return is_over_; };
@@ -44,8 +49,9 @@ void Waiting::show() {
   if (changed_.wait_for(lock, first_line, is_over)) return;
   do {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-    fmt::print(stderr, "\r{:.1f} s  {}\033[K", elapsed.count(),
-               interrupted() ? "stopping; Ctrl-C again ends it at once" : "solving; Ctrl-C stops it");
+    fmt::print(
+        stderr, "\r{:.1f} s  {}\033[K", elapsed.count(),
+        interrupted() ? std::string("stopping; Ctrl-C again ends it at once") : what_ + "; Ctrl-C stops it");
     std::fflush(stderr);
   } while (!changed_.wait_for(lock, next_line, is_over));
   std::fputs("\r\033[K", stderr);

@@ -3,6 +3,7 @@
 #pragma once
 #include <condition_variable>
 #include <mutex>
+#include <string>
 #include <thread>
 
 namespace sinew::cli {
@@ -16,12 +17,16 @@ class Waiting {
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
 
+  /// What is being done, instead of "solving"; from any thread.
+  void say(const std::string& what);
+
  private:
   void show();
 
   std::mutex mutex_;
   std::condition_variable changed_;
   bool is_over_ = false;
+  std::string what_ = "solving";
   std::thread thread_;  ///< last: it reads the others
 };
 

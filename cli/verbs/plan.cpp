@@ -34,6 +34,27 @@ std::string solid_name(const InsertionScene& scene, int solid) {
   return solid < 0 ? "nothing" : scene.solids[static_cast<std::size_t>(solid)].name;
 }
 
+/// What may move the robot, and what would make it clear all the same.
+std::string taut_text(const InsertionScene& scene, const InsertionCheck& check) {
+  std::string text = fmt::format("the tip may be off by up to {}: {} by slack or stretched tendons",
+                                 mm(check.off.sum()), mm(check.off.tendons));
+  if (scene.weight) text += fmt::format(", {} by weight", mm(check.off.sag));
+  if (scene.model_error > 0) text += fmt::format(", {} by the model", mm(check.off.model));
+  text +=
+      fmt::format("\nit would be clear with {:.1f} % of that: tendons calibrated to {:.4f} mm instead of {}",
+                  100 * check.allowed_share, 1e3 * check.allowed_share * scene.robot.tolerance,
+                  mm(scene.robot.tolerance));
+  if (scene.tension > 0)
+    text += fmt::format(", tension up to {} instead of {}",
+                        human(check.allowed_share * scene.tension, Dimension::force),
+                        human(scene.tension, Dimension::force));
+  if (scene.weight)
+    text += fmt::format(", {} of weight instead of {}",
+                        human(check.allowed_share * scene.weight->by_length, Dimension::line_load),
+                        human(scene.weight->by_length, Dimension::line_load));
+  return text + '\n';
+}
+
 /// What a check found, in words.
 std::string verdict_text(const InsertionScene& scene, const InsertionCheck& check) {
   const CheckedStep& worst = check.steps[check.worst];
@@ -43,12 +64,7 @@ std::string verdict_text(const InsertionScene& scene, const InsertionCheck& chec
                                        : check.verdict == InsertionVerdict::touches ? Style::bad
                                                                                     : Style::doubtful),
       mm(check.clearance), mm(worst.stage), worst.spot.section, solid_name(scene, worst.spot.solid));
-  if (check.verdict == InsertionVerdict::clear_if_taut)
-    text += fmt::format(
-        "slack tendons (tolerance {}) and model error ({}) may move the tip by up to {}; it would be clear "
-        "with {:.1f} % of "
-        "both\n",
-        mm(scene.robot.tolerance), mm(scene.model_error), mm(check.off), 100 * check.allowed_share);
+  if (check.verdict == InsertionVerdict::clear_if_taut) text += taut_text(scene, check);
   return text;
 }
 
@@ -56,10 +72,11 @@ std::string json_check(const InsertionScene& scene, const InsertionCheck& check)
   const CheckedStep& worst = check.steps[check.worst];
   return fmt::format(
       "\"verdict\":{},\"clearance\":{},\"stage\":{},\"section\":{},\"solid\":{},\"allowed_share\":{},"
-      "\"poses\":{}",
+      "\"off\":{{\"tendons\":{},\"sag\":{},\"model\":{}}},\"poses\":{}",
       json_text(std::string(to_string(check.verdict))), si_text(check.clearance), si_text(worst.stage),
       worst.spot.section, worst.spot.solid < 0 ? "null" : json_text(solid_name(scene, worst.spot.solid)),
-      si_text(check.allowed_share), check.poses);
+      si_text(check.allowed_share), si_text(check.off.tendons), si_text(check.off.sag),
+      si_text(check.off.model), check.poses);
 }
 
 int check_plan(const Arguments& arguments, const InsertionScene& scene, unsigned threads) {
@@ -228,7 +245,10 @@ int run_plan(const Arguments& arguments) {
   const bool is_json = arguments.has("json");
   InsertionPlan plan;
   {
-    const Waiting waiting(arguments.has("quiet"));
+    Waiting waiting(arguments.has("quiet"));
+    options.progress = [&waiting](const InsertionProgress& progress) {
+      waiting.say(fmt::format("{} {:.0f} %", progress.phase, 100 * progress.share));
+    };
     plan = plan_insertion(*scene, options);
   }
   if (!plan.report.ok()) {

@@ -137,4 +137,14 @@ double Body::motion_bound(std::size_t i, std::span<const double> from, std::span
   return sum;
 }
 
+double Body::sag_bound(std::size_t i, const InsertionWeight& weight) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < i; ++k) {
+    if (!pieces_[k].is_joint) continue;
+    const double distal = arcs_.back() - arcs_[k], moment = weight.by_length * distal * distal / 2;
+    sum += moment / weight.stiffness * pieces_[k].length * (arcs_[i] - arcs_[k]);
+  }
+  return sum;
+}
+
 }  // namespace sinew::inline v0

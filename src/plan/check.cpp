@@ -165,23 +165,41 @@ bool is_clear_between(Examiner& examiner, const std::vector<double>& from, const
          is_clear_between(examiner, middle, to, least_motion, deadline, poses);
 }
 
-/// How far points of the robot may be off, whatever it does: what the tolerance of tendons leaves free, and
-/// the model error. Tendons that pass several sections hold the sum of what these may bend; each may bend as
-/// far as two sums differ.
-std::vector<double> offsets(const InsertionScene& scene, const Body& body) {
+/// Of a tendon that passes the sections up to `m`: its tolerance, and what tension stretches it by.
+double uncertainty(const InsertionScene& scene, std::size_t m) {
+  double length = 0;
+  for (std::size_t k = 0; k <= m; ++k) length += scene.robot.sections[k].length();
+  const auto& stretch = scene.robot.stretch;
+  return scene.robot.tolerance +
+         (stretch ? scene.tension * (length + stretch->outside) / stretch->stiffness : 0.0);
+}
+
+/// How far every point of the robot may be off by its tendons, whatever it does. Tendons that pass several
+/// sections hold the sum of what these may bend; each may bend as far as two sums differ.
+std::vector<double> tendon_offsets(const InsertionScene& scene, const Body& body) {
   std::vector<double> bend(scene.robot.sections.size());
   double before = 0;
   for (std::size_t m = 0; m < bend.size(); ++m) {
     const Section& section = scene.robot.sections[m];
-    const double sum = scene.robot.tolerance / std::cos(std::numbers::pi / section.tendons);
+    const double sum = uncertainty(scene, m) / std::cos(std::numbers::pi / section.tendons);
     bend[m] = (sum + before) / section.map().gain;
     before = sum;
   }
-  std::vector<double> off(body.size(), scene.model_error);
+  std::vector<double> off(body.size(), 0.0);
   for (std::size_t i = 0; i < body.size(); ++i)
     for (std::size_t m = 0; 1 + 2 * m < body.movers(i); ++m)
       off[i] += bend[m] * std::max(body.lever(i, 1 + 2 * m), body.lever(i, 2 + 2 * m)) *
                 (scene.robot.sections[m].is_twin() ? std::numbers::sqrt2 : 1.0);
+  return off;
+}
+
+/// How far every point may be off altogether. @param at_tip its parts there
+std::vector<double> offsets(const InsertionScene& scene, const Body& body, InsertionOff& at_tip) {
+  std::vector<double> off = tendon_offsets(scene, body);
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    at_tip = {off[i], scene.weight ? body.sag_bound(i, *scene.weight) : 0.0, scene.model_error};
+    off[i] = at_tip.sum();
+  }
   return off;
 }
 
@@ -232,8 +250,7 @@ InsertionCheck check_insertion(const InsertionScene& scene, std::span<const Inse
       options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
   std::vector<Examiner> examiners;
   for (std::size_t t = 0; t < std::min(threads, steps.size()); ++t) examiners.emplace_back(scene, solids);
-  const std::vector<double> off = offsets(scene, examiners.front().body());
-  check.off = off.back();
+  const std::vector<double> off = offsets(scene, examiners.front().body(), check.off);
   check.steps.resize(steps.size());
   const Deadline deadline{options.stop, options.deadline};
   std::atomic<int> level = share_levels;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "sinew/io/parse.hpp"
@@ -63,8 +64,10 @@ class SceneReader {
         scene_.clearance = clearance->quantity(Dimension::length, Range::positive());
       if (const auto error = margins->optional("model"))
         scene_.model_error = error->quantity(Dimension::length, Range::not_negative());
+      if (const auto tension = margins->optional("tension")) read_tension(*tension);
       margins->close();
     }
+    if (auto weight = root_.optional("weight")) read_weight(*weight);
     if (const auto obstacles = root_.optional("obstacles"))
       for (Reader& obstacle : items_of(*obstacles)) read_obstacle(obstacle);
     root_.close();
@@ -113,6 +116,25 @@ class SceneReader {
                              human(scene_.clearance, Dimension::length)));
     port->close();
     scene_.port = result;
+  }
+
+  void read_tension(const Reader& tension) {
+    scene_.tension = tension.quantity(Dimension::force, Range::not_negative());
+    if (scene_.tension > 0 && errors_.empty() && !scene_.robot.stretch)
+      tension.fail("missing_field",
+                   "what it does to a tendon is not known: the robot's file has no `stretch`");
+  }
+
+  /// A round backbone.
+  void read_weight(Reader& weight) {
+    InsertionWeight result;
+    result.by_length = weight.required("by_length").quantity(Dimension::line_load, Range::not_negative());
+    const double E = weight.required("E", "of the backbone").quantity(Dimension::pressure, Range::positive());
+    const double d =
+        weight.required("diameter", "of the backbone").quantity(Dimension::length, Range::size());
+    weight.close();
+    result.stiffness = E * std::numbers::pi * d * d * d * d / 64;
+    scene_.weight = result;
   }
 
   void read_target() {

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "plan/body.hpp"
 #include "sanitizers.hpp"
 #include "scenes.hpp"
@@ -226,6 +229,57 @@ TEST(InsertionCheck, DistancesAreExact) {
   const InsertionCheck off = check_insertion(scene, straight(scene, {0, 0.01}));
   EXPECT_EQ(off.verdict, InsertionVerdict::clear_if_taut);
   EXPECT_NEAR(off.allowed_share, 0.5, 2e-3);
+}
+
+/// A chain of sprung joints under its weight, clamped level, found by iteration: it sags by no more than the
+/// bound says, and where it sags little by nearly as much.
+TEST(InsertionCheck, SagIsBoundedAsByAChainOfSprungJoints) {
+  for (const double by_length : {0.05, 0.5, 5.0, 50.0}) {
+    InsertionScene scene = open_scene();
+    scene.robot.tolerance = 0;
+    scene.weight = InsertionWeight{by_length, 6e-3};
+    const double bound = check_insertion(scene, straight(scene, {0, 0.01})).off.sag;
+    std::vector<double> bends;  // joint, then disc, as the robot has them
+    std::vector<std::array<double, 2>> links;
+    for (const Section& section : scene.robot.sections)
+      links.insert(links.end(), static_cast<std::size_t>(section.segments),
+                   {section.joint, section.disc_height});
+    bends.assign(links.size(), 0.0);
+    double tip_x = 0, tip_y = 0;
+    for (int round = 0; round < 2000; ++round) {
+      std::vector<double> x{0}, middle, weight;
+      double angle = 0, y = 0;
+      for (std::size_t k = 0; k < links.size(); ++k) {
+        const double length = links[k][0] + links[k][1];
+        angle += bends[k];
+        middle.push_back(x.back() + length / 2 * std::cos(angle));
+        weight.push_back(by_length * length);
+        x.push_back(x.back() + length * std::cos(angle));
+        y += length * std::sin(angle);
+      }
+      tip_x = x.back(), tip_y = y;
+      for (std::size_t k = 0; k < links.size(); ++k) {
+        double moment = 0;
+        for (std::size_t j = k; j < links.size(); ++j) moment += weight[j] * (middle[j] - x[k]);
+        bends[k] += 0.05 * (moment * links[k][0] / scene.weight->stiffness - bends[k]);
+      }
+    }
+    const double sag = std::hypot(tip_x - scene.robot.length(), tip_y);
+    EXPECT_LE(sag, bound) << by_length;
+    if (by_length < 0.1) {
+      EXPECT_GT(sag, 0.9 * bound);
+    }
+  }
+}
+
+TEST(InsertionCheck, TensionAddsWhatItStretchesTendonsBy) {
+  InsertionScene scene = open_scene();
+  scene.robot.tolerance = 1e-5;
+  const double slack = check_insertion(scene, straight(scene, {0, 0.01})).off.tendons;
+  scene.robot.tolerance = 0;
+  scene.robot.stretch = TendonStretch{1e4, 1e6};  // so long outside that all stretch alike
+  scene.tension = 1e-5 * 1e4 / 1e6;
+  EXPECT_NEAR(check_insertion(scene, straight(scene, {0, 0.01})).off.tendons, slack, 1e-6 * slack);
 }
 
 TEST(InsertionSteps, BendsStayBetweenTheirNeighbours) {

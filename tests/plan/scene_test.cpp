@@ -66,6 +66,13 @@ TEST(Scene, WhatIsWrongIsNamed) {
   EXPECT_EQ(
       first_code(with_line("stage:", "stage: {limit: 150 mm}\nport: {position: [0, 0, 0], radius: 3.2 mm}")),
       "port_too_small");
+  EXPECT_EQ(first_code(with_line("margins:", "margins:\n  tension: 20 N")), "missing_field");
+  EXPECT_EQ(first_code(with_line("margins:", "margins:\n  tension: -1 N")), "out_of_range");
+  EXPECT_EQ(first_code(with_line("stage:", "stage: {limit: 150 mm}\nweight: {by_length: 1 N/m}")),
+            "missing_key");
+  EXPECT_EQ(first_code(with_line(
+                "stage:", "stage: {limit: 150 mm}\nweight: {by_length: 1 N/m, E: 0 GPa, diameter: 1 mm}")),
+            "out_of_range");
   EXPECT_EQ(first_code(with_line("obstacles:", "obstacles:\n  - {name: nothing}")), "wrong_shape");
   EXPECT_EQ(first_code(with_line("obstacles:", "obstacles:\n  - {sphere: 3 mm, box: [1, 1, 1]}")),
             "wrong_shape");

@@ -36,14 +36,22 @@ struct CheckedStep {
   InsertionVerdict verdict = InsertionVerdict::touches;
 };
 
+/// How far the tip may be off, at most [m].
+struct InsertionOff {
+  double tendons = 0;  ///< what their tolerance leaves free, and what tension stretches them by
+  double sag = 0;      ///< by the robot's weight
+  double model = 0;
+  double sum() const { return tendons + sag + model; }
+};
+
 struct InsertionCheck {
   InsertionVerdict verdict = InsertionVerdict::touches;
   std::vector<CheckedStep> steps;  ///< as many as were asked about
   double clearance = 0;            ///< least of them [m]
   std::size_t worst = 0;           ///< step that has it
-  /// Where it is clear only if taut: it would be clear where all that may be off was this share of it.
+  /// Where it is clear only if taut: it would be clear where all of `off` was this share of it.
   double allowed_share = 1;
-  double off = 0;           ///< how far the tip may be off: slack tendons and model error [m]
+  InsertionOff off;
   std::size_t poses = 0;    ///< looked at for the proof
   bool is_stopped = false;  ///< not all was looked at
 };

@@ -27,6 +27,12 @@ struct InsertionPort {
   double radius = 0;               ///< [m], > 0
 };
 
+/// What bends the robot by its own weight, and what resists.
+struct InsertionWeight {
+  double by_length = 0;  ///< of robot and what it carries [N/m], ≥ 0
+  double stiffness = 0;  ///< EI of the backbone in its joints [N m²], > 0
+};
+
 struct InsertionScene {
   std::string name;
   std::string robot_name;  ///< as the scene writes it
@@ -38,6 +44,8 @@ struct InsertionScene {
   InsertionTarget target;
   double clearance = 0.5e-3;  ///< that a plan keeps between robot and solids [m], > 0
   double model_error = 0;     ///< what the robot may be off its kinematics [m], ≥ 0
+  double tension = 0;         ///< greatest of any tendon [N], ≥ 0; > 0: the robot says how tendons stretch
+  std::optional<InsertionWeight> weight;
   std::vector<Mesh> solids;
 };
 
