@@ -106,7 +106,7 @@ constexpr std::array options{
     Option{"time-limit", "TIME", "after which plan gives up; default 60 s"},
     Option{"check", "PLAN", "no new plan: whether this one, an .h5 or .csv file, holds in the scene"},
     Option{"along", "FILE",
-           "of drive the postures to drive along: a plan, .h5 or .csv, or any table with its columns"},
+           "the plan of drive, or of plot with a scene: .h5 or .csv, or any table with its columns"},
     Option{"limits", "\"NAME=VALUE, ...\"",
            "of drive: stage_speed, stage_acceleration, bend_speed, bend_acceleration, tendon_speed, "
            "tendon_acceleration; may be repeated",
@@ -423,16 +423,14 @@ const std::array table{
          "sinew reproduce --list",
          run_reproduce},
     Verb{"plot",
-         "RESULT|ROBOT",
-         "a figure of a table of results, or of a robot",
-         {"output",  "as",        "title",     "width",        "font",
-          "x",       "y",         "value",     "at",           "colour",
-          "log-y",   "log-value", "view",      "pose",         "independent",
-          "bending", "elbow",     "curvature", "inputs",       "configuration",
-          "changes", "start",     "wrench",    "gravity",      "theta-is",
-          "model",   "section",   "measured",  "tolerance",    "envelope",
-          "limit",   "set",       "force",     "all-statuses", "quiet",
-          "help"},
+         "RESULT|ROBOT|SCENE",
+         "a figure of a table of results, of a robot, or of a way in",
+         {"output",   "along",       "as",       "title",   "width",     "font",      "x",
+          "y",        "value",       "at",       "colour",  "log-y",     "log-value", "view",
+          "pose",     "independent", "bending",  "elbow",   "curvature", "inputs",    "configuration",
+          "changes",  "start",       "wrench",   "gravity", "theta-is",  "model",     "section",
+          "measured", "tolerance",   "envelope", "limit",   "set",       "force",     "all-statuses",
+          "quiet",    "help"},
          {"output"},
          "RESULT is an .h5 or .csv file of sweep, track or map; lengths are drawn in mm, angles in deg. "
          "Lines, or "
@@ -448,6 +446,9 @@ const std::array table{
          "of one section:\n"
          "  sinew plot hexapod --as 3d -o hexapod.svg\n"
          "  sinew plot nottingham-tpcj --section 0 --changes \"-1.1 mm, 2 mm, -0.5 mm\" -o section.svg\n"
+         "A scene with --along PLAN is drawn with the robot in four phases of its way, or with --as line as "
+         "clearance and bends:\n"
+         "  sinew plot wall.yaml --along plan.csv -o way.svg\n"
          "The figure is an .svg, .png or .pdf; the gnuplot script beside it is there to be edited, and draws "
          "it again.",
          "sinew plot 3-rfr --pose \"10 mm, -5 mm, 10 deg\" -o fig.svg",

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the pictures of the README, docs/images/gallery-*.png, with the command and gnuplot: one row for each family of
+# Draws the pictures of the README, docs/images/gallery-*.png, and of docs/scenes.md, with the command and gnuplot: one row for each family of
 # robots, one with what is computed of them. The page's picture is docs/images/page.png.
 #
 #   tools/gallery.sh [FOLDER OF THE COMMAND, default build/dev/bin] [OUTPUT FOLDER, default docs/images]
@@ -61,3 +61,6 @@ tile branches 220mm branches 3pfs-g2 --independent "400 mm, 0.05, 0" \
   --to-wrench "0, 0, -100 N, 0, 0, 0" --range "0, 2"
 row map map
 row branches branches
+
+# docs/scenes.md: where planning is built
+if "$sinew" reproduce lsk/fig12 -o . -q >/dev/null; then cp lsk/fig12.png "$out/way-in.png"; fi

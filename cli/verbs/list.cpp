@@ -9,6 +9,7 @@
 #include "sinew/io/robot_file.hpp"
 #include "sinew/study/reproduce.hpp"
 #include "sinew/study/study.hpp"
+#include "study_items.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 #include "verbs.hpp"
@@ -50,7 +51,7 @@ std::vector<Entry> studies() {
 
 std::vector<Entry> figures() {
   std::vector<Entry> entries;
-  for (const StudyItem& item : study_items())
+  for (const StudyItem& item : all_items())
     entries.push_back({std::string(item.id), std::string(item.title)});
   return entries;
 }

@@ -19,6 +19,7 @@
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/study/result.hpp"
+#include "study_items.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {
@@ -207,10 +208,11 @@ Expected<Figure> result(const Arguments& arguments, const std::string* kind) {
 
 int run_plot(const Arguments& arguments) {
   if (arguments.operands.empty())
-    return refuse("plot", {{"missing_result", "RESULT|ROBOT",
+    return refuse("plot", {{"missing_result", "RESULT|ROBOT|SCENE",
                             "what is to be drawn? Give an .h5 or .csv file, or a robot."}});
   const std::string *output = arguments.text("output"), *kind = arguments.text("as");
   if (const Errors errors = refuse_figure(arguments, *output); !errors.empty()) return refuse("plot", errors);
+  if (arguments.has("along")) return plot_insertion(arguments);
   const bool is_table = arguments.operand().ends_with(".csv") || arguments.operand().ends_with(".h5");
   if (kind)
     if (const Errors errors = refuse_kind(*kind, is_table); !errors.empty()) return refuse("plot", errors);

@@ -7,6 +7,7 @@
 
 #include "figure_file.hpp"
 #include "request.hpp"
+#include "study_items.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 /// All items, those of a paper, or one.
 std::vector<StudyItem> wanted(std::string_view what) {
   std::vector<StudyItem> items;
-  for (const StudyItem& item : study_items())
+  for (const StudyItem& item : all_items())
     if (what.empty() || item.id == what || item.id.substr(0, item.id.find('/')) == what)
       items.push_back(item);
   return items;
@@ -30,7 +31,7 @@ std::string list(std::span<const StudyItem> items) {
 
 int refuse_item(const std::string& what) {
   std::vector<std::string_view> names;
-  for (const StudyItem& item : study_items()) names.push_back(item.id);
+  for (const StudyItem& item : all_items()) names.push_back(item.id);
   const std::string_view hint = closest(what, names);
   return refuse("reproduce", {{"unknown_study", in_quotes(what),
                                fmt::format("no such item{} There are: {}.",
@@ -64,7 +65,7 @@ std::string as_json(const Reproduction& made) {
 
 std::vector<std::string_view> study_names() {
   std::vector<std::string_view> names;
-  for (const StudyItem& item : study_items()) {
+  for (const StudyItem& item : all_items()) {
     const std::string_view paper = item.id.substr(0, item.id.find('/'));
     if (std::ranges::find(names, paper) == names.end()) names.push_back(paper);
     names.push_back(item.id);
@@ -85,7 +86,7 @@ int run_reproduce(const Arguments& arguments) {
   const std::string* folder = arguments.text("output");
   int exit = solved;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const auto made = reproduce(items[i].id, folder ? *folder : "out", *page);
+    const auto made = reproduce_item(items[i].id, folder ? *folder : "out", *page);
     if (!made) {
       exit = refuse("reproduce", made.error());
       continue;

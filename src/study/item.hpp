@@ -13,14 +13,6 @@
 
 namespace sinew::inline v0 {
 
-/// What an item found and has to show. `reproduce` writes it into the item's folder.
-struct ItemResult {
-  std::vector<Finding> findings;
-  std::vector<std::filesystem::path> swept;             ///< files that its sweeps have written there
-  std::vector<std::pair<std::string, Table>> tables;    ///< by the names of their files, without extension
-  std::vector<std::pair<std::string, Figure>> figures;  ///< the same
-};
-
 /// Computes an item and compares.
 /// @param folder for results of sweeps, which are written as they are computed
 using StudyFunction = Expected<ItemResult> (*)(const StudyItem& item, const std::filesystem::path& folder);

@@ -66,10 +66,14 @@ std::string cell(const std::string& text) {
   return out;
 }
 
-/// Tables, the findings and then the figures: what cannot be drawn, without gnuplot say, keeps nothing else
-/// from being there.
-Expected<Reproduction> written(const StudyItem& item, const ItemResult& made,
-                               const std::filesystem::path& folder, const FigureOptions& page) {
+}  // namespace
+
+std::span<const StudyItem> study_items() { return items; }
+
+// What cannot be drawn, without gnuplot say, keeps nothing else
+// from being there.
+Expected<Reproduction> write_item(const StudyItem& item, const ItemResult& made,
+                                  const std::filesystem::path& folder, const FigureOptions& page) {
   Reproduction result{std::string(item.id), std::string(item.title), made.findings, made.swept};
   for (const auto& [name, table] : made.tables) {
     result.files.push_back(folder / (name + ".csv"));
@@ -91,10 +95,6 @@ Expected<Reproduction> written(const StudyItem& item, const ItemResult& made,
   return result;
 }
 
-}  // namespace
-
-std::span<const StudyItem> study_items() { return items; }
-
 Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out,
                                  const FigureOptions& page) {
   const auto item = std::ranges::find(items, id, &StudyItem::id);
@@ -106,7 +106,7 @@ Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::pat
   const std::filesystem::path folder = out / std::string(id.substr(0, id.find('/')));
   const auto made = functions[static_cast<std::size_t>(item - items.begin())](*item, folder);
   if (!made) return tl::unexpected(made.error());
-  return written(*item, *made, folder, page);
+  return write_item(*item, *made, folder, page);
 }
 
 std::string to_markdown(const Reproduction& reproduction) {

@@ -5,10 +5,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sinew/base/error.hpp"
 #include "sinew/io/figure.hpp"
+#include "sinew/io/table.hpp"
 
 namespace sinew::inline v0 {
 
@@ -35,6 +37,19 @@ struct Reproduction {
   std::vector<Finding> findings;
   std::vector<std::filesystem::path> files;  ///< written, in order
 };
+
+/// What an item found and has to show. `write_item` writes it.
+struct ItemResult {
+  std::vector<Finding> findings;
+  std::vector<std::filesystem::path> swept;             ///< files that its sweeps have written there
+  std::vector<std::pair<std::string, Table>> tables;    ///< by the names of their files, without extension
+  std::vector<std::pair<std::string, Figure>> figures;  ///< the same
+};
+
+/// Writes it into a folder: tables, findings, then figures. Codes: as `reproduce`.
+SINEW_API Expected<Reproduction> write_item(const StudyItem& item, const ItemResult& made,
+                                            const std::filesystem::path& folder,
+                                            const FigureOptions& page = {});
 
 /// Makes one item again; its files go to `out`/paper/. What is written before an error stays: without gnuplot
 /// the table, the findings and the scripts of the figures are there. Codes: `unknown_study`,
