@@ -15,12 +15,13 @@ class Noise {
 
   int below(int end) { return std::uniform_int_distribution<>(0, end - 1)(random_); }
 
-  /// Bends within the limits.
+  /// Within the limits.
   std::vector<int> pose() {
-    std::vector<int> bends(bend_count);
+    std::vector<int> numbers(bend_count);
     const int limit = robot::limits.limit[0];
-    for (int& bend : bends) bend = below(2 * limit + 1) - limit;
-    return bends;
+    for (int& bend : numbers) bend = below(2 * limit + 1) - limit;
+    if (stage_count > 0) numbers.push_back(below(stage_limit + 1));
+    return numbers;
   }
 
   /// Text for the line, mostly one line, always ending in a newline.
@@ -107,10 +108,10 @@ class Noise {
     std::vector<int> bends = pose();
     switch (below(6)) {
       case 0:
-        bends[pick(bends.size())] = robot::limits.limit[0] + 1 + below(1000);
+        bends[pick(bend_count)] = robot::limits.limit[0] + 1 + below(1000);
         break;
       case 1:
-        bends[pick(bends.size())] = -32769 - below(100000);
+        bends[pick(bend_count)] = -32769 - below(100000);
         break;
       case 2:
         bends.pop_back();
