@@ -19,7 +19,7 @@ struct DeskBoard {
   }
   Uint8 room() {
     if (room_left >= 255) return 255;
-    if (room_left < 10) ++now, room_left += 100;  // the line needs its time
+    if (room_left < 10) return ++now, room_left += 100, 0;  // the line needs its time
     return static_cast<Uint8>(room_left);
   }
   void put(Uint8 byte) {
