@@ -67,26 +67,16 @@ inline Error read_request(Uint8* line, Uint16 size, BinaryRequest& request) {
   return Error::none;
 }
 
-/// A reply, gathered before it is sent.
+/// A frame, gathered before it is sent.
 /// @tparam Sink has
 ///   - `void wait_for_room(Uint8 bytes)`;
 ///   - `void put(Uint8)` and `void put(const Uint8*, Uint8 size)`, for which there is room;
 ///   - `void flush()` after some of these.
 template <class Sink>
-class BinaryReply {
+class BinaryFrame {
  public:
-  explicit BinaryReply(Sink& sink) : sink_(sink) {}
+  explicit BinaryFrame(Sink& sink) : sink_(sink) {}
 
-  void begin(char verb, Uint32 sequence, State state) {
-    put(static_cast<Uint8>(verb));
-    put32(sequence);
-    put(static_cast<Uint8>(state));
-  }
-  void refuse(Uint32 sequence, Error error, State state) {
-    begin('!', sequence, state);
-    put(static_cast<Uint8>(error));
-    end();
-  }
   void put(Uint8 byte) { *end_++ = byte; }
   void put16(Uint16 value) {
     put(static_cast<Uint8>(value & 0xFF));
@@ -133,13 +123,30 @@ class BinaryReply {
   }
 
  private:
-  // The longest are those of a hello, and of a state: counts, bends, letters, a count of exchanges.
+  // The longest are replies to hello and state: counts, bends, letters, a count of exchanges.
   static constexpr Uint16 most = 10 + 4 * drive_count + 2 * bend_count + tendon_drives + 2;
   static constexpr Uint16 capacity = most > 40 ? most : 40;
 
   Sink& sink_;
   Uint8 bytes_[capacity];
   Uint8* end_ = bytes_;
+};
+
+template <class Sink>
+class BinaryReply : public BinaryFrame<Sink> {
+ public:
+  explicit BinaryReply(Sink& sink) : BinaryFrame<Sink>(sink) {}
+
+  void begin(char verb, Uint32 sequence, State state) {
+    this->put(static_cast<Uint8>(verb));
+    this->put32(sequence);
+    this->put(static_cast<Uint8>(state));
+  }
+  void refuse(Uint32 sequence, Error error, State state) {
+    begin('!', sequence, state);
+    this->put(static_cast<Uint8>(error));
+    this->end();
+  }
 };
 
 }  // namespace firmware

@@ -180,6 +180,12 @@ bool Controller::has_crashed() const { return avr_->state == cpu_Crashed; }
 
 std::uint64_t Controller::cycle() const { return avr_->cycle; }
 
+double Controller::byte_time() const {
+  constexpr std::size_t status = 0xC0, rate_low = 0xC4, rate_high = 0xC5, double_speed = 0x02;
+  const int divider = 1 + avr_->data[rate_low] + ((avr_->data[rate_high] & 0x0F) << 8);
+  return 10.0 * divider * (avr_->data[status] & double_speed ? 8 : 16) / frequency_;
+}
+
 bool Controller::is_high(char port, int bit) const {
   // Not by the simulator's signals: these say nothing when a reset lets go of a pin.
   constexpr std::size_t ddr_b = 0x24, port_b = 0x25, ddr_l = 0x10A, port_l = 0x10B;

@@ -37,6 +37,8 @@ class Controller {
   std::uint32_t frequency() const { return frequency_; }
   std::uint64_t cycles(double seconds) const { return static_cast<std::uint64_t>(seconds * frequency_); }
 
+  /// Of ten bits on the line at the rate that the program has set [s].
+  double byte_time() const;
   /// For the UART: each byte goes out as soon as the receiver has room, and takes its time on the line.
   void send(std::string_view bytes) { outgoing_.insert(outgoing_.end(), bytes.begin(), bytes.end()); }
   bool all_sent() const { return outgoing_.empty(); }

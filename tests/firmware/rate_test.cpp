@@ -13,8 +13,6 @@
 namespace sinew::firmware {
 namespace rate_test {
 
-constexpr double byte_time = 10e-6;
-
 /// A path on which all sections and the stage move at once.
 std::vector<int> pose_at(int i) {
   std::vector<int> pose;
@@ -32,7 +30,7 @@ struct Bench {
       if (byte != '\n') return;
       line.pop_back();
       // It is given to a register before the shift register, which may have a byte to finish.
-      replies.push_back({line, now() + 2 * byte_time});
+      replies.push_back({line, now() + 2 * controller.byte_time()});
       line.clear();
     };
   }
@@ -72,7 +70,7 @@ double stream(Bench& bench, int poses, double period) {
     const std::string frame = binary_pose(next + static_cast<std::uint32_t>(i), pose_at(i)) + '\n';
     bench.run_until(start + i * period);
     bench.controller.send(frame);
-    ends.push_back(bench.now() + static_cast<double>(frame.size()) * byte_time);
+    ends.push_back(bench.now() + static_cast<double>(frame.size()) * bench.controller.byte_time());
   }
   bench.run_until(bench.now() + 5e-3);
   EXPECT_EQ(bench.replies.size(), ends.size());
