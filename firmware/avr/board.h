@@ -106,7 +106,7 @@ class Board {
   /// Until the next interrupt, unless something has come.
   static void rest() {
     cli();
-    if (!Uart::has_received()) {
+    if (!Uart::has_received() && !ticked_) {
       sleep_enable();
       sei();
       sleep_cpu();  // the instruction after sei comes before any interrupt

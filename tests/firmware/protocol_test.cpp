@@ -72,6 +72,17 @@ TEST(FirmwareNumber, IsWrittenAsItIsRead) {
   }
 }
 
+TEST(FirmwareMotor, CountsOf16BitsAreThoseOf64) {
+  using Motor = kernel::MotorCounts<kernel::Fixed<16, 8>>;
+  for (const std::int32_t per_step : {1, 65535, 65536, 524288, 17 * 65536 + 20000, 0x7FFFFFFF}) {
+    const Motor motor{per_step};
+    for (int raw = -32768; raw <= 32767; ++raw) {
+      const auto expected = static_cast<std::int32_t>((std::int64_t{raw} * per_step + 32768) >> 16);
+      ASSERT_EQ(motor.of(kernel::Fixed<16, 8>::from_raw(static_cast<std::int16_t>(raw))), expected) << raw;
+    }
+  }
+}
+
 TEST(FirmwareFrame, ChecksumIsZlibs) {
   EXPECT_EQ(slow_crc32("123456789"), 0xCBF43926u);
   const std::string line = "123456789*cbf43926", wrong = "123456789*cbf43927", upper = "123456789*CBF43926";
