@@ -37,9 +37,9 @@ constexpr const char* help =
     "      --play CSV      play this trajectory in binary frames instead, and compare the replies\n"
     "      --rate HZ       its rows a second, whatever their times\n"
     "  -h, --help          this text\n\n"
-    "It ends when the firmware sleeps with interrupts off. Exit status: 0, or 1 if the controller crashed or\n"
-    "a reply was not what it should be, or 2 if an option or file is bad. The bytes are raw: whoever writes a\n"
-    "line waits for its reply, or asks for --turns.\n\n"
+    "It ends when the firmware sleeps with interrupts off. Exit status: 0, or 1 if the controller crashed\n"
+    "or a reply was not what it should be, or 2 if an option or file is bad. The bytes are raw: whoever\n"
+    "writes a line waits for its reply, or asks for --turns.\n\n"
     "Example:\n  sed -n 's/^> //p' firmware/README.md | sinew-simulate sinew-firmware.elf --turns\n";
 
 struct Options {
