@@ -10,78 +10,103 @@
 #include <avr/sleep.h>
 #include <avr/wdt.h>
 
-#include "avr/ring.h"
+#include "avr/uart.h"
 #include "protocol/arm.h"
-
-#ifndef BAUD
-#define BAUD 115200UL
-#endif
+#include "protocol/crc16.h"
 
 namespace sinew {
 namespace firmware {
 
+/// There is one, and all of it is static: an AVR reaches what has an address of its own in half of the time.
 class Board {
  public:
   // Pins of the Arduino Mega 2560: 53 LATCH, 52 SCK, 51 MOSI, 50 MISO on port B, 49 ENABLE on port L.
   // LATCH is the SPI's own SS: as an output it keeps the controller the master.
   static constexpr Uint8 latch = _BV(PB0), clock = _BV(PB1), out = _BV(PB2), enabled = _BV(PL0);
 
+  /// SPI at F_CPU/4: SPR1, SPR0 and SPI2X divide by 4, 16, 64 or 128, doubled by half of that.
+  static constexpr Uint8 spi_rate = 0, spi_double = 0;
+
   /// The pins first: the drives are disabled before anything else runs.
-  void start() {
+  static void start() {
     PORTL &= static_cast<Uint8>(~enabled);
     DDRL |= enabled;
     PORTB |= latch;
     DDRB |= latch | clock | out;
-    SPCR = _BV(SPE) | _BV(MSTR) | _BV(SPR0);  // mode 0, most significant bit first, clock/16
+    SPCR = _BV(SPE) | _BV(MSTR) | spi_rate;  // mode 0, most significant bit first
+    SPSR = spi_double;
     start_clock();
-    start_line();
+    Uart::start();
   }
 
-  void enable(bool on) { on ? PORTL |= enabled : PORTL &= static_cast<Uint8>(~enabled); }
+  static void enable(bool on) { on ? PORTL |= enabled : PORTL &= static_cast<Uint8>(~enabled); }
 
-  /// Four bytes a drive, the most significant first, from section 1 tendon 1 on. The rising latch makes the
-  /// drives take what they have been sent; what they send is from before.
-  void exchange(const Counts& setpoints, Counts& measured) {
+  /// Four bytes a drive, the most significant first, from section 1 tendon 1 on, then two of a checksum of
+  /// these. The rising latch makes the drives take what they have been sent; what they send is from before.
+  static bool exchange(const Counts& setpoints) {
+    // An AVR has the least significant byte first.
+    const Uint8* out = reinterpret_cast<const Uint8*>(setpoints);
+    Uint8* in = answer_;
+    Crc16 sent, received;
+    // While a byte is on its way, checksums are summed up of it and of the answer to the one before.
+    const auto next = [&sent, &received, &in](Uint8 byte) {
+      const Uint8 answer = shifted();
+      SPDR = byte;
+      sent.add(byte);
+      received.add(answer);
+      *in++ = answer;
+    };
     PORTB &= static_cast<Uint8>(~latch);
-    for (Uint8 i = 0; i < drive_count; ++i) {
-      const Uint32 setpoint = static_cast<Uint32>(setpoints[i]);
-      Uint32 answer = swap(static_cast<Uint8>(setpoint >> 24));
-      answer = answer << 8 | swap(static_cast<Uint8>(setpoint >> 16));
-      answer = answer << 8 | swap(static_cast<Uint8>(setpoint >> 8));
-      measured[i] = static_cast<Int32>(answer << 8 | swap(static_cast<Uint8>(setpoint)));
+    SPDR = out[3];
+    sent.add(out[3]);
+    for (Uint8 i = drive_count;; out += 4) {
+      next(out[2]);
+      next(out[1]);
+      next(out[0]);
+      if (--i == 0) break;
+      next(out[7]);
     }
+    const Uint8 low = sent.low();
+    next(sent.high());
+    const Uint8 high_answer = shifted();
+    SPDR = low;
+    const Uint8 low_answer = shifted();
     PORTB |= latch;
+    return high_answer == received.high() && low_answer == received.low();
+  }
+  static Int32 measured(Uint8 drive) {
+    Uint32 count = 0;
+    for (const Uint8 *byte = answer_ + 4 * drive, *end = byte + 4; byte != end; ++byte)
+      count = count << 8 | *byte;
+    return static_cast<Int32>(count);
   }
 
-  Uint16 milliseconds() {
+  static Uint16 milliseconds() {
     cli();  // two bytes
     const Uint16 now = ticks_;
     sei();
     return now;
   }
 
-  Uint8 eeprom_read(Uint16 address) { return eeprom_read_byte(at(address)); }
-  void eeprom_write(Uint16 address, Uint8 byte) { eeprom_write_byte(at(address), byte); }
+  static Uint8 eeprom_read(Uint16 address) { return eeprom_read_byte(at(address)); }
+  static void eeprom_write(Uint16 address, Uint8 byte) { eeprom_write_byte(at(address), byte); }
+  static bool is_eeprom_ready() { return eeprom_is_ready(); }
 
-  /// Waits while the ring is full: the line is slower than the controller. A byte that got in is a sign of
-  /// life: of many drives a reply may take longer than the watchdog waits.
-  void send(char c) {
-    while (!replies_.put(static_cast<Uint8>(c))) {
-    }
-    wdt_reset();
-    UCSR0B |= _BV(UDRIE0);
+  static Uint8 room() { return Uart::room(); }
+  static void put(Uint8 byte) { Uart::put(byte); }
+  static void put(const Uint8* bytes, Uint8 size) {
+    for (const Uint8* const end = bytes + size; bytes != end; ++bytes) Uart::put(*bytes);
   }
-  bool receive(char& c) {
-    Uint8 byte = 0;
-    if (!requests_.take(byte)) return false;
-    c = static_cast<char>(byte);
-    return true;
+  /// What goes out is a sign of life: of many drives a reply may take longer than the watchdog waits.
+  static void flush() {
+    Uart::flush();
+    wdt_reset();
   }
 
   /// Until the next interrupt, unless something has come.
-  void rest() {
+  static void rest() {
     cli();
-    if (requests_.empty()) {
+    if (!Uart::has_received() && !ticked_) {
       sleep_enable();
       sei();
       sleep_cpu();  // the instruction after sei comes before any interrupt
@@ -90,19 +115,15 @@ class Board {
     sei();
   }
 
-  void on_tick() { ++ticks_; }
-  void on_received() {
-    const Uint8 faults = UCSR0A & (_BV(FE0) | _BV(DOR0) | _BV(UPE0));
-    const Uint8 byte = UDR0;
-    // A damaged byte becomes one that no frame has. One that finds the ring full is lost; the checksum tells.
-    requests_.put(faults ? 0 : byte);
+  static void on_tick() {
+    ++ticks_;
+    ticked_ = true;
   }
-  void on_sendable() {
-    Uint8 byte = 0;
-    if (replies_.take(byte))
-      UDR0 = byte;
-    else
-      UCSR0B &= static_cast<Uint8>(~_BV(UDRIE0));
+  /// Whether a millisecond has gone by since this was last asked.
+  static bool has_ticked() {
+    if (!ticked_) return false;
+    ticked_ = false;
+    return true;
   }
 
  private:
@@ -114,27 +135,20 @@ class Board {
     TIMSK0 = _BV(OCIE0A);
     TCCR0B = _BV(CS01) | _BV(CS00);
   }
-  /// 8 data bits, no parity, 1 stop bit.
-  static void start_line() {
-    constexpr Uint32 divider = (F_CPU + BAUD * 4) / (BAUD * 8), rate = F_CPU / 8 / divider;
-    static_assert(divider >= 1 && divider <= 4096, "a baud rate that the clock can make");
-    static_assert((rate > BAUD ? rate - BAUD : BAUD - rate) * 40 <= BAUD, "within 2.5 %");
-    UCSR0A = _BV(U2X0);
-    UBRR0 = divider - 1;
-    UCSR0C = _BV(UCSZ01) | _BV(UCSZ00);
-    UCSR0B = _BV(RXEN0) | _BV(TXEN0) | _BV(RXCIE0);
-  }
-  static Uint8 swap(Uint8 byte) {
-    SPDR = byte;
+  static Uint8 shifted() {
     while (!(SPSR & _BV(SPIF))) {
     }
     return SPDR;
   }
   static Uint8* at(Uint16 address) { return reinterpret_cast<Uint8*>(address); }
 
-  Ring requests_, replies_;
-  volatile Uint16 ticks_ = 0;
+  static Uint8 answer_[4 * drive_count];  ///< of the drives, as it came
+  static volatile Uint16 ticks_;
+  static volatile bool ticked_;
 };
+Uint8 Board::answer_[4 * drive_count] = {};
+volatile Uint16 Board::ticks_ = 0;
+volatile bool Board::ticked_ = false;
 
 }  // namespace firmware
 }  // namespace sinew

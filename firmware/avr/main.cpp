@@ -5,6 +5,8 @@
 
 namespace {
 
+using sinew::firmware::Uart;
+
 sinew::firmware::Board board;
 sinew::firmware::Session<sinew::firmware::Board> session(board);
 
@@ -20,8 +22,6 @@ char reset_cause() {
 }  // namespace
 
 ISR(TIMER0_COMPA_vect) { board.on_tick(); }
-ISR(USART0_RX_vect) { board.on_received(); }
-ISR(USART0_UDRE_vect) { board.on_sendable(); }
 
 int main() {
   const char cause = reset_cause();
@@ -30,12 +30,16 @@ int main() {
   wdt_enable(WDTO_120MS);
   sei();
   for (;;) {
-    wdt_reset();
-    session.watch();
-    char c = 0;
-    if (board.receive(c))
-      session.take(c);
-    else
+    if (board.has_ticked()) {
+      wdt_reset();
+      session.watch();
+    }
+    const volatile unsigned char* bytes = nullptr;
+    if (const unsigned char size = Uart::received(bytes)) {
+      Uart::drop(session.collect(bytes, size));
+      session.answer();
+    } else {
       board.rest();
+    }
   }
 }

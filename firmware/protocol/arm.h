@@ -8,12 +8,25 @@
 #include "robot_table.h"
 #include "sinew/kernel/tendon_state.h"
 
+/// Linear stages that move the robot's base along: 0 or 1, whose drive comes after those of the tendons.
+#ifndef STAGES
+#define STAGES 0
+#endif
+/// [counts] up to which it may go from 0.
+#ifndef STAGE_LIMIT
+#define STAGE_LIMIT 8388607
+#endif
+
 namespace sinew {
 namespace firmware {
 
 constexpr Uint8 section_count = robot::sections, tendon_count = robot::tendons;
-constexpr Uint8 bend_count = 2 * section_count, drive_count = section_count * tendon_count;
-static_assert(robot::sections * robot::tendons < 256 && 2 * robot::sections < 256,
+constexpr Uint8 bend_count = 2 * section_count, tendon_drives = section_count * tendon_count;
+constexpr Uint8 stage_count = STAGES, drive_count = tendon_drives + stage_count;
+constexpr Int32 stage_limit = STAGE_LIMIT;
+static_assert(STAGES == 0 || STAGES == 1, "at most one stage");
+static_assert(STAGE_LIMIT >= 0, "a stage goes from 0 to its limit");
+static_assert(robot::sections * robot::tendons + STAGES < 256 && 2 * robot::sections < 256,
               "drives are counted in a byte");
 constexpr Uint32 table_hash = robot::hash;
 
@@ -28,22 +41,35 @@ using States = kernel::TendonState[section_count][tendon_count];
 inline Angle& bend_at(Bends& bends, Uint8 i) { return i & 1 ? bends[i / 2].y : bends[i / 2].x; }
 inline Length& change_at(Changes& changes, Uint8 i) { return changes[i / tendon_count][i % tendon_count]; }
 
-/// What bends ask of the drives; false, and nothing to be used, beyond the robot's limits.
-inline bool plan(const Bends& bends, Changes& changes, Counts& counts) {
-  if (!robot::limits.hold(bends)) return false;
-  robot::model.changes(bends, changes);
-  for (Uint8 i = 0; i < drive_count; ++i) counts[i] = robot::motor.of(change_at(changes, i));
-  return true;
+/// What a host asks for.
+struct Pose {
+  Bends bends;
+  Int32 stage = 0;      ///< [counts]
+  Uint16 duration = 0;  ///< [ms] until the drives are told of it; 0 and 1 are at once
+};
+
+inline bool is_within_limits(const Pose& pose) {
+  return robot::limits.hold(pose.bends) && pose.stage >= 0 && pose.stage <= stage_limit;
 }
 
-/// Whether these can be counts of drives: within what changes can be, and not all -1, which is what a wire
-/// that is off reads by its pull-up.
+/// What a pose within limits asks of the drives.
+inline void plan(const Pose& pose, Changes& changes, Counts& counts) {
+  robot::model.changes(pose.bends, changes);
+  Int32* count = counts;
+  for (const auto& section : changes)
+    for (const Length change : section) *count++ = robot::motor.of(change);
+  if (stage_count > 0) *count = pose.stage;
+}
+
+/// Whether these can be counts of drives: within what changes and the stage can be, and not all -1, which is
+/// what a wire that is off reads by its pull-up.
 inline bool is_plausible(const Counts& counts) {
-  const Int32 most = robot::motor.of(Length::from_raw(Length::largest));
+  const Int32 of_tendons = robot::motor.of(Length::from_raw(Length::largest));
   bool all_ones = true;
-  for (const Int32 count : counts) {
-    if (count > most || count < -most) return false;
-    all_ones = all_ones && count == -1;
+  for (Uint8 i = 0; i < drive_count; ++i) {
+    const Int32 most = i < tendon_drives ? of_tendons : stage_limit;
+    if (counts[i] > most || counts[i] < -most) return false;
+    all_ones = all_ones && counts[i] == -1;
   }
   return !all_ones;
 }
@@ -51,13 +77,16 @@ inline bool is_plausible(const Counts& counts) {
 /// What the drives say of the shape.
 inline void measure(const Counts& counts, Bends& bends, States& states) {
   Changes changes;
-  for (Uint8 i = 0; i < drive_count; ++i) change_at(changes, i) = robot::motor.change(counts[i]);
+  for (Uint8 i = 0; i < tendon_drives; ++i) change_at(changes, i) = robot::motor.change(counts[i]);
   robot::model.bends(changes, bends);
   robot::model.states(changes, robot::tolerance, states);
 }
 
 inline char letter_of(kernel::TendonState state) {
   return state == kernel::TendonState::exact ? 'e' : state == kernel::TendonState::slack ? 's' : 'o';
+}
+inline char letter_at(const States& states, Uint8 i) {
+  return letter_of(states[i / tendon_count][i % tendon_count]);
 }
 
 }  // namespace firmware

@@ -32,14 +32,20 @@ class Controller {
   bool run(std::uint64_t cycles);
   bool has_crashed() const;
   std::uint64_t cycle() const;
+  /// Cycles of them in which it slept.
+  std::uint64_t asleep() const { return asleep_; }
   std::uint32_t frequency() const { return frequency_; }
   std::uint64_t cycles(double seconds) const { return static_cast<std::uint64_t>(seconds * frequency_); }
 
+  /// Of ten bits on the line at the rate that the program has set [s].
+  double byte_time() const;
   /// For the UART: each byte goes out as soon as the receiver has room, and takes its time on the line.
   void send(std::string_view bytes) { outgoing_.insert(outgoing_.end(), bytes.begin(), bytes.end()); }
   bool all_sent() const { return outgoing_.empty(); }
   /// What came from the UART since the last call.
   std::string received() { return std::exchange(incoming_, {}); }
+  /// Of each byte that the program gives to the UART, when it does.
+  std::function<void(std::uint8_t)> on_sent;
   /// Of each byte on its way to the controller; what it gives is sent instead. Below 0: a framing error.
   std::function<int(std::uint8_t)> line;
 
@@ -63,6 +69,7 @@ class Controller {
   void connect();
 
   std::uint32_t frequency_;
+  std::uint64_t asleep_ = 0;
   avr_t* avr_ = nullptr;
   avr_irq_t* uart_input_ = nullptr;
   avr_irq_t* spi_input_ = nullptr;

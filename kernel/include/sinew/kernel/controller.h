@@ -37,9 +37,7 @@ struct MotorCounts {
   __INT32_TYPE__ per_step;  ///< counts in one step of a length, in 1/65536, > 0
 
   /// To the nearest, halves upwards.
-  constexpr __INT32_TYPE__ of(Length change) const {
-    return static_cast<__INT32_TYPE__>((static_cast<__INT64_TYPE__>(change.raw) * per_step + 32768) >> 16);
-  }
+  constexpr __INT32_TYPE__ of(Length change) const { return counts_of(change.raw); }
   /// The change nearest to so many counts; what does not fit saturates.
   constexpr Length change(__INT32_TYPE__ counts) const {
     const __INT64_TYPE__ scaled = static_cast<__INT64_TYPE__>(counts) * 65536 + per_step / 2;
@@ -47,6 +45,19 @@ struct MotorCounts {
     return Length::from_raw(steps > Length::largest    ? Length::largest
                             : steps < Length::smallest ? Length::smallest
                                                        : static_cast<typename Length::Raw>(steps));
+  }
+
+ private:
+  constexpr __INT32_TYPE__ counts_of(__INT32_TYPE__ steps) const {
+    return static_cast<__INT32_TYPE__>((static_cast<__INT64_TYPE__>(steps) * per_step + 32768) >> 16);
+  }
+  /// The same of 16 bits, by the halves of the factor: an AVR takes a fifth of the time.
+  constexpr __INT32_TYPE__ counts_of(__INT16_TYPE__ steps) const {
+    const __INT16_TYPE__ high = static_cast<__INT16_TYPE__>(per_step >> 16);
+    const __UINT16_TYPE__ low = static_cast<__UINT16_TYPE__>(per_step & 0xffff);
+    // -2^15 * (2^16 - 1) and 2^15 more are within 32 bits.
+    return static_cast<__INT32_TYPE__>(steps) * high +
+           ((static_cast<__INT32_TYPE__>(steps) * low + 32768) >> 16);
   }
 };
 
