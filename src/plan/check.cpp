@@ -2,6 +2,7 @@
 
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
@@ -19,6 +20,7 @@
 #include "plan/deadline.hpp"
 #include "plan/obstacles.hpp"
 #include "plan/parallel.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -277,6 +279,14 @@ InsertionCheck check_insertion(const InsertionScene& scene, std::span<const Inse
   check.allowed_share = static_cast<double>(level.load()) / share_levels;
   check.clearance = check.steps[check.worst].spot.distance;
   return check;
+}
+
+std::string exceeded_limit(const InsertionScene& scene, const InsertionStep& step) {
+  if (const Report report = check_limits(scene.robot, step.bends); !report.ok())
+    return std::string(report.message.view());
+  if (step.stage <= scene.stage_limit) return {};
+  return fmt::format("the stage is at {:.3f} mm, its limit is {:.3f} mm", 1e3 * step.stage,
+                     1e3 * scene.stage_limit);
 }
 
 }  // namespace sinew::inline v0
