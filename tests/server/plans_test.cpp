@@ -38,7 +38,7 @@ std::string plan_text() {
   for (int m = 0; m < 5; ++m) text += ",S" + std::to_string(m) + "_beta_1[rad],S" + std::to_string(m) + "_beta_2[rad]";
   text += '\n';
   for (int k = 0; k < 8; ++k)
-    text += std::to_string(k) + ',' + std::to_string(0.01 * k) + (k == 5 ? ",0.08,0" : ",0,0") + ",0,0,0,0,0,0,0,0\n";
+    text += std::to_string(k) + ',' + std::to_string(0.01 * k) + (k == 5 ? ",0,0.08" : ",0,0") + ",0,0,0,0,0,0,0,0\n";
   return text;
 }
 
@@ -83,7 +83,7 @@ TEST_F(Plans, AreToldWithTheirCheck) {
   EXPECT_EQ(scene["solids"][1]["name"], "right");
   EXPECT_NEAR(scene["base"]["quaternion"][3], std::sqrt(0.5), 1e-12);
   ASSERT_EQ(plan["steps"].size(), 8U);
-  EXPECT_EQ(plan["steps"][5]["configuration"][0], json({0.08, 0.0}));
+  EXPECT_EQ(plan["steps"][5]["configuration"][0], json({0.0, 0.08}));
   EXPECT_TRUE(plan["steps"][6]["limit"].is_null());
   EXPECT_EQ(plan["steps"][7]["limit"], "the stage is at 70.000 mm, its limit is 60.000 mm");
   EXPECT_EQ(check["verdict"], "touches");
