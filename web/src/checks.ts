@@ -8,6 +8,13 @@ import {VerdictBox, verdictOf, type Way} from './verdict';
 
 interface Row { is: 'clear' | 'clear_if_taut' | 'touches' | 'checking'; name: string; value: string }
 
+/** Of a run the step with the least clearance. */
+function tightest({check}: Plan, {from, to}: {from: number; to: number}): number {
+  let best = from;
+  for (let step = from; step <= to; ++step) if (check!.steps[step]!.clearance < check!.steps[best]!.clearance) best = step;
+  return best;
+}
+
 const named = ({from, to}: {from: number; to: number}) => (from === to ? `step ${from}` : `steps ${from} to ${to}`);
 
 export class Checks {
@@ -22,7 +29,7 @@ export class Checks {
   /** @param go to a step */
   constructor(verdict: HTMLElement, panel: HTMLElement, private readonly go: (step: number) => void) {
     this.verdict = new VerdictBox(verdict, () => undefined);
-    panel.append(make('h2', {textContent: 'Checks'}), this.list, this.head, this.here, this.spotsHead, this.spots);
+    panel.append(make('h2', {textContent: 'Checks'}), this.list, this.spotsHead, this.spots, this.head, this.here);
   }
 
   /** Nothing to check. */
@@ -36,7 +43,7 @@ export class Checks {
     const {check} = plan, length = (value: number) => withUnit(value, 'm', system), worst = check?.steps[check.worst];
     this.plan = plan;
     const limit = plan.steps.findIndex((step) => step.limit), touched = plan.failed.find(({isLimit}) => !isLimit);
-    const message = plan.status === 'limit_exceeded' ? `step ${limit}: ${plan.steps[limit]!.limit}` : plan.status === 'touches' ? `${named(touched!)}: ${plan.pair(check!.steps[touched!.from]!)}` : '';
+    const message = plan.status === 'limit_exceeded' ? `step ${limit}: ${plan.steps[limit]!.limit}` : plan.status === 'touches' ? `${named(touched!)}: ${plan.pair(check!.steps[tightest(plan, touched!)]!)}` : '';
     this.verdict.show({status: plan.status, message}, check ? `${clearance(worst!.clearance, check.reach, system)} at step ${check.worst}, stage ${length(plan.steps[check.worst]!.stage)}, ${plan.pair(worst!)}` : '');
     this.list.replaceChildren(...this.rows(plan, system, tip).map(({is, name, value}) => {
       const {shape, state} = verdictOf({status: is}), mark = make('span', {className: `mark ${state}`, textContent: shape});
@@ -46,10 +53,10 @@ export class Checks {
     this.spotsHead.hidden = plan.spots.length === 0;
     this.spots.replaceChildren(...plan.spots.map((step) => {
       const at = check!.steps[step]!, {shape, state} = verdictOf({status: at.verdict === 'touches' ? 'touches' : at.clearance < plan.scene.margins.clearance ? 'clear_if_taut' : 'clear'});
-      const spot = button('', () => this.go(step), `go to step ${step}`), mark = make('span', {className: `mark ${state}`, textContent: shape});
+      const spot = button('', () => this.go(step), plan.pair(at)), mark = make('span', {className: `mark ${state}`, textContent: shape});
       mark.ariaHidden = 'true';
       spot.dataset.step = String(step);
-      spot.append(mark, make('strong', {textContent: clearance(at.clearance, check!.reach, system)}), make('span', {className: 'where', textContent: `step ${step}, ${plan.pair(at)}`}));
+      spot.append(mark, make('strong', {textContent: clearance(at.clearance, check!.reach, system)}), make('span', {className: 'where', textContent: `step ${step}`}));
       return make('li', {}, spot);
     }));
   }

@@ -1,6 +1,7 @@
 // Curves over the steps of a plan, one below the other, with one cursor. A title changes what its curve shows; dragging scrubs.
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
+import {withUnit} from './answer';
 import {clearance} from './checks';
 import {make} from './make';
 import type {Plan} from './plan';
@@ -88,7 +89,8 @@ export class Curves {
       panel.title.textContent = kind;
       panel.unit.textContent = `[${unitName(units[kind], this.system)}]`;
       panel.lines = this.lines(panel);
-      panel.note.replaceChildren(...(kind === 'joint angles' || kind === 'tendon changes' ? Array.from({length: sections}, (_, section) => {
+      panel.note.classList.toggle('wanted', kind === 'clearance');
+      panel.note.replaceChildren(...(kind === 'clearance' ? [`wanted ${withUnit(plan.scene.margins.clearance, 'm', this.system)} - -`] : []), ...(kind === 'joint angles' || kind === 'tendon changes' ? Array.from({length: sections}, (_, section) => {
         const name = make('span', {textContent: `S${section + 1} `});
         name.style.color = `var(--${colours[section % colours.length]!})`;
         return name;
@@ -110,7 +112,7 @@ export class Curves {
       width, height, padding: [6, edge, isLast ? 0 : 6, 0], legend: {show: false}, cursor: {show: false},
       scales: {x: {time: false, range: [0, Math.max(plan.last, 1)]}, y: {range}},
       axes: [{show: isLast, stroke: token('mute'), font, grid: {show: false}, ticks: {...line, size: 3}, gap: 2, size: 18, incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]},
-             {stroke: token('mute'), font, size: axisWidth, grid: line, ticks: {...line, size: 3}, gap: 3, space: 22, values: (_, marks) => marks.map((mark) => String(Number(mark.toPrecision(6))))}],
+             {stroke: token('mute'), font, size: axisWidth, grid: line, ticks: {...line, size: 3}, gap: 3, space: 16, values: (_, marks) => marks.map((mark) => String(Number(mark.toPrecision(6))))}],
       series: [{}, ...lines.map(({colour, dash}) => ({stroke: token(colour), width: 1.5, dash, points: {show: false}, spanGaps: false}))],
       hooks: {drawClear: [(plot) => this.marks(plot, kind, token)]},
     };
@@ -129,17 +131,13 @@ export class Curves {
     ctx.globalAlpha = 1;
     if (kind === 'clearance') {
       const y = plot.valToPos(shownValue(plan.scene.margins.clearance, 'm', this.system), 'y', true), ratio = devicePixelRatio;
-      ctx.strokeStyle = ctx.fillStyle = token('over');
+      ctx.strokeStyle = token('over');
       ctx.setLineDash([5 * ratio, 4 * ratio]);
       ctx.lineWidth = ratio;
       ctx.beginPath();
       ctx.moveTo(left, y);
       ctx.lineTo(left + width, y);
       ctx.stroke();
-      ctx.font = `${11 * ratio}px system-ui, sans-serif`;
-      ctx.textAlign = 'right';
-      ctx.textBaseline = top + height - y > 14 * ratio ? 'top' : 'bottom';
-      ctx.fillText('wanted', left + width - 4 * ratio, y + ratio);
     }
     ctx.restore();
   }

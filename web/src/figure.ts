@@ -72,6 +72,7 @@ export abstract class Figure implements Picture {
   fit(view?: View): void {
     if (!this.drawing) return;
     const {shape, around} = this.drawing, last = shape.frames?.at(-1);
+    if (around) this.lookout.margin = Math.min(62, 0.12 * this.lookout.height);  // it is long, and may be low
     this.lookout.fit(around?.extent ?? extent(shape), view, around?.tip.direction ?? (last ? axesOf(last)[2] : [0, 0, 1]));
     this.isFitted = true;
     this.change();

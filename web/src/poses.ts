@@ -43,6 +43,10 @@ export class Poses {
     void this.guarded(() => this.work(), () => this.want(this.wanted)).finally(() => { this.isBusy = false; });
   }
 
+  forget(): void {
+    this.kept.clear();
+  }
+
   /** Nothing more is wanted. */
   end(): void {
     this.isOver = true;

@@ -129,8 +129,16 @@ export class Trajectory {
     this.transport.pause();
   }
 
+  /** For tests: shapes are asked anew. */
+  forgetShapes(): void {
+    this.poses!.forget();
+  }
+
   private unknown(): void {
     this.forget();
+    this.screen.heard();
+    this.screen.say('');
+    byId('trajectory').classList.add('empty');
     this.checks.none('the link shows a plan that this server does not have', this.listed.map(({plan, name}) => [`Open ${name}`, () => this.open(new URLSearchParams({plan}))]));
     this.picker.value = '';
     this.screen.changed();
@@ -147,6 +155,7 @@ export class Trajectory {
   private use(plan: Plan, link: URLSearchParams): void {
     this.forget();
     this.plan = plan;
+    byId('trajectory').classList.remove('empty');
     this.picker.value = plan.handle;
     this.begin();
     this.picture!.camera = link.get('camera') ?? '';
