@@ -91,8 +91,8 @@ constexpr std::array options{
         "of serve where it listens; default 127.0.0.1, this machine alone. Any other one asks for the token "
         "that is printed with the address"},
     Option{"scene", "SCENE", "of serve the scene that its plans are of"},
-    Option{"plan", "FILE", "of serve a way into the scene, as sinew plan writes it; more than one may be given", 0,
-           true},
+    Option{"plan", "FILE",
+           "of serve a way into the scene, as sinew plan writes it; more than one may be given", 0, true},
     Option{"port", "PORT", "of serve; default 8765, 0 is any that is free"},
     Option{"resume", "", "go on with what an interrupted run left; without it, begin"},
     Option{"force", "",

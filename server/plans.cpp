@@ -48,7 +48,8 @@ Json json_of(const InsertionScene& scene) {
             {"axis", json_of(scene.axis)},
             {"stage_limit", scene.stage_limit}};
   json["port"] = nullptr;
-  if (scene.port) json["port"] = {{"position", json_of(scene.port->position)}, {"radius", scene.port->radius}};
+  if (scene.port)
+    json["port"] = {{"position", json_of(scene.port->position)}, {"radius", scene.port->radius}};
   const InsertionTarget& target = scene.target;
   json["target"] = {{"tip", json_of(target.tip)}, {"direction", nullptr}, {"tolerance", target.tolerance}};
   if (target.direction) json["target"]["direction"] = json_of(*target.direction);
@@ -97,7 +98,8 @@ Json json_of(const InsertionCheck& check) {
           {"steps", std::move(steps)}};
 }
 
-template <class T> void append(std::string& bytes, T value) {
+template <class T>
+void append(std::string& bytes, T value) {
   char raw[sizeof value];
   std::memcpy(raw, &value, sizeof value);
   bytes.append(raw, sizeof value);
@@ -133,7 +135,8 @@ struct Plan {
 };
 
 Reply unknown() {
-  return refused(404, "unknown_plan", "plan", "no plan has this handle; GET /api/plans lists those there are");
+  return refused(404, "unknown_plan", "plan",
+                 "no plan has this handle; GET /api/plans lists those there are");
 }
 
 }  // namespace
@@ -185,13 +188,11 @@ Expected<void> Plans::read(const std::string& scene, const std::vector<std::stri
     if (!table) return tl::unexpected(table.error());
     auto steps = plan_steps(*table, state_->scene, file);
     if (!steps) return tl::unexpected(steps.error());
-    Json all{{"name", fs::path(file).stem().string()},
-             {"files", {{"scene", scene}, {"plan", file}}},
-             {"robot", {{"name", state_->scene.robot_name}}},
-             {"scene", told},
-             {"angles", angle_names(state_->scene)},
-             {"steps", json_of(state_->scene, *steps)}};
-    std::string handle = handle_of(handle_of(text_of(all)) + handle_of(state_->robot) + handle_of(*state_->meshes));
+    Json all{{"name", fs::path(file).stem().string()},        {"files", {{"scene", scene}, {"plan", file}}},
+             {"robot", {{"name", state_->scene.robot_name}}}, {"scene", told},
+             {"angles", angle_names(state_->scene)},          {"steps", json_of(state_->scene, *steps)}};
+    std::string handle =
+        handle_of(handle_of(text_of(all)) + handle_of(state_->robot) + handle_of(*state_->meshes));
     if (state_->find(handle)) continue;  // the same file twice
     state_->plans.push_back({std::move(handle), std::move(*steps), std::move(all), {}});
   }

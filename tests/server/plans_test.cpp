@@ -35,10 +35,12 @@ obstacles:
 /// A plan that goes straight in; at one step it is bent into the wall, at the last it is too far in.
 std::string plan_text() {
   std::string text = "step,stage[m]";
-  for (int m = 0; m < 5; ++m) text += ",S" + std::to_string(m) + "_beta_1[rad],S" + std::to_string(m) + "_beta_2[rad]";
+  for (int m = 0; m < 5; ++m)
+    text += ",S" + std::to_string(m) + "_beta_1[rad],S" + std::to_string(m) + "_beta_2[rad]";
   text += '\n';
   for (int k = 0; k < 8; ++k)
-    text += std::to_string(k) + ',' + std::to_string(0.01 * k) + (k == 5 ? ",0,0.08" : ",0,0") + ",0,0,0,0,0,0,0,0\n";
+    text += std::to_string(k) + ',' + std::to_string(0.01 * k) + (k == 5 ? ",0,0.08" : ",0,0") +
+            ",0,0,0,0,0,0,0,0\n";
   return text;
 }
 
@@ -93,9 +95,9 @@ TEST_F(Plans, AreToldWithTheirCheck) {
   EXPECT_NE(check["steps"][2]["verdict"], "touches");
   // The robot is one that queries may be put to.
   const std::string robot = plan["robot"]["robot"];
-  const json shape = json::parse(desk.post(
-      "/api/query?robot=" + robot,
-      json{{"query", "shape"}, {"configuration", plan["steps"][5]["configuration"]}}.dump()));
+  const json shape = json::parse(
+      desk.post("/api/query?robot=" + robot,
+                json{{"query", "shape"}, {"configuration", plan["steps"][5]["configuration"]}}.dump()));
   EXPECT_EQ(shape["status"], "converged");
 }
 

@@ -9,6 +9,8 @@ import {type Drawing, type Layer, type Part, type Picture, shownAtFirst, type So
 import {Pointer} from './pointer';
 import {axesOf} from './vector';
 
+const wayIn: [number, number] = [-75, 48];  // from where a way in is seen at first, cut open before the tip [deg]
+
 export abstract class Figure implements Picture {
   abstract readonly canvas: Element;
   frames = 0;
@@ -72,7 +74,7 @@ export abstract class Figure implements Picture {
   fit(view?: View): void {
     if (!this.drawing) return;
     const {shape, around} = this.drawing, last = shape.frames?.at(-1);
-    if (around) this.lookout.margin = Math.min(62, 0.12 * this.lookout.height);  // it is long, and may be low
+    if (around) [this.lookout.margin, this.lookout.from] = [Math.min(62, 0.12 * this.lookout.height), wayIn];
     this.lookout.fit(around?.extent ?? extent(shape), view, around?.tip.direction ?? (last ? axesOf(last)[2] : [0, 0, 1]));
     this.isFitted = true;
     this.change();

@@ -28,17 +28,17 @@ async function plans() {
   return made = {...all, file, handles, last: rows.length - 1};
 }
 
-/** Waits for the picture of a step; of any where none is said. */
-const at = async (page, step) => {
-  await page.evaluate((wanted) => new Promise((done) => {
-    const root = document.documentElement, is = () => (wanted === null ? root.dataset.drawn !== undefined : root.dataset.drawn === String(wanted)), watch = new MutationObserver(() => is() && end());
+/** Waits for the picture of a step, or of one at least so far; of any where none is said. */
+const at = async (page, step, isFrom = false) => {
+  await page.evaluate(([wanted, isAny]) => new Promise((done) => {
+    const root = document.documentElement, drawn = () => Number(root.dataset.drawn ?? -1), is = () => (isAny ? drawn() >= wanted : drawn() === wanted), watch = new MutationObserver(() => is() && end());
     const end = () => {
       watch.disconnect();
       done();
     };
     if (is()) end();
     else watch.observe(root, {attributes: true});
-  }), step ?? null);
+  }), [step ?? 0, isFrom || step === undefined]);
   await drawn(page);
 };
 
@@ -94,7 +94,7 @@ export async function plan_scrubs(browser) {
   await page.keyboard.press('l');
   assert.equal(await page.locator('#transport select').inputValue(), '2');
   await page.keyboard.press('Space');
-  await at(page, 5);
+  await at(page, 5, true);
   await page.keyboard.press('Space');
   assert.match(await page.locator('#transport button.main').innerText(), /Play/);
   await page.getByRole('button', {name: 'stage'}).click();
