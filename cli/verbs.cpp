@@ -90,6 +90,9 @@ constexpr std::array options{
         "host", "ADDRESS",
         "of serve where it listens; default 127.0.0.1, this machine alone. Any other one asks for the token "
         "that is printed with the address"},
+    Option{"scene", "SCENE", "of serve the scene that its plans are of"},
+    Option{"plan", "FILE",
+           "of serve a way into the scene, as sinew plan writes it; more than one may be given", 0, true},
     Option{"port", "PORT", "of serve; default 8765, 0 is any that is free"},
     Option{"resume", "", "go on with what an interrupted run left; without it, begin"},
     Option{"force", "",
@@ -353,11 +356,15 @@ const std::array table{
         "serve",
         "[ROBOT]",
         "queries over HTTP, on this machine or with a token from others",
-        {"host", "port", "quiet", "help"},
+        {"scene", "plan", "host", "port", "quiet", "help"},
         {},
         "Prints the address and answers there until Ctrl-C. The calls are in docs/server.md. Nothing is read "
         "but\n"
-        "the robot that is named; nothing is written; no request leaves this machine.",
+        "the robot, the scene and the plans that are named; nothing is written; no request leaves this "
+        "machine.\n"
+        "--scene engine/scene.yaml --plan plan.csv opens a plan of sinew plan: the way in, step by step, in "
+        "its\n"
+        "scene, with its check.",
         "sinew serve 3-rfr",
         run_serve},
     Verb{"list",

@@ -94,9 +94,14 @@ Calls::Calls(const Options& options)
       jobs_(options.limits.jobs, robots_, rate_, dog_) {}
 
 std::optional<Errors> Calls::read_opened() {
-  if (options_.robot.empty()) return {};
-  if (const auto session = Session::open(options_.robot); !session) return session.error();
+  if (!options_.robot.empty())
+    if (const auto session = Session::open(options_.robot); !session) return session.error();
+  if (const auto read = plans_.read(options_.scene, options_.plans); !read) return read.error();
   return {};
+}
+
+Reply Calls::plan(std::string_view handle) {
+  return plans_.plan(handle, [this](const std::string& text) { return robots_.open(text).value_or(""); });
 }
 
 Reply Calls::version() const { return {200, written({{"sinew", sinew::version()}, {"protocol", 1}})}; }
@@ -178,6 +183,7 @@ Reply Calls::query(std::string_view handle, std::string_view body, const std::st
 }
 
 void Calls::stop() {
+  plans_.stop();
   dog_.stop();
   jobs_.stop();
 }

@@ -7,6 +7,7 @@
 
 #include "jobs/job_calls.hpp"
 #include "limiter.hpp"
+#include "plans.hpp"
 #include "reply.hpp"
 #include "robots.hpp"
 #include "server.hpp"
@@ -21,6 +22,9 @@ class Calls {
   Reply version() const;
   Reply robots() const;  ///< those that ship, and the one the page opens with
   Reply robot_text(const std::string& name) const;
+  Reply plans() const { return plans_.list(); }
+  Reply plan(std::string_view handle);
+  Reply meshes(std::string_view handle) const { return plans_.meshes(handle); }
   Reply open_robot(const std::string& text);
   /// @param is_gone whether the client has left; asked from another thread
   Reply query(
@@ -30,7 +34,7 @@ class Calls {
   /// What computes is to end.
   void stop();
 
-  /// The robot of the command line: read before anything listens.
+  /// The robot and the plans of the command line: read before anything listens.
   std::optional<Errors> read_opened();
 
  private:
@@ -42,6 +46,7 @@ class Calls {
   Rate rate_;
   Places places_;
   Watchdog dog_;
+  Plans plans_;
   JobCalls jobs_;
 };
 

@@ -11,14 +11,11 @@
 #include "sinew/io/parse.hpp"
 
 namespace sinew::server {
-namespace {
 
 std::string handle_of(std::string_view text) {
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
-
-}  // namespace
 
 Robot::Robot(Document document, Session first) : document_(std::move(document)) {
   idle_.push_back(std::move(first));

@@ -14,6 +14,9 @@
 
 namespace sinew::server {
 
+/// The same for the same text.
+std::string handle_of(std::string_view text);
+
 /// One text, and sessions of it that nobody uses at the moment.
 class Robot {
  public:

@@ -126,6 +126,9 @@ struct Server::State {
   Reply on_version(const Request&) { return calls.version(); }
   Reply on_robots(const Request&) { return calls.robots(); }
   Reply on_robot_text(const Request& request) { return calls.robot_text(request.matches[1]); }
+  Reply on_plans(const Request&) { return calls.plans(); }
+  Reply on_plan(const Request& request) { return calls.plan(request.matches[1].str()); }
+  Reply on_meshes(const Request& request) { return calls.meshes(request.matches[1].str()); }
   Reply on_robot(const Request&, const std::string& body) { return calls.open_robot(body); }
   Reply on_query(const Request& request, const std::string& body) {
     return calls.query(request.get_param_value("robot"), body, request.remote_addr,
@@ -163,7 +166,7 @@ bool Server::State::brings_token(const Request& request) const {
 
 void Server::State::get(const char* pattern, Plain call) {
   http.Get(pattern, [this, call](const Request& request, Response& response) {
-    put(response, (this->*call)(request));
+    put(response, kept((this->*call)(request)));
   });
 }
 
@@ -248,6 +251,9 @@ void Server::State::route() {
   get("/api/version", &State::on_version);
   get("/api/robots", &State::on_robots);
   get("/api/robots/([^/]*)", &State::on_robot_text);
+  get("/api/plans", &State::on_plans);
+  get("/api/plans/([^/]*)", &State::on_plan);
+  get("/api/plans/([^/]*)/meshes", &State::on_meshes);
   post("/api/robot", "text/yaml", options.limits.body, &State::on_robot);
   post("/api/query", "application/json", options.limits.body, &State::on_query);
   route_jobs();

@@ -4,6 +4,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "sinew/base/error.hpp"
 
@@ -43,15 +44,18 @@ struct Limits {
 
 struct Options {
   std::string address = "127.0.0.1";
-  int port = 8765;    ///< 0: any that is free
-  std::string robot;  ///< file or name of the robot that the page opens with; empty: none
+  int port = 8765;                 ///< 0: any that is free
+  std::string robot;               ///< file or name of the robot that the page opens with; empty: none
+  std::string scene;               ///< file of the scene that the plans are of; empty: none
+  std::vector<std::string> plans;  ///< files of insertions into it
   Limits limits;
 };
 
 /// Listens from its making on; answers while `run` runs.
 class Server {
  public:
-  /// Errors: those of the robot's file; `address_in_use`, `bad_address`.
+  /// Errors: those of the files of robot, scene and plans; `not_built` where there are plans;
+  /// `address_in_use`, `bad_address`.
   static Expected<Server> open(const Options& options);
 
   /// What to open in a browser. Of another address than this machine's own with a token that lets in.

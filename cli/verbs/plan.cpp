@@ -10,7 +10,6 @@
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/serial_file.hpp"
 #include "sinew/io/visible.hpp"
-#include "sinew/kinematics/serial.hpp"
 #include "sinew/plan/compressor.hpp"
 #include "sinew/plan/insertion.hpp"
 #include "sinew/plan/plan_table.hpp"
@@ -86,13 +85,9 @@ int check_plan(const Arguments& arguments, const InsertionScene& scene, unsigned
   const auto steps = plan_steps(*table, scene, file);
   if (!steps) return refuse("plan", steps.error());
   for (std::size_t k = 0; k < steps->size(); ++k) {
-    const InsertionStep& step = (*steps)[k];
-    const Report report = check_limits(scene.robot, step.bends);
-    if (report.ok() && step.stage <= scene.stage_limit) continue;
-    message(fmt::format("sinew plan: {}: LIMIT EXCEEDED in row {}: {}", file, k,
-                        report.ok() ? fmt::format("the stage is at {}, its limit is {}", mm(step.stage),
-                                                  mm(scene.stage_limit))
-                                    : std::string(report.message.view())));
+    const std::string exceeded = exceeded_limit(scene, (*steps)[k]);
+    if (exceeded.empty()) continue;
+    message(fmt::format("sinew plan: {}: LIMIT EXCEEDED in row {}: {}", file, k, exceeded));
     return no_solution;
   }
   InsertionCheckOptions options;

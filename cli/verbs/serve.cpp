@@ -34,6 +34,12 @@ Expected<server::Options> read_options(const Arguments& arguments) {
     if (!port) return tl::unexpected(port.error());
     options.port = *port;
   }
+  if (arguments.has("scene") != arguments.has("plan"))
+    return failure(arguments.has("scene") ? "missing_plan" : "missing_scene", "",
+                   "a plan is shown in its scene: give both, --scene SCENE --plan FILE");
+  if (const std::string* scene = arguments.text("scene")) options.scene = *scene;
+  if (const auto plans = arguments.options.find("plan"); plans != arguments.options.end())
+    options.plans = plans->second;
   return options;
 }
 

@@ -2,11 +2,13 @@
 
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -19,6 +21,7 @@
 #include "plan/deadline.hpp"
 #include "plan/obstacles.hpp"
 #include "plan/parallel.hpp"
+#include "sinew/kinematics/serial.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -98,12 +101,14 @@ class Examiner {
         const double gap = fcl::distance(solid.get(), here, &thin, pose, request, result);
         const double distance = (gap < 0 ? 0 : gap + thin_radius) - radius;
         if (!(distance < best.distance) || result.b1 == fcl::DistanceResultd::NONE) continue;
+        // FCL has no nearest points of what overlaps
+        const Vec3<double> through = gap < 0 ? crossing(i, *solid, result.b1) : Vec3<double>(0, 0, 0);
         best = {distance,
                 body_.section(i + 1),
                 static_cast<int>(m),
                 static_cast<int>(result.b1),
-                vector_of(result.nearest_points[1]),
-                vector_of(result.nearest_points[0])};
+                gap < 0 ? through : vector_of(result.nearest_points[1]),
+                gap < 0 ? through : vector_of(result.nearest_points[0])};
       }
     }
     return best;
@@ -131,6 +136,18 @@ class Examiner {
  private:
   static constexpr double thin_radius = 1e-5;  // [m]
   static Vec3<double> vector_of(const fcl::Vector3d& v) { return {v[0], v[1], v[2]}; }
+  /// Where a piece of the backbone goes through a triangle.
+  Vec3<double> crossing(std::size_t i, const Solid& solid, std::intptr_t triangle) const {
+    const fcl::Triangle& corners = solid.tri_indices[triangle];
+    const auto corner = [&](int k) {
+      return vector_of(solid.vertices[corners[static_cast<std::size_t>(k)]]);
+    };
+    const Vec3<double> a = corner(0), from = body_.point(i), along = body_.point(i + 1) - from,
+                       normal = cross(Vec3<double>(corner(1) - a), Vec3<double>(corner(2) - a));
+    const double steep = dot(along, normal);
+    const double part = steep == 0 ? 0.5 : std::clamp(dot(Vec3<double>(a - from), normal) / steep, 0.0, 1.0);
+    return from + part * along;
+  }
   double length_of(std::size_t i) const {
     return std::sqrt(squared_norm(Vec3<double>(body_.point(i + 1) - body_.point(i))));
   }
@@ -294,6 +311,14 @@ InsertionCheck check_insertion(const InsertionScene& scene, std::span<const Inse
   check.allowed_share = static_cast<double>(level.load()) / share_levels;
   check.clearance = check.steps[check.worst].spot.distance;
   return check;
+}
+
+std::string exceeded_limit(const InsertionScene& scene, const InsertionStep& step) {
+  if (const Report report = check_limits(scene.robot, step.bends); !report.ok())
+    return std::string(report.message.view());
+  if (step.stage <= scene.stage_limit) return {};
+  return fmt::format("the stage is at {:.3f} mm, its limit is {:.3f} mm", 1e3 * step.stage,
+                     1e3 * scene.stage_limit);
 }
 
 }  // namespace sinew::inline v0

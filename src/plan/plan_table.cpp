@@ -5,6 +5,14 @@
 #include "sinew/io/posture_table.hpp"
 
 namespace sinew::inline v0 {
+
+std::vector<std::array<double, 2>> plan_angles(const InsertionScene& scene, const InsertionStep& step) {
+  std::vector<std::array<double, 2>> angles;
+  for (std::size_t m = 0; m < step.bends.size(); ++m)
+    angles.push_back(bend_angles(scene.robot.sections[m], step.bends[m]));
+  return angles;
+}
+
 Table plan_table(const InsertionScene& scene, const InsertionPlan& plan, std::uint64_t seed) {
   Table table;
   table.comments = {
@@ -20,8 +28,7 @@ Table plan_table(const InsertionScene& scene, const InsertionPlan& plan, std::ui
   for (std::size_t k = 0; k < plan.steps.size(); ++k) {
     const InsertionStep& step = plan.steps[k];
     std::vector<double> row{static_cast<double>(k), step.stage};
-    for (std::size_t m = 0; m < step.bends.size(); ++m)
-      for (const double angle : bend_angles(scene.robot.sections[m], step.bends[m])) row.push_back(angle);
+    for (const auto& angles : plan_angles(scene, step)) row.insert(row.end(), angles.begin(), angles.end());
     row.push_back(step.clearance);
     row.push_back(static_cast<double>(plan.check.steps[k].verdict));
     table.add_row(row);

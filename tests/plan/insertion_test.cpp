@@ -206,6 +206,26 @@ TEST(InsertionCheck, WhatIsNoNumberTouches) {
   EXPECT_EQ(plan_insertion(scene, options).report.status, Status::bad_input);
 }
 
+TEST(InsertionCheck, WhereItGoesThroughASolidIsTold) {
+  InsertionScene scene = open_scene();
+  scene.solids.push_back(named(box_mesh({0.1, 0.1, 0.002}), "plate", {0, 0, -0.03}));
+  const InsertionCheck check = check_insertion(scene, straight(scene, {0}));
+  const TightSpot& spot = check.steps[0].spot;
+  EXPECT_LT(spot.distance, 0);
+  EXPECT_EQ(spot.solid, 0);
+  EXPECT_NEAR(std::abs(spot.on_robot.z() + 0.03), 0.001, 1e-9);  // one of its faces
+  EXPECT_LT(distance_of(spot.on_robot, spot.on_solid), 1e-12);
+}
+
+TEST(InsertionCheck, LimitsAreTold) {
+  InsertionScene scene = open_scene();
+  std::vector<InsertionStep> steps = straight(scene, {0.1, 0.2, 0.1});
+  steps[2].bends[1] = Bend(0.6, 0);
+  EXPECT_EQ(exceeded_limit(scene, steps[0]), "");
+  EXPECT_EQ(exceeded_limit(scene, steps[1]), "the stage is at 200.000 mm, its limit is 150.000 mm");
+  EXPECT_NE(exceeded_limit(scene, steps[2]).find("sections[1]"), std::string::npos);
+}
+
 TEST(InsertionCheck, WithinASolidItTouches) {
   InsertionScene scene = open_scene();
   scene.solids.push_back(named(box_mesh({1, 1, 1}), "block", {0, 0, 0}));

@@ -12,6 +12,7 @@ const [nearest, farthest] = [1e-5, 1e4];  // widths in view [m]
 export class Camera {
   isLens = false;
   isPlanar = false;
+  from = usual; // where it is seen from, if no view says else
   margin = 62;  // pixels between what is fitted and the edges
   width = 1;   // of the box [px]
   height = 1;
@@ -62,7 +63,7 @@ export class Camera {
   /** All of the points in view, from where they are usually seen, or else. @param axis of the tip, which a view from there looks along */
   fit(points: Point[], view: View | undefined, axis: Point): void {
     const tip: [number, number] = [length([axis[0]!, axis[1]!]) > 1e-3 ? Math.atan2(axis[1]!, axis[0]!) / degree : -90, Math.asin(Math.min(1, Math.max(-1, axis[2]!))) / degree];
-    [this.azimuth, this.elevation] = this.isPlanar ? angles.top : view === 'tip' ? tip : view ? angles[view] : usual;
+    [this.azimuth, this.elevation] = this.isPlanar ? angles.top : view === 'tip' ? tip : view ? angles[view] : this.from;
     this.aim();
     const middle = (way: Point) => {
       let [low, high] = [Infinity, -Infinity];

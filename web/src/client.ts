@@ -21,11 +21,11 @@ export class Lost extends Error {}
 const breath = 150;  // ms before a second try
 
 /** A server may close a connection that it kept open, or that a question held too long: one more try tells this from one that is gone. */
-async function reach(path: string, options: RequestInit): Promise<{reply: Response; text: string}> {
+async function reach<T>(path: string, options: RequestInit, reading: (reply: Response) => Promise<T>): Promise<{reply: Response; read: T}> {
   for (let isFirst = true;; isFirst = false) {
     try {
       const reply = await fetch(path, options);
-      return {reply, text: await reply.text()};
+      return {reply, read: await reading(reply)};
     } catch (error) {
       if (!(error instanceof TypeError)) throw error;  // so fetch says that nobody answered
       if (!isFirst) throw new Lost('no connection');
@@ -35,21 +35,35 @@ async function reach(path: string, options: RequestInit): Promise<{reply: Respon
 }
 
 async function call(path: string, body?: string, type = 'application/json', signal?: AbortSignal): Promise<string> {
-  const {reply, text} = await reach(path, body === undefined ? {} : {method: 'POST', body, headers: {'Content-Type': type}, ...(signal && {signal})});
-  if (reply.ok) return text;
+  const {reply, read} = await reach(path, body === undefined ? {} : {method: 'POST', body, headers: {'Content-Type': type}, ...(signal && {signal})}, (of) => of.text());
+  if (reply.ok) return read;
+  throw refusal(reply, read);
+}
+
+function refusal(reply: Response, text: string): Refused {
   let answer: Json = {};
   try {
     answer = JSON.parse(text);
   } catch {
     answer = {error: {message: text}};
   }
-  throw new Refused(reply.status, answer, Number(reply.headers.get('Retry-After')) || 0);
+  return new Refused(reply.status, answer, Number(reply.headers.get('Retry-After')) || 0);
 }
 
 export const version = async (): Promise<Json> => JSON.parse(await call('/api/version'));
 export const robots = async (): Promise<{robots: Shipped[]; opened: {name: string; text: string} | null}> =>
   JSON.parse(await call('/api/robots'));
 export const robotText = (name: string): Promise<string> => call(`/api/robots/${encodeURIComponent(name)}`);
+
+export const plans = async (): Promise<{plans: Json[]}> => JSON.parse(await call('/api/plans'));
+export const plan = async (handle: string): Promise<Json> => JSON.parse(await call(`/api/plans/${encodeURIComponent(handle)}`));
+
+/** The solids of a plan's scene: corners, then triangles. */
+export async function meshes(handle: string): Promise<ArrayBuffer> {
+  const {reply, read} = await reach(`/api/plans/${encodeURIComponent(handle)}/meshes`, {}, (of) => of.arrayBuffer());
+  if (!reply.ok) throw refusal(reply, new TextDecoder().decode(read));
+  return read;
+}
 
 /** A robot of the server; a server that was started anew gets its text again. */
 export class Robot {

@@ -4,9 +4,10 @@ import type {Labels} from './labels';
 import {longer, outline, ring, round} from './outline';
 import {between, type Look, type Pen} from './pen';
 import type {Drawing, Layer} from './picture';
+import {surroundings} from './surroundings';
 import {across, axesOf, centre, length, minus, placeOf, plus, type Point, scaled} from './vector';
 
-export const tokens = ['rod', 'mute', 'line', 'accent', 'ghost', 'slack', 'text', 'card', 'scene', 'axis-x', 'axis-y', 'axis-z', 'tendon-1', 'tendon-2', 'tendon-3', 'tendon-4'] as const;
+export const tokens = ['rod', 'mute', 'line', 'accent', 'ghost', 'slack', 'text', 'card', 'scene', 'axis-x', 'axis-y', 'axis-z', 'robot', 'robot-rim', 'hidden', 'over', 'exact', 'tendon-1', 'tendon-2', 'tendon-3', 'tendon-4'] as const;
 export type Colours = Record<(typeof tokens)[number], string>;
 export const leastRod = 3;  // pixels of the thinnest
 
@@ -35,11 +36,12 @@ class Composition {
   }
 
   all(): void {
-    const {shown} = this.setting, {ghost, shape} = this.drawing;
+    const {shown} = this.setting, {ghost, shape, around} = this.drawing;
     if (shown.has('grid')) this.grid();
+    if (around) surroundings(around, this.pen, this.labels, this.setting);
     this.base();
     if (ghost && shown.has('ghost')) this.ghost(ghost);
-    if (shown.has('discs')) for (const disc of shape.discs ?? []) this.pen.disc(disc, this.colour('line'), this.colour('mute'));
+    if (shown.has('discs')) for (const disc of shape.discs ?? []) this.pen.disc(disc, this.colour(around ? 'robot' : 'line'), this.colour(around ? 'robot-rim' : 'mute'), around && this.colour('hidden'));
     if (shown.has('tendons')) this.tendons();
     if (shown.has('rods')) this.rods();
     if (shown.has('lines')) this.lines('mute', 1);

@@ -5,14 +5,17 @@ import {Labels} from './labels';
 import {Names} from './names';
 import {lengthName, round} from './outline';
 import type {Pen} from './pen';
-import {type Drawing, type Layer, type Part, type Picture, shownAtFirst, type View} from './picture';
+import {type Drawing, type Layer, type Part, type Picture, shownAtFirst, type Solids, type View} from './picture';
 import {Pointer} from './pointer';
 import {axesOf} from './vector';
+
+const wayIn: [number, number] = [-75, 48];  // from where a way in is seen at first, cut open before the tip [deg]
 
 export abstract class Figure implements Picture {
   abstract readonly canvas: Element;
   frames = 0;
   notScaled = false;
+  isCut = false;
   labelOf: (part: Part) => string = () => '';
   grabbed: (position: number[], isEnd: boolean) => void = () => undefined;
   note: (text: string) => void = () => undefined;
@@ -22,7 +25,7 @@ export abstract class Figure implements Picture {
   protected colours = Object.fromEntries(tokens.map((name) => [name, '#808080'])) as Colours;
   private readonly shown = new Set<Layer>(shownAtFirst);
   private readonly names: Names;
-  private drawing: Drawing | null = null;
+  protected drawing: Drawing | null = null;
   private isFitted = false;
   private isComposed = false;  // what is drawn is as it is to be; only the camera may have turned
   private composedAt = 0;      // pixels of a metre
@@ -70,8 +73,9 @@ export abstract class Figure implements Picture {
 
   fit(view?: View): void {
     if (!this.drawing) return;
-    const {shape} = this.drawing, last = shape.frames?.at(-1);
-    this.lookout.fit(extent(shape), view, last ? axesOf(last)[2] : [0, 0, 1]);
+    const {shape, around} = this.drawing, last = shape.frames?.at(-1);
+    if (around) [this.lookout.margin, this.lookout.from] = [Math.min(62, 0.12 * this.lookout.height), wayIn];
+    this.lookout.fit(around?.extent ?? extent(shape), view, around?.tip.direction ?? (last ? axesOf(last)[2] : [0, 0, 1]));
     this.isFitted = true;
     this.change();
     this.moved();
@@ -89,6 +93,9 @@ export abstract class Figure implements Picture {
   }
 
   abstract save(command: string): Promise<Blob>;
+
+  /** What has no depth leaves them out. */
+  solids(_solids: Solids | null): void {}
 
   /** What has been composed, on the screen. */
   protected abstract render(): void;

@@ -1,5 +1,5 @@
 // The pen of WebGL. Its objects are used again at the next drawing: a slider that moves makes little garbage.
-import {BufferGeometry, CylinderGeometry, DoubleSide, DynamicDrawUsage, Float32BufferAttribute, Group, InstancedMesh, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Quaternion, Vector3} from 'three';
+import {BufferGeometry, CylinderGeometry, DoubleSide, DynamicDrawUsage, Float32BufferAttribute, GreaterDepth, Group, InstancedMesh, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Quaternion, Vector3} from 'three';
 import type {Json} from './client';
 import {Ink, uniforms} from './ink';
 import type {Look, Pen} from './pen';
@@ -16,6 +16,7 @@ export class GlPen implements Pen {
   private readonly plates: Mesh<BufferGeometry, MeshBasicMaterial>[] = [];
   private plateCount = 0;
   private discs = this.makeDiscs(1);
+  private ghosts = this.makeGhosts();  // the discs again, where solids hide them
   private discCount = 0;
   private readonly matrix = new Matrix4();
   private readonly place = new Vector3();
@@ -78,7 +79,7 @@ export class GlPen implements Pen {
     places.needsUpdate = true;
   }
 
-  disc({pose, height, radius}: Json, body: string, rim: string): void {
+  disc({pose, height, radius}: Json, body: string, rim: string, hidden?: string): void {
     const axes = axesOf(pose), look: Look = {colour: rim, width: 1};
     this.ink.circle(pose.position, axes[0], axes[1], radius, look, around);
     this.ink.circle(plus(pose.position, axes[2], height), axes[0], axes[1], radius, look, around);
@@ -87,6 +88,8 @@ export class GlPen implements Pen {
     const [w, x, y, z] = pose.quaternion;
     this.discs.material.color.set(body);
     this.matrix.compose(this.place.fromArray(pose.position), this.turn.set(x, y, z, w), this.size.set(radius, radius, height));
+    this.ghosts.visible = hidden !== undefined;
+    if (hidden) this.ghosts.material.color.set(hidden);
     this.discs.setMatrixAt(this.discCount++, this.matrix);
   }
 
@@ -97,6 +100,8 @@ export class GlPen implements Pen {
     this.discs.count = this.discCount;
     this.discs.visible = this.discCount > 0;
     this.discs.instanceMatrix.needsUpdate = true;
+    this.ghosts.count = this.discCount;
+    this.ghosts.visible &&= this.discCount > 0;
   }
 
   private of(look: Look): Ink {
@@ -124,6 +129,15 @@ export class GlPen implements Pen {
     return discs;
   }
 
+  /** They are drawn after solids and before the discs, so that discs themselves hide none. */
+  private makeGhosts(): InstancedMesh<CylinderGeometry, MeshBasicMaterial> {
+    const ghosts = new InstancedMesh(this.discs.geometry, new MeshBasicMaterial({depthFunc: GreaterDepth, depthWrite: false}), 0);
+    ghosts.instanceMatrix = this.discs.instanceMatrix;
+    [ghosts.frustumCulled, ghosts.renderOrder, ghosts.visible] = [false, -1, false];
+    this.group.add(ghosts);
+    return ghosts;
+  }
+
   private growDiscs(): void {
     const old = this.discs;
     this.discs = this.makeDiscs(2 * this.discCount);
@@ -132,5 +146,8 @@ export class GlPen implements Pen {
     old.geometry.dispose();
     old.material.dispose();
     old.dispose();
+    this.group.remove(this.ghosts);
+    this.ghosts.material.dispose();
+    this.ghosts = this.makeGhosts();
   }
 }

@@ -7,7 +7,10 @@ export interface Key {
   go?: (key: string) => void;  ///< none: said here, done where the focus is
 }
 
-const nameOf = (event: KeyboardEvent) =>
+/** Where Shift makes another character of comma and full stop, which one depends on the keyboard. */
+const isShifted = ({shiftKey, code, key}: KeyboardEvent) => shiftKey && (code === 'Comma' || code === 'Period') && '<>;:'.includes(key);
+
+const nameOf = (event: KeyboardEvent) => isShifted(event) ? `Shift+${event.code === 'Comma' ? ',' : '.'}` :
   `${event.ctrlKey || event.metaKey ? 'Ctrl+' : ''}${event.altKey ? 'Alt+' : ''}${event.shiftKey && event.key.length > 1 || (event.ctrlKey && event.shiftKey) ? 'Shift+' : ''}${event.key.length === 1 ? event.key.toLowerCase() : event.key}`;
 
 /** Where letters are written, or choose in a list: there they are nothing else. */
@@ -20,20 +23,25 @@ function focused(event: Event): EventTarget | null {
   return event.composedPath()[0] ?? event.target;
 }
 
-export function listen(keys: Key[]): void {
+/** What Space presses by itself. */
+const isPressed = (target: EventTarget | null) => target instanceof HTMLElement && target.matches('button, summary, input[type="checkbox"], input[type="radio"]');
+
+/** @param keys those of the screen that is shown */
+export function listen(keys: () => Key[]): void {
   document.addEventListener('keydown', (event) => {
     const name = nameOf(event), target = focused(event);
     if (document.querySelector('dialog[open]')) return;  // it closes itself at Esc
     if (event.isComposing || isText(target) || (isList(target) && name.length === 1)) return;
+    if (name === ' ' && isPressed(target)) return;
     if (name === 'Ctrl+c' && !getSelection()?.isCollapsed) return;
-    const found = keys.find((key) => key.go && key.keys.includes(name));
+    const found = keys().find((key) => key.go && key.keys.includes(name));
     if (!found) return;
     event.preventDefault();
     found.go!(name);
   });
 }
 
-const shown: Record<string, string> = {'Ctrl+Shift+z': 'Ctrl+Shift+Z', 'Ctrl+z': 'Ctrl+Z', 'Ctrl+c': 'Ctrl+C', Escape: 'Esc'};
+const shown: Record<string, string> = {'Ctrl+Shift+z': 'Ctrl+Shift+Z', 'Ctrl+z': 'Ctrl+Z', 'Ctrl+c': 'Ctrl+C', Escape: 'Esc', ' ': 'Space', 'Shift+,': 'Shift ,', 'Shift+.': 'Shift .'};
 
 export function fillHelp(dialog: HTMLElement, keys: Key[]): void {
   const rows = keys.flatMap(({keys: names, says}) => [make('dt', {}, ...names.map((name) => make('kbd', {textContent: shown[name] ?? name}))), make('dd', {textContent: says})]);

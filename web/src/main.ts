@@ -1,7 +1,7 @@
 // The page: what is open, what is asked of it, and who is told when an answer comes.
 import './app.css';
 import {AnswerPanel, withUnit} from './answer';
-import {type Json, Lost, Newest, Refused, Robot, robots, robotText, type Shipped, version} from './client';
+import {type Json, Lost, Newest, Refused, Robot, plans, robots, robotText, type Shipped, version} from './client';
 import {copy} from './clipboard';
 import {command} from './command';
 import {Connection} from './connection';
@@ -13,6 +13,7 @@ import {fillHelp, type Key, listen} from './keys';
 import {byId} from './make';
 import {margins, startOf} from './margins';
 import {forward, hasVelocity, inputsOf, inverse, isSolved, plain, poseOf, shape, velocity} from './questions';
+import {type ScreenName, Screens} from './screens';
 import {makeSheet} from './sheet';
 import {Shell} from './shell';
 import {type Solution, Solutions} from './solutions';
@@ -23,6 +24,7 @@ import {fromLink, History, numbersOf, type Side, type State, stateOf, toLink} fr
 import {Strip, type Touched} from './strip';
 import {Tabs} from './tabs';
 import {toast} from './toast';
+import {Trajectory} from './trajectory';
 import {VerdictBox, verdictOf, type Way} from './verdict';
 
 const protocol = 1;
@@ -67,6 +69,8 @@ class Page {
   private readonly strip = new Strip(byId('strip'), (value) => this.turn(this.touched.side, this.touched.index, value));
   private readonly solutions = new Solutions(byId('solutions'), (solution) => this.jump(solution));
   private readonly start = new Start(byId('start'), (name) => void this.choose(name), (task, again) => this.guarded(task, again));
+  private way: Trajectory | null = null;
+  private readonly screens = new Screens((name, isAsWas) => this.turnScreen(name, isAsWas));
   private readonly picker = byId<HTMLSelectElement>('robot');
   private readonly against = byId<HTMLSelectElement>('against');
 
@@ -78,13 +82,16 @@ class Page {
   }
 
   private async enter(): Promise<void> {
-    const link = new URLSearchParams(location.hash.slice(1)), wanted = link.get('robot');
-    const [says, {robots: shipped, opened}] = await Promise.all([version(), robots()]);
+    const link = new URLSearchParams(location.hash.slice(1) || location.search), wanted = link.get('robot');
+    const [says, {robots: shipped, opened}, {plans: listed}] = await Promise.all([version(), robots(), plans()]);
     if (says.protocol !== protocol) return this.shell.say(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
     this.shipped = shipped;
     for (const {name, title} of shipped) for (const list of [this.picker, this.against]) list.add(new Option(title, name));
     this.against.add(new Option('nothing', ''), 0);
     this.against.value = this.picker.value = '';
+    if (listed.length > 0) this.offerPlans(listed);
+    if (this.way && (link.has('plan') || (!wanted && !opened))) return this.showPlan(link);
+    if (link.has('plan')) this.shell.say('the link shows a plan: start sinew serve with --scene and --plan');
     if (opened && (!wanted || wanted === opened.name)) return this.open(opened.name, opened.text, link);
     if (this.ships(wanted)) return this.choose(wanted!, link);
     const draft = wanted ? drafts.of(wanted) : null;
@@ -93,7 +100,27 @@ class Page {
     this.start.show(shipped);
   }
 
+  /** Those of the screen that is shown. */
   private keys(): Key[] {
+    const on = (keys: string[], says: string, go: (key: string) => void): Key => ({keys, says, go}), isDesign = this.screens.shown === 'design';
+    return [
+      ...(isDesign ? this.designKeys() : this.way!.keys()),
+      ...(this.way ? [on(['Alt+1', 'Alt+4'], 'the robot, its plan', (key) => this.screens.show(key === 'Alt+1' ? 'design' : 'trajectory'))] : []),
+      on(['Ctrl+c'], 'copy the command, where nothing is selected', () => this.copyCommand()),
+      on(['u'], 'units', () => this.shell.toggleUnits()),
+      on(['d'], 'day or dark', () => this.shell.nextTheme()),
+      on(['?'], 'these keys', () => this.help()),
+      ...(isDesign ? [{keys: ['← →'], says: 'in a slider 1 % of its range, with Shift 10 %, with Alt 0.1 %; Home and End its limits, 0 its home, a digit opens the number box'}] : []),
+      {keys: ['← → ↑ ↓', '+ −'], says: 'in the picture: turn it, zoom'},
+    ];
+  }
+
+  private help(): void {
+    fillHelp(byId('keys'), this.keys());
+    this.shell.help();
+  }
+
+  private designKeys(): Key[] {
     const on = (keys: string[], says: string, go: (key: string) => void): Key => ({keys, says, go});
     const {picture} = this.stage;
     return [
@@ -102,27 +129,21 @@ class Page {
       on(['g'], 'keep this pose as a ghost, or let it go', () => this.keep()),
       on(['Ctrl+z'], 'undo', () => this.back(this.history.undo(this.state))),
       on(['Ctrl+Shift+z', 'Ctrl+y'], 'redo', () => this.back(this.history.redo(this.state))),
-      on(['Ctrl+c'], 'copy the command, where nothing is selected', () => this.copyCommand()),
       on(['c'], 'copy the pose', () => this.copyPose()),
       on(['f'], 'all in view', () => picture.fit()),
       on(views.map(([key]) => key), 'from the side, above, the front, the tip', (key) => this.stage.view(views.find(([of]) => of === key)![1])),
       on(['o'], 'parallel lines stay parallel, or not', () => picture.toggleProjection()),
       on(['p'], 'save the picture', () => this.save()),
-      on(['u'], 'units', () => this.shell.toggleUnits()),
-      on(['d'], 'day or dark', () => this.shell.nextTheme()),
       on(['['], 'the panel of what is asked', () => this.shell.toggleLeft()),
       on([']'], 'the panel of the answer', () => this.shell.toggleDrawer()),
-      on(['?'], 'these keys', () => this.shell.help()),
       on(['Escape'], 'close what is on top', () => this.start.isShown && this.robot ? this.start.hide() : this.shell.toggleDrawer(false)),
-      {keys: ['← →'], says: 'in a slider 1 % of its range, with Shift 10 %, with Alt 0.1 %; Home and End its limits, 0 its home, a digit opens the number box'},
-      {keys: ['← → ↑ ↓', '+ −'], says: 'in the picture: turn it, zoom'},
     ];
   }
 
   private listen(): void {
-    const keys = this.keys(), chooser = byId<HTMLInputElement>('chooser');
-    listen(keys);
-    fillHelp(byId('keys'), keys);
+    const chooser = byId<HTMLInputElement>('chooser');
+    listen(() => this.keys());
+    byId('help').addEventListener('click', () => this.help());
     makeSheet(byId('left'), byId('handle'));
     this.stage.picture.grabbed = (position, isEnd) => this.drag(position, isEnd);
     this.picker.addEventListener('change', () => void this.choose(this.picker.value));
@@ -145,6 +166,36 @@ class Page {
       event.preventDefault();
       this.openFile(event.dataTransfer?.files[0]);
     });
+  }
+
+  // Screens
+
+  private offerPlans(listed: Json[]): void {
+    this.way = new Trajectory(listed, {
+      system: () => this.shell.system, say: (text) => this.shell.say(text), heard: () => this.heard(), guarded: (task, again) => this.guarded(task, again),
+      changed: () => {
+        this.command();
+        this.link();
+      },
+      save: (picture, name) => this.stage.give(picture, name),
+    });
+    this.screens.offer();
+  }
+
+  private showPlan(link: URLSearchParams): void {
+    this.screens.show('trajectory', false);
+    this.way!.open(link);
+  }
+
+  /** @param isAsWas as it was left; else a link says what is in it */
+  private turnScreen(name: ScreenName, isAsWas: boolean): void {
+    if (name === 'design') this.way!.leave();
+    if (isAsWas && name === 'design' && !this.robot) this.start.show(this.shipped);
+    if (isAsWas && name === 'trajectory' && !this.way!.isOpen) this.way!.open(new URLSearchParams());
+    byId('source').textContent = name === 'design' ? 'SLIDERS' : 'PLAN';
+    this.entitle();
+    this.command();
+    this.link();
   }
 
   // What is open
@@ -259,8 +310,9 @@ class Page {
       option.textContent = source?.isModified && option.value === source.name ? `${title} (modified)` : title;
     }
     this.picker.value = source?.name ?? '';
-    document.title = source ? `${source.label} – sinew` : 'sinew';
-    byId('needs').hidden = !source?.needsFile;
+    const isDesign = this.screens.shown === 'design', title = isDesign ? source?.label : this.way?.title;
+    document.title = title ? `${title} – sinew` : 'sinew';
+    byId('needs').hidden = !isDesign || !source?.needsFile;
     if (source) byId('needs').textContent = `save ${source.word} first:`;
   }
 
@@ -280,6 +332,8 @@ class Page {
     const link = new URLSearchParams(hash.slice(1));
     clearTimeout(this.linked);
     const name = link.get('robot');
+    if (this.way && link.has('plan')) return this.showPlan(link);
+    if (name) this.screens.show('design', false);
     if (this.ships(name) || (name && name === this.source?.name)) await this.choose(name!, link);
     else if (name) this.shell.say(`the link shows ${name}: open its file`);
   }
@@ -501,10 +555,14 @@ class Page {
     this.write();
     this.command();
     this.link();
-    this.shell.connected(true);
-    this.connection.answered();
+    this.heard();
     document.documentElement.dataset.answers = String(++this.count);  // what tests wait for
     this.shell.say(`${answer.status ?? 'refused'} · ${(performance.now() - begin).toFixed(0)} ms · ${this.count} answers`);
+  }
+
+  private heard(): void {
+    this.shell.connected(true);
+    this.connection.answered();
   }
 
   private write(): void {
@@ -529,19 +587,27 @@ class Page {
   }
 
   private command(): void {
-    if (this.described) byId('command').textContent = command(this.source!, this.described, this.state, this.started);
+    if (this.screens.shown === 'trajectory') byId('command').textContent = this.way!.command();
+    else if (!this.described) byId('command').textContent = '';
+    else byId('command').textContent = command(this.source!, this.described, this.state, this.started);
   }
 
   /** The address says what is shown; browsers slow down pages that write it all the time. */
   private link(): void {
     clearTimeout(this.linked);
     this.linked = window.setTimeout(() => {
-      if (!this.described) return;
+      const way = this.screens.shown === 'trajectory' && this.way!.toLink();
+      if (way) return this.address(way);
+      if (!this.described || this.screens.shown === 'trajectory') return;
       const link = toLink(this.source!.name, this.state, this.described, this.started);
       this.source!.toLink(link);
       this.stage.toLink(link);
-      history.replaceState(null, '', `#${link.toString().replaceAll('%2C', ',')}`);
+      this.address(link);
     }, 200);
+  }
+
+  private address(link: URLSearchParams): void {
+    history.replaceState(null, '', `${location.pathname}#${link.toString().replaceAll('%2C', ',')}`);
   }
 
   private paint(): void {
@@ -550,6 +616,7 @@ class Page {
     this.controls.use(system);
     this.strip.use(system);
     this.write();
+    this.way?.paint();
   }
 
   private keep(): void {
@@ -597,6 +664,7 @@ class Page {
 
   private copyCommand(): void {
     const {described, source} = this;
+    if (this.screens.shown === 'trajectory') return void copy(byId('command').textContent ?? '', 'command copied, for where the server was started');
     if (!described) return toast('no robot is open yet');
     void copy(byId('command').textContent ?? '', source!.needsFile ? `command copied; it needs ${source!.word}, to be saved` : 'command copied');
   }
@@ -626,7 +694,7 @@ class Page {
       if (error instanceof Lost) {
         this.shell.connected(false);
         this.unanswered(error.message);
-        return this.connection.lost(() => this.question === this.answered || !this.robot ? again?.() : this.ask());
+        return this.connection.lost(() => this.question === this.answered || !this.robot || this.screens.shown === 'trajectory' ? again?.() : this.ask());
       }
       if (!(error instanceof Refused)) return this.failed(error);
       if (!error.isBusy || !again) {

@@ -23,8 +23,8 @@ export interface Pen {
   dot(point: Point, look: Look): void;
   /** The inside of an outline that bends nowhere inwards. */
   fill(points: Point[], look: Look): void;
-  /** Of an answer to `shape`: the pose of its lower face, height and radius. */
-  disc(disc: Json, body: string, rim: string): void;
+  /** Of an answer to `shape`: the pose of its lower face, height and radius. @param hidden colour of what solids hide of it; none: it is hidden */
+  disc(disc: Json, body: string, rim: string, hidden?: string): void;
   end(): void;
 }
 

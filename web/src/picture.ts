@@ -20,8 +20,23 @@ export interface Drawing {
   isUnstable: boolean;
   directions: number[][];  ///< unstable ones: twists [v, ω]
   meeting: number[] | null;  ///< where the legs' lines meet at a type II
+  around?: Around;           ///< of a robot that goes in
   wrench: number[] | null;   ///< on the platform [N, N m]; planar [fx, fy, m]
 }
+
+/** What is around a robot that goes in, in the axes of the scene [m]. */
+export interface Around {
+  trail: number[][];       ///< the way of the tip
+  target: {tip: number[]; direction: number[] | null; tolerance: number};
+  port: {position: number[]; radius: number} | null;
+  axis: number[];          ///< in which it goes in
+  tip: {position: number[]; direction: number[]};  ///< here
+  near: {from: number[]; to: number[]; says: string; isBad: boolean; solid: number} | null;  ///< where robot and solids are nearest
+  extent: number[][];      ///< what a fit has in view
+}
+
+/** Closed surfaces, one after the other: `counts` triangles of each. */
+export interface Solids { positions: Float32Array; indices: Uint32Array; counts: number[] }
 
 export interface Picture {
   readonly canvas: Element;
@@ -35,6 +50,8 @@ export interface Picture {
   draw(drawing: Drawing): void;
   fit(view?: View): void;                  ///< all of it in view
   show(layer: Layer, is: boolean): void;
+  solids(solids: Solids | null): void;
+  isCut: boolean;                          ///< of solids what lies before the tip is left out
   toggleProjection(): void;                ///< orthographic or perspective
   camera: string;                          ///< short text for a link. Once set, the next drawing is seen so; empty: it is fitted
   notScaled: boolean;                      ///< rods are drawn thicker than they are

@@ -1,5 +1,6 @@
 // The picture of a robot without WebGL: the same lines by SVG.
 import {Figure} from './figure';
+import type {Solids} from './picture';
 import {withText} from './png';
 import {makeSvg, shapeOf, SvgPen} from './svg_pen';
 
@@ -8,11 +9,14 @@ export class PlainPicture extends Figure {
   protected override readonly isFlat = true;
   protected readonly pen = new SvgPen(this.canvas, (point) => this.lookout.project(point));
 
+  private readonly banner: HTMLElement;
+
   constructor(box: HTMLElement) {
     super(box);
     const banner = document.createElement('p');
     banner.className = 'simplified';
     banner.textContent = '3-D simplified: no WebGL';
+    this.banner = banner;
     box.prepend(this.canvas, banner);
   }
 
@@ -31,6 +35,10 @@ export class PlainPicture extends Figure {
     this.labels.paint(context, 2);
     const picture = await new Promise<Blob | null>((done) => large.toBlob(done, 'image/png'));
     return withText(picture!, 'sinew', command);
+  }
+
+  override solids(solids: Solids | null): void {
+    this.banner.textContent = `3-D simplified: no WebGL${solids ? '; solids are not drawn' : ''}`;
   }
 
   protected override resize(): void {

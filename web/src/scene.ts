@@ -3,7 +3,9 @@ import {AmbientLight, Camera as Eye, Color, DirectionalLight, HemisphereLight, S
 import {Figure} from './figure';
 import {GlPen} from './gl_pen';
 import {Pace} from './pace';
+import type {Solids} from './picture';
 import {withText} from './png';
+import {Surfaces} from './surfaces';
 import {length, minus, plus} from './vector';
 import {webgl} from './webgl';
 
@@ -16,6 +18,7 @@ export class Scene extends Figure {
   private readonly eye = new Eye();
   private readonly lamp = new DirectionalLight(0xffffff, 1.4);
   private readonly pace = new Pace();
+  private surfaces: Surfaces | null = null;
 
   constructor(box: HTMLElement) {
     super(box);
@@ -34,7 +37,18 @@ export class Scene extends Figure {
 
   override paint(style: CSSStyleDeclaration): void {
     super.paint(style);
+    this.surfaces?.paint(style);
     this.world.background = new Color(this.colours.scene);
+  }
+
+  override solids(solids: Solids | null): void {
+    if (this.surfaces) this.world.remove(this.surfaces);
+    this.surfaces?.free();
+    this.surfaces = solids && new Surfaces(solids);
+    this.renderer.localClippingEnabled = !!solids;
+    if (this.surfaces) this.world.add(this.surfaces);
+    this.surfaces?.paint(getComputedStyle(document.documentElement));
+    this.change();
   }
 
   async save(command: string): Promise<Blob> {
@@ -59,6 +73,11 @@ export class Scene extends Figure {
   protected render(): void {
     const {lookout, eye, renderer} = this;
     this.pen.resize(lookout.width, lookout.height, renderer.getPixelRatio(), lookout.pixels, this.aim());
+    const around = this.drawing?.around;
+    if (this.surfaces && around) {
+      this.surfaces.mark(around.near?.isBad ? around.near.solid : -1);
+      this.surfaces.cut(this.isCut ? around.tip.position : null, lookout.back);
+    }
     renderer.render(this.world, eye);
   }
 

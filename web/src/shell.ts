@@ -11,7 +11,6 @@ export class Shell {
   constructor(private readonly changed: () => void) {
     byId('units').addEventListener('click', () => this.toggleUnits());
     byId('theme').addEventListener('click', () => this.nextTheme());
-    byId('help').addEventListener('click', () => this.help());
     byId('drawer').addEventListener('click', () => this.toggleDrawer());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.paint());
     this.theme();

@@ -82,7 +82,11 @@ export class Stage {
 
   /** @param text that goes with it */
   async save(name: string, text: string): Promise<void> {
-    const url = URL.createObjectURL(await this.picture.save(text));
+    this.give(await this.picture.save(text), name);
+  }
+
+  give(picture: Blob, name: string): void {
+    const url = URL.createObjectURL(picture);
     make('a', {href: url, download: `${name}.png`}).click();
     setTimeout(() => URL.revokeObjectURL(url), 1000);
     toast('picture saved, with its command in it');

@@ -16,6 +16,13 @@ const verdicts: Record<string, Verdict> = {
   iteration_limit: {word: 'LIMIT REACHED', shape: '⊗', state: 'over', advice: 'Raise the limit of iterations under Model.'},
   stopped: {word: 'STOPPED', shape: '■', state: 'stale', advice: 'It was ended before it was solved. Ask again, or take a smaller step.'},
   bad_input: {word: 'BAD INPUT', shape: '⊗', state: 'over', advice: 'These numbers do not fit this robot: go back, or Home.'},
+  // Of a plan
+  clear: {word: 'CLEAR', shape: '●', state: 'exact', advice: ''},
+  clear_if_taut: {word: 'CLEAR ONLY IF TAUT', shape: '▼', state: 'slack', advice: 'As planned it touches nothing; with slack tendons or a model error it may.'},
+  touches: {word: 'TOUCHES', shape: '⊗', state: 'over', advice: 'Press E for the steps where it does.'},
+  limit_exceeded: {word: 'LIMIT EXCEEDED', shape: '⊗', state: 'over', advice: 'Press E for the steps where it is.'},
+  checking: {word: 'CHECKING…', shape: '…', state: 'stale', advice: 'The steps are those of the file; what they touch is not known yet.'},
+  unknown_plan: {word: 'NO SUCH PLAN', shape: '?', state: 'stale', advice: ''},
   // The page's own words, where nobody has answered
   solving: {word: 'SOLVING…', shape: '…', state: 'stale', advice: 'The picture is still of the numbers before.'},
   not_answered: {word: 'NOT ANSWERED', shape: '?', state: 'stale', advice: 'The picture is of the numbers before.'},

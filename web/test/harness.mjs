@@ -1,4 +1,5 @@
 // What the tests of the page share: a server, a browser in which nothing may go wrong, and waiting.
+import axe from 'axe-core';
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
 import {mkdirSync, writeFileSync} from 'node:fs';
@@ -187,3 +188,10 @@ export const fill = async (page, id, text) => {
 };
 
 export const tab = (page, name) => page.getByRole('tab', {name}).click();
+
+/** The rules of axe. */
+export async function audit(page, what) {
+  if (!await page.evaluate(() => 'axe' in window)) await page.evaluate(axe.source);
+  const {violations} = await page.evaluate(() => window.axe.run(document, {resultTypes: ['violations'], runOnly: ['wcag2a', 'wcag2aa', 'wcag21aa', 'best-practice'], rules: {'page-has-heading-one': {enabled: false}}}));
+  assert.deepEqual(violations.map(({id, nodes}) => `${what}: ${id}: ${nodes.map((node) => node.target.join(' ')).slice(0, 4).join(', ')}`), []);
+}

@@ -1,7 +1,6 @@
 // Sizes, colours and what a screen reader finds.
-import axe from 'axe-core';
 import assert from 'node:assert/strict';
-import {fits, open, rested, shot, tab, then} from './harness.mjs';
+import {audit, fits, open, rested, shot, tab, then} from './harness.mjs';
 
 const channel = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
 const luminance = (hex) => {
@@ -37,12 +36,6 @@ export async function contrasts(browser, url) {
     check(['tendon-1', 'tendon-2', 'tendon-3', 'tendon-4'], ['scene', 'panel'], 3);
   }
   await done();
-}
-
-async function audit(page, what) {
-  if (!await page.evaluate(() => 'axe' in window)) await page.evaluate(axe.source);
-  const {violations} = await page.evaluate(() => window.axe.run(document, {resultTypes: ['violations'], runOnly: ['wcag2a', 'wcag2aa', 'wcag21aa', 'best-practice'], rules: {'page-has-heading-one': {enabled: false}}}));
-  assert.deepEqual(violations.map(({id, nodes}) => `${what}: ${id}: ${nodes.map((node) => node.target.join(' ')).slice(0, 4).join(', ')}`), []);
 }
 
 /** Rules of accessibility, by axe, on each tab at both sizes and in both themes, and on the start. */

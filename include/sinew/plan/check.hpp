@@ -4,6 +4,7 @@
 #pragma once
 #include <chrono>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -68,5 +69,8 @@ struct InsertionCheckOptions {
 /// `touches`, without steps
 SINEW_API InsertionCheck check_insertion(const InsertionScene& scene, std::span<const InsertionStep> steps,
                                          const InsertionCheckOptions& options = {});
+
+/// Which limit a step exceeds, of a bend or of the stage, in words; empty: none.
+SINEW_API std::string exceeded_limit(const InsertionScene& scene, const InsertionStep& step);
 
 }  // namespace sinew::inline v0

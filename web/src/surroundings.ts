@@ -1,0 +1,31 @@
+// What is around a robot that goes in: its port, its target, the way of its tip, where it is nearest to a solid.
+import type {Setting} from './compose';
+import type {Labels} from './labels';
+import type {Pen} from './pen';
+import type {Around} from './picture';
+import {across, length, minus, plus} from './vector';
+
+const leastRing = 7;  // pixels of the target's radius
+
+export function surroundings({trail, target, port, axis, near}: Around, pen: Pen, labels: Labels, {colours, pixels}: Setting): void {
+  const metres = 1 / pixels, target_look = {colour: colours.exact, width: 2, isAbove: true};
+  if (port) {
+    const [u, v] = across(axis);
+    pen.circle(port.position, u, v, port.radius, {colour: colours.text, width: 1.5, isAbove: true});
+  }
+  if (trail.length > 1) pen.line(trail, {colour: colours.accent, width: 1.6, dash: [2, 4], isAbove: true});
+  const [u, v] = across(target.direction ?? axis), radius = Math.max(target.tolerance, leastRing * metres);
+  pen.circle(target.tip, u, v, radius, target_look);
+  for (const way of [u, v]) for (const sign of [1, -1]) pen.line([plus(target.tip, way, 0.4 * sign * radius), plus(target.tip, way, 1.6 * sign * radius)], target_look);
+  if (target.direction) {
+    const end = plus(target.tip, target.direction, 30 * metres);
+    pen.line([target.tip, end], target_look);
+    pen.head(end, plus(end, target.direction, 8 * metres), {...target_look, width: 8});
+  }
+  if (!near) return;
+  const colour = near.isBad ? colours.over : colours.text;
+  if (length(minus(near.from, near.to)) > 0) pen.line([near.from, near.to], {colour, width: 2.5, isAbove: true});
+  pen.dot(near.to, {colour: colours.card, width: 9, isAbove: true});
+  pen.dot(near.to, {colour, width: 7, isAbove: true});
+  labels.put(near.says, near.to, near.isBad ? 'near bad' : 'near');
+}
