@@ -1,11 +1,13 @@
-/// Ways into the stand-in for a compressor by five seeds, and into ten that are drawn at random. Each way is
-/// checked by FCL. Run: build/dev/bin/bench_insertion [SCENES]
+/// Ways into the stand-in for a compressor by five seeds, into ten that are drawn at random, and through
+/// plates with holes, easier and harder. Each way is checked by FCL. Run: build/dev/bin/bench_insertion
+/// [SCENES]
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
 
+#include "scenes.hpp"
 #include "sinew/io/serial_file.hpp"
 #include "sinew/plan/compressor.hpp"
 #include "sinew/plan/insertion.hpp"
@@ -36,10 +38,11 @@ double run(const std::string& name, const InsertionScene& scene, std::uint64_t s
 }
 
 void summary(const char* what, std::vector<double> seconds) {
+  const std::size_t tried = seconds.size();
   std::erase_if(seconds, [](double s) { return s < 0; });
   std::sort(seconds.begin(), seconds.end());
-  if (seconds.empty()) return fmt::print("{}: none found\n", what);
-  fmt::print("{}: {} found; median {:.2f} s, slowest {:.2f} s\n", what, seconds.size(),
+  if (seconds.empty()) return fmt::print("{}: none of {} found\n", what, tried);
+  fmt::print("{}: {} of {} found; median {:.2f} s, slowest {:.2f} s\n", what, seconds.size(), tried,
              seconds[seconds.size() / 2], seconds.back());
 }
 
@@ -58,4 +61,13 @@ int main(int argc, char** argv) {
     seconds.push_back(bench::run(fmt::format("drawn {}", scene),
                                  bench::scene_of(drawn_compressor(static_cast<std::uint64_t>(scene))), 1));
   bench::summary(fmt::format("{} drawn scenes", scenes).c_str(), seconds);
+  for (const auto& [name, slalom] : {std::pair{"4 holes of 10 mm", test::Slalom{}},
+                                     {"5 holes of 11 mm", {5, 11e-3, 10e-3, 28e-3}},
+                                     {"4 holes of 10 mm, farther off", {4, 10e-3, 14e-3, 30e-3}}}) {
+    seconds.clear();
+    for (int scene = 1; scene <= scenes; ++scene)
+      seconds.push_back(bench::run(fmt::format("holes {}", scene),
+                                   test::slalom_of(slalom, static_cast<std::uint64_t>(scene)), 1));
+    bench::summary(name, seconds);
+  }
 }

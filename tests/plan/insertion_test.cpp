@@ -92,6 +92,15 @@ TEST(Insertion, FindsAWayIntoTheStandIn) {
   }
 }
 
+/// Holes not much wider than the robot, one after the other and not in line.
+TEST(Insertion, FindsAWayThroughASlalom) {
+  for (std::uint64_t seed = 1;
+       seed <= static_cast<std::uint64_t>(addresses_are_checked ? 1 : count_of(2, 10)); ++seed) {
+    const InsertionScene scene = slalom_of({}, seed);
+    expect_good(scene, plan_insertion(scene));
+  }
+}
+
 TEST(Insertion, DoesNotDependOnThreads) {
   const InsertionScene scene = compressor_of(Compressor{});
   InsertionOptions options;

@@ -2,6 +2,10 @@
 /// Scenes of tests of insertion.
 #pragma once
 #include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <string>
 #include <vector>
 
 #include "sinew/io/serial_file.hpp"
@@ -30,6 +34,45 @@ inline Mesh named(Mesh mesh, const char* name, const Vec3<double>& position) {
 /// The stand-in for a compressor, without its files.
 inline InsertionScene compressor_of(const Compressor& compressor) {
   return compressor_scene(compressor, load_serial(compressor.robot).value());
+}
+
+/// Plates of 3 mm across the way, each with a square hole beside that of the one before, and the target
+/// behind the last. [m]
+struct Slalom {
+  int plates = 4;
+  double hole = 10e-3;    ///< side of a hole; the robot with its clearance is 7 mm thick
+  double offset = 10e-3;  ///< from hole to hole, at most; 0.4 of it at least
+  double gap = 30e-3;     ///< between the middles of plates
+};
+
+inline InsertionScene slalom_of(const Slalom& slalom, std::uint64_t seed) {
+  InsertionScene scene = open_scene();
+  scene.name = "slalom " + std::to_string(seed);
+  scene.base.p = Vec3<double>(0, 0, -0.18);
+  scene.stage_limit = 0.18;
+  std::mt19937_64 random(seed);  // whose numbers the standard says
+  const auto draw = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  const auto away = [&](double distance) {
+    const double angle = draw(0, 2 * std::numbers::pi);
+    return Vec3<double>(distance * std::cos(angle), distance * std::sin(angle), 0);
+  };
+  constexpr double wide = 90e-3, thick = 3e-3;
+  const double half = slalom.hole / 2, out = half + wide / 2;
+  Vec3<double> hole(0, 0, 8e-3);
+  for (int k = 0; k < slalom.plates; ++k) {
+    if (k > 0) hole = hole + away(draw(0.4, 1) * slalom.offset) + Vec3<double>(0, 0, slalom.gap);
+    for (const double side : {-1.0, 1.0}) {
+      const std::string name = "plate-" + std::to_string(k) + (side < 0 ? "-low" : "-high");
+      scene.solids.push_back(named(box_mesh({wide, 2 * wide, thick}), (name + "-x").c_str(),
+                                   Vec3<double>(hole + Vec3<double>(side * out, 0, 0))));
+      scene.solids.push_back(named(box_mesh({2 * half, wide, thick}), (name + "-y").c_str(),
+                                   Vec3<double>(hole + Vec3<double>(0, side * out, 0))));
+    }
+  }
+  scene.target.tip = hole + away(8e-3) + Vec3<double>(0, 0, draw(15e-3, 25e-3));
+  return scene;
 }
 
 inline double distance_of(const Vec3<double>& a, const Vec3<double>& b) {
