@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <numbers>
 #include <unordered_map>
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
+#include "plan/mesh_file.hpp"
 #include "sinew/io/table.hpp"
 
 namespace sinew::inline v0 {
@@ -153,41 +150,25 @@ Expected<Mesh> read_mesh(const std::filesystem::path& path, double unit) {
     return failure("file_missing", path.string(), "there is no such file");
   if (!std::filesystem::is_regular_file(path, missing))
     return failure("file_unreadable", path.string(), "it is no file");
-  Assimp::Importer importer;
-  // faces of more than three corners; nothing else: what is degenerate is to be seen, not repaired
-  const aiScene* read =
-      importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
-  if (read == nullptr) return failure("file_unreadable", path.string(), importer.GetErrorString());
-  std::size_t count = 0;
-  for (unsigned m = 0; m < read->mNumMeshes; ++m) count += read->mMeshes[m]->mNumFaces;
-  if (count > triangle_limit)
-    return failure("mesh_too_large", path.string(),
-                   fmt::format("{} triangles; at most {}", count, triangle_limit));
+  const auto corners = read_triangles(path);
+  if (!corners) return tl::unexpected(corners.error());
   Mesh mesh;
   mesh.name = path.stem().string();
   double size = 0;
-  for (unsigned m = 0; m < read->mNumMeshes; ++m)
-    for (unsigned i = 0; i < read->mMeshes[m]->mNumVertices; ++i) {
-      const aiVector3D& v = read->mMeshes[m]->mVertices[i];
-      size = std::max({size, std::abs(static_cast<double>(v.x)), std::abs(static_cast<double>(v.y)),
-                       std::abs(static_cast<double>(v.z))});
-    }
-  if (!std::isfinite(size))
-    return failure("mesh_not_finite", path.string(), "a vertex is not a finite number");
+  for (const float x : *corners) {
+    if (!std::isfinite(x))
+      return failure("mesh_not_finite", path.string(), "a vertex is not a finite number");
+    size = std::max(size, std::abs(static_cast<double>(x)));
+  }
   if (!(size > 0)) size = 1;
   Merger merger(mesh, size * unit * 1e-7);  // what floats tell apart
-  for (unsigned m = 0; m < read->mNumMeshes; ++m) {
-    const aiMesh& part = *read->mMeshes[m];
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // a point or a line bounds nothing
-      std::array<int, 3> triangle{};
-      for (unsigned i = 0; i < 3; ++i) {
-        const aiVector3D& v = part.mVertices[face.mIndices[i]];
-        triangle[i] = merger.index(Vec3<double>(v.x, v.y, v.z) * unit);
-      }
-      mesh.triangles.push_back(triangle);
+  for (std::size_t k = 0; k < corners->size(); k += 9) {
+    std::array<int, 3> triangle{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const float* x = &(*corners)[k + 3 * i];
+      triangle[i] = merger.index(Vec3<double>(x[0], x[1], x[2]) * unit);
     }
+    mesh.triangles.push_back(triangle);
   }
   return mesh;
 }
