@@ -84,6 +84,23 @@ TEST_F(Drive, WritesHdf5AndRosYaml) {
   EXPECT_EQ(line, "# trajectory_msgs/msg/JointTrajectory; m, rad, s");
 }
 
+/// The whole way: postures, times, frames on the line, counts of the drives. A thousand a second.
+TEST_F(Drive, TheFirmwareFollowsToTheCount) {
+  const std::filesystem::path elf =
+      std::filesystem::path(command_path).parent_path() / "sinew-firmware-insertion.elf";
+  if (!std::filesystem::exists(elf)) GTEST_SKIP() << "the firmware is not built";
+  ASSERT_EQ(
+      drive({"-o", "d.csv", "-q", "--rate", "1000", "--limits", "stage_speed=20 mm/s, bend_acceleration=10",
+             "--set", R"(motor={"lead": "2 mm", "counts": 4096})", "--stage-motor",
+             "{lead: 5 mm, counts: 2000}"})
+          .exit,
+      0);
+  const Outcome played = run_shell("sinew-simulate '" + elf.string() + "' --play d.csv", here.path());
+  EXPECT_EQ(played.exit, 0) << played.err;
+  const std::string rows = std::to_string(table("d.csv").row_count());
+  EXPECT_NE(played.out.find(rows + " of " + rows), std::string::npos) << played.out;
+}
+
 TEST_F(Drive, RefusesWithAReason) {
   write("far.csv", plan(3, 3));
   write("nan.csv", plan(2, std::nan("")));
