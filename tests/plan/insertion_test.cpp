@@ -84,8 +84,9 @@ void expect_good(const InsertionScene& scene, const InsertionPlan& plan) {
 
 TEST(Insertion, FindsAWayIntoTheStandIn) {
   const InsertionScene scene = compressor_of(Compressor{});
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(addresses_are_checked ? 1 : count_of(1, 5));
-       ++seed) {
+  // seed 1 is that of lsk/fig12, tested with the command
+  const bool is_short = addresses_are_checked || !test::is_thorough();
+  for (std::uint64_t seed = is_short ? 2 : 1; seed <= (is_short ? 2U : 5U); ++seed) {
     InsertionOptions options;
     options.seed = seed;
     expect_good(scene, plan_insertion(scene, options));
@@ -102,9 +103,8 @@ TEST(Insertion, FindsAWayThroughASlalom) {
 }
 
 TEST(Insertion, DoesNotDependOnThreads) {
-  const InsertionScene scene = compressor_of(Compressor{});
+  const InsertionScene scene = slalom_of({}, 3);  // several ways are tried there
   InsertionOptions options;
-  options.seed = 3;
   options.threads = 1;
   const InsertionPlan one = plan_insertion(scene, options);
   options.threads = 3;
