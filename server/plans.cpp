@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <mutex>
@@ -162,9 +163,15 @@ void Plans::State::check() {
     InsertionCheckOptions options;
     options.threads = std::max(1U, std::thread::hardware_concurrency() / 2);
     options.stop = StopToken(is_stopped);
-    const InsertionCheck check = check_insertion(scene, plan.steps, options);
-    if (check.is_stopped) return;
-    Json json = json_of(check);
+    Json json;
+    try {
+      const InsertionCheck check = check_insertion(scene, plan.steps, options);
+      if (check.is_stopped) return;
+      json = json_of(check);
+    } catch (const std::exception& error) {  // of FCL, or of memory: the other plans and the server go on
+      std::fprintf(stderr, "sinew serve: the check of a plan failed: %s\n", error.what());
+      continue;
+    }
     const std::lock_guard lock(mutex);
     plan.check = std::move(json);
   }

@@ -61,7 +61,7 @@ void set_limit(std::string_view change, TrajectoryLimits& limits, Errors& errors
   if (!value)
     errors.push_back({value.error().front().code, "--limits " + name, value.error().front().message});
   else if (!(*value > 0 && *value < 1e9))
-    errors.push_back({"out_of_range", "--limits " + name, "has to be above 0"});
+    errors.push_back({"out_of_range", "--limits " + name, "has to be above 0, and below 1e9 in SI"});
   else
     limits.*(found->value) = *value;
 }
@@ -125,6 +125,14 @@ int run_drive(const Arguments& arguments) {
   const auto stage_motor = read_stage_motor(arguments, errors);
   const auto model = tendon_model(arguments);
   if (!model) errors.insert(errors.end(), model.error().begin(), model.error().end());
+  const fs::path output = arguments.has("output")
+                              ? fs::path(*arguments.text("output"))
+                              : fs::path(*arguments.text("along")).replace_extension().concat(".drive.csv");
+  const bool is_ros = output.extension() == ".yaml";
+  for (const char* option : {"model", "stage-motor"})
+    if (is_ros && arguments.has(option))
+      errors.push_back({"no_effect", fmt::format("--{}", option),
+                        "without effect on a JointTrajectory, which has no counts; leave it out"});
   if (!errors.empty()) return refuse("drive", errors);
   const auto robot = open_serial(arguments);
   if (!robot) return refuse("drive", robot.error());
@@ -138,17 +146,16 @@ int run_drive(const Arguments& arguments) {
     message(fmt::format("sinew drive: {}: {}", file, trajectory.report.message.view()));
     return no_solution;
   }
-  const fs::path output = arguments.has("output") ? fs::path(*arguments.text("output"))
-                                                  : fs::path(file).replace_extension().concat(".drive.csv");
   Expected<void> written;
-  if (output.extension() == ".yaml")
+  if (is_ros)
     written = write_text(ros_trajectory(*robot, trajectory), output);
   else {
     Table table = trajectory_table(*robot, trajectory, *model, stage_motor);
     table.comments = {fmt::format("sinew {}: drive along {}", version(), fs::path(file).filename().string()),
                       fmt::format("robot: {}", robot->name),
-                      fmt::format("duration: {} s", si_text(trajectory.duration)),
-                      fmt::format("counts: {}", *model == kernel::Model::exact ? "pcc" : "lsk")};
+                      fmt::format("duration: {} s", si_text(trajectory.duration))};
+    if (robot->motor)
+      table.comments.push_back(fmt::format("counts: {}", *model == kernel::Model::exact ? "pcc" : "lsk"));
     written = write_result(table, output);
   }
   if (!written) return refuse("drive", written.error());

@@ -51,6 +51,9 @@ std::string taut_text(const InsertionScene& scene, const InsertionCheck& check) 
     text += fmt::format(", {} of weight instead of {}",
                         human(check.allowed_share * scene.weight->by_length, Dimension::line_load),
                         human(scene.weight->by_length, Dimension::line_load));
+  if (scene.model_error > 0)
+    text += fmt::format(", the model off by {} instead of {}", mm(check.allowed_share * scene.model_error),
+                        mm(scene.model_error));
   return text + '\n';
 }
 

@@ -69,8 +69,8 @@ Uint8 Uart::next = 0;
 }  // namespace firmware
 }  // namespace sinew
 
-/// A byte has come. A damaged one becomes 0, which no frame has, in ASCII or binary, and which ends none. One
-/// that finds the ring full is lost; the checksum tells.
+/// A byte has come. A damaged one becomes 0, which ends no frame, and one that finds the ring full is lost:
+/// in both cases the checksum tells.
 ISR(USART0_RX_vect, ISR_NAKED) {
   using sinew::firmware::Uart;
   asm volatile(

@@ -3,7 +3,8 @@
 /// and have none within: so whatever comes, the next newline is where the receiver knows again where it is.
 /// That is COBS (Cheshire and Baker, 1999) with the newline for its zero: in the place of each newline, and
 /// before the first byte, stands how far it is to the next. The high bit of that byte tells binary frames
-/// from ASCII. Table: firmware/README.md Freestanding C++14, no includes but its neighbours, no heap.
+/// from ASCII. Table: firmware/README.md.
+/// Freestanding C++14, no includes but its neighbours, no heap.
 #ifndef SINEW_FIRMWARE_BINARY_H
 #define SINEW_FIRMWARE_BINARY_H
 

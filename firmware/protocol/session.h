@@ -255,7 +255,8 @@ class Session {
       Counts measured;
       if (!read_drives(measured) || !is_plausible(measured)) return Error::drives;
       for (Uint8 i = 0; i < drive_count; ++i) setpoints_[i] = measured[i];
-      if (!exchange()) return Error::drives;
+      // The second says whether the drives have taken the first: they would leave for an older setpoint.
+      if (!exchange() || !exchange()) return Error::drives;
       damaged_in_a_row_ = 0;
       board_.enable(true);
       state_ = State::armed;

@@ -138,11 +138,13 @@ double Body::motion_bound(std::size_t i, std::span<const double> from, std::span
 }
 
 double Body::sag_bound(std::size_t i, const InsertionWeight& weight) const {
+  // GJ = EI/(1 + ν) of a round backbone, which is softest in torsion: ν ≤ 0.5
+  const double stiffness = weight.stiffness / 1.5;
   double sum = 0;
   for (std::size_t k = 0; k < i; ++k) {
     if (!pieces_[k].is_joint) continue;
     const double distal = arcs_.back() - arcs_[k], moment = weight.by_length * distal * distal / 2;
-    sum += moment / weight.stiffness * pieces_[k].length * (arcs_[i] - arcs_[k]);
+    sum += moment / stiffness * pieces_[k].length * (arcs_[i] - arcs_[k]);
   }
   return sum;
 }

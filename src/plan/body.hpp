@@ -56,7 +56,7 @@ class Body {
   double motion_bound(std::size_t i, std::span<const double> from, std::span<const double> to) const;
 
   /// How far point `i` sags at most: at each joint the moment of all that is distal of it, with arms as long
-  /// as the arc, bends the backbone; tendons that hold it as well are left out.
+  /// as the arc, bends and twists a round backbone; tendons that hold it as well are left out.
   double sag_bound(std::size_t i, const InsertionWeight& weight) const;
 
  private:

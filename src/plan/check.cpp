@@ -21,6 +21,7 @@
 #include "plan/deadline.hpp"
 #include "plan/obstacles.hpp"
 #include "plan/parallel.hpp"
+#include "sinew/analysis/tendon_limits.hpp"
 #include "sinew/kinematics/serial.hpp"
 
 namespace sinew::inline v0 {
@@ -182,13 +183,19 @@ bool is_clear_between(Examiner& examiner, const std::vector<double>& from, const
          is_clear_between(examiner, middle, to, least_motion, deadline, poses);
 }
 
-/// Of a tendon that passes the sections up to `m`: its tolerance, and what tension stretches it by.
+/// Of a tendon that passes the sections up to `m`: its tolerance, and what tension stretches it by where all
+/// sections are bent away from it as far as they can be, and it is longest.
 double uncertainty(const InsertionScene& scene, std::size_t m) {
-  double length = 0;
-  for (std::size_t k = 0; k <= m; ++k) length += scene.robot.sections[k].length();
   const auto& stretch = scene.robot.stretch;
-  return scene.robot.tolerance +
-         (stretch ? scene.tension * (length + stretch->outside) / stretch->stiffness : 0.0);
+  if (!stretch) return scene.robot.tolerance;
+  double length = tendon_length(scene.robot, static_cast<int>(m), stretch->outside);
+  for (std::size_t k = 0; k <= m; ++k) {
+    const Section& section = scene.robot.sections[k];
+    const double limit =
+        std::min(section.limit, section.is_twin() ? std::numbers::pi : section.segments * std::numbers::pi);
+    length += section.map().gain * limit * (section.is_twin() ? std::numbers::sqrt2 : 1.0);
+  }
+  return scene.robot.tolerance + scene.tension * length / stretch->stiffness;
 }
 
 /// How far every point of the robot may be off by its tendons, whatever it does. Tendons that pass several
@@ -316,8 +323,8 @@ InsertionCheck check_insertion(const InsertionScene& scene, std::span<const Inse
 std::string exceeded_limit(const InsertionScene& scene, const InsertionStep& step) {
   if (const Report report = check_limits(scene.robot, step.bends); !report.ok())
     return std::string(report.message.view());
-  if (step.stage <= scene.stage_limit) return {};
-  return fmt::format("the stage is at {:.3f} mm, its limit is {:.3f} mm", 1e3 * step.stage,
+  if (step.stage >= 0 && step.stage <= scene.stage_limit) return {};
+  return fmt::format("the stage is at {:.3f} mm, its limits are 0 and {:.3f} mm", 1e3 * step.stage,
                      1e3 * scene.stage_limit);
 }
 

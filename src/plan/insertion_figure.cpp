@@ -227,9 +227,10 @@ Figure insertion_curves(const InsertionScene& scene, std::span<const InsertionSt
                         const InsertionCheck& check) {
   Figure figure{
       .title = "", .panels = {}, .columns = 1, .width = 800, .height = 900, .comments = {provenance(scene)}};
-  const Axis stages{.label = "stage",
-                    .unit = "mm",
-                    .high = steps.empty() ? std::optional<double>() : mm * steps.back().stage};
+  Interval stages_of;
+  for (const InsertionStep& step : steps) stages_of.add(step.stage);
+  Axis stages{.label = "stage", .unit = "mm"};
+  if (stages_of.high > stages_of.low) stages.low = mm * stages_of.low, stages.high = mm * stages_of.high;
   Panel clearance{.title = "",
                   .x = stages,
                   .y = {.label = "clearance", .unit = "mm", .low = 0},

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cerrno>
 #include <chrono>
@@ -17,8 +18,10 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "sinew/io/visible.hpp"
 #include "sinew/plan/mesh.hpp"
@@ -27,26 +30,28 @@ namespace sinew::inline v0 {
 namespace {
 
 constexpr std::chrono::seconds longest{30};
-constexpr rlim_t most_memory = rlim_t{6} << 30;                            // [byte]
+constexpr rlim_t more_memory = rlim_t{6} << 30;                            // [byte]
 constexpr char has_triangles = 'T', is_too_large = 'L', has_failed = 'E';  // first byte of an answer
 
 /// Without the end of a header assimp's reader does not end either.
 bool has_ply_header(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string line;
-  for (int k = 0; k < 1000 && std::getline(file, line) && line.size() < 10'000; ++k) {
-    if (line.ends_with('\r')) line.pop_back();
-    if (k == 0 && line != "ply") return false;
-    if (line == "end_header") return true;
+  std::array<char, 10'000> line{};
+  for (int k = 0; k < 1000 && file.getline(line.data(), line.size()); ++k) {  // fails at a longer line
+    std::string_view text = line.data();
+    if (text.ends_with('\r')) text.remove_suffix(1);
+    if (k == 0 && text != "ply") return false;
+    if (text == "end_header") return true;
   }
   return false;
 }
 
-/// An address sanitizer takes more than any limit.
-#if defined(__SANITIZE_ADDRESS__)
+/// Sanitizers take more addresses than any limit.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool is_sanitized = true;
 #elif defined(__has_feature)
-constexpr bool is_sanitized = __has_feature(address_sanitizer);
+constexpr bool is_sanitized =
+    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer);
 #else
 constexpr bool is_sanitized = false;
 #endif
@@ -95,9 +100,12 @@ std::optional<std::vector<float>> triangles_of(const std::string& bytes) {
 
 /// The other process: never returns.
 [[noreturn]] void answer(const std::filesystem::path& path, int to) {
+  rlim_t addresses = 0;  // that the program has already
+  if (std::ifstream now("/proc/self/statm"); now >> addresses)
+    addresses *= static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
   const rlimit no_core{0, 0},
       time{static_cast<rlim_t>(longest.count()), static_cast<rlim_t>(longest.count())},
-      memory{most_memory, most_memory};
+      memory{addresses + more_memory, addresses + more_memory};
   setrlimit(RLIMIT_CORE, &no_core);
   setrlimit(RLIMIT_CPU, &time);
   if (!is_sanitized) setrlimit(RLIMIT_AS, &memory);
@@ -109,6 +117,8 @@ std::optional<std::vector<float>> triangles_of(const std::string& bytes) {
   std::string bytes;
   try {
     bytes = read_by_assimp(path);
+  } catch (const std::bad_alloc&) {
+    bytes = has_failed + std::string("there is not enough memory to read it");
   } catch (const std::exception& error) {
     bytes = has_failed + visible_line(error.what());
   }
@@ -150,6 +160,9 @@ Expected<std::vector<float>> read_triangles(const std::filesystem::path& path) {
     return failure("file_unreadable", path.string(), "a mesh is an .stl, .obj or .ply file");
   if (format == ".ply" && !has_ply_header(path))
     return failure("file_unreadable", path.string(), "it has no PLY header that ends by end_header");
+  // A child of another thread would hold this pipe open as long as it lives.
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     return failure("file_unreadable", path.string(),

@@ -70,8 +70,7 @@ std::string cell(const std::string& text) {
 
 std::span<const StudyItem> study_items() { return items; }
 
-// What cannot be drawn, without gnuplot say, keeps nothing else
-// from being there.
+// What cannot be drawn, without gnuplot say, keeps nothing else from being there.
 Expected<Reproduction> write_item(const StudyItem& item, const ItemResult& made,
                                   const std::filesystem::path& folder, const FigureOptions& page) {
   Reproduction result{std::string(item.id), std::string(item.title), made.findings, made.swept};

@@ -101,6 +101,21 @@ TEST_F(Drive, TheFirmwareFollowsToTheCount) {
   EXPECT_NE(played.out.find(rows + " of " + rows), std::string::npos) << played.out;
 }
 
+TEST_F(Drive, ReadsTheUnitsOfColumns) {
+  std::string text = plan(4, 0.2);
+  ASSERT_EQ(drive({"-o", "si.csv", "-q"}).exit, 0);
+  text.replace(text.find("stage[m]"), 8, "stage[cm]");
+  write("cm.csv", text);
+  ASSERT_EQ(drive({"-o", "cm.out.csv", "-q"}, "nottingham-tpcj", "cm.csv").exit, 0);
+  EXPECT_NEAR(100 * table("cm.out.csv").find("stage")->values.back(),
+              table("si.csv").find("stage")->values.back(), 1e-12);
+  text.replace(text.find("stage[cm]"), 9, "stage[N]");
+  write("force.csv", text);
+  const Outcome wrong = drive({}, "nottingham-tpcj", "force.csv");
+  EXPECT_EQ(wrong.exit, 2);
+  EXPECT_NE(wrong.err.find("stage[N]"), std::string::npos) << wrong.err;
+}
+
 TEST_F(Drive, RefusesWithAReason) {
   write("far.csv", plan(3, 3));
   write("nan.csv", plan(2, std::nan("")));
@@ -129,6 +144,11 @@ TEST_F(Drive, RefusesWithAReason) {
   refusal(drive({"--model", "exact"}), 2, "--model");
   refusal(drive({"--stage-motor", "{lead: 0, counts: 1}"}), 2, "lead");
   refusal(drive({"--stage-motor", "5"}), 2, "--stage-motor");
+  std::string below = plan(3, 0.1);
+  below.replace(below.find("\n0.000000"), 9, "\n-0.00100");
+  write("below.csv", below);
+  refusal(drive({}, "nottingham-tpcj", "below.csv"), 3, "below 0");
+  refusal(drive({"-o", "d.yaml", "--model", "pcc"}), 2, "no_effect");
   refusal(drive({"-o", "d.txt"}), 2, "unknown_format");
   refusal(drive({"-o", "nowhere\n/d.csv/"}), 2, "d.csv");
 }

@@ -139,15 +139,15 @@ TEST(FirmwareBinary, ErrorsAreThoseOfAscii) {
   far[3] = robot::limits.limit[0] + 1;
   expect_refused(desk.ask_binary(binary_pose(next, far)), Error::out_of_limits);
   expect_refused(desk.ask_binary(binary_pose(next, far, 1000)), Error::out_of_limits);
-  EXPECT_EQ(desk.board.exchanges, 3);
+  EXPECT_EQ(desk.board.exchanges, 4);
   expect_accepted(desk.ask_binary(good), 'P', "armed");
   ++desk.last;
   desk.board.damaged_exchanges = 3;
   expect_refused(desk.ask_binary('S'), Error::drives);
 }
 
-TEST(FirmwareBinary, BytesWithFramingErrorsAreNeverPartOfAFrame) {
-  // The board makes them 0.
+/// The board makes them 0, which is right where a 0 was sent.
+TEST(FirmwareBinary, FrameWithAByteThatWasDamagedIsRefused) {
   BinaryDesk desk;
   desk.ask('A');
   std::string good = binary_pose(desk.last + 1, some_pose(), 300) + '\n';

@@ -31,15 +31,21 @@ struct DeskBoard {
   }
   void flush() {}
   Uint16 milliseconds() const { return now; }
-  void enable(bool on) { enabled = on; }
+  void enable(bool on) {
+    enabled = on;
+    if (enabled) positions = setpoints;
+  }
   bool exchange(const Counts& out) {
     ++exchanges;
     answer = positions;
     if (damaged_exchanges > 0) return --damaged_exchanges, false;
+    const bool is_whole = !has_refused;
+    has_refused = refused_exchange > 0 && --refused_exchange == 0;
+    if (has_refused) return is_whole;
     std::copy(std::begin(out), std::end(out), setpoints.begin());
     if (enabled) positions = setpoints;
     if (keeps_path) path.push_back(setpoints);
-    return true;
+    return is_whole;
   }
   Int32 measured(Uint8 drive) const { return answer.at(drive); }
   bool is_eeprom_ready() const { return true; }
@@ -54,6 +60,8 @@ struct DeskBoard {
   bool enabled = false;
   int room_left = 1 << 30;  ///< on the line; where little is left, room comes by and by
   int exchanges = 0, damaged_exchanges = 0;
+  int refused_exchange = 0;  ///< the how manieth the drives do not take, and say so in the one after it
+  bool has_refused = false;
   std::array<std::int32_t, drive_count> setpoints{}, positions{}, answer{};
   bool keeps_path = false;
   std::vector<std::array<std::int32_t, drive_count>> path;  ///< setpoints of all exchanges

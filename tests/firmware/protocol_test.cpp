@@ -125,7 +125,7 @@ TEST(FirmwareSession, ArmingMovesNothing) {
   EXPECT_EQ(desk.board.setpoints, before);
   EXPECT_EQ(desk.board.positions, before);
   expect_accepted(desk.ask('A'), 'A', "armed");  // again: nothing but a sign of life
-  EXPECT_EQ(desk.board.exchanges, 3);
+  EXPECT_EQ(desk.board.exchanges, 4);
   expect_accepted(desk.ask('D'), 'D', "disarmed");
   EXPECT_FALSE(desk.board.enabled);
 }
@@ -139,6 +139,22 @@ std::vector<double> float_changes(std::span<const int> raw) {
     bends[m] = {static_cast<float>(raw[2 * m] * step), static_cast<float>(raw[2 * m + 1] * step)};
   robot::table_float.changes(bends, changes);
   return {&changes[0][0], &changes[0][0] + tendon_drives};
+}
+
+/// Nor when the wire damages any one of the exchanges on the way to the drives.
+TEST(FirmwareSession, ArmingMovesNothingByADamagedExchange) {
+  for (int refused = 0; refused <= 6; ++refused) {
+    Desk desk;
+    desk.board.positions.fill(500);
+    desk.board.refused_exchange = refused;
+    const Answer answer = desk.ask('A');
+    for (const std::int32_t position : desk.board.positions) EXPECT_EQ(position, 500) << refused;
+    EXPECT_EQ(desk.board.enabled, answer.verb == 'A') << refused;
+    if (!desk.board.enabled) {
+      EXPECT_EQ(desk.ask('A').verb, 'A') << refused;
+    }
+    for (const std::int32_t position : desk.board.positions) EXPECT_EQ(position, 500) << refused;
+  }
 }
 
 TEST(FirmwareSession, PoseBecomesCountsOfTheDrives) {
@@ -222,7 +238,7 @@ TEST(FirmwareSession, ErrorsHaveNames) {
   expect_refused(desk.ask(request('P', next, many)), Error::wrong_count);
   expect_refused(desk.ask(request('S', next, straight)), Error::wrong_count);
   expect_refused(desk.ask(request('P', next, large)), Error::out_of_range);
-  EXPECT_EQ(desk.board.exchanges, 3);                                                // the two of arming
+  EXPECT_EQ(desk.board.exchanges, 4);                                                // the two of arming
   expect_accepted(desk.ask(request('P', next, straight)), 'P', "armed");             // no number was used up
   expect_accepted(desk.ask(request('P', next + 1, straight) + '\r'), 'P', "armed");  // as terminals write
 }

@@ -87,6 +87,48 @@ TEST(Trajectory, KeepsAllLimitsAndReachesThem) {
   }
 }
 
+/// Many postures and hard turns, where a piece of the curve is divided least.
+TEST(Trajectory, KeepsAllLimitsAlongManyPostures) {
+  const SerialRobot robot = load_serial("nottingham-tpcj").value();
+  Random random(7);
+  for (const double bend : {0.3, 0.05}) {
+    const auto postures = walk(robot, 150, bend, random);
+    const TrajectoryLimits limits;
+    const double period = 2e-3;
+    const Trajectory made = time_optimal_trajectory(robot, postures, limits, period);
+    ASSERT_TRUE(made.report.ok());
+    const Greatest found = greatest(robot, made, limits, period);
+    EXPECT_LT(found.speed, 1.01);
+    EXPECT_LT(found.acceleration, 1.03);
+    EXPECT_GT(std::max(found.speed, found.acceleration), 0.97);
+    // what it says it reaches is what it reaches
+    EXPECT_LT(made.greatest.tendon_speed, limits.tendon_speed * 1.01);
+    EXPECT_GT(made.greatest.tendon_speed, 0.9 * std::min(1.0, found.speed) * limits.tendon_speed);
+  }
+}
+
+/// Two bends of one size whose directions differ: the way between their coordinates leaves the disc.
+TEST(Trajectory, OfNeutralBackbonesStaysWithinTheirDiscs) {
+  SerialRobot robot = load_serial("nottingham-neutral").value();
+  Random random(9);
+  int refused = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<SerialPosture> postures(5);
+    for (std::size_t k = 0; k < postures.size(); ++k) {
+      postures[k].stage = 1e-3 * static_cast<double>(k);
+      for (const Section& section : robot.sections) {
+        const double phi = uniform(random, 0, 1.2), theta = section.limit * (1 - 1e-9);
+        postures[k].bends.push_back({theta * std::cos(phi), theta * std::sin(phi)});
+      }
+    }
+    const Trajectory made = time_optimal_trajectory(robot, postures, {}, 5e-3);
+    refused += made.report.status == Status::left_domain;
+    for (const TrajectoryPoint& point : made.points)
+      EXPECT_TRUE(check_limits(robot, point.posture.bends).ok());
+  }
+  EXPECT_GT(refused, 0);
+}
+
 /// One coordinate, one straight move: speeds are a trapezium, whose time is known.
 TEST(Trajectory, OfOneMoveTakesTheTimeOfATrapezium) {
   SerialRobot robot = load_serial("nottingham-tpcj").value();

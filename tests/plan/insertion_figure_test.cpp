@@ -62,6 +62,9 @@ TEST(InsertionFigure, IsThereForAnyScene) {
     EXPECT_FALSE(gnuplot_script(figure, "way").empty());
   }
   EXPECT_EQ(insertion_curves(scene, {}, {}).panels.size(), 3U);
+  EXPECT_FALSE(insertion_curves(scene, {steps.data(), 1}, {}).panels[1].x.high);  // one stage is no range
+  const std::vector<InsertionStep> out(steps.rbegin(), steps.rend());
+  EXPECT_EQ(insertion_curves(scene, out, {}).panels[1].x.high, 2.0);
 }
 
 TEST(InsertionFigure, CurvesAreThoseOfThePlan) {

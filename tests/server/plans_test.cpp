@@ -87,7 +87,7 @@ TEST_F(Plans, AreToldWithTheirCheck) {
   ASSERT_EQ(plan["steps"].size(), 8U);
   EXPECT_EQ(plan["steps"][5]["configuration"][0], json({0.0, 0.08}));
   EXPECT_TRUE(plan["steps"][6]["limit"].is_null());
-  EXPECT_EQ(plan["steps"][7]["limit"], "the stage is at 70.000 mm, its limit is 60.000 mm");
+  EXPECT_EQ(plan["steps"][7]["limit"], "the stage is at 70.000 mm, its limits are 0 and 60.000 mm");
   EXPECT_EQ(check["verdict"], "touches");
   EXPECT_EQ(check["steps"].size(), 8U);
   EXPECT_EQ(check["steps"][5]["verdict"], "touches");
@@ -149,10 +149,10 @@ TEST_F(Plans, OfAnotherRobotAreRefused) {
 TEST_F(Plans, ACheckEndsWithItsServer) {
   std::string many = plan_text();
   const std::string rows = many.substr(many.find('\n') + 1);
-  for (int i = 0; i < 200; ++i) many += rows;
+  for (int i = 0; i < 5000; ++i) many += rows;  // to check them all takes some ten seconds
   const auto begin = std::chrono::steady_clock::now();
   { const Desk desk(options(many)); }
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
 #endif

@@ -18,7 +18,7 @@ const verdicts: Record<string, Verdict> = {
   bad_input: {word: 'BAD INPUT', shape: '⊗', state: 'over', advice: 'These numbers do not fit this robot: go back, or Home.'},
   // Of a plan
   clear: {word: 'CLEAR', shape: '●', state: 'exact', advice: ''},
-  clear_if_taut: {word: 'CLEAR ONLY IF TAUT', shape: '▼', state: 'slack', advice: 'As planned it touches nothing; with slack tendons or a model error it may.'},
+  clear_if_taut: {word: 'CLEAR ONLY IF TAUT', shape: '▼', state: 'slack', advice: 'As planned it touches nothing; where tendons are slack or stretched, the robot sags or the model is off, it may.'},
   touches: {word: 'TOUCHES', shape: '⊗', state: 'over', advice: 'Press E for the steps where it does.'},
   limit_exceeded: {word: 'LIMIT EXCEEDED', shape: '⊗', state: 'over', advice: 'Press E for the steps where it is.'},
   checking: {word: 'CHECKING…', shape: '…', state: 'stale', advice: 'The steps are those of the file; what they touch is not known yet.'},

@@ -126,7 +126,7 @@ export async function plan_scrubs(browser) {
 
 /** A plan that touches, one that goes beyond a limit; the key of failed checks goes to both. */
 export async function plan_fails(browser) {
-  for (const [name, word, first, why] of [['touch', 'TOUCHES', 99, /steps 99 to 119: S\d to \w+/], ['far', 'LIMIT EXCEEDED', 280, /step 280: the stage is at 200\.000 mm, its limit is 150\.000 mm/]]) {
+  for (const [name, word, first, why] of [['touch', 'TOUCHES', 99, /steps 99 to 119: S\d to \w+/], ['far', 'LIMIT EXCEEDED', 280, /step 280: the stage is at 200\.000 mm, its limits are 0 and 150\.000 mm/]]) {
     const {page, done} = await see(browser, name, {}, '&step=0');
     assert.equal(await verdict(page), word);
     assert.match(await page.locator('#plan-verdict .reason').innerText(), why);

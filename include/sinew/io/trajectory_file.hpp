@@ -10,10 +10,9 @@
 
 namespace sinew::inline v0 {
 
-/// A row a point: `time[s]`, the columns of a posture, changes of every tendon by both models,
-/// `S0_exact_1[m]`,
-/// ..., `S0_lsk_1[m]`, ..., and, where the robot or the stage names a motor, its counts from the straight
-/// robot and stage 0, `S0_counts_1`, ..., `stage_counts`.
+/// A row a point: `time[s]`, the columns of a posture, changes of every tendon by both models
+/// (`S0_exact_1[m]`, ..., `S0_lsk_1[m]`, ...), and, where the robot or the stage names a motor, its counts
+/// from the straight robot and stage 0 (`S0_counts_1`, ..., `stage_counts`).
 /// @param model by which motors drive the tendons
 SINEW_API Table trajectory_table(const SerialRobot& robot, const Trajectory& trajectory, kernel::Model model,
                                  const std::optional<TendonMotor>& stage_motor);

@@ -35,7 +35,8 @@ struct TrajectoryPoint {
 };
 
 struct Trajectory {
-  /// `converged`; `bad_input`; `left_domain`: a posture is beyond the robot's limits; the message says which.
+  /// `converged`; `bad_input`; `left_domain`: a posture, or the way to it, is beyond the robot's limits, or
+  /// the stage below 0; the message says which.
   Report report;
   std::vector<TrajectoryPoint> points;  ///< from rest at time 0 to rest at `duration`, evenly but the last
   double duration = 0;                  ///< [s]
@@ -51,6 +52,6 @@ SINEW_API Trajectory time_optimal_trajectory(const SerialRobot& robot,
                                              const TrajectoryLimits& limits, double period);
 
 /// Most points that a trajectory may have.
-inline constexpr std::size_t trajectory_point_limit = 10'000'000;
+inline constexpr std::size_t trajectory_point_limit = 1'000'000;
 
 }  // namespace sinew::inline v0

@@ -30,7 +30,7 @@ struct InsertionPort {
 /// What bends the robot by its own weight, and what resists.
 struct InsertionWeight {
   double by_length = 0;  ///< of robot and what it carries [N/m], ≥ 0
-  double stiffness = 0;  ///< EI of the backbone in its joints [N m²], > 0
+  double stiffness = 0;  ///< EI of the round backbone in its joints [N m²], > 0
 };
 
 struct InsertionScene {

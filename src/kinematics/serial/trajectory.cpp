@@ -40,8 +40,14 @@ class Allowed {
     upper_.push_back({reach, slope});
     lower_.push_back({-reach, slope});
   }
-  void add_speed(double rate, double limit) {
-    if (rate != 0) most_ = std::min(most_, limit / rate * (limit / rate));
+  /// rate² (x + growth u) ≤ limit²
+  void add_speed(double rate, double growth, double limit) {
+    if (rate == 0) return;
+    const double most = limit / rate * (limit / rate);
+    if (growth == 0)
+      most_ = std::min(most_, most);
+    else
+      upper_.push_back({most / growth, -1 / growth});
   }
   /// 0 ≤ x + 2 width u ≤ next
   void add_end(double next, double width) {
@@ -148,9 +154,9 @@ CoordinateLimits limits_of(const SerialRobot& robot, const TrajectoryLimits& lim
   return all;
 }
 
-/// Intervals short enough that limits held at both their ends hold between.
+/// Short intervals: limits are held at their ends and in their middle.
 std::vector<Interval> divided(const ShapePreservingCurve& curve) {
-  const std::size_t parts = std::max<std::size_t>(10, 1000 / curve.pieces());
+  const std::size_t parts = std::max<std::size_t>(16, 1000 / curve.pieces());
   std::vector<Interval> intervals;
   for (std::size_t piece = 0; piece < curve.pieces(); ++piece) {
     const double begin = curve.knot(piece);
@@ -183,7 +189,8 @@ class Speeds {
       const double next =
           std::clamp(x + 2 * interval.width * allowed_.most_acceleration(x), 0.0, most[i + 1]);
       interval.acceleration = (next - x) / (2 * interval.width);
-      note_greatest(next, interval.acceleration);
+      note_greatest(interval, (x + next) / 2, interval.width / 2);
+      note_greatest(interval, next, interval.width);
       time += 2 * interval.width / (std::sqrt(x) + std::sqrt(next));
       x = next;
     }
@@ -194,25 +201,26 @@ class Speeds {
   const Values& greatest_accelerations() const { return accelerations_; }
 
  private:
-  /// Of every coordinate at the end of the interval looked at.
-  void note_greatest(double squared_speed, double acceleration) {
+  /// Of every coordinate at a place in an interval.
+  void note_greatest(const Interval& interval, double squared_speed, double shift) {
+    curve_.derive(interval.piece, interval.begin + shift, first_, second_);
     speeds_.resize(first_.size());
     accelerations_.resize(first_.size());
     for (std::size_t c = 0; c < first_.size(); ++c) {
       speeds_[c] = std::max(speeds_[c], std::abs(first_[c]) * std::sqrt(squared_speed));
-      accelerations_[c] =
-          std::max(accelerations_[c], std::abs(first_[c] * acceleration + second_[c] * squared_speed));
+      accelerations_[c] = std::max(accelerations_[c],
+                                   std::abs(first_[c] * interval.acceleration + second_[c] * squared_speed));
     }
   }
   /// What is allowed in an interval, at whose end at most `next` is.
   void look_at(const Interval& interval, double next) {
     allowed_.clear();
-    for (const double shift : {0.0, interval.width}) {
+    for (const double shift : {0.0, interval.width / 2, interval.width}) {
       curve_.derive(interval.piece, interval.begin + shift, first_, second_);
       for (std::size_t c = 0; c < first_.size(); ++c) {
         // q̈ = q′ u + q″ ṡ², and ṡ² has grown by 2 shift u
         allowed_.add_acceleration(first_[c] + 2 * shift * second_[c], second_[c], limits_.acceleration[c]);
-        if (shift == 0) allowed_.add_speed(first_[c], limits_.speed[c]);
+        allowed_.add_speed(first_[c], 2 * shift, limits_.speed[c]);
       }
     }
     allowed_.add_end(next, interval.width);
@@ -291,6 +299,7 @@ Report judge(const SerialRobot& robot, std::span<const SerialPosture> postures) 
       return refused(Status::bad_input, "not a bend for each section in posture ", k);
     for (const double q : coordinates_of(postures[k]))
       if (!std::isfinite(q)) return refused(Status::bad_input, "a number is missing in posture ", k);
+    if (postures[k].stage < 0) return refused(Status::left_domain, "the stage is below 0 in posture ", k);
     const Report limits = check_limits(robot, postures[k].bends);
     if (!limits.ok()) return refused(limits.status, "posture ", k, limits.message.view());
   }
@@ -356,6 +365,14 @@ Trajectory time_optimal_trajectory(const SerialRobot& robot, std::span<const Ser
     const double time = k * period;
     while (i + 1 < intervals.size() && intervals[i + 1].time <= time) ++i;
     trajectory.points.push_back(point_at(curve.cubics(), intervals[i], time));
+    // a disc of bends holds the chord between two that it has, not all that is between their coordinates
+    const Report limits_kept = check_limits(robot, trajectory.points.back().posture.bends);
+    if (!limits_kept.ok()) {
+      trajectory.report = refused(limits_kept.status, "on the way to posture ", intervals[i].piece + 1,
+                                  limits_kept.message.view());
+      trajectory.points.clear();
+      return trajectory;
+    }
   }
   trajectory.points.push_back(at_rest(postures.back(), trajectory.duration));
   return trajectory;
