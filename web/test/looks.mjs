@@ -1,6 +1,6 @@
 // Sizes, colours and what a screen reader finds.
 import assert from 'node:assert/strict';
-import {audit, fits, open, rested, shot, tab, then} from './harness.mjs';
+import {audit, fits, isThorough, open, rested, shot, tab, then} from './harness.mjs';
 
 const channel = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
 const luminance = (hex) => {
@@ -38,12 +38,12 @@ export async function contrasts(browser, url) {
   await done();
 }
 
-/** Rules of accessibility, by axe, on each tab at both sizes and in both themes, and on the start. */
+/** Rules of accessibility, by axe, on each tab at both sizes, in a theme each or thoroughly in both, and on the start. */
 export async function accessibility(browser, url) {
   for (const [width, height] of [[1280, 800], [390, 844]]) {
     const {page, done} = await open(browser, url, '3pfs-g2', {width, height});
     const inBoth = async (what, see = () => undefined) => {
-      for (const theme of ['light', 'dark']) {
+      for (const theme of isThorough ? ['light', 'dark'] : [width < 720 ? 'dark' : 'light']) {
         await page.emulateMedia({colorScheme: theme});
         await audit(page, `${what} ${width} ${theme}`);
         await see(theme);

@@ -14,7 +14,7 @@ const cases = Object.entries(modules).flatMap(([module, all]) => Object.entries(
 for (const one of wanted) assert.ok(cases.some(({module, name}) => one === module || one === name), `${one} is no module and no case`);
 
 // What is about the picture itself is seen by WebGL; what is about the rest of the page passes by the simpler picture just as well.
-const isAboutPictures = ({module, name}) => isThorough || ['robots', 'looks', 'speed'].includes(module) || name === 'links' || name === 'plan_pictures';
+const isAboutPictures = ({module, name}) => isThorough || ['robots', 'looks', 'speed'].includes(module) && name !== 'accessibility' || name === 'links' || name === 'plan_pictures';
 const {server, url} = await serve(), browsers = new Map();
 async function browserFor(one) {
   const hasWebGL = isAboutPictures(one);

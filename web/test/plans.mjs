@@ -61,6 +61,7 @@ export async function plan_scrubs(browser) {
   assert.equal(await page.locator('#screens [aria-current=page]').innerText(), 'Trajectory');
   assert.equal(await verdict(page), 'CLEAR ONLY IF TAUT');
   assert.match(await page.locator('#plan-verdict').innerText(), /0\.\d+ mm at step \d+, stage [\d.]+ mm, S\d to \w+/);
+  await page.locator('.checked', {hasText: 'tip ends'}).waitFor();  // asks for its shape after the first picture
   assert.match(await page.locator('.checked').innerText(), /all \d+ steps clear[\s\S]*clear with [\d.]+ % of[\s\S]*within their limits[\s\S]*tip ends 0\.\d+ mm from it/);
   const keys = [['.', last], [',', last - 1], ['Shift+Comma', last - 11], ['Shift+Period', last - 1], ['Shift+Comma', last - 11]];
   for (const [key, to] of keys) {

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {answer, blank, differs, fits, isThorough, picture, rested, shot, then, verdict} from './harness.mjs';
 
 /**
- * Every robot, each slider of it: it moves the answer, and the picture, which is looked at for one slider of three, in turn, or
+ * Every robot, each slider of it: it moves the answer, and the picture, which is looked at for one slider of six, in turn, or
  * thoroughly for all. One slider at another size or in the other theme, which have nothing to do with what a robot is: each
  * robot in one of the other ways to look, in turn, or thoroughly in all of them.
  */
@@ -17,7 +17,7 @@ export async function everyRobot(browser, url) {
       assert.equal(await page.locator('#robot').inputValue(), name);
       const sliders = page.locator('#inputs input[type=range]'), count = isWhole ? await sliders.count() : 1;
       for (let i = 0; i < count; ++i) {
-        const isSeen = isThorough || count === 1 || (turn + i) % 3 === 0, said = await answer(page);
+        const isSeen = isThorough || count === 1 || (turn + i) % 6 === 0, said = await answer(page);
         const before = isSeen && await picture(page);  // anew: slower answers and notes have come since the last
         await then(page, () => sliders.nth(i).press('ArrowRight'));
         if (width === 1280) assert.notEqual(await answer(page), said, `${name}, slider ${i + 1}: the answer did not change`);
