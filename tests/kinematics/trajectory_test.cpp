@@ -71,7 +71,7 @@ TEST(Trajectory, KeepsAllLimitsAndReachesThem) {
     const auto robot = load_serial(name);
     ASSERT_TRUE(robot) << name;
     Random random(1);
-    for (int trial = 0; trial < 8; ++trial) {
+    for (int trial = 0; trial < 6; ++trial) {
       const auto postures = walk(*robot, 2 + 3 * trial, trial % 2 ? 0.2 : 0.02, random);
       TrajectoryLimits limits;
       if (trial % 3 == 1) limits.tendon_speed = limits.tendon_acceleration = 1;

@@ -63,7 +63,7 @@ void expect_good(const InsertionScene& scene, const InsertionPlan& plan) {
   }
   // every so often, and where it is tightest, by all triangles
   for (std::size_t k = 0; k < plan.steps.size(); ++k) {
-    if (k != plan.check.worst && k % static_cast<std::size_t>(count_of(100, 5)) != 0) continue;
+    if (k != plan.check.worst && k % static_cast<std::size_t>(count_of(250, 5)) != 0) continue;
     double missed = 0;
     const double slow = slow_clearance(scene, posture_of(plan.steps[k]), 10e-3, missed);
     EXPECT_NEAR(plan.steps[k].clearance, slow, missed) << k;
