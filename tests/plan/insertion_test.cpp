@@ -93,6 +93,14 @@ TEST(Insertion, FindsAWayIntoTheStandIn) {
   }
 }
 
+/// Other clocking, blades and targets, drawn by the seed; thoroughly.
+TEST(Insertion, FindsAWayIntoDrawnCompressors) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(count_of(0, 10)); ++seed) {
+    const InsertionScene scene = compressor_of(drawn_compressor(seed));
+    expect_good(scene, plan_insertion(scene));
+  }
+}
+
 /// Holes not much wider than the robot, one after the other and not in line.
 TEST(Insertion, FindsAWayThroughASlalom) {
   for (std::uint64_t seed = 1;
