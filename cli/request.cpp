@@ -16,12 +16,6 @@
 namespace sinew::cli {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\n");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\n") - begin + 1);
-}
-
 std::vector<std::string_view> split(std::string_view list) {
   std::vector<std::string_view> parts;
   while (true) {
@@ -466,6 +460,12 @@ void Request::set() {
 }
 
 }  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\n");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\n") - begin + 1);
+}
 
 int whole_option(const Arguments& arguments, std::string_view name, int least, int most, int otherwise,
                  Errors& errors) {

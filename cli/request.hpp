@@ -35,6 +35,9 @@ Expected<Robot> open_with_platform(const Arguments& arguments);
 /// its `independent` coordinates.
 Member at_home(const Robot& robot);
 
+/// Without the blanks around it.
+std::string_view trimmed(std::string_view text);
+
 /// What `--set` changes of the robot, `{path: value}`.
 Expected<std::vector<Member>> settings(const Arguments& arguments);
 

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "figure/quantity_name.hpp"
+#include "request.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/io/quantity.hpp"
@@ -77,12 +78,6 @@ Dimension dimension_of(std::string_view symbol) {
     if (const auto dimension = static_cast<Dimension>(k); !symbol.empty() && unit(dimension) == symbol)
       return dimension;
   return Dimension::number;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
 /// `phi=30 deg` of `--at`: which of the column's values is meant.

@@ -37,11 +37,6 @@ constexpr std::array all_limits{
     Limit{"tendon_acceleration", &TrajectoryLimits::tendon_acceleration, Dimension::acceleration},
 };
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
-  return begin == std::string_view::npos ? std::string_view() : text.substr(begin, end - begin + 1);
-}
-
 /// `stage_speed=10 mm/s`
 void set_limit(std::string_view change, TrajectoryLimits& limits, Errors& errors) {
   const std::size_t equals = change.find('=');
@@ -143,7 +138,12 @@ int run_drive(const Arguments& arguments) {
   if (arguments.has("reverse")) std::ranges::reverse(*postures);
   const Trajectory trajectory = time_optimal_trajectory(*robot, *postures, limits, period);
   if (!trajectory.report.ok()) {
-    message(fmt::format("sinew drive: {}: {}", file, trajectory.report.message.view()));
+    const std::string_view why = trajectory.report.message.view();
+    if (arguments.has("json"))
+      print(fmt::format("{{\"status\":{},\"message\":{}}}\n",
+                        json_text(std::string(to_string(trajectory.report.status))),
+                        json_text(std::string(why))));
+    message(fmt::format("sinew drive: {}: {}", file, why));
     return no_solution;
   }
   Expected<void> written;

@@ -127,6 +127,9 @@ TEST_F(Drive, RefusesWithAReason) {
     EXPECT_NE(outcome.err.find(what), std::string::npos) << outcome.err;
   };
   refusal(drive({}, "nottingham-tpcj", "far.csv"), 3, "posture 1: sections[4]");
+  EXPECT_NE(drive({"--json"}, "nottingham-tpcj", "far.csv")
+                .out.find("{\"status\":\"left_domain\",\"message\":\"posture 1"),
+            std::string::npos);
   refusal(drive({}, "nottingham-tpcj", "nan.csv"), 2, "not_a_number");
   refusal(drive({}, "nottingham-tpcj", "none.csv"), 2, "no_rows");
   refusal(drive({}, "nottingham-tpcj", "other.csv"), 2, "missing_column");

@@ -45,7 +45,7 @@ struct Trajectory {
 
 /// The quickest motion from rest at the first posture to rest at the last, on a smooth curve that passes all
 /// and on which no coordinate leaves the interval of its neighbours (`ShapePreservingCurve`). Postures that
-/// repeat the one before are left out.
+/// repeat the one before are left out. Extensible sections stay at rest length.
 /// @param period between points [s], > 0
 SINEW_API Trajectory time_optimal_trajectory(const SerialRobot& robot,
                                              std::span<const SerialPosture> postures,
