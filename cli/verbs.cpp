@@ -94,6 +94,10 @@ constexpr std::array options{
     Option{"plan", "FILE",
            "of serve a way into the scene, as sinew plan writes it; more than one may be given", 0, true},
     Option{"port", "PORT", "of serve; default 8765, 0 is any that is free"},
+    Option{"demo", "", "of serve: a simulated device, moved by the panel's firmware"},
+    Option{"device", "PATH", "of serve the serial port of the robot's controller, as /dev/ttyACM0"},
+    Option{"baud", "RATE", "of the device; default 1000000"},
+    Option{"record", "FOLDER", "of serve where recordings of the device go; default sinew-recordings"},
     Option{"resume", "", "go on with what an interrupted run left; without it, begin"},
     Option{"force", "",
            "replace results that are there, or of a figure its script that was changed by hand; without it "
@@ -117,7 +121,7 @@ constexpr std::array options{
     Option{"rate", "HZ", "of drive: points a second; default 50"},
     Option{"reverse", "", "of drive: from the last posture to the first, out again"},
     Option{"stage-motor", "\"{lead: L, counts: N}\"",
-           "of drive: the motor of the linear stage, as `motor` of a robot"},
+           "of drive, serve: the motor of the linear stage, as `motor` of a robot"},
     Option{"compress", "LEVEL", "of HDF5, 0 (none, default) to 9"},
     Option{"list", "", "only list what there is; of sweep what it would do"},
     Option{"as", "NAME",
@@ -356,7 +360,7 @@ const std::array table{
         "serve",
         "[ROBOT]",
         "queries over HTTP, on this machine or with a token from others",
-        {"scene", "plan", "host", "port", "quiet", "help"},
+        {"scene", "plan", "host", "port", "demo", "device", "baud", "record", "stage-motor", "quiet", "help"},
         {},
         "Prints the address and answers there until Ctrl-C. The calls are in docs/server.md. Nothing is read "
         "but\n"
@@ -364,7 +368,10 @@ const std::array table{
         "machine.\n"
         "--scene engine/scene.yaml --plan plan.csv opens a plan of sinew plan: the way in, step by step, in "
         "its\n"
-        "scene, with its check.",
+        "scene, with its check.\n"
+        "--demo, or --device /dev/ttyACM0, opens the operator's panel for a serial robot with that firmware; "
+        "what it\n"
+        "does is recorded while it is armed. It is no emergency stop.",
         "sinew serve 3-rfr",
         run_serve},
     Verb{"list",

@@ -9,7 +9,9 @@
 
 #include "queries.hpp"
 #include "sinew/base/export.hpp"
+#include "sinew/io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "sinew/io/serial_file.hpp"
 #include "sinew/query/session.hpp"
 
 namespace sinew::server {
@@ -97,7 +99,45 @@ std::optional<Errors> Calls::read_opened() {
   if (!options_.robot.empty())
     if (const auto session = Session::open(options_.robot); !session) return session.error();
   if (const auto read = plans_.read(options_.scene, options_.plans); !read) return read.error();
+  return open_device();
+}
+
+std::optional<Errors> Calls::open_device() {
+  const DeviceChoice& choice = options_.device;
+  device::DeviceOptions chosen{choice.is_demo, choice.port, choice.baud, choice.folder, {}};
+  if (!chosen.is_wanted()) return {};
+  if (!choice.stage_motor.empty()) {
+    const auto motor = parse_yaml(choice.stage_motor, "--stage-motor").and_then([](const Document& document) {
+      return read_motor(document);
+    });
+    if (!motor) return motor.error();
+    chosen.stage_motor = *motor;
+  }
+  auto opened = device::Device::open(options_.robot, chosen);
+  if (!opened) return opened.error();
+  device_ = std::move(*opened);
   return {};
+}
+
+Reply Calls::device() {
+  if (!device_) return {200, R"({"device":null})"};
+  return device_->describe([this](const std::string& text) { return robots_.open(text).value_or(""); });
+}
+
+Reply Calls::device_post(std::string_view call, const std::string& body) {
+  if (!device_)
+    return refused(404, "no_device", "device", "this server has none: start it with --device or --demo");
+  return device_->post(call, body);
+}
+
+tl::expected<std::shared_ptr<device::FeedStream>, Reply> Calls::device_events() {
+  if (device_) return device_->listen();
+  return tl::unexpected(
+      refused(404, "no_device", "device", "this server has none: start it with --device or --demo"));
+}
+
+void Calls::let_go() {
+  if (device_) device_->stop();
 }
 
 Reply Calls::plan(std::string_view handle) {
@@ -113,9 +153,11 @@ Reply Calls::robots() const {
     return rows;
   }();
   Json opened;  // read again each time, so that a page sees what an editor has saved
-  if (const auto text = options_.robot.empty() ? Expected<std::string>() : read_robot_text(options_.robot);
-      text && !text->empty())
-    opened = {{"name", options_.robot}, {"text", *text}};
+  // Of a device the file as it was when it was opened: it is what the device's numbers are of.
+  const auto text = options_.robot.empty() ? Expected<std::string>()
+                    : device_              ? Expected<std::string>(device_->robot_text())
+                                           : read_robot_text(options_.robot);
+  if (text && !text->empty()) opened = {{"name", options_.robot}, {"text", *text}};
   return {200, written({{"robots", shipped}, {"opened", opened}})};
 }
 
@@ -183,6 +225,7 @@ Reply Calls::query(std::string_view handle, std::string_view body, const std::st
 }
 
 void Calls::stop() {
+  let_go();
   plans_.stop();
   dog_.stop();
   jobs_.stop();

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "device/device.hpp"
 #include "jobs/job_calls.hpp"
 #include "limiter.hpp"
 #include "plans.hpp"
@@ -31,6 +32,10 @@ class Calls {
       std::string_view handle, std::string_view body, const std::string& address,
       const Watchdog::IsOver& is_gone = [] { return false; });
   JobCalls& jobs() { return jobs_; }
+  Reply device();
+  Reply device_post(std::string_view call, const std::string& body);
+  tl::expected<std::shared_ptr<device::FeedStream>, Reply> device_events();
+  void let_go();
   /// What computes is to end.
   void stop();
 
@@ -41,6 +46,8 @@ class Calls {
   std::string answers(Robot& robot, const std::vector<std::string_view>& queries, bool is_list,
                       const Watchdog::IsOver& is_gone);
 
+  std::optional<Errors> open_device();
+
   Options options_;
   Robots robots_;
   Rate rate_;
@@ -48,6 +55,7 @@ class Calls {
   Watchdog dog_;
   Plans plans_;
   JobCalls jobs_;
+  std::unique_ptr<device::Device> device_;
 };
 
 }  // namespace sinew::server

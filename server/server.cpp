@@ -89,6 +89,12 @@ bool send_events(Stream& stream, httplib::DataSink& sink) {
   return true;
 }
 
+bool send_feed(device::FeedStream& stream, httplib::DataSink& sink) {
+  const std::string text = stream.next();
+  if (stream.is_broken() || !sink.is_writable()) return false;
+  return text.empty() || sink.write(text.data(), text.size());
+}
+
 bool takes_gzip(const Request& request) {
   return request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
 }
@@ -116,6 +122,8 @@ struct Server::State {
   void get(const char* pattern, Plain call);
   void post(const char* pattern, const char* type, std::size_t most, Body call);
   void route_jobs();
+  void route_device();
+  void show_device(Response& response);
   void show_events(const Request& request, Response& response);
   void limit();
   /// Whether the request may go on; else the response says why not. Before any of its body is read.
@@ -136,6 +144,10 @@ struct Server::State {
   }
   Reply on_job(const Request& request, const std::string& body) {
     return calls.jobs().start(body, request.remote_addr);
+  }
+  Reply on_device(const Request&) { return calls.device(); }
+  Reply on_device_post(const Request& request, const std::string& body) {
+    return calls.device_post(request.matches[1].str(), body);
   }
   Reply on_result(const Request& request) { return calls.jobs().result(request.matches[1].str()); }
   Reply on_nothing(const Request&) { return refused(404, "not_found", "path", "nothing is here"); }
@@ -247,6 +259,22 @@ void Server::State::route_jobs() {
               });
 }
 
+void Server::State::show_device(Response& response) {
+  const auto stream = calls.device_events();
+  if (!stream) return put(response, stream.error());
+  response.status = 200;
+  response.set_chunked_content_provider(
+      "text/event-stream",
+      [stream = *stream](std::size_t, httplib::DataSink& sink) { return send_feed(*stream, sink); });
+}
+
+void Server::State::route_device() {
+  constexpr std::size_t most = std::size_t{16} << 10U;  // [bytes] of a command
+  get("/api/device", &State::on_device);
+  http.Get("/api/device/events", [this](const Request&, Response& response) { show_device(response); });
+  post("/api/device/([^/]*)", "application/json", most, &State::on_device_post);
+}
+
 void Server::State::route() {
   get("/api/version", &State::on_version);
   get("/api/robots", &State::on_robots);
@@ -257,6 +285,7 @@ void Server::State::route() {
   post("/api/robot", "text/yaml", options.limits.body, &State::on_robot);
   post("/api/query", "application/json", options.limits.body, &State::on_query);
   route_jobs();
+  route_device();
   route_page();
   get(".*", &State::on_nothing);
   http.Post(".*", [this](const Request& request, Response& response, const httplib::ContentReader&) {
@@ -328,6 +357,8 @@ Expected<Server> Server::open(const Options& options) {
 const std::string& Server::url() const { return state_->url; }
 
 void Server::run() { state_->http.run(); }
+
+void Server::let_go() { state_->calls.let_go(); }
 
 void Server::stop() {
   state_->calls.stop();

@@ -42,12 +42,22 @@ struct Limits {
   JobLimits jobs = {};
 };
 
+/// The hardware that pages may see and move; neither demonstration nor port: none.
+struct DeviceChoice {
+  bool is_demo = false;  ///< a simulated one
+  std::string port;      ///< `/dev/ttyACM0`
+  int baud = 1'000'000;
+  std::string folder = "sinew-recordings";  ///< where recordings go
+  std::string stage_motor;                  ///< `{lead: 2 mm, counts: 4096}`; empty: as the tendons' motor
+};
+
 struct Options {
   std::string address = "127.0.0.1";
   int port = 8765;                 ///< 0: any that is free
   std::string robot;               ///< file or name of the robot that the page opens with; empty: none
   std::string scene;               ///< file of the scene that the plans are of; empty: none
   std::vector<std::string> plans;  ///< files of insertions into it
+  DeviceChoice device;
   Limits limits;
 };
 
@@ -55,7 +65,7 @@ struct Options {
 class Server {
  public:
   /// Errors: those of the files of robot, scene and plans; `not_built` where there are plans;
-  /// `address_in_use`, `bad_address`.
+  /// those of device::Device::open; `address_in_use`, `bad_address`.
   static Expected<Server> open(const Options& options);
 
   /// What to open in a browser. Of another address than this machine's own with a token that lets in.
@@ -63,6 +73,8 @@ class Server {
   /// Until `stop`, which any thread may call.
   void run();
   void stop();
+  /// Lets go of the device, if there is one. Before the process ends without `stop`.
+  void let_go();
 
   Server(Server&&) noexcept;
   Server& operator=(Server&&) noexcept;

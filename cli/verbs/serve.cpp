@@ -15,6 +15,9 @@ namespace sinew::cli {
 namespace {
 
 Expected<int> read_port(const std::string& text) {
+  if (text.starts_with("/"))
+    return failure("out_of_range", "--port",
+                   fmt::format("{} is a device, not a port of the network: write --device {}", text, text));
   int port = -1;
   const char* end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, port);
@@ -23,6 +26,30 @@ Expected<int> read_port(const std::string& text) {
         "out_of_range", "--port",
         fmt::format("{} is no port: write a number from 1 to 65535, or 0 for any that is free", text));
   return port;
+}
+
+Expected<server::DeviceChoice> read_device(const Arguments& arguments) {
+  server::DeviceChoice device;
+  device.is_demo = arguments.has("demo");
+  if (const std::string* port = arguments.text("device")) device.port = *port;
+  if (device.is_demo && !device.port.empty())
+    return failure("ambiguous", "--demo", "--demo has a simulated device of its own; leave --device out");
+  const bool has_device = device.is_demo || !device.port.empty();
+  for (const char* option : {"record", "baud", "stage-motor"})
+    if (arguments.has(option) && !has_device)
+      return failure("no_effect", fmt::format("--{}", option),
+                     "it is of a device: add --device PATH or --demo");
+  if (const std::string* folder = arguments.text("record")) device.folder = *folder;
+  if (const std::string* motor = arguments.text("stage-motor")) device.stage_motor = *motor;
+  if (const std::string* text = arguments.text("baud")) {
+    const char* end = text->data() + text->size();
+    const auto read = std::from_chars(text->data(), end, device.baud);
+    if (read.ec != std::errc() || read.ptr != end || device.baud < 1200)
+      return failure(
+          "out_of_range", "--baud",
+          fmt::format("{} is no rate: write bits a second, as the firmware has it, such as 1000000", *text));
+  }
+  return device;
 }
 
 Expected<server::Options> read_options(const Arguments& arguments) {
@@ -34,6 +61,9 @@ Expected<server::Options> read_options(const Arguments& arguments) {
     if (!port) return tl::unexpected(port.error());
     options.port = *port;
   }
+  const auto device = read_device(arguments);
+  if (!device) return tl::unexpected(device.error());
+  options.device = *device;
   if (arguments.has("scene") != arguments.has("plan"))
     return failure(arguments.has("scene") ? "missing_plan" : "missing_scene", "",
                    "a plan is shown in its scene: give both, --scene SCENE --plan FILE");
@@ -59,12 +89,16 @@ int run_serve(const Arguments& arguments) {
       message(
           "Built without the page; to get it: ./run.sh serve, or configure with -D SINEW_WEB=ON (Node 18 and "
           "npm).");
+    if (options->device.is_demo)
+      message("The device is simulated, with the firmware's motor where the robot names none.");
     message("Ctrl-C ends it.");
   }
-  std::jthread watch([](const std::stop_token& over) {
+  std::jthread watch([&server](const std::stop_token& over) {
     using namespace std::chrono_literals;
     while (!interrupted() && !over.stop_requested()) std::this_thread::sleep_for(20ms);
-    if (interrupted()) _exit(solved);  // only sockets are open: idle ones would be waited for
+    if (!interrupted()) return;
+    server->let_go();
+    _exit(solved);  // only sockets are open: idle ones would be waited for
   });
   server->run();  // until the socket fails
   return internal_error;

@@ -1,0 +1,76 @@
+/// @file device.hpp
+/// The device of a server: a thread that talks to the controller fifty times a second whatever clients do,
+/// and the calls by which they see and move it. Calls: docs/server.md, "A device".
+#pragma once
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "feed.hpp"
+#include "panel/panel.hpp"
+#include "recording.hpp"
+#include "server/reply.hpp"
+#include "simulated.hpp"
+#include "wire/link.hpp"
+
+namespace sinew::server::device {
+
+struct DeviceOptions {
+  bool is_demo = false;
+  std::string port;  ///< of a real one
+  int baud = 1'000'000;
+  std::string folder = "sinew-recordings";
+  std::optional<TendonMotor> stage_motor;  ///< none: the stage counts as the tendons do
+  bool is_wanted() const { return is_demo || !port.empty(); }
+};
+
+class Device {
+ public:
+  using HandleOf = std::function<std::string(const std::string& text)>;
+
+  /// Errors: those of the robot's file; `not_serial`, `no_motor`; `no_device`, `in_use`; `not_built`.
+  /// @param robot file or name
+  static Expected<std::unique_ptr<Device>> open(const std::string& robot, const DeviceOptions& options);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  /// Of its robot's file, with the motor that a demonstration adds.
+  const std::string& robot_text() const { return text_; }
+  Reply describe(const HandleOf& handle_of);
+  /// @param call the last part of the path: `arm`
+  Reply post(std::string_view call, const std::string& body);
+  tl::expected<std::shared_ptr<FeedStream>, Reply> listen();
+  /// Disarms it; the thread ends.
+  void stop();
+
+ private:
+  Device(std::string text, const DeviceOptions& options, Arm arm, Judge judge);
+  double now() const;
+  void run(const std::stop_token& over);
+  void publish(double now);
+  Reply lease(const nlohmann::json& body, double now);
+  Reply target(const nlohmann::json& body, std::string_view secret, double now);
+  Reply fault(const nlohmann::json& body);
+  Outcome obey(std::string_view call, const nlohmann::json& body, std::string_view secret, double now);
+
+  std::string text_;
+  DeviceOptions options_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::unique_ptr<Simulated> simulated_;
+  Recording recording_;
+  ControllerLink link_;
+  std::mutex mutex_;  // of the panel, the link and the recording
+  Panel panel_;
+  double published_ = -1e9;
+  std::shared_ptr<Feed> feed_ = std::make_shared<Feed>();
+  Places streams_{16};
+  std::jthread thread_;
+};
+
+}  // namespace sinew::server::device

@@ -1,0 +1,333 @@
+/// What the panel asks of the controller, and what it makes of the answers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "panel.hpp"
+
+namespace sinew::server::device {
+namespace {
+
+constexpr double period = 0.02;  // [s] of set-points, and of measurements
+constexpr int ramp = 30;  // [ms] of a set-point: half a period longer, so that a late one leaves no gap
+constexpr double armed_for = 60;       // [s]
+constexpr double arm_patience = 1;     // [s]
+constexpr double relax_speed = 2e-3;   // [m/s], at most
+constexpr double relax_most = 10e-3;   // [m]
+constexpr double relaxed_share = 0.1;  // of the limit of a tension
+
+}  // namespace
+
+/// Whether the controller is to be armed.
+bool Panel::wants_drives() const {
+  return mode_ == Mode::armed || is_arming_ || activity_ == Activity::relax || activity_ == Activity::homing;
+}
+
+bool Panel::is_driving() const { return drives_ == DriveMode::armed; }
+
+bool Panel::is_over() const {
+  for (std::size_t m = 0; m < shown_.size(); ++m) {
+    if (shown_[m].word() == Word::over_tensioned) return true;
+    // What is measured in newtons needs no second look.
+    if (const Hello* hello = link_.hello(); hello && hello->tension_limit > 0 && state_)
+      for (const double tension : state_->tension)
+        if (tension > hello->tension_limit) return true;
+  }
+  return false;
+}
+
+Posture Panel::measured() const {
+  const bool has_stage = link_.hello() && link_.hello()->stages > 0 && !lengths_.empty();
+  return {bends_, has_stage ? lengths_.back() : 0};
+}
+
+/// Where Move goes: what was not asked for stays as it is.
+Posture Panel::target(const Posture& otherwise) const {
+  const bool has_stage = link_.hello() && link_.hello()->stages > 0;
+  return {target_bends_.value_or(otherwise.bends),
+          has_stage ? target_stage_.value_or(otherwise.stage) : otherwise.stage};
+}
+
+void Panel::tick(double now) {
+  now_ = std::max(now_, now);
+  for (const LinkEvent& event : link_.poll(now_)) take(event, now_);
+  lapse(now_);
+  see_sections(now_);
+  const bool is_in_use = mode_ == Mode::armed || is_arming_ || activity_ == Activity::homing;
+  if (is_in_use && is_over()) disarm("over-tension");
+  if (is_arming_ && now_ - asked_arm_ > arm_patience) disarm("the controller did not arm");
+  if (recording_.error() != recorded_error_) {
+    recorded_error_ = recording_.error();
+    if (!recorded_error_.empty()) {
+      hold(now_);
+      log("info", "the recording stopped: " + recorded_error_);
+    }
+  }
+  if (link_.is_free() && fits_) ask_next(now_);
+}
+
+void Panel::take(const LinkEvent& event, double now) {
+  using Kind = LinkEvent::Kind;
+  if (event.kind == Kind::answer) return take_answer(event, now);
+  has_setpoints_ = false;
+  if (event.kind == Kind::damaged) {
+    damaged_at_ = now;
+    disarm("a line failed its checksum");
+  } else if (event.kind == Kind::lost) {
+    disarm("the controller did not answer for 0.1 s");
+  } else if (event.kind == Kind::gone) {
+    disarm("unplugged");
+    knows_controller_ = false;
+    log("no_data", "unplugged");
+  } else {
+    disarm("the controller was reset");
+    knows_controller_ = true;
+    drives_ = event.mode;
+    state_.reset();
+    path_.forget();
+    const Hello& hello = *link_.hello();
+    fits_ = hello.version >= 3 && static_cast<std::size_t>(hello.sections) == arm_.sections() &&
+            static_cast<std::size_t>(hello.tendons) == arm_.tendons() && arm_.fits(hello);
+    log("info", fits_ ? "device found" : "the firmware has another robot's table");
+  }
+}
+
+void Panel::take_answer(const LinkEvent& event, double now) {
+  drives_ = event.mode;
+  if (event.error != WireError::none) return take_refusal(event);
+  switch (event.verb) {
+    case 'S':
+      take_state(event.payload, now);
+      break;
+    case 'A':
+      has_setpoints_ = false;  // they are where the drives are: the next measurement says where
+      is_new_state_ = false;
+      if (is_arming_) {
+        mode_ = Mode::armed;
+        is_arming_ = false;
+        armed_until_ = now + armed_for;
+        log("info", "armed");
+      }
+      break;
+    case 'P':
+    case 'T':
+      setpoints_ = read_setpoints(event.payload, expected_);
+      break;
+    case 'Z':
+      setpoints_[asked_zero_.drive] = asked_zero_.count;
+      is_new_state_ = false;
+      if (homing_ && asked_zero_.drive < arm_.tendon_drives()) homing_->zero_is_set();
+      log("info", fmt::format("zero {} set", asked_zero_.drive + 1));
+      break;
+    default:
+      break;
+  }
+  if (wants_drives() && !is_driving() && event.verb != 'D' && event.verb != 'S')
+    disarm("the controller has let go by itself");
+  else if (mode_ == Mode::armed && !is_driving())
+    disarm("the controller has let go by itself");
+}
+
+void Panel::take_refusal(const LinkEvent& event) {
+  if (event.error == WireError::moving) return;  // asked again with the next measurement
+  if (event.verb == 'S' && event.error == WireError::drives) damaged_at_ = now_;
+  disarm(text_of(event.error));
+}
+
+void Panel::take_state(std::string_view payload, double now) {
+  auto state = read_state(payload, *link_.hello());
+  if (!state) {
+    disarm("the controller's answer has another shape");
+    return;
+  }
+  const double since = now - state_time_;
+  if (since < 1) rate_ += 0.1 * (1 / std::max(since, 1e-3) - rate_);
+  spi_damaged_ = state->damaged;
+  state_ = std::move(state);
+  state_time_ = now;
+  is_new_state_ = true;
+  lengths_ = arm_.lengths(state_->counts);
+  bends_ = arm_.bends(state_->bends, *link_.hello());
+  if (!has_setpoints_ && is_driving()) {
+    setpoints_ = state_->counts;
+    has_setpoints_ = true;
+  }
+  if (path_.is_empty() && is_homed()) path_.record(measured());
+  for (std::size_t m = 0; m < arm_.sections(); ++m)
+    sections_[m] =
+        judge_.state(m, arm_.model(), lengths_, {state_->tension, link_.hello()->tension_limit}, is_homed());
+  record_row();
+}
+
+/// Shown states and the alarm, also while nothing comes.
+void Panel::see_sections(double now) {
+  constexpr int periods = 3;
+  const bool is_known = state_ && fits_ && knows_controller_ && age(now) <= periods * period;
+  for (std::size_t m = 0; m < sections_.size(); ++m) {
+    const Word word = is_known ? sections_[m].word : Word::no_data;
+    const bool is_partial = word == Word::slack && sections_[m].is_partial;
+    if (shown_[m].look(word, is_partial, now)) log(kind_of(word), log_line(m, shown_[m], sections_[m]));
+  }
+  alarm_ = find_alarm(shown_, sections_, alarm_, now);
+}
+
+void Panel::record_row() {
+  if (!recording_.is_on()) return;
+  const Posture set = motion_ ? motion_->set() : measured();
+  std::string line = fmt::format("{:.3f}", state_time_);
+  const auto put = [&](double value) { line += fmt::format(",{:.7g}", value); };
+  for (const Bend& bend : set.bends) put(bend[0]), put(bend[1]);
+  put(set.stage);
+  put(measured().stage);
+  for (const Bend& bend : bends_) put(bend[0]), put(bend[1]);
+  for (std::size_t i = 0; i < arm_.tendon_drives(); ++i)
+    put(arm_.tendon_length(has_setpoints_ ? setpoints_[i] : state_->counts[i]));
+  for (std::size_t i = 0; i < arm_.tendon_drives(); ++i) put(lengths_[i]);
+  for (std::size_t i = 0; i < arm_.tendon_drives(); ++i)
+    put(state_->tension.empty() ? std::nan("") : state_->tension[i]);
+  for (const SectionState& section : sections_) line += fmt::format(",{}", name_of(section.word));
+  recording_.row(line);
+}
+
+/// The one request that is due most.
+bool Panel::ask_next(double now) {
+  const auto ask = [&](char verb) {
+    link_.ask(verb, {}, now);
+    return true;
+  };
+  if (is_driving() && !wants_drives()) return ask('D');
+  if (wants_drives() && !is_driving()) {
+    has_setpoints_ = false;
+    return ask('A');
+  }
+  if (now >= next_state_) {
+    next_state_ = std::max(next_state_ + period, now + period / 2);
+    return ask('S');
+  }
+  if (is_freezing_ && is_driving() && state_) {
+    is_freezing_ = false;
+    ask_counts(state_->counts, now);
+    return true;
+  }
+  return ask_motion(now);
+}
+
+bool Panel::ask_motion(double now) {
+  if (!is_motion() || !is_driving() || !has_setpoints_ || !state_ || now < next_set_) return false;
+  const double way = speed_ * std::clamp(now - last_set_, period / 2, 2 * period);
+  next_set_ = std::max(next_set_ + period, now + period / 2);
+  last_set_ = now;
+  if (activity_ == Activity::homing) return ask_homing(way, now);
+  if (activity_ == Activity::relax) return ask_relax(way, now);
+  if (is_in_gap_ && ask_gap(way, now)) return true;
+  if (!step_motion(way)) return false;
+  ask_pose(now);
+  if (link_.hello()->stages > 0 && activity_ != Activity::retract) path_.record(motion_->set());
+  const bool has_passed_target = activity_ == Activity::retract || activity_ == Activity::advance;
+  if (has_passed_target && target_stage_) target_stage_ = motion_->set().stage;  // Move does not undo it
+  return true;
+}
+
+bool Panel::step_motion(double way) {
+  switch (activity_) {
+    case Activity::moving:
+      return motion_->go_to(target(motion_->set()), way);
+    case Activity::straighten:
+      return motion_->go_to({Bends(arm_.sections(), Bend(0, 0)), motion_->set().stage}, way);
+    case Activity::retract:
+      return motion_->go_back(path_, way);
+    case Activity::advance:
+      return motion_->advance(target(motion_->set()).bends, way);
+    default:
+      return false;
+  }
+}
+
+/// Set-points that no bends belong to, as after a section was relaxed, come to those that do at the jog
+/// speed, too.
+bool Panel::ask_gap(double way, double now) {
+  const auto goal = arm_.counts(motion_->set(), link_.hello()->stages > 0);
+  double most = 0;
+  for (std::size_t i = 0; i < goal.size(); ++i) {
+    const std::int32_t left = goal[i] - setpoints_[i];
+    most = std::max(most,
+                    std::abs(i < arm_.tendon_drives() ? arm_.tendon_length(left) : arm_.stage_length(left)));
+  }
+  is_in_gap_ = most > way;
+  if (!is_in_gap_) return false;
+  std::vector<std::int32_t> counts = setpoints_;
+  for (std::size_t i = 0; i < goal.size(); ++i)
+    counts[i] += static_cast<std::int32_t>(std::lround((goal[i] - setpoints_[i]) * way / most));
+  ask_counts(std::move(counts), now);
+  return true;
+}
+
+bool Panel::ask_relax(double way, double now) {
+  const SectionState& section = sections_[relaxed_section_];
+  const std::size_t first = relaxed_section_ * arm_.tendons();
+  bool is_loose = section.word == Word::slack;
+  const double limit = link_.hello()->tension_limit;
+  for (std::size_t i = first; i < first + arm_.tendons() && !state_->tension.empty(); ++i)
+    is_loose = is_loose && (limit == 0 || state_->tension[i] < relaxed_share * limit);
+  if (is_loose || relaxed_ > relax_most) {
+    finish(fmt::format("S{} relaxed by {:.2f} mm", relaxed_section_ + 1, 1e3 * relaxed_));
+    return false;
+  }
+  way = std::min(way, relax_speed * 2 * period);
+  relaxed_ += way;
+  std::vector<std::int32_t> counts = setpoints_;
+  for (std::size_t i = first; i < first + arm_.tendons(); ++i) counts[i] += arm_.tendon_counts(way);
+  ask_counts(std::move(counts), now);
+  return true;
+}
+
+bool Panel::ask_homing(double way, double now) {
+  if (!is_new_state_) return false;  // a step for each measurement
+  const auto step = homing_->next(*state_, setpoints_, way);
+  if (homing_->is_done()) {
+    finish(fmt::format("homed, {0}/{0}", arm_.tendon_drives()));
+    return false;
+  }
+  if (*homing_->failure() != '\0') {
+    finish(fmt::format("homing stopped at tendon {}: {}", homing_->done() + 1, homing_->failure()));
+    return false;
+  }
+  if (!step) return false;
+  is_new_state_ = false;
+  if (step->is_zero) {
+    asked_zero_ = *step;
+    link_.ask('Z', zero_payload(step->drive, step->count), now);
+    return true;
+  }
+  std::vector<std::int32_t> counts = setpoints_;
+  counts[step->drive] = step->count;
+  ask_counts(std::move(counts), now);
+  return true;
+}
+
+/// What is done ends by itself; the button has to be pressed anew for more.
+void Panel::finish(std::string_view text) {
+  log("info", text);
+  const bool was_armed = mode_ == Mode::armed;
+  if (!was_armed) disarm("done");
+  stop();
+  needs_release_ = true;
+}
+
+void Panel::ask_counts(std::vector<std::int32_t> counts, double now) {
+  expected_ = std::move(counts);
+  link_.ask('T', counts_payload(ramp, expected_), now);
+}
+
+void Panel::ask_pose(double now) {
+  const bool has_stage = link_.hello()->stages > 0;
+  expected_ = arm_.counts(motion_->set(), has_stage);
+  const auto raw = arm_.raw(motion_->set().bends, *link_.hello());
+  std::optional<std::int32_t> stage;
+  if (has_stage) stage = std::clamp(arm_.stage_counts(motion_->set().stage), 0, link_.hello()->stage_limit);
+  link_.ask('P', pose_payload(ramp, raw, stage), now);
+}
+
+}  // namespace sinew::server::device
