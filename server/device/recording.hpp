@@ -39,6 +39,8 @@ class Recording {
   void row(const std::string& line);
   void event(std::string_view line);
   void end();
+  /// Rows from now on go there; for tests of what happens when they cannot be written.
+  void continue_in(const std::filesystem::path& path) { error_ = rows_.open(path); }
 
   bool is_on() const { return rows_.is_open(); }
   const std::string& name() const { return name_; }

@@ -11,7 +11,7 @@ namespace sinew::server::device {
 namespace {
 
 constexpr double period = 0.02;  // [s] of set-points, and of measurements
-constexpr int ramp = 30;  // [ms] of a set-point: half a period longer, so that a late one leaves no gap
+constexpr int ramp = 40;  // [ms] of a set-point: two periods, so that a late one leaves no gap and no jerk
 constexpr double armed_for = 60;       // [s]
 constexpr double arm_patience = 1;     // [s]
 constexpr double relax_speed = 2e-3;   // [m/s], at most

@@ -1,0 +1,388 @@
+/// The panel's states: who may move the device, what stops it, and how soon.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+
+#include "device_desk.hpp"
+
+namespace sinew::server::device {
+namespace device_panel_test {
+
+Bends bent(double angle, std::size_t section = 1) {
+  Bends bends(5, Bend(0, 0));
+  bends[section] = Bend(angle, -angle / 2);
+  return bends;
+}
+
+/// Armed, with a target.
+void make_ready(PanelDesk& desk) {
+  ASSERT_EQ(desk.take_control(), "");
+  ASSERT_EQ(desk.arm(), "");
+  ASSERT_EQ(desk.panel.mode(), Mode::armed) << desk.panel.why();
+  ASSERT_EQ(desk.go_to(bent(0.2)), "");
+}
+
+struct Row {
+  const char* what;
+  std::function<void(PanelDesk&)> before;
+  std::function<std::string(PanelDesk&)> command;
+  const char* code;
+};
+
+std::string pressed(PanelDesk& desk, Activity activity) {
+  return desk.code(desk.panel.press(activity, desk.secret, true, desk.now, 1));
+}
+
+TEST(DevicePanel, EachCommandHasItsConditions) {
+  const auto nothing = [](PanelDesk&) {};
+  const auto control = [](PanelDesk& d) { d.take_control(); };
+  const auto armed = [](PanelDesk& d) { make_ready(d); };
+  const auto press = [](Activity activity) {
+    return [activity](PanelDesk& d) { return pressed(d, activity); };
+  };
+  const auto arm = [](PanelDesk& d) { return d.arm(); };
+  const auto after = [](const std::function<void(PanelDesk&)>& first,
+                        const std::function<void(PanelDesk&)>& then) {
+    return [=](PanelDesk& d) {
+      first(d);
+      then(d);
+      d.run(0.2);
+    };
+  };
+  const auto silent = [](PanelDesk& d) { d.link.is_silent = true; };
+  const auto tight = [](PanelDesk& d) { d.link.extra_tension[4] = 25; };
+  const auto inserted = [](PanelDesk& d) { d.link.positions[15] = 20'000; };
+  const auto held = [](PanelDesk& d) {
+    d.press(Activity::moving);
+    d.run(0.1);
+    d.panel.hold(d.now);
+  };
+  const Row rows[] = {
+      {"without a lease nobody arms", nothing, arm, "not_yours"},
+      {"or moves", nothing, press(Activity::moving), "not_yours"},
+      {"or relaxes", nothing, press(Activity::relax), "not_yours"},
+      {"but anybody holds", nothing, [](PanelDesk& d) { return d.code(d.panel.hold(d.now)); }, ""},
+      {"one lease at a time", control, [](PanelDesk& d) { return d.take_control(); }, "lease_taken"},
+      {"a lease alone moves nothing", control, press(Activity::moving), "not_armed"},
+      {"but relaxes", control, press(Activity::relax), ""},
+      {"and homes", control, press(Activity::homing), ""},
+      {"and arms", control, arm, ""},
+      {"armed moves", armed, press(Activity::moving), ""},
+      {"straightens", armed, press(Activity::straighten), ""},
+      {"advances", armed, press(Activity::advance), ""},
+      {"retracts", armed, press(Activity::retract), ""},
+      {"not while inserted", after(inserted, armed), press(Activity::straighten), "inserted"},
+      {"a silent line moves nothing", after(control, silent), press(Activity::relax), "no_link"},
+      {"an over-tensioned section neither", after(control, tight), arm, "over_tension"},
+      {"but it is relaxed", after(control, tight), press(Activity::relax), ""},
+      {"after Hold a button is pressed anew", after(armed, held), press(Activity::moving), "release_first"},
+      {"a foreign secret is none", [](PanelDesk& d) { d.take_control(), d.secret = "x"; }, arm, "not_yours"},
+      {"a bend beyond the limit is no target", armed, [](PanelDesk& d) { return d.go_to(bent(0.5)); },
+       "out_of_limits"},
+      {"nor is a stage", armed, [](PanelDesk& d) { return d.go_to(bent(0.1), 9.0); }, "out_of_limits"},
+  };
+  for (const Row& row : rows) {
+    PanelDesk desk;
+    row.before(desk);
+    EXPECT_EQ(row.command(desk), row.code) << row.what << "; disarmed because: " << desk.panel.why();
+  }
+}
+
+TEST(DevicePanel, WhatIsNotHomedIsNotArmed) {
+  PanelDesk desk(false);
+  desk.take_control();
+  EXPECT_EQ(desk.arm(), "not_homed");
+  EXPECT_EQ(desk.panel.mode(), Mode::control);
+  EXPECT_EQ(pressed(desk, Activity::moving), "not_armed");
+}
+
+TEST(DevicePanel, AForeignTableIsSeenAndNothingIsAsked) {
+  PanelDesk desk;
+  desk.link.told().hash ^= 1;
+  desk.link.unplug();
+  desk.run(0.1);
+  desk.link.plug();
+  desk.link.verbs.clear();
+  desk.run(0.2);
+  EXPECT_EQ(desk.link.verbs, "");
+  desk.take_control();
+  EXPECT_EQ(desk.arm(), "no_link");  // it has said nothing for long, for it was not asked
+  EXPECT_EQ(desk.panel.frame(desk.now)["link"], "wrong_table");
+}
+
+TEST(DevicePanel, MovesAtTheJogSpeedAndStopsWithin100MsOfTheRelease) {
+  PanelDesk desk;
+  make_ready(desk);
+  EXPECT_EQ(desk.press(Activity::moving), "");
+  desk.link.fastest = 0;
+  desk.run(0.5);
+  EXPECT_NEAR(desk.link.moved, desk.now, 0.01);
+  EXPECT_GT(desk.link.fastest, 1e-3);
+  EXPECT_LT(desk.link.fastest, 2.3e-3);  // [m/s], of 2: a set-point that is late is caught up
+  desk.let_go();
+  const double released = desk.now;
+  desk.run(0.3);
+  EXPECT_LT(desk.link.moved - released, 0.1);
+  desk.press(Activity::moving);
+  desk.run(4);
+  const Bends there = desk.link.bends();
+  EXPECT_NEAR(there[1][0], 0.2, 1e-3);
+  EXPECT_NEAR(there[1][1], -0.1, 1e-3);
+}
+
+TEST(DevicePanel, SilenceOfThePageStopsItIn300Ms) {
+  PanelDesk desk;
+  make_ready(desk);
+  desk.press(Activity::moving);
+  desk.run(0.25);
+  desk.is_renewing = false;  // the page is gone, without a word
+  const double silent = desk.now;
+  desk.run(1);
+  EXPECT_LT(desk.link.moved - silent, 0.35);
+  EXPECT_EQ(desk.panel.mode(), Mode::view_only);
+  EXPECT_EQ(desk.link.mode, DriveMode::disarmed);
+  EXPECT_EQ(desk.panel.why(), "the page fell silent");
+}
+
+TEST(DevicePanel, AButtonWhoseHeartbeatEndsIsReleased) {
+  PanelDesk desk;
+  make_ready(desk);
+  desk.press(Activity::moving);
+  desk.run(0.25);
+  desk.held.reset();  // the lease goes on
+  const double silent = desk.now;
+  desk.run(1);
+  EXPECT_LT(desk.link.moved - silent, 0.35);
+  EXPECT_EQ(desk.panel.mode(), Mode::armed);
+}
+
+TEST(DevicePanel, HoldOfAnotherPageWinsOverAHeldButton) {
+  PanelDesk desk;
+  make_ready(desk);
+  desk.press(Activity::moving);
+  desk.run(0.3);
+  desk.panel.hold(desk.now);
+  const double held = desk.now;
+  desk.run(0.5);  // the button is still held
+  EXPECT_LT(desk.link.moved - held, 0.1);
+  EXPECT_EQ(desk.panel.activity(), Activity::holding);
+  EXPECT_EQ(desk.last, "release_first");
+  desk.let_go();
+  EXPECT_EQ(desk.press(Activity::moving), "");
+}
+
+TEST(DevicePanel, DisarmsAfterAMinuteAtRest) {
+  PanelDesk desk;
+  make_ready(desk);
+  desk.press(Activity::moving);
+  desk.run(3);
+  desk.let_go();
+  desk.run(59.5);
+  EXPECT_EQ(desk.panel.mode(), Mode::armed);
+  desk.run(1);
+  EXPECT_EQ(desk.panel.mode(), Mode::control);
+  EXPECT_EQ(desk.link.mode, DriveMode::disarmed);
+}
+
+TEST(DevicePanel, EveryFaultOfTheLineDisarms) {
+  const std::pair<std::function<void(PlayedLink&)>, const char*> faults[] = {
+      {[](PlayedLink& link) { link.damage(); }, "a line failed its checksum"},
+      {[](PlayedLink& link) { link.is_silent = true; }, "the controller did not answer for 0.1 s"},
+      {[](PlayedLink& link) { link.unplug(); }, "unplugged"},
+      {[](PlayedLink& link) { link.plug(); }, "the controller was reset"},
+      {[](PlayedLink& link) { link.mode = DriveMode::lost; }, "the controller has let go by itself"},
+      {[](PlayedLink& link) { link.extra_tension[3] = 30; }, "over-tension"}};
+  for (const auto& [fault, why] : faults) {
+    PanelDesk desk;
+    make_ready(desk);
+    desk.press(Activity::moving);
+    desk.run(0.3);
+    fault(desk.link);
+    const double broken = desk.now;
+    desk.run(0.5);
+    EXPECT_EQ(desk.panel.mode(), Mode::control) << why;
+    EXPECT_EQ(desk.panel.why(), why);
+    EXPECT_LT(desk.link.moved - broken, 0.25) << why;
+    EXPECT_NE(desk.link.mode, DriveMode::armed) << why;
+  }
+}
+
+TEST(DevicePanel, WhatIsUnpluggedShowsNoDataAndComesBack) {
+  PanelDesk desk;
+  desk.link.unplug();
+  desk.run(0.3);
+  auto frame = desk.panel.frame(desk.now);
+  EXPECT_EQ(frame["link"], "gone");
+  EXPECT_EQ(frame["sections"][0]["word"], "NO DATA");
+  EXPECT_EQ(frame["alarm"]["word"], "NO DATA");
+  desk.link.plug();
+  desk.run(0.7);
+  frame = desk.panel.frame(desk.now);
+  EXPECT_EQ(frame["link"], "ok");
+  EXPECT_EQ(frame["sections"][0]["word"], "EXACT");
+  EXPECT_TRUE(frame["alarm"].is_null());
+}
+
+TEST(DevicePanel, StatesAreShownAfter100MsAndClearedAfter500) {
+  PanelDesk desk;
+  const auto word = [&] { return desk.panel.frame(desk.now)["sections"][3]["word"].get<std::string>(); };
+  for (const std::size_t i : {9u, 10u, 11u}) desk.link.positions[i] += 1000;  // paid out
+  desk.run(0.06);
+  EXPECT_EQ(word(), "EXACT");
+  desk.run(0.1);
+  EXPECT_EQ(word(), "SLACK");
+  const auto frame = desk.panel.frame(desk.now);
+  EXPECT_EQ(frame["sections"][3]["advice"], "Take in tendons 1, 2, 3 by 0.49 mm");
+  EXPECT_TRUE(frame["sections"][4]["conditional"]);
+  EXPECT_EQ(frame["alarm"]["section"], 3);
+  for (const std::size_t i : {9u, 10u, 11u}) desk.link.positions[i] -= 1000;
+  desk.run(0.4);
+  EXPECT_EQ(word(), "SLACK");
+  desk.run(0.2);
+  EXPECT_EQ(word(), "EXACT");
+}
+
+TEST(DevicePanel, RelaxNeedsTheLeaseAloneOnlyPaysOutAndEndsJustSlack) {
+  PanelDesk desk;
+  for (const std::size_t i : {9u, 10u, 11u}) desk.link.positions[i] -= 1434;  // 0.7 mm
+  desk.run(0.3);
+  const auto before = desk.link.positions;
+  auto frame = desk.panel.frame(desk.now);
+  EXPECT_EQ(frame["alarm"]["word"], "OVER-TENSIONED");
+  EXPECT_EQ(frame["alarm"]["next"], "Hold Relax S4 for 1 s.");
+  EXPECT_NEAR(frame["sections"][3]["over_tension"], 0.7e-3, 1e-5);
+  EXPECT_TRUE(frame["sections"][0]["locked"]);
+  desk.take_control();
+  EXPECT_EQ(desk.press(Activity::relax, 3), "");
+  desk.run(1);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (i / 3 == 3) {
+      EXPECT_GT(desk.link.positions[i], before[i]);
+      EXPECT_LT(desk.link.positions[i], 300) << "just slack, to 0.15 mm";
+    } else {
+      EXPECT_EQ(desk.link.positions[i], before[i]);
+    }
+  }
+  EXPECT_EQ(desk.link.mode, DriveMode::disarmed);
+  desk.let_go();
+  desk.run(0.8);
+  EXPECT_EQ(desk.arm(), "");
+}
+
+TEST(DevicePanel, HomingFindsWhereEachTendonBeginsToPull) {
+  PanelDesk desk(false);
+  for (std::size_t i = 0; i < 15; ++i) desk.link.zeros[i] = 1e-3 * (static_cast<double>(i % 4) - 2);
+  desk.link.positions[15] = 4000;
+  desk.take_control();
+  EXPECT_EQ(desk.press(Activity::homing), "");
+  desk.run(5);
+  EXPECT_EQ(desk.panel.activity(), Activity::homing);
+  const auto frame = desk.panel.frame(desk.now);
+  EXPECT_FALSE(frame["homing"].is_null());
+  for (int i = 0; i < 60 && !desk.panel.is_homed(); ++i) desk.run(1);
+  EXPECT_TRUE(desk.panel.is_homed()) << desk.now;
+  for (const double zero : desk.link.zeros) EXPECT_NEAR(zero, 0, 3e-5);
+  for (std::size_t i = 0; i < 15; ++i) EXPECT_NEAR(desk.link.positions[i], 0, 2);
+  EXPECT_NEAR(desk.link.positions[15], 4000, 1) << "the stage keeps its count";
+  desk.let_go();
+  desk.run(0.8);
+  EXPECT_EQ(desk.arm(), "");
+}
+
+TEST(DevicePanel, RetractGoesBackTheWayItCame) {
+  PanelDesk desk;
+  make_ready(desk);
+  desk.code(desk.panel.set_speed(desk.secret, 10e-3, desk.now));
+  const std::pair<Bends, double> way[] = {{bent(0, 4), 0.01}, {bent(0.2, 4), 0.02}, {bent(0.1, 3), 0.03}};
+  for (const auto& [bends, stage] : way) {
+    desk.go_to(bends, stage);
+    desk.press(Activity::moving);
+    desk.run(4);
+    desk.let_go();
+  }
+  EXPECT_EQ(pressed(desk, Activity::straighten), "inserted");
+  desk.run(0.4);
+  double last = 1, off = 0;
+  desk.press(Activity::retract);
+  for (int i = 0; i < 300 && desk.link.positions[15] > 10; ++i) {
+    desk.run(0.05);
+    const double stage = desk.link.positions[15] / 2.048e6;
+    EXPECT_LE(stage, last + 1e-6);
+    last = stage;
+    if (std::abs(stage - 0.01) < 2e-4) off = std::max(off, std::abs(desk.link.bends()[4][0]));
+  }
+  EXPECT_LT(last, 1e-4);
+  EXPECT_LT(off, 0.02) << "at 10 mm it was straight";
+}
+
+TEST(DevicePanel, AdvanceLeadsTheTipAndTheBodyFollows) {
+  PanelDesk desk;
+  make_ready(desk);
+  desk.code(desk.panel.set_speed(desk.secret, 20e-3, desk.now));
+  Bends lead(5, Bend(0, 0));
+  lead[4] = Bend(0.1, 0);
+  desk.go_to(lead);
+  desk.press(Activity::advance);
+  while (desk.link.positions[15] < 2.048e6 * 0.06 && desk.now < 40) desk.run(0.1);
+  const Bends bends = desk.link.bends();
+  EXPECT_NEAR(bends[4][0], 0.1, 5e-3) << "on the curve that it drew itself";
+  EXPECT_NEAR(bends[3][0], 0.1 * (0.06 - 0.035) / 0.035, 0.01) << "what it lies on";
+  EXPECT_NEAR(bends[2][0], 0, 1e-3);
+}
+
+TEST(DevicePanel, AFullDiskHoldsTheMotion) {
+  const auto folder = std::filesystem::temp_directory_path() / "sinew-device-full";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "test.csv") << "";
+  PanelDesk desk(true, folder.string());
+  make_ready(desk);
+  desk.let_go();
+  desk.panel.disarm(desk.secret, desk.now);
+  std::filesystem::remove(folder / "test.csv");
+  std::filesystem::create_symlink("/dev/full", folder / "test.csv");
+  EXPECT_EQ(desk.arm(), "recording") << "a header that cannot be written";
+  EXPECT_EQ(desk.panel.mode(), Mode::control);
+}
+
+TEST(DevicePanel, ARecordingThatBreaksHoldsTheMotion) {
+  PanelDesk desk;
+  make_ready(desk);
+  desk.press(Activity::moving);
+  desk.run(0.3);
+  desk.recording.continue_in("/dev/full");
+  const double broken = desk.now;
+  desk.run(0.4);
+  EXPECT_LT(desk.link.moved - broken, 0.15);
+  EXPECT_EQ(desk.panel.activity(), Activity::holding);
+  EXPECT_EQ(desk.panel.frame(desk.now)["recording"]["error"], "No space left on device");
+  desk.let_go();
+  desk.run(0.4);
+  EXPECT_EQ(desk.press(Activity::moving), "recording");
+}
+
+TEST(DevicePanel, ARecordingHasARowAPeriodAndTheEvents) {
+  PanelDesk desk;
+  make_ready(desk);
+  desk.press(Activity::moving);
+  desk.run(1);
+  desk.let_go();
+  desk.panel.disarm(desk.secret, desk.now);
+  std::ifstream rows(desk.place / "test.csv"), events(desk.place / "test-events.csv");
+  std::string line;
+  int count = 0;
+  std::getline(rows, line);
+  EXPECT_TRUE(line.starts_with("time[s],S0_beta_1[rad],S0_beta_2[rad],"));
+  const auto commas = std::ranges::count(line, ',');
+  while (std::getline(rows, line)) {
+    ++count;
+    EXPECT_EQ(std::ranges::count(line, ','), commas);
+  }
+  EXPECT_NEAR(count, 55, 6);
+  std::string all((std::istreambuf_iterator<char>(events)), {});
+  EXPECT_NE(all.find("armed"), std::string::npos);
+  EXPECT_NE(all.find("disarmed: you disarmed"), std::string::npos);
+}
+
+}  // namespace device_panel_test
+}  // namespace sinew::server::device
