@@ -364,8 +364,10 @@ const std::array table{
         {},
         "Prints the address and answers there until Ctrl-C. The calls are in docs/server.md. Nothing is read "
         "but\n"
-        "the robot, the scene and the plans that are named; nothing is written; no request leaves this "
-        "machine.\n"
+        "the robot, the scene and the plans that are named; nothing is written but recordings of a device; "
+        "no "
+        "request\n"
+        "leaves this machine.\n"
         "--scene engine/scene.yaml --plan plan.csv opens a plan of sinew plan: the way in, step by step, in "
         "its\n"
         "scene, with its check.\n"

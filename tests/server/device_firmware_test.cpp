@@ -1,0 +1,286 @@
+/// The panel at the real firmware: whatever is asked of it in whatever order, no drive moves that may not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "device_board.hpp"
+#include "thorough.hpp"
+
+namespace sinew::server::device {
+namespace device_firmware_test {
+
+using Random = std::mt19937;
+
+double uniform(Random& random, double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random);
+}
+bool happens(Random& random, double share) { return uniform(random, 0, 1) < share; }
+
+/// Two pages that press whatever they like, and what the first of all rules says of it.
+class Fuzz {
+ public:
+  explicit Fuzz(Random& random) : random_(random) {
+    board_.seen = [this] { look(); };
+    board_.run(0.2);
+  }
+
+  void set_zeros() {
+    EXPECT_TRUE(board_.set_zeros());
+    board_.run(0.05);
+    positions_ = board_.drives.positions;
+  }
+  void order() {
+    const double now = board_.now();
+    if (happens(random_, 0.6)) renew(now);
+    switch (random_() % 12) {
+      case 0:
+        if (std::string secret = happens(random_, 0.5) ? secret_ : "";
+            !board_.panel.lease(secret, number_, now))
+          secret_ = secret;
+        break;
+      case 1:
+        if (happens(random_, 0.1) && !board_.panel.release(any_secret(), now)) stops(now);
+        break;
+      case 2:
+      case 3:
+        board_.panel.arm(any_secret(), now);
+        break;
+      case 4:
+        if (happens(random_, 0.2) && !board_.panel.disarm(any_secret(), now)) stops(now);
+        break;
+      case 5:
+        if (happens(random_, 0.2) && !board_.panel.hold(now)) stops(now);
+        break;
+      case 6:
+        set_target(now);
+        break;
+      case 7:
+        board_.panel.set_speed(any_secret(), uniform(random_, 0, 0.025), now);
+        break;
+      case 8:
+        fault();
+        break;
+      default:
+        press(now);
+    }
+    board_.run(happens(random_, 0.003) ? 0.45 : uniform(random_, 0, 0.012));
+  }
+  long moved = 0, wrong = 0, orders = 0, armed = 0;
+  Board& board() { return board_; }
+
+ private:
+  std::string any_secret() { return happens(random_, 0.95) ? secret_ : "0123"; }
+  void renew(double now) {
+    std::string secret = secret_;
+    if (!secret.empty()) board_.panel.lease(secret, number_, now);
+  }
+  void set_target(double now) {
+    Bends bends;
+    for (int m = 0; m < 5; ++m)
+      bends.emplace_back(uniform(random_, -0.45, 0.45), uniform(random_, -0.4, 0.4));
+    board_.panel.set_target(any_secret(), bends, uniform(random_, -0.01, 0.1), now);
+  }
+  void press(double now) {
+    constexpr Activity buttons[] = {Activity::moving,  Activity::moving,  Activity::straighten,
+                                    Activity::retract, Activity::advance, Activity::relax,
+                                    Activity::homing};
+    // Fingers stay on a button for a while.
+    if (happens(random_, 0.1)) button_ = buttons[random_() % std::size(buttons)];
+    const bool is_held = !happens(random_, 0.05);
+    const Activity before = board_.panel.activity();
+    const Outcome outcome = board_.panel.press(button_, any_secret(), is_held, now, random_() % 6);
+    if (outcome) return;
+    if (is_held) {
+      allowed_until_ = now + 0.3 + settle;
+      return;
+    }
+    if (before == button_) stops(now);
+  }
+  void stops(double now) { allowed_until_ = std::min(allowed_until_, now + 0.1); }
+  void fault() {
+    if (!happens(random_, 0.02)) return;
+    switch (random_() % 5) {
+      case 0:
+        damage_ = 1;
+        board_.controller.line = [this](std::uint8_t byte) { return damage_-- == 1 ? byte ^ 8 : byte; };
+        break;
+      case 1:
+        board_.controller.reset();
+        break;
+      case 2:
+        board_.is_plugged = false;
+        board_.run(0.1);
+        board_.is_plugged = true;
+        board_.run(0.6);
+        break;
+      case 3:
+        board_.drives.tension[random_() % 15] = 25;
+        break;
+      default:
+        std::ranges::fill(board_.drives.tension, 0.5);
+    }
+  }
+  void look() {
+    armed += board_.panel.mode() == Mode::armed;
+    if (positions_ == board_.drives.positions) return;
+    positions_ = board_.drives.positions;
+    ++moved;
+    const bool may = board_.now() <= allowed_until_;
+    wrong += !may;
+    if (!may && wrong < 4)
+      ADD_FAILURE() << "moved at " << board_.now() << ", allowed until " << allowed_until_ << ", "
+                    << name_of(board_.panel.activity());
+  }
+
+  /// [s] that the last set-point, and the one that was on its way, need.
+  static constexpr double settle = 0.07;
+
+  Random& random_;
+  Board board_;
+  std::string secret_;
+  int number_ = 0, damage_ = 0;
+  Activity button_ = Activity::moving;
+  double allowed_until_ = -1;
+  std::vector<std::int32_t> positions_ = board_.drives.positions;
+};
+
+TEST(DeviceFirmware, NoOrderOfCommandsMovesWhatMayNotMove) {
+  Random random(7);
+  Fuzz fuzz(random);
+  fuzz.set_zeros();
+  const int orders = count_of(10'000);
+  for (int i = 0; i < orders; ++i) {
+    fuzz.order();
+    if (fuzz.board().panel.mode() == Mode::view_only && !fuzz.board().panel.is_homed() &&
+        fuzz.board().link.is_free() && i % 20 == 0)
+      fuzz.set_zeros();
+  }
+  EXPECT_EQ(fuzz.wrong, 0);
+  EXPECT_GT(fuzz.moved, orders / 20) << "it has to move at all";
+  EXPECT_GT(fuzz.armed, orders / 20);
+  RecordProperty("moved_ms", static_cast<int>(fuzz.moved));
+  std::printf("%d orders, %.0f s, %ld ms armed, %ld ms moving\n", orders, fuzz.board().now(), fuzz.armed,
+              fuzz.moved);
+}
+
+/// A page that renews its lease and holds a button.
+struct Page {
+  explicit Page(Board& board) : board(board) {
+    board.seen = [this] {
+      if (this->board.now() < next || !is_alive) return;
+      next = this->board.now() + 0.1;
+      int number = 0;
+      if (!secret.empty()) this->board.panel.lease(secret, number, this->board.now());
+      if (held) this->board.panel.press(*held, secret, true, this->board.now());
+    };
+  }
+  std::string code(const Outcome& outcome) { return outcome ? outcome->code : ""; }
+  void make_ready() {
+    board.run(0.2);
+    ASSERT_TRUE(board.set_zeros());
+    board.run(0.7);
+    int number = 0;
+    ASSERT_EQ(code(board.panel.lease(secret, number, board.now())), "");
+    ASSERT_EQ(code(board.panel.arm(secret, board.now())), "");
+    board.run(0.1);
+    ASSERT_EQ(board.panel.mode(), Mode::armed) << board.panel.why();
+    ASSERT_EQ(code(board.panel.set_target(secret, Bends(5, Bend(0.2, 0.1)), 0.05, board.now())), "");
+  }
+  Board& board;
+  std::string secret;
+  std::optional<Activity> held;
+  double next = 0;
+  bool is_alive = true;
+};
+
+TEST(DeviceFirmware, SilenceOfTheHostDisablesTheDrivesIn200Ms) {
+  Board board;
+  Page page(board);
+  page.make_ready();
+  page.held = Activity::moving;
+  board.run(0.3);
+  EXPECT_TRUE(board.drives.are_enabled());
+  board.is_host_alive = false;
+  board.run(0.19);
+  EXPECT_TRUE(board.drives.are_enabled());
+  board.run(0.03);
+  EXPECT_FALSE(board.drives.are_enabled());
+  const long changes = board.drives.changes;
+  board.is_host_alive = true;
+  board.run(0.3);
+  EXPECT_EQ(board.panel.mode(), Mode::control);
+  EXPECT_EQ(board.drives.changes, changes);
+}
+
+TEST(DeviceFirmware, ReleaseStopsItWithin100Ms) {
+  Board board;
+  Page page(board);
+  page.make_ready();
+  page.held = Activity::moving;
+  board.run(0.5);
+  EXPECT_GT(board.drives.changes, 100);
+  page.held.reset();
+  board.panel.press(Activity::moving, page.secret, false, board.now());
+  board.run(0.1);
+  const auto there = board.drives.positions;
+  board.run(0.5);
+  EXPECT_EQ(board.drives.positions, there);
+  EXPECT_EQ(board.panel.mode(), Mode::armed);
+  page.held = Activity::moving;
+  board.run(6);
+  const Arm arm = test_arm();
+  auto goal = Arm(arm).counts({Bends(5, Bend(0.2, 0.1)), 0.05}, true);
+  for (std::size_t i = 0; i < goal.size(); ++i) {
+    if (i < 15) EXPECT_NEAR(board.drives.positions[i], goal[i], 40) << i;
+  }
+}
+
+TEST(DeviceFirmware, OverTensionStopsAndOnlyPayingOutIsLeft) {
+  Board board;
+  Page page(board);
+  page.make_ready();
+  page.held = Activity::moving;
+  board.run(0.4);
+  board.drives.tension[4] = 25;
+  board.run(0.04);
+  const auto there = board.drives.positions;
+  board.run(0.3);
+  EXPECT_EQ(board.drives.positions, there);
+  EXPECT_FALSE(board.drives.are_enabled());
+  const auto frame = board.panel.frame(board.now());
+  EXPECT_EQ(frame["sections"][1]["word"], "OVER-TENSIONED");
+  EXPECT_EQ(frame["state"], "control");
+  EXPECT_EQ(page.code(board.panel.arm(page.secret, board.now())), "over_tension");
+}
+
+TEST(DeviceFirmware, NoiseOnTheLineDisarmsAndIsCounted) {
+  Board board;
+  Page page(board);
+  page.make_ready();
+  page.held = Activity::moving;
+  board.run(0.3);
+  int left = 30;
+  board.controller.line = [&left](std::uint8_t byte) { return left > 0 && --left == 0 ? byte ^ 0x10 : byte; };
+  board.run(0.3);
+  EXPECT_EQ(board.panel.mode(), Mode::control);
+  EXPECT_FALSE(board.drives.are_enabled());
+  EXPECT_EQ(board.link.figures().errors, 1) << board.panel.why();
+  EXPECT_EQ(board.panel.frame(board.now())["link"], "bad_checksum");
+  board.run(1.2);
+  EXPECT_EQ(board.panel.frame(board.now())["link"], "ok");
+}
+
+TEST(DeviceFirmware, AResetForgetsTheZeros) {
+  Board board;
+  Page page(board);
+  page.make_ready();
+  board.controller.reset();
+  board.run(0.5);
+  EXPECT_EQ(board.panel.mode(), Mode::control);
+  EXPECT_FALSE(board.panel.is_homed());
+  EXPECT_EQ(page.code(board.panel.arm(page.secret, board.now())), "not_homed");
+}
+
+}  // namespace device_firmware_test
+}  // namespace sinew::server::device

@@ -1,0 +1,144 @@
+/// A device through the server: the simulated one, on a pseudo-terminal, and two pages.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+// It has httplib: last.
+#include "desk.hpp"
+
+namespace sinew::server {
+namespace device_http_test {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+Options with_demo() {
+  Options options;
+  options.robot = "nottingham-tpcj";
+  options.device.is_demo = true;
+  options.device.folder = (std::filesystem::temp_directory_path() / "sinew-http-device").string();
+  return options;
+}
+
+/// The events, as a page has them.
+class Events {
+ public:
+  explicit Events(int port) : client_("127.0.0.1", port) {
+    thread_ = std::thread([this] {
+      client_.Get("/api/device/events", [this](const char* bytes, std::size_t count) {
+        text_.append(bytes, count);
+        for (std::size_t end; (end = text_.find("\n\n")) != std::string::npos; text_.erase(0, end + 2))
+          take(text_.substr(0, end));
+        return !is_over_;
+      });
+    });
+  }
+  ~Events() {
+    is_over_ = true;
+    client_.stop();
+    thread_.join();
+  }
+  json frame() {
+    const std::lock_guard lock(mutex_);
+    return frame_;
+  }
+  int frames() const { return frames_; }
+  std::vector<std::string> log() {
+    const std::lock_guard lock(mutex_);
+    return log_;
+  }
+  bool await(const std::function<bool(const json&)>& holds) {
+    for (int i = 0; i < 500; ++i, std::this_thread::sleep_for(20ms))
+      if (const json now = frame(); !now.is_null() && holds(now)) return true;
+    ADD_FAILURE() << frame();
+    return false;
+  }
+
+ private:
+  void take(const std::string& event) {
+    const std::size_t data = event.find("data: ");
+    if (data == std::string::npos) return;
+    const std::lock_guard lock(mutex_);
+    if (event.starts_with("event: log")) log_.push_back(json::parse(event.substr(data + 6))["text"]);
+    if (!event.starts_with("event: frame")) return;
+    frame_ = json::parse(event.substr(data + 6));
+    ++frames_;
+  }
+  httplib::Client client_;
+  std::string text_;
+  std::mutex mutex_;
+  json frame_;
+  std::vector<std::string> log_;
+  std::atomic<int> frames_ = 0;
+  std::atomic<bool> is_over_ = false;
+  std::thread thread_;
+};
+
+std::string code_of(Desk& desk, const std::string& call, const json& body) {
+  const json answer = json::parse(desk.post("/api/device/" + call, body.dump()), nullptr, false);
+  return answer.contains("error") ? answer["error"]["code"].get<std::string>() : "";
+}
+
+TEST(DeviceHttp, AServerWithoutOneSaysSo) {
+  Desk desk;
+  EXPECT_EQ(desk.get("/api/device"), R"({"device":null})");
+  EXPECT_EQ(code_of(desk, "hold", json::object()), "no_device");
+  desk.get("/api/device/events");
+  EXPECT_EQ(desk.status, 404);
+}
+
+TEST(DeviceHttp, TwoPagesAtOneDevice) {
+  Desk desk(with_demo());
+  Events first(desk.port), second(desk.port);
+  ASSERT_TRUE(first.await([](const json& frame) { return frame["link"] == "ok"; }));
+  const json device = json::parse(desk.get("/api/device"))["device"];
+  EXPECT_EQ(device["source"], "demo");
+  EXPECT_EQ(device["tendons"], 3);
+  EXPECT_TRUE(device["has_tension"] && device["has_stage"] && device["faults"]);
+  const json query{{"query", "describe"}};
+  desk.post("/api/query?robot=" + device["robot"].get<std::string>(), query.dump());
+  EXPECT_EQ(desk.status, 200);
+
+  const json mine = json::parse(desk.post("/api/device/lease", "{}"));
+  const json lease{{"lease", mine["lease"]}};
+  EXPECT_EQ(code_of(desk, "lease", json::object()), "lease_taken");
+  EXPECT_EQ(code_of(desk, "arm", {{"lease", "another"}}), "not_yours");
+  EXPECT_EQ(code_of(desk, "arm", lease), "not_homed");
+  EXPECT_EQ(code_of(desk, "move", {{"lease", mine["lease"]}, {"held", true}}), "not_armed");
+  EXPECT_EQ(code_of(desk, "lease", lease), "");
+  const int before = second.frames();
+  bool has_homed = false;
+  Clock::duration slowest{};
+  for (int i = 0; i < 15; ++i) {  // a button held for a second and a half
+    const auto asked = Clock::now();
+    EXPECT_EQ(code_of(desk, "lease", lease), "");
+    EXPECT_EQ(code_of(desk, "home", {{"lease", mine["lease"]}, {"held", true}}), "");
+    slowest = std::max(slowest, Clock::now() - asked);
+    std::this_thread::sleep_for(80ms);
+    has_homed |= first.frame()["activity"] == "homing" && !first.frame()["homing"].is_null();
+  }
+  EXPECT_TRUE(has_homed) << first.frame();
+  EXPECT_LT(slowest, 100ms) << "of two calls";
+  EXPECT_NEAR(second.frames() - before, 25, 12);
+  EXPECT_EQ(code_of(desk, "hold", json::object()), "") << "anybody";
+  EXPECT_EQ(code_of(desk, "home", {{"lease", mine["lease"]}, {"held", true}}), "release_first");
+  EXPECT_TRUE(second.await([](const json& frame) { return frame["state"] == "view_only"; })) << "300 ms";
+  EXPECT_EQ(second.frame()["why"], first.frame()["why"]);
+
+  EXPECT_EQ(code_of(desk, "fault", {{"line", "unplug"}}), "");
+  EXPECT_TRUE(first.await([](const json& frame) { return frame["sections"][0]["word"] == "NO DATA"; }));
+  EXPECT_EQ(code_of(desk, "fault", {{"line", "plug"}}), "");
+  EXPECT_TRUE(first.await([](const json& frame) { return frame["link"] == "ok"; }));
+  EXPECT_EQ(code_of(desk, "fault", {{"line", "nonsense"}}), "fault");
+  const auto log = first.log();
+  EXPECT_NE(std::ranges::find(log, "device found"), log.end());
+}
+
+}  // namespace device_http_test
+}  // namespace sinew::server
