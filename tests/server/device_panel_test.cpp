@@ -157,6 +157,20 @@ TEST(DevicePanel, AButtonWhoseHeartbeatEndsIsReleased) {
   EXPECT_EQ(desk.panel.mode(), Mode::armed);
 }
 
+TEST(DevicePanel, AButtonThatMayNotBePressedKeepsNoOtherDown) {
+  PanelDesk desk;
+  desk.link.positions[15] = 20'000;
+  desk.run(0.1);
+  make_ready(desk);
+  desk.press(Activity::moving);
+  desk.run(0.1);
+  desk.held = Activity::straighten;  // inserted: refused each time
+  const double changed = desk.now;
+  desk.run(1);
+  EXPECT_EQ(desk.last, "inserted");
+  EXPECT_LT(desk.link.moved - changed, 0.36);
+}
+
 TEST(DevicePanel, HoldOfAnotherPageWinsOverAHeldButton) {
   PanelDesk desk;
   make_ready(desk);

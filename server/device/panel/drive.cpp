@@ -11,7 +11,8 @@ namespace sinew::server::device {
 namespace {
 
 constexpr double period = 0.02;  // [s] of set-points, and of measurements
-constexpr int ramp = 40;  // [ms] of a set-point: two periods, so that a late one leaves no gap and no jerk
+constexpr int ramp = 40;    // [ms] of a set-point: two periods, so that a late one leaves no gap and no jerk
+constexpr int freeze = 20;  // [ms] of the set-point that holds
 constexpr double armed_for = 60;       // [s]
 constexpr double arm_patience = 1;     // [s]
 constexpr double relax_speed = 2e-3;   // [m/s], at most
@@ -206,9 +207,9 @@ bool Panel::ask_next(double now) {
     next_state_ = std::max(next_state_ + period, now + period / 2);
     return ask('S');
   }
-  if (is_freezing_ && is_driving() && state_) {
+  if (is_freezing_ && is_driving() && state_ && state_time_ > frozen_at_) {
     is_freezing_ = false;
-    ask_counts(state_->counts, now);
+    ask_counts(state_->counts, now, freeze);
     return true;
   }
   return ask_motion(now);
@@ -260,7 +261,7 @@ bool Panel::ask_gap(double way, double now) {
   std::vector<std::int32_t> counts = setpoints_;
   for (std::size_t i = 0; i < goal.size(); ++i)
     counts[i] += static_cast<std::int32_t>(std::lround((goal[i] - setpoints_[i]) * way / most));
-  ask_counts(std::move(counts), now);
+  ask_counts(std::move(counts), now, ramp);
   return true;
 }
 
@@ -279,7 +280,7 @@ bool Panel::ask_relax(double way, double now) {
   relaxed_ += way;
   std::vector<std::int32_t> counts = setpoints_;
   for (std::size_t i = first; i < first + arm_.tendons(); ++i) counts[i] += arm_.tendon_counts(way);
-  ask_counts(std::move(counts), now);
+  ask_counts(std::move(counts), now, ramp);
   return true;
 }
 
@@ -303,7 +304,7 @@ bool Panel::ask_homing(double way, double now) {
   }
   std::vector<std::int32_t> counts = setpoints_;
   counts[step->drive] = step->count;
-  ask_counts(std::move(counts), now);
+  ask_counts(std::move(counts), now, ramp);
   return true;
 }
 
@@ -316,9 +317,9 @@ void Panel::finish(std::string_view text) {
   needs_release_ = true;
 }
 
-void Panel::ask_counts(std::vector<std::int32_t> counts, double now) {
+void Panel::ask_counts(std::vector<std::int32_t> counts, double now, int milliseconds) {
   expected_ = std::move(counts);
-  link_.ask('T', counts_payload(ramp, expected_), now);
+  link_.ask('T', counts_payload(milliseconds, expected_), now);
 }
 
 void Panel::ask_pose(double now) {

@@ -190,7 +190,11 @@ Outcome Panel::hold(double now) {
   lapse(now);
   stop(Activity::holding);
   needs_release_ = true;
-  is_freezing_ = is_driving() && mode_ == Mode::armed;
+  constexpr double once = 0.1;  // [s]: a second one while the first is under way changes nothing
+  if (is_driving() && mode_ == Mode::armed && now_ - frozen_at_ > once) {
+    is_freezing_ = true;
+    frozen_at_ = next_state_ = now_;
+  }
   log("info", "held");
   return {};
 }
@@ -260,12 +264,13 @@ Outcome Panel::press(Activity activity, std::string_view secret, bool is_held, d
   if (!is_held) {
     if (activity_ == activity) let_go();
     needs_release_ = false;
-    held_ = -1e9;
+    pressed_ = -1e9;
     return {};
   }
-  if (now - held_ > patience) needs_release_ = false;  // it has been released, and nobody said so
-  held_ = now;
+  if (now - pressed_ > patience) needs_release_ = false;  // it has been released, and nobody said so
+  pressed_ = now;
   if (auto no = may(activity, section)) return no;
+  held_ = now;  // not by a button that may not be pressed: it would keep another one down
   if (activity_ == activity && (activity != Activity::relax || section == relaxed_section_)) return {};
   if (activity == Activity::homing && !wants_drives())
     if (auto no = begin_recording()) return no;

@@ -106,7 +106,7 @@ class Panel {
   bool ask_homing(double way, double now);
   bool ask_relax(double way, double now);
   void finish(std::string_view text);
-  void ask_counts(std::vector<std::int32_t> counts, double now);
+  void ask_counts(std::vector<std::int32_t> counts, double now, int milliseconds);
   void ask_pose(double now);
   bool step_motion(double way);
 
@@ -133,7 +133,7 @@ class Panel {
   Activity activity_ = Activity::rest;
   std::string secret_, since_, why_;
   int number_ = 0;
-  double renewed_ = 0, held_ = -1e9, armed_until_ = 0, now_ = 0;
+  double renewed_ = 0, held_ = -1e9, pressed_ = -1e9, armed_until_ = 0, now_ = 0;
   bool is_arming_ = false;
   bool needs_release_ = false;  ///< stopped by another thing than a release: to be pressed anew
 
@@ -142,7 +142,8 @@ class Panel {
   DriveMode drives_ = DriveMode::disarmed;
   bool is_freezing_ = false, is_new_state_ = false, has_setpoints_ = false;
   std::optional<DriveState> state_;
-  double state_time_ = -1e9, next_state_ = -1e9, next_set_ = -1e9, last_set_ = -1e9, asked_arm_ = -1e9;
+  double state_time_ = -1e9, next_state_ = -1e9, next_set_ = -1e9, last_set_ = -1e9, asked_arm_ = -1e9,
+         frozen_at_ = -1e9;
   double damaged_at_ = -1e9, rate_ = 0;
   int spi_damaged_ = 0;
 
