@@ -153,6 +153,7 @@ void Device::run(const std::stop_token& over) {
     }
     link_.wait(longest_wait);
   }
+  const std::lock_guard lock(mutex_);
   const double end = now() + frame_period;
   panel_.shut_down();
   while (now() < end) {  // for the controller to let go

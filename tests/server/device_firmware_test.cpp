@@ -39,17 +39,17 @@ class Fuzz {
           secret_ = secret;
         break;
       case 1:
-        if (happens(random_, 0.1) && !board_.panel.release(any_secret(), now)) stops(now);
+        if (happens(random_, 0.02) && !board_.panel.release(any_secret(), now)) stops(now);
         break;
       case 2:
       case 3:
         board_.panel.arm(any_secret(), now);
         break;
       case 4:
-        if (happens(random_, 0.2) && !board_.panel.disarm(any_secret(), now)) stops(now);
+        if (happens(random_, 0.03) && !board_.panel.disarm(any_secret(), now)) stops(now);
         break;
       case 5:
-        if (happens(random_, 0.2) && !board_.panel.hold(now)) stops(now);
+        if (happens(random_, 0.05) && !board_.panel.hold(now)) stops(now);
         break;
       case 6:
         set_target(now);
@@ -84,13 +84,20 @@ class Fuzz {
     constexpr Activity buttons[] = {Activity::moving,  Activity::moving,  Activity::straighten,
                                     Activity::retract, Activity::advance, Activity::relax,
                                     Activity::homing};
+    if (now < silent_until_) return;  // fingers off, without a word; the page goes on
+    if (happens(random_, 0.02)) silent_until_ = now + 0.5;
     // Fingers stay on a button for a while.
     if (happens(random_, 0.03)) button_ = buttons[random_() % std::size(buttons)];
     const bool is_held = !happens(random_, 0.03);
     const Activity before = board_.panel.activity();
-    const Outcome outcome = board_.panel.press(button_, any_secret(), is_held, now, random_() % 6);
+    const std::string secret = any_secret();
+    const Outcome outcome = board_.panel.press(button_, secret, is_held, now, random_() % 6);
     if (outcome) return;
     if (is_held) {
+      const bool needs_arms = button_ != Activity::relax && button_ != Activity::homing;
+      EXPECT_TRUE(secret == secret_ && !secret.empty());
+      EXPECT_TRUE(!needs_arms || (board_.panel.mode() == Mode::armed && board_.drives.are_enabled() &&
+                                  board_.panel.is_homed()));
       allowed_until_ = now + 0.3 + settle;
       return;
     }
@@ -140,7 +147,7 @@ class Fuzz {
   std::string secret_;
   int number_ = 0, damage_ = 0;
   Activity button_ = Activity::moving;
-  double allowed_until_ = -1;
+  double allowed_until_ = -1, silent_until_ = -1;
   std::vector<std::int32_t> positions_ = board_.drives.positions;
 };
 

@@ -131,6 +131,24 @@ TEST(DevicePanel, MovesAtTheJogSpeedAndStopsWithin100MsOfTheRelease) {
   EXPECT_NEAR(there[1][1], -0.1, 1e-3);
 }
 
+TEST(DevicePanel, TheLimitItselfIsNearItAndNotBeyond) {
+  PanelDesk desk;
+  make_ready(desk);
+  desk.code(desk.panel.set_speed(desk.secret, 20e-3, desk.now));
+  Bends most(5, Bend(0, 0));
+  for (Bend& bend : most)
+    bend = Bend(test_arm().robot().sections[0].limit, -test_arm().robot().sections[0].limit);
+  EXPECT_EQ(desk.go_to(most), "");
+  desk.press(Activity::moving);
+  desk.run(4);
+  const auto frame = desk.panel.frame(desk.now);
+  for (const auto& section : frame["sections"]) {
+    EXPECT_EQ(section["word"], "EXACT");
+    EXPECT_TRUE(section["near_limit"]);
+    EXPECT_NEAR(section["measured"][0].get<double>(), most[0][0], 1e-3);
+  }
+}
+
 TEST(DevicePanel, SilenceOfThePageStopsItIn300Ms) {
   PanelDesk desk;
   make_ready(desk);
