@@ -99,15 +99,15 @@ class UartWire : public Wire {
 };
 
 struct Board {
-  Board()
+  explicit Board(const std::string& motor = "{lead: 2 mm, counts: 4096}")
       : controller(std::string(test::firmware_folder) + "/sinew-firmware-panel.elf"),
         drives(controller),
         link([this]() -> std::unique_ptr<Wire> {
           if (!is_plugged) return nullptr;
           return std::make_unique<UartWire>(controller, is_plugged);
         }),
-        panel(test_arm(), Judge(Session::open(arm_document()).value(), test_arm()), link, recording,
-              {[] { return "10:41:07"; }, [] { return "board"; }}) {}
+        panel(test_arm(motor), Judge(Session::open(arm_document(motor)).value(), test_arm(motor)), link,
+              recording, {[] { return "10:41:07"; }, [] { return "board"; }}) {}
   ~Board() {
     std::error_code ignored;
     std::filesystem::remove_all(place, ignored);

@@ -17,12 +17,12 @@
 
 namespace sinew::server::device {
 
-inline Document arm_document() {
-  const std::string text =
-      read_robot_text("nottingham-tpcj").value() + "\nmotor: {lead: 2 mm, counts: 4096}\n";
-  return parse_yaml(text, "robot").value();
+inline Document arm_document(const std::string& motor = "{lead: 2 mm, counts: 4096}") {
+  return parse_yaml(read_robot_text("nottingham-tpcj").value() + "\nmotor: " + motor + "\n", "robot").value();
 }
-inline Arm test_arm() { return Arm::read(arm_document()).value(); }
+inline Arm test_arm(const std::string& motor = "{lead: 2 mm, counts: 4096}") {
+  return Arm::read(arm_document(motor)).value();
+}
 
 /// What a controller of protocol 3 with one stage does, by its description in firmware/README.md.
 class PlayedLink : public Link {

@@ -63,7 +63,7 @@ class Fuzz {
       default:
         press(now);
     }
-    board_.run(happens(random_, 0.003) ? 0.45 : uniform(random_, 0, 0.009));
+    board_.run(happens(random_, 0.003) ? 0.45 : uniform(random_, 0, 0.007));
   }
   long moved = 0, wrong = 0, orders = 0, armed = 0;
   Board& board() { return board_; }
@@ -274,6 +274,59 @@ TEST(DeviceFirmware, NoiseOnTheLineDisarmsAndIsCounted) {
   EXPECT_EQ(board.panel.frame(board.now())["link"], "bad_checksum");
   board.run(1.2);
   EXPECT_EQ(board.panel.frame(board.now())["link"], "ok");
+}
+
+TEST(DeviceFirmware, AnotherRobotsTableIsToldAndNothingIsAsked) {
+  Board board("{lead: 2 mm, counts: 2048}");
+  board.run(0.3);
+  const long lines = board.link.figures().lines;
+  board.run(0.3);
+  EXPECT_EQ(board.link.figures().lines, lines);
+  EXPECT_EQ(board.panel.frame(board.now())["link"], "wrong_table");
+  EXPECT_EQ(board.panel.frame(board.now())["message"], "the firmware has another robot's table");
+  std::string secret;
+  int number = 0;
+  board.panel.lease(secret, number, board.now());
+  EXPECT_EQ(board.panel.arm(secret, board.now())->code, "wrong_table");
+}
+
+TEST(DeviceFirmware, ACutTendonIsToldThoughItsDriveFollows) {
+  Board board;
+  Page page(board);
+  page.make_ready();
+  board.drives.tension[7] = 0;
+  board.run(0.2);
+  const auto section = board.panel.frame(board.now())["sections"][2];
+  EXPECT_EQ(section["word"], "PARTLY SLACK");
+  EXPECT_EQ(section["class"], "exact") << "as far as encoders see";
+  EXPECT_EQ(section["advice"], "Look at tendon 2: no tension");
+}
+
+TEST(DeviceFirmware, HomingSetsTheZerosWhereTendonsBeginToPull) {
+  Board board;
+  Page page(board);
+  std::vector<double> zeros;  // counts of the drives
+  for (std::size_t i = 0; i < SpringDrives::tendons; ++i)
+    zeros.push_back(1000.0 * static_cast<double>(i % 4) - 1500);
+  const auto fingers = board.seen;
+  board.seen = [&] {
+    fingers();
+    for (std::size_t i = 0; i < zeros.size(); ++i)
+      board.drives.tension[i] = std::max(0.0, 1e-3 * (zeros[i] - board.drives.positions[i]));  // 2 N/mm
+  };
+  board.run(0.7);
+  int number = 0;
+  ASSERT_EQ(page.code(board.panel.lease(page.secret, number, board.now())), "");
+  ASSERT_EQ(page.code(board.panel.set_speed(page.secret, 10e-3, board.now())), "");
+  page.held = Activity::homing;
+  for (int i = 0; i < 60 && !board.panel.is_homed(); ++i) board.run(1);
+  EXPECT_TRUE(board.panel.is_homed()) << board.panel.why();
+  board.run(0.3);
+  for (std::size_t i = 0; i < zeros.size(); ++i) EXPECT_NEAR(board.drives.positions[i], zeros[i], 60) << i;
+  EXPECT_FALSE(board.drives.are_enabled()) << "it was not armed: the drives let go";
+  page.held.reset();
+  board.panel.press(Activity::homing, page.secret, false, board.now());
+  EXPECT_EQ(page.code(board.panel.arm(page.secret, board.now())), "");
 }
 
 TEST(DeviceFirmware, AResetForgetsTheZeros) {

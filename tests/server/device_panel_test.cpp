@@ -107,7 +107,7 @@ TEST(DevicePanel, AForeignTableIsSeenAndNothingIsAsked) {
   desk.run(0.2);
   EXPECT_EQ(desk.link.verbs, "");
   desk.take_control();
-  EXPECT_EQ(desk.arm(), "no_link");  // it has said nothing for long, for it was not asked
+  EXPECT_EQ(desk.arm(), "wrong_table");
   EXPECT_EQ(desk.panel.frame(desk.now)["link"], "wrong_table");
 }
 

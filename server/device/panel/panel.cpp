@@ -69,11 +69,12 @@ Outcome Panel::check_lease(std::string_view secret, double now) {
 
 /// Whether the device can be moved at all.
 Outcome Panel::check_line() const {
-  if (!knows_controller_ || link_.figures().is_gone || age(now_) > no_data)
-    return refused("no_link", "the controller does not answer; check the cable and its supply");
-  if (!fits_)
+  const bool is_there = knows_controller_ && !link_.figures().is_gone;
+  if (is_there && !fits_)
     return refused("wrong_table",
                    "the firmware has another robot's table; flash this robot's, or open its file");
+  if (!is_there || age(now_) > no_data)
+    return refused("no_link", "the controller does not answer; check the cable and its supply");
   return {};
 }
 
