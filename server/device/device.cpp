@@ -33,7 +33,14 @@ std::string time_text(const char* format) {
 }
 
 Panel::Clock system_clock(const std::string& robot) {
-  return {[] { return time_text("%H:%M:%S"); }, [robot] { return time_text("%Y-%m-%d-%H%M%S-") + robot; }};
+  // A second one in the same second has a name of its own.
+  const auto named = [robot, last = std::string(), count = 1]() mutable {
+    std::string name = time_text("%Y-%m-%d-%H%M%S-") + robot;
+    count = name == last ? count + 1 : 1;
+    last = name;
+    return count > 1 ? fmt::format("{}-{}", name, count) : name;
+  };
+  return {[] { return time_text("%H:%M:%S"); }, named};
 }
 
 Reply told(const Refused& no) { return refused(409, no.code, "device", no.message); }

@@ -63,7 +63,7 @@ class Fuzz {
       default:
         press(now);
     }
-    board_.run(happens(random_, 0.003) ? 0.45 : uniform(random_, 0, 0.007));
+    board_.run(happens(random_, 0.002) ? 0.45 : uniform(random_, 0, 0.007));
   }
   long moved = 0, wrong = 0, orders = 0, armed = 0;
   Board& board() { return board_; }
@@ -233,8 +233,9 @@ TEST(DeviceFirmware, ReleaseStopsItWithin100Ms) {
   board.run(0.5);
   EXPECT_EQ(board.drives.positions, there);
   EXPECT_EQ(board.panel.mode(), Mode::armed);
+  board.panel.set_speed(page.secret, 10e-3, board.now());
   page.held = Activity::moving;
-  board.run(7);
+  board.run(1.5);
   Arm arm = test_arm();
   const auto goal = arm.counts({Bends(5, Bend(0.2, 0.1)), 0.004}, true);
   for (std::size_t i = 0; i < SpringDrives::tendons; ++i)
@@ -327,6 +328,30 @@ TEST(DeviceFirmware, HomingSetsTheZerosWhereTendonsBeginToPull) {
   page.held.reset();
   board.panel.press(Activity::homing, page.secret, false, board.now());
   EXPECT_EQ(page.code(board.panel.arm(page.secret, board.now())), "");
+}
+
+TEST(DeviceFirmware, TheWayInSurvivesALineThatWasAway) {
+  Board board;
+  Page page(board);
+  page.make_ready();
+  board.panel.set_speed(page.secret, 10e-3, board.now());
+  page.held = Activity::moving;
+  board.run(1);
+  page.held.reset();
+  const std::int32_t stage = board.drives.positions[15];
+  EXPECT_GT(stage, 2000);
+  board.is_plugged = false;
+  board.run(0.4);
+  EXPECT_EQ(board.panel.why(), "unplugged");
+  EXPECT_FALSE(board.drives.are_enabled()) << "by itself";
+  board.is_plugged = true;
+  board.run(1.5);
+  EXPECT_EQ(page.code(board.panel.arm(page.secret, board.now())), "");
+  board.run(0.1);
+  page.held = Activity::retract;
+  board.run(1.5);
+  EXPECT_LT(std::abs(board.drives.positions[15]), 20) << board.panel.why();
+  EXPECT_LT(std::abs(board.drives.positions[0]), 20);
 }
 
 TEST(DeviceFirmware, AResetForgetsTheZeros) {

@@ -83,11 +83,11 @@ void Panel::take(const LinkEvent& event, double now) {
     knows_controller_ = false;
     log("no_data", "unplugged");
   } else {
-    disarm("the controller was reset");
+    disarm(event.is_same_session ? "the line was away" : "the controller was reset");
     knows_controller_ = true;
     drives_ = event.mode;
     state_.reset();
-    path_.forget();
+    if (!event.is_same_session) path_.forget();  // its zeros are gone
     const Hello& hello = *link_.hello();
     fits_ = hello.version >= 3 && static_cast<std::size_t>(hello.sections) == arm_.sections() &&
             static_cast<std::size_t>(hello.tendons) == arm_.tendons() && arm_.fits(hello);
@@ -120,7 +120,10 @@ void Panel::take_answer(const LinkEvent& event, double now) {
       setpoints_[asked_zero_.drive] = asked_zero_.count;
       is_new_state_ = false;
       if (homing_ && asked_zero_.drive < arm_.tendon_drives()) homing_->zero_is_set();
-      log("info", fmt::format("zero {} set", asked_zero_.drive + 1));
+      log("info", asked_zero_.drive < arm_.tendon_drives()
+                      ? fmt::format("S{} tendon {}: zero set", asked_zero_.drive / arm_.tendons() + 1,
+                                    asked_zero_.drive % arm_.tendons() + 1)
+                      : fmt::format("stage: at {:.1f} mm", 1e3 * arm_.stage_length(asked_zero_.count)));
       break;
     default:
       break;

@@ -115,14 +115,14 @@ void ControllerLink::take(const RawReply& reply, double now, std::vector<LinkEve
 void ControllerLink::take_hello(const RawReply& reply, std::vector<LinkEvent>& events) {
   const auto hello = read_hello(reply.payload);
   if (!hello) return;
-  const bool is_reset = !is_new_ && hello->session() != (sequence_ + 1) >> 16U;
+  const bool is_same = hello_ && hello_->hash == hello->hash && hello->session() == (sequence_ + 1) >> 16U;
+  const bool is_found = std::exchange(is_new_, false) || !is_same;
   hello_ = hello;
   sequence_ = hello->last;
   needs_hello_ = false;
-  if (std::exchange(is_new_, false) || is_reset)
-    events.push_back({LinkEvent::Kind::found, 'H', reply.mode});
-  else
-    events.push_back({LinkEvent::Kind::answer, 'H', reply.mode});
+  LinkEvent event{is_found ? LinkEvent::Kind::found : LinkEvent::Kind::answer, 'H', reply.mode};
+  event.is_same_session = is_same;
+  events.push_back(std::move(event));
 }
 
 }  // namespace sinew::server::device

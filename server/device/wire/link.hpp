@@ -28,6 +28,7 @@ struct LinkEvent {
   DriveMode mode = DriveMode::disarmed;
   WireError error = WireError::none;
   std::string payload = {};
+  bool is_same_session = false;  ///< of `found`: it was only the line that was away
 };
 
 struct LinkFigures {
