@@ -14,7 +14,7 @@ constexpr double slow = 1.0 / 8;                                  // of the spee
 
 }  // namespace
 
-void Homing::resume(const std::vector<std::int32_t>&) {
+void Homing::begin_tendon() {
   phase_ = Phase::pay_out;
   gone_ = 0;
   samples_.clear();
@@ -66,7 +66,7 @@ std::optional<Homing::Step> Homing::next(const DriveState& state, const std::vec
   }
   if (phase_ == Phase::settle && setpoints[done_] == 0) {
     ++done_;
-    resume(setpoints);
+    begin_tendon();
     return {};
   }
   switch (phase_) {

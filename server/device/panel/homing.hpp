@@ -21,8 +21,6 @@ class Homing {
     std::int32_t count = 0;
     bool is_zero = false;  ///< where the drive is now is that count
   };
-  /// Begins the tendon at which it is anew, at the set-points that hold.
-  void resume(const std::vector<std::int32_t>& setpoints);
   /// @param fast [m] that a tendon may go until the next step
   /// @param setpoints of the drives
   std::optional<Step> next(const DriveState& state, const std::vector<std::int32_t>& setpoints, double fast);
@@ -37,6 +35,7 @@ class Homing {
 
  private:
   enum class Phase { pay_out, take_in, back_off, feel, zero, settle };
+  void begin_tendon();
   std::optional<Step> move(double way, const std::vector<std::int32_t>& setpoints);
   std::optional<Step> feel(const DriveState& state, const std::vector<std::int32_t>& setpoints, double fast);
   std::int32_t zero_count() const;

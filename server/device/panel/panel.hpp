@@ -122,6 +122,8 @@ class Panel {
   std::string link_message(double now) const;
   nlohmann::ordered_json section_json(std::size_t section);
   nlohmann::ordered_json homing_json() const;
+  nlohmann::ordered_json recording_json() const;
+  nlohmann::ordered_json alarm_json(double now) const;
 
   Arm arm_;
   Judge judge_;

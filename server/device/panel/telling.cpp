@@ -56,6 +56,20 @@ Json Panel::homing_json() const {
           {"of", arm_.tendon_drives()}};
 }
 
+Json Panel::recording_json() const {
+  if (!recording_.is_on() && recording_.error().empty()) return nullptr;
+  return {{"name", recording_.name()}, {"rows", recording_.rows()}, {"error", recording_.error()}};
+}
+
+Json Panel::alarm_json(double now) const {
+  if (!alarm_) return nullptr;
+  return {
+      {"section", alarm_->section},   {"word", name_of(alarm_->word, shown_[alarm_->section].is_partial())},
+      {"since", now - alarm_->since}, {"sentence", alarm_->sentence},
+      {"did", alarm_->did},           {"next", alarm_->next},
+      {"more", alarm_->more},         {"acknowledged", alarm_->is_acknowledged}};
+}
+
 Json Panel::section_json(std::size_t m) {
   const SectionState& state = sections_[m];
   const ShownState& shown = shown_[m];
@@ -105,21 +119,12 @@ Json Panel::frame(double now) {
   json["insertion"] = std::max(0.0, place.stage);
   json["stage_target"] = target(place).stage;
   json["speed"] = speed_;
-  json["recording"] = nullptr;
-  if (recording_.is_on() || !recording_.error().empty())
-    json["recording"] = {
-        {"name", recording_.name()}, {"rows", recording_.rows()}, {"error", recording_.error()}};
+  json["recording"] = recording_json();
   const Vec3<double> tip = arm_.tip(place.bends);
   json["tip"] = {tip[0], tip[1], tip[2]};
   json["sections"] = Json::array();
   for (std::size_t m = 0; m < arm_.sections(); ++m) json["sections"].push_back(section_json(m));
-  json["alarm"] = nullptr;
-  if (alarm_)
-    json["alarm"] = {
-        {"section", alarm_->section},   {"word", name_of(alarm_->word, shown_[alarm_->section].is_partial())},
-        {"since", now - alarm_->since}, {"sentence", alarm_->sentence},
-        {"did", alarm_->did},           {"next", alarm_->next},
-        {"more", alarm_->more},         {"acknowledged", alarm_->is_acknowledged}};
+  json["alarm"] = alarm_json(now);
   return json;
 }
 
