@@ -41,8 +41,9 @@ class Board {
 
   static void enable(bool on) { on ? PORTL |= enabled : PORTL &= static_cast<Uint8>(~enabled); }
 
-  /// Four bytes a drive, the most significant first, from section 1 tendon 1 on, then two of a checksum of
-  /// these. The rising latch makes the drives take what they have been sent; what they send is from before.
+  /// Four bytes a drive, the most significant first, from section 1 tendon 1 on; where tensions are measured
+  /// two for each tendon's; then two of a checksum of these. The rising latch makes the drives take what they
+  /// have been sent; what they send is from before.
   static bool exchange(const Counts& setpoints) {
     // An AVR has the least significant byte first.
     const Uint8* out = reinterpret_cast<const Uint8*>(setpoints);
@@ -66,6 +67,7 @@ class Board {
       if (--i == 0) break;
       next(out[7]);
     }
+    for (Uint8 i = tension_bytes; i > 0; --i) next(0);
     const Uint8 low = sent.low();
     next(sent.high());
     const Uint8 high_answer = shifted();
@@ -79,6 +81,11 @@ class Board {
     for (const Uint8 *byte = answer_ + 4 * drive, *end = byte + 4; byte != end; ++byte)
       count = count << 8 | *byte;
     return static_cast<Int32>(count);
+  }
+
+  static Uint16 tension(Uint8 tendon) {
+    const Uint8* const bytes = answer_ + 4 * drive_count + 2 * tendon;
+    return static_cast<Uint16>(bytes[0] << 8 | bytes[1]);
   }
 
   static Uint16 milliseconds() {
@@ -142,11 +149,12 @@ class Board {
   }
   static Uint8* at(Uint16 address) { return reinterpret_cast<Uint8*>(address); }
 
-  static Uint8 answer_[4 * drive_count];  ///< of the drives, as it came
+  static constexpr Uint8 tension_bytes = has_tensions ? 2 * tendon_drives : 0;
+  static Uint8 answer_[4 * drive_count + tension_bytes];  ///< of the drives, as it came
   static volatile Uint16 ticks_;
   static volatile bool ticked_;
 };
-Uint8 Board::answer_[4 * drive_count] = {};
+Uint8 Board::answer_[4 * drive_count + Board::tension_bytes] = {};
 volatile Uint16 Board::ticks_ = 0;
 volatile bool Board::ticked_ = false;
 

@@ -16,6 +16,18 @@
 #ifndef STAGE_LIMIT
 #define STAGE_LIMIT 8388607
 #endif
+/// 1: drives of tendons measure how strongly these pull.
+#ifndef TENSIONS
+#define TENSIONS 0
+#endif
+/// [1/256 N] above which nothing is taken in; 0: none.
+#ifndef TENSION_LIMIT
+#define TENSION_LIMIT 5120
+#endif
+/// 1: drives do not know after a reset where zero is; poses wait until each has been told.
+#ifndef HOMING
+#define HOMING 0
+#endif
 
 namespace sinew {
 namespace firmware {
@@ -24,6 +36,10 @@ constexpr Uint8 section_count = robot::sections, tendon_count = robot::tendons;
 constexpr Uint8 bend_count = 2 * section_count, tendon_drives = section_count * tendon_count;
 constexpr Uint8 stage_count = STAGES, drive_count = tendon_drives + stage_count;
 constexpr Int32 stage_limit = STAGE_LIMIT;
+constexpr bool has_tensions = TENSIONS, has_homing = HOMING;
+constexpr Uint16 tension_limit = has_tensions ? TENSION_LIMIT : 0;
+static_assert(TENSION_LIMIT >= 0 && TENSION_LIMIT <= 0xFFFF, "a tension has two bytes");
+static_assert((TENSIONS == 0 || TENSIONS == 1) && (HOMING == 0 || HOMING == 1), "options are on or off");
 static_assert(STAGES == 0 || STAGES == 1, "at most one stage");
 static_assert(STAGE_LIMIT >= 0, "a stage goes from 0 to its limit");
 static_assert(robot::sections * robot::tendons + STAGES < 256 && 2 * robot::sections < 256,
@@ -61,10 +77,20 @@ inline void plan(const Pose& pose, Changes& changes, Counts& counts) {
   if (stage_count > 0) *count = pose.stage;
 }
 
+/// Counts of the longest change that a tendon can be asked for.
+inline Int32 longest_change() { return robot::motor.of(Length::from_raw(Length::largest)); }
+
+/// Whether a drive may be sent there: a tendon as far as changes go, the stage from 0 to its limit.
+inline bool is_allowed(Uint8 drive, Int32 count) {
+  if (drive >= tendon_drives) return count >= 0 && count <= stage_limit;
+  const Int32 most = longest_change();
+  return count <= most && count >= -most;
+}
+
 /// Whether these can be counts of drives: within what changes and the stage can be, and not all -1, which is
 /// what a wire that is off reads by its pull-up.
 inline bool is_plausible(const Counts& counts) {
-  const Int32 of_tendons = robot::motor.of(Length::from_raw(Length::largest));
+  const Int32 of_tendons = longest_change();
   bool all_ones = true;
   for (Uint8 i = 0; i < drive_count; ++i) {
     const Int32 most = i < tendon_drives ? of_tendons : stage_limit;

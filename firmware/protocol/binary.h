@@ -42,7 +42,13 @@ inline Uint32 read32(const Uint8* bytes) {
          static_cast<Uint32>(bytes[2]) << 16 | static_cast<Uint32>(bytes[3]) << 24;
 }
 
+/// Payloads: a pose, and with homing a setpoint of each drive.
+constexpr Uint16 pose_bytes = 2 + 2 * bend_count + 4 * stage_count, move_bytes = 2 + 4 * drive_count;
+constexpr Uint16 longest_payload = has_homing && move_bytes > pose_bytes ? move_bytes : pose_bytes;
+constexpr Uint8 homed_bytes = (drive_count + 7) / 8;
+
 struct BinaryRequest {
+  static constexpr bool has_drives = has_homing;
   char verb;
   Uint32 sequence, hash;
   const Uint8* payload;
@@ -54,7 +60,7 @@ struct BinaryRequest {
 inline Error read_request(Uint8* line, Uint16 size, BinaryRequest& request) {
   constexpr Uint8 head = 9, tail = 4;
   constexpr Uint32 of_whole = 0x2144DF1CUL;  // the sum of any bytes with their sum behind them
-  static_assert(head + 2 + 2 * bend_count + 4 * stage_count + tail < bridged, "requests without bridges");
+  static_assert(head + longest_payload + tail < bridged, "requests without bridges");
   request = BinaryRequest{0, 0, 0, line, 0};
   if (size < 1 + head + tail) return Error::truncated;
   const Error damage = decode(line, size);
@@ -124,8 +130,10 @@ class BinaryFrame {
   }
 
  private:
-  // The longest are replies to hello and state: counts, bends, letters, a count of exchanges.
-  static constexpr Uint16 most = 10 + 4 * drive_count + 2 * bend_count + tendon_drives + 2;
+  // The longest are replies to hello and state: counts, bends, letters, a count of exchanges, which drives
+  // are homed, tensions.
+  static constexpr Uint16 most = 10 + 4 * drive_count + 2 * bend_count + tendon_drives + 2 + homed_bytes +
+                                 (has_tensions ? 2 * tendon_drives : 0);
   static constexpr Uint16 capacity = most > 40 ? most : 40;
 
   Sink& sink_;

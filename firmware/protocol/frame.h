@@ -28,7 +28,10 @@ enum class Error : Uint8 {
   not_armed,
   out_of_limits,
   drives,
-  no_session
+  no_session,
+  not_homed,
+  moving,
+  over_tension
 };
 
 inline const char* text_of(Error error) {
@@ -46,7 +49,10 @@ inline const char* text_of(Error error) {
                                       "not armed",
                                       "out of limits",
                                       "drives answer nonsense",
-                                      "no session can be kept"};
+                                      "no session can be kept",
+                                      "not homed",
+                                      "moving",
+                                      "over-tension"};
   return texts[static_cast<Uint8>(error)];
 }
 
@@ -100,6 +106,7 @@ class Line {
 };
 
 struct TextRequest {
+  static constexpr bool has_drives = false;  ///< numbers of single drives: in binary frames only
   char verb;
   Uint32 sequence, hash;
   Text numbers;  ///< all that follows the hash

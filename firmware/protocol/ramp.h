@@ -34,6 +34,7 @@ class Ramp {
   }
   void stop() { left_ = 0; }
   Counts& target() { return to_; }
+  const Counts& target() const { return to_; }
   bool is_running() const { return left_ != 0; }
 
   /// Where the setpoints are so many ticks later.

@@ -1,7 +1,8 @@
 /// @file session.h
-/// Requests in, replies and motion out. The drives' setpoints change in three places only: `arm`, where they
-/// become what the drives measure; `pose`, after checksum, hash, sequence number, arming and limits have all
-/// passed; and `refresh`, where a ramp takes them to such a pose. Every line that ends gets one reply.
+/// Requests in, replies and motion out. The drives' setpoints change in few places only: `arm` and
+/// `set_zero`, where they become what the drives measure; `pose` and `move_drives`, after checksum, hash,
+/// sequence number, arming and limits have all passed; and `refresh`, where a ramp takes them there. Every
+/// line that ends gets one reply.
 /// Freestanding C++14, no heap.
 #ifndef SINEW_FIRMWARE_SESSION_H
 #define SINEW_FIRMWARE_SESSION_H
@@ -11,11 +12,13 @@
 #include "protocol/epoch.h"
 #include "protocol/frame.h"
 #include "protocol/ramp.h"
+#include "protocol/tension_guard.h"
+#include "protocol/zeros.h"
 
 namespace sinew {
 namespace firmware {
 
-constexpr Uint8 protocol_version = 2;
+constexpr Uint8 protocol_version = 3;
 constexpr Uint16 link_timeout = 200;  ///< [ms] without a valid frame, then the drives are disabled
 constexpr Uint8 damage_limit = 5;     ///< damaged exchanges in a row, then the drives are disabled
 
@@ -26,7 +29,8 @@ constexpr Uint8 damage_limit = 5;     ///< damaged exchanges in a row, then the 
 ///   - `void enable(bool)`: the drives;
 ///   - `bool exchange(const Counts& setpoints)` with the drives, in both directions at once: whether the
 ///   checksum
-///     of what they measure holds; `Int32 measured(Uint8 drive)` in the last exchange;
+///     of what they measure holds; `Int32 measured(Uint8 drive)` and, where drives measure it,
+///     `Uint16 tension(Uint8 tendon)` in the last exchange;
 ///   - `Uint8 eeprom_read(Uint16 address)`, `void eeprom_write(Uint16 address, Uint8)`, which may wait until
 ///     `bool is_eeprom_ready()`.
 template <class Board>
@@ -115,12 +119,15 @@ class Session {
   template <class Request>
   Error obey(const Request& request) {
     const char verb = request.verb;
-    if (verb != 'H' && verb != 'A' && verb != 'P' && verb != 'S' && verb != 'D') return Error::unknown_verb;
+    const bool is_of_drives = request.has_drives && (verb == 'T' || verb == 'Z');
+    if (verb != 'H' && verb != 'A' && verb != 'P' && verb != 'S' && verb != 'D' && !is_of_drives)
+      return Error::unknown_verb;
     if (verb != 'H') {
       const Error stale = check_fresh(request.sequence, request.hash);
       if (stale != Error::none) return stale;
     }
     if (verb == 'P') return pose(request);
+    if (is_of_drives) return verb == 'T' ? move_drives(request) : set_zero(request);
     const Error extra = expect_nothing(request);
     if (extra != Error::none) return extra;
     if (verb == 'H') return hello(request);
@@ -207,6 +214,8 @@ class Session {
     reply.put32(last_);
     reply.put32(stage_count > 0 ? static_cast<Uint32>(stage_limit) : 0);
     reply.put(static_cast<Uint8>(reset_cause_));
+    reply.put(static_cast<Uint8>((has_tensions ? 1 : 0) | (has_homing ? 2 : 0)));
+    reply.put16(tension_limit);
     reply.end();
     return Error::none;
   }
@@ -215,15 +224,23 @@ class Session {
   bool read_drives(Counts& measured) {
     exchange();
     const bool is_whole = exchange();
-    for (Uint8 i = 0; i < drive_count; ++i) measured[i] = board_.measured(i);
+    for (Uint8 i = 0; i < drive_count; ++i) measured[i] = zeros_.to_host(i, board_.measured(i));
     return is_whole;
   }
 
   bool exchange() {
     is_refreshed_ = true;
-    const bool is_whole = board_.exchange(setpoints_);
+    Counts of_drives;
+    const bool is_whole = board_.exchange(zeros_.to_drives(setpoints_, of_drives));
     if (!is_whole && damaged_ != 0xFFFF) ++damaged_;
+    if (is_whole && tension_limit > 0) obey_tensions();
     return is_whole;
+  }
+  /// A tendon that has come above the limit stops all; from then on only what takes it in is stopped, so that
+  /// the others may be paid out, too.
+  void obey_tensions() {
+    const bool is_new = guard_.look(board_);
+    if (ramp_.is_running() && (is_new || guard_.forbids(setpoints_, ramp_.target()))) ramp_.stop();
   }
 
   /// The drives get the setpoints that hold now. What a damaged exchange has not brought, the next one does;
@@ -292,20 +309,83 @@ class Session {
     if (error != Error::none) return error;
     if (state_ != State::armed) return Error::not_armed;
     if (!is_within_limits(pose)) return Error::out_of_limits;
-    accept(request.sequence);
-    const bool is_ramp = pose.duration > 1;
-    Counts& counts = is_ramp ? ramp_.target() : setpoints_;
+    if (!zeros_.are_set()) return Error::not_homed;
+    // Where tensions may refuse it, setpoints and ramp stay as they are until it is known.
+    Counts wanted;
+    Counts& goal = pose.duration > 1 ? ramp_.target() : setpoints_;
+    Counts& counts = tension_limit > 0 ? wanted : goal;
     Changes changes;
+    if (tension_limit == 0) accept(request.sequence);
     plan(pose, changes, counts);
-    if (is_ramp) {
-      ramp_.begin(setpoints_, pose.duration);
+    if (tension_limit > 0) {
+      if (guard_.forbids(setpoints_, counts)) return Error::over_tension;
+      accept(request.sequence);
+      for (Uint8 i = 0; i < drive_count; ++i) goal[i] = counts[i];
+    }
+    set_off(pose.duration);
+    answer_pose(request, changes, counts);
+    return Error::none;
+  }
+  /// To the ramp's target, or at once to setpoints that are there already.
+  void set_off(Uint16 duration) {
+    if (duration > 1) {
+      ramp_.begin(setpoints_, duration);
     } else {
       ramp_.stop();
       tell_drives();
     }
-    answer_pose(request, changes, counts);
+  }
+
+  /// Single drives, which is how a host looks for the ends of tendons before it may ask for a pose.
+  Error move_drives(const BinaryRequest& request) {
+    if (request.size != move_bytes) return Error::wrong_count;
+    if (state_ != State::armed) return Error::not_armed;
+    Counts counts;
+    const bool are_near = !zeros_.are_set();
+    for (Uint8 i = 0; i < drive_count; ++i) {
+      counts[i] = static_cast<Int32>(read32(request.payload + 2 + 4 * i));
+      if (!is_allowed(i, counts[i])) return Error::out_of_limits;
+      if (are_near && i < tendon_drives && !is_near(setpoints_[i], counts[i])) return Error::out_of_limits;
+    }
+    if (guard_.forbids(setpoints_, counts)) return Error::over_tension;
+    accept(request.sequence);
+    const Uint16 duration = read16(request.payload);
+    Counts& goal = duration > 1 ? ramp_.target() : setpoints_;
+    for (Uint8 i = 0; i < drive_count; ++i) goal[i] = counts[i];
+    set_off(duration);
+    Changes none;
+    answer_pose(request, none, counts);
     return Error::none;
   }
+  Error move_drives(const TextRequest&) { return Error::unknown_verb; }
+  /// As far as a drive may go that does not know where it is: 30 mm.
+  static bool is_near(Int32 from, Int32 to) {
+    const Int32 most = robot::motor.of(Length(30.0));
+    // Modulo 2^32, so that no difference of two counts overflows.
+    const Uint32 way = to > from ? static_cast<Uint32>(to) - static_cast<Uint32>(from)
+                                 : static_cast<Uint32>(from) - static_cast<Uint32>(to);
+    return way <= static_cast<Uint32>(most);
+  }
+
+  /// Where a drive is now gets a count; it stays there.
+  Error set_zero(const BinaryRequest& request) {
+    if (request.size != 5) return Error::wrong_count;
+    const Uint8 drive = request.payload[0];
+    const Int32 count = static_cast<Int32>(read32(request.payload + 1));
+    if (drive >= drive_count) return Error::out_of_range;
+    if (state_ != State::armed) return Error::not_armed;
+    if (!is_allowed(drive, count)) return Error::out_of_limits;
+    if (ramp_.is_running()) return Error::moving;
+    Counts measured;
+    if (!read_drives(measured)) return Error::drives;
+    accept(request.sequence);
+    zeros_.set(drive, board_.measured(drive), count);
+    setpoints_[drive] = count;
+    tell_drives();
+    return acknowledge(request);
+  }
+  Error set_zero(const TextRequest&) { return Error::unknown_verb; }
+
   void answer_pose(const TextRequest& request, Changes& changes, const Counts& counts) {
     TextReply<Session> reply(*this);
     reply.begin(request.verb, request.sequence, state_);
@@ -348,6 +428,9 @@ class Session {
     for (Uint8 i = 0; i < bend_count; ++i) reply.put16(static_cast<Uint16>(bend_at(bends, i).raw));
     for (Uint8 i = 0; i < tendon_drives; ++i) reply.put(static_cast<Uint8>(letter_at(states, i)));
     reply.put16(damaged_);
+    for (Uint8 i = 0; i < homed_bytes; ++i) reply.put(zeros_.bits(i));
+    if (has_tensions)
+      for (Uint8 i = 0; i < tendon_drives; ++i) reply.put16(board_.tension(i));
     reply.end();
   }
 
@@ -360,9 +443,14 @@ class Session {
   }
 
   Board& board_;
-  Line<32 + 7 * bend_count + 12 * stage_count> line_;  // longest request: 30, 7 a bend, 12 a stage
-  Counts setpoints_ = {};                              ///< what the drives are told
+  // The longest request is a pose in ASCII, 30 characters, 7 a bend, 12 a stage, or the setpoints of drives.
+  static constexpr Uint16 pose_line = 32 + 7 * bend_count + 12 * stage_count,
+                          move_line = has_homing ? 16 + move_bytes : 0;
+  Line<(move_line > pose_line ? move_line : pose_line)> line_;
+  Counts setpoints_ = {};  ///< what the drives are told, from the host's zeros
   Ramp<drive_count> ramp_;
+  Zeros<drive_count, has_homing> zeros_;
+  TensionGuard<tendon_drives, tension_limit> guard_;
   NextEpoch next_epoch_;
   Uint32 last_ = 0;
   Uint16 epoch_ = 0, heard_ = 0, ticked_ = 0;

@@ -1,6 +1,6 @@
 /// @file drives.hpp
 /// Servo drives on the controller's SPI, played: they take setpoints when LATCH rises, if the checksum holds,
-/// follow them while ENABLE is high, and tell where they are.
+/// follow them while ENABLE is high, and tell where they are and, if they measure it, how strongly they pull.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +15,15 @@ namespace sinew::firmware {
 
 class Drives {
  public:
-  Drives(Controller& controller, std::size_t count)
+  /// @param measuring the first so many measure tension
+  Drives(Controller& controller, std::size_t count, std::size_t measuring = 0)
       : setpoints(count),
         positions(count),
         strain(count),
+        tensions(measuring),
         sampled_(count),
         controller_(controller),
-        received_(4 * count + 2),
+        received_(4 * count + 2 * measuring + 2),
         answer_(received_.size()) {
     controller.spi = [this](std::uint8_t byte) { return exchange(byte); };
     controller.watch_port_b(latch_bit, [this](bool high) { high ? latch() : select(); });
@@ -36,7 +38,9 @@ class Drives {
   std::vector<std::int32_t> positions;  ///< where they are
   /// What the encoders show beyond where the drives shall be: a tendon pulled out or run slack.
   std::vector<std::int32_t> strain;
-  bool samples_at_latch = false;  ///< what they answer is of the end of the exchange before
+  std::vector<std::uint16_t> tensions;  ///< [1/256 N], where they are measured
+  bool follow_at_once = true;           ///< else somebody else moves them
+  bool samples_at_latch = false;        ///< what they answer is of the end of the exchange before
   /// What the wire makes of each byte to them and from them.
   std::function<std::uint8_t(std::uint8_t)> to_drives, from_drives;
   std::size_t latched = 0;  ///< exchanges that were taken,
@@ -54,6 +58,8 @@ class Drives {
       for (int shift = 24; shift >= 0; shift -= 8)
         sum.add(answer_[at++] = static_cast<Uint8>(count >> shift));
     }
+    for (const std::uint16_t tension : tensions)
+      for (const int shift : {8, 0}) sum.add(answer_[at++] = static_cast<Uint8>(tension >> shift));
     // Drives that have refused the last exchange say so by the complement.
     const std::uint8_t mask = has_refused_ ? 0xFF : 0;
     answer_[at++] = sum.high() ^ mask;
@@ -87,7 +93,7 @@ class Drives {
       std::uint32_t word = 0;
       for (std::size_t k = 0; k < 4; ++k) word = word << 8 | received_[4 * i + k];
       setpoints[i] = static_cast<std::int32_t>(word);
-      if (are_enabled()) positions[i] = setpoints[i];
+      if (follow_at_once && are_enabled()) positions[i] = setpoints[i];
     }
     ++latched;
   }

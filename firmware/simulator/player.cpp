@@ -174,9 +174,9 @@ class Player {
     sequence_ = 0;
     send(request('H', 0), nullptr);
     await(controller_.cycles(1.0));
-    constexpr std::size_t size = 6 + 8 + 4 + 4 + 4 + 1;
+    constexpr std::size_t size = 6 + 8 + 4 + 4 + 4 + 1 + 1 + 2;
     if (!last_reply_ || last_reply_->size() != size || (*last_reply_)[0] != 'H')
-      throw std::runtime_error("the firmware does not answer binary frames of version 2");
+      throw std::runtime_error("the firmware does not answer binary frames of version 3");
     const Uint8* const said = last_reply_->data() + 6;
     const Uint32 hash = read32(said + 8);
     if (hash != table_hash) {

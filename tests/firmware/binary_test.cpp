@@ -87,10 +87,11 @@ TEST(FirmwareBinary, HelloSaysWhatAHostHasToKnow) {
   expect_accepted(answer, 'H', "disarmed");
   EXPECT_EQ(answer.sequence, 7u);
   const auto byte = [](int value) { return little_endian(static_cast<std::uint32_t>(value), 1); };
-  EXPECT_EQ(desk.payload, byte(2) + byte(section_count) + byte(tendon_count) + byte(stage_count) + byte(16) +
-                              byte(Angle::fraction) + byte(16) + byte(Length::fraction) +
-                              little_endian(table_hash, 4) + little_endian(0xFFFF, 4) +
-                              little_endian(stage_count > 0 ? stage_limit : 0, 4) + 'p');
+  EXPECT_EQ(desk.payload, byte(protocol_version) + byte(section_count) + byte(tendon_count) +
+                              byte(stage_count) + byte(16) + byte(Angle::fraction) + byte(16) +
+                              byte(Length::fraction) + little_endian(table_hash, 4) +
+                              little_endian(0xFFFF, 4) + little_endian(stage_count > 0 ? stage_limit : 0, 4) +
+                              'p' + byte(0) + little_endian(0, 2));
 }
 
 TEST(FirmwareBinary, VerbsDoWhatThoseOfAsciiDo) {
@@ -104,7 +105,9 @@ TEST(FirmwareBinary, VerbsDoWhatThoseOfAsciiDo) {
   expect_accepted(desk.ask_binary('S'), 'S', "armed");
   const std::string binary = desk.payload;
   const Answer ascii = desk.ask('S');
-  ASSERT_EQ(binary.size(), 4u * drive_count + 2u * bend_count + tendon_drives + 2u);
+  const std::string homed((drive_count + 7) / 8, '\xFF');
+  ASSERT_EQ(binary.size(), 4u * drive_count + 2u * bend_count + tendon_drives + 2u + homed.size());
+  EXPECT_EQ(binary.substr(binary.size() - homed.size()), homed);
   for (std::size_t i = 0; i < drive_count; ++i)
     EXPECT_EQ(std::to_string(static_cast<std::int32_t>(number_at(binary, 4 * i, 4))), ascii.rest[i]);
   for (std::size_t i = 0; i < bend_count; ++i)
@@ -316,7 +319,7 @@ TEST(FirmwareSpi, DamagedExchangesAreMendedByTheNext) {
   EXPECT_TRUE(desk.is_at(some_pose()));
   EXPECT_TRUE(desk.board.enabled);
   desk.ask_binary('S');
-  EXPECT_EQ(number_at(desk.payload, desk.payload.size() - 2, 2), damage_limit - 1u);
+  EXPECT_EQ(number_at(desk.payload, 4 * drive_count + 2 * bend_count + tendon_drives, 2), damage_limit - 1u);
 }
 
 TEST(FirmwareSpi, WireThatBringsNothingDisablesTheDrives) {

@@ -48,6 +48,7 @@ struct DeskBoard {
     return is_whole;
   }
   Int32 measured(Uint8 drive) const { return answer.at(drive); }
+  Uint16 tension(Uint8 tendon) const { return tensions.at(tendon); }
   bool is_eeprom_ready() const { return true; }
   Uint8 eeprom_read(Uint16 address) const { return eeprom.at(address); }
   void eeprom_write(Uint16 address, Uint8 byte) {
@@ -63,6 +64,7 @@ struct DeskBoard {
   int refused_exchange = 0;  ///< the how manieth the drives do not take, and say so in the one after it
   bool has_refused = false;
   std::array<std::int32_t, drive_count> setpoints{}, positions{}, answer{};
+  std::array<Uint16, tendon_drives> tensions{};  ///< [1/256 N]
   bool keeps_path = false;
   std::vector<std::array<std::int32_t, drive_count>> path;  ///< setpoints of all exchanges
   std::array<Uint8, 16> eeprom = erased();

@@ -100,7 +100,7 @@ TEST(FirmwareSession, HelloSaysWhatAHostHasToKnow) {
   const Answer answer = desk.ask(request('H', 7, {}, 0));
   expect_accepted(answer, 'H', "disarmed");
   EXPECT_EQ(answer.sequence, 7u);
-  const std::vector<std::string> expected = {"2",
+  const std::vector<std::string> expected = {std::to_string(protocol_version),
                                              std::to_string(section_count),
                                              std::to_string(tendon_count),
                                              "16",
