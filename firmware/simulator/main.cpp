@@ -1,5 +1,5 @@
-/// sinew-simulate: firmware on a simulated ATmega2560, its UART0 on stdin and stdout, servo drives on its
-/// SPI.
+/// sinew-simulate: firmware on a simulated ATmega2560, its UART0 on stdin and stdout or on a
+/// pseudo-terminal, servo drives on its SPI.
 #include <poll.h>
 #include <unistd.h>
 
@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "simulator/drives.hpp"
+#include "simulator/panel.hpp"
 #include "simulator/player.hpp"
 
 namespace {
@@ -36,14 +37,23 @@ constexpr const char* help =
     "      --drives N      servo drives on the SPI; default 15\n"
     "      --play CSV      play this trajectory in binary frames instead, and compare the replies\n"
     "      --rate HZ       its rows a second, whatever their times\n"
+    "      --pty LINK      UART0 on a pseudo-terminal of that name, in real time; faults come on stdin\n"
+    "      --arm ROBOT     a simulated arm on the drives: tendons whose tension is measured, and a stage\n"
+    "      --motor-set M   its motor, else the file's; default '{lead: 2 mm, counts: 4096}'\n"
+    "      --seed N        of the slack with which its tendons begin; default 1\n"
     "  -h, --help          this text\n\n"
     "It ends when the firmware sleeps with interrupts off. Exit status: 0, or 1 if the controller crashed\n"
     "or a reply was not what it should be, or 2 if an option or file is bad. The bytes are raw: whoever\n"
     "writes a line waits for its reply, or asks for --turns.\n\n"
+    "With --pty it prints \"ready LINK\", then answers each line of stdin by \"ok\" or \"? reason\":\n"
+    "  cut SECTION TENDON, mend, stick SECTION TENDON, free   of the arm; both count from 1\n"
+    "  noise SHARE, unplug, plug                              of the serial line, both ways\n"
+    "  reset, quit, state                                     state: the arm's truth as JSON\n\n"
     "Example:\n  sed -n 's/^> //p' firmware/README.md | sinew-simulate sinew-firmware.elf --turns\n";
 
 struct Options {
-  std::string elf, eeprom, play;
+  std::string elf, eeprom, play, pty, arm, motor;
+  unsigned seed = 1;
   std::uint32_t frequency = Controller::default_frequency;
   std::optional<std::uint64_t> cycles;
   std::size_t drives = 15;
@@ -84,6 +94,14 @@ Options parse(int count, char** arguments) {
       options.play = value();
     else if (word == "--rate")
       options.rate = number<double>(word, value());
+    else if (word == "--pty")
+      options.pty = value();
+    else if (word == "--arm")
+      options.arm = value();
+    else if (word == "--motor-set")
+      options.motor = value();
+    else if (word == "--seed")
+      options.seed = number<unsigned>(word, value());
     else if (word == "--eeprom")
       options.eeprom = value();
     else if (word.starts_with("-") || !options.elf.empty())
@@ -92,6 +110,8 @@ Options parse(int count, char** arguments) {
       options.elf = word;
   }
   if (options.elf.empty() && !options.help) throw std::runtime_error("no firmware was named; see --help");
+  if (options.pty.empty() && !options.arm.empty()) throw std::runtime_error("--arm needs --pty");
+  if (options.arm.empty() && !options.motor.empty()) throw std::runtime_error("--motor-set needs --arm");
   return options;
 }
 
@@ -166,6 +186,15 @@ bool serve(Controller& controller, const Options& options) {
   }
 }
 
+/// With an arm there is a stage beside its tendons, whose tensions are measured.
+bool serve_panel(Controller& controller, const Options& options) {
+  std::optional<sinew::SerialRobot> robot;
+  if (!options.arm.empty()) robot = sinew::firmware::read_arm(options.arm, options.motor);
+  const auto tendons = robot ? static_cast<std::size_t>(robot->tendon_count()) : 0;
+  Drives drives(controller, robot ? tendons + 1 : options.drives, tendons);
+  return sinew::firmware::serve_terminal(controller, drives, robot, options.seed, options.pty);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) try {
@@ -174,7 +203,9 @@ int main(int count, char** arguments) try {
   Controller controller(options.elf, options.frequency);
   if (!options.eeprom.empty()) load(controller, options.eeprom);
   bool good = false;
-  if (options.play.empty()) {
+  if (!options.pty.empty()) {
+    good = serve_panel(controller, options);
+  } else if (options.play.empty()) {
     Drives drives(controller, options.drives);
     good = serve(controller, options);
   } else {
