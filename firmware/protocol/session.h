@@ -238,7 +238,7 @@ class Session {
   }
   /// A tendon that has come above the limit stops all; from then on only what takes it in is stopped, so that
   /// the others may be paid out, too.
-  void obey_tensions() {
+  __attribute__((noinline)) void obey_tensions() {
     const bool is_new = guard_.look(board_);
     if (ramp_.is_running() && (is_new || guard_.forbids(setpoints_, ramp_.target()))) ramp_.stop();
   }
@@ -310,30 +310,45 @@ class Session {
     if (state_ != State::armed) return Error::not_armed;
     if (!is_within_limits(pose)) return Error::out_of_limits;
     if (!zeros_.are_set()) return Error::not_homed;
-    // Where tensions may refuse it, setpoints and ramp stay as they are until it is known.
-    Counts wanted;
-    Counts& goal = pose.duration > 1 ? ramp_.target() : setpoints_;
-    Counts& counts = tension_limit > 0 ? wanted : goal;
+    if (tension_limit > 0) return pose_guarded(request, pose);
+    accept(request.sequence);
+    const bool is_ramp = pose.duration > 1;
+    Counts& counts = is_ramp ? ramp_.target() : setpoints_;
     Changes changes;
-    if (tension_limit == 0) accept(request.sequence);
     plan(pose, changes, counts);
-    if (tension_limit > 0) {
-      if (guard_.forbids(setpoints_, counts)) return Error::over_tension;
-      accept(request.sequence);
-      for (Uint8 i = 0; i < drive_count; ++i) goal[i] = counts[i];
+    if (is_ramp) {
+      ramp_.begin(setpoints_, pose.duration);
+    } else {
+      ramp_.stop();
+      tell_drives();
     }
-    set_off(pose.duration);
     answer_pose(request, changes, counts);
     return Error::none;
   }
-  /// To the ramp's target, or at once to setpoints that are there already.
-  void set_off(Uint16 duration) {
-    if (duration > 1) {
+  /// Setpoints and ramp stay as they are until it is known that no tension refuses it. Apart from the above,
+  /// which has no time for that.
+  template <class Request>
+  Error pose_guarded(const Request& request, const Pose& pose) {
+    Changes changes;
+    Counts counts;
+    plan(pose, changes, counts);
+    const Error error = go_to(counts, pose.duration, request.sequence);
+    if (error == Error::none) answer_pose(request, changes, counts);
+    return error;
+  }
+  __attribute__((noinline)) Error go_to(const Counts& counts, Uint16 duration, Uint32 sequence) {
+    if (guard_.forbids(setpoints_, counts)) return Error::over_tension;
+    accept(sequence);
+    const bool is_ramp = duration > 1;
+    Counts& goal = is_ramp ? ramp_.target() : setpoints_;
+    for (Uint8 i = 0; i < drive_count; ++i) goal[i] = counts[i];
+    if (is_ramp) {
       ramp_.begin(setpoints_, duration);
     } else {
       ramp_.stop();
       tell_drives();
     }
+    return Error::none;
   }
 
   /// Single drives, which is how a host looks for the ends of tendons before it may ask for a pose.
@@ -347,12 +362,8 @@ class Session {
       if (!is_allowed(i, counts[i])) return Error::out_of_limits;
       if (are_near && i < tendon_drives && !is_near(setpoints_[i], counts[i])) return Error::out_of_limits;
     }
-    if (guard_.forbids(setpoints_, counts)) return Error::over_tension;
-    accept(request.sequence);
-    const Uint16 duration = read16(request.payload);
-    Counts& goal = duration > 1 ? ramp_.target() : setpoints_;
-    for (Uint8 i = 0; i < drive_count; ++i) goal[i] = counts[i];
-    set_off(duration);
+    const Error error = go_to(counts, read16(request.payload), request.sequence);
+    if (error != Error::none) return error;
     Changes none;
     answer_pose(request, none, counts);
     return Error::none;

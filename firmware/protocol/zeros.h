@@ -21,7 +21,7 @@ class Zeros {
     homed_[drive / 8] = static_cast<Uint8>(homed_[drive / 8] | 1u << drive % 8);
   }
   /// Of the host's counts those of the drives; `room` is where they may be kept.
-  const Counts& to_drives(const Counts& counts, Counts& room) const {
+  __attribute__((noinline)) const Counts& to_drives(const Counts& counts, Counts& room) const {
     for (Uint8 i = 0; i < Count; ++i)
       room[i] = static_cast<Int32>(static_cast<Uint32>(counts[i]) + offsets_[i]);
     return room;
