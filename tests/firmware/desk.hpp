@@ -33,7 +33,7 @@ struct DeskBoard {
   Uint16 milliseconds() const { return now; }
   void enable(bool on) {
     enabled = on;
-    if (enabled) positions = setpoints;
+    if (enabled && follows) positions = setpoints;
   }
   bool exchange(const Counts& out) {
     ++exchanges;
@@ -43,7 +43,7 @@ struct DeskBoard {
     has_refused = refused_exchange > 0 && --refused_exchange == 0;
     if (has_refused) return is_whole;
     std::copy(std::begin(out), std::end(out), setpoints.begin());
-    if (enabled) positions = setpoints;
+    if (enabled && follows) positions = setpoints;
     if (keeps_path) path.push_back(setpoints);
     return is_whole;
   }
@@ -59,6 +59,7 @@ struct DeskBoard {
   std::string sent;
   Uint16 now = 0;
   bool enabled = false;
+  bool follows = true;      ///< the drives their setpoints, at once
   int room_left = 1 << 30;  ///< on the line; where little is left, room comes by and by
   int exchanges = 0, damaged_exchanges = 0;
   int refused_exchange = 0;  ///< the how manieth the drives do not take, and say so in the one after it
