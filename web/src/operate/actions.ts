@@ -6,6 +6,8 @@ import {heldButton, Labelled} from './press';
 
 const [slowest, fastest, step] = [0.5, 20, 0.5];  // mm/s
 
+const takeFirst = 'take control first';
+
 export interface Orders { hold(): void; arm(): void; say(why: string): void }
 
 export class Actions {
@@ -75,7 +77,7 @@ export class Actions {
 
   private put(of: Labelled, word: string, key: string, motion: Motion, note: string): void {
     const why = this.locked(motion);
-    of.say(word, key, why ?? note, !!why);
+    of.say(word, key, why === takeFirst ? 'view only' : why ?? note, !!why);
     of.element.classList.toggle('pressed', this.control.held === motion);
   }
 
@@ -103,8 +105,8 @@ export class Actions {
 
   /** Why a motion is not to be had; null: it is. The server knows better, and says so where it does. */
   locked(motion: Motion): string | null {
-    const {frame, control} = this;
-    if (!frame || !this.isMine) return frame && !control.isMine && frame.control.holder !== null ? 'view only' : 'take control first';
+    const {frame} = this;
+    if (!frame || !this.isMine) return takeFirst;
     if (frame.link === 'gone' || frame.link === 'silent' || frame.link === 'wrong_table') return 'locked: no data';
     if (motion === 'relax') return null;
     if (this.isOver) return `locked: S${this.over + 1}`;

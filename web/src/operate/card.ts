@@ -138,9 +138,9 @@ export class Card {
   private key(event: KeyboardEvent): void {
     const ways: Record<string, Bend> = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}, way = ways[event.key];
     if (event.ctrlKey || event.altKey || event.metaKey || !this.frame || !this.look) return;
-    if (event.key === 'Enter') return this.hand.type(this.index);
-    if (!way) return;
-    event.preventDefault();
+    if (!way && event.key !== 'Enter') return;
+    event.preventDefault();  // else Enter would also send the dialog that it opens
+    if (!way) return this.hand.type(this.index);
     if (!this.hand.may(this.index)) return;
     const by = (event.shiftKey ? 1 : 0.1) * degree, [x, y] = this.frame.target;
     this.aim(clamped([x + by * way[0], y + by * way[1]], this.look.limit, this.look.isDisc));

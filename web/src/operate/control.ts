@@ -3,6 +3,7 @@
 import {Refused} from '../client';
 import type {Device} from './device';
 import type {Bend} from './frame';
+import {isPhone} from './phone';
 
 const beat = 100;  // ms
 
@@ -29,6 +30,7 @@ export class Control {
   }
 
   async take(): Promise<void> {
+    if (isPhone.matches) return this.says('a phone looks on and holds');
     await this.try(async () => {
       const {lease, number} = await this.device.call('lease');
       [this.lease, this.number] = [lease, number];
@@ -69,6 +71,7 @@ export class Control {
   }
 
   fault(line: string): Promise<boolean> {
+    if (isPhone.matches) return Promise.resolve(false);
     return this.try(() => this.device.call('fault', {line}));
   }
 

@@ -8,6 +8,7 @@ import {isPolar} from './coordinates';
 import {Control} from './control';
 import {Device} from './device';
 import {type Bend, type DeviceInfo, type Frame, kindOf} from './frame';
+import {isPhone} from './phone';
 import {heldButton} from './press';
 import {lengthOf, type Reading} from './readings';
 import {configurationOf, samplesOf} from './simulated';
@@ -16,9 +17,6 @@ import type {Opened, Stand, Subject} from './subject';
 const late = 500;         // ms without a frame: ten of them, so that a busy browser alone makes no alarm
 const owned = 1000;       // ms that a target set here is shown, though the device does not say it yet
 const apart = Math.PI / 360;  // rad between target and arm, from which on the target is drawn
-
-/** A phone looks on and holds, and nothing else. */
-export const isPhone = matchMedia('(max-width: 719px)');
 
 export class Live implements Subject {
   get badge(): string {

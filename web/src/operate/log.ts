@@ -22,9 +22,10 @@ export class Log {
   private readonly all = make('ol', {tabIndex: 0});
   private readonly filter = make('select', {ariaLabel: 'States'});
   private readonly entries: Entry[] = [];
+  private readonly opener: HTMLButtonElement;
 
   constructor(box: HTMLElement) {
-    const open = button('Events', () => this.toggle(), 'all events (l)');
+    const open = this.opener = button('Events', () => this.toggle(), 'all events (l)');
     open.append(make('kbd', {textContent: 'L'}));
     box.append(make('h2', {}, open), this.list);
     for (const [kind, word] of words) this.filter.add(new Option(word, kind));
@@ -53,7 +54,9 @@ export class Log {
   }
 
   toggle(is = this.drawer.hidden): void {
+    const hadFocus = this.drawer.contains(document.activeElement);
     this.drawer.hidden = !is;
+    if (hadFocus && !is) this.opener.focus();
     if (is) this.fill();
     if (is) this.filter.focus();
   }

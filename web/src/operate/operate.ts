@@ -10,9 +10,10 @@ import {clamped, isPolar, limitOf} from './coordinates';
 import {Eye} from './eye';
 import {type Bend, type DeviceInfo, type Entry, type Frame, kindOf, type SectionFrame} from './frame';
 import {Gamepads} from './gamepad';
-import {isPhone, Live} from './live';
+import {Live} from './live';
 import {Log} from './log';
 import {NumbersDialog} from './numbers';
+import {isPhone} from './phone';
 import {lengthOf, Readings} from './readings';
 import {Sliders} from './sliders';
 import type {Opened, Stand, Subject} from './subject';
@@ -58,7 +59,7 @@ export class Operate {
     window.addEventListener('blur', () => this.live?.blur(false));
     window.addEventListener('pagehide', () => this.live?.blur(true));
     document.addEventListener('visibilitychange', () => document.hidden && this.live?.blur(true));
-    matchMedia('(max-width: 719px)').addEventListener('change', ({matches}) => matches && this.live?.control.giveBack());
+    isPhone.addEventListener('change', ({matches}) => matches && this.live?.control.giveBack());
     Object.assign((window as any).__sinew, {operate: this});
   }
 
