@@ -12,7 +12,7 @@ add_custom_command(OUTPUT ${installed}
   COMMAND ${NPM} ci --prefix ${web} --no-audit --no-fund --silent
   DEPENDS ${web}/package.json ${web}/package-lock.json WORKING_DIRECTORY ${web} COMMENT "Installing the page's libraries" VERBATIM)
 
-file(GLOB page_inputs CONFIGURE_DEPENDS ${web}/src/*.ts ${web}/src/*.css ${web}/index.html ${web}/build.mjs ${web}/tsconfig.json)
+file(GLOB page_inputs CONFIGURE_DEPENDS ${web}/src/*.ts ${web}/src/*.css ${web}/src/*/*.ts ${web}/src/*/*.css ${web}/index.html ${web}/build.mjs ${web}/tsconfig.json)
 set(page_files "")
 foreach(name index.html app.js editor.js app.css)
   list(APPEND page_files ${page}/${name} ${page}/${name}.gz)

@@ -69,7 +69,7 @@ export async function meshes(handle: string): Promise<ArrayBuffer> {
 export class Robot {
   private waiting = new AbortController();
 
-  private constructor(readonly text: string, private handle: string) {}
+  private constructor(readonly text: string, public handle: string) {}
 
   static async open(text: string): Promise<Robot> {
     return new Robot(text, JSON.parse(await call('/api/robot', text, 'text/yaml')).robot);

@@ -75,6 +75,7 @@ export abstract class Figure implements Picture {
     if (!this.drawing) return;
     const {shape, around} = this.drawing, last = shape.frames?.at(-1);
     if (around) [this.lookout.margin, this.lookout.from] = [Math.min(62, 0.12 * this.lookout.height), wayIn];
+    else this.lookout.margin = Math.min(62, 0.14 * this.lookout.height);  // a small picture is for the robot
     this.lookout.fit(around?.extent ?? extent(shape), view, around?.tip.direction ?? (last ? axesOf(last)[2] : [0, 0, 1]));
     this.isFitted = true;
     this.change();

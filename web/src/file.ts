@@ -16,8 +16,8 @@ export interface Owner {
 }
 
 /** Gives a text to the browser as a file. */
-export function download(name: string, text: string): void {
-  const url = URL.createObjectURL(new Blob([text], {type: 'text/yaml'}));
+export function download(name: string, text: string, type = 'text/yaml'): void {
+  const url = URL.createObjectURL(new Blob([text], {type}));
   make('a', {href: url, download: name}).click();
   setTimeout(() => URL.revokeObjectURL(url), 1000);
 }

@@ -14,7 +14,7 @@ const nameOf = (event: KeyboardEvent) => isShifted(event) ? `Shift+${event.code 
   `${event.ctrlKey || event.metaKey ? 'Ctrl+' : ''}${event.altKey ? 'Alt+' : ''}${event.shiftKey && event.key.length > 1 || (event.ctrlKey && event.shiftKey) ? 'Shift+' : ''}${event.key.length === 1 ? event.key.toLowerCase() : event.key}`;
 
 /** Where letters are written, or choose in a list: there they are nothing else. */
-const isText = (target: EventTarget | null) => target instanceof HTMLElement &&
+export const isText = (target: EventTarget | null) => target instanceof HTMLElement &&
   (target.isContentEditable || (target instanceof HTMLInputElement && !['range', 'radio', 'checkbox'].includes(target.type)) || target instanceof HTMLTextAreaElement);
 const isList = (target: EventTarget | null) => target instanceof HTMLSelectElement;
 

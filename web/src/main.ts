@@ -1,5 +1,6 @@
 // The page: what is open, what is asked of it, and who is told when an answer comes.
 import './app.css';
+import './operate/operate.css';
 import {AnswerPanel, withUnit} from './answer';
 import {type Json, Lost, Newest, Refused, Robot, plans, robots, robotText, type Shipped, version} from './client';
 import {copy} from './clipboard';
@@ -14,6 +15,9 @@ import {byId} from './make';
 import {margins, startOf} from './margins';
 import {forward, hasVelocity, inputsOf, inverse, isSolved, plain, poseOf, shape, velocity} from './questions';
 import {type ScreenName, Screens} from './screens';
+import {findDevice} from './operate/device';
+import type {DeviceInfo} from './operate/frame';
+import {Operate} from './operate/operate';
 import {makeSheet} from './sheet';
 import {Shell} from './shell';
 import {type Solution, Solutions} from './solutions';
@@ -70,7 +74,10 @@ class Page {
   private readonly solutions = new Solutions(byId('solutions'), (solution) => this.jump(solution));
   private readonly start = new Start(byId('start'), (name) => void this.choose(name), (task, again) => this.guarded(task, again));
   private way: Trajectory | null = null;
-  private readonly screens = new Screens((name, isAsWas) => this.turnScreen(name, isAsWas));
+  private panel!: Operate;
+  private device: DeviceInfo | null = null;
+  private openedName = '';  // of the file that the server was started with
+  private readonly screens = new Screens((name, isAsWas, before) => this.turnScreen(name, isAsWas, before));
   private readonly picker = byId<HTMLSelectElement>('robot');
   private readonly against = byId<HTMLSelectElement>('against');
 
@@ -83,9 +90,10 @@ class Page {
 
   private async enter(): Promise<void> {
     const link = new URLSearchParams(location.hash.slice(1) || location.search), wanted = link.get('robot');
-    const [says, {robots: shipped, opened}, {plans: listed}] = await Promise.all([version(), robots(), plans()]);
+    const [says, {robots: shipped, opened}, {plans: listed}, device] = await Promise.all([version(), robots(), plans(), findDevice()]);
     if (says.protocol !== protocol) return this.shell.say(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
-    this.shipped = shipped;
+    [this.shipped, this.device, this.openedName] = [shipped, device, opened?.name ?? ''];
+    this.panel = new Operate({system: () => this.shell.system, guarded: (task, again) => this.guarded(task, again), heard: () => this.heard(), linked: () => this.link()}, device);
     for (const {name, title} of shipped) for (const list of [this.picker, this.against]) list.add(new Option(title, name));
     this.against.add(new Option('nothing', ''), 0);
     this.against.value = this.picker.value = '';
@@ -102,10 +110,10 @@ class Page {
 
   /** Those of the screen that is shown. */
   private keys(): Key[] {
-    const on = (keys: string[], says: string, go: (key: string) => void): Key => ({keys, says, go}), isDesign = this.screens.shown === 'design';
+    const on = (keys: string[], says: string, go: (key: string) => void): Key => ({keys, says, go}), isDesign = this.screens.shown === 'design', {offered} = this.screens;
     return [
-      ...(isDesign ? this.designKeys() : this.way!.keys()),
-      ...(this.way ? [on(['Alt+1', 'Alt+4'], 'the robot, its plan', (key) => this.screens.show(key === 'Alt+1' ? 'design' : 'trajectory'))] : []),
+      ...(isDesign ? this.designKeys() : this.screens.shown === 'operate' ? this.panel.keys() : this.way!.keys()),
+      ...(Object.keys(offered).length > 0 ? [on(Object.keys(offered), `the screens ${Object.values(offered).join(', ')}`, (key) => this.screens.show(offered[key]!))] : []),
       on(['Ctrl+c'], 'copy the command, where nothing is selected', () => this.copyCommand()),
       on(['u'], 'units', () => this.shell.toggleUnits()),
       on(['d'], 'day or dark', () => this.shell.nextTheme()),
@@ -179,7 +187,7 @@ class Page {
       },
       save: (picture, name) => this.stage.give(picture, name),
     });
-    this.screens.offer();
+    this.screens.offer('trajectory');
   }
 
   private showPlan(link: URLSearchParams): void {
@@ -188,14 +196,41 @@ class Page {
   }
 
   /** @param isAsWas as it was left; else a link says what is in it */
-  private turnScreen(name: ScreenName, isAsWas: boolean): void {
-    if (name === 'design') this.way!.leave();
+  private turnScreen(name: ScreenName, isAsWas: boolean, before: ScreenName): void {
+    if (before === 'trajectory') this.way!.leave();
+    if (before === 'operate') this.leavePanel();
+    if (name === 'operate') this.panel.enter(this.state.inputs);
     if (isAsWas && name === 'design' && !this.robot) this.start.show(this.shipped);
     if (isAsWas && name === 'trajectory' && !this.way!.isOpen) this.way!.open(new URLSearchParams());
-    byId('source').textContent = name === 'design' ? 'SLIDERS' : 'PLAN';
+    this.badge();
     this.entitle();
     this.command();
     this.link();
+  }
+
+  private badge(): void {
+    const {shown} = this.screens;
+    byId('source').textContent = shown === 'design' ? 'SLIDERS' : shown === 'operate' ? this.panel.badge : 'PLAN';
+  }
+
+  /** Targets that were set there are the inputs here. */
+  private leavePanel(): void {
+    const {inputs} = this.panel;
+    this.panel.leave();
+    if (inputs && inputs.some((value, i) => value !== this.state.inputs[i])) this.change({inputs, asked: 'inputs', bending: null});
+  }
+
+  /** The screen Operate has every serial robot: that of the device, or a simulated one. */
+  private offerPanel(link: URLSearchParams | null): void {
+    const {robot, described, source, state, screens} = this;
+    if (described!.isSerial) {
+      const isOfDevice = !!this.device && (robot!.handle === this.device.robot || (source!.name === this.openedName && !source!.isModified));
+      this.panel.use({robot: robot!, described: described!, source: source!, inputs: [...state.inputs]}, isOfDevice, link);
+      screens.offer('operate');
+      if (link?.get('screen') === 'operate' || (isOfDevice && link && !link.has('screen') && !link.has('inputs'))) screens.show('operate', false);
+    } else screens.offer('operate', false);
+    if (screens.shown === 'operate' && link?.has('screen') && link.get('screen') !== 'operate') screens.show('design', false);
+    this.badge();
   }
 
   // What is open
@@ -299,6 +334,7 @@ class Page {
     if (link) this.stage.fromLink(link);
     this.tabs.offer('load', described.load.length > 0);
     this.spread();
+    this.offerPanel(link);
     this.ask();
   }
 
@@ -310,7 +346,7 @@ class Page {
       option.textContent = source?.isModified && option.value === source.name ? `${title} (modified)` : title;
     }
     this.picker.value = source?.name ?? '';
-    const isDesign = this.screens.shown === 'design', title = isDesign ? source?.label : this.way?.title;
+    const isDesign = this.screens.shown === 'design', title = this.screens.shown === 'trajectory' ? this.way?.title : source?.label;
     document.title = title ? `${title} – sinew` : 'sinew';
     byId('needs').hidden = !isDesign || !source?.needsFile;
     if (source) byId('needs').textContent = `save ${source.word} first:`;
@@ -333,7 +369,7 @@ class Page {
     clearTimeout(this.linked);
     const name = link.get('robot');
     if (this.way && link.has('plan')) return this.showPlan(link);
-    if (name) this.screens.show('design', false);
+    if (name && this.screens.shown === 'trajectory') this.screens.show('design', false);
     if (this.ships(name) || (name && name === this.source?.name)) await this.choose(name!, link);
     else if (name) this.shell.say(`the link shows ${name}: open its file`);
   }
@@ -599,9 +635,11 @@ class Page {
       const way = this.screens.shown === 'trajectory' && this.way!.toLink();
       if (way) return this.address(way);
       if (!this.described || this.screens.shown === 'trajectory') return;
-      const link = toLink(this.source!.name, this.state, this.described, this.started);
+      const isPanel = this.screens.shown === 'operate', state: State = isPanel ? {...this.state, asked: 'inputs', inputs: this.panel.inputs ?? this.state.inputs} : this.state;
+      const link = toLink(this.source!.name, state, this.described, this.started);
       this.source!.toLink(link);
-      this.stage.toLink(link);
+      if (isPanel) this.panel.toLink(link);
+      else this.stage.toLink(link);
       this.address(link);
     }, 200);
   }
@@ -617,6 +655,7 @@ class Page {
     this.strip.use(system);
     this.write();
     this.way?.paint();
+    this.panel?.paint();
   }
 
   private keep(): void {
@@ -694,7 +733,7 @@ class Page {
       if (error instanceof Lost) {
         this.shell.connected(false);
         this.unanswered(error.message);
-        return this.connection.lost(() => this.question === this.answered || !this.robot || this.screens.shown === 'trajectory' ? again?.() : this.ask());
+        return this.connection.lost(() => this.question === this.answered || !this.robot || this.screens.shown !== 'design' ? again?.() : this.ask());
       }
       if (!(error instanceof Refused)) return this.failed(error);
       if (!error.isBusy || !again) {

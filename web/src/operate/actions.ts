@@ -1,0 +1,154 @@
+// The bar of what a device can be made to do. What is locked says why, in its place.
+import {button, make} from '../make';
+import type {Control, Motion} from './control';
+import {type DeviceInfo, type Frame, kindOf} from './frame';
+import {heldButton, Labelled} from './press';
+
+const [slowest, fastest, step] = [0.5, 20, 0.5];  // mm/s
+
+const takeFirst = 'take control first';
+
+export interface Orders { hold(): void; arm(): void; say(why: string): void }
+
+export class Actions {
+  readonly element = make('div', {className: 'actions-of'});
+  private readonly hold = new Labelled(button('', () => this.orders.hold(), 'freeze where it is, from every page (Space, Esc)'));
+  private readonly advance = this.motion('advance');
+  private readonly retract = this.motion('retract');
+  private readonly straighten = this.motion('straighten');
+  private readonly relax = this.motion('relax');
+  private readonly move = this.motion('move');
+  private readonly lease = new Labelled(button('', () => this.turnLease()));
+  private readonly arm = new Labelled(button('', () => this.turnArm()));
+  private readonly slider = make('input', {type: 'range', min: String(slowest), max: String(fastest), step: String(step), value: '2', id: 'jog-speed'});
+  private readonly speedText = make('output', {htmlFor: 'jog-speed'} as object);
+  private readonly turnText = make('span', {className: 'turn'});
+  private speedSetAt = 0;
+  private frame: Frame | null = null;
+  private chosen = 0;
+
+  constructor(private readonly control: Control, info: DeviceInfo, private readonly orders: Orders, private readonly degreesOfMillimetre: () => number) {
+    this.hold.element.classList.add('hold');
+    this.move.element.classList.add('move');
+    this.slider.addEventListener('input', () => this.setSpeed(Number(this.slider.value)));
+    const label = make('label', {htmlFor: 'jog-speed'}, 'Jog speed ', make('kbd', {textContent: '−'}), ' / ', make('kbd', {textContent: '+'}));
+    this.element.append(this.hold.element, ...(info.has_stage ? [make('div', {className: 'pair-of'}, this.advance.element, this.retract.element)] : []), this.straighten.element, this.relax.element,
+                        make('div', {className: 'speed'}, label, this.slider, this.speedText, this.turnText), make('div', {className: 'arming'}, this.move.element, this.arm.element, this.lease.element));
+  }
+
+  private motion(motion: Motion): Labelled {
+    const labelled: Labelled = new Labelled(heldButton(() => this.press(motion), () => this.control.held === motion && this.control.letGo()));
+    labelled.element.dataset.motion = motion;
+    return labelled;
+  }
+
+  /** By a button or a key. */
+  press(motion: Motion): void {
+    const why = this.locked(motion);
+    if (why) return this.orders.say(why);
+    this.control.press(motion, motion === 'relax' ? {section: this.relaxed} : {});
+  }
+
+  faster(by: number): void {
+    this.setSpeed(Math.min(fastest, Math.max(slowest, Number(this.slider.value) + by * step)));
+  }
+
+  show(frame: Frame, chosen: number): void {
+    [this.frame, this.chosen] = [frame, chosen];
+    const {control} = this, isMine = this.isMine, isArmed = isMine && frame.state === 'armed', isBusy = (motion: Motion) => control.held === motion;
+    this.hold.say('HOLD', 'Space', frame.activity === 'holding' ? 'held' : '', false);
+    this.put(this.advance, 'Advance', 'W', 'advance', 'on its path');
+    this.put(this.retract, 'Retract', 'R', 'retract', 'the way back');
+    this.put(this.straighten, 'Straighten', '', 'straighten', 'hold: all bends to zero');
+    this.put(this.relax, `Relax S${this.relaxed + 1}`, '', 'relax', this.payOut);
+    this.relax.element.classList.toggle('wanted', this.isOver);
+    this.put(this.move, 'MOVE', 'M', 'move', isBusy('move') ? 'release to stop' : 'hold: to the target');
+    this.move.element.hidden = !isArmed;
+    this.arm.element.hidden = !isMine;
+    if (isArmed) this.arm.say('Disarm', 'X', `armed ${frame.armed_left.toFixed(0)} s`, false);
+    else this.arm.say(this.isOver ? `DISARMED by S${this.over + 1}` : 'Arm…', '', this.isOver ? 'clear the alarm, then arm' : frame.why ? `disarmed: ${frame.why}` : 'nothing moves before', this.isOver);
+    this.lease.element.hidden = isArmed;
+    const taken = !isMine && frame.control.holder !== null;
+    if (isMine) this.lease.say('Release', '', 'control', false);
+    else this.lease.say(taken ? 'VIEW ONLY' : 'Take control', '', taken ? `another page controls since ${frame.control.since}` : 'one page at a time may move it', taken);
+    this.element.dataset.state = isArmed ? 'armed' : isMine ? 'control' : 'view';
+    this.speed(frame);
+  }
+
+  private put(of: Labelled, word: string, key: string, motion: Motion, note: string): void {
+    const why = this.locked(motion);
+    of.say(word, key, why === takeFirst ? 'view only' : why ?? note, !!why);
+    of.element.classList.toggle('pressed', this.control.held === motion);
+  }
+
+  private get isMine(): boolean {
+    return this.control.isMine && this.frame?.control.holder === this.control.number;
+  }
+
+  private get over(): number {
+    return this.frame!.sections.findIndex(({word}) => kindOf(word) === 'over');
+  }
+
+  private get isOver(): boolean {
+    return this.over >= 0;
+  }
+
+  private get payOut(): string {
+    const lacks = this.frame!.sections[this.relaxed]?.over_tension ?? 0;
+    return this.isOver && lacks > 0 ? `hold: pays out ${(1e3 * lacks).toFixed(2)} mm` : 'hold: until slack';
+  }
+
+  /** What is over-tensioned comes first. */
+  private get relaxed(): number {
+    return this.isOver ? this.over : this.chosen;
+  }
+
+  /** Why a motion is not to be had; null: it is. The server knows better, and says so where it does. */
+  locked(motion: Motion): string | null {
+    const {frame} = this;
+    if (!frame || !this.isMine) return takeFirst;
+    if (frame.link === 'gone' || frame.link === 'silent' || frame.link === 'wrong_table') return 'locked: no data';
+    if (motion === 'relax') return null;
+    if (this.isOver) return `locked: S${this.over + 1}`;
+    if (motion === 'home') return null;
+    if (!frame.homed) return 'locked: not homed';
+    if (motion === 'straighten' && frame.insertion > 5e-4) return `locked: inserted ${(1e3 * frame.insertion).toFixed(0)} mm`;
+    if (frame.recording?.error) return 'locked: recording failed';
+    return frame.state === 'armed' ? null : 'arm first';
+  }
+
+  private turnLease(): void {
+    if (this.control.isMine) this.control.giveBack();
+    else if (!this.lease.isLocked) void this.control.take();
+    else this.orders.say(`another page controls since ${this.frame?.control.since}; Hold works from here, too`);
+  }
+
+  private turnArm(): void {
+    if (this.frame?.state === 'armed') this.control.disarm();
+    else if (this.arm.isLocked) this.orders.say(`clear the alarm of S${this.over + 1} first: hold Relax S${this.over + 1}`);
+    else this.orders.arm();
+  }
+
+  // Speed
+
+  private setSpeed(value: number): void {
+    this.slider.value = String(value);
+    this.tell(value);
+    this.speedSetAt = performance.now();
+    this.control.speed(value / 1e3);
+  }
+
+  /** What the device says, unless the slider was moved just now. */
+  private speed({speed}: Frame): void {
+    if (performance.now() - this.speedSetAt < 1000) return;
+    this.slider.value = String(1e3 * speed);
+    this.tell(1e3 * speed);
+  }
+
+  private tell(millimetres: number): void {
+    const turn = this.degreesOfMillimetre(), said = `${Number(millimetres.toFixed(1))} mm/s`, degrees = turn > 0 ? `≈ ${(turn * millimetres).toFixed(0)} °/s` : '';
+    if (this.speedText.textContent !== said) this.speedText.textContent = said;
+    if (this.turnText.textContent !== degrees) this.turnText.textContent = degrees;
+    this.slider.setAttribute('aria-valuetext', `${said} ${degrees}`);
+  }
+}

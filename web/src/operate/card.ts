@@ -1,0 +1,148 @@
+// The card of a section: its state in a word and a shape, its diagram, its tendons. The diagram takes targets from pointer and keys.
+import {button, make} from '../make';
+import type {System} from '../units';
+import {TendonBars} from './bars';
+import {clamped} from './coordinates';
+import {described, Diagram, type View} from './diagram';
+import {type Bend, kindOf, type SectionFrame} from './frame';
+import {icon} from './mark';
+import {Trail} from './trail';
+
+export interface Hand {
+  aim(section: number, bend: Bend): void;   ///< the target is to be there
+  may(section: number): boolean;            ///< whether a target may be set; if not it says why
+  chosen(section: number): void;
+  type(section: number): void;              ///< numbers are to be typed
+}
+
+export interface Look { isDisc: boolean; limit: number; given: string; age: string; tensionLimit: number; system: System }
+
+const degree = Math.PI / 180;
+const resistance = 0.25;  // of the way beyond the envelope that a pull is drawn
+
+export class Card {
+  readonly element = make('article', {className: 'section'});
+  readonly diagram = new Diagram();
+  readonly name: string;
+  private readonly head = make('h2');
+  private readonly plot = make('div', {className: 'plot-of', tabIndex: 0});
+  private readonly bars = new TendonBars();
+  private readonly trail = new Trail();
+  private readonly digits = make('p', {className: 'digits'});
+  private frame: SectionFrame | null = null;
+  private look: Look | null = null;
+  private over: Bend | null = null;
+  private dragging = -1;  // the pointer
+  private side = 0;
+  private said = '';
+
+  constructor(private readonly index: number, private readonly hand: Hand) {
+    this.name = `S${index + 1}`;
+    this.plot.setAttribute('role', 'application');
+    this.plot.setAttribute('aria-roledescription', 'section diagram');
+    this.plot.append(this.diagram.element);
+    const numbers = button('…', () => hand.type(index), `numbers of ${this.name}`);
+    numbers.className = 'type';
+    numbers.ariaLabel = `numbers of ${this.name}`;
+    this.element.append(this.head, this.plot, this.bars.element, this.digits, numbers);
+    this.listen();
+    new ResizeObserver(([entry]) => this.resize(entry!.contentRect)).observe(this.plot);
+  }
+
+  focus(): void {
+    this.plot.focus();
+  }
+
+  /** @param now [ms] of the trail */
+  show(frame: SectionFrame, look: Look, now: number): void {
+    [this.frame, this.look] = [frame, look];
+    if (frame.point && kindOf(frame.word) !== 'stale') this.trail.put(frame.point, now);
+    this.write();
+    this.draw();
+    this.bars.show(frame, look.tensionLimit, look.system);
+  }
+
+  forget(): void {
+    this.trail.clear();
+  }
+
+  private write(): void {
+    const {frame, look, name} = this, kind = kindOf(frame!.word), more = [frame!.near_limit && kind === 'exact' ? 'near limit' : '', look!.age].filter(Boolean).join(', ');
+    const said = `${frame!.word} ${more}`;
+    if (said === this.said) return;
+    this.said = said;
+    this.element.dataset.state = kind;
+    this.head.replaceChildren(make('span', {className: 'name', textContent: name}), icon(kind), make('span', {className: 'word', textContent: frame!.word}), make('span', {className: 'more', textContent: more}));
+  }
+
+  private get view(): View {
+    const {frame, look, over} = this;
+    return {section: frame!, kind: kindOf(frame!.word), trail: this.trail.points(), over, isDisc: look!.isDisc, limit: look!.limit, given: look!.given};
+  }
+
+  private draw(): void {
+    if (!this.frame || this.side <= 0) return;
+    const {view} = this, degrees = (value: number) => `${(value / degree).toFixed(1)}°`;
+    this.diagram.draw(view, this.side);
+    this.plot.ariaLabel = described(view, this.name, degrees);
+    const {point, target} = view.section;
+    this.digits.textContent = (point ?? target).map(degrees).join('  ');
+  }
+
+  private resize({width, height}: DOMRectReadOnly): void {
+    this.side = Math.floor(Math.min(width, height));
+    this.draw();
+  }
+
+  // Where the target goes
+
+  private listen(): void {
+    const {plot} = this;
+    plot.addEventListener('pointerdown', (event) => this.press(event));
+    plot.addEventListener('pointermove', (event) => event.pointerId === this.dragging && this.drag(event));
+    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) plot.addEventListener(end, (event) => this.release(event));
+    plot.addEventListener('dblclick', () => this.hand.type(this.index));
+    plot.addEventListener('keydown', (event) => this.key(event));
+    plot.addEventListener('focus', () => this.hand.chosen(this.index));
+    plot.addEventListener('contextmenu', (event) => event.preventDefault());
+  }
+
+  private press(event: PointerEvent): void {
+    this.hand.chosen(this.index);
+    if (event.button !== 0 || this.dragging >= 0 || !this.frame || !this.hand.may(this.index)) return;
+    this.dragging = event.pointerId;
+    this.plot.setPointerCapture(event.pointerId);
+    this.drag(event);
+  }
+
+  private drag(event: PointerEvent): void {
+    const {left, top} = this.diagram.element.getBoundingClientRect(), {plane} = this.diagram, {limit, isDisc} = this.look!;
+    const wanted = plane.bend([event.clientX - left, event.clientY - top]), to = clamped(wanted, limit, isDisc), isBeyond = Math.hypot(to[0] - wanted[0], to[1] - wanted[1]) > 1e-9;
+    this.over = isBeyond ? [to[0] + resistance * (wanted[0] - to[0]), to[1] + resistance * (wanted[1] - to[1])] : null;
+    this.aim(to);
+  }
+
+  private aim(to: Bend): void {
+    this.frame = {...this.frame!, target: to};
+    this.draw();
+    this.hand.aim(this.index, to);
+  }
+
+  private release(event: PointerEvent): void {
+    if (event.pointerId !== this.dragging) return;
+    this.dragging = -1;
+    this.over = null;
+    this.draw();
+  }
+
+  private key(event: KeyboardEvent): void {
+    const ways: Record<string, Bend> = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}, way = ways[event.key];
+    if (event.ctrlKey || event.altKey || event.metaKey || !this.frame || !this.look) return;
+    if (!way && event.key !== 'Enter') return;
+    event.preventDefault();  // else Enter would also send the dialog that it opens
+    if (!way) return this.hand.type(this.index);
+    if (!this.hand.may(this.index)) return;
+    const by = (event.shiftKey ? 1 : 0.1) * degree, [x, y] = this.frame.target;
+    this.aim(clamped([x + by * way[0], y + by * way[1]], this.look.limit, this.look.isDisc));
+  }
+}

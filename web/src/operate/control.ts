@@ -1,0 +1,183 @@
+// Who may move the device, and what moves it now. One button at a time is held down: while it is, the server is told so
+// ten times a second; a release, a lost focus or a lost lease ends it, and the server ends it by itself where nothing is heard.
+import {Refused} from '../client';
+import type {Device} from './device';
+import type {Bend} from './frame';
+import {isPhone} from './phone';
+
+const beat = 100;  // ms
+
+export type Motion = 'move' | 'straighten' | 'retract' | 'advance' | 'relax' | 'home';
+
+const isDone = (motion: Motion) => motion === 'relax' || motion === 'home';
+
+export class Control {
+  number = 0;  ///< of the lease; 0: none
+  held: Motion | null = null;
+  private lease = '';
+  private renewing = 0;
+  private body: object = {};
+  private beating = 0;
+  private flight: AbortController | null = null;  // of the heartbeat that is on its way
+  private goal: {bends?: Bend[]; stage?: number} | null = null;
+  private isAiming = false;
+
+  /** @param says why something was refused @param changed lease or button are others now */
+  constructor(private readonly device: Device, private readonly says: (why: string) => void, private readonly changed: () => void) {}
+
+  get isMine(): boolean {
+    return this.lease !== '';
+  }
+
+  async take(): Promise<void> {
+    if (isPhone.matches) return this.says('a phone looks on and holds');
+    await this.try(async () => {
+      const {lease, number} = await this.device.call('lease');
+      [this.lease, this.number] = [lease, number];
+      this.changed();
+      this.renewLater();
+    });
+  }
+
+  giveBack(isLast = false): void {
+    this.letGo(isLast);
+    if (!this.isMine) return;
+    void this.device.call('release', {lease: this.lease}, undefined, isLast).catch(() => undefined);
+    this.lose();
+  }
+
+  arm(): Promise<boolean> {
+    return this.ask('arm');
+  }
+
+  /** @param isLast the window has lost the focus, or is being closed */
+  disarm(isLast = false): void {
+    this.letGo(isLast);
+    if (this.isMine) void this.device.call('disarm', {lease: this.lease}, undefined, isLast).catch(() => undefined);
+  }
+
+  /** By anyone, armed or not. */
+  hold(): void {
+    this.letGo();
+    void this.try(() => this.device.call('hold'));
+  }
+
+  speed(tendon: number): void {
+    void this.ask('speed', {tendon});
+  }
+
+  acknowledge(): void {
+    void this.try(() => this.device.call('acknowledge'));
+  }
+
+  fault(line: string): Promise<boolean> {
+    if (isPhone.matches) return Promise.resolve(false);
+    return this.try(() => this.device.call('fault', {line}));
+  }
+
+  /** The newest one counts: while one is on its way, others wait and are overtaken. */
+  aim(goal: {bends?: Bend[]; stage?: number}): void {
+    this.goal = {...this.goal, ...goal};
+    if (!this.isAiming) void this.sendGoals();
+  }
+
+  private async sendGoals(): Promise<void> {
+    this.isAiming = true;
+    while (this.goal) {
+      const goal = this.goal;
+      this.goal = null;
+      await this.ask('target', goal);
+    }
+    this.isAiming = false;
+  }
+
+  // What is held
+
+  press(motion: Motion, body: object = {}): void {
+    if (this.held) return;
+    if (!this.isMine) return this.says('take control first');
+    [this.held, this.body] = [motion, body];
+    this.changed();
+    void this.tell();
+    this.beating = window.setInterval(() => void this.tell(), beat);
+  }
+
+  /** The last thing that is said of it: a heartbeat that is on its way is called back, and the end is told twice. */
+  letGo(isLast = false): void {
+    const {held, body, lease} = this;
+    if (!held) return;
+    clearInterval(this.beating);
+    this.flight?.abort();
+    [this.held, this.flight] = [null, null];
+    const end = () => void this.device.call(held, {...body, lease, held: false}, undefined, isLast).catch(() => undefined);
+    end();
+    if (!isLast) setTimeout(() => this.held === held || end(), beat);
+    this.changed();
+  }
+
+  private async tell(): Promise<void> {
+    const {held} = this;
+    if (!held || this.flight) return;
+    const flight = this.flight = new AbortController();
+    try {
+      await this.device.call(held, {...this.body, lease: this.lease, held: true}, flight.signal);
+    } catch (error) {
+      if (flight.signal.aborted) return;
+      // What is done ends by itself, and says so only to the next heartbeat.
+      if (!(isDone(held) && error instanceof Refused && error.answer.error?.code === 'release_first')) this.refused(error);
+      this.letGo();
+    } finally {
+      if (this.flight === flight) this.flight = null;
+    }
+  }
+
+  // The lease
+
+  private renewLater(): void {
+    clearTimeout(this.renewing);
+    this.renewing = window.setTimeout(() => void this.renew(), beat);
+  }
+
+  private async renew(): Promise<void> {
+    if (!this.isMine) return;
+    try {
+      await this.device.call('lease', {lease: this.lease});
+      this.renewLater();
+    } catch (error) {
+      if (!this.isMine) return;
+      this.says(error instanceof Refused ? `control is lost: ${error.message}` : 'control is lost: no connection');
+      this.lose();
+    }
+  }
+
+  private lose(): void {
+    clearTimeout(this.renewing);
+    [this.lease, this.number] = ['', 0];
+    clearInterval(this.beating);
+    this.flight?.abort();
+    [this.held, this.flight] = [null, null];
+    this.changed();
+  }
+
+  private ask(call: string, body: object = {}): Promise<boolean> {
+    if (!this.isMine) {
+      this.says('take control first');
+      return Promise.resolve(false);
+    }
+    return this.try(() => this.device.call(call, {...body, lease: this.lease}));
+  }
+
+  private async try(task: () => Promise<unknown>): Promise<boolean> {
+    try {
+      await task();
+      return true;
+    } catch (error) {
+      this.refused(error);
+      return false;
+    }
+  }
+
+  private refused(error: unknown): void {
+    this.says(error instanceof Error ? error.message : String(error));
+  }
+}

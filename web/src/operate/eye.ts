@@ -1,0 +1,75 @@
+// A camera at the arm's tip, one of this computer's. Its pictures are never sent anywhere.
+import {button, make} from '../make';
+import {withText} from '../png';
+
+const key = 'sinew-camera-turn';  // of this browser: how the camera sits in the arm
+const step = 15;                  // degrees
+
+export class Eye {
+  private readonly video = make('video', {muted: true, playsInline: true, autoplay: true});
+  private readonly arrow = make('div', {className: 'up-arrow', ariaHidden: 'true'});
+  private readonly note = make('p', {className: 'eye-note'});
+  private readonly start = button('Show the camera', () => void this.open());
+  private readonly tools = make('div', {className: 'eye-tools', hidden: true});
+  private turn = Number(localStorage.getItem(key)) || 0;
+
+  /** @param found whether there is one @param words that go with a snapshot @param took one was taken */
+  constructor(private readonly box: HTMLElement, private readonly found: (is: boolean) => void, private readonly words: () => string, private readonly took: (name: string) => void) {
+    const turning = (by: number) => button(by < 0 ? '↺' : '↻', () => this.by(by), 'turn the arrow to where +β₂ is in the picture');
+    const [left, right] = [turning(-step), turning(step)], snapshot = button('Snapshot', () => void this.snapshot(), 'keep the picture, with time, set-points and robot in it (p)');
+    left.ariaLabel = 'turn the arrow left';
+    right.ariaLabel = 'turn the arrow right';
+    snapshot.append(make('kbd', {textContent: 'P'}));
+    this.tools.append(left, right, snapshot);
+    this.video.ariaLabel = 'picture of the tip camera';
+    this.note.setAttribute('role', 'status');
+    box.append(this.video, make('div', {className: 'cross-hair', ariaHidden: 'true'}), this.arrow, make('h2', {textContent: 'Tip camera'}), this.note, this.start, this.tools);
+    this.by(0);
+    navigator.mediaDevices?.addEventListener('devicechange', () => void this.search());
+  }
+
+  /** Whether there is a camera at all; which one is asked for only by a click. */
+  async search(): Promise<void> {
+    const all = await navigator.mediaDevices?.enumerateDevices().catch(() => []) ?? [];
+    this.found(all.some(({kind}) => kind === 'videoinput'));
+  }
+
+  async snapshot(): Promise<void> {
+    const {videoWidth: width, videoHeight: height} = this.video;
+    if (!width) return this.took('');
+    const canvas = make('canvas', {width, height});
+    canvas.getContext('2d')!.drawImage(this.video, 0, 0);
+    const picture = await new Promise<Blob | null>((done) => canvas.toBlob(done, 'image/png'));
+    const url = URL.createObjectURL(await withText(picture!, 'sinew', this.words())), name = `snapshot-${new Date().toISOString().slice(0, 19).replace(/[:T]/g, '-')}.png`;
+    make('a', {href: url, download: name}).click();
+    setTimeout(() => URL.revokeObjectURL(url), 1000);
+    this.took(name);
+  }
+
+  close(): void {
+    for (const track of (this.video.srcObject as MediaStream | null)?.getTracks() ?? []) track.stop();
+    this.video.srcObject = null;
+    this.tools.hidden = true;
+    this.start.hidden = false;
+    this.box.classList.remove('on');
+  }
+
+  private async open(): Promise<void> {
+    try {
+      this.video.srcObject = await navigator.mediaDevices.getUserMedia({video: true, audio: false});
+      await this.video.play();
+      this.note.textContent = '';
+      this.box.classList.add('on');
+      [this.tools.hidden, this.start.hidden] = [false, true];
+    } catch (error) {
+      this.note.textContent = error instanceof DOMException && error.name === 'NotAllowedError' ? 'the browser was not allowed to use a camera' : 'no picture comes from the camera';
+    }
+  }
+
+  private by(degrees: number): void {
+    this.turn = (this.turn + degrees + 360) % 360;
+    if (degrees !== 0) localStorage.setItem(key, String(this.turn));
+    this.arrow.style.transform = `rotate(${this.turn}deg)`;
+    this.arrow.textContent = '↑ +β₂';
+  }
+}
