@@ -112,7 +112,7 @@ export class Actions {
     if (this.isOver) return `locked: S${this.over + 1}`;
     if (motion === 'home') return null;
     if (!frame.homed) return 'locked: not homed';
-    if (motion === 'straighten' && frame.insertion > 5e-4) return `locked: inserted ${(1e3 * frame.insertion).toFixed(0)} mm`;
+    if (motion === 'straighten' && frame.insertion > 5e-4) return `locked: ${(1e3 * frame.insertion).toFixed(0)} mm in`;
     if (frame.recording?.error) return 'locked: recording failed';
     return frame.state === 'armed' ? null : 'arm first';
   }

@@ -56,6 +56,7 @@ export class Operate {
     byId('op-tip').append(this.stageButton);
     document.addEventListener('keydown', (event) => this.keyDown(event), {capture: true});
     document.addEventListener('keyup', (event) => this.live?.keyUp(event.key.toLowerCase()), {capture: true});
+    document.addEventListener('pointerdown', () => { this.notice.hidden = true; }, {capture: true});  // what is done next may say something else
     window.addEventListener('blur', () => this.live?.blur(false));
     window.addEventListener('pagehide', () => this.live?.blur(true));
     document.addEventListener('visibilitychange', () => document.hidden && this.live?.blur(true));
