@@ -11,8 +11,9 @@ namespace sinew::firmware {
 namespace {
 
 constexpr int most_iterations = 60;
-constexpr double small_step = 1e-9;      ///< [rad] that ends an iteration
-constexpr double small_friction = 1e-6;  ///< [N] that it may still change by
+constexpr double small_step = 1e-9;  ///< [rad] that ends an iteration
+constexpr int most_passes = 8;
+constexpr double small_friction = 1e-5;  ///< [N] that it may still change by
 constexpr double rounding = 1e-14;       ///< [J] of an energy
 
 /// A spring that slides from where its force is `most`: a quadratic, then linear. Huber's function.
@@ -157,29 +158,38 @@ bool ArmStatics::step() {
   return false;
 }
 
-/// Sliding tendons have slid, and friction is what tension makes it. Whether it has changed much.
+/// Friction is what tension makes it. Whether that has changed much.
 bool ArmStatics::update_friction() {
   bool has_changed = false;
   energy_of_tendons(bends);
   for (std::size_t i = 0; i < tendons.size(); ++i) {
-    Tendon& tendon = tendons[i];
-    const double most = rubs_[i] * tendon.tension;
-    has_changed = has_changed || std::abs(most - tendon.friction) > small_friction;
-    tendon.friction = most;
-    tendon.friction_now = std::clamp(tendon.friction_now, -most, most);
-    tendon.rubs_from = work_.changes[i] - tendon.friction_now / tendon.stiffness;
+    const double most = rubs_[i] * tendons[i].tension;
+    has_changed = has_changed || std::abs(most - tendons[i].friction) > small_friction;
+    tendons[i].friction = most;
   }
   return has_changed;
 }
 
+/// Tendons that have slid rub from where they are.
+void ArmStatics::slide() {
+  energy_of_tendons(bends);
+  for (std::size_t i = 0; i < tendons.size(); ++i)
+    tendons[i].rubs_from = work_.changes[i] - tendons[i].friction_now / tendons[i].stiffness;
+}
+
 bool ArmStatics::settle() {
   before_ = bends;
-  iterations_ = 1;
-  while (step() && iterations_ < most_iterations) ++iterations_;
+  iterations_ = 0;
+  bool has_changed = true;
+  // Each pass has the friction of the one before, which is off by a few hundredths of what it was off before.
+  for (int pass = 0; pass < most_passes && has_changed; ++pass) {
+    for (int i = 0; i < most_iterations && step(); ++i) ++iterations_;
+    has_changed = update_friction();
+  }
+  slide();
   double moved = 0;
   for (std::size_t m = 0; m < bends.size(); ++m)
     moved = std::max(moved, (bends[m] - before_[m]).cwiseAbs().maxCoeff());
-  const bool has_changed = update_friction();
   return has_changed || moved > small_step;
 }
 

@@ -43,8 +43,7 @@ class ArmStatics {
   std::vector<Tendon> tendons;  ///< section by section
   std::vector<Bend> bends;      ///< [rad]
 
-  /// From where the bends are to those of least energy. Whether that was a step worth taking again: friction
-  /// follows the tension of the shape before.
+  /// From where the bends are to those of least energy. Whether that has moved anything.
   bool settle();
 
   /// Of bends, with the tendons as they are [J] and, where there is room for it, its derivatives [N m].
@@ -65,6 +64,7 @@ class ArmStatics {
   void make_hessian(std::span<const Bend> bends);
   bool step();
   bool update_friction();
+  void slide();
 
   SerialWorkspace work_;
   ArmMaterial material_;
