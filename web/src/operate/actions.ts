@@ -107,13 +107,13 @@ export class Actions {
   locked(motion: Motion): string | null {
     const {frame} = this;
     if (!frame || !this.isMine) return takeFirst;
-    if (frame.link === 'gone' || frame.link === 'silent' || frame.link === 'wrong_table') return 'locked: no data';
+    if (frame.link === 'gone' || frame.link === 'silent' || frame.link === 'wrong_table') return 'no data';
     if (motion === 'relax') return null;
     if (this.isOver) return `locked: S${this.over + 1}`;
     if (motion === 'home') return null;
-    if (!frame.homed) return 'locked: not homed';
+    if (!frame.homed) return 'not homed';
     if (motion === 'straighten' && frame.insertion > 5e-4) return `locked: ${(1e3 * frame.insertion).toFixed(0)} mm in`;
-    if (frame.recording?.error) return 'locked: recording failed';
+    if (frame.recording?.error) return 'recording failed';
     return frame.state === 'armed' ? null : 'arm first';
   }
 

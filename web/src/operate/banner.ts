@@ -38,7 +38,7 @@ export function alarmOf(sections: SectionFrame[], tolerance: number, system: Sys
 }
 
 /** With a capital and a full stop. */
-const asSentence = (text: string) => (text ? text[0]!.toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? '' : '.') : '');
+const asSentence = (text: string) => (text ? text[0]!.toUpperCase() + text.slice(1) + (/[.!?…]$/.test(text) ? '' : '.') : '');
 
 export class Banner {
   private readonly shape = make('span', {className: 'shape'});
@@ -62,7 +62,7 @@ export class Banner {
     if (lost !== null) return this.say('stale', 'NO DATA', lost, 'The picture is the last one. Check the cable; motion is held.', false);
     if (!alarm) return this.quiet(frame);
     const section = sections[alarm.section]!, others = sections.flatMap((one, i) => (i !== alarm.section && kindOf(one.word) !== 'exact' ? [`S${i + 1} ${one.word.toLowerCase()}`] : []));
-    const more = isBlind ? '' : alarm.more > 0 ? `${alarm.more} more: ${others.slice(0, 3).join(', ')}${others.length > 3 ? ', …' : ''}.` : '';
+    const more = isBlind ? '' : alarm.more > 0 ? `${alarm.more} more: ${others.slice(0, 3).join(', ')}${others.length > 3 ? ', …' : ''}` : '';
     const since = alarm.since >= 1 ? `, ${alarm.since < 60 ? `${alarm.since.toFixed(0)} s` : `${Math.floor(alarm.since / 60)} min`}` : '';
     if (isBlind) return this.say('stale', 'NO DATA', since, [frame.message, alarm.did, alarm.next].map(asSentence).filter(Boolean).join(' '), !alarm.acknowledged);
     this.say(kindOf(alarm.word), `S${alarm.section + 1} ${alarm.word}${alarm.word === section.word ? amount(section, system) : ''}`, since, [alarm.did, alarm.next, more].map(asSentence).filter(Boolean).join(' '), !alarm.acknowledged);
