@@ -68,7 +68,7 @@ export async function blank(browser, {width = 1280, height = 800, theme = 'light
   page.on('console', (line) => {
     const {url} = line.location(), path = URL.canParse(url) ? new URL(url).pathname : '';
     // an icon is asked for by the browser, for the bare answer that a lent page rests on; the page has its own
-    const isExpected = path === '/favicon.ico' || path === '/api/device' /* a server without the device part */ || (plain.has(browser) && /WebGL/i.test(line.text()));
+    const isExpected = path === '/favicon.ico' || (plain.has(browser) && /WebGL/i.test(line.text()));
     if (line.type() === 'error' && !isExpected) wrong.push(`${line.text()} ${path}`);
   });
   page.on('pageerror', (error) => wrong.push(error.stack));
