@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <random>
 
 namespace sinew::firmware {
@@ -84,73 +83,6 @@ void SimulatedArm::free() {
     motors_[i].is_stuck = false;
     pull(i);
   }
-}
-
-namespace {
-
-class JsonList {
- public:
-  explicit JsonList(std::string& text) : text_(text) { text_ += '['; }
-  ~JsonList() { text_ += ']'; }
-  JsonList(const JsonList&) = delete;
-  JsonList& operator=(const JsonList&) = delete;
-  void add(const char* format, double value) {
-    char number[40];
-    std::snprintf(number, sizeof number, format, value);
-    next() += number;
-  }
-  std::string& next() {
-    if (!is_first_) text_ += ',';
-    is_first_ = false;
-    return text_;
-  }
-
- private:
-  std::string& text_;
-  bool is_first_ = true;
-};
-
-}  // namespace
-
-std::string SimulatedArm::state() const {
-  std::string text = "{\"bends\":";
-  {
-    JsonList all(text);
-    for (const Bend& bend : statics_.bends) {
-      JsonList one(all.next());
-      for (const double angle : bend) one.add("%.9g", angle);
-    }
-  }
-  text += ",\"tensions\":";
-  {
-    JsonList all(text);
-    for (std::size_t i = 0; i < tendon_count(); ++i) all.add("%.6g", tension(i));
-  }
-  text += ",\"paid_out\":";
-  {
-    JsonList all(text);
-    for (std::size_t i = 0; i < tendon_count(); ++i) all.add("%.9g", paid_out(motors_[i]));
-  }
-  text += ",\"counts\":";
-  {
-    JsonList all(text);
-    for (std::size_t i = 0; i < drive_count(); ++i) all.add("%.0f", count(i));
-  }
-  text += ",\"cut\":";
-  {
-    JsonList all(text);
-    for (std::size_t i = 0; i < tendon_count(); ++i)
-      if (statics_.tendons[i].is_cut) all.add("%.0f", static_cast<double>(i));
-  }
-  text += ",\"stuck\":";
-  {
-    JsonList all(text);
-    for (std::size_t i = 0; i < tendon_count(); ++i)
-      if (motors_[i].is_stuck) all.add("%.0f", static_cast<double>(i));
-  }
-  char stage_text[40];
-  std::snprintf(stage_text, sizeof stage_text, ",\"stage\":%.9g}", stage());
-  return text + stage_text;
 }
 
 }  // namespace sinew::firmware

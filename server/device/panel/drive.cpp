@@ -10,10 +10,8 @@
 namespace sinew::server::device {
 namespace {
 
-constexpr double period = 0.02;  // [s] of set-points, and of measurements
 constexpr int ramp = 40;    // [ms] of a set-point: two periods, so that a late one leaves no gap and no jerk
 constexpr int freeze = 20;  // [ms] of the set-point that holds
-constexpr double armed_for = 60;       // [s]
 constexpr double arm_patience = 1;     // [s]
 constexpr double relax_speed = 2e-3;   // [m/s], at most
 constexpr double relax_most = 10e-3;   // [m]
@@ -29,14 +27,12 @@ bool Panel::wants_drives() const {
 bool Panel::is_driving() const { return drives_ == DriveMode::armed; }
 
 bool Panel::is_over() const {
-  for (std::size_t m = 0; m < shown_.size(); ++m) {
-    if (shown_[m].word() == Word::over_tensioned) return true;
-    // What is measured in newtons needs no second look.
-    if (const Hello* hello = link_.hello(); hello && hello->tension_limit > 0 && state_)
-      for (const double tension : state_->tension)
-        if (tension > hello->tension_limit) return true;
-  }
-  return false;
+  const auto is_shown = [](const ShownState& shown) { return shown.word() == Word::over_tensioned; };
+  if (std::ranges::any_of(shown_, is_shown)) return true;
+  // What is measured in newtons needs no second look.
+  const Hello* hello = link_.hello();
+  return hello && hello->tension_limit > 0 && state_ &&
+         std::ranges::any_of(state_->tension, [&](double tension) { return tension > hello->tension_limit; });
 }
 
 Posture Panel::measured() const {
@@ -108,7 +104,7 @@ void Panel::take_answer(const LinkEvent& event, double now) {
       if (is_arming_) {
         mode_ = Mode::armed;
         is_arming_ = false;
-        armed_until_ = now + armed_for;
+        armed_until_ = now + armed_for_;
         log("info", "armed");
       }
       break;
@@ -167,8 +163,7 @@ void Panel::take_state(std::string_view payload, double now) {
 
 /// Shown states and the alarm, also while nothing comes.
 void Panel::see_sections(double now) {
-  constexpr int periods = 3;
-  const bool is_known = state_ && fits_ && knows_controller_ && age(now) <= periods * period;
+  const bool is_known = state_ && fits_ && knows_controller_ && age(now) <= fresh_for_;
   for (std::size_t m = 0; m < sections_.size(); ++m) {
     const Word word = is_known ? sections_[m].word : Word::no_data;
     const bool is_partial = word == Word::slack && sections_[m].is_partial;
@@ -207,7 +202,7 @@ bool Panel::ask_next(double now) {
     return ask('A');
   }
   if (now >= next_state_) {
-    next_state_ = std::max(next_state_ + period, now + period / 2);
+    next_state_ = std::max(next_state_ + period_, now + period_ / 2);
     return ask('S');
   }
   if (is_freezing_ && is_driving() && state_ && state_time_ > frozen_at_) {
@@ -220,8 +215,8 @@ bool Panel::ask_next(double now) {
 
 bool Panel::ask_motion(double now) {
   if (!is_motion() || !is_driving() || !has_setpoints_ || !state_ || now < next_set_) return false;
-  const double way = speed_ * std::clamp(now - last_set_, period / 2, 2 * period);
-  next_set_ = std::max(next_set_ + period, now + period / 2);
+  const double way = speed_ * std::clamp(now - last_set_, period_ / 2, 2 * period_);
+  next_set_ = std::max(next_set_ + period_, now + period_ / 2);
   last_set_ = now;
   if (activity_ == Activity::homing) return ask_homing(way, now);
   if (activity_ == Activity::relax) return ask_relax(way, now);
@@ -279,7 +274,7 @@ bool Panel::ask_relax(double way, double now) {
     finish(fmt::format("S{} relaxed by {:.2f} mm", relaxed_section_ + 1, 1e3 * relaxed_));
     return false;
   }
-  way = std::min(way, relax_speed * 2 * period);
+  way = std::min(way, relax_speed * 2 * period_);
   relaxed_ += way;
   std::vector<std::int32_t> counts = setpoints_;
   for (std::size_t i = first; i < first + arm_.tendons(); ++i) counts[i] += arm_.tendon_counts(way);

@@ -73,13 +73,13 @@ bool Motion::go_back(Path& path, double way) {
 bool Motion::advance(const Bends& lead, double way) {
   const double room = stage_limit_ - set_.stage;
   if (room <= 0) return false;
-  Follower trial = follower_;
+  FollowTheLeader trial = follower_;
   Posture next;
   double step = std::min(way, room);
   // Tendons may have farther to go than the stage: then it goes less.
   for (int i = 0; i < 2; ++i) {
     trial = follower_;
-    next = {trial.advance(step, lead), set_.stage + step};
+    next = {trial.advance(step, lead.back()), set_.stage + step};
     const double needed = distance(set_, next);
     if (needed <= way) break;
     step *= way / needed;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "arm.hpp"
-#include "follow.hpp"
+#include "sinew/kinematics/follow_the_leader.hpp"
 
 namespace sinew::server::device {
 
@@ -45,7 +45,7 @@ class Motion {
 
  private:
   Arm& arm_;
-  Follower follower_;
+  FollowTheLeader follower_;
   Posture set_;
   double stage_limit_;
 };

@@ -13,10 +13,8 @@ namespace sinew::server::device {
 namespace {
 
 constexpr double patience = 0.3;                   // [s] of silence from the page
-constexpr double armed_for = 60;                   // [s]
 constexpr double slowest = 5e-4, fastest = 20e-3;  // [m/s]
 constexpr double outside = 5e-4;                   // [m] of the stage that do not count as inserted
-constexpr double no_data = 0.06;                   // [s]: three periods
 
 Refused refused(std::string_view code, std::string message) {
   return {std::string(code), std::move(message)};
@@ -73,7 +71,7 @@ Outcome Panel::check_line() const {
   if (is_there && !fits_)
     return refused("wrong_table",
                    "the firmware has another robot's table; flash this robot's, or open its file");
-  if (!is_there || age(now_) > no_data)
+  if (!is_there || age(now_) > fresh_for_)
     return refused("no_link", "the controller does not answer; check the cable and its supply");
   return {};
 }
@@ -304,7 +302,7 @@ void Panel::lapse(double now) {
     mode_ = Mode::view_only;
     log("info", fmt::format("page {} lost control", number_));
   }
-  if (is_motion() && mode_ == Mode::armed) armed_until_ = now_ + armed_for;
+  if (is_motion() && mode_ == Mode::armed) armed_until_ = now_ + armed_for_;
   if (is_motion() && now_ - held_ > patience) let_go();
   if (mode_ == Mode::armed && now_ >= armed_until_) disarm("60 s without motion");
 }

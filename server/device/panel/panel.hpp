@@ -80,6 +80,10 @@ class Panel {
   const std::string& why() const { return why_; }
 
  private:
+  static constexpr double period_ = 0.02;            ///< [s] of set-points, and of measurements
+  static constexpr double fresh_for_ = 3 * period_;  ///< [s]: then there is no data
+  static constexpr double armed_for_ = 60;           ///< [s] without motion
+
   Outcome check_lease(std::string_view secret, double now);
   Outcome check_line() const;
   Outcome check_calm() const;

@@ -233,7 +233,6 @@ TEST(ArmStatics, CutTendonsLetTheirSectionGo) {
 
 /// Taken in, a tendon bears what the bend asks for over 1 − μ; paid out, over 1 + μ.
 TEST(ArmStatics, FrictionMakesHysteresisOfItsSize) {
-  constexpr double most = 5e-3;  // [N]: the search ends where the energy is flat to rounding
   for (const double friction : {0.0, 0.05, 0.2}) {
     const SerialRobot robot = one_section();
     ArmMaterial material;
@@ -252,7 +251,7 @@ TEST(ArmStatics, FrictionMakesHysteresisOfItsSize) {
       arm.tendons[0].paid_out = -u;
       settle(arm);
     }
-    EXPECT_NEAR(arm.tendons[0].tension, load(arm.bends[0].x()) / (1 - friction), most);
+    EXPECT_NEAR(arm.tendons[0].tension, load(arm.bends[0].x()) / (1 - friction), 1e-4);
     EXPECT_GT(arm.tendons[0].tension, 0.9 * arm.bending_stiffness(0) * arm.bends[0].x() / g);
     const double held = arm.bends[0].x();
     for (double u = 3e-3; u >= 2e-3; u -= 5e-6) {
@@ -262,7 +261,7 @@ TEST(ArmStatics, FrictionMakesHysteresisOfItsSize) {
         EXPECT_NEAR(arm.bends[0].x(), held, 2e-3);  // it sticks at first
       }
     }
-    EXPECT_NEAR(arm.tendons[0].tension, load(arm.bends[0].x()) / (1 + friction), most);
+    EXPECT_NEAR(arm.tendons[0].tension, load(arm.bends[0].x()) / (1 + friction), 1e-4);
   }
 }
 

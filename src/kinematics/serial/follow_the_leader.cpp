@@ -1,10 +1,10 @@
-#include "follow.hpp"
+#include "sinew/kinematics/follow_the_leader.hpp"
 
 #include <algorithm>
 
-namespace sinew::server::device {
+namespace sinew::inline v0 {
 
-Follower::Follower(const SerialRobot& robot) {
+FollowTheLeader::FollowTheLeader(const SerialRobot& robot) {
   double end = 0;
   for (const Section& section : robot.sections) {
     ends_.push_back(end += section.length());
@@ -13,22 +13,22 @@ Follower::Follower(const SerialRobot& robot) {
   }
 }
 
-void Follower::begin(std::span<const Bend> bends) {
+void FollowTheLeader::begin(std::span<const Bend> bends) {
   curve_.clear();
   for (std::size_t m = 0; m < ends_.size(); ++m) curve_.push_back({ends_[m], bends[m] / shares_[m]});
 }
 
-Bends Follower::advance(double way, std::span<const Bend> lead) {
+std::vector<Bend> FollowTheLeader::advance(double way, const Bend& leader) {
   for (Piece& piece : curve_) piece.end -= way;
   while (curve_.size() > 1 && curve_.front().end <= 0) curve_.pop_front();
-  curve_.push_back({ends_.back(), lead.back() / shares_.back()});
-  Bends bends;
+  curve_.push_back({ends_.back(), leader / shares_.back()});
+  std::vector<Bend> bends;
   for (std::size_t m = 0; m < ends_.size(); ++m)
     bends.push_back(mean(m > 0 ? ends_[m - 1] : 0, ends_[m]) * shares_[m]);
   return bends;
 }
 
-Vec2<double> Follower::mean(double from, double to) const {
+Vec2<double> FollowTheLeader::mean(double from, double to) const {
   Vec2<double> sum{0, 0};
   double at = 0;
   for (const Piece& piece : curve_) {
@@ -39,4 +39,4 @@ Vec2<double> Follower::mean(double from, double to) const {
   return sum / (to - from);
 }
 
-}  // namespace sinew::server::device
+}  // namespace sinew::inline v0
