@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "desk.hpp"
 #include "noise.hpp"
@@ -352,9 +351,7 @@ TEST(FirmwareEpoch, NextSessionIsPreparedWithoutWaiting) {
 }
 
 TEST(FirmwareBinary, NothingButAFreshValidFrameMovesTheDrives) {
-  const char* more = std::getenv("SINEW_FIRMWARE_LINES");
-  const int usual = test::count_of(stage_count > 0 ? 100'000 : 300'000, 1'000'000);
-  const int frames = more ? std::max(usual, std::atoi(more)) : usual;
+  const int frames = lines_of(test::count_of(stage_count > 0 ? 100'000 : 300'000, 1'000'000));
   BinaryDesk desk;
   Noise noise(4);
   std::vector<std::string> accepted;

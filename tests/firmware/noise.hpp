@@ -3,18 +3,39 @@
 /// session or table, beyond limits, or not what their verb takes.
 #pragma once
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <random>
+#include <set>
 
 #include "frames.hpp"
 
 namespace sinew::firmware {
+
+/// How many lines a test of noise sends: as many as it usually does, or more where SINEW_FIRMWARE_LINES asks
+/// for it.
+inline int lines_of(int usual) {
+  const char* more = std::getenv("SINEW_FIRMWARE_LINES");
+  return more ? std::max(usual, std::atoi(more)) : usual;
+}
 
 class Noise {
  public:
   explicit Noise(unsigned seed) : random_(seed) {}
 
   int below(int end) { return std::uniform_int_distribution<>(0, end - 1)(random_); }
+
+  /// The text with that many of its bits changed: different ones, for one that is changed twice is as it was.
+  std::string with_flips(std::string text, int bits) {
+    std::set<int> flipped;
+    while (static_cast<int>(flipped.size()) < bits) flipped.insert(below(8 * static_cast<int>(text.size())));
+    for (const int bit : flipped) {
+      char& byte = text[static_cast<std::size_t>(bit / 8)];
+      byte = static_cast<char>(byte ^ 1 << bit % 8);
+    }
+    return text;
+  }
 
   /// Within the limits.
   std::vector<int> pose() {
@@ -115,16 +136,9 @@ class Noise {
     return text;
   }
 
-  /// Bits that differ, the newline's too; a newline follows in any case.
+  /// Its bits and its newline's, some of which have changed; a newline follows in any case.
   std::string flipped(const std::string& frame, int bits) {
-    std::string line = frame + '\n';
-    for (int first = -1; bits > 0; --bits) {
-      int bit = below(8 * static_cast<int>(line.size()));
-      while (bit == first) bit = below(8 * static_cast<int>(line.size()));
-      first = bit;
-      line[static_cast<std::size_t>(bit / 8)] =
-          static_cast<char>(line[static_cast<std::size_t>(bit / 8)] ^ 1 << bit % 8);
-    }
+    const std::string line = with_flips(frame + '\n', bits);
     // A frame that is whole but for its newline goes on into the next line.
     return line.back() == '\n' ? line : line + "?\n";
   }

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "desk.hpp"
 #include "noise.hpp"
 
@@ -384,9 +382,7 @@ TEST(FirmwareEpoch, AfterTheLastComesTheFirst) {
 }
 
 TEST(FirmwareSession, NothingButAFreshValidFrameMovesTheDrives) {
-  const char* more = std::getenv("SINEW_FIRMWARE_LINES");
-  const int usual = stage_count > 0 ? 100'000 : 1'000'000;
-  const int lines = more ? std::max(usual, std::atoi(more)) : usual;
+  const int lines = lines_of(stage_count > 0 ? 100'000 : 1'000'000);
   Desk desk;
   Noise noise(1);
   std::vector<std::string> accepted;

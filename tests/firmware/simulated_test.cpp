@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 
 #include "noise.hpp"
@@ -223,8 +222,7 @@ TEST(FirmwareSimulated, EachResetBeginsASession) {
 }
 
 TEST(FirmwareSimulated, NothingButAFreshValidFrameMovesTheDrives) {
-  const char* more = std::getenv("SINEW_FIRMWARE_LINES");
-  const int lines = more ? std::atoi(more) : 6000;
+  const int lines = lines_of(6000);
   Bench bench("sinew-firmware-1m.elf");
   Noise noise(2);
   std::vector<std::string> accepted;

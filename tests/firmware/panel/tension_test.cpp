@@ -122,14 +122,48 @@ std::string any_move(Noise& noise, std::uint32_t sequence, std::uint32_t hash = 
   for (std::int32_t& count : to) count = noise.below(20000);
   return binary_request('T', sequence, move_payload(to, noise.below(2) ? 0 : noise.below(65536)), hash);
 }
+/// Whole and fresh, but not to be obeyed: drives that are not there, counts beyond any limit, payloads too
+/// short or long.
+std::string wrong_move(Noise& noise, std::uint32_t sequence) {
+  const std::int32_t far = (1 << 24) * (noise.below(2) ? 1 : -1) * (1 + noise.below(100));
+  if (noise.below(3) == 0) {
+    const int drive = noise.below(drive_count);
+    const std::string payload = zero_payload(drive, 0);
+    switch (noise.below(4)) {
+      case 0:
+        return binary_request('Z', sequence, zero_payload(drive_count + noise.below(256 - drive_count), 0));
+      case 1:
+        return binary_request('Z', sequence, zero_payload(drive, far));
+      case 2:
+        return binary_request('Z', sequence, payload.substr(0, static_cast<std::size_t>(noise.below(5))));
+      default:
+        return binary_request('Z', sequence, payload + 'x');
+    }
+  }
+  Setpoints to(drive_count);
+  const std::string payload = move_payload(to);
+  switch (noise.below(3)) {
+    case 0:
+      to[static_cast<std::size_t>(noise.below(drive_count))] = far;
+      return binary_request('T', sequence, move_payload(to, noise.below(65536)));
+    case 1:
+      return binary_request(
+          'T', sequence,
+          payload.substr(0, static_cast<std::size_t>(noise.below(static_cast<int>(payload.size())))));
+    default:
+      return binary_request('T', sequence,
+                            payload + std::string(static_cast<std::size_t>(1 + noise.below(4)), 'x'));
+  }
+}
 /// None of which may be obeyed.
 std::string bad_move(Noise& noise, std::uint32_t last) {
   const auto any = [&noise](std::size_t size) {
     return static_cast<std::size_t>(noise.below(static_cast<int>(size)));
   };
   const std::string good = any_move(noise, last + 1);
-  std::string frame = good;
-  switch (noise.below(6)) {
+  switch (noise.below(7)) {
+    case 6:
+      return wrong_move(noise, last + 1);
     case 0:
       return any_move(noise, last - static_cast<std::uint32_t>(noise.below(50)));
     case 1:
@@ -137,20 +171,16 @@ std::string bad_move(Noise& noise, std::uint32_t last) {
     case 2:
       return any_move(noise, last + 1, table_hash ^ 1u << noise.below(32));
     case 3:
-      return frame.substr(0, any(frame.size()));
+      return good.substr(0, any(good.size()));
     case 4:
-      return frame.substr(any(frame.size() - 1) + 1);
+      return good.substr(any(good.size() - 1) + 1);
     default:
-      for (int flips = 1 + noise.below(6); flips > 0; --flips) {
-        char& byte = frame[any(frame.size())];
-        byte = static_cast<char>(byte ^ 1 << noise.below(8));
-      }
-      return frame == good ? frame + 'x' : frame;  // flipped back
+      return noise.with_flips(good, 1 + noise.below(6));
   }
 }
 
 TEST(PanelNoise, NothingButAFreshValidFrameMovesOrZeroes) {
-  const int frames = test::count_of(60'000, 400'000);
+  const int frames = lines_of(test::count_of(60'000, 400'000));
   TensionDesk desk;
   Noise noise(11);
   int accepted = 0;
