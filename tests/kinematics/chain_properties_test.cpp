@@ -2,10 +2,11 @@
 /// of the forces, and many links are a constant-curvature backbone.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <random>
 
-#include "kinematics/chains/leg_system.hpp"
+#include "kinematics/chains/leg_moves.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
@@ -35,6 +36,32 @@ double lagrangian(const ChainLeg<Space>& leg, const typename Space::template Fra
   return sum;
 }
 
+/// A leg's equations in full: A δz + B δx = −r in z = angles, force and the tension of a length that is held.
+struct Dense {
+  Eigen::MatrixXd A, B;
+  Eigen::VectorXd r;
+};
+template <class Space>
+Dense dense(const LegSystem<Space>& system) {
+  const Eigen::Index n = system.joints, size = n + (system.holds_length ? 2 : 1);
+  const auto& closure = system.closure;
+  Dense all{Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd::Zero(size, Space::dof),
+            Eigen::VectorXd::Zero(size)};
+  const auto at = [](Eigen::Index k) { return static_cast<std::size_t>(k); };
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index k = 0; k < n; ++k) all.A(j, k) = system.force * closure.c_qq(at(j), at(k));
+    all.A(j, j) += system.stiffness[at(j)];
+    all.A(j, n) = all.A(n, j) = closure.c_q[at(j)];
+    if (system.holds_length) all.A(j, n + 1) = all.A(n + 1, j) = system.tendon[at(j)];
+    all.B.row(j) = system.force * closure.across[at(j)] * closure.turn.transpose();
+    all.r[j] = system.balance[at(j)];
+  }
+  all.B.row(n) = closure.c_x.transpose();
+  all.r[n] = closure.c;
+  if (system.holds_length) all.r[n + 1] = system.length_error;
+  return all;
+}
+
 /// Every linearisation of one leg against central differences of what it linearises.
 template <class Space>
 void expect_slopes(const ChainLeg<Space>& leg, const typename Space::Pose& pose, const ChainLegState& state) {
@@ -43,11 +70,13 @@ void expect_slopes(const ChainLeg<Space>& leg, const typename Space::Pose& pose,
   const auto joints = static_cast<std::size_t>(leg.chain.joints());
   LegSystem<Space> here, plus, minus;
   form(leg, Space::frame(pose), state, hold, here);
+  const Dense all = dense(here);
   const double scale =
       leg.spring(0) + std::abs(state.force) * leg.chain.length + state.tension[0] * leg.tendon_offset;
   const auto column = [&](std::size_t j, double size) {
-    for (std::size_t i = 0; i < joints + 2; ++i)
-      EXPECT_NEAR(here.A[i][j], (plus.r[i] - minus.r[i]) / (2 * step), 1e-7 * size) << i << " " << j;
+    const Eigen::VectorXd slope = (dense(plus).r - dense(minus).r) / (2 * step);
+    for (Eigen::Index i = 0; i < slope.size(); ++i)
+      EXPECT_NEAR(all.A(i, static_cast<Eigen::Index>(j)), slope[i], 1e-7 * size) << i << " " << j;
   };
   for (std::size_t j = 0; j < joints; ++j) {
     ChainLegState up = state, down = state;
@@ -55,7 +84,7 @@ void expect_slopes(const ChainLeg<Space>& leg, const typename Space::Pose& pose,
     form(leg, Space::frame(pose), up, hold, plus);
     form(leg, Space::frame(pose), down, hold, minus);
     EXPECT_NEAR(
-        here.r[j],
+        here.balance[j],
         (lagrangian(leg, Space::frame(pose), up) - lagrangian(leg, Space::frame(pose), down)) / (2 * step),
         1e-7 * scale);
     column(j, scale);
@@ -77,8 +106,9 @@ void expect_slopes(const ChainLeg<Space>& leg, const typename Space::Pose& pose,
     form(leg, ahead, state, hold, plus);
     form(leg, back, state, hold, minus);
     EXPECT_NEAR(here.closure.c_x[k], (plus.closure.c - minus.closure.c) / (2 * step), 1e-8);
-    for (std::size_t j = 0; j < joints + 2; ++j)
-      EXPECT_NEAR(here.B[j][k], (plus.r[j] - minus.r[j]) / (2 * step), 1e-7 * scale) << j << " " << k;
+    const Eigen::VectorXd change = (dense(plus).r - dense(minus).r) / (2 * step);
+    for (Eigen::Index j = 0; j < change.size(); ++j)
+      EXPECT_NEAR(all.B(j, k), change[j], 1e-7 * scale) << j << " " << k;
     const Vec<double, Space::dof> slope = (plus.closure.c_x - minus.closure.c_x) / (2 * step);
     for (int l = 0; l < Space::dof; ++l)
       EXPECT_NEAR(here.closure.c_xx(l, k), slope[l], 1e-6 / here.closure.distance) << l << " " << k;
@@ -119,6 +149,135 @@ TEST(ChainForces, AreSlopesOfTheEnergyAndTheirLinearisationsOfThem) {  // @verif
   expect_slopes_of<Planar>("3-frr");
   expect_slopes_of<Planar>("3-rfrr");
   expect_slopes_of<Spatial>("6-ufs");
+}
+
+/// What a leg's unknowns move by, and what it adds to the platform's equation, against the equations in full.
+template <class Space>
+void expect_moves(const ChainLeg<Space>& leg, const LegSystem<Space>& system, const ChainHold& hold,
+                  bool is_even, Free free, const ChainLegState& state) {
+  constexpr int dof = Space::dof;
+  Dense all = dense(system);
+  const Eigen::Index n = system.joints;
+  Eigen::MatrixXd by = all.B;  // what is free
+  if (free == Free::tensions) {
+    by = Eigen::MatrixXd::Zero(all.r.size(), 1);
+    for (Eigen::Index j = 0; j < n; ++j) by(j, 0) = system.tendon[static_cast<std::size_t>(j)];
+  }
+  Eigen::MatrixXd shape = Eigen::MatrixXd::Identity(all.r.size(), all.r.size());  // unknowns by fewer of them
+  if (is_even) {
+    shape = Eigen::MatrixXd::Zero(all.r.size(), all.r.size() - n + 1);
+    for (Eigen::Index j = 0; j < n; ++j) shape(j, 0) = even_bend(leg.chain, static_cast<int>(j));
+    shape.bottomRightCorner(all.r.size() - n, all.r.size() - n).setIdentity();
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(shape.transpose() * all.A * shape);
+  const Eigen::VectorXd constant = shape * lu.solve(-shape.transpose() * all.r);
+  const Eigen::MatrixXd moves = shape * lu.solve(-shape.transpose() * by);
+
+  std::vector<std::array<double, 8>> memory(LegMoves<Space>::rows);
+  LegMoves<Space> found(leg.chain, is_even, free, memory.data());
+  found.eliminate(system);
+  const double scale = constant.head(n).cwiseAbs().maxCoeff() + moves.topRows(n).cwiseAbs().maxCoeff();
+  const double condition = lu.maxPivot() / std::abs(lu.matrixLU().diagonal().cwiseAbs().minCoeff());
+  if (!(condition < 1e12)) return;  // of two links in line any turn is as good
+  const double tolerance = 1e-13 * std::max(1e2, condition);
+  for (Eigen::Index side = -1; side < by.cols(); ++side) {
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(by.cols());
+    if (side >= 0) y[side] = 1;
+    const Eigen::VectorXd expected = constant + moves * y;
+    ChainLegState moved = state;
+    found.move({y.data(), static_cast<std::size_t>(y.size())}, hold, moved);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto joint = static_cast<std::size_t>(j);
+      ASSERT_NEAR(moved.angles[joint] - state.angles[joint], expected[j], tolerance * scale)
+          << j << " of " << n;
+    }
+    ASSERT_NEAR(moved.force - state.force, expected[n],
+                tolerance * (expected.cwiseAbs().maxCoeff() + std::abs(state.force)));
+  }
+  Mat<double, dof, dof> S = Mat<double, dof, dof>::Zero();
+  Vec<double, dof> g = Vec<double, dof>::Zero();
+  found.add_to(system, 0, S, g);
+  Eigen::MatrixXd expected_S = Eigen::MatrixXd::Zero(dof, dof);
+  expected_S.leftCols(by.cols()) = all.B.transpose() * moves;
+  if (free == Free::platform) expected_S += system.force * Eigen::MatrixXd(system.closure.c_xx);
+  const Eigen::VectorXd expected_g =
+      system.force * Eigen::VectorXd(system.closure.c_x) + all.B.transpose() * constant;
+  EXPECT_LT((S - expected_S).norm(), tolerance * (1e-12 + expected_S.norm() + moves.norm() * all.B.norm()));
+  EXPECT_LT((g - expected_g).norm(),
+            tolerance * (1e-12 + expected_g.norm() + constant.norm() * all.B.norm()));
+}
+
+template <class Space>
+void expect_moves_of(const char* name) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> part(-1, 1);
+  for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs}) {
+    const auto robot = chains_of<Space>(name, model);
+    for (const int links : {2, 3, 6, 32})
+      for (const double size : {1e-3, 0.1, 0.8})
+        for (int repeat = 0; repeat < 8; ++repeat) {
+          ChainLeg<Space> leg = robot.legs[static_cast<std::size_t>(repeat) % robot.legs.size()];
+          leg.chain.links = links;
+          ChainLegState state;
+          for (double& angle : state.angles) angle = size * part(random);
+          state.force = repeat == 0 ? 0 : 3 * part(random);
+          state.tension = {1 + part(random), part(random)};
+          const auto platform = Space::frame(random_pose(random, Space{}));
+          for (const int length_of : {-1, 0, 1}) {
+            if (length_of >= 0 && leg.chain.joints() <= (leg.has_strut() ? 1 : 2))
+              continue;  // it leaves nothing
+            const ChainHold hold{length_of, 0.19, {}};
+            LegSystem<Space> system;
+            form(leg, platform, state, hold, system);
+            expect_moves(leg, system, hold, false, Free::platform, state);
+            if (length_of >= 0) continue;
+            expect_moves(leg, system, hold, true, Free::platform, state);
+            expect_moves(leg, system, hold, false, Free::tensions, state);
+          }
+        }
+  }
+}
+
+TEST(ChainLegMoves, AreThoseOfTheEquationsInFull) {
+  expect_moves_of<Planar>("3-rfr");
+  expect_moves_of<Planar>("3-frr");
+  expect_moves_of<Spatial>("6-ufs");
+}
+
+/// Where springs and force leave some motion of the links no stiffness at all, the closure still holds the
+/// leg.
+TEST(ChainLegMoves, PassThroughTheForceAtWhichAChainBuckles) {
+  const auto robot = chains_of<Planar>("3-rfr", ChainModel::weighted);
+  ChainLeg<Planar> leg = robot.legs[0];
+  for (const int links : {3, 6, 32}) {
+    leg.chain.links = links;
+    ChainLegState state;
+    for (double& angle : state.angles) angle = 0.6 / links;
+    const auto platform = Planar::frame(PlanarPose{0.01, 0, 0.3});
+    const ChainHold hold{-1, 0, {}};
+    LegSystem<Planar> system;
+    const auto least = [&](double force) {  // of T, in angles
+      state.force = force;
+      form(leg, platform, state, hold, system);
+      Eigen::MatrixXd T = dense(system).A.topLeftCorner(system.joints, system.joints);
+      for (Eigen::Index j = 0; j < T.rows(); ++j)
+        for (Eigen::Index k = 0; k < T.rows(); ++k)
+          T(j, k) -= force * system.closure.sway * system.closure.across[static_cast<std::size_t>(j)] *
+                     system.closure.across[static_cast<std::size_t>(k)];
+      return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(T).eigenvalues()[0];
+    };
+    double low = -1000, high = 1000;
+    const bool rises = least(high) > 0;
+    ASSERT_NE(rises, least(low) > 0);
+    for (int round = 0; round < 100; ++round) {
+      const double middle = 0.5 * (low + high);
+      ((least(middle) > 0) == rises ? high : low) = middle;
+    }
+    for (const double force : {low, high, low + 1e-9, low - 1e-6}) {
+      least(force);
+      expect_moves(leg, system, hold, false, Free::platform, state);
+    }
+  }
 }
 
 /// The energy of the whole robot is stationary at an equilibrium, along whatever keeps it closed.

@@ -116,9 +116,10 @@ struct ChainOptions {
 
 /// Memory of a solver, one per thread. Sized on first use with a robot; then nothing allocates.
 struct ChainWork {
-  StopToken stop = {};                   ///< solves that use it end with `stopped` once it is requested
-  std::vector<double> moves = {};        ///< of each leg's unknowns, constant and by the platform
-  std::vector<ChainLegState> legs = {};  ///< iterates
+  StopToken stop = {};  ///< solves that use it end with `stopped` once it is requested
+  using Rows = std::vector<std::array<double, 8>>;
+  Rows moves = {};                               ///< how each leg's unknowns move with what is free
+  std::vector<ChainLegState> legs = {};          ///< iterates
   std::vector<ChainHold> first = {}, hold = {};  ///< of the path, and on it
 };
 

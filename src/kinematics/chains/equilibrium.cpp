@@ -66,10 +66,11 @@ Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<c
     state.wrench = load;
     return true;
   });
-  put(done);
+  if (done < 1) put(done);
   state.hold.assign(work.hold.begin(), work.hold.end());
   measure_tendons(robot, state);
-  const auto reduced = solver.reduce(state.pose, state.legs, state.hold, state.wrench);
+  const auto reduced =
+      done < 1 ? solver.reduce(state.pose, state.legs, state.hold, state.wrench) : solver.reached();
   Report report;
   report.residual = solver.residual();
   report.iterations = solver.iterations();

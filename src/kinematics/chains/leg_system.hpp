@@ -9,8 +9,6 @@
 
 namespace sinew::inline v0 {
 
-inline constexpr int most_unknowns = max_chain_joints + 2;  ///< angles, force, tension
-
 /// The larger size; NaN stays.
 inline double worse(double a, double b) {
   return std::isfinite(b) ? std::max(a, std::abs(b)) : std::numeric_limits<double>::quiet_NaN();
@@ -27,16 +25,23 @@ inline void say_leg(Report& report, Status status, std::size_t leg, std::string_
 }
 
 /// A leg's closure c = 0 [m] in its angles q and the pose x, with first and second derivatives. Those by the
-/// pose are of the force's line, so that turns keep the order in which they are made.
+/// pose are of the force's line, so that turns keep the order in which they are made. Those by two angles are
+/// of the joints' distances w from that line:  ∂²c/∂qⱼ∂qₖ = σ wⱼ wₖ + w_max(j,k).
 template <class Space>
 struct ChainClosure {
   static constexpr int dof = Space::dof;
+  using Joints = std::array<double, max_chain_joints>;
   double c, distance;  ///< of the anchors that chord or strut joins [m]
-  std::array<double, max_chain_joints> c_q;
+  Joints c_q;
   Vec<double, dof> c_x;
-  std::array<std::array<double, max_chain_joints>, max_chain_joints> c_qq;
-  std::array<Vec<double, dof>, max_chain_joints> c_qx;  ///< 0 of a chord
+  double sway;            ///< σ [1/m]: by how much the line turns where the tip moves across it
+  Joints across;          ///< w: of the tip, across the line of the chord or the strut [m/rad]
+  Vec<double, dof> turn;  ///< v:  ∂²c/∂qⱼ∂x = wⱼ v;  0 of a chord
   Mat<double, dof, dof> c_xx;
+
+  double c_qq(std::size_t j, std::size_t k) const {
+    return sway * across[j] * across[k] + across[std::max(j, k)];
+  }
 };
 
 namespace detail {
@@ -75,49 +80,39 @@ void close_chain(const ChainLeg<Space>& leg, const typename Space::template Fram
   const std::size_t joints = angles.size();
   const Point b = platform.rotate(leg.platform_point);
   Point n = platform.p + b - leg.base.p;
-  std::array<Point, max_chain_joints> u_q;  // of a strut, base axes
-  const bool has_strut = dimension == 2 && leg.has_strut();
   if constexpr (dimension == 2)
-    if (has_strut) {
-      n -= leg.base.rotate(tip.position);
-      for (std::size_t j = 0; j < joints; ++j) u_q[j] = leg.base.rotate(tip.rate[j]);
-    }
+    if (leg.has_strut()) n -= leg.base.rotate(tip.position);
   at.distance = std::sqrt(squared_norm(n));
   const double per_distance = 1 / at.distance;
   const Point e = n * per_distance;
-  const auto across = [&](const Point& v) -> Point { return (v - dot(e, v) * e) * per_distance; };
   const auto r_x = detail::point_rate(b);
-  std::array<Point, Space::dof> across_x;
-  for (int k = 0; k < Space::dof; ++k) across_x[static_cast<std::size_t>(k)] = across(Point(r_x.col(k)));
 
   at.c_x = Space::line(e, b).transpose();
-  for (int k = 0; k < Space::dof; ++k)
-    for (int l = 0; l < Space::dof; ++l)
-      at.c_xx(k, l) = dot(Point(r_x.col(k)), across_x[static_cast<std::size_t>(l)]);
+  for (int k = 0; k < Space::dof; ++k) {
+    const Point across = (r_x.col(k) - dot(e, Point(r_x.col(k))) * e) * per_distance;
+    for (int l = 0; l < Space::dof; ++l) at.c_xx(l, k) = dot(Point(r_x.col(l)), across);
+  }
   detail::add_turn(e, b, at.c_xx);
+  at.turn.setZero();
+  Vec2<double> line = tip.position;  // in the axes of the chain
   if constexpr (dimension == 2)
-    if (has_strut) {
+    if (leg.has_strut()) {
+      const Vec2<double> beside(-e[1], e[0]);
+      line = leg.base.rotate_back(e);
+      for (int k = 0; k < Space::dof; ++k) at.turn[k] = -dot(beside, Point(r_x.col(k))) * per_distance;
       at.c = at.distance - leg.strut;
-      for (std::size_t j = 0; j < joints; ++j) {
-        at.c_q[j] = -dot(e, u_q[j]);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(Space::dof); ++k)
-          at.c_qx[j][static_cast<Eigen::Index>(k)] = -dot(u_q[j], across_x[k]);
-        const Point across_j = across(u_q[j]);
-        for (std::size_t k = 0; k <= j; ++k)  // the outer joint turns what the inner one moved
-          at.c_qq[j][k] = at.c_qq[k][j] = dot(across_j, u_q[k]) - dot(e, Point(-u_q[j][1], u_q[j][0]));
-      }
-      return;
+      at.sway = per_distance;
     }
-  const double chord = std::sqrt(squared_norm(tip.position)), per_chord = 1 / chord;
-  at.c = at.distance - chord;
+  if (!(dimension == 2 && leg.has_strut())) {
+    const double chord = std::sqrt(squared_norm(tip.position)), per_chord = 1 / chord;
+    line = line * per_chord;
+    at.c = at.distance - chord;
+    at.sway = -per_chord;
+  }
   for (std::size_t j = 0; j < joints; ++j) {
-    at.c_q[j] = -dot(tip.position, tip.rate[j]) * per_chord;
-    at.c_qx[j].setZero();
-    for (std::size_t k = 0; k <= j; ++k)
-      at.c_qq[j][k] = at.c_qq[k][j] =
-          -(dot(tip.rate[j], tip.rate[k]) - at.c_q[j] * at.c_q[k] +
-            dot(tip.position, tip.rate_rate(static_cast<int>(j), static_cast<int>(k)))) *
-          per_chord;
+    const Vec2<double>& rate = tip.rate[j];
+    at.c_q[j] = -dot(line, rate);
+    at.across[j] = line[0] * rate[1] - line[1] * rate[0];
   }
 }
 
@@ -127,17 +122,6 @@ inline double motor_slope(const ChainLeg<Planar>& leg, std::span<const double> a
   const Vec2<double> u = leg.base.rotate(leg.chain.tip(angles).position);
   return at.c_x[0] * u[1] - at.c_x[1] * u[0];
 }
-
-/// Linearised: A δz + B δx = −r in z = angles, force and, of a length that is held, its tension.
-template <class Space>
-struct LegSystem {
-  int size = 0, joints = 0;
-  std::array<std::array<double, most_unknowns>, most_unknowns> A;
-  std::array<Vec<double, Space::dof>, most_unknowns> B;
-  std::array<double, most_unknowns> r;
-  std::array<double, max_chain_joints> per_tension;  ///< of the joints' balance by the inner tendon's tension
-  ChainClosure<Space> closure;
-};
 
 /// What joints bend by under a moment alone, as shares.
 inline double even_bend(const PseudoRigid& chain, int joint) {
@@ -149,76 +133,45 @@ inline std::size_t inner_tendon(const ChainLegState& state, const PseudoRigid& c
   return chain.turn(state.of(chain)) < 0 ? 0 : 1;
 }
 
+/// A leg's equations, and their derivatives by its angles, its force f and, of a length that is held, its
+/// tension.
+template <class Space>
+struct LegSystem {
+  using Joints = std::array<double, max_chain_joints>;
+  int joints = 0;
+  bool holds_length = false;
+  Joints balance;       ///< of the joints' moments: springs, tendons and the force [N m]
+  Joints stiffness;     ///< of springs and tendons alone; what the force adds is f ∂²c/∂q²
+  Joints tendon;        ///< of the length that is held by the angles, or else of the inner tendon's
+  double length_error;  ///< of what is held [m]
+  double force;         ///< f
+  ChainClosure<Space> closure;
+};
+
 /// With the geometric stiffness that (44) leaves out.
 template <class Space>
 void form(const ChainLeg<Space>& leg, const typename Space::template Frame<double>& platform,
           const ChainLegState& state, const ChainHold& hold, LegSystem<Space>& system) {
   const PseudoRigid& chain = leg.chain;
-  const int joints = chain.joints();
-  const auto n = static_cast<std::size_t>(joints);
-  const bool holds_length = hold.length_of >= 0;
-  const std::size_t inner = inner_tendon(state, chain);
-  system.joints = joints;
-  system.size = joints + (holds_length ? 2 : 1);
+  system.joints = chain.joints();
+  system.holds_length = hold.length_of >= 0;
+  system.force = state.force;
   close_chain(leg, platform, state.of(chain), system.closure);
-  const auto& at = system.closure;
+  const auto tendon =
+      system.holds_length ? static_cast<std::size_t>(hold.length_of) : inner_tendon(state, chain);
   double length = chain.length;
-  for (std::size_t j = 0; j < n; ++j) {
-    const int joint = static_cast<int>(j);
+  for (int joint = 0; joint < system.joints; ++joint) {
+    const auto j = static_cast<std::size_t>(joint);
     const std::array bend{chain.tendon_bend(joint, state.angles[j], leg.tendon_offset, 1),
                           chain.tendon_bend(joint, state.angles[j], leg.tendon_offset, -1)};
-    for (std::size_t k = 0; k < n; ++k) system.A[j][k] = state.force * at.c_qq[j][k];
-    system.A[j][j] +=
+    system.stiffness[j] =
         leg.spring(joint) + state.tension[0] * bend[0].curvature + state.tension[1] * bend[1].curvature;
-    system.r[j] = leg.spring(joint) * state.angles[j] + state.tension[0] * bend[0].rate +
-                  state.tension[1] * bend[1].rate + state.force * at.c_q[j];
-    system.A[j][n] = system.A[n][j] = at.c_q[j];
-    system.B[j] = state.force * at.c_qx[j];
-    system.per_tension[j] = bend[inner].rate;
-    if (holds_length) {
-      const auto& held = bend[static_cast<std::size_t>(hold.length_of)];
-      length += held.change;
-      system.A[j][n + 1] = system.A[n + 1][j] = held.rate;
-    }
+    system.balance[j] = leg.spring(joint) * state.angles[j] + state.tension[0] * bend[0].rate +
+                        state.tension[1] * bend[1].rate + state.force * system.closure.c_q[j];
+    system.tendon[j] = bend[tendon].rate;
+    length += bend[tendon].change;
   }
-  system.A[n][n] = 0;
-  system.B[n] = at.c_x;
-  system.r[n] = at.c;
-  if (holds_length) {
-    system.A[n][n + 1] = system.A[n + 1][n] = system.A[n + 1][n + 1] = 0;
-    system.B[n + 1].setZero();
-    system.r[n + 1] = length - hold.length;
-  }
-}
-
-/// The same where all joints of the chain bend in proportion: one unknown in place of the angles.
-template <class Space>
-void bend_evenly(const PseudoRigid& chain, LegSystem<Space>& system) {
-  const auto n = static_cast<std::size_t>(system.joints), rest = static_cast<std::size_t>(system.size) - n;
-  std::array<double, max_chain_joints> w;
-  for (std::size_t j = 0; j < n; ++j) w[j] = even_bend(chain, static_cast<int>(j));
-  double stiffness = 0, balance = 0, tension = 0;
-  Vec<double, Space::dof> coupling = Vec<double, Space::dof>::Zero();
-  std::array<double, 2> edge{};
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t k = 0; k < n; ++k) stiffness += w[j] * system.A[j][k] * w[k];
-    for (std::size_t k = 0; k < rest; ++k) edge[k] += w[j] * system.A[j][n + k];
-    balance += w[j] * system.r[j];
-    tension += w[j] * system.per_tension[j];
-    coupling += w[j] * system.B[j];
-  }
-  for (std::size_t k = 0; k < rest; ++k) {
-    system.B[1 + k] = system.B[n + k];
-    system.r[1 + k] = system.r[n + k];
-    system.A[0][1 + k] = system.A[1 + k][0] = edge[k];
-    for (std::size_t l = 0; l < rest; ++l) system.A[1 + k][1 + l] = 0;
-  }
-  system.A[0][0] = stiffness;
-  system.r[0] = balance;
-  system.per_tension[0] = tension;
-  system.B[0] = coupling;
-  system.joints = 1;
-  system.size = static_cast<int>(1 + rest);
+  system.length_error = system.holds_length ? length - hold.length : 0;
 }
 
 }  // namespace sinew::inline v0

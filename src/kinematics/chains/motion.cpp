@@ -61,7 +61,7 @@ class LegMotion {
     for (std::size_t j = motors_; j < size_; ++j) {
       const std::size_t joint = j - motors_;
       if (options.objective == Objective::singularity) {
-        for (std::size_t k = 0; k + motors_ < size_; ++k) down[j] += at_.c_qq[joint][k] * at_.c_q[k];
+        for (std::size_t k = 0; k + motors_ < size_; ++k) down[j] += at_.c_qq(joint, k) * at_.c_q[k];
         down[j] /= leg_.chain.length;
       } else {
         const double angle = angles[j];

@@ -6,20 +6,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "kinematics/chains/elimination.hpp"
-#include "kinematics/chains/leg_system.hpp"
+#include "kinematics/chains/leg_moves.hpp"
 #include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v0 {
-
-/// One tendon's tension moves, or the platform does: unknowns beside those of the legs.
-enum class Free { platform, tensions };
 
 /// Newton's method at one point of the path.
 template <class Space>
 class Solver {
  public:
-  static constexpr int dof = Space::dof, sides = dof + 1;
+  static constexpr int dof = Space::dof;
   using Pose = typename Space::Pose;
   using Motion = Vec<double, dof>;
   using State = ChainState<Space>;
@@ -30,7 +26,7 @@ class Solver {
         work_(work),
         options_(options),
         free_(free) {
-    work.moves.resize(robot.legs.size() * most_unknowns * sides);
+    work.moves.resize(robot.legs.size() * LegMoves<Space>::rows);
     for (const auto& leg : robot.legs) {
       size_ = std::max(size_, leg.chain.length);
       stiffness_ = std::max(stiffness_, leg.bending_stiffness / std::pow(leg.chain.length, 3));
@@ -57,6 +53,8 @@ class Solver {
     return sigma[dof - 1] / sigma[0];
   }
 
+  /// At the last equilibrium that `solve` found.
+  const Reduced& reached() const { return reached_; }
   double residual() const { return residual_; }  ///< unbalance as a length [m]
   int iterations() const { return iterations_; }
   bool has_budget() const { return iterations_ < options_.max_iterations; }
@@ -70,34 +68,11 @@ class Solver {
     for (std::size_t i = 0; i < legs.size(); ++i) {
       const auto& leg = robot_.legs[i];
       form(leg, platform, legs[i], hold[i], system_);
-      if (options_.evenly_bent) bend_evenly(leg.chain, system_);
-      const auto size = static_cast<std::size_t>(system_.size),
-                 joints = static_cast<std::size_t>(system_.joints);
-      const int columns = free_ == Free::platform ? sides : 2;
-      double* const moves = moves_of(i);
-      for (std::size_t j = 0; j < size; ++j) {
-        double* const row = moves + j * static_cast<std::size_t>(columns);
-        row[0] = -system_.r[j];
-        if (free_ == Free::platform)
-          for (int k = 0; k < dof; ++k) row[k + 1] = -system_.B[j][k];
-        else
-          row[1] = j < joints ? -system_.per_tension[j] : 0;
-        const double measure = j < joints ? size_ / leg.spring(static_cast<int>(j)) : 1;
-        residual_ = worse(residual_, system_.r[j] * measure);
-      }
-      eliminate(system_.A[0].data(), system_.size, most_unknowns, moves, columns);
-      const Motion pull = legs[i].force * system_.closure.c_x;
-      balance += pull;
-      reduced.g += pull;
-      for (std::size_t j = 0; j < size; ++j) {
-        const double* const row = moves + j * static_cast<std::size_t>(columns);
-        reduced.g += row[0] * system_.B[j];
-        if (free_ == Free::platform)
-          for (int k = 0; k < dof; ++k) reduced.S.col(k) += row[k + 1] * system_.B[j];
-        else
-          reduced.S.col(static_cast<Eigen::Index>(i)) += row[1] * system_.B[j];
-      }
-      if (free_ == Free::platform) reduced.S += legs[i].force * system_.closure.c_xx;
+      measure(leg);
+      LegMoves<Space> moves = moves_of(i);
+      moves.eliminate(system_);
+      moves.add_to(system_, static_cast<Eigen::Index>(i), reduced.S, reduced.g);
+      balance += legs[i].force * system_.closure.c_x;
     }
     for (int k = 0; k < dof; ++k)
       residual_ = worse(residual_, balance[k] / stiffness_ / (k >= Space::dimension ? size_ : 1));
@@ -125,7 +100,7 @@ class Solver {
       walked += step;
       if (!(walked < reach_)) return false;
       if (step < 1e-11 || (residual_ < 1e-13 * size_ && step < 1e-9)) {
-        reduce(pose, legs, hold, wrench);
+        reached_ = reduce(pose, legs, hold, wrench);
         return residual_ < 1e-11 * size_;
       }
     }
@@ -139,36 +114,31 @@ class Solver {
   }
 
  private:
-  double* moves_of(std::size_t leg) { return work_.moves.data() + leg * most_unknowns * sides; }
+  LegMoves<Space> moves_of(std::size_t leg) {
+    return {robot_.legs[leg].chain, options_.evenly_bent, free_,
+            work_.moves.data() + leg * LegMoves<Space>::rows};
+  }
+
+  /// What the leg's own equations leave, as lengths.
+  void measure(const ChainLeg<Space>& leg) {
+    residual_ = worse(worse(residual_, system_.closure.c), system_.length_error);
+    double even = 0;
+    for (int joint = 0; joint < system_.joints; ++joint) {
+      const auto j = static_cast<std::size_t>(joint);
+      even += even_bend(leg.chain, joint) * system_.balance[j];
+      if (!options_.evenly_bent)
+        residual_ = worse(residual_, system_.balance[j] * (size_ / leg.spring(joint)));
+    }
+    if (options_.evenly_bent) residual_ = worse(residual_, even * (size_ / leg.spring(0)));
+  }
 
   /// The largest turn of a joint.
   double move(std::vector<ChainLegState>& legs, std::span<const ChainHold> hold, const Motion& motion) {
     double step = 0;
     for (std::size_t i = 0; i < legs.size(); ++i) {
-      const PseudoRigid& chain = robot_.legs[i].chain;
-      const std::size_t inner = inner_tendon(legs[i], chain);
-      const double* const moves = moves_of(i);
-      const auto change = [&](std::size_t j) {
-        if (free_ == Free::tensions)
-          return moves[2 * j] + moves[2 * j + 1] * motion[static_cast<Eigen::Index>(i)];
-        double sum = moves[sides * j];
-        for (std::size_t k = 0; k < dof; ++k)
-          sum += moves[sides * j + k + 1] * motion[static_cast<Eigen::Index>(k)];
-        return sum;
-      };
-      std::size_t next = 0;
-      const double even = options_.evenly_bent ? change(next++) : 0;
-      for (std::size_t j = 0; j < static_cast<std::size_t>(chain.joints()); ++j) {
-        const double turn =
-            options_.evenly_bent ? even * even_bend(chain, static_cast<int>(j)) : change(next++);
-        legs[i].angles[j] += turn;
-        step = worse(step, turn);
-      }
-      legs[i].force += change(next);
-      if (free_ == Free::tensions)
-        legs[i].tension[inner] += motion[static_cast<Eigen::Index>(i)];
-      else if (hold[i].length_of >= 0)
-        legs[i].tension[static_cast<std::size_t>(hold[i].length_of)] += change(next + 1);
+      const std::span<const double> all(motion.data(), static_cast<std::size_t>(dof));
+      step =
+          worse(step, moves_of(i).move(free_ == Free::tensions ? all.subspan(i, 1) : all, hold[i], legs[i]));
     }
     return step;
   }
@@ -178,6 +148,7 @@ class Solver {
   ChainOptions options_;
   Free free_;
   LegSystem<Space> system_;
+  Reduced reached_;
   double size_ = 0, stiffness_ = 0, residual_ = 0, reach_ = 0.5;
   int iterations_ = 0;
 };

@@ -37,21 +37,22 @@ double least_curvature(const ChainRobot<Space>& robot, const ChainState<Space>& 
   Eigen::Index first = dof, row = 0;
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     form(robot.legs[i], platform, state.legs[i], state.hold[i], system);
-    const auto n = static_cast<Eigen::Index>(system.joints);
+    const auto& closure = system.closure;
+    const double force = system.force;
+    const Eigen::Index n = system.joints;
+    C.row(row).head<dof>() = closure.c_x.transpose();
     for (Eigen::Index j = 0; j < n; ++j) {
-      const auto& A_j = system.A[static_cast<std::size_t>(j)];
-      for (Eigen::Index k = 0; k < n; ++k) H(first + j, first + k) = A_j[static_cast<std::size_t>(k)];
-      for (Eigen::Index k = 0; k < dof; ++k)
-        H(first + j, k) = H(k, first + j) = system.B[static_cast<std::size_t>(j)][k];
+      const auto joint = static_cast<std::size_t>(j);
+      for (Eigen::Index k = 0; k < n; ++k)
+        H(first + j, first + k) = force * closure.c_qq(joint, static_cast<std::size_t>(k));
+      H(first + j, first + j) += system.stiffness[joint];
+      H.row(first + j).head<dof>() = force * closure.across[joint] * closure.turn.transpose();
+      C(row, first + j) = closure.c_q[joint];
+      if (system.holds_length) C(row + 1, first + j) = system.tendon[joint];
     }
-    for (Eigen::Index k = 0; k < dof; ++k)
-      for (Eigen::Index l = 0; l < dof; ++l)
-        H(k, l) += 0.5 * state.legs[i].force * (system.closure.c_xx(k, l) + system.closure.c_xx(l, k));
-    for (Eigen::Index k = n; k < system.size; ++k, ++row) {
-      for (Eigen::Index j = 0; j < dof; ++j) C(row, j) = system.B[static_cast<std::size_t>(k)][j];
-      for (Eigen::Index j = 0; j < n; ++j)
-        C(row, first + j) = system.A[static_cast<std::size_t>(k)][static_cast<std::size_t>(j)];
-    }
+    H.block(0, first, dof, n) = H.block(first, 0, n, dof).transpose();
+    H.topLeftCorner<dof, dof>() += 0.5 * force * (closure.c_xx + closure.c_xx.transpose());
+    row += system.holds_length ? 2 : 1;
     first += n;
   }
   return least_on_null_space(H, C);
