@@ -15,7 +15,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double frame_period = 0.05;  // [s]
 constexpr double longest_wait = 2e-3;  // [s] for bytes, before time is looked at again
 constexpr const char* demo_motor = "\nmotor: {lead: 2 mm, counts: 4096}\n";  // that of the firmware
 
@@ -161,7 +160,7 @@ void Device::run(const std::stop_token& over) {
     link_.wait(longest_wait);
   }
   const std::lock_guard lock(mutex_);
-  const double end = now() + frame_period;
+  const double end = now() + times::frame;
   panel_.shut_down();
   while (now() < end) {  // for the controller to let go
     panel_.tick(now());
@@ -173,8 +172,8 @@ void Device::publish(double now) {
   for (const LogEntry& entry : panel_.take_log())
     feed_->log(text_of(
         Json{{"time", entry.time}, {"clock", entry.clock}, {"kind", entry.kind}, {"text", entry.text}}));
-  if (now < published_ + frame_period) return;
-  published_ = std::max(published_ + frame_period, now - frame_period);
+  if (now < published_ + times::frame) return;
+  published_ = std::max(published_ + times::frame, now - times::frame);
   feed_->publish(text_of(panel_.frame(now)));
 }
 

@@ -58,7 +58,7 @@ class PlayedLink : public Link {
       events.push_back(waiting_->first);
       if (waiting_->first.kind == LinkEvent::Kind::answer) figures_.heard = now;
       waiting_.reset();
-    } else if (waiting_ && now >= asked_at_ + 0.1) {
+    } else if (waiting_ && now >= asked_at_ + times::answer) {
       ++figures_.errors;
       waiting_.reset();
       events.push_back({LinkEvent::Kind::lost});

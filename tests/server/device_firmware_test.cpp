@@ -182,6 +182,10 @@ struct Page {
     };
   }
   std::string code(const Outcome& outcome) { return outcome ? outcome->code : ""; }
+  void let_go() {
+    if (held) board.panel.press(*held, secret, false, board.now());
+    held.reset();
+  }
   void make_ready() {
     board.run(0.2);
     ASSERT_TRUE(board.set_zeros());
@@ -226,8 +230,7 @@ TEST(DeviceFirmware, ReleaseStopsItWithin100Ms) {
   page.held = Activity::moving;
   board.run(0.5);
   EXPECT_GT(board.drives.changes, 100);
-  page.held.reset();
-  board.panel.press(Activity::moving, page.secret, false, board.now());
+  page.let_go();
   board.run(0.1);
   const auto there = board.drives.positions;
   board.run(0.5);
@@ -325,8 +328,7 @@ TEST(DeviceFirmware, HomingSetsTheZerosWhereTendonsBeginToPull) {
   board.run(0.3);
   for (std::size_t i = 0; i < zeros.size(); ++i) EXPECT_NEAR(board.drives.positions[i], zeros[i], 60) << i;
   EXPECT_FALSE(board.drives.are_enabled()) << "it was not armed: the drives let go";
-  page.held.reset();
-  board.panel.press(Activity::homing, page.secret, false, board.now());
+  page.let_go();
   EXPECT_EQ(page.code(board.panel.arm(page.secret, board.now())), "");
 }
 
@@ -337,7 +339,7 @@ TEST(DeviceFirmware, TheWayInSurvivesALineThatWasAway) {
   board.panel.set_speed(page.secret, 10e-3, board.now());
   page.held = Activity::moving;
   board.run(1);
-  page.held.reset();
+  page.let_go();
   const std::int32_t stage = board.drives.positions[15];
   EXPECT_GT(stage, 2000);
   board.is_plugged = false;

@@ -128,7 +128,7 @@ TEST(DeviceHttp, TwoPagesAtOneDevice) {
   EXPECT_NEAR(second.frames() - before, 25, 12);
   EXPECT_EQ(code_of(desk, "hold", json::object()), "") << "anybody";
   EXPECT_EQ(code_of(desk, "home", {{"lease", mine["lease"]}, {"held", true}}), "release_first");
-  EXPECT_TRUE(second.await([](const json& frame) { return frame["state"] == "view_only"; })) << "300 ms";
+  EXPECT_TRUE(second.await([](const json& frame) { return frame["state"] == "view_only"; })) << "2 s";
   EXPECT_EQ(second.frame()["why"], first.frame()["why"]);
 
   EXPECT_EQ(code_of(desk, "fault", {{"line", "unplug"}}), "");

@@ -149,30 +149,69 @@ TEST(DevicePanel, TheLimitItselfIsNearItAndNotBeyond) {
   }
 }
 
-TEST(DevicePanel, SilenceOfThePageStopsItIn300Ms) {
+TEST(DevicePanel, SilenceOfThePageStopsItIn300MsAndDisarmsIn2S) {
   PanelDesk desk;
   make_ready(desk);
   desk.press(Activity::moving);
   desk.run(0.25);
   desk.is_renewing = false;  // the page is gone, without a word
   const double silent = desk.now;
-  desk.run(1);
+  desk.run(1.8);
   EXPECT_LT(desk.link.moved - silent, 0.35);
+  EXPECT_EQ(desk.panel.mode(), Mode::armed);
+  desk.run(0.3);
   EXPECT_EQ(desk.panel.mode(), Mode::view_only);
   EXPECT_EQ(desk.link.mode, DriveMode::disarmed);
   EXPECT_EQ(desk.panel.why(), "the page fell silent");
 }
 
-TEST(DevicePanel, AButtonWhoseHeartbeatEndsIsReleased) {
+/// Its words may have waited on the way while the finger left the button.
+TEST(DevicePanel, AButtonThatWasSilentForTooLongIsPressedAnew) {
+  for (const double stall : {0.35, 1.0, 1.9}) {
+    PanelDesk desk;
+    make_ready(desk);
+    desk.press(Activity::moving);
+    desk.run(0.25);
+    desk.is_renewing = false;
+    const double silent = desk.now;
+    desk.run(stall);
+    EXPECT_LT(desk.link.moved - silent, 0.35);
+    desk.is_renewing = true;  // with the button as it was
+    desk.run(1);
+    EXPECT_LT(desk.link.moved - silent, 0.35) << stall;
+    EXPECT_EQ(desk.last, "release_first");
+    EXPECT_EQ(desk.panel.mode(), Mode::armed);
+    desk.let_go();
+    EXPECT_EQ(desk.press(Activity::moving), "");
+    desk.run(0.3);
+    EXPECT_NEAR(desk.link.moved, desk.now, 0.01);
+  }
+}
+
+TEST(DevicePanel, AStallOfHomingLetsTheDrivesGo) {
+  PanelDesk desk(false);
+  desk.take_control();
+  EXPECT_EQ(desk.press(Activity::homing), "");
+  desk.run(0.5);
+  EXPECT_EQ(desk.link.mode, DriveMode::armed);
+  desk.held.reset();
+  desk.run(0.4);
+  EXPECT_EQ(desk.link.mode, DriveMode::disarmed);
+  EXPECT_EQ(desk.panel.why(), "no word from the page");
+  EXPECT_EQ(desk.press(Activity::homing), "release_first");
+}
+
+TEST(DevicePanel, ANewPageNeedNotReleaseTheButtonOfTheOneBefore) {
   PanelDesk desk;
   make_ready(desk);
   desk.press(Activity::moving);
-  desk.run(0.25);
-  desk.held.reset();  // the lease goes on
-  const double silent = desk.now;
-  desk.run(1);
-  EXPECT_LT(desk.link.moved - silent, 0.35);
-  EXPECT_EQ(desk.panel.mode(), Mode::armed);
+  desk.run(0.2);
+  desk.is_renewing = false;
+  desk.run(2.5);
+  desk.is_renewing = true;
+  desk.held.reset();
+  make_ready(desk);
+  EXPECT_EQ(desk.press(Activity::moving), "");
 }
 
 TEST(DevicePanel, AButtonThatMayNotBePressedKeepsNoOtherDown) {
@@ -184,8 +223,9 @@ TEST(DevicePanel, AButtonThatMayNotBePressedKeepsNoOtherDown) {
   desk.run(0.1);
   desk.held = Activity::straighten;  // inserted: refused each time
   const double changed = desk.now;
-  desk.run(1);
+  desk.run(0.2);
   EXPECT_EQ(desk.last, "inserted");
+  desk.run(0.8);
   EXPECT_LT(desk.link.moved - changed, 0.36);
 }
 
@@ -220,7 +260,7 @@ TEST(DevicePanel, DisarmsAfterAMinuteAtRest) {
 TEST(DevicePanel, EveryFaultOfTheLineDisarms) {
   const std::pair<std::function<void(PlayedLink&)>, const char*> faults[] = {
       {[](PlayedLink& link) { link.damage(); }, "a line failed its checksum"},
-      {[](PlayedLink& link) { link.is_silent = true; }, "the controller did not answer for 0.1 s"},
+      {[](PlayedLink& link) { link.is_silent = true; }, "the controller did not answer for 0.15 s"},
       {[](PlayedLink& link) { link.unplug(); }, "unplugged"},
       {[](PlayedLink& link) { link.plug(); }, "the controller was reset"},
       {[](PlayedLink& link) { link.mode = DriveMode::lost; }, "the controller has let go by itself"},

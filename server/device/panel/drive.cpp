@@ -73,7 +73,7 @@ void Panel::take(const LinkEvent& event, double now) {
     damaged_at_ = now;
     disarm("a line failed its checksum");
   } else if (event.kind == Kind::lost) {
-    disarm("the controller did not answer for 0.1 s");
+    disarm(fmt::format("the controller did not answer for {:g} s", times::answer));
   } else if (event.kind == Kind::gone) {
     disarm("unplugged");
     knows_controller_ = false;
@@ -104,7 +104,7 @@ void Panel::take_answer(const LinkEvent& event, double now) {
       if (is_arming_) {
         mode_ = Mode::armed;
         is_arming_ = false;
-        armed_until_ = now + armed_for_;
+        armed_until_ = now + times::armed;
         log("info", "armed");
       }
       break;
@@ -163,7 +163,7 @@ void Panel::take_state(std::string_view payload, double now) {
 
 /// Shown states and the alarm, also while nothing comes.
 void Panel::see_sections(double now) {
-  const bool is_known = state_ && fits_ && knows_controller_ && age(now) <= fresh_for_;
+  const bool is_known = state_ && fits_ && knows_controller_ && age(now) <= times::answer;
   for (std::size_t m = 0; m < sections_.size(); ++m) {
     const Word word = is_known ? sections_[m].word : Word::no_data;
     const bool is_partial = word == Word::slack && sections_[m].is_partial;
@@ -202,7 +202,7 @@ bool Panel::ask_next(double now) {
     return ask('A');
   }
   if (now >= next_state_) {
-    next_state_ = std::max(next_state_ + period_, now + period_ / 2);
+    next_state_ = std::max(next_state_ + times::period, now + times::period / 2);
     return ask('S');
   }
   if (is_freezing_ && is_driving() && state_ && state_time_ > frozen_at_) {
@@ -215,8 +215,8 @@ bool Panel::ask_next(double now) {
 
 bool Panel::ask_motion(double now) {
   if (!is_motion() || !is_driving() || !has_setpoints_ || !state_ || now < next_set_) return false;
-  const double way = speed_ * std::clamp(now - last_set_, period_ / 2, 2 * period_);
-  next_set_ = std::max(next_set_ + period_, now + period_ / 2);
+  const double way = speed_ * std::clamp(now - last_set_, times::period / 2, 2 * times::period);
+  next_set_ = std::max(next_set_ + times::period, now + times::period / 2);
   last_set_ = now;
   if (activity_ == Activity::homing) return ask_homing(way, now);
   if (activity_ == Activity::relax) return ask_relax(way, now);
@@ -274,7 +274,7 @@ bool Panel::ask_relax(double way, double now) {
     finish(fmt::format("S{} relaxed by {:.2f} mm", relaxed_section_ + 1, 1e3 * relaxed_));
     return false;
   }
-  way = std::min(way, relax_speed * 2 * period_);
+  way = std::min(way, relax_speed * 2 * times::period);
   relaxed_ += way;
   std::vector<std::int32_t> counts = setpoints_;
   for (std::size_t i = first; i < first + arm_.tendons(); ++i) counts[i] += arm_.tendon_counts(way);

@@ -12,7 +12,6 @@
 namespace sinew::server::device {
 namespace {
 
-constexpr double patience = 0.3;                   // [s] of silence from the page
 constexpr double slowest = 5e-4, fastest = 20e-3;  // [m/s]
 constexpr double outside = 5e-4;                   // [m] of the stage that do not count as inserted
 
@@ -71,7 +70,7 @@ Outcome Panel::check_line() const {
   if (is_there && !fits_)
     return refused("wrong_table",
                    "the firmware has another robot's table; flash this robot's, or open its file");
-  if (!is_there || age(now_) > fresh_for_)
+  if (!is_there || age(now_) > times::answer)
     return refused("no_link", "the controller does not answer; check the cable and its supply");
   return {};
 }
@@ -121,6 +120,7 @@ Outcome Panel::lease(std::string& secret, int& number, double now) {
     ++number_;
     since_ = clock_.time_of_day().substr(0, 5);
     mode_ = Mode::control;
+    needs_release_ = false;  // whoever held a button is not this page
     log("info", fmt::format("page {} controls", number_));
   }
   renewed_ = now;
@@ -263,11 +263,8 @@ Outcome Panel::press(Activity activity, std::string_view secret, bool is_held, d
   if (!is_held) {
     if (activity_ == activity) let_go();
     needs_release_ = false;
-    pressed_ = -1e9;
     return {};
   }
-  if (now - pressed_ > patience) needs_release_ = false;  // it has been released, and nobody said so
-  pressed_ = now;
   if (auto no = may(activity, section)) return no;
   held_ = now;  // not by a button that may not be pressed: it would keep another one down
   if (activity_ == activity && (activity != Activity::relax || section == relaxed_section_)) return {};
@@ -294,16 +291,25 @@ double Panel::stage_limit() const {
   return hello() && hello()->stages > 0 ? arm_.stage_length(hello()->stage_limit) : 0;
 }
 
+/// A word that comes after all may have waited on the way, or in a page that stalled, while the finger left
+/// the button. It cannot be told from one of a finger that is still there: so the button has to be pressed
+/// anew.
+void Panel::miss_the_page() {
+  log("info", "stopped: no word from the page");
+  if (mode_ != Mode::armed) disarm("no word from the page");
+  stop();
+}
+
 /// What the page has not renewed in time is over.
 void Panel::lapse(double now) {
   now_ = std::max(now_, now);
-  if (mode_ != Mode::view_only && now_ - renewed_ > patience) {
+  if (mode_ != Mode::view_only && now_ - renewed_ > times::lease) {
     disarm("the page fell silent");
     mode_ = Mode::view_only;
     log("info", fmt::format("page {} lost control", number_));
   }
-  if (is_motion() && mode_ == Mode::armed) armed_until_ = now_ + armed_for_;
-  if (is_motion() && now_ - held_ > patience) let_go();
+  if (is_motion() && mode_ == Mode::armed) armed_until_ = now_ + times::armed;
+  if (is_motion() && now_ - held_ > times::button) miss_the_page();
   if (mode_ == Mode::armed && now_ >= armed_until_) disarm("60 s without motion");
 }
 

@@ -3,7 +3,7 @@
 /// clock: time is handed in, the line is an interface. Rules: docs/server.md, "A device".
 ///
 /// Drives get set-points here in four ways only: moving while armed, homing, relaxing, and holding where they
-/// are. Each of the first three ends 300 ms after the page has last said that the button is held.
+/// are. Each of the first three ends when the page has not said for a while that the button is held.
 #pragma once
 #include <deque>
 #include <functional>
@@ -18,6 +18,7 @@
 #include "judge.hpp"
 #include "motion.hpp"
 #include "server/device/recording.hpp"
+#include "server/device/times.hpp"
 #include "server/device/wire/link.hpp"
 #include "watch.hpp"
 
@@ -80,10 +81,6 @@ class Panel {
   const std::string& why() const { return why_; }
 
  private:
-  static constexpr double period_ = 0.02;            ///< [s] of set-points, and of measurements
-  static constexpr double fresh_for_ = 3 * period_;  ///< [s]: then there is no data
-  static constexpr double armed_for_ = 60;           ///< [s] without motion
-
   Outcome check_lease(std::string_view secret, double now);
   Outcome check_line() const;
   Outcome check_calm() const;
@@ -95,6 +92,7 @@ class Panel {
   void disarm(std::string_view why);
   void stop(Activity next = Activity::rest);
   void let_go();
+  void miss_the_page();
   void lapse(double now);
 
   void take(const LinkEvent& event, double now);
@@ -139,7 +137,7 @@ class Panel {
   Activity activity_ = Activity::rest;
   std::string secret_, since_, why_;
   int number_ = 0;
-  double renewed_ = 0, held_ = -1e9, pressed_ = -1e9, armed_until_ = 0, now_ = 0;
+  double renewed_ = 0, held_ = -1e9, armed_until_ = 0, now_ = 0;
   bool is_arming_ = false;
   bool needs_release_ = false;  ///< stopped by another thing than a release: to be pressed anew
 

@@ -11,7 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double recently = 1;  // [s] that a damaged line is told
-constexpr double silent = 0.1;  // [s]
 
 Json pair(const Bend& bend) { return {bend[0], bend[1]}; }
 
@@ -28,7 +27,7 @@ std::string_view Panel::link_word(double now) const {
   if (link_.figures().is_gone) return "gone";
   if (knows_controller_ && !fits_) return "wrong_table";
   if (now - damaged_at_ < recently) return "bad_checksum";
-  return age(now) > silent ? "silent" : "ok";
+  return age(now) > times::answer ? "silent" : "ok";
 }
 
 std::string Panel::link_message(double now) const {

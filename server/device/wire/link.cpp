@@ -4,10 +4,11 @@
 #include <thread>
 #include <utility>
 
+#include "server/device/times.hpp"
+
 namespace sinew::server::device {
 namespace {
 
-constexpr double patience = 0.1;      // [s] that an answer may take
 constexpr double reopen_after = 0.5;  // [s]
 constexpr double hello_after = 0.25;  // [s]; a board that resets when it is opened answers later
 constexpr double smoothing = 0.1;     // of the round trip that is shown
@@ -65,7 +66,7 @@ std::vector<LinkEvent> ControllerLink::poll(double now) {
     events.push_back({LinkEvent::Kind::gone});
     return events;
   }
-  if (asked_ && now - asked_->time > patience) {
+  if (asked_ && now - asked_->time > times::answer) {
     const Asked asked = *std::exchange(asked_, std::nullopt);
     if (asked.verb != 'H') {
       ++figures_.errors;
