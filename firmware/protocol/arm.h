@@ -6,6 +6,7 @@
 
 #include "protocol/number.h"
 #include "robot_table.h"
+#include "sinew/kernel/exact_table.h"
 #include "sinew/kernel/tendon_state.h"
 
 /// Linear stages that move the robot's base along: 0 or 1, whose drive comes after those of the tendons.
@@ -100,12 +101,39 @@ inline bool is_plausible(const Counts& counts) {
   return !all_ones;
 }
 
-/// What the drives say of the shape.
-inline void measure(const Counts& counts, Bends& bends, States& states) {
+/// Exact PCC is solved by steps, each of which leaves 1 - cos(b/2) < b^2/8 of what lacks: so many for 16 bits
+/// up to the limit, and one for what is measured beyond it.
+constexpr int exact_steps() {
+  double widest = 0;
+  for (Uint8 m = 0; m < section_count; ++m) {
+    const double limit = static_cast<double>(robot::limits.limit[m]) / (1l << Angle::fraction);
+    if (limit > widest) widest = limit;
+  }
+  int steps = 1;
+  for (double left = widest; left > 1.0 / (1l << 15) && steps < 12; ++steps) left *= widest * widest / 8;
+  return steps;
+}
+
+/// What the drives say of the shape; `pause` is called now and then, for no drive hears of anything
+/// meanwhile.
+template <class Model, class Pause>
+void measure(const Model& model, const Changes& changes, Bends& bends, States& states, Pause pause) {
+  model.bends(changes, bends);
+  pause();
+  model.states(changes, robot::tolerance, states);
+}
+template <kernel::Count S, kernel::Count T, class Format, bool Alike, kernel::Count Terms, class Pause>
+void measure(const kernel::ExactTable<S, T, Format, Alike, Terms>& model, const Changes& changes,
+             Bends& bends, States& states, Pause pause) {
+  constexpr int steps = exact_steps();
+  model.bends(changes, bends, steps, pause);
+  model.states(changes, bends, robot::tolerance, states);
+}
+template <class Pause>
+void measure(const Counts& counts, Bends& bends, States& states, Pause pause) {
   Changes changes;
   for (Uint8 i = 0; i < tendon_drives; ++i) change_at(changes, i) = robot::motor.change(counts[i]);
-  robot::model.bends(changes, bends);
-  robot::model.states(changes, robot::tolerance, states);
+  measure(robot::model, changes, bends, states, pause);
 }
 
 inline char letter_of(kernel::TendonState state) {

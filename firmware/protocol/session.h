@@ -418,7 +418,7 @@ class Session {
     accept(request.sequence);
     Bends bends;
     States states;
-    measure(measured, bends, states);
+    measure(measured, bends, states, [this] { watch(); });
     answer_state(request, measured, bends, states);
     return Error::none;
   }

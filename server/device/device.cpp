@@ -4,6 +4,8 @@
 
 #include <array>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "sinew/io/parse.hpp"
@@ -39,7 +41,15 @@ Panel::Clock system_clock(const std::string& robot) {
     last = name;
     return count > 1 ? fmt::format("{}-{}", name, count) : name;
   };
-  return {[] { return time_text("%H:%M:%S"); }, named};
+  return {[] { return time_text("%H:%M:%S"); }, named, [] { return time_text("%Y-%m-%d %H:%M:%S"); }};
+}
+
+/// What was wrong; empty: nothing.
+std::string write_whole(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  return file ? "" : path.string() + " cannot be written";
 }
 
 Reply told(const Refused& no) { return refused(409, no.code, "device", no.message); }
@@ -109,7 +119,10 @@ Device::Device(std::string text, const DeviceOptions& options, Arm arm, Judge ju
         auto port = open_port(options_.port, options_.baud);
         return port ? std::move(*port) : nullptr;
       }),
-      panel_(arm, std::move(judge), link_, recording_, system_clock(arm.robot().name)) {}
+      panel_(arm, std::move(judge), link_, recording_, system_clock(arm.robot().name),
+             [this](const std::string& name, const std::string& content) {
+               return write_whole(std::filesystem::path(options_.folder) / name, content);
+             }) {}
 
 Expected<std::unique_ptr<Device>> Device::open(const std::string& robot, const DeviceOptions& options) {
   auto file = read_file(robot, options.is_demo);

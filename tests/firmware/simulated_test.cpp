@@ -145,7 +145,7 @@ TEST(FirmwareSimulated, StatesComeFromTheCountsOfTheDrives) {
   for (std::size_t i = 0; i < drive_count; ++i) counts[i] = std::stoi(answer.rest[i]);
   Bends bends;
   States expected;
-  measure(counts, bends, expected);
+  measure(counts, bends, expected, [] {});
   for (Uint8 i = 0; i < bend_count; ++i)
     EXPECT_EQ(answer.rest[drive_count + i], std::to_string(bend_at(bends, i).raw));
   for (Uint8 i = 0; i < drive_count; ++i)

@@ -98,8 +98,10 @@ class UartWire : public Wire {
   const bool& is_plugged_;
 };
 
-struct Board {
-  explicit Board(const std::string& motor = "{lead: 2 mm, counts: 4096}")
+/// @tparam Drives made of a controller
+template <class Drives>
+struct BoardOf {
+  explicit BoardOf(const std::string& motor = "{lead: 2 mm, counts: 4096}")
       : controller(std::string(test::firmware_folder) + "/sinew-firmware-panel.elf"),
         drives(controller),
         link([this]() -> std::unique_ptr<Wire> {
@@ -107,8 +109,9 @@ struct Board {
           return std::make_unique<UartWire>(controller, is_plugged);
         }),
         panel(test_arm(motor), Judge(Session::open(arm_document(motor)).value(), test_arm(motor)), link,
-              recording, {[] { return "10:41:07"; }, [] { return "board"; }}) {}
-  ~Board() {
+              recording,
+              {[] { return "10:41:07"; }, [] { return "board"; }, [] { return "2026-01-02 10:41:07"; }}) {}
+  ~BoardOf() {
     std::error_code ignored;
     std::filesystem::remove_all(place, ignored);
   }
@@ -143,7 +146,7 @@ struct Board {
   }
 
   firmware::Controller controller;
-  SpringDrives drives;
+  Drives drives;
   bool is_plugged = true, is_host_alive = true;
   std::function<void()> seen;  ///< after each millisecond
   std::filesystem::path place = std::filesystem::temp_directory_path() / "sinew-board-test";
@@ -151,5 +154,6 @@ struct Board {
   ControllerLink link;
   Panel panel;
 };
+using Board = BoardOf<SpringDrives>;
 
 }  // namespace sinew::server::device

@@ -42,7 +42,7 @@ class PlayedLink : public Link {
     positions.assign(told_.drives(), 0);
     homed.assign(told_.drives(), is_homed);
     extra_tension.assign(told_.tendon_drives(), 0);
-    zeros.assign(told_.tendon_drives(), 0);
+    zeros.assign(told_.tendon_drives(), is_homed ? 0.5 / stiffness : 0);
     arm_.fits(told_);
   }
 
@@ -103,10 +103,8 @@ class PlayedLink : public Link {
     std::vector<double> changes = arm_.lengths(positions_counts());
     const std::vector<double> needed = arm_.changes(is_homed() ? bends() : Bends(5, Bend(0, 0)));
     std::vector<double> result;
-    constexpr double stiffness = 2000, pretension = 0.5;  // [N/m], [N]
     for (std::size_t i = 0; i < needed.size(); ++i)
-      result.push_back(std::max(0.0, (is_homed() ? pretension : 0) + extra_tension[i] +
-                                         stiffness * (needed[i] + (is_homed() ? 0 : zeros[i]) - changes[i])));
+      result.push_back(std::max(0.0, extra_tension[i] + stiffness * (needed[i] + zeros[i] - changes[i])));
     return result;
   }
   bool is_homed() const {
@@ -116,11 +114,12 @@ class PlayedLink : public Link {
   DriveMode mode = DriveMode::disarmed;
   std::vector<double> positions;  ///< [counts]
   std::vector<bool> homed;
-  std::vector<double> extra_tension;  ///< [N]
-  std::vector<double> zeros;          ///< [m] at which each tendon begins to pull, while it is not homed
-  std::string verbs;                  ///< of all requests
-  double moved = -1;                  ///< when a drive last moved
-  double fastest = 0;                 ///< [m/s] of a tendon or the stage
+  std::vector<double> extra_tension;         ///< [N]
+  std::vector<double> zeros;                 ///< [m] at which each tendon of the straight arm begins to pull
+  static constexpr double stiffness = 2000;  ///< of a tendon [N/m]
+  std::string verbs;                         ///< of all requests
+  double moved = -1;                         ///< when a drive last moved
+  double fastest = 0;                        ///< [m/s] of a tendon or the stage
   bool is_silent = false;
 
  private:
@@ -205,7 +204,8 @@ class PlayedLink : public Link {
       }
       const auto now_at = tensions();
       for (std::size_t i = 0; i < now_at.size(); ++i)
-        if (now_at[i] > told_.tension_limit && goal[i] < goal_[i]) return WireError::over_tension;
+        if (told_.tension_limit > 0 && now_at[i] > told_.tension_limit && goal[i] < goal_[i])
+          return WireError::over_tension;
       goal_ = goal;
       ramp_end_ = now + 1e-3 * read16(payload, 0);
       for (const double count : goal) put(std::lround(count), 2);
@@ -231,7 +231,11 @@ struct PanelDesk {
                              : std::filesystem::path(folder)),
         recording(place),
         panel(test_arm(), Judge(Session::open(arm_document()).value(), test_arm()), link, recording,
-              {[] { return "10:41:07"; }, [] { return "test"; }}) {
+              {[] { return "10:41:07"; }, [] { return "test"; }, [] { return "2026-01-02 10:41:07"; }},
+              [this](const std::string& name, const std::string& text) {
+                kept.emplace_back(name, text);
+                return std::string();
+              }) {
     run(0.7);
   }
   ~PanelDesk() {
@@ -286,6 +290,7 @@ struct PanelDesk {
   std::optional<Activity> held;
   std::size_t section = 0;
   bool is_renewing = true;
+  std::vector<std::pair<std::string, std::string>> kept;  ///< files beside the recordings
 
  private:
   double next_ = 0;

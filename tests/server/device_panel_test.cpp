@@ -342,24 +342,97 @@ TEST(DevicePanel, RelaxNeedsTheLeaseAloneOnlyPaysOutAndEndsJustSlack) {
   EXPECT_EQ(desk.arm(), "");
 }
 
-TEST(DevicePanel, HomingFindsWhereEachTendonBeginsToPull) {
-  PanelDesk desk(false);
+/// Held until it is done or has failed; [s] that it took.
+double home(PanelDesk& desk) {
+  const double start = desk.now;
+  EXPECT_EQ(desk.press(Activity::homing), "");
+  desk.run(0.1);
+  while (desk.panel.activity() == Activity::homing && desk.now < start + 200) desk.run(0.1);
+  desk.let_go();
+  return desk.now - start;
+}
+
+PanelDesk& unhomed(PanelDesk& desk) {
   for (std::size_t i = 0; i < 15; ++i) desk.link.zeros[i] = 1e-3 * (static_cast<double>(i % 4) - 2);
   desk.link.positions[15] = 4000;
   desk.take_control();
-  EXPECT_EQ(desk.press(Activity::homing), "");
-  desk.run(5);
-  EXPECT_EQ(desk.panel.activity(), Activity::homing);
-  const auto frame = desk.panel.frame(desk.now);
-  EXPECT_FALSE(frame["homing"].is_null());
-  for (int i = 0; i < 60 && !desk.panel.is_homed(); ++i) desk.run(1);
-  EXPECT_TRUE(desk.panel.is_homed()) << desk.now;
-  for (const double zero : desk.link.zeros) EXPECT_NEAR(zero, 0, 3e-5);
+  return desk;
+}
+
+/// A quarter of the limit of 20 N, by tendons of 2 N/mm.
+void expect_pretension(const PanelDesk& desk) {
+  for (const double zero : desk.link.zeros) EXPECT_NEAR(zero, 5 / PlayedLink::stiffness, 1e-4);
   for (std::size_t i = 0; i < 15; ++i) EXPECT_NEAR(desk.link.positions[i], 0, 2);
+}
+
+TEST(DevicePanel, HomingSetsZerosAtThePretensionAndKeepsThem) {
+  PanelDesk desk(false);
+  unhomed(desk);
+  desk.press(Activity::homing);
+  desk.run(1);
+  EXPECT_FALSE(desk.panel.frame(desk.now)["homing"].is_null());
+  EXPECT_TRUE(desk.panel.frame(desk.now)["homed_at"].is_null());
+  home(desk);
+  EXPECT_TRUE(desk.panel.is_homed()) << desk.now << desk.panel.why();
+  expect_pretension(desk);
   EXPECT_NEAR(desk.link.positions[15], 4000, 1) << "the stage keeps its count";
-  desk.let_go();
+  ASSERT_EQ(desk.kept.size(), 1u);
+  EXPECT_EQ(desk.kept[0].first, "test-homing.json");
+  const auto file = nlohmann::json::parse(desk.kept[0].second);
+  EXPECT_EQ(file["pretension"], 5);
+  ASSERT_EQ(file["tendons"].size(), 15u);
+  for (const auto& tendon : file["tendons"]) {
+    EXPECT_NEAR(tendon["tension"].get<double>(), 5, 0.2);
+    EXPECT_NEAR(tendon["taken_in"].get<double>(), 5 / PlayedLink::stiffness, 1e-4);
+  }
+  EXPECT_EQ(desk.panel.frame(desk.now)["homed_at"]["date"], "2026-01-02 10:41:07");
   desk.run(0.8);
   EXPECT_EQ(desk.arm(), "");
+}
+
+TEST(DevicePanel, HomingThatWasInterruptedGoesOnWithItsSection) {
+  PanelDesk desk(false);
+  unhomed(desk);
+  while (desk.link.homed[5] == false && desk.now < 100) {  // let go again and again, at any step
+    EXPECT_EQ(desk.press(Activity::homing), "");
+    desk.run(6);
+    desk.let_go();
+    desk.run(0.2);
+    EXPECT_EQ(desk.link.mode, DriveMode::disarmed);
+  }
+  home(desk);
+  EXPECT_TRUE(desk.panel.is_homed());
+  expect_pretension(desk);
+  ASSERT_EQ(desk.kept.size(), 1u);
+  for (const auto& tendon : nlohmann::json::parse(desk.kept[0].second)["tendons"])
+    EXPECT_NEAR(tendon["tension"].get<double>(), 5, 0.2) << tendon;
+}
+
+TEST(DevicePanel, WhatIsHomedIsHomedAnew) {
+  PanelDesk desk;
+  desk.take_control();
+  EXPECT_GT(home(desk), 5);
+  EXPECT_EQ(desk.kept.size(), 1u);
+  for (std::size_t i = 0; i < 15; ++i) EXPECT_NEAR(desk.link.positions[i], 0, 2);
+}
+
+TEST(DevicePanel, HomingSaysWhichTendonDoesNotPull) {
+  for (const double tension : {-1e3, 1.0}) {  // cut, and of a sensor that is off
+    PanelDesk desk(false);
+    desk.link.extra_tension[4] = tension;
+    if (tension > 0) desk.link.zeros[4] = 1;
+    unhomed(desk);
+    if (tension > 0) desk.link.zeros[4] = 1;
+    desk.link.told().tension_limit = 0;
+    home(desk);
+    EXPECT_FALSE(desk.panel.is_homed());
+    EXPECT_EQ(desk.link.mode, DriveMode::disarmed);
+    std::string said;
+    for (const LogEntry& entry : desk.panel.take_log())
+      if (entry.text.starts_with("homing stopped")) said = entry.text;
+    EXPECT_EQ(said, tension > 0 ? "homing stopped: S2 tendon 2 still pulls, however far it is paid out"
+                                : "homing stopped: S2 tendon 2 does not pull, however far it is taken in");
+  }
 }
 
 TEST(DevicePanel, RetractGoesBackTheWayItCame) {

@@ -83,7 +83,10 @@ void Panel::take(const LinkEvent& event, double now) {
     knows_controller_ = true;
     drives_ = event.mode;
     state_.reset();
-    if (!event.is_same_session) path_.forget();  // its zeros are gone
+    if (!event.is_same_session) {  // its zeros are gone
+      path_.forget();
+      homing_.reset();
+    }
     const Hello& hello = *link_.hello();
     fits_ = hello.version >= 3 && static_cast<std::size_t>(hello.sections) == arm_.sections() &&
             static_cast<std::size_t>(hello.tendons) == arm_.tendons() && arm_.fits(hello);
@@ -113,13 +116,7 @@ void Panel::take_answer(const LinkEvent& event, double now) {
       setpoints_ = read_setpoints(event.payload, expected_);
       break;
     case 'Z':
-      setpoints_[asked_zero_.drive] = asked_zero_.count;
-      is_new_state_ = false;
-      if (homing_ && asked_zero_.drive < arm_.tendon_drives()) homing_->zero_is_set();
-      log("info", asked_zero_.drive < arm_.tendon_drives()
-                      ? fmt::format("S{} tendon {}: zero set", asked_zero_.drive / arm_.tendons() + 1,
-                                    asked_zero_.drive % arm_.tendons() + 1)
-                      : fmt::format("stage: at {:.1f} mm", 1e3 * arm_.stage_length(asked_zero_.count)));
+      take_zero();
       break;
     default:
       break;
@@ -155,9 +152,11 @@ void Panel::take_state(std::string_view payload, double now) {
     has_setpoints_ = true;
   }
   if (path_.is_empty() && is_homed()) path_.record(measured());
+  // While it is homed anew, tendons are where no bends are.
+  const bool is_known = is_homed() && activity_ != Activity::homing;
   for (std::size_t m = 0; m < arm_.sections(); ++m)
     sections_[m] =
-        judge_.state(m, arm_.model(), lengths_, {state_->tension, link_.hello()->tension_limit}, is_homed());
+        judge_.state(m, arm_.model(), lengths_, {state_->tension, link_.hello()->tension_limit}, is_known);
   record_row();
 }
 
@@ -218,7 +217,7 @@ bool Panel::ask_motion(double now) {
   const double way = speed_ * std::clamp(now - last_set_, times::period / 2, 2 * times::period);
   next_set_ = std::max(next_set_ + times::period, now + times::period / 2);
   last_set_ = now;
-  if (activity_ == Activity::homing) return ask_homing(way, now);
+  if (activity_ == Activity::homing) return ask_homing(now);
   if (activity_ == Activity::relax) return ask_relax(way, now);
   if (is_in_gap_ && ask_gap(way, now)) return true;
   if (!step_motion(way)) return false;
@@ -278,30 +277,6 @@ bool Panel::ask_relax(double way, double now) {
   relaxed_ += way;
   std::vector<std::int32_t> counts = setpoints_;
   for (std::size_t i = first; i < first + arm_.tendons(); ++i) counts[i] += arm_.tendon_counts(way);
-  ask_counts(std::move(counts), now, ramp);
-  return true;
-}
-
-bool Panel::ask_homing(double way, double now) {
-  if (!is_new_state_) return false;  // a step for each measurement
-  const auto step = homing_->next(*state_, setpoints_, way);
-  if (homing_->is_done()) {
-    finish(fmt::format("homed, {0}/{0}", arm_.tendon_drives()));
-    return false;
-  }
-  if (*homing_->failure() != '\0') {
-    finish(fmt::format("homing stopped at tendon {}: {}", homing_->done() + 1, homing_->failure()));
-    return false;
-  }
-  if (!step) return false;
-  is_new_state_ = false;
-  if (step->is_zero) {
-    asked_zero_ = *step;
-    link_.ask('Z', zero_payload(step->drive, step->count), now);
-    return true;
-  }
-  std::vector<std::int32_t> counts = setpoints_;
-  counts[step->drive] = step->count;
   ask_counts(std::move(counts), now, ramp);
   return true;
 }

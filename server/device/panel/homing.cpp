@@ -1,113 +1,217 @@
 #include "homing.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "server/device/times.hpp"
 
 namespace sinew::server::device {
 namespace {
 
-constexpr double hangs = 0.02;   // [N]: a tendon with less is slack
-constexpr double touches = 0.3;  // [N]: with more it pulls for certain
-constexpr double begins = 0.06;  // [N]: from there the straight line of its rise is read
-constexpr double least_out = 3e-4, back = 4e-4, longest = 25e-3;  // [m]
-constexpr double slow = 1.0 / 8;                                  // of the speed, while it is felt for
+constexpr double share_of_limit = 0.25, without_limit = 2;  // pretension; [N]
+constexpr double hangs = 0.02;                              // [N]: a tendon with less is slack
+constexpr double touches = 0.1;                             // [N]: with more it pulls for certain
+constexpr double rise = 0.3;                                // [N] over which the line of its pull is read
+constexpr std::size_t enough = 4;                           // samples of it
+// [m] a step, one for each measurement
+constexpr double fast = 8e-3 * times::period;  // in, until it pulls
+constexpr double out = 10e-3 * times::period;  // where nothing comes to pull
+constexpr double slow = 1e-3 * times::period;  // while it pulls
+constexpr double finest = 1e-6, coarsest = 1e-4;
+constexpr double least_out = 3e-4, clear = 1e-3, near = 2e-5, longest = 25e-3;  // [m]
+constexpr int smooth = 40, prompt = 20;  // [ms]: two periods, so that a late one leaves no gap; one
 
 }  // namespace
 
-void Homing::begin_tendon() {
-  phase_ = Phase::pay_out;
-  gone_ = 0;
+Homing::Homing(const Arm& arm, const Hello& hello)
+    : arm_(arm),
+      hello_(hello),
+      pretension_(hello.tension_limit > 0 ? share_of_limit * hello.tension_limit : without_limit),
+      pulls_from_(arm.tendon_drives()),
+      tendons_(arm.tendon_drives()) {}
+
+void Homing::begin(const std::vector<bool>& homed) {
+  const auto missing = static_cast<std::size_t>(std::ranges::find(homed, false) - homed.begin());
+  section_ = missing == homed.size() ? 0 : missing / arm_.tendons();
+  failure_.clear();
+  enter(section_ < arm_.sections() ? Phase::loosen : Phase::stage);
+  own_ = 0;
+}
+
+void Homing::enter(Phase phase) {
+  phase_ = phase;
+  gone_ = before_ = 0;
+  way_ = finest;
   samples_.clear();
-  failure_ = "";
 }
 
 std::string_view Homing::step() const {
+  constexpr std::string_view names[] = {"let all hang", "take in", "take in",   "let out", "tighten all",
+                                        "tighten all",  "zero",    "the stage", "done"};
+  return names[static_cast<std::size_t>(phase_)];
+}
+
+void Homing::fail(std::size_t tendon, std::string_view what) {
+  failure_ = fmt::format("S{} tendon {} {}", tendon / arm_.tendons() + 1, tendon % arm_.tendons() + 1, what);
+}
+
+Homing::Step Homing::go(Counts counts, int milliseconds) {
+  Step step;
+  step.counts = std::move(counts);
+  step.milliseconds = milliseconds;
+  return step;
+}
+
+std::optional<Homing::Step> Homing::next(const DriveState& state, const Counts& setpoints) {
+  if (!failure_.empty()) return {};
   switch (phase_) {
-    case Phase::pay_out:
-    case Phase::back_off:
-      return "pay out";
-    case Phase::take_in:
+    case Phase::loosen:
+      return loosen(state, setpoints);
+    case Phase::seek:
+      return seek(state, setpoints);
     case Phase::feel:
-      return "take in";
-    default:
-      return "zero";
-  }
-}
-
-void Homing::zero_is_set() {
-  phase_ = Phase::settle;
-  gone_ = 0;
-}
-
-std::optional<Homing::Step> Homing::move(double way, const std::vector<std::int32_t>& setpoints) {
-  gone_ += std::abs(way);
-  if (gone_ > longest) failure_ = "the tendon does not pull, however far it is taken in";
-  std::int32_t counts = arm_.tendon_counts(way);
-  if (counts == 0) counts = way > 0 ? 1 : -1;
-  return Step{done_, setpoints[done_] + counts};
-}
-
-std::optional<Homing::Step> Homing::next(const DriveState& state, const std::vector<std::int32_t>& setpoints,
-                                         double fast) {
-  while (!is_done() && state.homed[done_] && phase_ != Phase::settle) ++done_;
-  if (is_done() || *failure_ != '\0') return {};
-  if (done_ >= hello_.tendon_drives())  // the stage: where its encoder says
-    return Step{done_, std::clamp(state.counts[done_], 0, hello_.stage_limit), true};
-  const double tension = state.tension[done_];
-  const auto enter = [&](Phase phase) {
-    phase_ = phase;
-    gone_ = 0;
-  };
-  if (phase_ == Phase::pay_out && gone_ >= least_out && tension < hangs) enter(Phase::take_in);
-  if (phase_ == Phase::take_in && tension > touches) enter(Phase::back_off);
-  if (phase_ == Phase::back_off && gone_ >= back && tension < hangs) {
-    enter(Phase::feel);
-    samples_.clear();
-  }
-  if (phase_ == Phase::settle && setpoints[done_] == 0) {
-    ++done_;
-    begin_tendon();
-    return {};
-  }
-  switch (phase_) {
-    case Phase::pay_out:
-    case Phase::back_off:
-      return move(fast, setpoints);
-    case Phase::take_in:
-      return move(-fast, setpoints);
-    case Phase::feel:
-      return feel(state, setpoints, slow * fast);
+      return feel(state, setpoints);
+    case Phase::let_out:
+      return let_out(setpoints);
+    case Phase::gather:
+      return gather(setpoints);
+    case Phase::tighten:
+      return tighten(state, setpoints);
     case Phase::zero:
-      return Step{done_, state.counts[done_] - zero_count(), true};
-    case Phase::settle:
+    case Phase::stage:
+      return zero(state);
+    case Phase::done:
       break;
   }
-  const std::int32_t most = std::max(1, arm_.tendon_counts(fast));
-  return Step{done_, setpoints[done_] - std::clamp(setpoints[done_], -most, most)};
-}
-
-std::optional<Homing::Step> Homing::feel(const DriveState& state, const std::vector<std::int32_t>& setpoints,
-                                         double way) {
-  const double tension = state.tension[done_];
-  if (tension > begins) samples_.push_back({static_cast<double>(state.counts[done_]), tension});
-  if (tension < touches || samples_.size() < 2) return move(-way, setpoints);
-  phase_ = Phase::zero;
   return {};
 }
 
+/// None may pull while another one is felt for: it would be felt, too.
+std::optional<Homing::Step> Homing::loosen(const DriveState& state, Counts counts) {
+  bool are_loose = gone_ >= least_out;
+  for (std::size_t i = first(); i < arm_.tendon_drives(); ++i) {
+    const bool hangs_now = state.tension[i] < hangs;
+    if (!hangs_now && gone_ > longest) fail(i, "still pulls, however far it is paid out");
+    are_loose = are_loose && hangs_now;
+    if (!hangs_now || gone_ < least_out) counts[i] += arm_.tendon_counts(out);
+  }
+  gone_ += out;
+  if (are_loose) enter(Phase::seek);
+  return go(std::move(counts), smooth);
+}
+
+std::optional<Homing::Step> Homing::seek(const DriveState& state, Counts counts) {
+  if (state.tension[tendon()] > touches) {
+    enter(Phase::feel);
+    return feel(state, std::move(counts));
+  }
+  gone_ += fast;
+  if (gone_ > longest) fail(tendon(), "does not pull, however far it is taken in");
+  counts[tendon()] -= arm_.tendon_counts(fast);
+  return go(std::move(counts), smooth);
+}
+
+/// On while it is seen how the tension rises.
+std::optional<Homing::Step> Homing::feel(const DriveState& state, Counts counts) {
+  const std::size_t i = tendon();
+  samples_.push_back({static_cast<double>(state.counts[i]), state.tension[i]});
+  gone_ += slow;
+  if (gone_ > longest) fail(i, "does not pull more, however far it is taken in");
+  if (samples_.size() >= enough && state.tension[i] > samples_.front().tension + rise) {
+    pulls_from_[i] = begin_of_pull();
+    enter(Phase::let_out);
+    return let_out(std::move(counts));
+  }
+  counts[i] -= arm_.tendon_counts(slow);
+  return go(std::move(counts), prompt);
+}
+
+/// Towards the goal by a step; whether it is there.
+bool Homing::approach(std::int32_t& count, std::int32_t goal) const {
+  const std::int32_t most = std::max(1, arm_.tendon_counts(out));
+  count += std::clamp(goal - count, -most, most);
+  return count == goal;
+}
+
+std::optional<Homing::Step> Homing::let_out(Counts counts) {
+  const std::size_t i = tendon();
+  if (approach(counts[i], pulls_from_[i] + arm_.tendon_counts(clear))) {
+    ++own_;
+    enter(own_ < arm_.tendons() ? Phase::seek : Phase::gather);
+  }
+  return go(std::move(counts), smooth);
+}
+
+/// All of a section to just before they pull.
+std::optional<Homing::Step> Homing::gather(Counts counts) {
+  bool are_there = true;
+  for (std::size_t i = first(); i < first() + arm_.tendons(); ++i)
+    are_there = approach(counts[i], pulls_from_[i] + arm_.tendon_counts(near)) && are_there;
+  if (are_there) enter(Phase::tighten);
+  return go(std::move(counts), smooth);
+}
+
+/// Each that has less than the pretension a little further in. How stiff they are against one another is not
+/// known beforehand: steps grow while the tension hardly rises, and shrink while it rises fast.
+std::optional<Homing::Step> Homing::tighten(const DriveState& state, Counts counts) {
+  const auto own = state.tension.begin() + static_cast<std::ptrdiff_t>(first());
+  const double least = *std::min_element(own, own + static_cast<std::ptrdiff_t>(arm_.tendons()));
+  if (least >= pretension_) {
+    enter(Phase::zero);
+    own_ = 0;
+    return {};
+  }
+  const double by = (least - std::exchange(before_, least)) / pretension_;
+  way_ = std::clamp(way_ * (by > 0.04 ? 0.7 : by < 0.02 ? 1.1 : 1), finest, coarsest);
+  gone_ += way_;
+  for (std::size_t i = first(); i < first() + arm_.tendons(); ++i) {
+    if (state.tension[i] >= pretension_) continue;
+    if (gone_ > longest) fail(i, fmt::format("does not come to {:.1f} N", pretension_));
+    counts[i] -= std::max(1, arm_.tendon_counts(way_));
+  }
+  return go(std::move(counts), prompt);
+}
+
+/// Of tendons where they are; of the stage what its encoder says.
+std::optional<Homing::Step> Homing::zero(const DriveState& state) {
+  Step step;
+  if (phase_ == Phase::stage) {
+    step.drive = arm_.tendon_drives();
+    if (step.drive >= hello_.drives()) return enter(Phase::done), std::nullopt;
+    step.count = std::clamp(state.counts[step.drive], 0, hello_.stage_limit);
+    return step;
+  }
+  step.drive = first() + own_;
+  const std::int32_t count = state.counts[step.drive];
+  tendons_[step.drive] = {count, arm_.tendon_length(pulls_from_[step.drive] - count),
+                          state.tension[step.drive]};
+  return step;
+}
+
+void Homing::zero_is_set() {
+  if (phase_ == Phase::stage) return enter(Phase::done);
+  if (++own_ < arm_.tendons()) return;
+  ++section_;
+  own_ = 0;
+  enter(section_ < arm_.sections() ? Phase::seek : Phase::stage);
+}
+
 /// Where a straight line through what was felt has no tension.
-std::int32_t Homing::zero_count() const {
+std::int32_t Homing::begin_of_pull() const {
   double count = 0, tension = 0;
   for (const Sample& sample : samples_) {
     count += sample.count / static_cast<double>(samples_.size());
     tension += sample.tension / static_cast<double>(samples_.size());
   }
-  double rise = 0, spread = 0;
+  double both = 0, spread = 0;
   for (const Sample& sample : samples_) {
-    rise += (sample.count - count) * (sample.tension - tension);
+    both += (sample.count - count) * (sample.tension - tension);
     spread += (sample.tension - tension) * (sample.tension - tension);
   }
-  const double per_newton = spread > 0 ? rise / spread : 0;  // < 0: taking in pulls
+  const double per_newton = spread > 0 ? both / spread : 0;  // < 0: taking in pulls
   return static_cast<std::int32_t>(std::lround(count - std::min(per_newton, 0.0) * tension));
 }
 

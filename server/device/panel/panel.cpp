@@ -21,12 +21,13 @@ Refused refused(std::string_view code, std::string message) {
 
 }  // namespace
 
-Panel::Panel(Arm arm, Judge judge, Link& link, Recording& recording, Clock clock)
+Panel::Panel(Arm arm, Judge judge, Link& link, Recording& recording, Clock clock, Keep keep)
     : arm_(std::move(arm)),
       judge_(std::move(judge)),
       link_(link),
       recording_(recording),
       clock_(std::move(clock)),
+      keep_(std::move(keep)),
       bends_(arm_.sections(), Bend(0, 0)),
       sections_(arm_.sections()),
       shown_(arm_.sections()) {}
@@ -274,7 +275,7 @@ Outcome Panel::press(Activity activity, std::string_view secret, bool is_held, d
   relaxed_section_ = section;
   relaxed_ = 0;
   is_in_gap_ = true;
-  if (activity == Activity::homing) homing_.emplace(arm_, *hello());
+  if (activity == Activity::homing) begin_homing();
   if (mode_ != Mode::armed) asked_arm_ = now;
   motion_.emplace(arm_, stage_limit());
   motion_->begin(measured(), activity == Activity::advance);

@@ -40,11 +40,13 @@ struct LogEntry {
 
 class Panel {
  public:
-  /// Time of day, as `10:41:07`, and a name for a recording.
+  /// Time of day, as `10:41:07`, a name for a recording, and date with time.
   struct Clock {
-    std::function<std::string()> time_of_day, recording_name;
+    std::function<std::string()> time_of_day, recording_name, date;
   };
-  Panel(Arm arm, Judge judge, Link& link, Recording& recording, Clock clock);
+  /// A file beside the recordings: its name and text. What was wrong; empty: nothing.
+  using Keep = std::function<std::string(const std::string& name, const std::string& text)>;
+  Panel(Arm arm, Judge judge, Link& link, Recording& recording, Clock clock, Keep keep = {});
 
   /// @name Commands; `now` [s] as for `tick`
   /// @{
@@ -105,7 +107,10 @@ class Panel {
   bool ask_next(double now);
   bool ask_motion(double now);
   bool ask_gap(double way, double now);
-  bool ask_homing(double way, double now);
+  void begin_homing();
+  bool ask_homing(double now);
+  void take_zero();
+  void keep_homing();
   bool ask_relax(double way, double now);
   void finish(std::string_view text);
   void ask_counts(std::vector<std::int32_t> counts, double now, int milliseconds);
@@ -124,6 +129,7 @@ class Panel {
   std::string link_message(double now) const;
   nlohmann::ordered_json section_json(std::size_t section);
   nlohmann::ordered_json homing_json() const;
+  nlohmann::ordered_json kept_json() const;
   nlohmann::ordered_json recording_json() const;
   nlohmann::ordered_json alarm_json(double now) const;
 
@@ -132,6 +138,7 @@ class Panel {
   Link& link_;
   Recording& recording_;
   Clock clock_;
+  Keep keep_;
 
   Mode mode_ = Mode::view_only;
   Activity activity_ = Activity::rest;
@@ -162,6 +169,12 @@ class Panel {
   std::size_t relaxed_section_ = 0;
   std::optional<Motion> motion_;
   std::optional<Homing> homing_;
+  /// The last that was finished.
+  struct KeptHoming {
+    std::string date, file, error;
+    double pretension = 0;  ///< [N]
+  };
+  std::optional<KeptHoming> kept_;
   Path path_;
 
   Bends bends_;                  ///< measured

@@ -45,16 +45,6 @@ std::string Panel::link_message(double now) const {
   return word == "silent" ? "the controller does not answer" : "";
 }
 
-Json Panel::homing_json() const {
-  if (activity_ != Activity::homing || !homing_) return nullptr;
-  const std::size_t drive = std::min(homing_->done(), arm_.tendon_drives() - 1);
-  return {{"section", drive / arm_.tendons()},
-          {"tendon", drive % arm_.tendons()},
-          {"step", homing_->step()},
-          {"done", std::min(homing_->done(), arm_.tendon_drives())},
-          {"of", arm_.tendon_drives()}};
-}
-
 Json Panel::recording_json() const {
   if (!recording_.is_on() && recording_.error().empty()) return nullptr;
   return {{"name", recording_.name()}, {"rows", recording_.rows()}, {"error", recording_.error()}};
@@ -114,6 +104,7 @@ Json Panel::frame(double now) {
   json["why"] = why_;
   json["homed"] = is_homed();
   json["homing"] = homing_json();
+  json["homed_at"] = kept_json();
   json["stage"] = place.stage;
   json["insertion"] = std::max(0.0, place.stage);
   json["stage_target"] = target(place).stage;

@@ -60,7 +60,7 @@ export class ArmingDialog {
     this.homing(frame);
   }
 
-  private homing({homed, homing, activity}: Frame): void {
+  private homing({homed, homing, homed_at: kept, activity}: Frame): void {
     const {sections, tendons, has_tension} = this.info, done = homing?.done ?? (homed ? sections * tendons : 0);
     this.home.element.hidden = !has_tension;
     this.home.say(homed ? 'Home anew' : 'Home', '', this.control.held === 'home' ? 'release to stop' : 'hold', false);
@@ -68,7 +68,8 @@ export class ArmingDialog {
     [...this.ticks.children].forEach((one, i) => {
       one.className = `${i < done ? 'done' : homing && i === done ? 'at' : ''}${i > 0 && i % tendons === 0 ? ' first' : ''}`;
     });
-    const text = activity === 'homing' && homing ? `S${homing.section + 1} tendon ${homing.tendon + 1}: ${homing.step}, ${homing.done} of ${homing.of} done` : '';
+    const text = activity === 'homing' && homing ? `S${homing.section + 1} tendon ${homing.tendon + 1}: ${homing.step}, ${homing.done} of ${homing.of} done`
+      : kept ? `Homed ${kept.date} at ${kept.pretension.toFixed(1)} N${kept.error && `; not kept: ${kept.error}`}` : '';
     if (this.now.textContent !== text) this.now.textContent = text;
   }
 }

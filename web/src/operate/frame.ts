@@ -46,6 +46,7 @@ export interface Frame {
   why: string;
   homed: boolean;
   homing: {section: number; tendon: number; step: string; done: number; of: number} | null;
+  homed_at?: {date: string; pretension: number; file: string; error: string} | null;  ///< by this server
   stage: number; insertion: number; stage_target: number;
   speed: number;
   recording: {name: string; rows: number; error: string} | null;

@@ -36,11 +36,12 @@ struct Chords {
   /// What all tendons have in common.
   constexpr Length common(Loss x, Loss y) const { return Length(Stored<Half>::load(half_length) * (x + y)); }
 
-  /// The bend of these chords. Each step leaves a share 1 - cos(b/2) of what lacks, so that `steps` serve up
-  /// to 120 degrees a joint; always as many, so that the time is always the same.
+  static constexpr int most_steps = 12;  ///< serve up to 120 degrees a joint
+
+  /// The bend of these chords. Each step leaves a share 1 - cos(b/2) of what lacks; always as many, so that
+  /// the time is always the same.
   template <class Angle>
-  constexpr Bend<Angle> bend_of(const Bend<Angle>& chord) const {
-    constexpr int steps = 12;
+  constexpr Bend<Angle> bend_of(const Bend<Angle>& chord, int steps = most_steps) const {
     Bend<Angle> bend = chord;
     for (int k = 0; k < steps; ++k) {
       Loss x{}, y{};
@@ -57,6 +58,10 @@ struct Chords {
     for (Count k = Terms - 1; k-- > 0;) sum = Stored<Loss>::load(series[k]) + Loss(sum * square);
     return Loss(sum * square);
   }
+};
+
+struct NoPause {
+  constexpr void operator()() const {}
 };
 
 /// PCC as far as its series goes: changes of tendons from bends, bends from changes, states of tendons.
@@ -86,8 +91,17 @@ struct ExactTable {
 
   /// The bends that come nearest to the changes, in least squares for each section.
   constexpr void bends(const Length (&changes)[Sections][Tendons], Bend<Angle> (&bends)[Sections]) const {
+    this->bends(changes, bends, Chords<Format, Terms>::most_steps, NoPause{});
+  }
+  /// @param pause called after each section: for what cannot wait
+  template <class Pause>
+  constexpr void bends(const Length (&changes)[Sections][Tendons], Bend<Angle> (&bends)[Sections], int steps,
+                       Pause pause) const {
     linear.bends(changes, bends);  // of chords
-    for (Count m = 0; m < Sections; ++m) bends[m] = of(m).bend_of(bends[m]);
+    for (Count m = 0; m < Sections; ++m) {
+      bends[m] = of(m).bend_of(bends[m], steps);
+      pause();
+    }
   }
 
   /// Whether tendons have more or less than the bends ask that come nearest.
@@ -95,6 +109,11 @@ struct ExactTable {
                         TendonState (&states)[Sections][Tendons]) const {
     Bend<Angle> nearest[Sections] = {};
     bends(changes, nearest);
+    this->states(changes, nearest, tolerance, states);
+  }
+  /// @param nearest what `bends` gives
+  constexpr void states(const Length (&changes)[Sections][Tendons], const Bend<Angle> (&nearest)[Sections],
+                        Length tolerance, TendonState (&states)[Sections][Tendons]) const {
     Length common = Length(0.0);
     for (Count m = 0; m < Sections; ++m) {
       Loss x{}, y{};
