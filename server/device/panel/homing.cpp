@@ -26,19 +26,20 @@ constexpr int smooth = 40, prompt = 20;  // [ms]: two periods, so that a late on
 
 }  // namespace
 
-Homing::Homing(const Arm& arm, const Hello& hello)
+Homing::Homing(const Arm& arm, const Hello& hello, const std::vector<bool>& homed)
     : arm_(arm),
       hello_(hello),
       pretension_(hello.tension_limit > 0 ? share_of_limit * hello.tension_limit : without_limit),
       pulls_from_(arm.tendon_drives()),
-      tendons_(arm.tendon_drives()) {}
-
-void Homing::begin(const std::vector<bool>& homed) {
+      tendons_(arm.tendon_drives()) {
   const auto missing = static_cast<std::size_t>(std::ranges::find(homed, false) - homed.begin());
   section_ = missing == homed.size() ? 0 : missing / arm_.tendons();
+}
+
+void Homing::resume() {
   failure_.clear();
+  if (phase_ == Phase::zero) own_ = 0;  // some of the section count from other zeros now
   enter(section_ < arm_.sections() ? Phase::loosen : Phase::stage);
-  own_ = 0;
 }
 
 void Homing::enter(Phase phase) {
@@ -99,7 +100,7 @@ std::optional<Homing::Step> Homing::loosen(const DriveState& state, Counts count
     if (!hangs_now || gone_ < least_out) counts[i] += arm_.tendon_counts(out);
   }
   gone_ += out;
-  if (are_loose) enter(Phase::seek);
+  if (are_loose) enter(own_ < arm_.tendons() ? Phase::seek : Phase::gather);
   return go(std::move(counts), smooth);
 }
 

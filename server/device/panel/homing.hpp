@@ -23,10 +23,11 @@ struct HomedTendon {
 
 class Homing {
  public:
-  Homing(const Arm& arm, const Hello& hello);
+  /// Begins with the first section that is not homed; anew where all are.
+  Homing(const Arm& arm, const Hello& hello, const std::vector<bool>& homed);
 
-  /// Goes on with the first section that is not homed; anew where all are.
-  void begin(const std::vector<bool>& homed);
+  /// After an interruption: what was found counts, as drives that are disabled stay where they are.
+  void resume();
 
   /// What to do now: set-points of all drives, or a zero for one.
   struct Step {

@@ -96,6 +96,7 @@ Json Panel::frame(double now) {
             {"round_trip", figures.round_trip},
             {"rate", age(now) < recently ? rate_ : 0},
             {"errors", figures.errors + spi_damaged_}};
+  json["model"] = arm_.model() == kernel::Model::exact ? "pcc" : "lsk";
   json["control"] = {{"holder", mode_ == Mode::view_only ? Json(nullptr) : Json(number_)},
                      {"since", mode_ == Mode::view_only ? "" : since_}};
   json["state"] = name_of(mode_);

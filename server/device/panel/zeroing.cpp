@@ -10,8 +10,8 @@ namespace sinew::server::device {
 using Json = nlohmann::ordered_json;
 
 void Panel::begin_homing() {
-  if (!homing_ || homing_->is_done()) homing_.emplace(arm_, *hello());
-  homing_->begin(state_->homed);
+  if (!homing_ || homing_->is_done()) homing_.emplace(arm_, *hello(), state_->homed);
+  homing_->resume();
   kept_.reset();
 }
 
