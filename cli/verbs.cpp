@@ -97,7 +97,8 @@ constexpr std::array options{
     Option{"demo", "", "of serve: a simulated device, moved by the panel's firmware"},
     Option{"device", "PATH", "of serve the serial port of the robot's controller, as /dev/ttyACM0"},
     Option{"baud", "RATE", "of the device; default 1000000"},
-    Option{"record", "FOLDER", "of serve where recordings of the device go; default sinew-recordings"},
+    Option{"record", "FOLDER",
+           "of serve where recordings of devices go, and are shown from; default sinew-recordings"},
     Option{"resume", "", "go on with what an interrupted run left; without it, begin"},
     Option{"force", "",
            "replace results that are there, or of a figure its script that was changed by hand; without it "
@@ -364,10 +365,9 @@ const std::array table{
         {},
         "Prints the address and answers there until Ctrl-C. The calls are in docs/server.md. Nothing is read "
         "but\n"
-        "the robot, the scene and the plans that are named; nothing is written but recordings of a device; "
-        "no "
-        "request\n"
-        "leaves this machine.\n"
+        "the robot, the scene and the plans that are named, and recordings of devices; nothing is written "
+        "but\n"
+        "these; no request leaves this machine.\n"
         "--scene engine/scene.yaml --plan plan.csv opens a plan of sinew plan: the way in, step by step, in "
         "its\n"
         "scene, with its check.\n"

@@ -93,6 +93,7 @@ Calls::Calls(const Options& options)
       robots_(options.limits.robots, options.limits.robot_bytes),
       rate_(options.limits.rate),
       places_(working(options.limits)),
+      recordings_(options.device.folder, options.limits.answers),
       jobs_(options.limits.jobs, robots_, rate_, dog_) {}
 
 std::optional<Errors> Calls::read_opened() {
@@ -128,6 +129,30 @@ Reply Calls::device_post(std::string_view call, const std::string& body) {
   if (!device_)
     return refused(404, "no_device", "device", "this server has none: start it with --device or --demo");
   return device_->post(call, body);
+}
+
+Reply Calls::snapshot(bool is_jpeg, const std::string& text, const std::string& picture) {
+  if (!device_)
+    return refused(404, "no_device", "device", "this server has none: start it with --device or --demo");
+  return device_->snapshot(is_jpeg, text, picture);
+}
+
+/// Files are read through, and may be large.
+template <class Read>
+Reply Calls::reading(Read&& read) {
+  const auto place = places_.wait(std::chrono::duration<double>(options_.limits.patience));
+  if (!place) return refused(503, "busy", "recordings", "all places to compute are taken; try again");
+  return read();
+}
+
+Reply Calls::recordings() {
+  return reading([&] { return recordings_.list(); });
+}
+Reply Calls::recording(std::string_view name, int every) {
+  return reading([&] { return recordings_.text(name, every); });
+}
+Reply Calls::recorded_picture(std::string_view name, std::string_view number) {
+  return reading([&] { return recordings_.picture(name, number); });
 }
 
 tl::expected<std::shared_ptr<device::FeedStream>, Reply> Calls::device_events() {

@@ -9,6 +9,7 @@
 #include "jobs/job_calls.hpp"
 #include "limiter.hpp"
 #include "plans.hpp"
+#include "recordings.hpp"
 #include "reply.hpp"
 #include "robots.hpp"
 #include "server.hpp"
@@ -34,7 +35,12 @@ class Calls {
   JobCalls& jobs() { return jobs_; }
   Reply device();
   Reply device_post(std::string_view call, const std::string& body);
+  Reply snapshot(bool is_jpeg, const std::string& text, const std::string& picture);
   tl::expected<std::shared_ptr<device::FeedStream>, Reply> device_events();
+  Reply recordings();
+  /// @param every of its measurements one in so many; 0: all
+  Reply recording(std::string_view name, int every);
+  Reply recorded_picture(std::string_view name, std::string_view number);
   void let_go();
   /// What computes is to end.
   void stop();
@@ -47,6 +53,8 @@ class Calls {
                       const Watchdog::IsOver& is_gone);
 
   std::optional<Errors> open_device();
+  template <class Read>
+  Reply reading(Read&& read);
 
   Options options_;
   Robots robots_;
@@ -54,6 +62,7 @@ class Calls {
   Places places_;
   Watchdog dog_;
   Plans plans_;
+  Recordings recordings_;
   JobCalls jobs_;
   std::unique_ptr<device::Device> device_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -58,6 +59,15 @@ Reply full() { return refused(503, "busy", "server", "too much is under way; try
 bool has_type(const Request& request, std::string_view type) {
   const std::string given = request.get_header_value("Content-Type");
   return given.substr(0, given.find(';')) == type;
+}
+
+/// A parameter that counts: 0 where there is none, −1 where it is no number from 1 on.
+int whole_of(const Request& request, const char* name) {
+  if (!request.has_param(name)) return 0;
+  const std::string text = request.get_param_value(name);
+  int number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  return read.ec == std::errc() && read.ptr == text.data() + text.size() && number > 0 ? number : -1;
 }
 
 Reply refusal(Refusal why) {
@@ -120,9 +130,10 @@ struct Server::State {
   void route_page();
   Reply kept(Reply reply);
   void get(const char* pattern, Plain call);
-  void post(const char* pattern, const char* type, std::size_t most, Body call);
+  void post(const char* pattern, std::vector<std::string_view> types, std::size_t most, Body call);
   void route_jobs();
   void route_device();
+  void route_recordings();
   void show_device(Response& response);
   void show_events(const Request& request, Response& response);
   void limit();
@@ -148,6 +159,16 @@ struct Server::State {
   Reply on_device(const Request&) { return calls.device(); }
   Reply on_device_post(const Request& request, const std::string& body) {
     return calls.device_post(request.matches[1].str(), body);
+  }
+  Reply on_snapshot(const Request& request, const std::string& body) {
+    return calls.snapshot(has_type(request, "image/jpeg"), request.get_param_value("text"), body);
+  }
+  Reply on_recordings(const Request&) { return calls.recordings(); }
+  Reply on_recording(const Request& request) {
+    return calls.recording(request.matches[1].str(), whole_of(request, "every"));
+  }
+  Reply on_recorded_picture(const Request& request) {
+    return calls.recorded_picture(request.matches[1].str(), request.matches[2].str());
   }
   Reply on_result(const Request& request) { return calls.jobs().result(request.matches[1].str()); }
   Reply on_nothing(const Request&) { return refused(404, "not_found", "path", "nothing is here"); }
@@ -182,11 +203,13 @@ void Server::State::get(const char* pattern, Plain call) {
   });
 }
 
-void Server::State::post(const char* pattern, const char* type, std::size_t most, Body call) {
-  http.Post(pattern, [this, type, most, call](const Request& request, Response& response,
-                                              const httplib::ContentReader& reader) {
-    if (!has_type(request, type))
-      return put(response, refused(415, "wrong_type", "Content-Type", fmt::format("it has to be {}", type)));
+void Server::State::post(const char* pattern, std::vector<std::string_view> types, std::size_t most,
+                         Body call) {
+  http.Post(pattern, [this, types = std::move(types), most, call](const Request& request, Response& response,
+                                                                  const httplib::ContentReader& reader) {
+    if (std::ranges::none_of(types, [&](std::string_view type) { return has_type(request, type); }))
+      return put(response, refused(415, "wrong_type", "Content-Type",
+                                   fmt::format("it has to be {}", fmt::join(types, " or "))));
     const std::size_t sent = Listener::current()->left();
     const auto held = room.take(request.has_header("Content-Encoding") ? most : sent);
     if (!held) return put(response, full());
@@ -249,7 +272,7 @@ void Server::State::show_events(const Request& request, Response& response) {
 }
 
 void Server::State::route_jobs() {
-  post("/api/jobs", "application/json", options.limits.jobs.body, &State::on_job);
+  post("/api/jobs", {"application/json"}, options.limits.jobs.body, &State::on_job);
   http.Get("/api/jobs/([^/]*)/events",
            [this](const Request& request, Response& response) { show_events(request, response); });
   get("/api/jobs/([^/]*)/result", &State::on_result);
@@ -269,10 +292,18 @@ void Server::State::show_device(Response& response) {
 }
 
 void Server::State::route_device() {
-  constexpr std::size_t most = std::size_t{16} << 10U;  // [bytes] of a command
+  constexpr std::size_t most = std::size_t{16} << 10U;    // [bytes] of a command
+  constexpr std::size_t picture = std::size_t{8} << 20U;  // [bytes] of a snapshot
   get("/api/device", &State::on_device);
+  post("/api/device/snapshot", {"image/jpeg", "image/png"}, picture, &State::on_snapshot);
   http.Get("/api/device/events", [this](const Request&, Response& response) { show_device(response); });
-  post("/api/device/([^/]*)", "application/json", most, &State::on_device_post);
+  post("/api/device/([^/]*)", {"application/json"}, most, &State::on_device_post);
+}
+
+void Server::State::route_recordings() {
+  get("/api/recordings", &State::on_recordings);
+  get("/api/recordings/([^/]*)", &State::on_recording);
+  get("/api/recordings/([^/]*)/snapshots/([^/]*)", &State::on_recorded_picture);
 }
 
 void Server::State::route() {
@@ -282,10 +313,11 @@ void Server::State::route() {
   get("/api/plans", &State::on_plans);
   get("/api/plans/([^/]*)", &State::on_plan);
   get("/api/plans/([^/]*)/meshes", &State::on_meshes);
-  post("/api/robot", "text/yaml", options.limits.body, &State::on_robot);
-  post("/api/query", "application/json", options.limits.body, &State::on_query);
+  post("/api/robot", {"text/yaml"}, options.limits.body, &State::on_robot);
+  post("/api/query", {"application/json"}, options.limits.body, &State::on_query);
   route_jobs();
   route_device();
+  route_recordings();
   route_page();
   get(".*", &State::on_nothing);
   http.Post(".*", [this](const Request& request, Response& response, const httplib::ContentReader&) {

@@ -35,7 +35,7 @@ Expected<server::DeviceChoice> read_device(const Arguments& arguments) {
   if (device.is_demo && !device.port.empty())
     return failure("ambiguous", "--demo", "--demo has a simulated device of its own; leave --device out");
   const bool has_device = device.is_demo || !device.port.empty();
-  for (const char* option : {"record", "baud", "stage-motor"})
+  for (const char* option : {"baud", "stage-motor"})
     if (arguments.has(option) && !has_device)
       return failure("no_effect", fmt::format("--{}", option),
                      "it is of a device: add --device PATH or --demo");

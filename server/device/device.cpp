@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cctype>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -31,6 +32,14 @@ std::string time_text(const char* format) {
   std::array<char, 64> text{};
   std::strftime(text.data(), text.size(), format, &local);
   return text.data();
+}
+
+/// For the name of a file, whatever a robot is called.
+std::string plain(std::string name) {
+  const auto is_plain = [](unsigned char c) { return c < 128 && (std::isalnum(c) || c == '-' || c == '_'); };
+  for (char& c : name)
+    if (!is_plain(static_cast<unsigned char>(c))) c = '-';
+  return name.substr(0, 80);
 }
 
 Panel::Clock system_clock(const std::string& robot) {
@@ -114,12 +123,12 @@ Expected<RobotFile> read_file(const std::string& robot, bool is_demo) {
 Device::Device(std::string text, const DeviceOptions& options, Arm arm, Judge judge)
     : text_(std::move(text)),
       options_(options),
-      recording_(options.folder),
+      recording_(options.folder, text_),
       link_([this]() -> std::unique_ptr<Wire> {
         auto port = open_port(options_.port, options_.baud);
         return port ? std::move(*port) : nullptr;
       }),
-      panel_(arm, std::move(judge), link_, recording_, system_clock(arm.robot().name),
+      panel_(arm, std::move(judge), link_, recording_, system_clock(plain(arm.robot().name)),
              [this](const std::string& name, const std::string& content) {
                return write_whole(std::filesystem::path(options_.folder) / name, content);
              }) {}
@@ -155,6 +164,8 @@ void Device::stop() {
   feed_->stop();
   thread_.request_stop();
   if (thread_.joinable()) thread_.join();
+  recording_.end();
+  recording_.wait(std::chrono::seconds(1));  // the process may end without more ado
   simulated_.reset();
 }
 
@@ -259,6 +270,23 @@ Reply Device::target(const Json& body, std::string_view secret, double now) {
                    R"(give "bends", [[b1, b2], ...] of each section, or "stage", or both)");
   if (const auto no = panel_.set_target(secret, bends, stage, now)) return told(*no);
   return {200, "{}"};
+}
+
+Reply Device::snapshot(bool is_jpeg, const std::string& text, std::string picture) {
+  constexpr std::string_view jpeg = "\xFF\xD8\xFF", png = "\x89PNG\r\n\x1A\n";
+  constexpr std::size_t longest = 500;
+  if (!picture.starts_with(is_jpeg ? jpeg : png))
+    return refused(
+        400, "bad_picture", "body",
+        fmt::format("this is no {0}: send the bytes of one, as they are", is_jpeg ? "JPEG" : "PNG"));
+  if (text.size() > longest)
+    return refused(400, "too_long", "text", fmt::format("give at most {} bytes", longest));
+  const std::string words = Json::parse(text_of(Json(text))).get<std::string>();  // as UTF-8, whatever came
+  const std::lock_guard lock(mutex_);
+  std::string name;
+  if (const auto no = panel_.keep_picture(std::move(picture), is_jpeg ? "jpg" : "png", words, name))
+    return told(*no);
+  return {200, text_of(nlohmann::ordered_json{{"name", name}})};
 }
 
 /// Not under the lock: the simulator may take its time.

@@ -45,6 +45,8 @@ class Device {
   Reply describe(const HandleOf& handle_of);
   /// @param call the last part of the path: `arm`
   Reply post(std::string_view call, const std::string& body);
+  /// Keeps a picture beside the recording.
+  Reply snapshot(bool is_jpeg, const std::string& text, std::string picture);
   tl::expected<std::shared_ptr<FeedStream>, Reply> listen();
   /// Disarms it; the thread ends.
   void stop();

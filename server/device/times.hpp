@@ -19,5 +19,7 @@ constexpr double frame = 0.05;
 constexpr double answer = 3 * frame;
 /// [s] without motion that disarm.
 constexpr double armed = 60;
+/// [s] that are recorded after disarming.
+constexpr double tail = 1;
 
 }  // namespace sinew::server::device::times

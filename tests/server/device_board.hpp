@@ -110,7 +110,7 @@ struct BoardOf {
         }),
         panel(test_arm(motor), Judge(Session::open(arm_document(motor)).value(), test_arm(motor)), link,
               recording,
-              {[] { return "10:41:07"; }, [] { return "board"; }, [] { return "2026-01-02 10:41:07"; }}) {}
+              {[] { return "10:41:07"; }, another_name("board"), [] { return "2026-01-02 10:41:07"; }}) {}
   ~BoardOf() {
     std::error_code ignored;
     std::filesystem::remove_all(place, ignored);
@@ -120,6 +120,7 @@ struct BoardOf {
   void run(double seconds) {
     for (const double end = now() + seconds; now() < end;) {
       controller.run(controller.cycles(1e-3));
+      if (recording.is_opening()) recording.wait(std::chrono::seconds(5));
       if (is_host_alive) panel.tick(now());
       if (seen) seen();
     }

@@ -24,6 +24,11 @@ inline Arm test_arm(const std::string& motor = "{lead: 2 mm, counts: 4096}") {
   return Arm::read(arm_document(motor)).value();
 }
 
+/// `test`, `test-2`, ...: a recording each.
+inline std::function<std::string()> another_name(const std::string& name) {
+  return [name, count = 0]() mutable { return ++count > 1 ? name + '-' + std::to_string(count) : name; };
+}
+
 /// What a controller of protocol 3 with one stage does, by its description in firmware/README.md.
 class PlayedLink : public Link {
  public:
@@ -231,7 +236,7 @@ struct PanelDesk {
                              : std::filesystem::path(folder)),
         recording(place),
         panel(test_arm(), Judge(Session::open(arm_document()).value(), test_arm()), link, recording,
-              {[] { return "10:41:07"; }, [] { return "test"; }, [] { return "2026-01-02 10:41:07"; }},
+              {[] { return "10:41:07"; }, another_name("test"), [] { return "2026-01-02 10:41:07"; }},
               [this](const std::string& name, const std::string& text) {
                 kept.emplace_back(name, text);
                 return std::string();
@@ -251,6 +256,8 @@ struct PanelDesk {
         if (!secret.empty()) panel.lease(secret, number, now);
         if (held) code(panel.press(*held, secret, true, now, section));
       }
+      if (recording.is_on() && has_disk)
+        recording.wait(std::chrono::seconds(5));  // time here is not the disk's
       panel.tick(now);
     }
   }
@@ -291,6 +298,7 @@ struct PanelDesk {
   std::size_t section = 0;
   bool is_renewing = true;
   std::vector<std::pair<std::string, std::string>> kept;  ///< files beside the recordings
+  bool has_disk = true;  ///< one that is as quick as it is asked
 
  private:
   double next_ = 0;

@@ -1,7 +1,6 @@
 /// The panel's states: who may move the device, what stops it, and how soon.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <functional>
 
 #include "device_desk.hpp"
@@ -476,59 +475,6 @@ TEST(DevicePanel, AdvanceLeadsTheTipAndTheBodyFollows) {
   EXPECT_NEAR(bends[4][0], 0.1, 5e-3) << "on the curve that it drew itself";
   EXPECT_NEAR(bends[3][0], 0.1 * (0.06 - 0.035) / 0.035, 0.01) << "what it lies on";
   EXPECT_NEAR(bends[2][0], 0, 1e-3);
-}
-
-TEST(DevicePanel, AFullDiskHoldsTheMotion) {
-  const auto folder = std::filesystem::temp_directory_path() / "sinew-device-full";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "test.csv") << "";
-  PanelDesk desk(true, folder.string());
-  make_ready(desk);
-  desk.let_go();
-  desk.panel.disarm(desk.secret, desk.now);
-  std::filesystem::remove(folder / "test.csv");
-  std::filesystem::create_symlink("/dev/full", folder / "test.csv");
-  EXPECT_EQ(desk.arm(), "recording") << "a header that cannot be written";
-  EXPECT_EQ(desk.panel.mode(), Mode::control);
-}
-
-TEST(DevicePanel, ARecordingThatBreaksHoldsTheMotion) {
-  PanelDesk desk;
-  make_ready(desk);
-  desk.press(Activity::moving);
-  desk.run(0.3);
-  desk.recording.continue_in("/dev/full");
-  const double broken = desk.now;
-  desk.run(0.4);
-  EXPECT_LT(desk.link.moved - broken, 0.15);
-  EXPECT_EQ(desk.panel.activity(), Activity::holding);
-  EXPECT_EQ(desk.panel.frame(desk.now)["recording"]["error"], "No space left on device");
-  desk.let_go();
-  desk.run(0.4);
-  EXPECT_EQ(desk.press(Activity::moving), "recording");
-}
-
-TEST(DevicePanel, ARecordingHasARowAPeriodAndTheEvents) {
-  PanelDesk desk;
-  make_ready(desk);
-  desk.press(Activity::moving);
-  desk.run(1);
-  desk.let_go();
-  desk.panel.disarm(desk.secret, desk.now);
-  std::ifstream rows(desk.place / "test.csv"), events(desk.place / "test-events.csv");
-  std::string line;
-  int count = 0;
-  std::getline(rows, line);
-  EXPECT_TRUE(line.starts_with("time[s],S0_beta_1[rad],S0_beta_2[rad],"));
-  const auto commas = std::ranges::count(line, ',');
-  while (std::getline(rows, line)) {
-    ++count;
-    EXPECT_EQ(std::ranges::count(line, ','), commas);
-  }
-  EXPECT_NEAR(count, 55, 6);
-  std::string all((std::istreambuf_iterator<char>(events)), {});
-  EXPECT_NE(all.find("armed"), std::string::npos);
-  EXPECT_NE(all.find("disarmed: you disarmed"), std::string::npos);
 }
 
 }  // namespace device_panel_test

@@ -54,14 +54,9 @@ void Panel::tick(double now) {
   see_sections(now_);
   const bool is_in_use = mode_ == Mode::armed || is_arming_ || activity_ == Activity::homing;
   if (is_in_use && is_over()) disarm("over-tension");
-  if (is_arming_ && now_ - asked_arm_ > arm_patience) disarm("the controller did not arm");
-  if (recording_.error() != recorded_error_) {
-    recorded_error_ = recording_.error();
-    if (!recorded_error_.empty()) {
-      hold(now_);
-      log("info", "the recording stopped: " + recorded_error_);
-    }
-  }
+  if (is_arming_ && now_ - asked_arm_ > arm_patience)
+    disarm(recording_.is_opening() ? "the disk did not take the recording" : "the controller did not arm");
+  see_recording();
   if (link_.is_free() && fits_) ask_next(now_);
 }
 
@@ -171,24 +166,6 @@ void Panel::see_sections(double now) {
   alarm_ = find_alarm(shown_, sections_, alarm_, now);
 }
 
-void Panel::record_row() {
-  if (!recording_.is_on()) return;
-  const Posture set = motion_ ? motion_->set() : measured();
-  std::string line = fmt::format("{:.3f}", state_time_);
-  const auto put = [&](double value) { line += fmt::format(",{:.7g}", value); };
-  for (const Bend& bend : set.bends) put(bend[0]), put(bend[1]);
-  put(set.stage);
-  put(measured().stage);
-  for (const Bend& bend : bends_) put(bend[0]), put(bend[1]);
-  for (std::size_t i = 0; i < arm_.tendon_drives(); ++i)
-    put(arm_.tendon_length(has_setpoints_ ? setpoints_[i] : state_->counts[i]));
-  for (std::size_t i = 0; i < arm_.tendon_drives(); ++i) put(lengths_[i]);
-  for (std::size_t i = 0; i < arm_.tendon_drives(); ++i)
-    put(state_->tension.empty() ? std::nan("") : state_->tension[i]);
-  for (const SectionState& section : sections_) line += fmt::format(",{}", name_of(section.word));
-  recording_.row(line);
-}
-
 /// The one request that is due most.
 bool Panel::ask_next(double now) {
   const auto ask = [&](char verb) {
@@ -196,7 +173,7 @@ bool Panel::ask_next(double now) {
     return true;
   };
   if (is_driving() && !wants_drives()) return ask('D');
-  if (wants_drives() && !is_driving()) {
+  if (wants_drives() && !is_driving() && !recording_.is_opening()) {
     has_setpoints_ = false;
     return ask('A');
   }

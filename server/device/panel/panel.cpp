@@ -45,7 +45,7 @@ std::string_view name_of(Activity activity) {
 
 void Panel::log(std::string_view kind, std::string_view text) {
   LogEntry entry{now_, clock_.time_of_day(), std::string(kind), std::string(text)};
-  recording_.event(fmt::format("{:.3f},{},{},\"{}\"", entry.time, entry.clock, kind, text));
+  record_event(kind, text);
   log_.push_back(std::move(entry));
   constexpr std::size_t most = 1000;
   if (log_.size() > most) log_.pop_front();
@@ -89,24 +89,6 @@ Outcome Panel::check_recording() const {
   if (recording_.error().empty()) return {};
   return refused("recording", "motion is held, the recording cannot be written (" + recording_.error() +
                                   "); make room, disarm, and arm again");
-}
-
-Outcome Panel::begin_recording() {
-  recorded_error_.clear();
-  std::string header = "time[s]";
-  const auto per_section = [&](std::string_view what, std::string_view unit, std::size_t count) {
-    for (std::size_t m = 0; m < arm_.sections(); ++m)
-      for (std::size_t i = 1; i <= count; ++i) header += fmt::format(",S{}_{}_{}[{}]", m, what, i, unit);
-  };
-  per_section("beta", "rad", 2);
-  header += ",stage[m],measured_stage[m]";
-  per_section("measured_beta", "rad", 2);
-  per_section("set_change", "m", arm_.tendons());
-  per_section("change", "m", arm_.tendons());
-  per_section("tension", "N", arm_.tendons());
-  for (std::size_t m = 0; m < arm_.sections(); ++m) header += fmt::format(",S{}_state", m);
-  recording_.begin(clock_.recording_name(), header);
-  return check_recording();
 }
 
 Outcome Panel::lease(std::string& secret, int& number, double now) {
@@ -170,7 +152,7 @@ void Panel::disarm(std::string_view why) {
   if (!was_driving) return;
   why_ = why;
   log("info", "disarmed: " + why_);
-  recording_.end();
+  recorded_until_ = now_ + times::tail;
 }
 
 void Panel::stop(Activity next) {

@@ -63,6 +63,11 @@ class Panel {
   Outcome press(Activity activity, std::string_view secret, bool is_held, double now,
                 std::size_t section = 0);
   void acknowledge();
+  /// A picture, kept beside the recording; anybody.
+  /// @param extension `jpg` or `png`
+  /// @param name of its file
+  Outcome keep_picture(std::string bytes, std::string_view extension, std::string_view text,
+                       std::string& name);
   /// The server ends: nothing is wanted of the drives any more.
   void shut_down() { disarm("the server ends"); }
   /// @}
@@ -102,7 +107,12 @@ class Panel {
   void take_refusal(const LinkEvent& event);
   void take_state(std::string_view payload, double now);
   void see_sections(double now);
+  void see_recording();
   void record_row();
+  void record_event(std::string_view kind, std::string_view text);
+  std::string record_columns() const;
+  std::string recorded_states() const;
+  Posture recorded_setpoints() const;
 
   bool ask_next(double now);
   bool ask_motion(double now);
@@ -184,6 +194,7 @@ class Panel {
   std::optional<Alarm> alarm_;
   std::deque<LogEntry> log_;
   std::string recorded_error_;
+  double recorded_until_ = 0;
 };
 
 std::string_view name_of(Mode mode);
