@@ -18,6 +18,8 @@ import {type ScreenName, Screens} from './screens';
 import {findDevice} from './operate/device';
 import type {DeviceInfo} from './operate/frame';
 import {Operate} from './operate/operate';
+import {Recording, Unreadable} from './operate/recording';
+import {listRecordings, recordingText, RecordingsDialog} from './operate/recordings';
 import {makeSheet} from './sheet';
 import {Shell} from './shell';
 import {type Solution, Solutions} from './solutions';
@@ -76,6 +78,8 @@ class Page {
   private way: Trajectory | null = null;
   private panel!: Operate;
   private device: DeviceInfo | null = null;
+  private readonly recordings = new RecordingsDialog((name) => void this.replay(name), () => byId<HTMLInputElement>('chooser').click());
+  private replaying = 0;  // how often a recording was asked for
   private openedName = '';  // of the file that the server was started with
   private readonly screens = new Screens((name, isAsWas, before) => this.turnScreen(name, isAsWas, before));
   private readonly picker = byId<HTMLSelectElement>('robot');
@@ -90,14 +94,19 @@ class Page {
 
   private async enter(): Promise<void> {
     const link = new URLSearchParams(location.hash.slice(1) || location.search), wanted = link.get('robot');
-    const [says, {robots: shipped, opened}, {plans: listed}, device] = await Promise.all([version(), robots(), plans(), findDevice()]);
+    const [says, {robots: shipped, opened}, {plans: listed}, device, recorded] = await Promise.all([version(), robots(), plans(), findDevice(), listRecordings()]);
     if (says.protocol !== protocol) return this.shell.say(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
     [this.shipped, this.device, this.openedName] = [shipped, device, opened?.name ?? ''];
-    this.panel = new Operate({system: () => this.shell.system, guarded: (task, again) => this.guarded(task, again), heard: () => this.heard(), linked: () => this.link()}, device);
+    this.panel = new Operate({system: () => this.shell.system, guarded: (task, again) => this.guarded(task, again), heard: () => this.heard(), linked: () => this.link(), turned: () => this.turnSource()}, device);
+    byId('recordings').hidden = !recorded || (recorded.length === 0 && !device);
     for (const {name, title} of shipped) for (const list of [this.picker, this.against]) list.add(new Option(title, name));
     this.against.add(new Option('nothing', ''), 0);
     this.against.value = this.picker.value = '';
     if (listed.length > 0) this.offerPlans(listed);
+    if (link.has('recording')) {
+      if (opened) await this.open(opened.name, opened.text, new URLSearchParams({screen: 'design'}));
+      return this.replay(link.get('recording')!, link);
+    }
     if (this.way && (link.has('plan') || (!wanted && !opened))) return this.showPlan(link);
     if (link.has('plan')) this.shell.say('the link shows a plan: start sinew serve with --scene and --plan');
     if (opened && (!wanted || wanted === opened.name)) return this.open(opened.name, opened.text, link);
@@ -158,6 +167,7 @@ class Page {
     this.against.addEventListener('change', () => this.compare(this.against.value));
     const clicks: Record<string, () => void> = {
       brand: () => this.start.isShown && this.robot ? this.start.hide() : this.start.show(this.shipped), open: () => chooser.click(), copy: () => this.copyCommand(), 'copy-pose': () => this.copyPose(),
+      recordings: () => void this.guarded(async () => this.recordings.show(await listRecordings() ?? [])),
       keep: () => this.keep(), home: () => this.goHome(), undo: () => this.back(this.history.undo(this.state)), needs: () => this.saveFile(),
     };
     for (const [id, go] of Object.entries(clicks)) byId(id).addEventListener('click', go);
@@ -199,7 +209,7 @@ class Page {
   private turnScreen(name: ScreenName, isAsWas: boolean, before: ScreenName): void {
     if (before === 'trajectory') this.way!.leave();
     if (before === 'operate') this.leavePanel();
-    if (name === 'operate') this.panel.enter(this.state.inputs);
+    if (name === 'operate') this.panel.enter(this.state?.inputs ?? []);
     if (isAsWas && name === 'design' && !this.robot) this.start.show(this.shipped);
     if (isAsWas && name === 'trajectory' && !this.way!.isOpen) this.way!.open(new URLSearchParams());
     this.badge();
@@ -209,8 +219,10 @@ class Page {
   }
 
   private badge(): void {
-    const {shown} = this.screens;
-    byId('source').textContent = shown === 'design' ? 'SLIDERS' : shown === 'operate' ? this.panel.badge : 'PLAN';
+    const {shown} = this.screens, of = byId('source');
+    of.classList.toggle('is-log', shown === 'operate' && !!this.panel.replayed);
+    of.title = shown === 'operate' ? this.panel.badge : '';
+    of.textContent = shown === 'design' ? 'SLIDERS' : shown === 'operate' ? this.panel.badge : 'PLAN';
   }
 
   /** Targets that were set there are the inputs here. */
@@ -218,6 +230,44 @@ class Page {
     const {inputs} = this.panel;
     this.panel.leave();
     if (inputs && inputs.some((value, i) => value !== this.state.inputs[i])) this.change({inputs, asked: 'inputs', bending: null});
+  }
+
+  // Recordings
+
+  /** The screen Operate shows another source now. */
+  private turnSource(): void {
+    const has = !!this.described?.isSerial || !!this.panel?.replayed;
+    this.screens.offer('operate', has);
+    this.badge();
+    this.entitle();
+    this.link();
+    if (!has && !this.described) this.start.show(this.shipped);
+  }
+
+  private async replay(name: string, link: URLSearchParams | null = null): Promise<void> {
+    const run = ++this.replaying;
+    await this.guarded(async () => {
+      try {
+        const {text, every} = await recordingText(name);
+        if (run === this.replaying) await this.showRecording(name, text, {name, isOnServer: true, every}, link);
+      } catch (error) {
+        if (!(error instanceof Refused) || error.isBusy) throw error;
+        this.recordings.refuse(`${name}: ${error.message}`);
+      }
+      if (!this.described && !this.panel.replayed) this.start.show(this.shipped);
+    }, () => void this.replay(name, link));
+  }
+
+  private async showRecording(name: string, text: string, where: {name: string; isOnServer: boolean; every: number}, link: URLSearchParams | null): Promise<void> {
+    try {
+      if (this.panel.busy) throw new Unreadable(this.panel.busy);
+      await this.panel.replay(Recording.read(name, text), where, link);
+    } catch (error) {
+      if (error instanceof Lost || (error instanceof Refused && error.isBusy)) throw error;
+      return this.recordings.refuse(error instanceof Refused ? `${name}, below “# file:”: ${error.message}` : (error as Error).message);
+    }
+    this.start.hide();
+    this.screens.show('operate', false);
   }
 
   /** The screen Operate has every serial robot: that of the device, or a simulated one. */
@@ -262,8 +312,17 @@ class Page {
 
   private openFile(file: File | undefined): void {
     if (!file) return;
+    if (/\.csv$/i.test(file.name)) return this.openRecording(file);
     const name = this.ships(file.name) ? `./${file.name}` : file.name, again = (): void => void this.guarded(async () => {
       await this.open(name, await file.text(), new URLSearchParams());
+    }, again);
+    again();
+  }
+
+  private openRecording(file: File): void {
+    const run = ++this.replaying, name = file.name.replace(/\.csv$/i, ''), again = (): void => void this.guarded(async () => {
+      const text = await file.text();
+      if (run === this.replaying) await this.showRecording(file.name, text, {name, isOnServer: false, every: 1}, null);
     }, again);
     again();
   }
@@ -346,7 +405,7 @@ class Page {
       option.textContent = source?.isModified && option.value === source.name ? `${title} (modified)` : title;
     }
     this.picker.value = source?.name ?? '';
-    const isDesign = this.screens.shown === 'design', title = this.screens.shown === 'trajectory' ? this.way?.title : source?.label;
+    const isDesign = this.screens.shown === 'design', title = this.screens.shown === 'trajectory' ? this.way?.title : this.screens.shown === 'operate' && this.panel.replayed ? this.panel.replayed.name : source?.label;
     document.title = title ? `${title} – sinew` : 'sinew';
     byId('needs').hidden = !isDesign || !source?.needsFile;
     if (source) byId('needs').textContent = `save ${source.word} first:`;
@@ -369,6 +428,7 @@ class Page {
     clearTimeout(this.linked);
     const name = link.get('robot');
     if (this.way && link.has('plan')) return this.showPlan(link);
+    if (link.has('recording')) return this.replay(link.get('recording')!, link);
     if (name && this.screens.shown === 'trajectory') this.screens.show('design', false);
     if (this.ships(name) || (name && name === this.source?.name)) await this.choose(name!, link);
     else if (name) this.shell.say(`the link shows ${name}: open its file`);
@@ -634,6 +694,11 @@ class Page {
     this.linked = window.setTimeout(() => {
       const way = this.screens.shown === 'trajectory' && this.way!.toLink();
       if (way) return this.address(way);
+      if (this.screens.shown === 'operate' && this.panel.replayed) {
+        const link = new URLSearchParams();
+        this.panel.toLink(link);
+        if (link.has('recording')) return this.address(link);
+      }
       if (!this.described || this.screens.shown === 'trajectory') return;
       const isPanel = this.screens.shown === 'operate', state: State = isPanel ? {...this.state, asked: 'inputs', inputs: this.panel.inputs ?? this.state.inputs} : this.state;
       const link = toLink(this.source!.name, state, this.described, this.started);

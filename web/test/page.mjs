@@ -4,13 +4,14 @@ import * as design from './design.mjs';
 import * as errors from './errors.mjs';
 import {isThorough, launch, serve} from './harness.mjs';
 import * as honest from './honest.mjs';
+import * as log from './log.mjs';
 import * as looks from './looks.mjs';
 import * as operate from './operate.mjs';
 import * as plans from './plans.mjs';
 import * as robots from './robots.mjs';
 import * as speed from './speed.mjs';
 
-const modules = {robots, design, errors, honest, looks, operate, plans, speed}, wanted = process.argv.slice(5);
+const modules = {robots, design, errors, honest, looks, operate, log, plans, speed}, wanted = process.argv.slice(5);
 const cases = Object.entries(modules).flatMap(([module, all]) => Object.entries(all).map(([name, run]) => ({module, name, run})));
 for (const one of wanted) assert.ok(cases.some(({module, name}) => one === module || one === name), `${one} is no module and no case`);
 

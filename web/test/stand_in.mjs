@@ -41,6 +41,15 @@ export async function standIn(url, robot, text, info = {}) {
       listeners.add(response);
       return response.on('close', () => listeners.delete(response));
     }
+    if (path === 'snapshot') {
+      let bytes = 0;
+      incoming.on('data', (part) => { bytes += part.length; });
+      return void incoming.on('end', () => {
+        said.push({call: path, body: {text: new URL(incoming.url, url).searchParams.get('text'), type: incoming.headers['content-type'], bytes}});
+        if (refusals[path]) return reply(response, 409, {error: refusals[path]});
+        reply(response, 200, {name: 'recorded-001.jpg'});
+      });
+    }
     let body = '';
     incoming.on('data', (part) => { body += part; });
     incoming.on('end', () => command(path, JSON.parse(body), response));
@@ -65,7 +74,8 @@ export async function standIn(url, robot, text, info = {}) {
   const server = createServer((incoming, response) => {
     const {pathname} = new URL(incoming.url, url), [, path] = /^\/api\/device\/?(.*)$/.exec(pathname) ?? [];
     if (path !== undefined) return device(path, incoming, response);
-    if (pathname === '/api/robots') return void fetch(new URL(pathname, url)).then((answer) => answer.json()).then((json) => reply(response, 200, {...json, opened: {name: robot, text}}));
+    const get = () => fetch(new URL(pathname, url));
+    if (pathname === '/api/robots') return void get().catch(get).then((answer) => answer.json()).then((json) => reply(response, 200, {...json, opened: {name: robot, text}}));
     pass(incoming, response);
   });
   await new Promise((done) => server.listen(0, '127.0.0.1', done));

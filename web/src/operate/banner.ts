@@ -23,6 +23,7 @@ const numbers = (tendons: number[]) => {
 /** What a section asks for, in the words of a device. */
 export function advice({word, slack = [], point, envelope}: SectionFrame, tolerance: number, system: System): string {
   const kind = kindOf(word), most = Math.max(0, ...slack.map(Math.abs)), which = (is: (value: number) => boolean) => slack.flatMap((value, i) => (is(value) ? [i] : []));
+  if ((kind === 'slack' && !(most > tolerance)) || (kind === 'over' && !slack.some((value) => value < 0))) return '';  // what tensions say
   if (kind === 'slack') return `Take in ${numbers(which((value) => value > tolerance))} by ${length(most, system)}.`;
   if (kind === 'over') return `Pay out ${numbers(which((value) => value < 0))} by ${length(most, system)}.`;
   if (kind !== 'unreachable' || !point || !envelope) return '';

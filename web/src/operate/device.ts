@@ -2,11 +2,10 @@
 import {Lost, Refused} from '../client';
 import type {DeviceInfo, Entry, Frame} from './frame';
 
-/** @param isLast sent even where the page is being closed */
-async function post(call: string, body: object, signal?: AbortSignal, isLast = false): Promise<any> {
+async function send(path: string, options: RequestInit): Promise<any> {
   let reply: Response;
   try {
-    reply = await fetch(`/api/device/${call}`, {method: 'POST', body: JSON.stringify(body), headers: {'Content-Type': 'application/json'}, keepalive: isLast, ...(signal && {signal})});
+    reply = await fetch(`/api/device/${path}`, {method: 'POST', ...options});
   } catch (error) {
     if (error instanceof TypeError) throw new Lost('no connection');
     throw error;
@@ -15,6 +14,13 @@ async function post(call: string, body: object, signal?: AbortSignal, isLast = f
   if (!reply.ok) throw new Refused(reply.status, json);
   return json;
 }
+
+/** Beside the recording. @return the name of its file */
+export const keepPicture = async (picture: Blob, words: string): Promise<string> => (await send(`snapshot?text=${encodeURIComponent(words)}`, {body: picture, headers: {'Content-Type': picture.type}})).name;
+
+/** @param isLast sent even where the page is being closed */
+const post = (call: string, body: object, signal?: AbortSignal, isLast = false): Promise<any> =>
+  send(call, {body: JSON.stringify(body), headers: {'Content-Type': 'application/json'}, keepalive: isLast, ...(signal && {signal})});
 
 /** What the server has at its other end; null where there is nothing, or an older server. */
 export async function findDevice(): Promise<DeviceInfo | null> {

@@ -1,12 +1,17 @@
 // The screen Operate: the state of each section, its diagram, the arm, and what it may be made to do.
-import {button, byId} from '../make';
+import {Robot} from '../client';
+import {describe} from '../described';
+import {download} from '../file';
 import {isText, type Key} from '../keys';
+import {button, byId} from '../make';
+import {sourceOf} from '../source';
 import {toast} from '../toast';
 import type {System} from '../units';
 import {ArmView} from './arm_view';
 import {Banner} from './banner';
 import {Cards} from './cards';
 import {clamped, isPolar, limitOf} from './coordinates';
+import {Device, keepPicture} from './device';
 import {Eye} from './eye';
 import {type Bend, type DeviceInfo, type Entry, type Frame, kindOf, type SectionFrame} from './frame';
 import {Gamepads} from './gamepad';
@@ -15,6 +20,9 @@ import {Log} from './log';
 import {NumbersDialog} from './numbers';
 import {isPhone} from './phone';
 import {lengthOf, Readings} from './readings';
+import {type Recording} from './recording';
+import {Replay, type Where} from './replay';
+import {reportOf} from './report';
 import {Sliders} from './sliders';
 import type {Opened, Stand, Subject} from './subject';
 
@@ -23,6 +31,7 @@ export interface Screen {
   guarded(task: () => Promise<unknown>, again?: () => unknown): Promise<void>;
   heard(): void;
   linked(): void;
+  turned(): void;  ///< another source is shown
 }
 
 const patience = 6000;  // ms that a refusal is shown
@@ -37,13 +46,14 @@ export class Operate {
   private readonly log = new Log(byId('op-events'));
   private readonly numbers = new NumbersDialog(this.root);
   private readonly notice = byId('op-notice');
-  private readonly eye = new Eye(byId('op-eye'), (is) => this.root.classList.toggle('has-camera', is), () => this.words(), (name) => this.snapped(name));
+  private readonly eye = new Eye(byId('op-eye'), (is) => this.root.classList.toggle('has-camera', is), {words: () => this.words(), keep: (picture, words) => this.keep(picture, words), took: (name, isKept) => this.snapped(name, isKept)});
   private readonly stageButton = button('Stage…', () => this.typeStage(), 'where Move is to take the stage');
   private readonly gamepads = new Gamepads({
     tilt: (section, by) => this.tilt(section === 'last' ? (this.opened?.described.answer.sections.length ?? 1) - 1 : this.cards.chosen, by), choose: (by) => this.cards.choose(this.cards.chosen + by),
     hold: () => this.live?.hold(), move: (isHeld) => this.live?.move(isHeld),
   });
   private opened: Opened | null = null;
+  private own: {opened: Opened; isOfDevice: boolean} | null = null;  // what there is beside a recording
   private subject: Subject | null = null;
   private drawing = 0;
   private noticed = 0;
@@ -72,6 +82,11 @@ export class Operate {
     return this.subject?.badge ?? 'SLIDERS';
   }
 
+  /** The recording that is replayed; null: none is. */
+  get replayed(): Recording | null {
+    return this.subject instanceof Replay ? this.subject.recording : null;
+  }
+
   /** For tests: what is drawn. */
   get frame(): Frame | null {
     return this.subject?.frame ?? null;
@@ -84,6 +99,10 @@ export class Operate {
 
   toLink(link: URLSearchParams): void {
     link.set('screen', 'operate');
+    if (this.subject instanceof Replay && this.subject.where.isOnServer) {
+      link.set('recording', this.subject.where.name);
+      link.set('t', String(Number(this.subject.at.toFixed(3))));
+    }
     if (this.subject instanceof Sliders && this.subject.slack.some((one) => one !== 0)) link.set('slack', this.subject.slack.join(','));
     if (this.cards.chosen > 0) link.set('section', String(this.cards.chosen));
   }
@@ -91,20 +110,78 @@ export class Operate {
   /** Another robot, or another text of it. */
   use(opened: Opened, isOfDevice: boolean, link: URLSearchParams | null): void {
     const slack = link?.get('slack')?.split(',').map(Number).filter(Number.isFinite) ?? (this.subject instanceof Sliders ? this.subject.slack : []);
+    this.own = {opened, isOfDevice};
+    this.change(opened, () => (this.info && isOfDevice ? new Live(opened, this.info, this.stand, this.root) : new Sliders(opened, this.stand, slack)), link);
+  }
+
+  /** Why no recording can be shown now; empty: one can. */
+  get busy(): string {
+    return this.live?.control.isMine ? 'this page controls the device: Release it, then open the recording' : '';
+  }
+
+  /** @throws Refused where its robot is none here */
+  async replay(recording: Recording, where: Omit<Where, 'other'>, link: URLSearchParams | null): Promise<void> {
+    const robot = await Robot.open(recording.text), described = await describe(robot), {text} = recording;
+    if (!described.isSerial || described.answer.sections.length !== recording.sections) throw new Error(`${where.name}: it has ${recording.sections} sections, the robot in it ${described.isSerial ? described.answer.sections.length : 'is none of sections'}: copy the file anew`);
+    const source = await sourceOf(recording.robot, text, text, described.answer), opened: Opened = {robot, described, source, inputs: described.inputs.map(({home}) => home)};
+    const orders = {report: () => void this.report(), close: () => this.endReplay(), hold: this.info ? () => void this.holdDevice() : null}, other = this.otherThan(recording);
+    this.change(opened, () => new Replay(opened, recording, {...where, other}, this.stand, orders), link);
+    if (this.subject instanceof Replay) this.subject.go(Number(link?.get('t') ?? 0));
+    const notes = [other, recording.leftOut > 0 ? `${recording.leftOut} lines were left out: ${recording.wrong[0]}` : '', where.every > 1 ? `one measurement in ${where.every} is shown` : ''].filter(Boolean);
+    if (notes.length > 0) this.refuse(notes.join(' · '));
+  }
+
+  /** Whose it is, where that is another one than is open. */
+  private otherThan({robot, table, text}: Recording): string {
+    const own = this.own?.opened.source;
+    if (!own || own.text.trim() === text.trim()) return '';
+    return this.own!.isOfDevice ? `recorded of another robot than the device that is here: ${robot}, table ${table}` : own.name === robot || own.text.includes(`name: ${robot}\n`) ? `recorded with another file of ${robot} than the one that is open, table ${table}` : '';
+  }
+
+  private endReplay(): void {
+    const {own} = this;
+    if (own) return this.use(own.opened, own.isOfDevice, null);
+    this.subject?.close();
+    [this.subject, this.opened] = [null, null];
+    this.root.classList.add('waiting');
+    this.screen.turned();
+  }
+
+  private async report(): Promise<void> {
+    const {subject, opened} = this;
+    if (!(subject instanceof Replay) || !opened) return;
+    subject.isReporting = true;
+    await this.screen.guarded(async () => {
+      const {recording, where} = subject, name = where.name.replace(/[^\w.-]+/g, '-');
+      download(`${name}-report.html`, await reportOf(opened, recording, where.isOnServer ? where.name : ''), 'text/html');
+      toast(`${name}-report.html is saved`);
+    });
+    subject.isReporting = false;
+  }
+
+  /** Of the device beside a recording. */
+  private async holdDevice(): Promise<void> {
+    await new Device(this.info!, {frame() {}, entry() {}, again() {}}).call('hold').then(() => toast('the device is held'), (error) => this.refuse(error.message));
+  }
+
+  private change(opened: Opened, make: () => Subject, link: URLSearchParams | null): void {
     this.subject?.close();
     this.opened = opened;
     this.log.clear();
     this.view.forget();
-    const {sections} = opened.described.answer;
-    this.subject = this.info && isOfDevice ? new Live(opened, this.info, this.stand, this.root) : new Sliders(opened, this.stand, slack);
-    this.log.extra.replaceChildren(...(this.subject instanceof Live ? this.subject.extras() : []));
-    this.stageButton.hidden = !(this.subject instanceof Live && this.info!.has_stage);
-    this.root.dataset.source = this.subject instanceof Live ? 'device' : 'sliders';
-    this.cards.begin(sections.length);
+    const subject = this.subject = make();
+    this.log.extra.replaceChildren(...(subject instanceof Live || subject instanceof Replay ? subject.extras() : []));
+    this.stageButton.hidden = !(subject instanceof Live && this.info!.has_stage);
+    this.root.dataset.source = subject instanceof Live ? 'device' : subject instanceof Replay ? 'log' : 'sliders';
+    this.root.classList.remove('has-picture');
+    byId('op-eye').querySelector('.kept-picture')?.remove();
+    if (subject instanceof Replay) byId('op-eye').append(subject.picture);
+    this.cards.begin(opened.described.answer.sections.length);
     const chosen = Number(link?.get('section'));
     if (link?.get('section') && Number.isInteger(chosen)) this.cards.choose(chosen);
-    byId('op-bar').replaceChildren(this.subject.bar);
-    if (this.isShown) this.subject.enter();
+    byId('op-bar').replaceChildren(subject.bar);
+    if (this.isShown) subject.enter();
+    this.screen.turned();
   }
 
   enter(inputs: number[]): void {
@@ -154,6 +231,7 @@ export class Operate {
   /** Hold comes before all else that a key may mean; motions last as long as their key is down. */
   private keyDown(event: KeyboardEvent): void {
     const {live} = this, target = event.composedPath()[0] ?? null;
+    if (event.key === 'Escape' && this.isShown && this.info && this.subject instanceof Replay && !event.repeat) void this.holdDevice();
     if (!live) return;
     if (event.key === 'Escape') {
       if (!event.repeat) live.hold();
@@ -205,7 +283,7 @@ export class Operate {
   // What is shown
 
   private readonly stand: Stand = {
-    system: () => this.screen.system(), chosen: () => this.cards.chosen, changed: () => this.changed(), linked: () => this.screen.linked(), say: (why) => this.refuse(why),
+    system: () => this.screen.system(), chosen: () => this.cards.chosen, changed: () => this.changed(), linked: () => this.screen.linked(), turned: () => this.screen.turned(), say: (why) => this.refuse(why),
     entry: (entry: Entry) => this.log.put(entry), forgetEntries: () => this.log.clear(), guarded: (task, again) => this.screen.guarded(task, again), heard: () => this.screen.heard(),
   };
 
@@ -229,8 +307,8 @@ export class Operate {
     this.banner.show({...frame, sections}, lost ?? null, system);
     this.cards.show(sections, (i) => ({
       isDisc: this.isDisc(i), limit: this.limit(i), given: given(sections, i), age: kindOf(sections[i]!.word) === 'stale' ? age : '', tensionLimit: subject.tensionLimit, system,
-    }), now);
-    const inserted = subject instanceof Live && this.info!.has_stage ? `${lengthOf(frame.insertion, system)} in` : '';
+    }), subject instanceof Replay ? subject.now : now);
+    const inserted = (subject instanceof Live && this.info!.has_stage) || (subject instanceof Replay && subject.recording.hasStage) ? `${lengthOf(frame.insertion, system)} in` : '';
     if (byId('op-inserted').textContent !== inserted) byId('op-inserted').textContent = inserted;
     if (isPhone.matches) this.follow(frame.alarm?.section ?? -1);
     if (shape) this.view.show(shape, subject.ghost, sections.map(({word}) => kindOf(word)), subject.isStale);
@@ -257,8 +335,21 @@ export class Operate {
     return [new Date().toISOString(), `set-points [rad]: ${JSON.stringify(subject?.targets())}`, `measured [rad]: ${JSON.stringify(subject?.frame?.sections.map(({measured, point}) => measured ?? point))}`, '', robot].join('\n');
   }
 
-  private snapped(name: string): void {
-    if (name) toast(`${name} is saved, with time, set-points and robot in it`);
+  /** Beside the recording, where one is made. @return its name; empty: nothing is recorded */
+  private async keep(picture: Blob, words: string): Promise<string> {
+    const {live} = this;
+    if (!live?.frame?.recording || live.frame.recording.error) return '';
+    try {
+      return await keepPicture(picture, words);
+    } catch (error) {
+      this.refuse(`the server did not keep it, it is saved here: ${(error as Error).message}`);
+      return '';
+    }
+  }
+
+  private snapped(name: string, isKept = false): void {
+    if (isKept) toast(`${name} is kept beside the recording`);
+    else if (name) toast(`${name} is saved, with time, set-points and robot in it`);
     else this.refuse('no camera is shown: there is nothing to keep');
   }
 }

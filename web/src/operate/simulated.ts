@@ -18,7 +18,7 @@ export interface Wish {
 /** Points of each joint, so that few long joints look round. */
 export const samplesOf = (sections: Json[]): number => Math.max(5, Math.ceil(40 / Math.min(...sections.map((one) => one.segments))));
 
-function isNear({point, envelope}: Json): boolean {
+export function isNear({point, envelope}: Json): boolean {
   const [x, y] = point as Bend, {kind, limit} = envelope;
   return (kind === 'disc' ? Math.hypot(x, y) : Math.max(Math.abs(x), Math.abs(y))) >= near * limit;
 }

@@ -15,6 +15,7 @@ export interface Stand {
   chosen(): number;
   changed(): void;                ///< draw it: soon, and once for all that has changed
   linked(): void;                 ///< the address is another one
+  turned(): void;                 ///< so is the badge
   say(why: string): void;         ///< why something was refused, or did not go
   entry(entry: Entry): void;
   forgetEntries(): void;

@@ -8,6 +8,7 @@ export class Trail {
   private readonly list: {at: number; bend: Bend}[] = [];
 
   put(bend: Bend, now: number): void {
+    if (this.list.length > 0 && this.list.at(-1)!.at > now) this.clear();  // a recording was wound back
     const last = this.list.at(-1)?.bend;
     if (!last || Math.hypot(last[0] - bend[0], last[1] - bend[1]) > least) this.list.push({at: now, bend});
     while (this.list.length > 0 && this.list[0]!.at < now - kept) this.list.shift();
