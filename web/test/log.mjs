@@ -124,6 +124,13 @@ export async function log_time(browser) {
   const slider = page.getByRole('slider', {name: 'Time'}), box = await slider.boundingBox();
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   assert.ok(Math.abs(await time() / times.at(-1) - 0.5) < 0.05);
+  // the arm as large as the page
+  await page.getByRole('button', {name: 'Full'}).click();
+  await drawn(page);
+  const [arm, line] = [await page.locator('#op-arm').boundingBox(), await page.locator('#op-bar').boundingBox()];
+  assert.ok(arm.width > 1200 && arm.height > 500 && arm.y + arm.height <= line.y, 'it has the place of all else');
+  assert.ok(await page.locator('.kept-picture').isHidden());
+  await page.getByRole('button', {name: 'Full'}).click();
   // nothing is set in what was
   await page.locator('.plot-of').first().click();
   await page.locator('#op-notice', {hasText: 'this is a recording'}).waitFor();

@@ -22,6 +22,8 @@ export class Recording {
   readonly stretches: Stretch[] = [];  ///< by their beginning
   readonly wrong: string[] = [];       ///< rows that were left out, the first few in words
   leftOut = 0;
+  hasStage = false;
+  hasTension = false;
   times: Column = new Float64Array();
   private columns = new Map<string, Column>();
   private readonly ofSection: Stretch[][] = [];
@@ -34,8 +36,6 @@ export class Recording {
   get date(): string { return this.facts.get('date') ?? ''; }
   get tensionLimit(): number { return Number(this.facts.get('tension limit [N]')) || 0; }
   get rows(): number { return this.times.length; }
-  get hasStage(): boolean { return this.column('measured_stage').some(Number.isFinite); }
-  get hasTension(): boolean { return this.column('S0_tension_1').some(Number.isFinite); }
   get alarms(): Stretch[] { return this.stretches.filter(({word}) => kindOf(word) !== 'exact'); }
 
   /** @param name of its file @throws Unreadable */
@@ -86,6 +86,8 @@ export class Recording {
     for (const own of this.ofSection) if (own.length > 0) own.at(-1)!.to = before;
     for (const at of numeric) this.columns.set(names[at]!, Float64Array.from(rows, (fields) => (fields[at] === '' ? NaN : Number(fields[at]))));
     this.times = this.column('time');
+    this.hasStage = this.column('measured_stage').some(Number.isFinite);
+    this.hasTension = this.column('S0_tension_1').some(Number.isFinite);
   }
 
   private leave(why: string): void {
@@ -172,4 +174,4 @@ function split(line: string, size: number): string[] | null {
 }
 
 const happened = (time: number, clock: string, kind: string, text: string): Happened =>
-  ({time, clock, kind, text, picture: kind === 'snapshot' ? /-(\d{3})\.(?:jpg|png)/.exec(text)?.[1] ?? '' : ''});
+  ({time, clock, kind, text, picture: kind === 'snapshot' ? /^[^,]*-(\d{3})\.(?:jpg|png), /.exec(text)?.[1] ?? '' : ''});
