@@ -125,6 +125,11 @@ Reply Calls::device() {
   return device_->describe([this](const std::string& text) { return robots_.open(text).value_or(""); });
 }
 
+Reply Calls::device_plan() {
+  if (device_) return device_->plan();
+  return refused(404, "no_device", "device", "this server has none: start it with --device or --demo");
+}
+
 Reply Calls::device_post(std::string_view call, const std::string& body) {
   if (!device_)
     return refused(404, "no_device", "device", "this server has none: start it with --device or --demo");

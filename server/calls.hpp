@@ -34,6 +34,7 @@ class Calls {
       const Watchdog::IsOver& is_gone = [] { return false; });
   JobCalls& jobs() { return jobs_; }
   Reply device();
+  Reply device_plan();
   Reply device_post(std::string_view call, const std::string& body);
   Reply snapshot(bool is_jpeg, const std::string& text, const std::string& picture);
   tl::expected<std::shared_ptr<device::FeedStream>, Reply> device_events();

@@ -157,6 +157,7 @@ struct Server::State {
     return calls.jobs().start(body, request.remote_addr);
   }
   Reply on_device(const Request&) { return calls.device(); }
+  Reply on_device_plan(const Request&) { return calls.device_plan(); }
   Reply on_device_post(const Request& request, const std::string& body) {
     return calls.device_post(request.matches[1].str(), body);
   }
@@ -297,6 +298,8 @@ void Server::State::route_device() {
   get("/api/device", &State::on_device);
   post("/api/device/snapshot", {"image/jpeg", "image/png"}, picture, &State::on_snapshot);
   http.Get("/api/device/events", [this](const Request&, Response& response) { show_device(response); });
+  get("/api/device/plan", &State::on_device_plan);
+  post("/api/device/(plan)", {"application/json"}, options.limits.body, &State::on_device_post);
   post("/api/device/([^/]*)", {"application/json"}, most, &State::on_device_post);
 }
 

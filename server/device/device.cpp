@@ -9,6 +9,7 @@
 #include <fstream>
 #include <utility>
 
+#include "server/robots.hpp"
 #include "sinew/io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
@@ -92,7 +93,8 @@ std::optional<Bends> bends_at(const Json& body) {
 std::optional<Activity> button_of(std::string_view call) {
   constexpr std::pair<std::string_view, Activity> buttons[] = {
       {"move", Activity::moving},     {"straighten", Activity::straighten}, {"retract", Activity::retract},
-      {"advance", Activity::advance}, {"relax", Activity::relax},           {"home", Activity::homing}};
+      {"advance", Activity::advance}, {"relax", Activity::relax},           {"home", Activity::homing},
+      {"follow", Activity::follow}};
   for (const auto& [name, activity] : buttons)
     if (name == call) return activity;
   return {};
@@ -100,7 +102,7 @@ std::optional<Activity> button_of(std::string_view call) {
 
 /// The robot as text and document; a demonstration gives it the firmware's motor where it has none.
 struct RobotFile {
-  std::string text;
+  std::string text, file_text;  ///< with that motor, and as it was read
   Document document;
 };
 Expected<RobotFile> read_file(const std::string& robot, bool is_demo) {
@@ -110,18 +112,21 @@ Expected<RobotFile> read_file(const std::string& robot, bool is_demo) {
   if (!text) return tl::unexpected(text.error());
   auto document = parse_yaml(*text, robot);
   if (!document) return tl::unexpected(document.error());
+  std::string file_text = *text;
   if (is_demo && is_serial(*document) && !document->root.find("motor")) {
     *text += demo_motor;
     document = parse_yaml(*text, robot);
     if (!document) return tl::unexpected(document.error());
   }
-  return RobotFile{std::move(*text), std::move(*document)};
+  return RobotFile{std::move(*text), std::move(file_text), std::move(*document)};
 }
 
 }  // namespace
 
-Device::Device(std::string text, const DeviceOptions& options, Arm arm, Judge judge)
+Device::Device(std::string text, std::string file_text, const DeviceOptions& options, Arm arm, Judge judge)
     : text_(std::move(text)),
+      handle_(handle_of(text_)),
+      file_handle_(handle_of(file_text)),
       options_(options),
       recording_(options.folder, text_),
       link_([this]() -> std::unique_ptr<Wire> {
@@ -151,8 +156,8 @@ Expected<std::unique_ptr<Device>> Device::open(const std::string& robot, const D
     return tl::unexpected(port.error());  // later it may come and go
   }
   Judge judge(std::move(*session), *arm);
-  std::unique_ptr<Device> device(
-      new Device(std::move(file->text), chosen, std::move(*arm), std::move(judge)));
+  std::unique_ptr<Device> device(new Device(std::move(file->text), std::move(file->file_text), chosen,
+                                            std::move(*arm), std::move(judge)));
   device->simulated_ = std::move(simulated);
   device->thread_ = std::jthread([self = device.get()](const std::stop_token& over) { self->run(over); });
   return device;
@@ -209,6 +214,7 @@ Reply Device::describe(const HandleOf& handle_of) {
   const nlohmann::ordered_json json{{"source", options_.is_demo ? "demo" : "port"},
                                     {"name", options_.port},
                                     {"robot", handle},
+                                    {"file", file_handle_},
                                     {"sections", arm.sections()},
                                     {"tendons", arm.tendons()},
                                     {"has_tension", hello && hello->has_tension},
@@ -229,6 +235,7 @@ Reply Device::post(std::string_view call, const std::string& body) {
   const Json json = Json::parse(body, nullptr, false);
   if (!json.is_object()) return refused(400, "json_syntax", "body", "give an object, {...}");
   if (call == "fault") return fault(json);
+  if (call == "plan") return plan(json);
   const std::lock_guard lock(mutex_);
   if (call == "lease") return lease(json, now());
   if (call == "target") return target(json, text_at(json, "lease"), now());
@@ -252,7 +259,12 @@ Outcome Device::obey(std::string_view call, const Json& body, std::string_view s
   }
   const double section = number_at(body, "section").value_or(-1);
   const auto index = section >= 0 && section < 256 ? static_cast<std::size_t>(section) : std::size_t{256};
-  return panel_.press(*button_of(call), secret, is_true(body, "held"), now, index);
+  Activity activity = *button_of(call);
+  const bool is_held = is_true(body, "held");
+  // A release is one, whichever way it went.
+  const bool is_back = is_held ? is_true(body, "back") : panel_.activity() == Activity::follow_back;
+  if (activity == Activity::follow && is_back) activity = Activity::follow_back;
+  return panel_.press(activity, secret, is_held, now, index);
 }
 
 Reply Device::lease(const Json& body, double now) {
@@ -287,6 +299,29 @@ Reply Device::snapshot(bool is_jpeg, const std::string& text, std::string pictur
   if (const auto no = panel_.keep_picture(std::move(picture), is_jpeg ? "jpg" : "png", words, name))
     return told(*no);
   return {200, text_of(nlohmann::ordered_json{{"name", name}})};
+}
+
+Reply Device::plan() {
+  const std::lock_guard lock(mutex_);
+  return {200, text_of(nlohmann::ordered_json{{"plan", panel_.plan()}})};
+}
+
+/// What is in the body is looked at before the lock is taken.
+Reply Device::plan(const Json& body) {
+  auto read = read_plan(body);
+  if (!read) return refused(400, read.error().code, read.error().where, read.error().message);
+  const std::lock_guard lock(mutex_);
+  const double now = this->now();
+  if (!read->plan) {
+    if (const auto no = panel_.drop_plan(read->lease, now)) return told(*no);
+    return {200, "{}"};
+  }
+  if (read->robot != handle_ && read->robot != file_handle_)
+    return refused(409, "another_robot", "robot",
+                   "the plan is of another robot than the device: plan with its file, as sinew serve was "
+                   "started with, or start it with the robot of the scene");
+  if (const auto no = panel_.load_plan(read->lease, std::move(*read->plan), now)) return told(*no);
+  return {200, text_of(nlohmann::ordered_json{{"plan", panel_.frame(now)["plan"]}})};
 }
 
 /// Not under the lock: the simulator may take its time.

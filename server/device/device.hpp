@@ -13,6 +13,7 @@
 
 #include "feed.hpp"
 #include "panel/panel.hpp"
+#include "plan_body.hpp"
 #include "recording.hpp"
 #include "server/reply.hpp"
 #include "simulated.hpp"
@@ -47,21 +48,24 @@ class Device {
   Reply post(std::string_view call, const std::string& body);
   /// Keeps a picture beside the recording.
   Reply snapshot(bool is_jpeg, const std::string& text, std::string picture);
+  /// The plan that is loaded, as it was given, or null.
+  Reply plan();
   tl::expected<std::shared_ptr<FeedStream>, Reply> listen();
   /// Disarms it; the thread ends.
   void stop();
 
  private:
-  Device(std::string text, const DeviceOptions& options, Arm arm, Judge judge);
+  Device(std::string text, std::string file_text, const DeviceOptions& options, Arm arm, Judge judge);
   double now() const;
   void run(const std::stop_token& over);
   void publish(double now);
   Reply lease(const nlohmann::json& body, double now);
   Reply target(const nlohmann::json& body, std::string_view secret, double now);
   Reply fault(const nlohmann::json& body);
+  Reply plan(const nlohmann::json& body);
   Outcome obey(std::string_view call, const nlohmann::json& body, std::string_view secret, double now);
 
-  std::string text_;
+  std::string text_, handle_, file_handle_;
   DeviceOptions options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::unique_ptr<Simulated> simulated_;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -97,6 +98,7 @@ class PlayedLink : public Link {
     has_said_hello_ = false;
   }
   Hello& told() { return told_; }
+  Posture posture() { return {bends(), arm_.stage_length(positions_counts().back())}; }
   Bends bends() {
     std::vector<double> lengths = arm_.lengths(positions_counts());
     lengths.pop_back();
@@ -125,7 +127,8 @@ class PlayedLink : public Link {
   std::string verbs;                         ///< of all requests
   double moved = -1;                         ///< when a drive last moved
   double fastest = 0;                        ///< [m/s] of a tendon or the stage
-  bool is_silent = false;
+  bool is_silent = false, is_stuck = false;
+  std::function<void(const Posture&)> asked;  ///< is given each set-point of bends
 
  private:
   std::vector<std::int32_t> positions_counts() const {
@@ -133,6 +136,9 @@ class PlayedLink : public Link {
     for (const double position : positions)
       counts.push_back(static_cast<std::int32_t>(std::lround(position)));
     return counts;
+  }
+  static std::vector<double> as_doubles(const std::vector<std::int32_t>& counts) {
+    return {counts.begin(), counts.end()};
   }
   static std::int32_t read32(std::string_view bytes, std::size_t at) {
     std::int32_t value = 0;
@@ -151,7 +157,7 @@ class PlayedLink : public Link {
     if (dt <= 0) return;
     time_ = now;
     if (mode == DriveMode::armed && now - spoke_ > 0.2) mode = DriveMode::lost;
-    if (mode != DriveMode::armed || goal_.empty()) return;
+    if (mode != DriveMode::armed || goal_.empty() || is_stuck) return;
     const double share = ramp_end_ <= now ? 1 : dt / (ramp_end_ - now + dt);
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const double step = (goal_[i] - positions[i]) * share;
@@ -203,9 +209,9 @@ class PlayedLink : public Link {
         std::vector<std::int16_t> raw;
         for (std::size_t i = 0; i < 10; ++i)
           raw.push_back(static_cast<std::int16_t>(read16(payload, 2 + 2 * i)));
-        for (const std::int32_t count : arm_.counts({arm_.bends(raw, told_), 0}, false))
-          goal.push_back(count);
-        goal.push_back(read32(payload, 22));
+        const Posture pose{arm_.bends(raw, told_), arm_.stage_length(read32(payload, 22))};
+        goal = as_doubles(arm_.counts(pose, true));
+        if (asked) asked(pose);
       }
       const auto now_at = tensions();
       for (std::size_t i = 0; i < now_at.size(); ++i)

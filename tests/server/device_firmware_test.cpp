@@ -32,7 +32,7 @@ class Fuzz {
   void order() {
     const double now = board_.now();
     if (happens(random_, 0.6)) renew(now);
-    switch (random_() % 12) {
+    switch (random_() % 14) {
       case 0:
         if (std::string secret = happens(random_, 0.5) ? secret_ : "";
             !board_.panel.lease(secret, number_, now))
@@ -60,12 +60,16 @@ class Fuzz {
       case 8:
         fault();
         break;
+      case 9:
+      case 10:
+        set_plan(now);
+        break;
       default:
         press(now);
     }
     board_.run(happens(random_, 0.002) ? 0.45 : uniform(random_, 0, 0.007));
   }
-  long moved = 0, wrong = 0, orders = 0, armed = 0;
+  long moved = 0, wrong = 0, orders = 0, armed = 0, plans = 0, followed = 0;
   Board& board() { return board_; }
 
  private:
@@ -80,10 +84,32 @@ class Fuzz {
       bends.emplace_back(uniform(random_, -0.45, 0.45), uniform(random_, -0.4, 0.4));
     board_.panel.set_target(any_secret(), bends, uniform(random_, -0.01, 0.1), now);
   }
+  /// From where the arm is, or from anywhere; or none.
+  void set_plan(double now) {
+    if (!happens(random_, 0.05)) return;
+    if (happens(random_, 0.1)) {
+      board_.panel.drop_plan(any_secret(), now);
+      return;
+    }
+    const auto frame = board_.panel.frame(now);
+    DrivePlan plan{"random", {{Bends(5, Bend(0, 0)), frame["stage"]}}, {}};
+    for (std::size_t m = 0; m < 5; ++m)
+      if (const auto& measured = frame["sections"][m]["measured"]; measured.is_array())
+        plan.steps[0].bends[m] = Bend(measured[0], measured[1]);
+    for (int k = 0; k < 50; ++k) {
+      Posture next = plan.steps.back();
+      next.stage += uniform(random_, -1e-4, 1e-3);
+      for (Bend& bend : next.bends)
+        bend += Bend(uniform(random_, -0.03, 0.03), uniform(random_, -0.03, 0.03));
+      if (happens(random_, 0.001)) next.stage = 100;
+      plan.steps.push_back(next);
+    }
+    plans += !board_.panel.load_plan(any_secret(), plan, now);
+  }
   void press(double now) {
-    constexpr Activity buttons[] = {Activity::moving,  Activity::moving,  Activity::straighten,
-                                    Activity::retract, Activity::advance, Activity::relax,
-                                    Activity::homing};
+    constexpr Activity buttons[] = {Activity::moving,  Activity::straighten, Activity::retract,
+                                    Activity::advance, Activity::relax,      Activity::homing,
+                                    Activity::follow,  Activity::follow,     Activity::follow_back};
     if (now < silent_until_) return;  // fingers off, without a word; the page goes on
     if (happens(random_, 0.02)) silent_until_ = now + 0.5;
     // Fingers stay on a button for a while.
@@ -132,6 +158,7 @@ class Fuzz {
     if (positions_ == board_.drives.positions) return;
     positions_ = board_.drives.positions;
     ++moved;
+    followed += board_.panel.activity() == Activity::follow;
     const bool may = board_.now() <= allowed_until_;
     wrong += !may;
     if (!may && wrong < 4)
@@ -165,9 +192,11 @@ TEST(DeviceFirmware, NoOrderOfCommandsMovesWhatMayNotMove) {
   EXPECT_EQ(fuzz.wrong, 0);
   EXPECT_GT(fuzz.moved, orders / 20) << "it has to move at all";
   EXPECT_GT(fuzz.armed, orders / 20);
+  EXPECT_GT(fuzz.plans, 10);
+  EXPECT_GT(fuzz.followed, 100);
   RecordProperty("moved_ms", static_cast<int>(fuzz.moved));
-  std::printf("%d orders, %.0f s, %ld ms armed, %ld ms moving\n", orders, fuzz.board().now(), fuzz.armed,
-              fuzz.moved);
+  std::printf("%d orders, %.0f s, %ld ms armed, %ld ms moving, %ld plans, %ld ms along them\n", orders,
+              fuzz.board().now(), fuzz.armed, fuzz.moved, fuzz.plans, fuzz.followed);
 }
 
 /// A page that renews its lease and holds a button.

@@ -140,5 +140,47 @@ TEST(DeviceHttp, TwoPagesAtOneDevice) {
   EXPECT_NE(std::ranges::find(log, "device found"), log.end());
 }
 
+TEST(DeviceHttp, APlanIsLoadedWhereItIsOfTheSameRobot) {
+  Desk desk(with_demo());
+  Events events(desk.port);
+  ASSERT_TRUE(events.await([](const json& frame) { return frame["link"] == "ok"; }));
+  const json device = json::parse(desk.get("/api/device"))["device"];
+  EXPECT_NE(device["file"], device["robot"]) << "it names no motor: that of the firmware is added";
+  const json mine = json::parse(desk.post("/api/device/lease", "{}"));
+  json plan{{"lease", mine["lease"]}, {"robot", device["file"]}, {"name", "wall"}, {"steps", json::array()}};
+  for (int k = 0; k < 3000; ++k) {
+    json bends = json::array();
+    for (int m = 0; m < 5; ++m) bends.push_back({1e-5 * k, -1.234567890123e-5 * k});
+    plan["steps"].push_back({{"bends", bends}, {"stage", 1e-5 * k}});
+  }
+  EXPECT_GT(plan.dump().size(), 300'000u);
+  EXPECT_EQ(code_of(desk, "plan", plan), "");
+  EXPECT_TRUE(events.await([](const json& frame) { return frame["plan"].is_object(); }));
+  EXPECT_EQ(events.frame()["plan"]["name"], "wall");
+  const json told = json::parse(desk.get("/api/device/plan"))["plan"];
+  EXPECT_EQ(told["steps"], plan["steps"]);
+  EXPECT_EQ(code_of(desk, "follow", {{"lease", mine["lease"]}, {"held", true}}), "not_armed");
+  EXPECT_EQ(code_of(desk, "follow", {{"lease", mine["lease"]}, {"held", true}, {"back", true}}), "not_armed");
+  plan["robot"] = "0123";
+  EXPECT_EQ(code_of(desk, "plan", plan), "another_robot");
+  plan.erase("robot");
+  EXPECT_EQ(code_of(desk, "plan", plan), "another_robot");
+  desk.post("/api/device/plan", std::string(1'000'000, '['));
+  EXPECT_EQ(desk.status, 400);
+  desk.post("/api/device/plan", R"({"name": "x", "steps": [{"bends": [[1e999, 0]], "stage": 0}]})");
+  EXPECT_EQ(desk.status, 400);
+  desk.post("/api/device/plan", std::string((1U << 20U) + 1, ' '));
+  EXPECT_EQ(desk.status, 413);
+  desk.post("/api/device/target", std::string(20'000, ' '));
+  EXPECT_EQ(desk.status, 413) << "other commands are short";
+  EXPECT_EQ(events.frame()["plan"]["name"], "wall") << "what is refused changes nothing";
+  code_of(desk, "lease", {{"lease", mine["lease"]}});
+  EXPECT_EQ(code_of(desk, "plan", {{"lease", "another"}}), "not_yours");
+  json last = json::parse(desk.post("/api/device/lease", json{{"lease", mine["lease"]}}.dump()));
+  if (!last.contains("lease")) last = json::parse(desk.post("/api/device/lease", "{}"));  // 300 ms are over
+  EXPECT_EQ(code_of(desk, "plan", {{"lease", last["lease"]}}), "");
+  EXPECT_EQ(desk.get("/api/device/plan"), R"({"plan":null})");
+}
+
 }  // namespace device_http_test
 }  // namespace sinew::server

@@ -57,6 +57,7 @@ void Panel::tick(double now) {
   if (is_arming_ && now_ - asked_arm_ > arm_patience)
     disarm(recording_.is_opening() ? "the disk did not take the recording" : "the controller did not arm");
   see_recording();
+  if (is_on_plan_) keep_on_path();
   if (link_.is_free() && fits_) ask_next(now_);
 }
 
@@ -86,6 +87,7 @@ void Panel::take(const LinkEvent& event, double now) {
     fits_ = hello.version >= 3 && static_cast<std::size_t>(hello.sections) == arm_.sections() &&
             static_cast<std::size_t>(hello.tendons) == arm_.tendons() && arm_.fits(hello);
     log("info", fits_ ? "device found" : "the firmware has another robot's table");
+    look_at_plan();
   }
 }
 
@@ -147,6 +149,7 @@ void Panel::take_state(std::string_view payload, double now) {
     has_setpoints_ = true;
   }
   if (path_.is_empty() && is_homed()) path_.record(measured());
+  if (plan_ && is_homed()) plan_->look(measured());
   // While it is homed anew, tendons are where no bends are.
   const bool is_known = is_homed() && activity_ != Activity::homing;
   for (std::size_t m = 0; m < arm_.sections(); ++m)
@@ -199,7 +202,7 @@ bool Panel::ask_motion(double now) {
   if (is_in_gap_ && ask_gap(way, now)) return true;
   if (!step_motion(way)) return false;
   ask_pose(now);
-  if (link_.hello()->stages > 0 && activity_ != Activity::retract) path_.record(motion_->set());
+  record_way();
   const bool has_passed_target = activity_ == Activity::retract || activity_ == Activity::advance;
   if (has_passed_target && target_stage_) target_stage_ = motion_->set().stage;  // Move does not undo it
   return true;
@@ -212,7 +215,10 @@ bool Panel::step_motion(double way) {
     case Activity::straighten:
       return motion_->go_to({Bends(arm_.sections(), Bend(0, 0)), motion_->set().stage}, way);
     case Activity::retract:
-      return motion_->go_back(path_, way);
+      return step_plan(true, way) || motion_->go_back(path_, way);
+    case Activity::follow:
+    case Activity::follow_back:
+      return step_plan(activity_ == Activity::follow_back, way);
     case Activity::advance:
       return motion_->advance(target(motion_->set()).bends, way);
     default:

@@ -7,15 +7,23 @@ namespace sinew::server::device {
 namespace {
 
 constexpr double least_step = 2e-4;            // [m] between recorded postures, of a tendon or the stage
+constexpr double least_bend = 2e-3;            // [rad]
 constexpr std::size_t most_postures = 50'000;  // 10 m of way
 
 /// Cheap, and enough to thin out a path.
 bool is_near(const Posture& a, const Posture& b) {
   double bend = 0;
   for (std::size_t m = 0; m < a.bends.size(); ++m) bend = std::max(bend, (a.bends[m] - b.bends[m]).norm());
-  constexpr double least_bend = 2e-3;  // [rad]
   return bend < least_bend && std::abs(a.stage - b.stage) < least_step;
 }
+
+double apart(const Posture& a, const Posture& b) {
+  double sum = std::abs(a.stage - b.stage) / least_step;
+  for (std::size_t m = 0; m < a.bends.size(); ++m) sum += (a.bends[m] - b.bends[m]).norm() / least_bend;
+  return sum;
+}
+
+}  // namespace
 
 Posture between(const Posture& from, const Posture& to, double share) {
   Posture result = from;
@@ -25,12 +33,17 @@ Posture between(const Posture& from, const Posture& to, double share) {
   return result;
 }
 
-}  // namespace
-
 void Path::record(const Posture& posture) {
   while (!postures_.empty() && postures_.back().stage > posture.stage) postures_.pop_back();
   if (!postures_.empty() && is_near(postures_.back(), posture)) return;
   if (postures_.size() < most_postures) postures_.push_back(posture);
+}
+
+void Path::rewind(const Posture& posture) {
+  while (postures_.size() > 1 &&
+         (postures_.back().stage > posture.stage ||
+          apart(postures_[postures_.size() - 2], posture) <= apart(postures_.back(), posture)))
+    postures_.pop_back();
 }
 
 bool Path::pop() {

@@ -10,11 +10,16 @@
 
 namespace sinew::server::device {
 
+/// Straight from the one to the other: stage and all bends in proportion.
+Posture between(const Posture& from, const Posture& to, double share);
+
 /// The way that the arm was inserted, by which it can be drawn back.
 class Path {
  public:
   /// Further on; of a posture farther out than the last ones these are forgotten.
   void record(const Posture& posture);
+  /// Of a posture on the way back: what lies behind it is forgotten.
+  void rewind(const Posture& posture);
   void forget() { postures_.clear(); }
   bool is_empty() const { return postures_.empty(); }
   const Posture& last() const { return postures_.back(); }

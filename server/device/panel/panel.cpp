@@ -38,8 +38,8 @@ std::string_view name_of(Mode mode) {
 }
 
 std::string_view name_of(Activity activity) {
-  constexpr std::string_view names[] = {"rest",    "moving", "straighten", "retract",
-                                        "advance", "relax",  "homing",     "holding"};
+  constexpr std::string_view names[] = {"rest",  "moving", "straighten", "retract", "advance",
+                                        "relax", "homing", "holding",    "follow",  "follow_back"};
   return names[static_cast<std::size_t>(activity)];
 }
 
@@ -146,6 +146,7 @@ Outcome Panel::disarm(std::string_view secret, double now) {
 void Panel::disarm(std::string_view why) {
   const bool was_driving = mode_ == Mode::armed || is_arming_ || wants_drives();
   stop();
+  if (plan_) plan_->leave();
   is_arming_ = false;
   is_freezing_ = false;
   if (mode_ == Mode::armed) mode_ = Mode::control;
@@ -157,6 +158,7 @@ void Panel::disarm(std::string_view why) {
 
 void Panel::stop(Activity next) {
   if (is_motion()) needs_release_ = true;
+  pause_plan();
   activity_ = next;
   is_in_gap_ = false;
 }
@@ -171,6 +173,7 @@ void Panel::let_go() {
 Outcome Panel::hold(double now) {
   lapse(now);
   stop(Activity::holding);
+  if (plan_) plan_->leave();
   needs_release_ = true;
   constexpr double once = 0.1;  // [s]: a second one while the first is under way changes nothing
   if (is_driving() && mode_ == Mode::armed && now_ - frozen_at_ > once) {
@@ -228,6 +231,7 @@ Outcome Panel::may_go(Activity activity) const {
   if (!is_homed()) return refused("not_homed", "its zeros are not set: hold Home until all tendons are done");
   if (auto no = check_recording()) return no;
   const bool has_stage = hello()->stages > 0;
+  if (activity == Activity::follow || activity == Activity::follow_back) return may_follow();
   if (activity == Activity::moving && !target_bends_ && !target_stage_)
     return refused("no_target", "set a target first");
   if (activity == Activity::straighten && is_inserted())
@@ -253,6 +257,7 @@ Outcome Panel::press(Activity activity, std::string_view secret, bool is_held, d
   if (activity_ == activity && (activity != Activity::relax || section == relaxed_section_)) return {};
   if (activity == Activity::homing && !wants_drives())
     if (auto no = begin_recording()) return no;
+  pause_plan();
   activity_ = activity;
   relaxed_section_ = section;
   relaxed_ = 0;
@@ -261,6 +266,7 @@ Outcome Panel::press(Activity activity, std::string_view secret, bool is_held, d
   if (mode_ != Mode::armed) asked_arm_ = now;
   motion_.emplace(arm_, stage_limit());
   motion_->begin(measured(), activity == Activity::advance);
+  if (plan_) enter_plan();
   log("info", fmt::format("{}{}", name_of(activity),
                           activity == Activity::relax ? fmt::format(" S{}", section + 1) : ""));
   return {};

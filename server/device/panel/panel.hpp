@@ -17,6 +17,8 @@
 #include "homing.hpp"
 #include "judge.hpp"
 #include "motion.hpp"
+#include "outcome.hpp"
+#include "plan.hpp"
 #include "server/device/recording.hpp"
 #include "server/device/times.hpp"
 #include "server/device/wire/link.hpp"
@@ -24,14 +26,19 @@
 
 namespace sinew::server::device {
 
-/// A command that is not obeyed: a stable code, and the way out in words.
-struct Refused {
-  std::string code, message;
-};
-using Outcome = std::optional<Refused>;  ///< nothing: it is done, or begun
-
 enum class Mode { view_only, control, armed };
-enum class Activity { rest, moving, straighten, retract, advance, relax, homing, holding };
+enum class Activity {
+  rest,
+  moving,
+  straighten,
+  retract,
+  advance,
+  relax,
+  homing,
+  holding,
+  follow,
+  follow_back
+};
 
 struct LogEntry {
   double time;
@@ -68,6 +75,9 @@ class Panel {
   /// @param name of its file
   Outcome keep_picture(std::string bytes, std::string_view extension, std::string_view text,
                        std::string& name);
+  /// A plan to be followed, in place of the one before. It is checked before anything moves.
+  Outcome load_plan(std::string_view secret, DrivePlan plan, double now);
+  Outcome drop_plan(std::string_view secret, double now);
   /// The server ends: nothing is wanted of the drives any more.
   void shut_down() { disarm("the server ends"); }
   /// @}
@@ -76,6 +86,8 @@ class Panel {
   void tick(double now);
 
   nlohmann::ordered_json frame(double now);
+  /// The plan as it was loaded, or null.
+  nlohmann::ordered_json plan() const;
   std::vector<LogEntry> take_log();
   void log(std::string_view kind, std::string_view text);
 
@@ -126,6 +138,16 @@ class Panel {
   void ask_counts(std::vector<std::int32_t> counts, double now, int milliseconds);
   void ask_pose(double now);
   bool step_motion(double way);
+  bool step_plan(bool is_back, double way);
+  void record_way();
+
+  Outcome may_follow() const;
+  Outcome off_path() const;
+  void enter_plan();
+  void pause_plan();
+  void keep_on_path();
+  void forget_plan(std::string_view why);
+  void look_at_plan();
 
   bool wants_drives() const;
   bool is_driving() const;
@@ -142,6 +164,7 @@ class Panel {
   nlohmann::ordered_json kept_json() const;
   nlohmann::ordered_json recording_json() const;
   nlohmann::ordered_json alarm_json(double now) const;
+  nlohmann::ordered_json plan_json() const;
 
   Arm arm_;
   Judge judge_;
@@ -186,6 +209,9 @@ class Panel {
   };
   std::optional<KeptHoming> kept_;
   Path path_;
+  std::optional<FollowedPlan> plan_;
+  int plan_number_ = 0;      ///< how many there were: another one has another number
+  bool is_on_plan_ = false;  ///< what moves follows it
 
   Bends bends_;                  ///< measured
   std::vector<double> lengths_;  ///< measured changes and stage [m]

@@ -116,6 +116,7 @@ Json Panel::frame(double now) {
   json["sections"] = Json::array();
   for (std::size_t m = 0; m < arm_.sections(); ++m) json["sections"].push_back(section_json(m));
   json["alarm"] = alarm_json(now);
+  json["plan"] = plan_json();
   return json;
 }
 
