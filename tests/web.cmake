@@ -10,7 +10,7 @@ if(SINEW_WEB AND CHROMIUM)
   set(web_page errors looks)
   set(web_operate operate log)
   if(TARGET sinew_plan)
-    list(APPEND web_page plans)
+    list(APPEND web_page plans drive)
   endif()
   foreach(name robots design honest page operate)
     add_test(NAME web.${name} COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/web/test/page.mjs $<TARGET_FILE:sinew_command> ${CHROMIUM}

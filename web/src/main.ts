@@ -18,8 +18,11 @@ import {type ScreenName, Screens} from './screens';
 import {findDevice} from './operate/device';
 import type {DeviceInfo} from './operate/frame';
 import {Operate} from './operate/operate';
+import {isPhone} from './operate/phone';
+import {wayOf} from './operate/plan_way';
 import {Recording, Unreadable} from './operate/recording';
 import {listRecordings, recordingText, RecordingsDialog} from './operate/recordings';
+import type {Plan} from './plan';
 import {makeSheet} from './sheet';
 import {Shell} from './shell';
 import {type Solution, Solutions} from './solutions';
@@ -196,6 +199,7 @@ class Page {
         this.link();
       },
       save: (picture, name) => this.stage.give(picture, name),
+      whyNot: (plan) => this.whyNotDriven(plan), drive: (plan) => void this.guarded(() => this.drive(plan)),
     });
     this.screens.offer('trajectory');
   }
@@ -216,6 +220,22 @@ class Page {
     this.entitle();
     this.command();
     this.link();
+  }
+
+  /** A plan moves the device that is the same robot; where there is none the arm of sliders. */
+  private whyNotDriven(plan: Plan): string {
+    const {device} = this;
+    if (!device) return '';
+    if (plan.robot.robot !== device.robot && plan.robot.robot !== device.file) return `the device is another robot than ${plan.robot.name}, of which the plan is: start sinew serve with that`;
+    if (isPhone.matches) return 'a phone looks on and holds';
+    return plan.status === 'checking' ? 'the plan is being checked: wait until it is' : plan.isGood ? '' : 'the plan touches, or exceeds a limit: see Checks';
+  }
+
+  private async drive(plan: Plan): Promise<void> {
+    const opened = this.device ? (await robots()).opened : null, {name, text} = opened ?? plan.robot;
+    if (this.source?.name !== name || this.source.isModified) await this.open(name, text, new URLSearchParams({screen: 'operate'}));
+    this.screens.show('operate');
+    this.panel.load(wayOf(plan));
   }
 
   private badge(): void {

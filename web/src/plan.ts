@@ -17,7 +17,8 @@ export class Plan {
   readonly check: Check | null;
   readonly scene: Json;
   readonly files: {scene: string; plan: string};
-  readonly robot: {name: string; text: string};
+  readonly robot: {name: string; text: string; robot: string};
+  readonly title: string;
   private readonly angles: string[];  ///< of each section the name of its first
   readonly spots: number[];  ///< steps where it is tight, the tightest first
   readonly failed: Run[];
@@ -26,6 +27,7 @@ export class Plan {
     this.handle = handle;
     [this.steps, this.check, this.scene, this.files, this.robot] = [told.steps, told.check, told.scene, told.files, told.robot];
     this.angles = told.angles;
+    this.title = told.name;
     this.spots = this.check ? tightSpots(this.check.steps.map(({clearance}) => clearance), this.check.reach) : [];
     this.failed = runs(this.steps, this.check);
   }
@@ -42,7 +44,16 @@ export class Plan {
 
   /** Of each section the symbols of its two angles: only bends of a neutral backbone are a size and a direction. */
   get anglesOf(): [string, string][] {
-    return this.steps[0]!.configuration.map((_, section) => (this.angles[section] === 'theta' ? ['θ', 'φ'] : ['β₁', 'β₂']));
+    return this.steps[0]!.configuration.map((_, section) => (this.isPolar(section) ? ['θ', 'φ'] : ['β₁', 'β₂']));
+  }
+
+  isPolar(section: number): boolean {
+    return this.angles[section] === 'theta';
+  }
+
+  /** Checked, and nothing is wrong with it as it is planned. */
+  get isGood(): boolean {
+    return this.status === 'clear' || this.status === 'clear_if_taut';
   }
 
   isBad(step: number): boolean {

@@ -4,6 +4,7 @@ import {type Json, meshes, plan as planOf, Refused} from './client';
 import {Curves} from './curves';
 import type {Key} from './keys';
 import {button, byId} from './make';
+import {isPhone} from './operate/phone';
 import {type Around, type Drawing, type Picture, type Solids} from './picture';
 import {makePicture} from './picture_of';
 import {Plan} from './plan';
@@ -24,6 +25,8 @@ export interface Screen {
   heard(): void;    ///< the server has answered
   guarded(task: () => Promise<unknown>, again?: () => unknown): Promise<void>;
   save(blob: Blob, name: string): void;
+  whyNot(plan: Plan): string;  ///< why it cannot be driven; empty: it can
+  drive(plan: Plan): void;
 }
 
 export class Trajectory {
@@ -33,6 +36,8 @@ export class Trajectory {
   private readonly transport = new Transport(byId('transport'), (step) => this.go(step), () => this.drawn === this.step || this.poses?.of(this.step) === null);
   private readonly cutter = button('Clip', () => this.cut(), 'leave out what lies before the tip (k)');
   private readonly follower = button('Follow', () => this.follow(), 'keep the tip where it is in the picture (t)');
+  private readonly tabs = ['Curves', 'Checks'].map((name) => button(name, () => this.turnTo(name.toLowerCase())));
+  private readonly driver = button('Drive…', () => this.drive());
   private picture: Picture | null = null;
   private plan: Plan | null = null;
   private poses: Poses | null = null;
@@ -48,11 +53,13 @@ export class Trajectory {
   constructor(private readonly listed: Json[], private readonly screen: Screen) {
     for (const {plan, name, scene} of listed) this.picker.add(new Option(scene ? `${name} (${scene})` : name, plan));
     this.picker.addEventListener('change', () => this.open(new URLSearchParams({plan: this.picker.value})));
-    const tabs = ['Curves', 'Checks'].map((name) => button(name, () => this.turnTo(name.toLowerCase())));
-    byId('way-tabs').append(...tabs);
+    byId('way-tabs').append(...this.tabs);
     this.turnTo('curves');
     byId('way-tools').append(button('Fit', () => this.fit(), 'all of the way in view (f)'), ...views.map(([key, view]) => button(view[0]!.toUpperCase() + view.slice(1), () => this.view(key), `view (${key})`)),
                              this.cutter, this.follower, button('Save', () => this.save(), 'save the picture (p)'));
+    const placeDriver = () => byId(isPhone.matches ? 'way-tabs' : 'way-tools').append(this.driver);
+    placeDriver();
+    isPhone.addEventListener('change', placeDriver);
     Object.assign((window as any).__sinew, {way: this});
   }
 
@@ -79,6 +86,7 @@ export class Trajectory {
       on(views.map(([key]) => key), 'from the side, above, the front, the tip', (key) => this.view(key)),
       on(['o'], 'parallel lines stay parallel, or not', () => this.picture?.toggleProjection()),
       on(['p'], 'save the picture', () => this.save()),
+      on(['v'], 'drive it: the screen Operate with this plan', () => this.drive()),
       on(['/'], 'choose a plan', () => this.picker.focus()),
     ];
   }
@@ -242,6 +250,9 @@ export class Trajectory {
     this.checks.show(plan, system, tips[plan.last]);
     this.transport.show(plan, system);
     this.curves.show(plan, tips, system);
+    const why = this.screen.whyNot(plan);
+    this.driver.ariaDisabled = String(why !== '');
+    this.driver.title = why || 'on the screen Operate: along this plan, while a button is held';
     if (this.step >= 0) this.checks.at(this.step, system, tips[this.step]);
   }
 
@@ -310,7 +321,13 @@ export class Trajectory {
   /** On a phone there is room for one of them. */
   private turnTo(tab: string): void {
     document.body.dataset.way = tab;
-    for (const one of byId('way-tabs').querySelectorAll('button')) one.setAttribute('aria-pressed', String(one.textContent!.toLowerCase() === tab));
+    for (const one of this.tabs) one.setAttribute('aria-pressed', String(one.textContent!.toLowerCase() === tab));
+  }
+
+  private drive(): void {
+    const {plan} = this, why = plan ? this.screen.whyNot(plan) : 'no plan is open';
+    if (why) toast(why);
+    else this.screen.drive(plan!);
   }
 
   private save(): void {

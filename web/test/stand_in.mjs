@@ -2,17 +2,19 @@
 // device, and passes all else on to a real server. The rules of a lease are the simplest that the page can live with.
 import {createServer, request} from 'node:http';
 
-const usual = {source: 'demo', name: '/dev/stand-in', sections: 5, tendons: 3, has_tension: true, tension_limit: 20, has_stage: true, stage_limit: 0.15, faults: true};
+const usual = {source: 'demo', name: '/dev/stand-in', file: '', sections: 5, tendons: 3, has_tension: true, tension_limit: 20, has_stage: true, stage_limit: 0.15, faults: true};
 
 /** @param robot the file that the server says it was started with */
 export async function standIn(url, robot, text, info = {}) {
   const said = [], refusals = {}, listeners = new Set(), entries = [];
-  let last = null, lease = null, number = 6;
+  let last = null, lease = null, number = 6, plan = null, plans = 0;
   const send = (response, event, data) => response.write(`event: ${event}\ndata: ${JSON.stringify(data)}\n\n`);
   const reply = (response, status, json) => {
     response.writeHead(status, {'Content-Type': 'application/json', 'Cache-Control': 'no-store'});
     response.end(JSON.stringify(json));
   };
+  /** What a frame says of the plan. */
+  const atStep = (place, more = {}) => ({name: plan.name, number: plan.number, step: Math.floor(place), of: plan.steps.length - 1, fraction: place % 1, clearance: plan.clearance?.[Math.floor(place)] ?? null, off_path: null, done: place === plan.steps.length - 1, ...more});
   const control = () => ({holder: lease ? number : null, since: '10:41'});
 
   function command(call, body, response) {
@@ -25,6 +27,10 @@ export async function standIn(url, robot, text, info = {}) {
       return reply(response, 200, {lease, number});
     }
     if (call === 'release') lease = null;
+    if (call === 'plan') {
+      plan = body.steps ? {name: body.name, number: ++plans, steps: body.steps, clearance: body.clearance ?? null} : null;
+      if (last) push({...last, plan: plan && atStep(0)});
+    }
     if (call === 'arm' && last) push({...last, state: 'armed', armed_left: 60});
     if (call === 'disarm' && last) push({...last, state: 'control', armed_left: 0, why: 'you disarmed'});
     if (call === 'release' && last) push({...last, control: control(), state: 'view_only'});
@@ -41,6 +47,7 @@ export async function standIn(url, robot, text, info = {}) {
       listeners.add(response);
       return response.on('close', () => listeners.delete(response));
     }
+    if (path === 'plan' && incoming.method === 'GET') return reply(response, 200, {plan});
     if (path === 'snapshot') {
       let bytes = 0;
       incoming.on('data', (part) => { bytes += part.length; });
@@ -81,8 +88,9 @@ export async function standIn(url, robot, text, info = {}) {
   await new Promise((done) => server.listen(0, '127.0.0.1', done));
   server.unref();
   return {
-    url: `http://127.0.0.1:${server.address().port}/`, said, refusals, push, control,
+    url: `http://127.0.0.1:${server.address().port}/`, said, refusals, push, control, atStep,
     get frame() { return last; },
+    get plan() { return plan; },
     get isTaken() { return lease !== null; },
     /** By another page. */
     takenElsewhere() { [lease, number] = ['elsewhere', 3]; },

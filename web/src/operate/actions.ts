@@ -2,6 +2,7 @@
 import {button, make} from '../make';
 import type {Control, Motion} from './control';
 import {type DeviceInfo, type Frame, kindOf} from './frame';
+import type {PlanButtons} from './plan_buttons';
 import {heldButton, Labelled} from './press';
 
 const [slowest, fastest, step] = [0.5, 20, 0.5];  // mm/s
@@ -27,13 +28,13 @@ export class Actions {
   private frame: Frame | null = null;
   private chosen = 0;
 
-  constructor(private readonly control: Control, info: DeviceInfo, private readonly orders: Orders, private readonly degreesOfMillimetre: () => number) {
+  constructor(private readonly control: Control, info: DeviceInfo, private readonly orders: Orders, private readonly plan: PlanButtons, private readonly degreesOfMillimetre: () => number) {
     this.hold.element.classList.add('hold');
     this.move.element.classList.add('move');
     this.slider.addEventListener('input', () => this.setSpeed(Number(this.slider.value)));
     const label = make('label', {htmlFor: 'jog-speed'}, 'Jog speed ', make('kbd', {textContent: '−'}), ' / ', make('kbd', {textContent: '+'}));
-    this.element.append(this.hold.element, ...(info.has_stage ? [make('div', {className: 'pair-of'}, this.advance.element, this.retract.element)] : []), this.straighten.element, this.relax.element,
-                        make('div', {className: 'speed'}, label, this.slider, this.speedText, this.turnText), make('div', {className: 'arming'}, this.move.element, this.arm.element, this.lease.element));
+    this.element.append(this.hold.element, ...(info.has_stage ? [make('div', {className: 'pair-of'}, this.advance.element, this.retract.element)] : []), this.straighten.element, this.plan.pair, this.relax.element,
+                        make('div', {className: 'speed'}, label, this.slider, this.speedText, this.turnText), make('div', {className: 'arming'}, this.move.element, this.plan.follow.element, this.arm.element, this.lease.element));
   }
 
   private motion(motion: Motion): Labelled {
@@ -44,6 +45,7 @@ export class Actions {
 
   /** By a button or a key. */
   press(motion: Motion): void {
+    if (motion === 'back' || (motion === 'move' && this.frame?.plan)) return this.frame?.plan ? this.plan.press(motion === 'back') : undefined;
     const why = this.locked(motion);
     if (why) return this.orders.say(why);
     this.control.press(motion, motion === 'relax' ? {section: this.relaxed} : {});
@@ -63,7 +65,9 @@ export class Actions {
     this.put(this.relax, `Relax S${this.relaxed + 1}`, '', 'relax', this.payOut);
     this.relax.element.classList.toggle('wanted', this.isOver);
     this.put(this.move, 'MOVE', 'M', 'move', isBusy('move') ? 'release to stop' : 'hold: to the target');
-    this.move.element.hidden = !isArmed;
+    this.move.element.hidden = !isArmed || !!frame.plan;
+    this.straighten.element.hidden = !!frame.plan;
+    this.showPlan(frame, isArmed);
     this.arm.element.hidden = !isMine;
     if (isArmed) this.arm.say('Disarm', 'X', `armed ${frame.armed_left.toFixed(0)} s`, false);
     else this.arm.say(this.isOver ? `DISARMED by S${this.over + 1}` : 'Arm…', '', this.isOver ? 'clear the alarm, then arm' : frame.why ? `disarmed: ${frame.why}` : 'nothing moves before', this.isOver);
@@ -73,6 +77,13 @@ export class Actions {
     else this.lease.say(taken ? 'VIEW ONLY' : 'Take control', '', taken ? `another page controls since ${frame.control.since}` : 'one page at a time may move it', taken);
     this.element.dataset.state = isArmed ? 'armed' : isMine ? 'control' : 'view';
     this.speed(frame);
+  }
+
+  private showPlan({plan}: Frame, isArmed: boolean): void {
+    if (!plan) return this.plan.hide();
+    const {off_path: off} = plan, {held} = this.control, lost = off && !off.to_first ? 'off path: retract' : null, isFirst = plan.step === 0 && plan.fraction === 0;
+    const follow = this.locked('follow') ?? lost, back = this.locked('back') ?? (off ? 'off path' : isFirst ? 'at its first step' : null);
+    this.plan.show(plan, {follow, back}, held === 'back' ? 'back' : held === 'follow' || (held === 'move' && off) ? 'follow' : null, isArmed);
   }
 
   private put(of: Labelled, word: string, key: string, motion: Motion, note: string): void {
@@ -113,6 +124,7 @@ export class Actions {
     if (motion === 'home') return null;
     if (!frame.homed) return 'not homed';
     if (motion === 'straighten' && frame.insertion > 5e-4) return `locked: ${(1e3 * frame.insertion).toFixed(0)} mm in`;
+    if (motion === 'advance' && frame.plan) return 'drop the plan first';
     if (frame.recording?.error) return 'recording failed';
     return frame.state === 'armed' ? null : 'arm first';
   }

@@ -7,7 +7,10 @@ import {isPhone} from './phone';
 
 const beat = 100;  // ms
 
-export type Motion = 'move' | 'straighten' | 'retract' | 'advance' | 'relax' | 'home';
+export type Motion = 'move' | 'straighten' | 'retract' | 'advance' | 'relax' | 'home' | 'follow' | 'back';
+
+/** Back along a plan is its call, too. */
+const callOf = (motion: Motion) => (motion === 'back' ? 'follow' : motion);
 
 const isDone = (motion: Motion) => motion === 'relax' || motion === 'home';
 
@@ -91,12 +94,22 @@ export class Control {
     this.isAiming = false;
   }
 
+  /** Until the device has it. */
+  target(goal: {bends: Bend[]; stage: number}): Promise<boolean> {
+    return this.ask('target', goal);
+  }
+
+  /** A plan to be followed; an empty one drops it. */
+  plan(body: object): Promise<boolean> {
+    return this.ask('plan', body);
+  }
+
   // What is held
 
   press(motion: Motion, body: object = {}): void {
     if (this.held) return;
     if (!this.isMine) return this.says('take control first');
-    [this.held, this.body] = [motion, body];
+    [this.held, this.body] = [motion, motion === 'back' ? {back: true} : body];
     this.changed();
     void this.tell();
     this.beating = window.setInterval(() => void this.tell(), beat);
@@ -109,7 +122,7 @@ export class Control {
     clearInterval(this.beating);
     this.flight?.abort();
     [this.held, this.flight] = [null, null];
-    const end = () => void this.device.call(held, {...body, lease, held: false}, undefined, isLast).catch(() => undefined);
+    const end = () => void this.device.call(callOf(held), {...body, lease, held: false}, undefined, isLast).catch(() => undefined);
     end();
     if (!isLast) setTimeout(() => this.held === held || end(), beat);
     this.changed();
@@ -120,7 +133,7 @@ export class Control {
     if (!held || this.flight) return;
     const flight = this.flight = new AbortController();
     try {
-      await this.device.call(held, {...this.body, lease: this.lease, held: true}, flight.signal);
+      await this.device.call(callOf(held), {...this.body, lease: this.lease, held: true}, flight.signal);
     } catch (error) {
       if (flight.signal.aborted) return;
       // What is done ends by itself, and says so only to the next heartbeat.

@@ -1,5 +1,5 @@
 // The calls of a device, and what it tells: frames, of which the newest counts, and its log.
-import {Lost, Refused} from '../client';
+import {type Json, Lost, Refused} from '../client';
 import type {DeviceInfo, Entry, Frame} from './frame';
 
 async function send(path: string, options: RequestInit): Promise<any> {
@@ -52,6 +52,13 @@ export class Device {
   deafen(): void {
     this.events?.close();
     this.events = null;
+  }
+
+  /** The plan that it has, as it was loaded. */
+  async plan(): Promise<Json> {
+    const reply = await fetch('/api/device/plan').catch(() => null);
+    if (!reply) throw new Lost('no connection');
+    return reply.ok ? reply.json() : {plan: null};
   }
 
   call(name: string, body: object = {}, signal?: AbortSignal, isLast = false): Promise<any> {

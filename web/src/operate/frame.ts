@@ -1,5 +1,6 @@
 // What the screen Operate shows of an arm: frames of a device, or answers to queries put into the same form.
 import type {Json} from '../client';
+import type {PlanFrame} from './plan_buttons';
 
 /** In the plane of a section's diagram [rad]: β₁, β₂ of a joint, or θ cos φ, θ sin φ of a neutral backbone. */
 export type Bend = [number, number];
@@ -41,7 +42,7 @@ export interface Frame {
   round_trip: number; rate: number; errors: number;
   control: {holder: number | null; since: string};
   state: 'view_only' | 'control' | 'armed';
-  activity: 'rest' | 'moving' | 'straighten' | 'retract' | 'advance' | 'relax' | 'homing' | 'holding';
+  activity: 'rest' | 'moving' | 'straighten' | 'retract' | 'advance' | 'relax' | 'homing' | 'holding' | 'follow' | 'follow_back';
   armed_left: number;
   why: string;
   homed: boolean;
@@ -53,10 +54,11 @@ export interface Frame {
   tip: number[];
   sections: SectionFrame[];
   alarm: Alarm | null;
+  plan?: PlanFrame | null;      ///< none: an older server
 }
 
 export interface DeviceInfo {
-  source: 'demo' | 'port'; name: string; robot: string; sections: number; tendons: number;
+  source: 'demo' | 'port'; name: string; robot: string; file: string; sections: number; tendons: number;
   has_tension: boolean; tension_limit: number; has_stage: boolean; stage_limit: number; faults: boolean;
 }
 

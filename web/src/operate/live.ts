@@ -9,8 +9,11 @@ import {Control} from './control';
 import {Device} from './device';
 import {type Bend, type DeviceInfo, type Frame, kindOf} from './frame';
 import {isPhone} from './phone';
+import {LivePlan} from './plan_live';
+import {PlanButtons} from './plan_buttons';
+import type {PlanWay, Posture, TipPlace} from './plan_way';
 import {heldButton} from './press';
-import {lengthOf, type Reading} from './readings';
+import {lengthOf, planReadings, type Reading} from './readings';
 import {configurationOf, samplesOf} from './simulated';
 import type {Opened, Stand, Subject} from './subject';
 
@@ -32,6 +35,7 @@ export class Live implements Subject {
   private readonly device: Device;
   private readonly actions: Actions;
   private readonly dialog: ArmingDialog;
+  private readonly plan: LivePlan;
   private readonly shapes = new Newest();
   private received = -Infinity;
   private goal: Bend[] | null = null;
@@ -45,14 +49,16 @@ export class Live implements Subject {
     this.device = new Device(info, {frame: (frame) => this.take(frame), entry: (entry) => stand.entry(entry), again: () => stand.forgetEntries()});
     this.control = new Control(this.device, (why) => stand.say(why), () => stand.changed());
     this.dialog = new ArmingDialog(box, this.control, info);
-    this.actions = new Actions(this.control, info, {hold: () => this.hold(), arm: () => this.frame && this.dialog.open(this.frame), say: (why) => stand.say(why)}, () => this.degreesOfMillimetre);
+    this.plan = new LivePlan(this.device, this.control, opened.robot, opened.described.answer.sections, (task) => stand.guarded(task), () => stand.changed());
+    const buttons = new PlanButtons({press: (isBack) => this.frame?.plan && this.plan.press(this.frame.plan, isBack), letGo: () => this.plan.letGo(), drop: () => this.plan.drop(), say: (why) => stand.say(this.frame?.plan?.off_path?.message ?? why)});
+    this.actions = new Actions(this.control, info, {hold: () => this.hold(), arm: () => this.frame && this.dialog.open(this.frame), say: (why) => stand.say(why)}, buttons, () => this.degreesOfMillimetre);
     this.bar = this.actions.element;
   }
 
   keys(): Key[] {
     const on = (keys: string[], says: string, go?: (key: string) => void): Key => ({keys, says, ...(go && {go})});
     return [
-      on([' ', 'Escape'], 'hold: freeze where it is, always'), on(['m'], 'while held: move to the target'), on(['r'], 'while held: retract along the way in'), on(['w'], 'while held: advance, follow the leader'),
+      on([' ', 'Escape'], 'hold: freeze where it is, always'), on(['m'], 'while held: move to the target; with a plan along it'), on(['b'], 'while held: back along the plan'), on(['r'], 'while held: retract along the way in'), on(['w'], 'while held: advance, follow the leader'),
       on(['x'], 'disarm', () => this.control.disarm()), on(['a'], 'acknowledge the alarm', () => this.control.acknowledge()),
       on(['-', '+', '='], 'slower, faster', (key) => this.actions.faster(key === '-' ? -1 : 1)),
     ];
@@ -60,13 +66,14 @@ export class Live implements Subject {
 
   /** Keys that act while they are down. @return whether this is one of them */
   keyDown(key: string): boolean {
-    const motion = ({m: 'move', r: 'retract', w: 'advance'} as const)[key];
+    const motion = ({m: 'move', r: 'retract', w: 'advance', b: 'back'} as const)[key];
     if (motion && !isPhone.matches) this.actions.press(motion);
     return !!motion;
   }
 
   keyUp(key: string): void {
-    const motion = ({m: 'move', r: 'retract', w: 'advance'} as const)[key];
+    const motion = ({m: 'move', r: 'retract', w: 'advance', b: 'back'} as const)[key];
+    if (motion === 'move' && this.frame?.plan) return this.plan.letGo();
     if (motion && this.control.held === motion) this.control.letGo();
   }
 
@@ -75,7 +82,8 @@ export class Live implements Subject {
   }
 
   move(isHeld: boolean): void {
-    if (isHeld) this.actions.press('move');
+    if (!isHeld && this.frame?.plan) this.plan.letGo();
+    else if (isHeld) this.actions.press('move');
     else if (this.control.held === 'move') this.control.letGo();
   }
 
@@ -92,6 +100,7 @@ export class Live implements Subject {
     return [
       ['x', lengthOf(x, system)], ['y', lengthOf(y, system)], ['z', lengthOf(z, system)],
       ...(info.has_stage ? [['inserted', lengthOf(frame.insertion, system)] as Reading] : []),
+      ...planReadings(frame.plan, system), ...(this.plan.isWaiting !== null && !frame.plan ? [['plan', 'waits for control'] as Reading] : []),
       ['device', isBad ? frame.link.replace('_', ' ') : `${frame.rate.toFixed(0)} Hz, ${(1e3 * frame.round_trip).toFixed(0)} ms`, isBad],
       ['wire errors', frame.errors > 0 ? String(frame.errors) : 'none', frame.errors > 0],
       ['recording', recording?.error ? 'failed' : recording ? `${recording.rows} rows` : 'off', !!recording?.error],
@@ -109,6 +118,20 @@ export class Live implements Subject {
     if (!this.info.faults) return found;
     const faults = ['cut 3 1', 'mend', 'stick 2 1', 'free', 'noise 0.01', 'noise 0', 'unplug', 'plug', 'reset'];
     return [...found, make('h3', {textContent: 'Faults of the demonstration'}), make('div', {className: 'buttons'}, ...faults.map((line) => button(line, () => void this.control.fault(line))))];
+  }
+
+  load(way: PlanWay): void {
+    this.plan.load(way);
+    this.stand.changed();
+  }
+
+  get tips(): TipPlace[] {
+    return this.plan.way?.tips ?? [];
+  }
+
+  get stages(): {now: number; goal: number} {
+    const {frame} = this;
+    return {now: frame?.stage ?? 0, goal: this.goalOfPlan?.stage ?? frame?.stage_target ?? 0};
   }
 
   get isStale(): boolean {
@@ -179,6 +202,7 @@ export class Live implements Subject {
     [this.frame, this.received] = [frame, performance.now()];
     if (this.goal && performance.now() - this.goalAt > owned) this.goal = null;
     if (this.goal) frame.sections.forEach((one, i) => { one.target = this.goal![i] ?? one.target; });
+    this.plan.take(frame);
     this.stand.heard();
     this.stand.changed();
     this.ask(frame);
@@ -187,7 +211,7 @@ export class Live implements Subject {
   /** The arm where it is measured, and where it is to go if that is elsewhere. */
   private ask({sections}: Frame): void {
     if (sections.some(({word}) => kindOf(word) === 'stale') && this.shape) return;
-    const changes = sections.map((one) => one.changes.map((value) => Number(value.toFixed(6)))), targets = this.targets(), {robot, described, inputs} = this.opened;
+    const changes = sections.map((one) => one.changes.map((value) => Number(value.toFixed(6)))), targets = this.goalOfPlan?.bends ?? this.targets(), {robot, described, inputs} = this.opened;
     const isElsewhere = sections.some(({point, measured}, i) => Math.hypot(targets[i]![0] - (measured ?? point ?? targets[i]!)[0], targets[i]![1] - (measured ?? point ?? targets[i]!)[1]) > apart);
     const samples = samplesOf(described.answer.sections), now = {query: 'shape', changes, model: 'lsk', samples}, to = {query: 'shape', configuration: configurationOf(described, targets, inputs), samples};
     const asked = JSON.stringify([changes, isElsewhere && to]);
@@ -199,6 +223,12 @@ export class Live implements Subject {
       this.ghost = ghost?.backbones ? ghost : null;
       this.stand.changed();
     }));
+  }
+
+  /** Where a plan leads: to its end, or first to its beginning. */
+  private get goalOfPlan(): Posture | null {
+    const {way} = this.plan, {frame} = this;
+    return way && frame?.plan ? (frame.plan.off_path ? way.steps[0]! : way.steps[way.last]!) : null;
   }
 
   /** How far a section turns by a millimetre of its tendons. */

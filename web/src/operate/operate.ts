@@ -24,6 +24,7 @@ import {type Recording} from './recording';
 import {Replay, type Where} from './replay';
 import {reportOf} from './report';
 import {Sliders} from './sliders';
+import type {PlanWay} from './plan_way';
 import type {Opened, Stand, Subject} from './subject';
 
 export interface Screen {
@@ -50,7 +51,7 @@ export class Operate {
   private readonly stageButton = button('Stage…', () => this.typeStage(), 'where Move is to take the stage');
   private readonly gamepads = new Gamepads({
     tilt: (section, by) => this.tilt(section === 'last' ? (this.opened?.described.answer.sections.length ?? 1) - 1 : this.cards.chosen, by), choose: (by) => this.cards.choose(this.cards.chosen + by),
-    hold: () => this.live?.hold(), move: (isHeld) => this.live?.move(isHeld),
+    hold: () => this.live?.hold(), move: (isHeld) => this.isShown && this.subject?.move(isHeld),
   });
   private opened: Opened | null = null;
   private own: {opened: Opened; isOfDevice: boolean} | null = null;  // what there is beside a recording
@@ -65,9 +66,9 @@ export class Operate {
     this.root.append(this.log.drawer);
     byId('op-tip').append(this.stageButton);
     document.addEventListener('keydown', (event) => this.keyDown(event), {capture: true});
-    document.addEventListener('keyup', (event) => this.live?.keyUp(event.key.toLowerCase()), {capture: true});
+    document.addEventListener('keyup', (event) => this.isShown && this.subject?.keyUp(event.key.toLowerCase()), {capture: true});
     document.addEventListener('pointerdown', () => { this.notice.hidden = true; }, {capture: true});  // what is done next may say something else
-    window.addEventListener('blur', () => this.live?.blur(false));
+    window.addEventListener('blur', () => (this.live ? this.live.blur(false) : this.subject?.move(false)));
     window.addEventListener('pagehide', () => this.live?.blur(true));
     document.addEventListener('visibilitychange', () => document.hidden && this.live?.blur(true));
     isPhone.addEventListener('change', ({matches}) => matches && this.live?.control.giveBack());
@@ -194,6 +195,11 @@ export class Operate {
     this.changed();
   }
 
+  /** A plan to follow, by the device or by the arm of sliders. */
+  load(way: PlanWay): void {
+    this.subject?.load(way);
+  }
+
   leave(): void {
     if (!this.isShown) return;
     this.gamepads.end();
@@ -232,7 +238,7 @@ export class Operate {
   private keyDown(event: KeyboardEvent): void {
     const {live} = this, target = event.composedPath()[0] ?? null;
     if (event.key === 'Escape' && this.isShown && this.info && this.subject instanceof Replay && !event.repeat) void this.holdDevice();
-    if (!live) return;
+    if (!live) return this.simulatedKeyDown(event);
     if (event.key === 'Escape') {
       if (!event.repeat) live.hold();
       if (!document.querySelector('dialog[open]')) this.closeTop();
@@ -244,6 +250,11 @@ export class Operate {
       event.stopPropagation();
       if (!event.repeat) live.hold();
     } else if (!document.querySelector('dialog[open]') && !event.repeat) live.keyDown(event.key.toLowerCase());
+  }
+
+  private simulatedKeyDown(event: KeyboardEvent): void {
+    const isMeant = this.isShown && !event.repeat && !event.ctrlKey && !event.altKey && !event.metaKey && !isText(event.composedPath()[0] ?? null) && !document.querySelector('dialog[open]');
+    if (isMeant) this.subject?.keyDown(event.key.toLowerCase());
   }
 
   // What is wanted
@@ -311,7 +322,7 @@ export class Operate {
     const inserted = (subject instanceof Live && this.info!.has_stage) || (subject instanceof Replay && subject.recording.hasStage) ? `${lengthOf(frame.insertion, system)} in` : '';
     if (byId('op-inserted').textContent !== inserted) byId('op-inserted').textContent = inserted;
     if (isPhone.matches) this.follow(frame.alarm?.section ?? -1);
-    if (shape) this.view.show(shape, subject.ghost, sections.map(({word}) => kindOf(word)), subject.isStale);
+    if (shape) this.view.show(shape, subject.ghost, sections.map(({word}) => kindOf(word)), subject.isStale, subject.tips, subject.stages);
     document.documentElement.dataset.operated = String(++this.draws);  // what tests wait for
   }
 

@@ -4,7 +4,10 @@ import {type Json, Newest} from '../client';
 import type {Key} from '../keys';
 import {bendsOf, inputsOf} from './coordinates';
 import {type Bend, type Frame, kindOf} from './frame';
-import {lengthOf, type Reading} from './readings';
+import {PlanButtons} from './plan_buttons';
+import {SlidersPlan} from './plan_sliders';
+import type {PlanWay, Posture, TipPlace} from './plan_way';
+import {lengthOf, planReadings, type Reading} from './readings';
 import {command, simulate} from './simulated';
 import {SlidersBar} from './sliders_bar';
 import type {Opened, Stand, Subject} from './subject';
@@ -25,7 +28,9 @@ export class Sliders implements Subject {
   private words: string[] = [];
   private isOver = false;
   private readonly newest = new Newest();
-  private readonly sliders = new SlidersBar({straighten: () => this.straighten(), slacken: (section, slack) => this.slacken(section, slack), command: () => this.command()});
+  private plan: SlidersPlan | null = null;
+  private readonly buttons = new PlanButtons({press: (isBack) => this.plan?.press(isBack), letGo: () => this.letGo(), drop: () => this.drop(), say: (why) => this.stand.say(why)});
+  private readonly sliders = new SlidersBar(this.buttons, {straighten: () => this.straighten(), slacken: (section, slack) => this.slacken(section, slack), command: () => this.command()});
   readonly bar = this.sliders.element;
 
   constructor(private readonly opened: Opened, private readonly stand: Stand, slack: number[]) {
@@ -35,6 +40,7 @@ export class Sliders implements Subject {
 
   keys(): Key[] {
     return [
+      {keys: ['m'], says: 'while held: along the plan'}, {keys: ['b'], says: 'while held: back along the plan'},
       {keys: ['-', '+', '='], says: 'less slack of the chosen section, more', go: (key) => this.slacken(this.stand.chosen(), (this.slack[this.stand.chosen()] ?? 0) + (key === '-' ? -1e-4 : 1e-4))},
       {keys: ['Ctrl+c'], says: 'copy the command, where nothing is selected', go: () => void copy(this.command(), 'command copied')},
     ];
@@ -51,7 +57,8 @@ export class Sliders implements Subject {
 
   readings(): Reading[] {
     const [x = 0, y = 0, z = 0] = this.frame?.tip ?? [], system = this.stand.system(), worst = this.frame?.sections.filter(({word}) => kindOf(word) !== 'exact').length ?? 0;
-    return [['x', lengthOf(x, system)], ['y', lengthOf(y, system)], ['z', lengthOf(z, system)], ['sections', String(this.bends.length)], ['not exact', String(worst)], ['model', 'LSK']];
+    return [['x', lengthOf(x, system)], ['y', lengthOf(y, system)], ['z', lengthOf(z, system)], ['sections', String(this.bends.length)], ['not exact', String(worst)], ['model', 'LSK'],
+            ...(this.plan ? [['inserted', lengthOf(this.stages.now, system)] as Reading, ...planReadings(this.plan.frame, system)] : [])];
   }
 
   targets(): Bend[] {
@@ -60,6 +67,57 @@ export class Sliders implements Subject {
 
   may(): boolean {
     return true;
+  }
+
+  load(way: PlanWay): void {
+    this.letGo();
+    this.plan = new SlidersPlan(way, (posture) => this.go(posture));
+    this.go(this.plan.posture);
+    void this.stand.guarded(async () => {
+      await way.ask(this.opened.robot, this.opened.described.answer.sections);
+      this.stand.changed();
+    });
+  }
+
+  get tips(): TipPlace[] {
+    return this.plan?.way.tips ?? [];
+  }
+
+  get stages(): {now: number; goal: number} {
+    const now = this.plan?.posture.stage ?? 0;
+    return {now, goal: now};
+  }
+
+  /** Keys that act while they are down. @return whether this is one of them */
+  keyDown(key: string): boolean {
+    if (this.plan && (key === 'm' || key === 'b')) this.buttons.press(key === 'b');
+    return !!this.plan && (key === 'm' || key === 'b');
+  }
+
+  keyUp(key: string): void {
+    if (key === 'm' || key === 'b') this.letGo();
+  }
+
+  move(isHeld: boolean): void {
+    if (isHeld) this.keyDown('m');
+    else this.letGo();
+  }
+
+  letGo(): void {
+    this.plan?.letGo();
+    this.stand.changed();
+  }
+
+  private drop(): void {
+    this.letGo();
+    this.plan = null;
+    this.stand.changed();
+  }
+
+  private go({bends}: Posture): void {
+    const {plan} = this, isAtEnd = plan?.held && (plan.held === 'follow' ? plan.frame.done : plan.frame.step === 0 && plan.frame.fraction === 0);
+    this.aim(bends);
+    if (isAtEnd) this.letGo();
   }
 
   aim(bends: Bend[]): void {
@@ -74,6 +132,10 @@ export class Sliders implements Subject {
 
   show(): void {
     const chosen = this.stand.chosen();
+    if (this.plan) {
+      const {frame} = this.plan;
+      this.buttons.show(frame, {follow: frame.done ? 'at its end' : null, back: frame.step === 0 && frame.fraction === 0 ? 'at its first step' : null}, this.plan.held);
+    } else this.buttons.hide();
     this.sliders.show(chosen, this.slack[chosen] ?? 0, this.command(), this.stand.system());
   }
 
@@ -82,11 +144,13 @@ export class Sliders implements Subject {
   }
 
   leave(): void {
+    this.letGo();
     this.newest.drop();
   }
 
   close(): void {
     this.isOver = true;
+    this.plan?.letGo();
     this.newest.drop();
   }
 

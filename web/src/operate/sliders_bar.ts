@@ -2,6 +2,7 @@
 import {copy} from '../clipboard';
 import {button, make} from '../make';
 import {signed} from './bars';
+import type {PlanButtons} from './plan_buttons';
 import type {System} from '../units';
 
 const most = 1;  // mm of slack
@@ -16,13 +17,13 @@ export class SlidersBar {
   private readonly command = make('code');
   private chosen = 0;
 
-  constructor(wishes: Wishes) {
+  constructor(plan: PlanButtons, wishes: Wishes) {
     const straight = button('Straighten', () => wishes.straighten(), 'all bends to zero, no slack'), zero = button('0', () => wishes.slacken(this.chosen, 0), 'neither slack nor tight');
     straight.classList.add('wide');
     zero.ariaLabel = 'no slack';
     this.slider.addEventListener('input', () => wishes.slacken(this.chosen, Number(this.slider.value) / 1e3));
     const copier = button('Copy', () => this.copy(wishes), 'copy the command (Ctrl+C)');
-    this.element.append(straight, make('div', {className: 'speed'}, this.label, this.slider, this.text, zero), make('div', {className: 'as-command'}, make('span', {textContent: 'No device: the target acts at once'}), this.command, copier));
+    this.element.append(straight, plan.pair, make('div', {className: 'speed'}, this.label, this.slider, this.text, zero), plan.follow.element, make('div', {className: 'as-command'}, make('span', {textContent: 'No device: the target acts at once'}), this.command, copier));
   }
 
   copy(wishes: Wishes): void {

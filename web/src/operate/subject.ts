@@ -5,6 +5,7 @@ import type {Key} from '../keys';
 import type {Source} from '../source';
 import type {System} from '../units';
 import type {Bend, Entry, Frame} from './frame';
+import type {PlanWay, TipPlace} from './plan_way';
 import type {Reading} from './readings';
 
 export interface Opened { robot: Robot; described: Described; source: Source; inputs: number[] }
@@ -30,6 +31,8 @@ export interface Subject {
   frame: Frame | null;
   shape: Json | null;
   ghost: Json | null;
+  readonly tips: TipPlace[];      ///< of the plan that it has
+  readonly stages: {now: number; goal: number};  ///< of the arm and of its ghost [m]
   isStale: boolean;               ///< what is drawn is not as it is
   lost: string | null;            ///< why nothing is known of the arm; null: it is
   keys(): Key[];
@@ -37,6 +40,10 @@ export interface Subject {
   targets(): Bend[];
   may(): boolean;                 ///< whether targets may be set; if not it says why
   aim(bends: Bend[]): void;
+  load(way: PlanWay): void;       ///< a plan to follow
+  keyDown(key: string): boolean;  ///< of keys that act while they are down: whether it is one
+  keyUp(key: string): void;
+  move(isHeld: boolean): void;    ///< as its key does
   age(): string;                  ///< of what is drawn, where it is old
   show(): void;                   ///< its bar
   enter(): void;
