@@ -5,6 +5,7 @@
 #include <random>
 
 #include "device_board.hpp"
+#include "device_way.hpp"
 
 namespace sinew::server::device {
 namespace device_firmware_test {
@@ -384,6 +385,45 @@ TEST(DeviceFirmware, TheWayInSurvivesALineThatWasAway) {
   board.run(1.5);
   EXPECT_LT(std::abs(board.drives.positions[15]), 20) << board.panel.why();
   EXPECT_LT(std::abs(board.drives.positions[0]), 20);
+}
+
+TEST(DeviceFirmware, APlanIsFollowedPausedAndRetracted) {
+  Board board;
+  Page page(board);
+  page.make_ready();
+  DrivePlan plan{"bent", {}, {}};
+  for (int k = 0; k <= 40; ++k) {
+    plan.steps.push_back({Bends(5, Bend(0, 0)), 5e-4 * k});
+    plan.steps.back().bends[4] = Bend(0.008 * k, 0.05 * std::sin(0.2 * k));
+  }
+  ASSERT_EQ(page.code(board.panel.load_plan(page.secret, plan, board.now())), "");
+  board.panel.set_speed(page.secret, 10e-3, board.now());
+  const auto off = [&] {
+    const auto frame = board.panel.frame(board.now());
+    Posture measured{{}, frame["stage"]};
+    for (const auto& section : frame["sections"])
+      measured.bends.emplace_back(section["measured"][0], section["measured"][1]);
+    return share_off(measured, plan.steps);
+  };
+  for (int i = 0; i < 4; ++i) {
+    page.held = Activity::follow;
+    for (int k = 0; k < 12; ++k) {
+      board.run(0.025);
+      EXPECT_LT(off(), 0.2) << "while it moves";
+    }
+    page.held.reset();
+    board.panel.press(Activity::follow, page.secret, false, board.now());
+    board.run(0.15);
+    const auto there = board.drives.positions;
+    EXPECT_LT(off(), 2 * rounding) << "paused on the path; rounded when it was asked, and when it was told";
+    board.run(0.2);
+    EXPECT_EQ(board.drives.positions, there);
+  }
+  EXPECT_GT(board.drives.positions[15], 5000) << board.panel.why();
+  page.held = Activity::retract;
+  board.run(4);
+  EXPECT_LT(std::abs(board.drives.positions[15]), 20) << board.panel.why();
+  EXPECT_LT(off(), 2 * rounding);
 }
 
 TEST(DeviceFirmware, AResetForgetsTheZeros) {

@@ -50,7 +50,7 @@ export class Live implements Subject {
     this.control = new Control(this.device, (why) => stand.say(why), () => stand.changed());
     this.dialog = new ArmingDialog(box, this.control, info);
     this.plan = new LivePlan(this.device, this.control, opened.robot, opened.described.answer.sections, (task) => stand.guarded(task), () => stand.changed());
-    const buttons = new PlanButtons({press: (isBack) => this.frame?.plan && this.plan.press(this.frame.plan, isBack), letGo: () => this.plan.letGo(), drop: () => this.plan.drop(), say: (why) => stand.say(this.frame?.plan?.off_path?.message ?? why)});
+    const buttons = new PlanButtons({press: (isBack) => this.frame?.plan && this.plan.press(this.frame.plan, isBack), letGo: () => this.plan.letGo(), drop: () => this.plan.drop(), say: (why) => stand.say(why.startsWith('off path') ? this.frame?.plan?.off_path?.message ?? why : why)});
     this.actions = new Actions(this.control, info, {hold: () => this.hold(), arm: () => this.frame && this.dialog.open(this.frame), say: (why) => stand.say(why)}, buttons, () => this.degreesOfMillimetre);
     this.bar = this.actions.element;
   }
