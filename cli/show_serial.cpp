@@ -182,6 +182,18 @@ std::string show_serial(const Answer& answer, const Robot& robot) {
          show_solutions(answer, robot);
 }
 
+/// After "an earlier section is not exact".
+std::string_view outline_note(const Answer& answer) {
+  constexpr std::pair<std::string_view, std::string_view> notes[] = {
+      {"previous_over_tensioned", "; it is over-tensioned, so there is no outline"},
+      {"over_tensioned", "; this one is over-tensioned, so there is no outline"},
+      {"beyond_envelope", "; the outline lies beyond the limit"},
+      {"exact_model", "; the model pcc has no outline"}};
+  for (const auto& [reason, note] : notes)
+    if (answer.text("no_outline") == reason) return note;
+  return answer.find("outline") ? ": see outline" : "";
+}
+
 std::string show_diagram(const Answer& answer, const Robot& robot, std::size_t section) {
   const auto slack = numbers(answer.find("slack"));
   TextTable table({"tendon", heading("slack", "m")});
@@ -189,7 +201,7 @@ std::string show_diagram(const Answer& answer, const Robot& robot, std::size_t s
   std::string text =
       fmt::format("{}{}\n", answer.text("class"), answer.find("partial")->boolean ? ", partially" : "");
   if (answer.find("conditional")->boolean)
-    text += fmt::format("an earlier section is not exact{}\n", answer.find("outline") ? ": see outline" : "");
+    text += fmt::format("an earlier section is not exact{}\n", outline_note(answer));
   text += '\n' + table.text();
   for (const char* key : {"margin", "over_tension"})
     if (const auto value = answer.number(key)) text += fmt::format("{}[mm] {}\n", key, cell(*value, "m"));

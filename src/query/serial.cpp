@@ -337,6 +337,9 @@ void answer_serial_velocity(SerialContext& context) {
   context.answer["J"] = to_json(MatrixView(J.data(), J.rows(), J.cols()));
   context.answer["K"] = to_json(MatrixView(K.data(), K.rows(), K.cols()));
   context.answer["indices"] = indices_json(context);
+  if (const auto steering = tip_steering(context.work))
+    context.answer["steering"] = {{(*steering)(0, 0), (*steering)(0, 1)},
+                                  {(*steering)(1, 0), (*steering)(1, 1)}};
   if (!rates.is_null()) context.answer["rates"] = std::move(rates);
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "query/serial.hpp"
-#include "sinew/tendon/diagram.hpp"
+#include "sinew/tendon/state.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -108,17 +108,22 @@ void take_extension(Asked& asked, const TendonsTo& tendons, const SerialRobot& r
   asked.question.earlier.common += asked.own_extension;
 }
 
-void put_state(Json& answer, const SectionDiagram& diagram) {
+void put_state(Json& answer, const DiagramQuestion& question, const SectionDiagram& diagram) {
+  const StateWords state = state_words(question, diagram);
   answer["class"] = names[static_cast<std::size_t>(diagram.agree)];
   answer["partial"] = diagram.partial;
+  answer["word"] = state.word;
+  put_number(answer, "amount", state.amount);
+  answer["near_limit"] = state.is_near_limit;
+  answer["advice"] = state.advice;
   answer["point"] = to_json(diagram.point);
   answer["slack"] = to_json(diagram.slack);
   put_number(answer, "margin", diagram.margin);
   put_number(answer, "over_tension", diagram.over_tension);
 }
 
-void put_diagram(Json& answer, const SectionDiagram& diagram) {
-  put_state(answer, diagram);
+void put_diagram(Json& answer, const DiagramQuestion& question, const SectionDiagram& diagram) {
+  put_state(answer, question, diagram);
   Json frontiers = Json::array();
   for (const HalfPlane& plane : diagram.frontiers)
     frontiers.push_back({{"normal", to_json(plane.normal)}, {"offset", plane.offset}});
@@ -127,6 +132,33 @@ void put_diagram(Json& answer, const SectionDiagram& diagram) {
   if (diagram.free) answer["polygon"] = points_json(*diagram.free);
   answer["boundary"] = points_json(diagram.boundary);
   put_number(answer, "area", diagram.area);
+}
+
+/// Where the section can be after all that the one before it may do; or why that is not told.
+void put_outline(SerialContext& context, const Asked& asked, const TendonsTo& commanded, std::size_t m) {
+  if (asked.question.model != kernel::Model::linear) {
+    context.answer["no_outline"] = "exact_model";
+    return;
+  }
+  const std::size_t before = tendons_before(context.robot, m - 1);
+  const auto count = commanded.first - before;
+  // of whole tendons, but for what the lengths of sections do to them
+  const double longer = asked.question.earlier.common,
+               own = asked.own_extension;  // of the section, which its own tendons follow as well
+  std::vector<double> changes = commanded.changes;
+  for (std::size_t i = before; i < changes.size(); ++i)
+    changes[i] -= longer - (i < commanded.first ? own : 0);
+  DiagramQuestion question = asked.question;
+  question.tendons.changes = std::span(changes).subspan(commanded.first);
+  const SectionOutline outline = section_outline(
+      question,
+      {std::span(context.work.directions).subspan(before, count), std::span(changes).subspan(before, count)});
+  if (!outline.report.ok()) return;
+  constexpr std::string_view reasons[] = {"", "previous_over_tensioned", "over_tensioned", "beyond_envelope"};
+  if (outline.missing == SectionOutline::Missing::none)
+    context.answer["outline"] = points_json(outline.boundary);
+  else
+    context.answer["no_outline"] = reasons[static_cast<std::size_t>(outline.missing)];
 }
 
 }  // namespace
@@ -166,27 +198,12 @@ void answer_serial_diagram(SerialContext& context) {
   const bool is_out = asked.earlier.status == Status::left_domain;
   context.report(is_out && diagram.report.ok() ? asked.earlier : diagram.report);
   if (diagram.report.status == Status::left_domain) return;
-  put_diagram(context.answer, diagram);
+  put_diagram(context.answer, asked.question, diagram);
   constexpr std::string_view kinds[] = {"square", "disc", "actuator"};
   context.answer["envelope"] = {{"kind", kinds[static_cast<std::size_t>(envelope.kind)]},
                                 {"limit", envelope.limit}};
   context.answer["conditional"] = asked.is_conditional;
-  if (asked.is_conditional && model == kernel::Model::linear) {
-    const std::size_t before = tendons_before(context.robot, m - 1);
-    const auto count = commanded.first - before;
-    // of whole tendons, but for what the lengths of sections do to them
-    const double longer = asked.question.earlier.common,
-                 own = asked.own_extension;  // of the section, which its own tendons follow as well
-    std::vector<double> changes = commanded.changes;
-    for (std::size_t i = before; i < changes.size(); ++i)
-      changes[i] -= longer - (i < commanded.first ? own : 0);
-    DiagramQuestion question = asked.question;
-    question.tendons.changes = std::span(changes).subspan(commanded.first);
-    const SectionOutline outline =
-        section_outline(question, {std::span(context.work.directions).subspan(before, count),
-                                   std::span(changes).subspan(before, count)});
-    if (outline.report.ok()) context.answer["outline"] = points_json(outline.boundary);
-  }
+  if (asked.is_conditional) put_outline(context, asked, commanded, m);
   if (measured) {
     Asked of_encoders(context, m);
     Json state = Json::object();
@@ -194,7 +211,7 @@ void answer_serial_diagram(SerialContext& context) {
     if (read.report.status == Status::left_domain)
       state = {{"status", "left_domain"}, {"message", std::string(read.report.message.view())}};
     else
-      put_state(state, read);
+      put_state(state, of_encoders.question, read);
     context.answer["measured"] = std::move(state);
   }
 }

@@ -145,6 +145,13 @@ SectionOutline section_outline(const DiagramQuestion& asked, const SectionTendon
   Cut cut = cut_with_envelope(c, all, lines_around(all));
   outline.boundary = std::move(cut.boundary);
   outline.area = cut.area;
+  using Missing = SectionOutline::Missing;
+  if (others.empty())
+    outline.missing = Missing::previous_over_tensioned;
+  else if (own.empty())
+    outline.missing = Missing::over_tensioned;
+  else if (outline.boundary.empty())
+    outline.missing = Missing::beyond_envelope;
   return outline;
 }
 

@@ -151,6 +151,40 @@ TEST(SerialMotion, JacobianMatchesComplexStepAndDifferences) {
   }
 }
 
+TEST(SerialMotion, SteeringTurnsTheAxisOfTheTipTheWayThatIsAsked) {
+  std::mt19937 random(5);
+  for (const SerialRobot& robot : robots()) {
+    SerialWorkspace work(robot), moved(robot);
+    for (const std::vector<Bend>& bends : shapes(robot, random)) {
+      if (bends.back().norm() > 2.5) continue;  // towards half a turn it is lost
+      tip_motion(bends, work);
+      const auto steering = tip_steering(work);
+      ASSERT_TRUE(steering);
+      const Mat<double, 3, 3> R = work.ends.back().R.matrix();
+      for (int side = 0; side < 2; ++side) {
+        const double step = 1e-5;
+        std::vector<Bend> ahead = bends, behind = bends;
+        ahead.back() += step * steering->col(side);
+        behind.back() -= step * steering->col(side);
+        section_ends(ahead, moved);
+        const Vec3<double> there = moved.ends.back().R.matrix().col(2);
+        section_ends(behind, moved);
+        const Vec3<double> rate = (there - moved.ends.back().R.matrix().col(2)) / (2 * step);
+        EXPECT_LT((rate - R.col(side)).norm(), 1e-7) << bends.back().transpose();
+      }
+    }
+  }
+}
+
+TEST(SerialMotion, NoSteeringWhereNoBendTurnsTheAxisToTheSide) {
+  const SerialRobot robot = arcs(1);
+  SerialWorkspace work(robot);
+  tip_motion(std::vector<Bend>{Bend(std::numbers::pi, 0)}, work);
+  EXPECT_FALSE(tip_steering(work));
+  tip_motion(std::vector<Bend>{Bend(not_a_number, 0)}, work);
+  EXPECT_FALSE(tip_steering(work));
+}
+
 TEST(SerialMotion, EndsAreTheSameWithAndWithoutDerivatives) {
   std::mt19937 random(3);
   for (const SerialRobot& robot : robots()) {

@@ -80,6 +80,50 @@ TEST(SerialAnswers, EarlierSectionsBeyondTheirLimitAreNamed) {
   EXPECT_TRUE(answer.contains("class"));
 }
 
+/// The second of two sections, the first paid out by so much at its straight bend [m].
+Json second_after(double first, double own, const char* model = "lsk") {
+  return ask_one("nottingham-tpcj",
+                 {{"query", "diagram"},
+                  {"section", 1},
+                  {"model", model},
+                  {"changes", {{first, first, first}, {first + own, first + own, first + own}}}});
+}
+
+TEST(SerialAnswers, WithoutAnOutlineADiagramSaysWhy) {
+  EXPECT_TRUE(second_after(3e-4, 3e-4).contains("outline"));
+  EXPECT_FALSE(second_after(3e-4, 3e-4).contains("no_outline"));
+  const Json after_over = second_after(-3e-4, 6e-4);
+  EXPECT_TRUE(after_over["conditional"]);
+  EXPECT_FALSE(after_over.contains("outline"));
+  EXPECT_EQ(after_over["no_outline"], "previous_over_tensioned");
+  EXPECT_EQ(second_after(3e-4, -9e-4)["no_outline"], "over_tensioned");
+  EXPECT_EQ(second_after(3e-4, 0, "pcc")["no_outline"], "exact_model");
+  const Json exact = second_after(0, 0);
+  EXPECT_FALSE(exact["conditional"]);
+  EXPECT_FALSE(exact.contains("no_outline"));
+}
+
+TEST(SerialAnswers, ADiagramHasTheWordsOfItsState) {
+  const Json slack = ask_one("nottingham-tpcj", {{"query", "diagram"},
+                                                 {"section", 0},
+                                                 {"changes", {3e-4, 3e-4, 3e-4}},
+                                                 {"measured", {-3e-4, -3e-4, -3e-4}}});
+  EXPECT_EQ(slack["word"], "SLACK");
+  EXPECT_NEAR(slack["amount"].get<double>(), 3e-4, 1e-15);
+  EXPECT_EQ(slack["near_limit"], false);
+  EXPECT_EQ(slack["advice"], "Take in tendons 1, 2 and 3 by 0.30 mm");
+  EXPECT_EQ(slack["measured"]["word"], "OVER-TENSIONED");
+}
+
+TEST(SerialAnswers, VelocityTellsHowToSteer) {  // straight: the tip's axes are those of the bend
+  const Json straight = ask_one("nottingham-tpcj", {{"query", "velocity"}, {"configuration", Json::array()}});
+  EXPECT_NEAR(straight["steering"][0][0].get<double>(), 0.25, 1e-12) << "of four joints each bends a quarter";
+  EXPECT_NEAR(straight["steering"][0][1].get<double>(), 0, 1e-12);
+  const Json folded =
+      ask_one("three-arcs", {{"query", "velocity"}, {"configuration", {{0, 0}, {0, 0}, {"180 deg", 0}}}});
+  EXPECT_FALSE(folded.contains("steering")) << folded.dump();
+}
+
 TEST(SerialAnswers, ReadingsThatCannotBeAreNoClass) {
   const Json answer =
       ask_one("nottingham-tpcj",

@@ -304,7 +304,7 @@ TEST(DevicePanel, StatesAreShownAfter100MsAndClearedAfter500) {
   desk.run(0.1);
   EXPECT_EQ(word(), "SLACK");
   const auto frame = desk.panel.frame(desk.now);
-  EXPECT_EQ(frame["sections"][3]["advice"], "Take in tendons 1, 2, 3 by 0.49 mm");
+  EXPECT_EQ(frame["sections"][3]["advice"], "Take in tendons 1, 2 and 3 by 0.49 mm");
   EXPECT_TRUE(frame["sections"][4]["conditional"]);
   EXPECT_EQ(frame["alarm"]["section"], 3);
   for (const std::size_t i : {9u, 10u, 11u}) desk.link.positions[i] -= 1000;
@@ -339,6 +339,22 @@ TEST(DevicePanel, RelaxNeedsTheLeaseAloneOnlyPaysOutAndEndsJustSlack) {
   desk.let_go();
   desk.run(0.8);
   EXPECT_EQ(desk.arm(), "");
+}
+
+TEST(DevicePanel,
+     WhatIsDoneSaysSoUnlessSomebodyHeldIt) {  // a page may go on after the one, not after the other
+  PanelDesk desk;
+  for (const std::size_t i : {9u, 10u, 11u}) desk.link.positions[i] -= 1434;
+  desk.run(0.3);
+  desk.take_control();
+  EXPECT_EQ(desk.press(Activity::relax, 3), "");
+  desk.run(1);
+  EXPECT_EQ(desk.press(Activity::relax, 3), "done");
+  desk.let_go();
+  EXPECT_EQ(desk.press(Activity::relax, 2), "");
+  desk.run(0.05);
+  EXPECT_FALSE(desk.panel.hold(desk.now));
+  EXPECT_EQ(desk.press(Activity::relax, 2), "release_first");
 }
 
 /// Held until it is done or has failed; [s] that it took.

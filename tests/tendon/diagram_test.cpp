@@ -612,8 +612,26 @@ TEST(SectionOutline, IsAHexagonOfThree_AndTheDiagramWhereThePreviousAreExact) {
   const auto alone = own.answer();
   EXPECT_LT(gap(outline.boundary, alone.boundary), 1e-15);
   EXPECT_NEAR(outline.area, alone.area, 1e-16);
-  previous.taut({0.1, -0.05}, -0.1 * mm);
-  EXPECT_TRUE(section_outline(own.question, {previous.at, previous.changes}).boundary.empty());
+}
+
+TEST(SectionOutline, SaysWhyThereIsNone) {
+  using Missing = SectionOutline::Missing;
+  Asked own(twin_pivot, 3, 48 * deg, {Kind::square, 24 * deg}),
+      previous(twin_pivot, 3, 24 * deg, own.question.envelope);
+  const auto missing = [&](const Point& bend, double own_slack, double previous_slack) {
+    own.taut(Point(0.1, -0.05) + bend, own_slack);
+    previous.taut({0.1, -0.05}, previous_slack);
+    own.question.tendons = {own.at, own.changes};
+    const auto outline = section_outline(own.question, {previous.at, previous.changes});
+    EXPECT_EQ(outline.boundary.empty(), outline.missing != Missing::none);
+    return outline.missing;
+  };
+  EXPECT_EQ(missing({0.1, 0}, 0.1 * mm, 0.1 * mm), Missing::none);
+  EXPECT_EQ(missing({0.1, 0}, 0, 0), Missing::none);
+  EXPECT_EQ(missing({0.1, 0}, 0.1 * mm, -0.1 * mm), Missing::previous_over_tensioned);
+  EXPECT_EQ(missing({0.1, 0}, -0.1 * mm, -0.1 * mm), Missing::previous_over_tensioned);
+  EXPECT_EQ(missing({0.1, 0}, -0.1 * mm, 0.1 * mm), Missing::over_tensioned);
+  EXPECT_EQ(missing({2, 0}, 0.1 * mm, 0.1 * mm), Missing::beyond_envelope);
 }
 
 // ---- what may go wrong

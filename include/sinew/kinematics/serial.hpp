@@ -3,6 +3,7 @@
 /// Nothing here allocates but a batch of fewer poses than lanes: a workspace holds what answers are read
 /// from. Theory: docs/theory/section.md
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -102,6 +103,12 @@ SINEW_API void section_ends(std::span<const Bend> bends, SerialWorkspace& work);
 
 /// The same with the tip's Jacobian in `work.J`.
 SINEW_API void tip_motion(std::span<const Bend> bends, SerialWorkspace& work);
+
+/// How the last section has to bend so that the tip's axis turns towards the tip's own x and y, as one steers
+/// by the picture of a camera in the tip: its bend rate [rad/s] is this times the rates of the two turns
+/// [rad/s]. After `tip_motion`.
+/// @return nothing where no bend turns the axis some way, as of a section bent by half a turn
+SINEW_API std::optional<Mat<double, 2, 2>> tip_steering(const SerialWorkspace& work);
 
 /// ∂(changes)/∂(bends) into `work.K`.
 SINEW_API void tendon_rates(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);

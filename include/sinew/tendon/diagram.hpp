@@ -75,9 +75,10 @@ struct SectionDiagram {
   double over_tension = 0;  ///< max(0, −margin): least stretch any allowed bend needs of its worst tendon [m]
 
   std::vector<HalfPlane> frontiers;  ///< linear: of each tendon [rad]; it is not too short within
-  std::vector<Curve> curves;         ///< exact: of each tendon, σᵢ = 0 where it passes near the envelope
-  std::optional<Polygon> free;       ///< bends no tendon forbids; absent in the exact model
-  double free_area = 0;              ///< [rad²]
+  /// Exact: of each tendon, σᵢ = 0 where it passes near the envelope; it is not too short to the left.
+  std::vector<Curve> curves;
+  std::optional<Polygon> free;  ///< bends no tendon forbids; absent in the exact model
+  double free_area = 0;         ///< [rad²]
 
   /// Those in the envelope: counter-clockwise, convex in the linear model. Empty, a point or a segment where
   /// thinner than rounding.
@@ -94,10 +95,15 @@ SINEW_API SectionDiagram section_diagram(const DiagramQuestion& question);
 /// Bends of a section in the linear model where the sections before it are not exact either. Its tendons only
 /// fix the sum of the bends they pass, so it may be at any difference of two points, one of its own polygon
 /// and one of theirs.
+///
+/// Tendons that no bend satisfies stretch, and where they then hold a section is a matter of forces: an
+/// over-tensioned section has no polygon, so it has no outline and hands none on.
 struct SectionOutline {
+  enum class Missing { none, previous_over_tensioned, over_tensioned, beyond_envelope };
   Report report;     ///< `converged` or `left_domain`
-  Polygon boundary;  ///< [rad], cut with the envelope
+  Polygon boundary;  ///< [rad], cut with the envelope; empty where it is missing
   double area = 0;   ///< [rad²], exact
+  Missing missing = Missing::none;
 };
 
 /// @param question as above, changes of whole tendons; `earlier`, `model` and `tolerance` are not used

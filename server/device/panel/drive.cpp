@@ -270,7 +270,7 @@ void Panel::finish(std::string_view text) {
   const bool was_armed = mode_ == Mode::armed;
   if (!was_armed) disarm("done");
   stop();
-  needs_release_ = true;
+  needs_release_ = is_done_ = true;
 }
 
 void Panel::ask_counts(std::vector<std::int32_t> counts, double now, int milliseconds) {

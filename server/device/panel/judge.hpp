@@ -23,7 +23,6 @@ struct SectionState {
   Word word = Word::no_data;
   bool is_partial = false, is_near_limit = false;
   double amount = 0;               ///< how slack or over-tensioned [m]; of unreachable the bend [rad]
-  double limit = 0;                ///< [rad]
   std::string advice;              ///< what helps; empty: nothing is wrong
   nlohmann::ordered_json diagram;  ///< the answer to `diagram`, null: none
 };
@@ -50,9 +49,6 @@ class Judge {
   void look_at_tensions(SectionState& state, std::size_t section, const Tensions& tensions) const;
   Session session_;
   std::size_t tendons_;
-  double tolerance_;
-  std::vector<double> limits_;
-  std::vector<bool> is_twin_;
 };
 
 }  // namespace sinew::server::device

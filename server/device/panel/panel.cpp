@@ -159,6 +159,7 @@ void Panel::disarm(std::string_view why) {
 void Panel::stop(Activity next) {
   if (is_motion()) needs_release_ = true;
   pause_plan();
+  is_done_ = false;
   activity_ = next;
   is_in_gap_ = false;
 }
@@ -208,6 +209,7 @@ bool Panel::is_inserted() const { return hello() && hello()->stages > 0 && measu
 
 Outcome Panel::may(Activity activity, std::size_t section) const {
   if (auto no = check_line()) return no;
+  if (needs_release_ && is_done_) return refused("done", "it is done: release the button");
   if (needs_release_)
     return refused("release_first", "motion was stopped: release the button, then hold it again");
   if (activity == Activity::relax) {

@@ -180,6 +180,7 @@ class Panel {
   double renewed_ = 0, held_ = -1e9, armed_until_ = 0, now_ = 0;
   bool is_arming_ = false;
   bool needs_release_ = false;  ///< stopped by another thing than a release: to be pressed anew
+  bool is_done_ = false;        ///< namely because there is nothing left to do
 
   bool fits_ = false;  ///< the controller has our robot's table
   bool knows_controller_ = false;

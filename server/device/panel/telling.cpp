@@ -69,6 +69,7 @@ Json Panel::section_json(std::size_t m) {
     if (key != "id" && key != "query" && key != "robot" && key != "status" && key != "message")
       json[key] = value;
   json["near_limit"] = state.is_near_limit;
+  json["amount"] = state.amount;
   json["word"] = name_of(shown.word(), shown.is_partial());
   bool is_locked = false;
   for (std::size_t k = 0; k < shown_.size(); ++k)

@@ -1,5 +1,6 @@
 /// Poses of a serial robot's sections and the Jacobian of its tip.
 #include <algorithm>
+#include <cmath>
 
 #include "sinew/kinematics/serial.hpp"
 
@@ -53,6 +54,22 @@ void tip_motion(std::span<const Bend> bends, SerialWorkspace& work) {
     for (std::size_t j = 0; j < columns; ++j)
       J[i * columns + j] += turn_k[j] * end.p[l] - turn_l[j] * end.p[k];
   }
+}
+
+std::optional<Mat<double, 2, 2>> tip_steering(const SerialWorkspace& work) {
+  const SO3<double>& R = work.ends.back().R;
+  const MatrixView J = work.jacobian();
+  Mat<double, 2, 2> turn;  // of the axis towards x and y, per bend rate: omega × z
+  for (int j = 0; j < 2; ++j) {
+    const Vec3<double> rate = R.rotate_back(Vec3<double>(J.col(J.cols() - 2 + j).tail<3>()));
+    turn.col(j) << rate.y(), -rate.x();
+  }
+  constexpr double least = 1e-6;
+  const double determinant = turn.determinant();
+  if (!(std::abs(determinant) > least * turn.squaredNorm())) return {};
+  Mat<double, 2, 2> steering;
+  steering << turn(1, 1), -turn(0, 1), -turn(1, 0), turn(0, 0);
+  return Mat<double, 2, 2>(steering / determinant);
 }
 
 void extension_motion(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work) {
