@@ -4,7 +4,7 @@ import type {Labels} from './labels';
 import {longer, outline, ring, round} from './outline';
 import {between, type Look, type Pen} from './pen';
 import type {Drawing, Layer} from './picture';
-import {surroundings} from './surroundings';
+import {surroundings, tubeAround} from './surroundings';
 import {across, axesOf, centre, length, minus, placeOf, plus, type Point, scaled} from './vector';
 
 export const tokens = ['rod', 'mute', 'line', 'accent', 'ghost', 'slack', 'text', 'card', 'scene', 'axis-x', 'axis-y', 'axis-z', 'robot', 'robot-rim', 'hidden', 'over', 'exact', 'tendon-1', 'tendon-2', 'tendon-3', 'tendon-4'] as const;
@@ -36,9 +36,10 @@ class Composition {
   }
 
   all(): void {
-    const {shown} = this.setting, {ghost, shape, around} = this.drawing;
+    const {shown} = this.setting, {ghost, shape, around, tube} = this.drawing;
     if (shown.has('grid')) this.grid();
     if (around) surroundings(around, this.pen, this.labels, this.setting);
+    if (tube) tubeAround(tube, this.pen, this.labels, this.setting);
     this.base();
     if (ghost && shown.has('ghost')) this.ghost(ghost);
     if (shown.has('discs')) for (const disc of shape.discs ?? []) this.pen.disc(disc, this.colour(around ? 'robot' : 'line'), this.colour(around ? 'robot-rim' : 'mute'), around && this.colour('hidden'));

@@ -100,7 +100,7 @@ class Page {
     const [says, {robots: shipped, opened}, {plans: listed}, device, recorded] = await Promise.all([version(), robots(), plans(), findDevice(), listRecordings()]);
     if (says.protocol !== protocol) return this.shell.say(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
     [this.shipped, this.device, this.openedName] = [shipped, device, opened?.name ?? ''];
-    this.panel = new Operate({system: () => this.shell.system, guarded: (task, again) => this.guarded(task, again), heard: () => this.heard(), linked: () => this.link(), turned: () => this.turnSource()}, device);
+    this.panel = new Operate({system: () => this.shell.system, guarded: (task, again) => this.guarded(task, again), heard: () => this.heard(), linked: () => this.link(), turned: () => this.turnSource(), plans: () => listed}, device);
     byId('recordings').hidden = !recorded || (recorded.length === 0 && !device);
     for (const {name, title} of shipped) for (const list of [this.picker, this.against]) list.add(new Option(title, name));
     this.against.add(new Option('nothing', ''), 0);

@@ -21,16 +21,21 @@ export interface Drawing {
   directions: number[][];  ///< unstable ones: twists [v, ω]
   meeting: number[] | null;  ///< where the legs' lines meet at a type II
   around?: Around;           ///< of a robot that goes in
+  tube?: Tube;               ///< through which its base goes
   wrench: number[] | null;   ///< on the platform [N, N m]; planar [fx, fy, m]
 }
+
+/** A straight tube from one end to the other, and how far a shaft comes out of it [m]. */
+export interface Tube { from: number[]; to: number[]; shaft: number[]; axis: number[]; radius: number }
 
 /** What is around a robot that goes in, in the axes of the scene [m]. */
 export interface Around {
   trail: number[][];       ///< the way of the tip
-  target: {tip: number[]; direction: number[] | null; tolerance: number};
+  target: {tip: number[]; direction: number[] | null; tolerance: number} | null;
   port: {position: number[]; radius: number} | null;
   axis: number[];          ///< in which it goes in
   tip: {position: number[]; direction: number[]};  ///< here
+  base?: number[];         ///< where solids are cut, if it is nearer to the eye than the tip
   near: {from: number[]; to: number[]; says: string; isBad: boolean; solid: number} | null;  ///< where robot and solids are nearest
   extent: number[][];      ///< what a fit has in view
 }

@@ -74,7 +74,7 @@ export class Poses {
   private async askShapes(robot: Robot, steps: number[]): Promise<void> {
     const answers = await robot.ask(steps.map((step) => ({query: 'shape', configuration: this.plan.steps[step]!.configuration, samples})));
     steps.forEach((step, i) => {
-      this.kept.set(step, this.placed(answers[i]!, this.plan.steps[step]!.stage));
+      this.kept.set(step, placed(answers[i]!, this.plan.scene as Place, this.plan.steps[step]!.stage));
       this.came(step);
     });
     for (const step of [...this.kept.keys()].sort((a, b) => Math.abs(b - this.wanted) - Math.abs(a - this.wanted)).slice(0, Math.max(0, this.kept.size - most))) this.kept.delete(step);
@@ -83,28 +83,31 @@ export class Poses {
   private async askTips(robot: Robot): Promise<void> {
     const first = this.tips.length, steps = this.plan.steps.slice(first, first + forwards);
     const answers = await robot.ask(steps.map(({configuration}) => ({query: 'forward', configuration})));
-    answers.forEach((answer, i) => this.tips.push(answer.tip ? {position: this.mover(steps[i]!.stage)(answer.tip.position), changes: answer.changes ?? null} : null));
+    answers.forEach((answer, i) => this.tips.push(answer.tip ? {position: mover(this.plan.scene as Place, steps[i]!.stage)(answer.tip.position), changes: answer.changes ?? null} : null));
     if (this.hasTips) this.came(null);
   }
+}
 
-  /** From the axes of the robot to those of the scene, where the stage is so far. */
-  private mover(stage: number): (point: Point) => Point {
-    const {base, axis} = this.plan.scene, [u, v, w] = axesOf(base), at = plus(base.position, axis, stage);
-    return ([x, y, z = 0]) => plus(plus(plus(at, u, x!), v, y!), w, z);
-  }
+/** Where a robot is: its base where the stage is at 0, and the way of the stage. */
+export interface Place { base: {position: Point; quaternion: number[]}; axis: Point }
 
-  /** Tendons, which make most of an answer, are left out. */
-  private placed(answer: Json, stage: number): Pose | null {
-    if (answer.error || !answer.backbones) return null;
-    const move = this.mover(stage), turn = this.plan.scene.base.quaternion, [, , along] = axesOf(answer.tip), [u, v, w] = axesOf(this.plan.scene.base);
-    return {
-      shape: {
-        backbones: (answer.backbones as Point[][]).map((points) => points.map(move)),
-        discs: (answer.discs ?? []).map((disc: Json) => ({...disc, pose: {position: move(disc.pose.position), quaternion: product(turn, disc.pose.quaternion)}})),
-      },
-      tip: {position: move(answer.tip.position), direction: plus(plus(plus([0, 0, 0], u, along[0]!), v, along[1]!), w, along[2]!)},
-    };
-  }
+/** From the axes of the robot to those of the scene, where the stage is so far. */
+function mover({base, axis}: Place, stage: number): (point: Point) => Point {
+  const [u, v, w] = axesOf(base), at = plus(base.position, axis, stage);
+  return ([x, y, z = 0]) => plus(plus(plus(at, u, x!), v, y!), w, z);
+}
+
+/** Tendons, which make most of an answer, are left out. */
+export function placed(answer: Json, place: Place, stage: number): Pose | null {
+  if (answer.error || !answer.backbones) return null;
+  const move = mover(place, stage), turn = place.base.quaternion, [, , along] = axesOf(answer.tip), [u, v, w] = axesOf(place.base);
+  return {
+    shape: {
+      backbones: (answer.backbones as Point[][]).map((points) => points.map(move)),
+      discs: (answer.discs ?? []).map((disc: Json) => ({...disc, pose: {position: move(disc.pose.position), quaternion: product(turn, disc.pose.quaternion)}})),
+    },
+    tip: {position: move(answer.tip.position), direction: plus(plus(plus([0, 0, 0], u, along[0]!), v, along[1]!), w, along[2]!)},
+  };
 }
 
 /** Of two turns, first the second. */

@@ -6,7 +6,7 @@ import {Pace} from './pace';
 import type {Solids} from './picture';
 import {withText} from './png';
 import {Surfaces} from './surfaces';
-import {length, minus, plus} from './vector';
+import {dot, length, minus, plus} from './vector';
 import {webgl} from './webgl';
 
 const deep = 20;  // sizes of the picture that are drawn, before and behind the target
@@ -76,7 +76,8 @@ export class Scene extends Figure {
     const around = this.drawing?.around;
     if (this.surfaces && around) {
       this.surfaces.mark(around.near?.isBad ? around.near.solid : -1);
-      this.surfaces.cut(this.isCut ? around.tip.position : null, lookout.back);
+      const {tip, base = tip.position} = around, {back} = lookout;
+      this.surfaces.cut(this.isCut ? (dot(base, back) > dot(tip.position, back) ? base : tip.position) : null, back);
     }
     renderer.render(this.world, eye);
   }

@@ -338,7 +338,7 @@ export class Trajectory {
 }
 
 /** The server sends the solids one after the other, in the order of the scene. */
-function solidsOf(plan: Plan, bytes: ArrayBuffer): Solids {
+export function solidsOf(plan: Plan, bytes: ArrayBuffer): Solids {
   const all: Json[] = plan.scene.solids, corners = all.reduce((sum, {vertices}) => sum + vertices, 0);
   return {positions: new Float32Array(bytes, 0, 3 * corners), indices: new Uint32Array(bytes, 12 * corners), counts: all.map(({triangles}) => triangles)};
 }

@@ -3,39 +3,7 @@ import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import {audit, blank, differs, drawn, fits, linked, open, same, shot, sinew} from './harness.mjs';
-import {framer, standIn} from './stand_in.mjs';
-
-const robots = new URL('../../robots/', import.meta.url), textOf = (name) => readFileSync(new URL(`${name}.yaml`, robots), 'utf8');
-const sizes = [[1280, 800], [390, 844]], themes = ['light', 'dark'];
-const degree = Math.PI / 180;
-
-const draws = (page) => page.evaluate(() => Number(document.documentElement.dataset.operated ?? 0));
-
-/** Waits for what the page draws to be as a test of it says. */
-const until = async (page, is, ...values) => {
-  for (let tries = 0; !await page.evaluate(is, ...values); ++tries) {
-    assert.ok(tries < 1200, `it did not come: ${is}`);
-    await new Promise((next) => setTimeout(next, tries < 20 ? 10 : 100));
-  }
-  await drawn(page);
-};
-const operated = (page, after) => until(page, (count) => Number(document.documentElement.dataset.operated ?? 0) > count, after);
-const frame = (page) => page.evaluate(() => window.__sinew.operate.frame);
-const word = (page, section) => page.locator('.section .word').nth(section).innerText();
-
-async function see(browser, url, robot, more = '', options = {}) {
-  const opened = await blank(browser, options);
-  await opened.page.goto(`${url}#robot=${robot}&screen=operate${more}`);
-  await operated(opened.page, 0);
-  return opened;
-}
-
-/** Does something and waits for the answer of the arm of sliders. */
-async function answered(page, act) {
-  const before = await page.evaluate(() => window.__sinew.operate.frame.time);
-  await act();
-  await until(page, (time) => window.__sinew.operate.frame.time > time, before);
-}
+import {alarm, answered, arrived, bar, bends, control, degree, device, draws, frame, operated, pause, see, sizes, textOf, themes, until, word} from './operating.mjs';
 
 /** The target by pointer, keys and numbers; the command gives the numbers of the page; the link brings them back. */
 export async function operate_sliders(browser, url) {
@@ -71,9 +39,9 @@ export async function operate_sliders(browser, url) {
   assert.match(await page.locator('#op-banner').innerText(), /S4 OVER-TENSIONED by 0\.30 mm[\s\S]*Pay out tendons 1, 2 and 3 by 0\.30 mm/);
   const command = await page.locator('.as-command code').innerText(), words = [...command.matchAll(/"([^"]*)"|(\S+)/g)].map(([, quoted, plain]) => quoted ?? plain);
   const told = JSON.parse(execFileSync(sinew, [...words.slice(1), '--json'], {encoding: 'utf8'})), shown = (await frame(page)).sections[3];
-  for (const key of ['class', 'partial', 'conditional']) assert.equal(shown[key], told[key], key);
+  for (const key of ['class', 'partial', 'conditional', 'word', 'advice', 'near_limit']) assert.equal(shown[key], told[key], key);
   const flat = (part) => [part].flat(3).flatMap((one) => (typeof one === 'object' ? [...one.normal, one.offset] : [one]));
-  for (const key of ['point', 'slack', 'frontiers', 'margin', 'over_tension']) flat(shown[key]).forEach((value, i) => assert.ok(Math.abs(value - flat(told[key])[i]) < 1e-9, key));
+  for (const key of ['point', 'slack', 'amount', 'frontiers', 'margin', 'over_tension']) flat(shown[key]).forEach((value, i) => assert.ok(Math.abs(value - flat(told[key])[i]) < 1e-9, key));
   const link = await linked(page), before = await frame(page);
   await page.goto('about:blank');
   await page.goto(link);
@@ -147,9 +115,6 @@ export async function operate_robots(browser, url) {
 
 // A device
 
-const bends = [[0.1, -0.05], [-0.1, 0.1], [0.05, 0.1], [0.1, 0.2], [0.1, 0.05]];
-const alarm = (section, word, next, more = 0) => ({section, word, since: 3.2, sentence: '', did: 'Motion is held.', next, more, acknowledged: false});
-
 /** The rows of the table of states: by name what `framer` is given. */
 const rows = {
   exact: [null, {}],
@@ -160,12 +125,6 @@ const rows = {
   'near-limit': [null, {bends: [...bends.slice(0, 2), [0.41, 0.1], ...bends.slice(3)], each: (i) => ({near_limit: i === 2})}],
   'no-data': [[0, 0, 7.5e-4, 0, 0], {each: () => ({word: 'NO DATA'}), more: {age: 4.2, link: 'silent', message: 'the controller does not answer', rate: 0, alarm: {...alarm(0, 'NO DATA', 'Check the cable.', 4)}}}],
 };
-
-async function device(url, robot, info) {
-  const text = textOf(robot), stand = await standIn(url, robot, text, info), make = await framer(url, text);
-  for (const [kind, what] of [['info', 'device found'], ['info', 'homed, 15/15'], ['info', 'armed'], ['slack', 'S3 SLACK 0.75 mm'], ['over', 'S4 OVER-TENSIONED 0.70 mm']]) stand.log({time: 1, clock: '10:42:17', kind, text: what});
-  return {stand, make};
-}
 
 /** Every row of the table of states, at both sizes and in both themes; no two of them look the same to those who see no red or green. */
 export async function operate_states(browser, url) {
@@ -204,29 +163,6 @@ export async function operate_states(browser, url) {
   }
   for (const one of [stand, neutral.stand]) one.close();
 }
-
-/** A page with a device that tells of itself. */
-async function control(browser, url, options) {
-  const {stand, make} = await device(url, 'nottingham-tpcj');
-  stand.push(await make(bends));
-  const {page, done} = await blank(browser, options), telling = setInterval(() => stand.push(stand.frame), 50);
-  await page.goto(stand.url);
-  await operated(page, 0);
-  return {stand, make, page, done: async (allowed) => {
-    clearInterval(telling);
-    await done(allowed ?? /409|ERR_/);
-    stand.close();
-  }};
-}
-
-const bar = (page, name) => page.locator('#op-bar').getByRole('button', {name});
-const pause = (ms) => new Promise((next) => setTimeout(next, ms));
-const arrived = async (stand, is) => {
-  for (let tries = 0; !is(); ++tries) {
-    assert.ok(tries < 600, `it was not said: ${is}`);
-    await pause(20);
-  }
-};
 
 /** From looking on to moving and back: the lease, the dialog, Move while it is held, and every way in which it ends. */
 export async function operate_control(browser, url) {

@@ -5,6 +5,7 @@ import * as drive from './drive.mjs';
 import * as errors from './errors.mjs';
 import {isThorough, launch, serve} from './harness.mjs';
 import * as honest from './honest.mjs';
+import * as jog from './jog.mjs';
 import * as log from './log.mjs';
 import * as looks from './looks.mjs';
 import * as operate from './operate.mjs';
@@ -12,12 +13,12 @@ import * as plans from './plans.mjs';
 import * as robots from './robots.mjs';
 import * as speed from './speed.mjs';
 
-const modules = {robots, design, drive, errors, honest, looks, operate, log, plans, speed}, wanted = process.argv.slice(5);
+const modules = {robots, design, drive, errors, honest, jog, looks, operate, log, plans, speed}, wanted = process.argv.slice(5);
 const cases = Object.entries(modules).flatMap(([module, all]) => Object.entries(all).map(([name, run]) => ({module, name, run})));
 for (const one of wanted) assert.ok(cases.some(({module, name}) => one === module || one === name), `${one} is no module and no case`);
 
 // What is about the picture itself is seen by WebGL; what is about the rest of the page passes by the simpler picture just as well.
-const isAboutPictures = ({module, name}) => isThorough || ['robots', 'looks', 'speed'].includes(module) && name !== 'accessibility' || name === 'links' || ['plan_pictures', 'operate_pictures', 'drive_pictures'].includes(name);
+const isAboutPictures = ({module, name}) => isThorough || ['robots', 'looks', 'speed'].includes(module) && name !== 'accessibility' || name === 'links' || ['plan_pictures', 'operate_pictures', 'drive_pictures', 'jog_pictures'].includes(name);
 const {server, url} = await serve(), browsers = new Map();
 async function browserFor(one) {
   const hasWebGL = isAboutPictures(one);

@@ -19,7 +19,9 @@ export async function standIn(url, robot, text, info = {}) {
 
   function command(call, body, response) {
     said.push({call, body});
-    if (refusals[call]) return reply(response, 409, {error: refusals[call]});
+    const {isOnce, ...error} = refusals[call] ?? {};
+    if (isOnce) delete refusals[call];
+    if (error.code) return reply(response, 409, {error});
     if (call === 'lease' && body.lease && body.lease !== lease) return reply(response, 409, {error: {code: 'not_yours', message: 'this lease is over; take control again'}});
     if (call === 'lease') {
       if (!lease) lease = `secret-${++number}`;
@@ -109,19 +111,18 @@ export async function standIn(url, robot, text, info = {}) {
 }
 
 const ask = async (url, robot, queries) => (await fetch(new URL(`/api/query?robot=${robot}`, url), {method: 'POST', body: JSON.stringify(queries), headers: {'Content-Type': 'application/json'}})).json();
-const words = {exact: 'EXACT', indeterminate: 'SLACK', inconsistent: 'OVER-TENSIONED', unreachable: 'UNREACHABLE'};
 
 /** Makes frames of a robot: the sections as `diagram` has them, the rest as of a device at rest. */
 export async function framer(url, text) {
   const {robot} = await (await fetch(new URL('/api/robot', url), {method: 'POST', body: text, headers: {'Content-Type': 'text/yaml'}})).json();
   const [{sections}] = await ask(url, robot, [{query: 'describe'}]);
   /** @param bends of the sections @param slack of each, beyond what they need; or changes as they are */
-  return async (bends, slack, {more = {}, each = () => ({}), changes: given} = {}) => {
+  return async (bends, slack, {more = {}, each = () => ({}), changes: given, model = 'lsk'} = {}) => {
     const polar = ([x, y], i) => (sections[i].type === 'tpcj' ? [x, y] : [Math.hypot(x, y), Math.atan2(y, x)]);
-    const [forward] = await ask(url, robot, [{query: 'forward', configuration: bends.map(polar), model: 'lsk', ...(slack && {slack})}]), changes = given?.(forward.changes) ?? forward.changes;
-    const diagrams = await ask(url, robot, sections.map((_, section) => ({query: 'diagram', section, changes: changes.slice(0, section + 1)})));
+    const [forward] = await ask(url, robot, [{query: 'forward', configuration: bends.map(polar), model, ...(slack && {slack})}]), changes = given?.(forward.changes) ?? forward.changes;
+    const diagrams = await ask(url, robot, sections.map((_, section) => ({query: 'diagram', section, model, changes: changes.slice(0, section + 1)})));
     const told = diagrams.map((one, i) => ({
-      ...one, near_limit: false, word: one.class === 'indeterminate' && one.partial ? 'PARTLY SLACK' : words[one.class], locked: false, commanded: one.point, target: one.point, measured: one.point, changes: changes[i], set: changes[i],
+      ...one, locked: false, commanded: one.point, target: one.point, measured: one.point, changes: changes[i], set: changes[i],
       tension: changes[i].map((_, k) => 2 + 0.7 * k + 0.3 * i), ...each(i, one),
     }));
     return {

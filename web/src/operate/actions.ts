@@ -89,7 +89,7 @@ export class Actions {
   private put(of: Labelled, word: string, key: string, motion: Motion, note: string): void {
     const why = this.locked(motion);
     of.say(word, key, why === takeFirst ? 'view only' : why ?? note, !!why);
-    of.element.classList.toggle('pressed', this.control.held === motion);
+    of.element.classList.toggle('pressed', this.control.held === motion && (motion !== 'relax' || this.control.section === this.relaxed));
   }
 
   private get isMine(): boolean {
@@ -105,7 +105,7 @@ export class Actions {
   }
 
   private get payOut(): string {
-    const lacks = this.frame!.sections[this.relaxed]?.over_tension ?? 0;
+    const lacks = this.frame!.sections[this.relaxed]?.amount ?? 0;
     return this.isOver && lacks > 0 ? `hold: pays out ${(1e3 * lacks).toFixed(2)} mm` : 'hold: until slack';
   }
 

@@ -1,25 +1,34 @@
-// The arm in three dimensions, beside its diagrams: from the side, from above, from the tip, or as large as the page.
+// The arm in three dimensions, beside its diagrams: from the side, from above, from the tip, or as large as the page; with the tube
+// that guides its base, or the scene that it goes into.
 import type {Json} from '../client';
+import {extent} from '../compose';
 import {button, byId, make} from '../make';
-import type {Around, Picture, View} from '../picture';
+import type {Around, Picture, Tube, View} from '../picture';
 import {makePicture} from '../picture_of';
+import type {Pose} from '../poses';
 import {toast} from '../toast';
-import {axesOf, plus, type Point} from '../vector';
+import {plus, type Point} from '../vector';
 import type {Kind} from './frame';
 import {type TipPlace, trailOf} from './plan_way';
+import type {Stages} from './subject';
+import {inPlace, type Scene, tubeOf} from './surround';
 
 const views: View[] = ['side', 'top', 'tip'];
 const shapes: Record<Kind, string> = {exact: '●', slack: '▼', over: '⊗', unreachable: '⧄', stale: '?'};
+const far = 2e-3;  // m that the stage goes before all is put in view again
+
+/** An arm as the server has it, where it is to go, its tip on the way of a plan, how its sections are. */
+export interface Seen { shape: Json; ghost: Json | null; tips: TipPlace[]; stages: Stages | null; kinds: Kind[]; isStale: boolean }
 
 export class ArmView {
   private picture: Picture | null = null;
   private readonly buttons: HTMLButtonElement[];
   private view: View = 'side';
   private isFull = false;
-  private shape: Json | null = null;
-  private ghost: Json | null = null;
+  private seen: Seen | null = null;
   private drawn = '';
-  private tips: TipPlace[] = [];
+  private scene: Scene | null = null;
+  private fitted = {camera: '', stage: 0};
 
   /** @param turned it is small or large now */
   constructor(private readonly box: HTMLElement, private readonly turned: () => void) {
@@ -50,30 +59,49 @@ export class ArmView {
     document.body.classList.toggle('arm-full', is);
     this.mark();
     this.turned();
-    requestAnimationFrame(() => this.picture?.fit(this.view));
+    requestAnimationFrame(() => this.fit());
   }
 
   fit(): void {
     this.picture?.fit(this.view);
+    this.fitted = {camera: this.picture?.camera ?? '', stage: this.seen?.stages?.now ?? 0};
   }
 
-  /** @param ghost where it is to go @param tips of a plan @param stages of arm and ghost [m] */
-  show(shape: Json, ghost: Json | null, kinds: Kind[], isStale: boolean, tips: TipPlace[], stages: {now: number; goal: number}): void {
-    const isFirst = !this.shape || tips !== this.tips && (tips.length > 0) !== (this.tips.length > 0), drawn = `${kinds.join()}${isStale} ${stages.now} ${stages.goal}`;
-    if (shape === this.shape && ghost === this.ghost && tips === this.tips && this.drawn === drawn) return;
-    [this.shape, this.ghost, this.tips, this.drawn] = [shape, ghost, tips, drawn];
-    const picture = this.begin(), around = tips.length > 0 ? wayAround(shape, tips, stages.now) : null;
-    picture.draw({shape, isPlanar: false, radius: 0.0005, struts: [], isStale, ghost: ghost && moved(ghost, stages.goal - stages.now), states: kinds.map((kind) => shapes[kind]), isUnstable: false, directions: [], meeting: null, wrench: null, ...(around && {around})});
-    if (isFirst) picture.fit(this.view);
+  show(seen: Seen): void {
+    const {shape, ghost, tips, ...rest} = seen, drawn = JSON.stringify(rest), isFirst = !this.seen || (tips.length > 0) !== (this.seen.tips.length > 0);
+    if (shape === this.seen?.shape && ghost === this.seen?.ghost && tips === this.seen?.tips && drawn === this.drawn) return;
+    [this.seen, this.drawn] = [seen, drawn];
+    this.draw();
+    const isAsFitted = this.picture!.camera === this.fitted.camera && Math.abs((seen.stages?.now ?? 0) - this.fitted.stage) > far;
+    if (isFirst || isAsFitted) this.fit();
+  }
+
+  /** What is around it; null: nothing that the server knows of. */
+  surround(scene: Scene | null): void {
+    this.scene = scene;
+    this.picture?.solids(scene?.solids ?? null);
+    if (!this.seen) return;
+    this.draw();
+    this.fit();
   }
 
   forget(): void {
-    [this.shape, this.ghost, this.tips, this.drawn] = [null, null, [], ''];
+    this.seen = null;
+    this.surround(null);
     this.picture?.clear();
   }
 
   paint(): void {
     this.picture?.paint(getComputedStyle(document.documentElement));
+  }
+
+  private draw(): void {
+    const {seen, scene} = this, {shape, ghost, tips, stages, kinds, isStale} = seen!, where = scene?.scene ?? null, {now, goal} = stages ?? {now: 0, goal: 0}, pose = inPlace(shape, where, now), picture = this.begin();
+    const tube = stages && tubeOf(shape, where, now);
+    picture.draw({
+      shape: pose.shape, isPlanar: false, radius: 0.0005, struts: [], isStale, ghost: ghost && inPlace(ghost, where, goal).shape, states: kinds.map((kind) => shapes[kind]), isUnstable: false, directions: [],
+      meeting: null, wrench: null, ...(tube && {tube}), around: around(pose, where, tube, trailOf(tips, where)),
+    });
   }
 
   /** Made when it is first needed: it takes a context of WebGL. */
@@ -83,6 +111,8 @@ export class ArmView {
     for (const layer of ['frames', 'tendons'] as const) picture.show(layer, false);
     picture.labelOf = ({index}) => `section ${index + 1}`;
     picture.note = toast;
+    picture.isCut = true;
+    if (this.scene) picture.solids(this.scene.solids);
     this.paint();
     return picture;
   }
@@ -90,7 +120,7 @@ export class ArmView {
   private look(view: View): void {
     this.view = view;
     this.mark();
-    this.picture?.fit(view);
+    this.fit();
   }
 
   private mark(): void {
@@ -99,16 +129,11 @@ export class ArmView {
   }
 }
 
-/** A shape whose base is farther along the stage. */
-function moved(shape: Json, by: number): Json {
-  if (by === 0) return shape;
-  const to = (point: Point) => plus(point, [0, 0, 1], by);
-  return {...shape, backbones: (shape.backbones as Point[][]).map((points) => points.map(to)), discs: (shape.discs ?? []).map((disc: Json) => ({...disc, pose: {...disc.pose, position: to(disc.pose.position)}})),
-          ...(shape.tip && {tip: {...shape.tip, position: to(shape.tip.position)}})};
-}
-
-/** The way of the tip, and its end. */
-function wayAround(shape: Json, tips: TipPlace[], stage: number): Around {
-  const trail = trailOf(tips, stage), [, , along] = axesOf(shape.tip);
-  return {trail, target: {tip: trail.at(-1)!, direction: null, tolerance: 0}, port: null, axis: [0, 0, 1], tip: {position: shape.tip.position, direction: along}, near: null, extent: [...trail, [0, 0, 0], shape.tip.position]};
+/** @param trail of a plan's tip, which ends where it leads to */
+function around({shape, tip}: Pose, scene: Json | null, tube: Tube | null, trail: Point[]): Around {
+  const points: Point[] = [...extent(shape), ...trail], port = scene?.port ?? null, end = trail.at(-1), target = scene?.target ?? (end ? {tip: end, direction: null, tolerance: 0} : null), axis: Point = scene?.axis ?? [0, 0, 1];
+  if (target) points.push(target.tip);
+  if (port) points.push(plus(port.position, axis, port.radius), plus(port.position, axis, -port.radius));
+  if (tube) for (const sign of [1, -1]) points.push(plus(tube.from, [sign, sign, 0], tube.radius));
+  return {trail, target, port, axis, tip, base: shape.backbones[0]?.[0] ?? tip.position, near: null, extent: points};
 }

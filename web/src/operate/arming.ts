@@ -1,7 +1,7 @@
 // The dialog before anything moves: what has to hold, homing where it is wanted, and that this page is no emergency stop.
 import {button, make} from '../make';
 import type {Control} from './control';
-import {type DeviceInfo, type Frame, kindOf, severity} from './frame';
+import {type DeviceInfo, type Frame, kindOf, worstFirst} from './frame';
 import {icon} from './mark';
 import {heldButton, Labelled, slowButton} from './press';
 
@@ -10,11 +10,11 @@ const longEnough = 1000;  // ms that Arm has to be held
 interface Check { says: string; isMet: boolean; why: string }
 
 function checks(frame: Frame, info: DeviceInfo): Check[] {
-  const worst = [...frame.sections].sort((a, b) => severity(b) - severity(a))[0], kind = worst ? kindOf(worst.word) : 'stale', at = worst ? frame.sections.indexOf(worst) + 1 : 0;
+  const at = worstFirst(frame.sections)[0], worst = at === undefined ? null : frame.sections[at]!, kind = worst ? kindOf(worst.word) : 'stale';
   return [
     {says: 'The firmware has the table of this robot', isMet: frame.link === 'ok', why: frame.message || 'the device does not answer'},
     {says: 'Homed: the zero of each tendon is known', isMet: frame.homed, why: info.has_tension ? 'hold Home until all tendons are done' : 'set the zeros by hand: its drives measure no tension'},
-    {says: 'No state is worse than slack', isMet: kind === 'exact' || kind === 'slack', why: worst ? `S${at} is ${worst.word.toLowerCase()}` : ''},
+    {says: 'No state is worse than slack', isMet: kind === 'exact' || kind === 'slack', why: worst ? `S${at! + 1} is ${worst.word.toLowerCase()}` : ''},
     {says: 'What happens is recorded', isMet: !frame.recording?.error, why: frame.recording?.error ?? ''},
   ];
 }

@@ -1,41 +1,16 @@
 // The worst of all states in one sentence: what it is, what was done about it, what to do next.
 import {button, make} from '../make';
 import type {System} from '../units';
-import {type Alarm, type Frame, type Kind, kindOf, kinds, type SectionFrame, severity} from './frame';
+import {type Frame, type Kind, kindOf, kinds, type SectionFrame} from './frame';
 import {icon} from './mark';
 
-const degree = Math.PI / 180;
 const length = (metres: number, system: System) => (system === 'mm' ? `${(1e3 * metres).toFixed(2)} mm` : `${metres.toFixed(5)} m`);
 
-/** By how much; where its word says it all, nothing. */
-export function amount({word, slack, over_tension, tension}: SectionFrame, system: System): string {
-  const kind = kindOf(word), most = Math.max(0, ...(slack ?? []));
-  if (kind === 'over' && (over_tension ?? 0) > 0) return ` by ${length(over_tension!, system)}`;
-  if (kind === 'over' && tension?.length) return `, ${Math.max(...tension).toFixed(1)} N`;
-  return kind === 'slack' && most > 0 ? ` by ${length(most, system)}` : '';
-}
-
-const numbers = (tendons: number[]) => {
-  const names = tendons.map((i) => i + 1), last = names.pop();
-  return `${tendons.length > 1 ? 'tendons' : 'tendon'} ${names.length > 0 ? `${names.join(', ')} and ` : ''}${last}`;
-};
-
-/** What a section asks for, in the words of a device. */
-export function advice({word, slack = [], point, envelope}: SectionFrame, tolerance: number, system: System): string {
-  const kind = kindOf(word), most = Math.max(0, ...slack.map(Math.abs)), which = (is: (value: number) => boolean) => slack.flatMap((value, i) => (is(value) ? [i] : []));
-  if ((kind === 'slack' && !(most > tolerance)) || (kind === 'over' && !slack.some((value) => value < 0))) return '';  // what tensions say
-  if (kind === 'slack') return `Take in ${numbers(which((value) => value > tolerance))} by ${length(most, system)}.`;
-  if (kind === 'over') return `Pay out ${numbers(which((value) => value < 0))} by ${length(most, system)}.`;
-  if (kind !== 'unreachable' || !point || !envelope) return '';
-  const bend = envelope.kind === 'disc' ? Math.hypot(...point) : Math.max(...point.map(Math.abs));
-  return `Asked for ${(bend / degree).toFixed(1)}°, limit ${(envelope.limit / degree).toFixed(1)}°.`;
-}
-
-/** Of answers to queries what a device says of itself. */
-export function alarmOf(sections: SectionFrame[], tolerance: number, system: System): Alarm | null {
-  const bad = sections.map((_, i) => i).filter((i) => kindOf(sections[i]!.word) !== 'exact').sort((a, b) => severity(sections[b]!) - severity(sections[a]!) || a - b), first = bad[0];
-  if (first === undefined) return null;
-  return {section: first, word: sections[first]!.word, since: 0, sentence: '', did: '', next: advice(sections[first]!, tolerance, system), more: bad.length - 1, acknowledged: true};
+/** By how much; where the advice says it all, nothing. */
+export function amount({word, amount: by = 0, tension}: SectionFrame, system: System): string {
+  const kind = kindOf(word);
+  if ((kind === 'over' || kind === 'slack') && by > 0) return ` by ${length(by, system)}`;
+  return kind === 'over' && tension?.length ? `, ${Math.max(...tension).toFixed(1)} N` : '';
 }
 
 /** With a capital and a full stop. */

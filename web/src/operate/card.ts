@@ -5,6 +5,7 @@ import {TendonBars} from './bars';
 import {clamped} from './coordinates';
 import {described, Diagram, type View} from './diagram';
 import {type Bend, kindOf, type SectionFrame} from './frame';
+import {Grip} from './grip';
 import {icon} from './mark';
 import {Trail} from './trail';
 
@@ -15,10 +16,9 @@ export interface Hand {
   type(section: number): void;              ///< numbers are to be typed
 }
 
-export interface Look { isDisc: boolean; limit: number; given: string; age: string; tensionLimit: number; system: System }
+export interface Look { isDisc: boolean; limit: number; given: string[]; age: string; tensionLimit: number; system: System }
 
 const degree = Math.PI / 180;
-const resistance = 0.25;  // of the way beyond the envelope that a pull is drawn
 
 export class Card {
   readonly element = make('article', {className: 'section'});
@@ -32,7 +32,6 @@ export class Card {
   private frame: SectionFrame | null = null;
   private look: Look | null = null;
   private over: Bend | null = null;
-  private dragging = -1;  // the pointer
   private side = 0;
   private said = '';
 
@@ -98,41 +97,32 @@ export class Card {
 
   private listen(): void {
     const {plot} = this;
-    plot.addEventListener('pointerdown', (event) => this.press(event));
-    plot.addEventListener('pointermove', (event) => event.pointerId === this.dragging && this.drag(event));
-    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) plot.addEventListener(end, (event) => this.release(event));
+    plot.addEventListener('pointerdown', () => this.hand.chosen(this.index));
+    this.head.addEventListener('click', () => this.hand.chosen(this.index));
+    new Grip(plot, {
+      may: () => !!this.frame && this.hand.may(this.index), bend: (event) => this.bendAt(event), target: () => this.frame!.target, limit: () => this.look!.limit, isDisc: () => this.look!.isDisc,
+      aim: (to, over) => this.aim(to, over), letGo: () => this.pull(null),
+    });
     plot.addEventListener('dblclick', () => this.hand.type(this.index));
     plot.addEventListener('keydown', (event) => this.key(event));
     plot.addEventListener('focus', () => this.hand.chosen(this.index));
-    plot.addEventListener('contextmenu', (event) => event.preventDefault());
   }
 
-  private press(event: PointerEvent): void {
-    this.hand.chosen(this.index);
-    if (event.button !== 0 || this.dragging >= 0 || !this.frame || !this.hand.may(this.index)) return;
-    this.dragging = event.pointerId;
-    this.plot.setPointerCapture(event.pointerId);
-    this.drag(event);
+  private bendAt({clientX, clientY}: PointerEvent): Bend {
+    const {left, top} = this.diagram.element.getBoundingClientRect();
+    return this.diagram.plane.bend([clientX - left, clientY - top]);
   }
 
-  private drag(event: PointerEvent): void {
-    const {left, top} = this.diagram.element.getBoundingClientRect(), {plane} = this.diagram, {limit, isDisc} = this.look!;
-    const wanted = plane.bend([event.clientX - left, event.clientY - top]), to = clamped(wanted, limit, isDisc), isBeyond = Math.hypot(to[0] - wanted[0], to[1] - wanted[1]) > 1e-9;
-    this.over = isBeyond ? [to[0] + resistance * (wanted[0] - to[0]), to[1] + resistance * (wanted[1] - to[1])] : null;
-    this.aim(to);
+  private pull(over: Bend | null): void {
+    this.over = over;
+    this.draw();
   }
 
-  private aim(to: Bend): void {
+  private aim(to: Bend, over: Bend | null): void {
+    this.over = over;
     this.frame = {...this.frame!, target: to};
     this.draw();
     this.hand.aim(this.index, to);
-  }
-
-  private release(event: PointerEvent): void {
-    if (event.pointerId !== this.dragging) return;
-    this.dragging = -1;
-    this.over = null;
-    this.draw();
   }
 
   private key(event: KeyboardEvent): void {
@@ -143,6 +133,6 @@ export class Card {
     if (!way) return this.hand.type(this.index);
     if (!this.hand.may(this.index)) return;
     const by = (event.shiftKey ? 1 : 0.1) * degree, [x, y] = this.frame.target;
-    this.aim(clamped([x + by * way[0], y + by * way[1]], this.look.limit, this.look.isDisc));
+    this.aim(clamped([x + by * way[0], y + by * way[1]], this.look.limit, this.look.isDisc), null);
   }
 }

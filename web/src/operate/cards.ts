@@ -1,7 +1,7 @@
 // The row of section cards. Where there are many they are smaller, and of more than ten the worst are shown, the rest as chips.
 import {button, make} from '../make';
 import {Card, type Hand, type Look} from './card';
-import {kindOf, type SectionFrame, severity} from './frame';
+import {kindOf, type SectionFrame, worstFirst} from './frame';
 import {icon} from './mark';
 
 const most = 10;
@@ -35,7 +35,7 @@ export class Cards {
   }
 
   show(sections: SectionFrame[], look: (section: number) => Look, now: number): void {
-    const worst = new Set(sections.map((_, i) => i).sort((a, b) => severity(sections[b]!) - severity(sections[a]!) || a - b).slice(0, most));
+    const worst = new Set(worstFirst(sections).slice(0, most));
     sections.forEach((section, i) => {
       const {element} = this.cards[i]!, isShown = sections.length <= most || worst.has(i);
       if (element.hidden === isShown) element.hidden = !isShown;

@@ -12,14 +12,13 @@ export type Motion = 'move' | 'straighten' | 'retract' | 'advance' | 'relax' | '
 /** Back along a plan is its call, too. */
 const callOf = (motion: Motion) => (motion === 'back' ? 'follow' : motion);
 
-const isDone = (motion: Motion) => motion === 'relax' || motion === 'home';
-
 export class Control {
   number = 0;  ///< of the lease; 0: none
   held: Motion | null = null;
   private lease = '';
   private renewing = 0;
   private body: object = {};
+  private over: ((isDone: boolean) => void) | null = null;
   private beating = 0;
   private flight: AbortController | null = null;  // of the heartbeat that is on its way
   private goal: {bends?: Bend[]; stage?: number} | null = null;
@@ -27,6 +26,11 @@ export class Control {
 
   /** @param says why something was refused @param changed lease or button are others now */
   constructor(private readonly device: Device, private readonly says: (why: string) => void, private readonly changed: () => void) {}
+
+  /** That is relaxed while its button is held. */
+  get section(): number {
+    return (this.body as {section?: number}).section ?? -1;
+  }
 
   get isMine(): boolean {
     return this.lease !== '';
@@ -43,7 +47,7 @@ export class Control {
   }
 
   giveBack(isLast = false): void {
-    this.letGo(isLast);
+    void this.letGo(isLast);
     if (!this.isMine) return;
     void this.device.call('release', {lease: this.lease}, undefined, isLast).catch(() => undefined);
     this.lose();
@@ -55,13 +59,13 @@ export class Control {
 
   /** @param isLast the window has lost the focus, or is being closed */
   disarm(isLast = false): void {
-    this.letGo(isLast);
+    void this.letGo(isLast);
     if (this.isMine) void this.device.call('disarm', {lease: this.lease}, undefined, isLast).catch(() => undefined);
   }
 
   /** By anyone, armed or not. */
   hold(): void {
-    this.letGo();
+    void this.letGo();
     void this.try(() => this.device.call('hold'));
   }
 
@@ -106,26 +110,30 @@ export class Control {
 
   // What is held
 
-  press(motion: Motion, body: object = {}): void {
-    if (this.held) return;
-    if (!this.isMine) return this.says('take control first');
-    [this.held, this.body] = [motion, motion === 'back' ? {back: true} : body];
+  /** @param over it ended, and nobody let go: it is done, or refused */
+  press(motion: Motion, body: object = {}, over: (isDone: boolean) => void = () => undefined): void {
+    if (this.held) return over(false);
+    if (!this.isMine) {
+      this.says('take control first');
+      return over(false);
+    }
+    [this.held, this.body, this.over] = [motion, motion === 'back' ? {back: true} : body, over];
     this.changed();
     void this.tell();
     this.beating = window.setInterval(() => void this.tell(), beat);
   }
 
   /** The last thing that is said of it: a heartbeat that is on its way is called back, and the end is told twice. */
-  letGo(isLast = false): void {
+  async letGo(isLast = false): Promise<void> {
     const {held, body, lease} = this;
     if (!held) return;
     clearInterval(this.beating);
     this.flight?.abort();
-    [this.held, this.flight] = [null, null];
-    const end = () => void this.device.call(callOf(held), {...body, lease, held: false}, undefined, isLast).catch(() => undefined);
-    end();
-    if (!isLast) setTimeout(() => this.held === held || end(), beat);
+    [this.held, this.flight, this.over] = [null, null, null];
+    const end = () => this.device.call(callOf(held), {...body, lease, held: false}, undefined, isLast).catch(() => undefined);
+    if (!isLast) setTimeout(() => this.held === held || void end(), beat);
     this.changed();
+    await end();
   }
 
   private async tell(): Promise<void> {
@@ -136,9 +144,9 @@ export class Control {
       await this.device.call(callOf(held), {...this.body, lease: this.lease, held: true}, flight.signal);
     } catch (error) {
       if (flight.signal.aborted) return;
-      // What is done ends by itself, and says so only to the next heartbeat.
-      if (!(isDone(held) && error instanceof Refused && error.answer.error?.code === 'release_first')) this.refused(error);
-      this.letGo();
+      const isDone = error instanceof Refused && error.answer.error?.code === 'done', {over} = this;
+      if (!isDone) this.refused(error);
+      void this.letGo().then(() => over?.(isDone));
     } finally {
       if (this.flight === flight) this.flight = null;
     }
@@ -168,7 +176,9 @@ export class Control {
     [this.lease, this.number] = ['', 0];
     clearInterval(this.beating);
     this.flight?.abort();
-    [this.held, this.flight] = [null, null];
+    const {over} = this;
+    [this.held, this.flight, this.over] = [null, null, null];
+    over?.(false);
     this.changed();
   }
 

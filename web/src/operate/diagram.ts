@@ -2,7 +2,7 @@
 import {type Bend, type Kind, type SectionFrame} from './frame';
 import {inset} from './inset';
 import {mark, tag} from './mark';
-import {emptyTriangle, Plane} from './plane';
+import {forbidden, Plane} from './plane';
 import {type Pixel, svg, text} from './svg';
 
 export interface View {
@@ -11,7 +11,7 @@ export interface View {
   isDisc: boolean;      ///< of a neutral backbone
   limit: number;        ///< of its envelope [rad]
   trail: Bend[];
-  given: string;        ///< the section on whose state it depends; else empty
+  given: string[];      ///< lines that say on what it depends
   over: Bend | null;    ///< where a pointer pulls beyond the envelope
 }
 
@@ -48,7 +48,7 @@ export class Diagram {
   /** What the tendons leave it. */
   private free({section, kind}: View): Node[] {
     const {plane} = this, outline = section.conditional && section.outline?.length ? [svg('polygon', {class: 'outline', points: this.line(section.outline)})] : [];
-    const polygon = section.polygon ?? [];
+    const polygon = freeOf(section);
     if (kind === 'over') return [...outline, svg('polygon', {class: 'empty', points: this.line(this.triangle(section))})];
     if (kind === 'exact' || polygon.length === 0) return outline;
     if (polygon.length === 2) return [...outline, svg('polyline', {class: 'taut', points: this.line(polygon)})];
@@ -56,12 +56,12 @@ export class Diagram {
   }
 
   private triangle({frontiers, slack}: SectionFrame): Bend[] {
-    return emptyTriangle(frontiers ?? [], slack ?? [], 3 * this.plane.reach);
+    return forbidden(frontiers ?? [], slack ?? [], 3 * this.plane.reach);
   }
 
   private frontiers({section}: View): Node[] {
     return (section.frontiers ?? []).flatMap((of, i) => {
-      const drawn = this.plane.frontier(of, section.point ?? [0, 0], section.slack?.[i] ?? 0);
+      const drawn = this.plane.frontier(of);
       return drawn ? [svg('g', {class: `frontier tendon-${(i % 4) + 1}`}, svg('path', {class: 'hatch', d: drawn.hatch}), svg('polyline', {class: 'line', points: text(drawn.points)}))] : [];
     });
   }
@@ -88,17 +88,17 @@ export class Diagram {
   /** Numbers of tendons where their frontiers leave the picture, each away from the others; names of the axes. */
   private words({section, isDisc, given}: View): Node[] {
     const {side} = this.plane, half = side / 2, names = isDisc ? ['θ cos φ', 'θ sin φ'] : ['β₁', 'β₂'];
-    const tags = this.tags(section).map(([tendon, [x, y]]) => tag(tendon, x, y, 8));
+    const tags = this.tags(section, given).map(([tendon, [x, y]]) => tag(tendon, x, y, 8));
     return [
       svg('text', {class: 'axis', x: side - 5, y: half - 6, 'text-anchor': 'end'}, names[0]!), svg('text', {class: 'axis', x: half + 6, y: 13}, names[1]!),
-      ...(given ? [svg('text', {class: 'given', x: 7, y: side - 8}, `given ${given}`)] : []), ...tags,
+      ...tags, ...given.map((line, i) => svg('text', {class: 'given', x: 7, y: side - 8 - 13 * (given.length - 1 - i)}, line)),
     ];
   }
 
-  private tags(section: SectionFrame): [number, Pixel][] {
-    const {plane} = this, {side} = plane, placed: [number, Pixel][] = [], taken: Pixel[] = [[side - 14, side / 2 - 10], [side / 2 + 12, 10], ...(section.point ? [plane.at(section.point)] : [])];
+  private tags(section: SectionFrame, given: string[]): [number, Pixel][] {
+    const {plane} = this, {side} = plane, placed: [number, Pixel][] = [], taken: Pixel[] = [[side - 14, side / 2 - 10], [side / 2 + 12, 10], ...this.corner(given), ...(section.point ? [plane.at(section.point)] : [])];
     (section.frontiers ?? []).forEach((of, i) => {
-      const points = plane.frontier(of, [0, 0], 0)?.points.filter((one) => plane.holds(one, -1)) ?? [];
+      const points = plane.frontier(of)?.points.filter((one) => plane.holds(one, -1)) ?? [];
       if (points.length < 2) return;
       const ends = [inwards(points[0]!, points[1]!), inwards(points.at(-1)!, points.at(-2)!)].map(([x, y]): Pixel => [Math.min(side - 10, Math.max(10, x)), Math.min(side - 10, Math.max(10, y))]);
       const free = (end: Pixel) => Math.min(...taken.map(([x, y]) => Math.hypot(x - end[0], y - end[1])));
@@ -109,11 +109,17 @@ export class Diagram {
     return placed;
   }
 
+  /** Where the words are that say on what it depends. */
+  private corner(given: string[]): Pixel[] {
+    const y = this.plane.side - 6 * given.length - 6;
+    return given.length === 0 ? [] : [20, 60, ...(given.length > 1 ? [100, 140] : [])].map((x) => [x, y]);
+  }
+
   /** What is too small to be seen, larger. */
-  private large({section, kind}: View): Node[] {
-    const shape = kind === 'over' ? this.triangle(section) : kind === 'slack' ? section.polygon ?? [] : [];
+  private large({section, kind, given}: View): Node[] {
+    const shape = kind === 'over' ? this.triangle(section) : kind === 'slack' ? freeOf(section) : [];
     if (shape.length < 2) return [];
-    const {plane} = this, keep = [...this.tags(section).map(([, at]) => at), ...(section.point ? [plane.at(section.point)] : []), plane.at(section.target)];
+    const {plane} = this, keep = [...this.tags(section, given).map(([, at]) => at), ...this.corner(given), ...(section.point ? [plane.at(section.point)] : []), plane.at(section.target)];
     return inset(shape.map((one) => plane.at(one)), plane.side, keep, kind === 'over' ? 'empty' : shape.length === 2 ? 'taut' : 'free', this.clip);
   }
 
@@ -121,6 +127,9 @@ export class Diagram {
     return text(points.map((one) => this.plane.at(one)));
   }
 }
+
+/** What no tendon forbids; between curved frontiers only what of it lies in the envelope is known. */
+const freeOf = ({polygon, boundary}: SectionFrame): Bend[] => polygon ?? boundary ?? [];
 
 function crossHair([x, y]: Pixel): Node[] {
   return [svg('circle', {class: 'goal', cx: x, cy: y, r: 7}), svg('path', {class: 'goal', d: `M${x - 12} ${y}H${x + 12}M${x} ${y - 12}V${y + 12}`})];
@@ -135,6 +144,13 @@ function inwards([x, y]: Pixel, [a, b]: Pixel): Pixel {
 /** What a diagram says, for those who do not see it. */
 export function described({section, given}: View, name: string, angle: (value: number) => string): string {
   const {point, target} = section, pair = (bend: Bend) => bend.map(angle).join(', ');
-  return `${name}, ${section.word.toLowerCase()}${given ? `, given ${given}` : ''}${point ? `, at ${pair(point)}` : ''}, target ${pair(target)}`;
+  return `${name}, ${section.word.toLowerCase()}${given.length > 0 ? `, ${given.join(' ')}` : ''}${point ? `, at ${pair(point)}` : ''}, target ${pair(target)}`;
 }
 
+const reasons = {previous_over_tensioned: 'over-tensioned', over_tensioned: 'itself over-tensioned', beyond_envelope: 'beyond the limit', exact_model: 'not in the exact model'} as const;
+
+/** On what a diagram holds: on the state of the section before it. Where what that leaves is not to be drawn, why. */
+export function given({conditional, no_outline}: SectionFrame, section: number): string[] {
+  if (!conditional) return [];
+  return no_outline ? [`given S${section}, no outline:`, reasons[no_outline]] : [`given S${section}`];
+}

@@ -21,7 +21,8 @@ export class Eye {
   private readonly start = button('Show the camera', () => void this.open());
   private readonly tools = make('div', {className: 'eye-tools', hidden: true});
   private readonly says = make('input', {placeholder: 'words to it', ariaLabel: 'words to a snapshot', maxLength: longest, autocomplete: 'off'});
-  private turn = Number(localStorage.getItem(key)) || 0;
+  /** How far +β₂ is turned clockwise from up, in the picture [deg]. */
+  turn = Number(localStorage.getItem(key)) || 0;
 
   /** @param found whether there is one */
   constructor(private readonly box: HTMLElement, private readonly found: (is: boolean) => void, private readonly keeper: Keeper) {

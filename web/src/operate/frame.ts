@@ -1,10 +1,10 @@
 // What the screen Operate shows of an arm: frames of a device, or answers to queries put into the same form.
-import type {Json} from '../client';
 import type {PlanFrame} from './plan_buttons';
 
 /** In the plane of a section's diagram [rad]: β₁, β₂ of a joint, or θ cos φ, θ sin φ of a neutral backbone. */
 export type Bend = [number, number];
 
+/** A tendon allows the side that a normal points to, or what lies to the left of a curve. */
 export type Frontier = {normal: [number, number]; offset: number} | {curve: Bend[]};
 
 export interface SectionFrame {
@@ -18,14 +18,15 @@ export interface SectionFrame {
   set?: number[];
   tension?: number[] | null;  ///< [N]
   slack?: number[];
-  over_tension?: number; margin?: number;
+  amount?: number;            ///< by how much it is what its word says [m]; unreachable: what it is asked for [rad]
   point?: Bend;
   frontiers?: Frontier[];
   polygon?: Bend[];
-  boundary?: Bend[] | Bend[][];
+  boundary?: Bend[];
   envelope?: {kind: string; limit: number};
   conditional?: boolean;
   outline?: Bend[];
+  no_outline?: 'previous_over_tensioned' | 'over_tensioned' | 'beyond_envelope' | 'exact_model';  ///< why there is none
   advice?: string;
 }
 
@@ -77,7 +78,5 @@ export const kindOfEntry = (kind: string): Kind | null => kind === 'no_data' ? '
 
 export const severity = ({word, near_limit}: SectionFrame): number => 2 * kinds.indexOf(kindOf(word)) + (near_limit ? 1 : 0);
 
-const words = {exact: 'EXACT', indeterminate: 'SLACK', inconsistent: 'OVER-TENSIONED', unreachable: 'UNREACHABLE'} as const;
-
-/** The word of an answer to `diagram`. */
-export const wordOf = (answer: Json): string => answer.class === 'indeterminate' && answer.partial ? 'PARTLY SLACK' : words[answer.class as keyof typeof words] ?? 'NO DATA';
+/** Sections by their numbers, the worst first. */
+export const worstFirst = (sections: SectionFrame[]): number[] => sections.map((_, i) => i).sort((a, b) => severity(sections[b]!) - severity(sections[a]!) || a - b);

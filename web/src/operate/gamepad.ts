@@ -1,34 +1,35 @@
-// A gamepad: its left stick moves the target of the chosen section, the right one that of the last, a shoulder button is Move.
-import type {Bend} from './frame';
+// A gamepad: its left stick jogs the chosen section, the right one the tip; a shoulder button is Move while it is down.
+import type {Motion} from './control';
+import type {Jog, JogFrame} from './jog';
 
-const [dead, fastest] = [0.15, (10 * Math.PI) / 180];  // of a stick; rad/s
-const [hold, shoulder, left, right] = [1, 5, 14, 15];  // buttons of the standard layout
+const dead = 0.15;  // of a stick
+const [hold, shoulder, up, down, left, right] = [1, 5, 12, 13, 14, 15];  // buttons of the standard layout
+const held: [button: number, motion: Motion][] = [[shoulder, 'move'], [up, 'advance'], [down, 'retract']];
+const sticks: [axis: number, frame: JogFrame][] = [[0, 'section'], [2, 'tip']];
 
 export interface Player {
-  tilt(section: 'chosen' | 'last', by: Bend): void;
   choose(by: number): void;
   hold(): void;
-  move(isHeld: boolean): void;
+  motion(motion: Motion, isHeld: boolean): void;
 }
 
 export class Gamepads {
   private readonly down = new Set<number>();
-  private last = 0;
   private isOn = false;
 
-  constructor(private readonly player: Player) {
+  constructor(private readonly player: Player, private readonly jog: Jog) {
     window.addEventListener('gamepadconnected', () => this.begin());
   }
 
   begin(): void {
     if (this.isOn || !this.pad) return;
     this.isOn = true;
-    this.last = performance.now();
-    requestAnimationFrame((now) => this.look(now));
+    requestAnimationFrame(() => this.look());
   }
 
   end(): void {
-    if (this.down.delete(shoulder)) this.player.move(false);
+    for (const [button, motion] of held) if (this.down.delete(button)) this.player.motion(motion, false);
+    for (const [, frame] of sticks) this.jog.push(`stick ${frame}`, frame, null);
     this.isOn = false;
   }
 
@@ -36,29 +37,27 @@ export class Gamepads {
     return [...navigator.getGamepads()].find((one) => one?.connected) ?? null;
   }
 
-  private look(now: number): void {
-    const {pad} = this, seconds = Math.min(0.1, (now - this.last) / 1000);
-    this.last = now;
+  private look(): void {
+    const {pad} = this;
     if (!pad || !this.isOn) return this.end();
-    this.edge(pad, hold, () => this.player.hold());
-    this.edge(pad, left, () => this.player.choose(-1));
-    this.edge(pad, right, () => this.player.choose(1));
-    this.edge(pad, shoulder, () => this.player.move(true), () => this.player.move(false));
-    this.stick(pad, 0, 'chosen', seconds);
-    this.stick(pad, 2, 'last', seconds);
-    requestAnimationFrame((next) => this.look(next));
+    this.edge(pad, hold, (is) => is && this.player.hold());
+    this.edge(pad, left, (is) => is && this.player.choose(-1));
+    this.edge(pad, right, (is) => is && this.player.choose(1));
+    for (const [button, motion] of held) this.edge(pad, button, (is) => this.player.motion(motion, is));
+    for (const [axis, frame] of sticks) this.stick(pad, axis, frame);
+    requestAnimationFrame(() => this.look());
   }
 
-  private edge(pad: Gamepad, button: number, pressed: () => void, released: () => void = () => undefined): void {
-    const is = pad.buttons[button]?.pressed ?? false, was = this.down.has(button);
-    if (is === was) return;
+  private edge(pad: Gamepad, button: number, turned: (is: boolean) => void): void {
+    const is = pad.buttons[button]?.pressed ?? false;
+    if (is === this.down.has(button)) return;
     if (is) this.down.add(button);
     else this.down.delete(button);
-    (is ? pressed : released)();
+    turned(is);
   }
 
-  private stick(pad: Gamepad, axis: number, section: 'chosen' | 'last', seconds: number): void {
+  private stick(pad: Gamepad, axis: number, frame: JogFrame): void {
     const [x, y] = [pad.axes[axis] ?? 0, -(pad.axes[axis + 1] ?? 0)];
-    if (Math.hypot(x, y) > dead) this.player.tilt(section, [x * fastest * seconds, y * fastest * seconds]);
+    this.jog.push(`stick ${frame}`, frame, Math.hypot(x, y) > dead ? [x, y] : null);
   }
 }

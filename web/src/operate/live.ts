@@ -5,7 +5,7 @@ import {button, make} from '../make';
 import {Actions} from './actions';
 import {ArmingDialog} from './arming';
 import {isPolar} from './coordinates';
-import {Control} from './control';
+import {Control, type Motion} from './control';
 import {Device} from './device';
 import {type Bend, type DeviceInfo, type Frame, kindOf} from './frame';
 import {isPhone} from './phone';
@@ -14,9 +14,11 @@ import {PlanButtons} from './plan_buttons';
 import type {PlanWay, Posture, TipPlace} from './plan_way';
 import {heldButton} from './press';
 import {lengthOf, planReadings, type Reading} from './readings';
+import {RelaxAll} from './relax_all';
 import {configurationOf, samplesOf} from './simulated';
-import type {Opened, Stand, Subject} from './subject';
+import type {Opened, Stages, Stand, Subject} from './subject';
 
+const keys: Record<string, Motion> = {m: 'move', r: 'retract', w: 'advance', b: 'back'};  // that act while they are down
 const late = 500;         // ms without a frame: ten of them, so that a busy browser alone makes no alarm
 const owned = 1000;       // ms that a target set here is shown, though the device does not say it yet
 const apart = Math.PI / 360;  // rad between target and arm, from which on the target is drawn
@@ -66,25 +68,30 @@ export class Live implements Subject {
 
   /** Keys that act while they are down. @return whether this is one of them */
   keyDown(key: string): boolean {
-    const motion = ({m: 'move', r: 'retract', w: 'advance', b: 'back'} as const)[key];
+    const motion = keys[key];
     if (motion && !isPhone.matches) this.actions.press(motion);
     return !!motion;
   }
 
   keyUp(key: string): void {
-    const motion = ({m: 'move', r: 'retract', w: 'advance', b: 'back'} as const)[key];
-    if (motion === 'move' && this.frame?.plan) return this.plan.letGo();
-    if (motion && this.control.held === motion) this.control.letGo();
+    const motion = keys[key];
+    if (motion) this.motion(motion, false);
+  }
+
+  /** Why a motion is not to be had; null: it is. */
+  locked(motion: Motion): string | null {
+    return this.actions.locked(motion);
   }
 
   hold(): void {
     this.control.hold();
   }
 
-  move(isHeld: boolean): void {
-    if (!isHeld && this.frame?.plan) this.plan.letGo();
-    else if (isHeld) this.actions.press('move');
-    else if (this.control.held === 'move') this.control.letGo();
+  /** By the pad, a key or a gamepad. */
+  motion(motion: Motion, isHeld: boolean): void {
+    if (isHeld) return this.actions.press(motion);
+    if (motion === 'move') this.plan.letGo();
+    if (this.control.held === motion) void this.control.letGo();
   }
 
   /** The window has lost the focus: nothing here can be seen to move any more. */
@@ -110,11 +117,12 @@ export class Live implements Subject {
   /** What else the drawer holds: any section relaxed, faults of a demonstration. */
   extras(): HTMLElement[] {
     const relax = this.opened.described.answer.sections.map((_: Json, section: number) => {
-      const one = heldButton(() => this.control.press('relax', {section}), () => this.control.held === 'relax' && this.control.letGo());
+      const one = heldButton(() => this.control.press('relax', {section}), () => this.motion('relax', false));
       one.textContent = `Relax S${section + 1}`;
       return one;
     });
-    const found = [make('h3', {textContent: 'Relax, while held'}), make('div', {className: 'buttons'}, ...relax)];
+    const all = new RelaxAll(this.control, () => this.frame);
+    const found = [make('h3', {textContent: 'Relax, while held'}), make('div', {className: 'buttons'}, ...relax), all.element];
     if (!this.info.faults) return found;
     const faults = ['cut 3 1', 'mend', 'stick 2 1', 'free', 'noise 0.01', 'noise 0', 'unplug', 'plug', 'reset'];
     return [...found, make('h3', {textContent: 'Faults of the demonstration'}), make('div', {className: 'buttons'}, ...faults.map((line) => button(line, () => void this.control.fault(line))))];
@@ -129,9 +137,9 @@ export class Live implements Subject {
     return this.plan.way?.tips ?? [];
   }
 
-  get stages(): {now: number; goal: number} {
-    const {frame} = this;
-    return {now: frame?.stage ?? 0, goal: this.goalOfPlan?.stage ?? frame?.stage_target ?? 0};
+  get stages(): Stages | null {
+    const {frame, info} = this;
+    return !info.has_stage ? null : {now: frame?.stage ?? 0, goal: this.goalOfPlan?.stage ?? frame?.stage_target ?? 0};
   }
 
   get isStale(): boolean {

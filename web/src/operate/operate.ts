@@ -1,5 +1,5 @@
 // The screen Operate: the state of each section, its diagram, the arm, and what it may be made to do.
-import {Robot} from '../client';
+import {type Json, Robot} from '../client';
 import {describe} from '../described';
 import {download} from '../file';
 import {isText, type Key} from '../keys';
@@ -10,11 +10,15 @@ import type {System} from '../units';
 import {ArmView} from './arm_view';
 import {Banner} from './banner';
 import {Cards} from './cards';
+import type {Motion} from './control';
 import {clamped, isPolar, limitOf} from './coordinates';
 import {Device, keepPicture} from './device';
+import {given} from './diagram';
 import {Eye} from './eye';
 import {type Bend, type DeviceInfo, type Entry, type Frame, kindOf, type SectionFrame} from './frame';
 import {Gamepads} from './gamepad';
+import {Jog} from './jog';
+import {JogPad} from './jog_pad';
 import {Live} from './live';
 import {Log} from './log';
 import {NumbersDialog} from './numbers';
@@ -25,7 +29,9 @@ import {Replay, type Where} from './replay';
 import {reportOf} from './report';
 import {Sliders} from './sliders';
 import type {PlanWay} from './plan_way';
+import {Steering} from './steering';
 import type {Opened, Stand, Subject} from './subject';
+import {findScene} from './surround';
 
 export interface Screen {
   system(): System;
@@ -33,6 +39,7 @@ export interface Screen {
   heard(): void;
   linked(): void;
   turned(): void;  ///< another source is shown
+  plans(): Json[];  ///< of the server
 }
 
 const patience = 6000;  // ms that a refusal is shown
@@ -49,10 +56,11 @@ export class Operate {
   private readonly notice = byId('op-notice');
   private readonly eye = new Eye(byId('op-eye'), (is) => this.root.classList.toggle('has-camera', is), {words: () => this.words(), keep: (picture, words) => this.keep(picture, words), took: (name, isKept) => this.snapped(name, isKept)});
   private readonly stageButton = button('Stage…', () => this.typeStage(), 'where Move is to take the stage');
-  private readonly gamepads = new Gamepads({
-    tilt: (section, by) => this.tilt(section === 'last' ? (this.opened?.described.answer.sections.length ?? 1) - 1 : this.cards.chosen, by), choose: (by) => this.cards.choose(this.cards.chosen + by),
-    hold: () => this.live?.hold(), move: (isHeld) => this.isShown && this.subject?.move(isHeld),
-  });
+  private readonly steering = new Steering((task) => this.screen.guarded(task));
+  private readonly jog = new Jog({tilt: (section, by) => this.tilt(section, by), steering: () => this.steer(), turn: () => this.eye.turn});
+  private readonly pushed = {may: () => !!this.subject?.may(), choose: (by: number) => this.choose(by), hold: () => this.live?.hold(), motion: (motion: Motion, isHeld: boolean) => this.isShown && this.subject?.motion(motion, isHeld), turned: () => this.changed()};
+  private readonly pad = new JogPad(byId('op-jog'), byId('op-arm'), this.jog, this.pushed);
+  private readonly gamepads = new Gamepads(this.pushed, this.jog);
   private opened: Opened | null = null;
   private own: {opened: Opened; isOfDevice: boolean} | null = null;  // what there is beside a recording
   private subject: Subject | null = null;
@@ -68,7 +76,7 @@ export class Operate {
     document.addEventListener('keydown', (event) => this.keyDown(event), {capture: true});
     document.addEventListener('keyup', (event) => this.isShown && this.subject?.keyUp(event.key.toLowerCase()), {capture: true});
     document.addEventListener('pointerdown', () => { this.notice.hidden = true; }, {capture: true});  // what is done next may say something else
-    window.addEventListener('blur', () => (this.live ? this.live.blur(false) : this.subject?.move(false)));
+    window.addEventListener('blur', () => (this.live ? this.live.blur(false) : this.subject?.motion('move', false)));
     window.addEventListener('pagehide', () => this.live?.blur(true));
     document.addEventListener('visibilitychange', () => document.hidden && this.live?.blur(true));
     isPhone.addEventListener('change', ({matches}) => matches && this.live?.control.giveBack());
@@ -170,6 +178,8 @@ export class Operate {
     this.opened = opened;
     this.log.clear();
     this.view.forget();
+    this.steering.forget();
+    void this.screen.guarded(() => this.lookAround(opened));
     const subject = this.subject = make();
     this.log.extra.replaceChildren(...(subject instanceof Live || subject instanceof Replay ? subject.extras() : []));
     this.stageButton.hidden = !(subject instanceof Live && this.info!.has_stage);
@@ -197,12 +207,14 @@ export class Operate {
 
   /** A plan to follow, by the device or by the arm of sliders. */
   load(way: PlanWay): void {
+    if (this.replayed) this.endReplay();
     this.subject?.load(way);
   }
 
   leave(): void {
     if (!this.isShown) return;
     this.gamepads.end();
+    this.pad.endAll();
     this.eye.close();
     this.view.full(false);
     this.log.toggle(false);
@@ -223,6 +235,7 @@ export class Operate {
       {keys: ['← → ↑ ↓'], says: 'in a diagram: move the target by 0.1°, with Shift by 1°; Enter types numbers'},
       on(['v'], 'the arm from the side, above, the tip, as large as the page', () => this.view.next()),
       on(['f'], 'all of the arm in view', () => this.view.fit()),
+      on(['j'], 'the jog pad, or not; in it arrows push the target', () => this.pad.toggle()),
       on(['l'], 'all events', () => this.log.toggle()),
       on(['p'], 'keep the picture of the tip camera', () => void this.eye.snapshot()),
       ...(isLive ? [] : [on(['Escape'], 'close what is on top', () => this.closeTop())]),
@@ -263,17 +276,33 @@ export class Operate {
     this.subject?.aim(this.subject.targets().map((one, i) => (i === section ? bend : one)));
   }
 
-  private tilt(section: number, by: Bend): void {
-    const {subject} = this, from = subject?.targets()[section];
+  private tilt(which: 'chosen' | 'last', by: Bend): void {
+    const {subject} = this, section = which === 'last' ? (this.opened?.described.answer.sections.length ?? 1) - 1 : this.cards.chosen, from = subject?.targets()[section];
     if (!subject || !from || (subject instanceof Live && !subject.mayQuietly)) return;
     this.aim(section, clamped([from[0] + by[0], from[1] + by[1]], this.limit(section), this.isDisc(section)));
+  }
+
+  /** The next section, or the one before; after the last the first. */
+  private choose(by: number): void {
+    const count = this.opened?.described.answer.sections.length ?? 1;
+    this.cards.choose((this.cards.chosen + by + count) % count);
+  }
+
+  private steer(): number[][] | null {
+    const {opened, subject, steering} = this, matrix = opened && subject?.frame ? steering.at(opened, subject.targets()) : null;
+    if (!matrix && steering.isNone) this.refuse('the tip cannot be steered where its section is bent by half a turn: jog the section');
+    return matrix;
+  }
+
+  private async lookAround(opened: Opened): Promise<void> {
+    const scene = await findScene(opened.described.answer.robot, this.screen.plans());
+    if (this.opened === opened && scene) this.view.surround(scene);
   }
 
   private type(section: number): void {
     const from = this.subject?.targets()[section], limit = this.limit(section);
     if (!from || !this.subject?.may()) return;
-    const names = this.isDisc(section) ? ['θ cos φ', 'θ sin φ'] : ['β₁', 'β₂'];
-    this.numbers.ask(`Target of S${section + 1}`, names.map((name, i) => ({name, unit: 'rad', value: from[i]!, low: -limit, high: limit})), this.screen.system(),
+    this.numbers.ask(`Target of S${section + 1}`, this.names(section).map((name, i) => ({name, unit: 'rad', value: from[i]!, low: -limit, high: limit})), this.screen.system(),
                      ([x, y]) => this.aim(section, clamped([x!, y!], limit, this.isDisc(section))));
   }
 
@@ -285,6 +314,11 @@ export class Operate {
 
   private limit(section: number): number {
     return this.subject?.frame?.sections[section]?.envelope?.limit ?? limitOf(this.opened!.described.answer.sections[section]);
+  }
+
+  /** Of the axes of its diagram. */
+  private names(section: number): [string, string] {
+    return this.isDisc(section) ? ['θ cos φ', 'θ sin φ'] : ['β₁', 'β₂'];
   }
 
   private isDisc(section: number): boolean {
@@ -317,13 +351,21 @@ export class Operate {
     const sections = lost ? frame.sections.map((one): SectionFrame => ({...one, word: 'NO DATA'})) : frame.sections, age = subject.age(), system = this.screen.system();
     this.banner.show({...frame, sections}, lost ?? null, system);
     this.cards.show(sections, (i) => ({
-      isDisc: this.isDisc(i), limit: this.limit(i), given: given(sections, i), age: kindOf(sections[i]!.word) === 'stale' ? age : '', tensionLimit: subject.tensionLimit, system,
+      isDisc: this.isDisc(i), limit: this.limit(i), given: given(sections[i]!, i), age: kindOf(sections[i]!.word) === 'stale' ? age : '', tensionLimit: subject.tensionLimit, system,
     }), subject instanceof Replay ? subject.now : now);
     const inserted = (subject instanceof Live && this.info!.has_stage) || (subject instanceof Replay && subject.recording.hasStage) ? `${lengthOf(frame.insertion, system)} in` : '';
     if (byId('op-inserted').textContent !== inserted) byId('op-inserted').textContent = inserted;
     if (isPhone.matches) this.follow(frame.alarm?.section ?? -1);
-    if (shape) this.view.show(shape, subject.ghost, sections.map(({word}) => kindOf(word)), subject.isStale, subject.tips, subject.stages);
+    if (shape) this.view.show({shape, ghost: subject.ghost, tips: subject.tips, stages: subject.stages, kinds: sections.map(({word}) => kindOf(word)), isStale: subject.isStale});
+    this.drawPad(sections.length, subject instanceof Live && this.info!.has_stage);
     document.documentElement.dataset.operated = String(++this.draws);  // what tests wait for
+  }
+
+  private drawPad(count: number, hasStage: boolean): void {
+    const {live, pad, root} = this, {chosen} = this.cards;
+    root.classList.toggle('has-jog', pad.isOpen);
+    pad.show({section: `S${chosen + 1}`, tip: `S${count}`, names: this.names(chosen), held: live?.control.held ?? null, ...(hasStage && live && {locked: (motion) => live.locked(motion)})});
+    if (pad.isOpen && pad.frame === 'tip') this.steering.at(this.opened!, this.subject!.targets());
   }
 
   /** Where there is room for one section, it is the one with an alarm, until another one is chosen. */
@@ -364,11 +406,3 @@ export class Operate {
     else this.refuse('no camera is shown: there is nothing to keep');
   }
 }
-
-/** The last section before this one on whose state its diagram depends. */
-function given(sections: SectionFrame[], section: number): string {
-  if (!sections[section]!.conditional) return '';
-  for (let i = section - 1; i >= 0; --i) if (kindOf(sections[i]!.word) !== 'exact') return `S${i + 1}`;
-  return '';
-}
-

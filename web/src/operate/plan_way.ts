@@ -2,9 +2,10 @@
 // tendons are answers of the server, which also says how far the drives have to go.
 import type {Json, Robot} from '../client';
 import type {Plan} from '../plan';
-import {plus, type Point} from '../vector';
+import type {Point} from '../vector';
 import {isPolar} from './coordinates';
 import type {Bend} from './frame';
+import {inPlace} from './surround';
 
 const forwards = 250;  // of a request
 
@@ -67,5 +68,6 @@ export const wayOf = (plan: Plan): PlanWay => new PlanWay(
 /** As a device has it. */
 export const wayOfDevice = ({name, steps, clearance}: Json): PlanWay => new PlanWay(name, '', steps, clearance);
 
-/** Where the tip goes, as one sees it who stands at the arm's base: the stage moves along the robot's own z. */
-export const trailOf = (tips: TipPlace[], stage: number): Point[] => tips.map(({tip, stage: there}) => plus(tip, [0, 0, 1], there - stage));
+/** Where the tip goes, in the scene or at the arm's own base. */
+export const trailOf = (tips: TipPlace[], scene: Json | null): Point[] =>
+  tips.map(({tip, stage}) => inPlace({backbones: [], discs: [], tip: {position: tip, quaternion: [1, 0, 0, 0]}}, scene, stage).tip.position);

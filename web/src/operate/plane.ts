@@ -34,9 +34,8 @@ export class Plane {
     return x >= by && y >= by && x <= this.side - by && y <= this.side - by;
   }
 
-  /** @param slack of its tendon at `point`, which tells the free side of a curve */
-  frontier(of: Frontier, point: Bend, slack: number): Drawn | null {
-    return 'curve' in of ? this.curve(of.curve, point, slack) : this.line(of.normal, of.offset);
+  frontier(of: Frontier): Drawn | null {
+    return 'curve' in of ? this.curve(of.curve) : this.line(of.normal, of.offset);
   }
 
   private line([a, b]: [number, number], offset: number): Drawn | null {
@@ -53,14 +52,11 @@ export class Plane {
     return {points: [from, to], hatch: hatched([from, to], () => [-a / size, b / size])};
   }
 
-  private curve(curve: Bend[], point: Bend, slack: number): Drawn | null {
-    const points = curve.map((one) => this.at(one)), [x, y] = this.at(point);
+  /** What its tendon forbids lies to the right of a curve; pixels count downwards. */
+  private curve(curve: Bend[]): Drawn | null {
+    const points = curve.map((one) => this.at(one));
     if (!points.some((one) => this.holds(one))) return null;
-    const gaps = points.map(([a, b]) => Math.hypot(a - x, b - y)), near = gaps.indexOf(Math.min(...gaps)), [from, to] = [points[Math.max(0, near - 1)]!, points[Math.min(points.length - 1, near + 1)]!];
-    const left = (to[0] - from[0]) * (y - from[1]) - (to[1] - from[1]) * (x - from[0]);
-    if (Math.abs(left) < 1e-6 || slack === 0) return {points, hatch: ''};  // the point is on it and tells no side
-    const sign = Math.sign(left) * Math.sign(slack);
-    return {points, hatch: hatched(points.filter((one) => this.holds(one, -pitch)), ([u, v]) => [sign * v, -sign * u])};
+    return {points, hatch: hatched(points.filter((one) => this.holds(one, -pitch)), ([u, v]) => [-v, u])};
   }
 }
 
@@ -78,15 +74,26 @@ function hatched(points: Pixel[], side: (along: Pixel) => Pixel): string {
 }
 
 /** What all tendons that are too short forbid together: where they lack least lies in its middle. A tendon that has slack there allows its side. */
-export function emptyTriangle(frontiers: Frontier[], slack: number[], reach: number): Bend[] {
+export function forbidden(frontiers: Frontier[], slack: number[], reach: number): Bend[] {
   let shape: Bend[] = [[-reach, -reach], [reach, -reach], [reach, reach], [-reach, reach]];
   frontiers.forEach((one, i) => {
-    if ('curve' in one) return;
-    const sign = slack[i]! < 0 ? 1 : -1, [a, b] = one.normal;
-    shape = cut(shape, ([x, y]) => sign * (one.offset - a * x - b * y));
+    const sign = slack[i]! < 0 ? 1 : -1;
+    for (const [[x, y], [u, v]] of 'curve' in one ? chords(one.curve) : [onLine(one.normal, one.offset)]) shape = cut(shape, ([a, b]) => sign * (v * (a - x) - u * (b - y)));
   });
   return shape;
 }
+
+/** A point and a direction of a line, which has what its tendon allows to the left. */
+function onLine([a, b]: [number, number], offset: number): [Bend, Bend] {
+  const size = a * a + b * b;
+  return [[(a * offset) / size, (b * offset) / size], [b, -a]];
+}
+
+/** What a tendon forbids is convex: it lies to the right of each chord. */
+const chords = (curve: Bend[]): [Bend, Bend][] => curve.slice(1).flatMap(([x, y], i): [Bend, Bend][] => {
+  const [a, b] = curve[i]!;
+  return x === a && y === b ? [] : [[[a, b], [x - a, y - b]]];
+});
 
 /** What of a polygon is where `inside` is not less than 0. */
 function cut(shape: Bend[], inside: (point: Bend) => number): Bend[] {

@@ -29,8 +29,8 @@ export function heldButton(down: () => void, up: () => void): HTMLButtonElement 
   return made;
 }
 
-/** Does something once it has been held for so long [ms]; a bar shows how far it is. */
-export function slowButton(text: string, after: number, go: () => void): HTMLButtonElement {
+/** Does something once it has been held for so long [ms]; a bar shows how far it is. @param end it was released */
+export function slowButton(text: string, after: number, go: () => void, end: () => void = () => undefined): HTMLButtonElement {
   let timer = 0;
   const made = heldButton(() => {
     made.classList.add('filling');
@@ -41,6 +41,7 @@ export function slowButton(text: string, after: number, go: () => void): HTMLBut
   }, () => {
     clearTimeout(timer);
     made.classList.remove('filling');
+    end();
   });
   made.classList.add('slow');
   made.append(make('span', {textContent: text}));

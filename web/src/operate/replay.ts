@@ -3,15 +3,15 @@ import {type Json, Newest} from '../client';
 import type {Key} from '../keys';
 import {make} from '../make';
 import {toast} from '../toast';
-import {alarmOf} from './banner';
 import {limitOf} from './coordinates';
 import {type Bend, type Frame, type SectionFrame, kindOf} from './frame';
 import {lengthOf, type Reading} from './readings';
+import type {TipPlace} from './plan_way';
 import type {Recording} from './recording';
 import {pictureOf} from './recordings';
 import {ReplayBar} from './replay_bar';
-import {configurationOf, isNear, samplesOf} from './simulated';
-import type {Opened, Stand, Subject} from './subject';
+import {alarmOf, configurationOf, samplesOf} from './simulated';
+import type {Opened, Stages, Stand, Subject} from './subject';
 
 const apart = Math.PI / 360;  // rad between set-point and arm, from which on the set-point is drawn
 const patience = 150;         // ms without an answer, after which the last picture fades
@@ -23,6 +23,7 @@ export interface Where { name: string; isOnServer: boolean; every: number; other
 export class Replay implements Subject {
   readonly bar: HTMLElement;
   readonly lost = null;
+  readonly tips: TipPlace[] = [];
   frame: Frame | null = null;
   shape: Json | null = null;
   ghost: Json | null = null;
@@ -112,6 +113,21 @@ export class Replay implements Subject {
 
   aim(): void {}
 
+  load(): void {}
+
+  motion(): void {}
+
+  keyDown(): boolean {
+    return false;
+  }
+
+  keyUp(): void {}
+
+  get stages(): Stages | null {
+    const {frame, recording} = this;
+    return recording.hasStage ? {now: frame?.insertion ?? 0, goal: frame?.stage_target ?? 0} : null;
+  }
+
   show(): void {
     this.line.at(this.time);
   }
@@ -195,12 +211,12 @@ export class Replay implements Subject {
     this.stand.heard();
     if (shape.error) return this.stand.say(`no picture of row ${row + 1}: ${shape.error.message}`);
     const told = sections.map((_: Json, i: number): SectionFrame => ({
-      ...(diagrams.length > 0 && !more[i]!.error ? {...more[i], near_limit: isNear(more[i]!)} : {}), word: recording.stateAt(i, time).word, commanded: set[i]!, target: set[i]!, measured: measured[i]!,
+      ...(diagrams.length > 0 && !more[i]!.error ? asTold(more[i]!, recording.stateAt(i, time).word) : {}), word: recording.stateAt(i, time).word, commanded: set[i]!, target: set[i]!, measured: measured[i]!,
       changes: changes[i]!, set: recording.ofTendons(row, i, 'set_change'), tension: recording.hasTension ? recording.ofTendons(row, i, 'tension') : null,
     }));
     const ghost = isElsewhere ? more.at(-1)! : null;
     [this.row, this.shape, this.ghost, this.isLate] = [row, shape, ghost?.backbones ? ghost : null, false];
-    this.frame = this.frameOf(time, row, told, shape.tip?.position ?? [0, 0, 0], tolerance ?? 0);
+    this.frame = this.frameOf(time, row, told, shape.tip?.position ?? [0, 0, 0]);
     this.stand.changed();
   }
 
@@ -210,8 +226,8 @@ export class Replay implements Subject {
     return kindOf(word) === 'over' && over.length > 0 ? `Pay out ${over.length > 1 ? 'tendons' : 'tendon'} ${over.join(', ')}: over ${tensionLimit} N.` : '';
   }
 
-  private frameOf(time: number, row: number, sections: SectionFrame[], tip: number[], tolerance: number): Frame {
-    const {recording} = this, alarm = alarmOf(sections, tolerance, this.stand.system()), stage = recording.column('measured_stage')[row]!, isBlind = sections.every(({word}) => kindOf(word) === 'stale');
+  private frameOf(time: number, row: number, sections: SectionFrame[], tip: number[]): Frame {
+    const {recording} = this, alarm = alarmOf(sections), stage = recording.column('measured_stage')[row]!, isBlind = sections.every(({word}) => kindOf(word) === 'stale');
     if (alarm) alarm.since = time - recording.stateAt(alarm.section, time).from;
     if (alarm && !alarm.next) alarm.next = this.tooTight(sections[alarm.section]!);
     if (alarm && !recording.isHomed(row) && kindOf(alarm.word) !== 'over') alarm.next = 'Its zeros were not set.';
@@ -221,6 +237,9 @@ export class Replay implements Subject {
     };
   }
 }
+
+/** What a diagram advises where tensions said something else then is not meant. */
+const asTold = ({advice, amount, ...diagram}: Json, word: string): Json => (diagram.word === word ? {...diagram, advice, amount} : diagram);
 
 /** The diagram of a section as it was measured then. */
 export const diagramQuery = (recording: Recording, sections: Json[], row: number, section: number): Json => ({

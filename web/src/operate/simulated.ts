@@ -1,12 +1,8 @@
 // An arm without a device: the target acts at once. Every number is an answer of the server.
 import type {Json, Robot} from '../client';
 import type {Described} from '../described';
-import {alarmOf} from './banner';
 import {inputsOf, limitOf} from './coordinates';
-import {type Bend, type Frame, type SectionFrame, wordOf} from './frame';
-import type {System} from '../units';
-
-const near = 0.95;  // of the envelope, from where it is called near
+import {type Alarm, type Bend, type Frame, kindOf, type SectionFrame, worstFirst} from './frame';
 
 /** What is asked of the simulated arm. */
 export interface Wish {
@@ -18,11 +14,6 @@ export interface Wish {
 /** Points of each joint, so that few long joints look round. */
 export const samplesOf = (sections: Json[]): number => Math.max(5, Math.ceil(40 / Math.min(...sections.map((one) => one.segments))));
 
-export function isNear({point, envelope}: Json): boolean {
-  const [x, y] = point as Bend, {kind, limit} = envelope;
-  return (kind === 'disc' ? Math.hypot(x, y) : Math.max(Math.abs(x), Math.abs(y))) >= near * limit;
-}
-
 /** Configurations of the robot from its rows. */
 export function configurationOf(described: Described, bends: Bend[], inputs: number[]): number[][] {
   const sections = described.answer.sections as Json[], rows = inputsOf(described, bends, inputs), size = rows.length / sections.length;
@@ -31,8 +22,8 @@ export function configurationOf(described: Described, bends: Bend[], inputs: num
 
 export interface Simulated { frame: Frame; shape: Json; changes: number[][] }
 
-export async function simulate(robot: Robot, described: Described, wish: Wish, system: System): Promise<Simulated | string> {
-  const {sections, tolerance} = described.answer, configuration = configurationOf(described, wish.bends, wish.inputs);
+export async function simulate(robot: Robot, described: Described, wish: Wish): Promise<Simulated | string> {
+  const {sections} = described.answer, configuration = configurationOf(described, wish.bends, wish.inputs);
   const [forward] = await robot.ask([{query: 'forward', configuration, model: 'lsk', ...(wish.slack.some((one) => one !== 0) && {slack: wish.slack})}]) as [Json];
   if (!forward.changes) return forward.error?.message ?? forward.message ?? String(forward.status);
   const changes = forward.changes as number[][];
@@ -40,16 +31,21 @@ export async function simulate(robot: Robot, described: Described, wish: Wish, s
   const [shape, ...answers] = await robot.ask([{query: 'shape', changes, model: 'lsk', samples: samplesOf(sections)}, ...diagrams]) as [Json, ...Json[]];
   const bad = [shape, ...answers].find((one) => one.error);
   if (bad) return bad.error.message;
-  const told = answers.map((answer, i): SectionFrame => ({
-    ...answer, word: wordOf(answer), near_limit: isNear(answer), target: wish.bends[i]!, measured: null, changes: changes[i]!,
-  }));
-  return {frame: frameOf(told, shape.tip.position, tolerance ?? 0, system), shape, changes};
+  const told = answers.map((answer, i) => ({...answer, target: wish.bends[i]!, measured: null, changes: changes[i]!}) as unknown as SectionFrame);
+  return {frame: frameOf(told, shape.tip.position), shape, changes};
 }
 
-function frameOf(sections: SectionFrame[], tip: number[], tolerance: number, system: System): Frame {
+/** The worst of all. Nothing watches a simulated arm, or one of long ago: nobody is to be alarmed, and its states have no age. */
+export function alarmOf(sections: SectionFrame[]): Alarm | null {
+  const [worst] = worstFirst(sections), {word, advice} = sections[worst ?? 0]!;
+  if (worst === undefined || kindOf(word) === 'exact') return null;
+  return {section: worst, word, since: 0, sentence: '', did: '', next: advice ?? '', more: sections.filter((one) => kindOf(one.word) !== 'exact').length - 1, acknowledged: true};
+}
+
+function frameOf(sections: SectionFrame[], tip: number[]): Frame {
   return {
     time: performance.now() / 1000, age: 0, link: 'ok', message: '', round_trip: 0, rate: 0, errors: 0, control: {holder: null, since: ''}, state: 'control', activity: 'rest',
-    armed_left: 0, why: '', homed: true, homing: null, stage: 0, insertion: 0, stage_target: 0, speed: 0, recording: null, tip, sections, alarm: alarmOf(sections, tolerance, system),
+    armed_left: 0, why: '', homed: true, homing: null, stage: 0, insertion: 0, stage_target: 0, speed: 0, recording: null, tip, sections, alarm: alarmOf(sections),
   };
 }
 

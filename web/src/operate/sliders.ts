@@ -2,6 +2,7 @@
 import {copy} from '../clipboard';
 import {type Json, Newest} from '../client';
 import type {Key} from '../keys';
+import type {Motion} from './control';
 import {bendsOf, inputsOf} from './coordinates';
 import {type Bend, type Frame, kindOf} from './frame';
 import {PlanButtons} from './plan_buttons';
@@ -10,7 +11,7 @@ import type {PlanWay, Posture, TipPlace} from './plan_way';
 import {lengthOf, planReadings, type Reading} from './readings';
 import {command, simulate} from './simulated';
 import {SlidersBar} from './sliders_bar';
-import type {Opened, Stand, Subject} from './subject';
+import type {Opened, Stages, Stand, Subject} from './subject';
 
 const kinds = {exact: 'exact', slack: 'slack', over: 'over', unreachable: 'unreachable', stale: 'no_data'} as const;
 
@@ -58,7 +59,7 @@ export class Sliders implements Subject {
   readings(): Reading[] {
     const [x = 0, y = 0, z = 0] = this.frame?.tip ?? [], system = this.stand.system(), worst = this.frame?.sections.filter(({word}) => kindOf(word) !== 'exact').length ?? 0;
     return [['x', lengthOf(x, system)], ['y', lengthOf(y, system)], ['z', lengthOf(z, system)], ['sections', String(this.bends.length)], ['not exact', String(worst)], ['model', 'LSK'],
-            ...(this.plan ? [['inserted', lengthOf(this.stages.now, system)] as Reading, ...planReadings(this.plan.frame, system)] : [])];
+            ...(this.plan ? [['inserted', lengthOf(this.plan.posture.stage, system)] as Reading, ...planReadings(this.plan.frame, system)] : [])];
   }
 
   targets(): Bend[] {
@@ -83,9 +84,9 @@ export class Sliders implements Subject {
     return this.plan?.way.tips ?? [];
   }
 
-  get stages(): {now: number; goal: number} {
+  get stages(): Stages | null {
     const now = this.plan?.posture.stage ?? 0;
-    return {now, goal: now};
+    return this.plan && {now, goal: now};
   }
 
   /** Keys that act while they are down. @return whether this is one of them */
@@ -98,9 +99,9 @@ export class Sliders implements Subject {
     if (key === 'm' || key === 'b') this.letGo();
   }
 
-  move(isHeld: boolean): void {
-    if (isHeld) this.keyDown('m');
-    else this.letGo();
+  motion(motion: Motion, isHeld: boolean): void {
+    if (!isHeld) this.letGo();
+    else if (this.plan && (motion === 'move' || motion === 'back')) this.buttons.press(motion === 'back');
   }
 
   letGo(): void {
@@ -173,7 +174,7 @@ export class Sliders implements Subject {
 
   private ask(): void {
     this.newest.put(() => this.stand.guarded(async () => {
-      const {opened: {robot, described, inputs}, bends} = this, slack = [...this.slack], found = await simulate(robot, described, {bends, inputs, slack}, this.stand.system());
+      const {opened: {robot, described, inputs}, bends} = this, slack = [...this.slack], found = await simulate(robot, described, {bends, inputs, slack});
       if (this.isOver) return;
       this.stand.heard();
       this.isStale = typeof found === 'string';

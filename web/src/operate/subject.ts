@@ -4,6 +4,7 @@ import type {Described} from '../described';
 import type {Key} from '../keys';
 import type {Source} from '../source';
 import type {System} from '../units';
+import type {Motion} from './control';
 import type {Bend, Entry, Frame} from './frame';
 import type {PlanWay, TipPlace} from './plan_way';
 import type {Reading} from './readings';
@@ -24,6 +25,9 @@ export interface Stand {
   heard(): void;
 }
 
+/** How far the arm is inserted, and its ghost [m]. */
+export interface Stages { now: number; goal: number }
+
 export interface Subject {
   readonly badge: string;
   readonly bar: HTMLElement;
@@ -32,7 +36,7 @@ export interface Subject {
   shape: Json | null;
   ghost: Json | null;
   readonly tips: TipPlace[];      ///< of the plan that it has
-  readonly stages: {now: number; goal: number};  ///< of the arm and of its ghost [m]
+  readonly stages: Stages | null; ///< null: it has none
   isStale: boolean;               ///< what is drawn is not as it is
   lost: string | null;            ///< why nothing is known of the arm; null: it is
   keys(): Key[];
@@ -43,7 +47,7 @@ export interface Subject {
   load(way: PlanWay): void;       ///< a plan to follow
   keyDown(key: string): boolean;  ///< of keys that act while they are down: whether it is one
   keyUp(key: string): void;
-  move(isHeld: boolean): void;    ///< as its key does
+  motion(motion: Motion, isHeld: boolean): void;  ///< as its key does
   age(): string;                  ///< of what is drawn, where it is old
   show(): void;                   ///< its bar
   enter(): void;
