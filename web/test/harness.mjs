@@ -30,7 +30,9 @@ export async function launch({hasWebGL = true} = {}) {
   const drawing = hasWebGL ? ['--enable-unsafe-swiftshader'] : ['--disable-gpu', '--disable-software-rasterizer', '--disable-webgl'];
   const browser = await chromium.launch({
     executablePath,
-    args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
+    // Of a tile that has changed in part Chromium draws that part alone, and pixels at its edge get other shades: once in a hundred times the
+    // same picture was another one. Pictures are compared, so tiles are drawn whole.
+    args: ['--no-sandbox', '--disable-partial-raster', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
            '--disable-sync', ...drawing],
   });
   if (!hasWebGL) plain.add(browser);

@@ -32,8 +32,9 @@ export class RelaxAll {
   }
 
   private next(): void {
-    const section = this.isHeld ? mostTense(this.frame()?.sections ?? [], this.left) : undefined;
-    if (section === undefined) return this.say(this.isHeld ? 'all are slack' : '');
+    if (!this.isHeld) return;
+    const section = mostTense(this.frame()?.sections ?? [], this.left);
+    if (section === undefined) return this.say('all are slack');
     this.left.delete(section);
     this.say(`S${section + 1}, then ${this.left.size} more`);
     this.control.press('relax', {section}, (isDone) => (isDone ? this.next() : this.end()));
