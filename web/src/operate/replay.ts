@@ -202,7 +202,7 @@ export class Replay implements Subject {
   }
 
   private async answer(time: number): Promise<void> {
-    const {recording, opened: {robot, described, inputs}} = this, {sections, tolerance} = described.answer, row = recording.rowAt(time), {model} = recording, samples = samplesOf(sections);
+    const {recording, opened: {robot, described, inputs}} = this, {sections} = described.answer, row = recording.rowAt(time), {model} = recording, samples = samplesOf(sections);
     const changes = sections.map((_: Json, i: number) => recording.ofTendons(row, i, 'change')) as number[][], set = sections.map((_: Json, i: number) => recording.bend(row, i, 'beta')) as Bend[];
     const measured = sections.map((_: Json, i: number) => recording.bend(row, i, 'measured_beta')) as Bend[], isElsewhere = set.some(([x, y], i) => Math.hypot(x - measured[i]![0], y - measured[i]![1]) > apart);
     const diagrams = recording.isHomed(row) ? sections.map((_: Json, i: number) => diagramQuery(recording, described.answer.sections, row, i)) : [];
