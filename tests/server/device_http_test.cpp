@@ -1,6 +1,7 @@
 /// A device through the server: the simulated one, on a pseudo-terminal, and two pages.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -93,6 +94,31 @@ TEST(DeviceHttp, AServerWithoutOneSaysSo) {
   EXPECT_EQ(desk.status, 404);
 }
 
+/// While it is homed it records.
+void keep_pictures(Desk& desk, const json& frame) {
+  const std::string jpeg = "\xFF\xD8\xFF picture", path = "/api/device/snapshot";
+  const auto code = [&](const std::string& query, const std::string& bytes, const char* type) {
+    const json answer = json::parse(desk.post(path + query, bytes, type), nullptr, false);
+    return answer.contains("error") ? answer["error"]["code"].get<std::string>() : "";
+  };
+  EXPECT_EQ(code("", jpeg, "image/png"), "bad_picture");
+  EXPECT_EQ(code("", "", "image/jpeg"), "bad_picture");
+  EXPECT_EQ(code("", "<svg/>", "image/png"), "bad_picture");
+  EXPECT_EQ(code("", jpeg, "image/gif"), "wrong_type");
+  EXPECT_EQ(code("?text=" + std::string(501, 'x'), jpeg, "image/jpeg"), "too_long");
+  EXPECT_EQ(code("?text=%ff%0a%22", jpeg, "image/jpeg"), "");
+  const std::string name = frame["recording"]["name"];
+  std::string kept;
+  for (int i = 0; i < 250 && kept.empty(); ++i, std::this_thread::sleep_for(20ms)) {
+    const std::string told = desk.get("/api/recordings/" + name + "/snapshots/001");
+    if (desk.status == 200) kept = told;
+  }
+  EXPECT_EQ(kept, jpeg);
+  const json list = json::parse(desk.get("/api/recordings"));
+  EXPECT_NE(std::ranges::find_if(list["recordings"], [&](const json& one) { return one["name"] == name; }),
+            list["recordings"].end());
+}
+
 TEST(DeviceHttp, TwoPagesAtOneDevice) {
   Desk desk(with_demo());
   Events first(desk.port), second(desk.port);
@@ -110,6 +136,8 @@ TEST(DeviceHttp, TwoPagesAtOneDevice) {
   EXPECT_EQ(code_of(desk, "lease", json::object()), "lease_taken");
   EXPECT_EQ(code_of(desk, "arm", {{"lease", "another"}}), "not_yours");
   EXPECT_EQ(code_of(desk, "arm", lease), "not_homed");
+  const json no = json::parse(desk.post("/api/device/snapshot", "\xFF\xD8\xFF", "image/jpeg"));
+  EXPECT_EQ(no["error"]["code"], "no_recording");
   EXPECT_EQ(code_of(desk, "move", {{"lease", mine["lease"]}, {"held", true}}), "not_armed");
   EXPECT_EQ(code_of(desk, "lease", lease), "");
   const int before = second.frames();
@@ -126,6 +154,7 @@ TEST(DeviceHttp, TwoPagesAtOneDevice) {
   EXPECT_TRUE(has_homed) << first.frame();
   EXPECT_LT(slowest, 100ms) << "of two calls";
   EXPECT_NEAR(second.frames() - before, 25, 12);
+  keep_pictures(desk, first.frame());
   EXPECT_EQ(code_of(desk, "hold", json::object()), "") << "anybody";
   EXPECT_EQ(code_of(desk, "home", {{"lease", mine["lease"]}, {"held", true}}), "release_first");
   EXPECT_TRUE(second.await([](const json& frame) { return frame["state"] == "view_only"; })) << "2 s";
