@@ -150,7 +150,7 @@ struct BoardOf {
   Drives drives;
   bool is_plugged = true, is_host_alive = true;
   std::function<void()> seen;  ///< after each millisecond
-  std::filesystem::path place = std::filesystem::temp_directory_path() / "sinew-board-test";
+  std::filesystem::path place = another_place();
   Recording recording{place};
   ControllerLink link;
   Panel panel;

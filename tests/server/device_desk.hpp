@@ -2,6 +2,8 @@
 /// A panel with a controller played at its line: drives with set-points, ramps, zeros and tensions, time that
 /// goes when a test says so.
 #pragma once
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -23,6 +25,13 @@ inline Document arm_document(const std::string& motor = "{lead: 2 mm, counts: 40
 }
 inline Arm test_arm(const std::string& motor = "{lead: 2 mm, counts: 4096}") {
   return Arm::read(arm_document(motor)).value();
+}
+
+/// A folder that no other device of this test, or of one beside it, records in.
+inline std::filesystem::path another_place() {
+  static int count = 0;
+  return std::filesystem::temp_directory_path() /
+         ("sinew-device-" + std::to_string(::getpid()) + '-' + std::to_string(++count));
 }
 
 /// `test`, `test-2`, ...: a recording each.
@@ -238,8 +247,7 @@ class PlayedLink : public Link {
 struct PanelDesk {
   explicit PanelDesk(bool is_homed = true, const std::string& folder = "")
       : link(is_homed),
-        place(folder.empty() ? std::filesystem::temp_directory_path() / "sinew-device-test"
-                             : std::filesystem::path(folder)),
+        place(folder.empty() ? another_place() : std::filesystem::path(folder)),
         recording(place),
         panel(test_arm(), Judge(Session::open(arm_document()).value(), test_arm()), link, recording,
               {[] { return "10:41:07"; }, another_name("test"), [] { return "2026-01-02 10:41:07"; }},
@@ -304,7 +312,7 @@ struct PanelDesk {
   std::size_t section = 0;
   bool is_renewing = true;
   std::vector<std::pair<std::string, std::string>> kept;  ///< files beside the recordings
-  bool has_disk = true;  ///< one that is as quick as it is asked
+  bool has_disk = true;                                   ///< one that is as quick as it is asked
 
  private:
   double next_ = 0;
