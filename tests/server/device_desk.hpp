@@ -92,7 +92,7 @@ class PlayedLink : public Link {
     spoke_ = now;
     answer.error = obey(verb, payload, answer.payload, now);
     answer.mode = mode;
-    waiting_.emplace(answer, now + 1e-3);
+    waiting_.emplace(answer, now + latency);
   }
   const Hello* hello() const override { return has_said_hello_ ? &told_ : nullptr; }
   const LinkFigures& figures() const override { return figures_; }
@@ -138,6 +138,7 @@ class PlayedLink : public Link {
   double fastest = 0;                        ///< [m/s] of a tendon or the stage
   bool is_silent = false, is_stuck = false;
   std::function<void(const Posture&)> asked;  ///< is given each set-point of bends
+  double latency = 1e-3;  ///< of an answer [s]
 
  private:
   std::vector<std::int32_t> positions_counts() const {

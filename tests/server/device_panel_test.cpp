@@ -130,6 +130,22 @@ TEST(DevicePanel, MovesAtTheJogSpeedAndStopsWithin100MsOfTheRelease) {
   EXPECT_NEAR(there[1][1], -0.1, 1e-3);
 }
 
+/// Measurements are always due then, and so are set-points.
+TEST(DevicePanel, ASlowLineMovesAllTheSame) {
+  for (const double latency : {0.012, 0.025, 0.05}) {
+    PanelDesk desk;
+    desk.link.latency = latency;
+    desk.run(0.5);
+    make_ready(desk);
+    desk.press(Activity::moving);
+    desk.link.fastest = 0;
+    desk.run(6);
+    EXPECT_NEAR(desk.link.bends()[1][0], 0.2, 1e-3) << latency;
+    EXPECT_LT(desk.link.fastest, 3e-3) << latency;
+    EXPECT_EQ(desk.panel.mode(), Mode::armed) << desk.panel.why();
+  }
+}
+
 TEST(DevicePanel, TheLimitItselfIsNearItAndNotBeyond) {
   PanelDesk desk;
   make_ready(desk);

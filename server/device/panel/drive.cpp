@@ -180,10 +180,17 @@ bool Panel::ask_next(double now) {
     has_setpoints_ = false;
     return ask('A');
   }
-  if (now >= next_state_) {
-    next_state_ = std::max(next_state_ + times::period, now + times::period / 2);
-    return ask('S');
-  }
+  // In turns where both are due: on a slow line neither waits for ever.
+  const bool is_state_due = now >= next_state_;
+  if ((!is_state_due || was_state_) && ask_set(now)) return !(was_state_ = false);
+  if (!is_state_due) return false;
+  next_state_ = std::max(next_state_ + times::period, now + times::period / 2);
+  was_state_ = true;
+  return ask('S');
+}
+
+/// Set-points that are due.
+bool Panel::ask_set(double now) {
   if (is_freezing_ && is_driving() && state_ && state_time_ > frozen_at_) {
     is_freezing_ = false;
     ask_counts(state_->counts, now, freeze);

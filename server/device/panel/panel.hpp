@@ -127,6 +127,7 @@ class Panel {
   Posture recorded_setpoints() const;
 
   bool ask_next(double now);
+  bool ask_set(double now);
   bool ask_motion(double now);
   bool ask_gap(double way, double now);
   void begin_homing();
@@ -185,6 +186,7 @@ class Panel {
   bool fits_ = false;  ///< the controller has our robot's table
   bool knows_controller_ = false;
   DriveMode drives_ = DriveMode::disarmed;
+  bool was_state_ = false;  ///< asked last
   bool is_freezing_ = false, is_new_state_ = false, has_setpoints_ = false;
   std::optional<DriveState> state_;
   double state_time_ = -1e9, next_state_ = -1e9, next_set_ = -1e9, last_set_ = -1e9, asked_arm_ = -1e9,
