@@ -357,8 +357,22 @@ TEST(DevicePanel, RelaxNeedsTheLeaseAloneOnlyPaysOutAndEndsJustSlack) {
   EXPECT_EQ(desk.arm(), "");
 }
 
-TEST(DevicePanel,
-     WhatIsDoneSaysSoUnlessSomebodyHeldIt) {  // a page may go on after the one, not after the other
+TEST(DevicePanel, RelaxGoesOnWhereOneTendonHangsAndOthersPull) {
+  PanelDesk desk;
+  desk.link.extra_tension[9] = -5;
+  desk.run(0.3);
+  EXPECT_EQ(desk.panel.frame(desk.now)["sections"][3]["word"], "PARTLY SLACK");
+  desk.take_control();
+  EXPECT_EQ(desk.press(Activity::relax, 3), "");
+  desk.run(1);
+  for (const std::size_t i : {9u, 10u, 11u}) EXPECT_GT(desk.link.positions[i], 0) << i;
+  desk.let_go();
+  desk.run(0.3);
+  EXPECT_EQ(desk.panel.frame(desk.now)["sections"][3]["word"], "SLACK");
+}
+
+// A page may go on after the one, not after the other.
+TEST(DevicePanel, WhatIsDoneSaysSoUnlessSomebodyHeldIt) {
   PanelDesk desk;
   for (const std::size_t i : {9u, 10u, 11u}) desk.link.positions[i] -= 1434;
   desk.run(0.3);

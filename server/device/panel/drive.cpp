@@ -255,7 +255,7 @@ bool Panel::ask_gap(double way, double now) {
 bool Panel::ask_relax(double way, double now) {
   const SectionState& section = sections_[relaxed_section_];
   const std::size_t first = relaxed_section_ * arm_.tendons();
-  bool is_loose = section.word == Word::slack;
+  bool is_loose = section.word == Word::slack && !section.is_partial;  // else some tendons still pull
   const double limit = link_.hello()->tension_limit;
   for (std::size_t i = first; i < first + arm_.tendons() && !state_->tension.empty(); ++i)
     is_loose = is_loose && (limit == 0 || state_->tension[i] < relaxed_share * limit);
