@@ -138,7 +138,7 @@ class PlayedLink : public Link {
   double fastest = 0;                        ///< [m/s] of a tendon or the stage
   bool is_silent = false, is_stuck = false;
   std::function<void(const Posture&)> asked;  ///< is given each set-point of bends
-  double latency = 1e-3;  ///< of an answer [s]
+  double latency = 1e-3;                      ///< of an answer [s]
 
  private:
   std::vector<std::int32_t> positions_counts() const {
