@@ -1,6 +1,7 @@
 #include "tendon/exact_region.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace sinew::inline v0 {
 namespace {
@@ -252,6 +253,35 @@ BoundaryArc take_loop(std::vector<BoundaryArc>& arcs, double tolerance, bool& cl
   }
 }
 
+struct Sample {
+  double t;
+  std::optional<Vec2<double>> bend;  ///< none: it does not pass there
+};
+Sample sample(const Frontier& frontier, double t) {
+  Vec2<double> bend;
+  return frontier.at(t, bend) ? Sample{t, bend} : Sample{t, {}};
+}
+
+/// What a chord is to be divided at a half for: the arc leaves it, or its end lies within.
+bool is_chord(const Sample& from, const Sample& middle, const Sample& to, double deviation) {
+  if (!from.bend || !middle.bend || !to.bend) return false;
+  const Vec2<double> chord = *to.bend - *from.bend, off = *middle.bend - *from.bend;
+  return std::abs(perp(chord).dot(off)) <= deviation * chord.norm();
+}
+
+/// Points after the first up to the last, so that no chord is farther from the frontier than that.
+void refine(const Frontier& frontier, const Sample& from, const Sample& to, double deviation, Curve& curve) {
+  constexpr double finest = 1.0 / 256;
+  if (to.t - from.t > finest) {
+    const Sample middle = sample(frontier, (from.t + to.t) / 2);
+    if (!is_chord(from, middle, to, deviation)) {
+      refine(frontier, from, middle, deviation, curve);
+      return refine(frontier, middle, to, deviation, curve);
+    }
+  }
+  if (to.bend) curve.push_back(*to.bend);
+}
+
 }  // namespace
 
 // Every curve that bounds the set is walked along, and what others leave of it is kept; no shape of the set
@@ -279,12 +309,16 @@ ExactRegion exact_region(const SectionCase& c, const Margin& margin) {
 }
 
 Curve exact_frontier(const SectionCase& c, std::size_t i) {
-  constexpr int samples = 256;
   const Frontier frontier(c, i, reach(c));
   Curve curve;
-  Vec2<double> bend;
-  for (int k = 0; k <= samples; ++k)
-    if (frontier.at(k / double(samples), bend)) curve.push_back(bend);
+  constexpr int parts = 8;
+  Sample from = sample(frontier, 0);
+  if (from.bend) curve.push_back(*from.bend);
+  for (int k = 1; k <= parts; ++k) {
+    const Sample to = sample(frontier, k / double(parts));
+    refine(frontier, from, to, c.question.deviation, curve);
+    from = to;
+  }
   return curve;
 }
 
