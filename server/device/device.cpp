@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -264,7 +266,8 @@ Outcome Device::obey(std::string_view call, const Json& body, std::string_view s
   // A release is one, whichever way it went.
   const bool is_back = is_held ? is_true(body, "back") : panel_.activity() == Activity::follow_back;
   if (activity == Activity::follow && is_back) activity = Activity::follow_back;
-  return panel_.press(activity, secret, is_held, now, index);
+  const double press = std::clamp(number_at(body, "press").value_or(0), 0.0, 1e9);
+  return panel_.press(activity, secret, is_held, now, index, std::lround(press));
 }
 
 Reply Device::lease(const Json& body, double now) {

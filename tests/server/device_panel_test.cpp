@@ -203,6 +203,32 @@ TEST(DevicePanel, AButtonThatWasSilentForTooLongIsPressedAnew) {
   }
 }
 
+/// Of several connections the first may be the last to arrive.
+TEST(DevicePanel, LateWordsOfAReleasedButtonMoveNothing) {
+  PanelDesk desk;
+  make_ready(desk);
+  const auto say = [&](bool is_held, long number) {
+    desk.code(desk.panel.press(Activity::moving, desk.secret, is_held, desk.now, 0, number));
+    desk.run(0.1);
+    return desk.last;
+  };
+  EXPECT_EQ(say(true, 1), "");
+  say(false, 1);
+  const double released = desk.now;
+  EXPECT_EQ(say(true, 1), "release_first");
+  desk.run(0.2);
+  EXPECT_LT(desk.link.moved, released + 1e-9);
+  EXPECT_EQ(say(true, 2), "");
+  EXPECT_EQ(desk.panel.activity(), Activity::moving);
+  EXPECT_EQ(say(true, 1), "release_first") << "of an older one";
+  EXPECT_EQ(desk.panel.activity(), Activity::moving);
+  EXPECT_EQ(say(false, 1), "");
+  EXPECT_EQ(desk.panel.activity(), Activity::moving) << "nor does its end";
+  desk.panel.hold(desk.now);
+  EXPECT_EQ(say(true, 2), "release_first");
+  EXPECT_EQ(say(true, 3), "") << "pressed anew, whether or not a release was heard";
+}
+
 TEST(DevicePanel, AStallOfHomingLetsTheDrivesGo) {
   PanelDesk desk(false);
   desk.take_control();

@@ -104,6 +104,7 @@ Outcome Panel::lease(std::string& secret, int& number, double now) {
     since_ = clock_.time_of_day().substr(0, 5);
     mode_ = Mode::control;
     needs_release_ = false;  // whoever held a button is not this page
+    pressed_ = released_ = 0;
     log("info", fmt::format("page {} controls", number_));
   }
   renewed_ = now;
@@ -246,14 +247,27 @@ Outcome Panel::may_go(Activity activity) const {
   return {};
 }
 
+/// Words come in any order, over several connections: of what has been released they count for nothing.
+Outcome Panel::check_press(long number) {
+  if (number == 0) return {};
+  if (number <= released_ || number < pressed_)
+    return refused("release_first", "this button has been released: hold it again");
+  if (number > pressed_) needs_release_ = false;  // the one before is over, though nobody said so
+  pressed_ = number;
+  return {};
+}
+
 Outcome Panel::press(Activity activity, std::string_view secret, bool is_held, double now,
-                     std::size_t section) {
+                     std::size_t section, long number) {
   if (auto no = check_lease(secret, now)) return no;
   if (!is_held) {
+    released_ = std::max(released_, number);
+    if (number > 0 && number < pressed_) return {};
     if (activity_ == activity) let_go();
     needs_release_ = false;
     return {};
   }
+  if (auto no = check_press(number)) return no;
   if (auto no = may(activity, section)) return no;
   held_ = now;  // not by a button that may not be pressed: it would keep another one down
   if (activity_ == activity && (activity != Activity::relax || section == relaxed_section_)) return {};

@@ -67,8 +67,9 @@ class Panel {
                      double now);
   Outcome set_speed(std::string_view secret, double speed, double now);
   /// A button that moves: while it is held this comes again and again.
-  Outcome press(Activity activity, std::string_view secret, bool is_held, double now,
-                std::size_t section = 0);
+  /// @param number grows with each press; 0: not told
+  Outcome press(Activity activity, std::string_view secret, bool is_held, double now, std::size_t section = 0,
+                long number = 0);
   void acknowledge();
   /// A picture, kept beside the recording; anybody.
   /// @param extension `jpg` or `png`
@@ -104,6 +105,7 @@ class Panel {
   Outcome check_line() const;
   Outcome check_calm() const;
   Outcome check_recording() const;
+  Outcome check_press(long number);
   Outcome may(Activity activity, std::size_t section) const;
   Outcome may_go(Activity activity) const;
   Outcome begin_recording();
@@ -180,7 +182,8 @@ class Panel {
   int number_ = 0;
   double renewed_ = 0, held_ = -1e9, armed_until_ = 0, now_ = 0;
   bool is_arming_ = false;
-  bool needs_release_ = false;  ///< stopped by another thing than a release: to be pressed anew
+  long pressed_ = 0, released_ = 0;  ///< numbers of the last presses
+  bool needs_release_ = false;       ///< stopped by another thing than a release: to be pressed anew
   bool is_done_ = false;        ///< namely because there is nothing left to do
 
   bool fits_ = false;  ///< the controller has our robot's table

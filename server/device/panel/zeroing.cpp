@@ -73,7 +73,7 @@ void Panel::keep_homing() {
 }
 
 Json Panel::homing_json() const {
-  if (activity_ != Activity::homing || !homing_) return nullptr;
+  if (!homing_ || homing_->is_done()) return nullptr;
   const std::size_t drive = std::min(homing_->tendon(), arm_.tendon_drives() - 1);
   return {{"section", drive / arm_.tendons()},
           {"tendon", drive % arm_.tendons()},

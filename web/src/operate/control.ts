@@ -20,9 +20,12 @@ export class Control {
   private body: object = {};
   private over: ((isDone: boolean) => void) | null = null;
   private beating = 0;
+  private presses = 0;
   private flight: AbortController | null = null;  // of the heartbeat that is on its way
   private goal: {bends?: Bend[]; stage?: number} | null = null;
   private isAiming = false;
+  private wanted: number | null = null;  // speed that waits
+  private isSetting = false;
 
   /** @param says why something was refused @param changed lease or button are others now */
   constructor(private readonly device: Device, private readonly says: (why: string) => void, private readonly changed: () => void) {}
@@ -69,8 +72,20 @@ export class Control {
     void this.try(() => this.device.call('hold'));
   }
 
+  /** As of targets: several at once would come in any order. */
   speed(tendon: number): void {
-    void this.ask('speed', {tendon});
+    this.wanted = tendon;
+    if (!this.isSetting) void this.sendSpeeds();
+  }
+
+  private async sendSpeeds(): Promise<void> {
+    this.isSetting = true;
+    while (this.wanted !== null) {
+      const tendon = this.wanted;
+      this.wanted = null;
+      await this.ask('speed', {tendon});
+    }
+    this.isSetting = false;
   }
 
   acknowledge(): void {
@@ -119,6 +134,7 @@ export class Control {
     }
     [this.held, this.body, this.over] = [motion, motion === 'back' ? {back: true} : body, over];
     this.changed();
+    this.body = {...this.body, press: ++this.presses};  // by which words that come late are known
     void this.tell();
     this.beating = window.setInterval(() => void this.tell(), beat);
   }

@@ -41,6 +41,7 @@ export interface Frame {
   link: 'ok' | 'silent' | 'wrong_table' | 'bad_checksum' | 'gone';
   message: string;
   round_trip: number; rate: number; errors: number;
+  model?: 'lsk' | 'pcc';  ///< by which changes are of bends
   control: {holder: number | null; since: string};
   state: 'view_only' | 'control' | 'armed';
   activity: 'rest' | 'moving' | 'straighten' | 'retract' | 'advance' | 'relax' | 'homing' | 'holding' | 'follow' | 'follow_back';

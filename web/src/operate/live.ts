@@ -217,12 +217,12 @@ export class Live implements Subject {
   }
 
   /** The arm where it is measured, and where it is to go if that is elsewhere. */
-  private ask({sections}: Frame): void {
+  private ask({sections, model = 'lsk'}: Frame): void {
     if (sections.some(({word}) => kindOf(word) === 'stale') && this.shape) return;
     const changes = sections.map((one) => one.changes.map((value) => Number(value.toFixed(6)))), targets = this.goalOfPlan?.bends ?? this.targets(), {robot, described, inputs} = this.opened;
     const isElsewhere = sections.some(({point, measured}, i) => Math.hypot(targets[i]![0] - (measured ?? point ?? targets[i]!)[0], targets[i]![1] - (measured ?? point ?? targets[i]!)[1]) > apart);
-    const samples = samplesOf(described.answer.sections), now = {query: 'shape', changes, model: 'lsk', samples}, to = {query: 'shape', configuration: configurationOf(described, targets, inputs), samples};
-    const asked = JSON.stringify([changes, isElsewhere && to]);
+    const samples = samplesOf(described.answer.sections), now = {query: 'shape', changes, model, samples}, to = {query: 'shape', configuration: configurationOf(described, targets, inputs), samples};
+    const asked = JSON.stringify([changes, model, isElsewhere && to]);
     if (asked === this.asked) return;
     this.asked = asked;
     this.shapes.put(() => this.stand.guarded(async () => {
