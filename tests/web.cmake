@@ -17,6 +17,10 @@ if(SINEW_WEB AND CHROMIUM)
                                       ${CMAKE_BINARY_DIR}/screenshots ${web_${name}})
     set_tests_properties(web.${name} PROPERTIES LABELS web TIMEOUT 1200 COST 1000)
   endforeach()
+  # In real time, at the firmware in simulation.
+  add_test(NAME web.demo COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/web/test/page.mjs $<TARGET_FILE:sinew_command> ${CHROMIUM}
+                                 ${CMAKE_BINARY_DIR}/screenshots demo)
+  set_tests_properties(web.demo PROPERTIES LABELS web TIMEOUT 600 RUN_SERIAL TRUE SKIP_REGULAR_EXPRESSION "demo: skipped")
   add_test(NAME web.pictures COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/web/test/scene.mjs $<TARGET_FILE:sinew_command> ${CHROMIUM}
                                      ${CMAKE_BINARY_DIR}/screenshots/alone)
   set_tests_properties(web.pictures PROPERTIES LABELS web TIMEOUT 1200 COST 950)

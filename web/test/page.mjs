@@ -1,5 +1,6 @@
 // node page.mjs SINEW CHROMIUM FOLDER [MODULE|CASE ...]: the page of sinew serve in a real browser; screenshots go to FOLDER.
 import assert from 'node:assert/strict';
+import * as demo from './demo.mjs';
 import * as design from './design.mjs';
 import * as drive from './drive.mjs';
 import * as errors from './errors.mjs';
@@ -13,7 +14,7 @@ import * as plans from './plans.mjs';
 import * as robots from './robots.mjs';
 import * as speed from './speed.mjs';
 
-const modules = {robots, design, drive, errors, honest, jog, looks, operate, log, plans, speed}, wanted = process.argv.slice(5);
+const modules = {robots, design, drive, errors, honest, jog, looks, operate, log, plans, speed, demo}, wanted = process.argv.slice(5);
 const cases = Object.entries(modules).flatMap(([module, all]) => Object.entries(all).map(([name, run]) => ({module, name, run})));
 for (const one of wanted) assert.ok(cases.some(({module, name}) => one === module || one === name), `${one} is no module and no case`);
 
