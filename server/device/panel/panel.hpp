@@ -184,7 +184,7 @@ class Panel {
   bool is_arming_ = false;
   long pressed_ = 0, released_ = 0;  ///< numbers of the last presses
   bool needs_release_ = false;       ///< stopped by another thing than a release: to be pressed anew
-  bool is_done_ = false;        ///< namely because there is nothing left to do
+  bool is_done_ = false;             ///< namely because there is nothing left to do
 
   bool fits_ = false;  ///< the controller has our robot's table
   bool knows_controller_ = false;

@@ -132,9 +132,9 @@ export class Control {
       this.says('take control first');
       return over(false);
     }
-    [this.held, this.body, this.over] = [motion, motion === 'back' ? {back: true} : body, over];
+    const press = ++this.presses;  // by which words that come late are known
+    [this.held, this.body, this.over] = [motion, {...body, ...(motion === 'back' && {back: true}), press}, over];
     this.changed();
-    this.body = {...this.body, press: ++this.presses};  // by which words that come late are known
     void this.tell();
     this.beating = window.setInterval(() => void this.tell(), beat);
   }
