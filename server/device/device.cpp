@@ -7,8 +7,6 @@
 #include <cctype>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "server/robots.hpp"
@@ -54,14 +52,6 @@ Panel::Clock system_clock(const std::string& robot) {
     return count > 1 ? fmt::format("{}-{}", name, count) : name;
   };
   return {[] { return time_text("%H:%M:%S"); }, named, [] { return time_text("%Y-%m-%d %H:%M:%S"); }};
-}
-
-/// What was wrong; empty: nothing.
-std::string write_whole(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  return file ? "" : path.string() + " cannot be written";
 }
 
 Reply told(const Refused& no) { return refused(409, no.code, "device", no.message); }
@@ -135,10 +125,7 @@ Device::Device(std::string text, std::string file_text, const DeviceOptions& opt
         auto port = open_port(options_.port, options_.baud);
         return port ? std::move(*port) : nullptr;
       }),
-      panel_(arm, std::move(judge), link_, recording_, system_clock(plain(arm.robot().name)),
-             [this](const std::string& name, const std::string& content) {
-               return write_whole(std::filesystem::path(options_.folder) / name, content);
-             }) {}
+      panel_(arm, std::move(judge), link_, recording_, system_clock(plain(arm.robot().name))) {}
 
 Expected<std::unique_ptr<Device>> Device::open(const std::string& robot, const DeviceOptions& options) {
   auto file = read_file(robot, options.is_demo);

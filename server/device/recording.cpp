@@ -57,7 +57,7 @@ void Recording::begin(const std::string& name, const RecordingHead& head, double
   error_.clear();
   name_ = name;
   began_ = now;
-  count_ = pictures_ = 0;
+  count_ = pictures_ = homings_ = 0;
   is_on_ = true;
   is_open_ = false;
   if (!writer_.open(folder_ / (name + ".csv"), head_text(head, robot_text_), ++number_))
@@ -80,6 +80,15 @@ std::string Recording::picture(std::string bytes, std::string_view extension) {
   if (!writer_.write_whole(folder_ / file, std::move(bytes))) return {};
   ++pictures_;
   return file;
+}
+
+std::string Recording::homing(std::string json) {
+  if (!error_.empty()) return {};
+  ++homings_;
+  std::string file = name_ + (homings_ > 1 ? fmt::format("-homing-{}.json", homings_) : "-homing.json");
+  if (writer_.write_whole(folder_ / file, std::move(json))) return file;
+  error_ = "the disk takes nothing any more";
+  return {};
 }
 
 void Recording::poll() {

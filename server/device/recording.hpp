@@ -41,6 +41,8 @@ class Recording {
   void event(double now, std::string_view rest);
   /// A picture beside the file. Its name; empty: too much waits to be written.
   std::string picture(std::string bytes, std::string_view extension);
+  /// What was homed, beside the file. Its name; empty: nothing is written any more, `error` says why.
+  std::string homing(std::string json);
   void end();
   /// Takes what the thread has to tell.
   void poll();
@@ -64,7 +66,7 @@ class Recording {
   FileWriter writer_;
   bool is_on_ = false, is_open_ = false;
   long number_ = 0, count_ = 0;
-  int pictures_ = 0;
+  int pictures_ = 0, homings_ = 0;
   double began_ = 0;
 };
 

@@ -251,11 +251,7 @@ struct PanelDesk {
         place(folder.empty() ? another_place() : std::filesystem::path(folder)),
         recording(place),
         panel(test_arm(), Judge(Session::open(arm_document()).value(), test_arm()), link, recording,
-              {[] { return "10:41:07"; }, another_name("test"), [] { return "2026-01-02 10:41:07"; }},
-              [this](const std::string& name, const std::string& text) {
-                kept.emplace_back(name, text);
-                return std::string();
-              }) {
+              {[] { return "10:41:07"; }, another_name("test"), [] { return "2026-01-02 10:41:07"; }}) {
     run(0.7);
   }
   ~PanelDesk() {
@@ -312,11 +308,24 @@ struct PanelDesk {
   std::optional<Activity> held;
   std::size_t section = 0;
   bool is_renewing = true;
-  std::vector<std::pair<std::string, std::string>> kept;  ///< files beside the recordings
-  bool has_disk = true;                                   ///< one that is as quick as it is asked
+  bool has_disk = true;  ///< one that is as quick as it is asked
 
  private:
   double next_ = 0;
 };
+
+inline Bends bent(double angle, std::size_t section = 1) {
+  Bends bends(5, Bend(0, 0));
+  bends[section] = Bend(angle, -angle / 2);
+  return bends;
+}
+
+/// Armed, with a target.
+inline void make_ready(PanelDesk& desk) {
+  ASSERT_EQ(desk.take_control(), "");
+  ASSERT_EQ(desk.arm(), "");
+  ASSERT_EQ(desk.panel.mode(), Mode::armed) << desk.panel.why();
+  ASSERT_EQ(desk.go_to(bent(0.2)), "");
+}
 
 }  // namespace sinew::server::device

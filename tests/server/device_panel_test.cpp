@@ -1,26 +1,14 @@
 /// The panel's states: who may move the device, what stops it, and how soon.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <functional>
 
 #include "device_desk.hpp"
 
 namespace sinew::server::device {
 namespace device_panel_test {
-
-Bends bent(double angle, std::size_t section = 1) {
-  Bends bends(5, Bend(0, 0));
-  bends[section] = Bend(angle, -angle / 2);
-  return bends;
-}
-
-/// Armed, with a target.
-void make_ready(PanelDesk& desk) {
-  ASSERT_EQ(desk.take_control(), "");
-  ASSERT_EQ(desk.arm(), "");
-  ASSERT_EQ(desk.panel.mode(), Mode::armed) << desk.panel.why();
-  ASSERT_EQ(desk.go_to(bent(0.2)), "");
-}
 
 struct Row {
   const char* what;
@@ -436,6 +424,19 @@ void expect_pretension(const PanelDesk& desk) {
   for (std::size_t i = 0; i < 15; ++i) EXPECT_NEAR(desk.link.positions[i], 0, 2);
 }
 
+/// What is kept of a homing; it is the only one.
+nlohmann::json kept_homing(PanelDesk& desk) {
+  desk.recording.wait(std::chrono::seconds(5));
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(desk.place))
+    if (entry.path().extension() == ".json") found.push_back(entry.path());
+  EXPECT_EQ(found.size(), 1u);
+  const std::string told = desk.panel.frame(desk.now)["homed_at"]["file"];
+  EXPECT_EQ(found.empty() ? "" : found[0].filename().string(), told);
+  std::ifstream file(desk.place / told);
+  return nlohmann::json::parse(file, nullptr, false);
+}
+
 TEST(DevicePanel, HomingSetsZerosAtThePretensionAndKeepsThem) {
   PanelDesk desk(false);
   unhomed(desk);
@@ -447,9 +448,7 @@ TEST(DevicePanel, HomingSetsZerosAtThePretensionAndKeepsThem) {
   EXPECT_TRUE(desk.panel.is_homed()) << desk.now << desk.panel.why();
   expect_pretension(desk);
   EXPECT_NEAR(desk.link.positions[15], 4000, 1) << "the stage keeps its count";
-  ASSERT_EQ(desk.kept.size(), 1u);
-  EXPECT_EQ(desk.kept[0].first, "test-homing.json");
-  const auto file = nlohmann::json::parse(desk.kept[0].second);
+  const auto file = kept_homing(desk);
   EXPECT_EQ(file["pretension"], 5);
   ASSERT_EQ(file["tendons"].size(), 15u);
   for (const auto& tendon : file["tendons"]) {
@@ -476,16 +475,16 @@ TEST(DevicePanel, HomingThatWasInterruptedGoesOnWithItsTendon) {
   home(desk);
   EXPECT_TRUE(desk.panel.is_homed());
   expect_pretension(desk);
-  ASSERT_EQ(desk.kept.size(), 1u);
-  for (const auto& tendon : nlohmann::json::parse(desk.kept[0].second)["tendons"])
-    EXPECT_NEAR(tendon["tension"].get<double>(), 5, 0.2) << tendon;
+  const auto file = kept_homing(desk);
+  ASSERT_EQ(file["tendons"].size(), 15u);
+  for (const auto& tendon : file["tendons"]) EXPECT_NEAR(tendon["tension"].get<double>(), 5, 0.2) << tendon;
 }
 
 TEST(DevicePanel, WhatIsHomedIsHomedAnew) {
   PanelDesk desk;
   desk.take_control();
   EXPECT_GT(home(desk), 5);
-  EXPECT_EQ(desk.kept.size(), 1u);
+  EXPECT_EQ(kept_homing(desk)["tendons"].size(), 15u);
   for (std::size_t i = 0; i < 15; ++i) EXPECT_NEAR(desk.link.positions[i], 0, 2);
 }
 

@@ -42,19 +42,6 @@ std::vector<std::string> lines_of(const fs::path& path) {
   return lines;
 }
 
-Bends bent(double angle) {
-  Bends bends(5, Bend(0, 0));
-  bends[1] = Bend(angle, -angle / 2);
-  return bends;
-}
-
-void make_ready(PanelDesk& desk) {
-  ASSERT_EQ(desk.take_control(), "");
-  ASSERT_EQ(desk.arm(), "");
-  ASSERT_EQ(desk.panel.mode(), Mode::armed) << desk.panel.why();
-  ASSERT_EQ(desk.go_to(bent(0.2)), "");
-}
-
 void finish(PanelDesk& desk) {
   desk.let_go();
   desk.panel.disarm(desk.secret, desk.now);

@@ -35,8 +35,10 @@ TEST(Frontier, ChordsKeepToItWithinTheDeviation) {
     question.model = kernel::Model::exact;
     question.tendons = {std::span(work.directions).first(3), std::span(work.changes).first(3)};
     const SectionDiagram drawn = section_diagram(question);
-    question.deviation = 0;
+    question.deviation = 1e-9;  // as fine as they become
     const SectionDiagram dense = section_diagram(question);
+    ASSERT_EQ(drawn.curves.size(), 3u) << to_string(drawn.report);
+    ASSERT_EQ(dense.curves.size(), 3u) << to_string(dense.report);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_GT(dense.curves[i].size(), 200u);
       EXPECT_LT(drawn.curves[i].size(), 50u);

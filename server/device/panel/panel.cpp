@@ -21,13 +21,12 @@ Refused refused(std::string_view code, std::string message) {
 
 }  // namespace
 
-Panel::Panel(Arm arm, Judge judge, Link& link, Recording& recording, Clock clock, Keep keep)
+Panel::Panel(Arm arm, Judge judge, Link& link, Recording& recording, Clock clock)
     : arm_(std::move(arm)),
       judge_(std::move(judge)),
       link_(link),
       recording_(recording),
       clock_(std::move(clock)),
-      keep_(std::move(keep)),
       bends_(arm_.sections(), Bend(0, 0)),
       sections_(arm_.sections()),
       shown_(arm_.sections()) {}

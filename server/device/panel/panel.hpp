@@ -51,9 +51,7 @@ class Panel {
   struct Clock {
     std::function<std::string()> time_of_day, recording_name, date;
   };
-  /// A file beside the recordings: its name and text. What was wrong; empty: nothing.
-  using Keep = std::function<std::string(const std::string& name, const std::string& text)>;
-  Panel(Arm arm, Judge judge, Link& link, Recording& recording, Clock clock, Keep keep = {});
+  Panel(Arm arm, Judge judge, Link& link, Recording& recording, Clock clock);
 
   /// @name Commands; `now` [s] as for `tick`
   /// @{
@@ -174,7 +172,6 @@ class Panel {
   Link& link_;
   Recording& recording_;
   Clock clock_;
-  Keep keep_;
 
   Mode mode_ = Mode::view_only;
   Activity activity_ = Activity::rest;

@@ -52,8 +52,7 @@ void Panel::take_zero() {
 /// A file beside the recordings. It is for whoever compares an arm with itself: after a reset the controller
 /// counts from anywhere, and no file knows from where.
 void Panel::keep_homing() {
-  const std::string name = recording_.name() + "-homing.json";
-  kept_ = KeptHoming{clock_.date(), name, "", homing_->pretension()};
+  kept_ = KeptHoming{clock_.date(), "", "", homing_->pretension()};
   Json tendons = Json::array();
   for (std::size_t i = 0; i < homing_->tendons().size(); ++i) {
     const HomedTendon& tendon = homing_->tendons()[i];
@@ -68,7 +67,8 @@ void Panel::keep_homing() {
                   {"date", kept_->date},
                   {"pretension", kept_->pretension},
                   {"tendons", tendons}};
-  if (keep_) kept_->error = keep_(name, json.dump(1) + '\n');
+  kept_->file = recording_.homing(json.dump(1) + '\n');
+  if (kept_->file.empty()) kept_->error = recording_.error();
   if (!kept_->error.empty()) log("info", "the homing is not kept: " + kept_->error);
 }
 
