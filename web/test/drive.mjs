@@ -153,9 +153,8 @@ export async function drive_refused(browser) {
   await page.locator('#op-notice', {hasText: 'another page controls'}).waitFor();
   assert.equal(calls('plan').length, 0);
   assert.match(await readings(page), /plan\s+waits for control/);
-  stand.forgetLease();
   delete stand.refusals.lease;
-  stand.push({...stand.frame, control: stand.control()});
+  stand.forgetLease();
   await bar(page, /Take control/).click();
   await page.locator('#op-notice', {hasText: 'step 12: 7 mm'}).waitFor();
   await pause(200);

@@ -96,7 +96,11 @@ export async function standIn(url, robot, text, info = {}) {
     get isTaken() { return lease !== null; },
     /** By another page. */
     takenElsewhere() { [lease, number] = ['elsewhere', 3]; },
-    forgetLease() { lease = null; },
+    /** As the server does after 2 s: what a closing page says last may never arrive. */
+    forgetLease() {
+      lease = null;
+      if (last) push({...last, control: control(), state: 'view_only'});
+    },
     log(entry) {
       entries.push(entry);
       for (const one of listeners) send(one, 'log', entry);
