@@ -33,20 +33,15 @@ class Closing {
     for (const Reach<D>& leg : reaches_) {
       const Vec<double, D> b = platform.rotate(leg.platform_point);
       const Vec<double, D> n = platform.p + b - leg.anchor;
-      const double length = n.norm();
-      const auto put = [&](double residual, const Vec<double, D>& direction) {
-        system.residual[row] = residual;
-        system.jacobian.row(row) = Space::line(direction, b);
-        system.jacobian.row(row++).template tail<unknowns - D>() /= size_;
-      };
-      const double beside = dot(leg.normal, n);  // 0 without a plane
-      system.error = std::max(system.error, misfit(leg, length, beside));
-      if (leg.distance > 0) {
-        put(0.5 * (length - leg.distance) * (length + leg.distance), n);
-        if (leg.has_plane()) put(beside * size_, leg.normal * size_);  // of the size of the others
-      } else {
-        for (int k = 0; k < D; ++k) put(n[k], Vec<double, D>(Vec<double, D>::Unit(k)));
-      }
+      system.error = std::max(system.error, leg.misfit(n));
+      leg.with_rows(n, [&](const auto& held) {
+        for (Eigen::Index k = 0; k < held.g.size(); ++k, ++row) {
+          const double unit = k > 0 && leg.has_plane() ? size_ : 1;  // of the size of the others
+          system.residual[row] = unit * held.g[k];
+          system.jacobian.row(row) = unit * Space::line(Vec<double, D>(held.direction.col(k)), b);
+          system.jacobian.row(row).template tail<unknowns - D>() /= size_;
+        }
+      });
     }
     return true;
   }
@@ -54,10 +49,8 @@ class Closing {
   /// Largest distance by which a leg fails to close [m].
   double error(const Point& platform) const {
     double worst = 0;
-    for (const Reach<D>& leg : reaches_) {
-      const Vec<double, D> n = platform.point(leg.platform_point) - leg.anchor;
-      worst = std::max(worst, misfit(leg, n.norm(), dot(leg.normal, n)));
-    }
+    for (const Reach<D>& leg : reaches_)
+      worst = std::max(worst, leg.misfit(platform.point(leg.platform_point) - leg.anchor));
     return worst;
   }
 
@@ -77,11 +70,6 @@ class Closing {
   Eigen::Index rows() const { return rows_; }
 
  private:
-  static double misfit(const Reach<D>& leg, double length, double beside) {
-    const double miss = std::abs(length - leg.distance);
-    return leg.has_plane() ? std::sqrt(miss * miss + beside * beside) : miss;
-  }
-
   std::span<const Reach<D>> reaches_;
   Eigen::Index rows_ = 0;
   double size_ = 0;

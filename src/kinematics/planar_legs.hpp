@@ -37,7 +37,7 @@ class ScaledLegs {
     double worst = 0;
     for (std::size_t i = 0; i < count(); ++i) {
       const Reach<2> leg = (*this)[i];
-      worst = std::max(worst, std::abs((pose.point(leg.platform_point) - leg.anchor).norm() - leg.distance));
+      worst = std::max(worst, leg.misfit(pose.point(leg.platform_point) - leg.anchor));
     }
     return worst;
   }

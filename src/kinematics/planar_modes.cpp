@@ -101,8 +101,7 @@ double closure_error(std::span<const Reach<2>> legs, const PlanarPose& pose) {
   const auto platform = Motion::from(pose);
   double worst = 0;
   for (const Reach<2>& leg : legs)
-    worst =
-        std::max(worst, std::abs((platform.point(leg.platform_point) - leg.anchor).norm() - leg.distance));
+    worst = std::max(worst, leg.misfit(platform.point(leg.platform_point) - leg.anchor));
   return worst;
 }
 

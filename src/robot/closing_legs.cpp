@@ -1,29 +1,11 @@
 #include "robot/closing_legs.hpp"
 
 #include <cmath>
-#include <complex>
 
 #include "base/at.hpp"
 
 namespace sinew::inline v0 {
 namespace {
-
-using Complex = std::complex<double>;
-constexpr double tiny = 1e-100;  // a complex step: no difference is taken
-
-/// The pose after an imaginary step along one of its six motions.
-SE3<Complex> stepped(const SE3<double>& pose, int motion) {
-  SE3<Complex> moved{pose.p.cast<Complex>(), {Complex(pose.R.w), pose.R.v.cast<Complex>()}};
-  const Complex step(0, tiny);
-  if (motion < 3) {
-    moved.p[motion] += step;
-    return moved;
-  }
-  Vec3<Complex> half = Vec3<Complex>::Zero();
-  half[motion - 3] = 0.5 * step;
-  moved.R = SO3<Complex>{Complex(1), half}.compose(moved.R);
-  return moved;
-}
 
 template <class LegT>
 typename LegT::Coordinates coordinates(const LegT& leg, std::span<const double> feeds, int first) {
@@ -103,29 +85,11 @@ void ClosingLegs::force_change(
   by_platform.setZero();
   by_input.setZero(6, inputs_);
   for_each([&]<class L>(const L& leg, const LegPlace& place, int row, int first) {
-    const auto q = coordinates(leg, feeds, first);
-    const Vec<Complex, L::coordinates> z = q.template cast<Complex>();
-    // the force of each row along its line, of which only the line changes
-    const auto wrench_change = [&](const auto& blocks) {
-      Vec<double, 6> change = Vec<double, 6>::Zero();
-      for (int k = 0; k < L::rows; ++k)
-        for (int c = 0; c < 6; ++c)
-          change[c] += force[row + k] * rows.scale[row + k] * blocks.g_x(k, c).imag() / tiny;
-      return change;
-    };
-    for (int motion = 0; motion < 6; ++motion)
-      by_platform.col(motion) += wrench_change(
-          leg.template blocks<Complex>(stepped(platform, motion), leg.template tip<Complex>(z)));
-    const SE3<Complex> here = stepped(platform, 0);
-    SE3<Complex> still = here;
-    still.p[0] = platform.p[0];
-    const Mat<double, L::coordinates, L::inputs> rate = leg.input_rate();
-    for (int j = 0; j < L::inputs; ++j) {
-      Vec<Complex, L::coordinates> moved = z;
-      for (int c = 0; c < L::coordinates; ++c) moved[c] += Complex(0, tiny * rate(c, j));
-      by_input.col(place.input + j) +=
-          wrench_change(leg.template blocks<Complex>(still, leg.template tip<Complex>(moved)));
-    }
+    Vec<double, L::rows> multipliers;  // the force of each row along its line, of which only the line changes
+    for (int k = 0; k < L::rows; ++k) multipliers[k] = force[row + k] * rows.scale[row + k];
+    const auto change = leg.curvature(platform, coordinates(leg, feeds, first), multipliers);
+    by_platform += change.by_platform;
+    by_input.template middleCols<L::inputs>(place.input) += change.by_coordinates * leg.input_rate();
   });
 }
 

@@ -49,8 +49,8 @@ class ClosingLegs {
 
   void rows_at(const SE3<double>& platform, std::span<const double> feeds, ClosingRows& rows) const;
 
-  /// What the forces μ of the rows [N] become when the platform moves and when an input changes: the second
-  /// derivatives, by complex steps of the rows. Columns of `by_input`: the robot's inputs.
+  /// What the wrench of the forces μ of the rows [N] changes by when the platform moves and when an input
+  /// changes: the rows' second derivatives. Columns of `by_input`: the robot's inputs.
   void force_change(const SE3<double>& platform, std::span<const double> feeds, const ClosingRows& rows,
                     const Vec<double, max_closing_rows>& force, Mat<double, 6, 6>& by_platform,
                     Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::DontAlign, 6, max_rows>& by_input) const;

@@ -81,6 +81,42 @@ TYPED_TEST(EveryLeg, BlocksAreTheDerivativesOfTheResidual) {
   EXPECT_LT(worst_differences, 1e-8);
 }
 
+/// (small motion of the platform, change of q) → the wrench of multipliers.
+template <class LegT>
+struct WrenchOfRows {
+  static constexpr int dof = LegT::Space::dof, Q = LegT::coordinates;
+  const LegT& leg;
+  typename LegT::Frame platform;
+  Vec<double, LegT::rows> multipliers;
+  template <class S>
+  Vec<S, dof> operator()(const Vec<S, dof + Q>& z) const {
+    const Vec<S, dof> motion = z.template head<dof>();
+    const Vec<S, Q> q = z.template tail<Q>();
+    const auto moved = LegT::Space::template cast<S>(platform).displaced(motion);
+    const auto g_x = leg.template blocks<S>(moved, leg.template tip<S>(q)).g_x;
+    return g_x.transpose() * multipliers.template cast<S>();
+  }
+};
+
+TYPED_TEST(EveryLeg, CurvatureIsTheDerivativeOfTheWrench) {
+  double worst = 0;
+  for (int sample = 0; sample < 2000; ++sample) {
+    const auto leg = random_leg<TypeParam>(this->random);
+    const auto platform = this->platform();
+    Vec<double, WrenchOfRows<TypeParam>::dof + WrenchOfRows<TypeParam>::Q> z;
+    z << Vec<double, WrenchOfRows<TypeParam>::dof>::Zero(), random_coordinates(this->random, leg);
+    Vec<double, TypeParam::rows> multipliers;
+    for (double& one : multipliers) one = std::normal_distribution()(this->random);
+    const auto change = leg.curvature(platform, z.template tail<WrenchOfRows<TypeParam>::Q>(), multipliers);
+    Mat<double, WrenchOfRows<TypeParam>::dof, WrenchOfRows<TypeParam>::dof + WrenchOfRows<TypeParam>::Q>
+        jacobian;
+    jacobian << change.by_platform, change.by_coordinates;
+    const WrenchOfRows<TypeParam> wrench{leg, platform, multipliers};
+    worst = std::max(worst, jacobian_error(jacobian, complex_step_jacobian(wrench, z)));
+  }
+  EXPECT_LT(worst, 1e-13);
+}
+
 TYPED_TEST(EveryLeg, InputsAndCoordinatesUndoEachOther) {  // @verifies TDPCR (65)-(66)
   for (int sample = 0; sample < 500; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
@@ -213,7 +249,7 @@ TYPED_TEST(EveryLeg, RateRateBoundHolds) {
                               .g_x.template head<TypeParam::dimension>()
                               .norm() +
                           h * leg.link.bounds().rate;
-      const double bound = leg.closure.rate_rate_bound(pull, leg.link.bounds());
+      const double bound = rate_rate_bound<typename TypeParam::Closure>(pull, leg.link.bounds());
       EXPECT_LE(std::abs(g_q(q + h) - g_q(q - h)) / (2 * h), bound * (1 + 1e-6));
     }
   }

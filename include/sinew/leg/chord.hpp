@@ -13,25 +13,11 @@ namespace sinew::inline v0 {
 struct Chord {
   static constexpr std::string_view name = "chord";
   static constexpr bool base_turns = true;  ///< the base tangent is free: a base direction means nothing
-  static constexpr bool tip_is_platform_point = true;
-  template <int D>
-  static constexpr int rows = 1;
+  static constexpr bool anchor_is_tip = false;
+  static constexpr Holds holds = Holds::distance;
 
   template <class Self, class Visit>
   static void fields(Self&, Visit&&) {}
-
-  /// @implements TDPCR (1), (3)-(4)
-  /// The anchor is the base point; of the link only |u| matters, so a planar link serves in space.
-  template <int D, Scalar S, int L, int Q>
-  Anchor<S, D, Q> anchor(const Tip<S, L, Q>& tip) const {
-    return {Vec<S, D>::Zero(), Mat<S, D, Q>::Zero(), S(0.5) * squared_norm(tip.position),
-            tip.position.transpose() * tip.rate};
-  }
-
-  /// Bound on |∂²g/∂q²| for a link with one coordinate: (½|u|²)″ = |u′|² + u·u″.
-  double rate_rate_bound(double, const TipBounds& link) const {
-    return link.rate * link.rate + link.reach * link.rate_rate;
-  }
 
   /// Closed form where the link has one: the two curvatures ±κ, once where the link is straight; none beyond
   /// it.

@@ -15,9 +15,8 @@ namespace sinew::inline v0 {
 struct HingedStrut {
   static constexpr std::string_view name = "hinged_strut";
   static constexpr bool base_turns = false;
-  static constexpr bool tip_is_platform_point = false;
-  template <int D>
-  static constexpr int rows = 2;
+  static constexpr bool anchor_is_tip = true;
+  static constexpr Holds holds = Holds::distance_in_plane;
   /// How far beside its plane a platform point may be, over the strut's length.
   static constexpr double plane_tolerance = 1e-9;
 
@@ -32,12 +31,6 @@ struct HingedStrut {
   template <Scalar S>
   static Vec3<S> plane_normal() {
     return {S(1), S(0), S(0)};
-  }
-
-  /// @implements 3PFS (1), (11)
-  template <int D, Scalar S, int Q>
-  Anchor<S, D, Q> anchor(const Tip<S, D, Q>& tip) const {
-    return {tip.position, tip.rate, S(0.5 * length * length), Mat<S, 1, Q>::Zero()};
   }
 
   bool is_in_plane(const Vec3<double>& r) const { return std::abs(r.x()) <= plane_tolerance * length; }

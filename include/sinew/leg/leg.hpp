@@ -9,7 +9,7 @@
 
 #include "sinew/base/fixed_text.hpp"
 #include "sinew/leg/blocks.hpp"
-#include "sinew/leg/closure.hpp"
+#include "sinew/leg/closure_curvature.hpp"
 #include "sinew/leg/reach.hpp"
 #include "sinew/leg/space.hpp"
 #include "sinew/leg/state.hpp"
@@ -32,7 +32,7 @@ struct Leg {
   using Drive = DriveT;
   using Closure = ClosureT;
   static constexpr int dimension = Space::dimension;
-  static constexpr int rows = Closure::template rows<dimension>;
+  static constexpr int rows = held_rows<Closure::holds, dimension>;
   static constexpr int coordinates = Link::coordinates;
   static constexpr int inputs = Drive::inputs;
   /// The base tangent has a direction of its own, which a file must give.
@@ -41,7 +41,8 @@ struct Leg {
   static constexpr bool is_redundant = coordinates > rows;
   /// The strut may lead to either side: solutions come in pairs that a wish tells apart by their elbow.
   static constexpr bool has_elbow = is_redundant || HasSlide<Link>;
-  static constexpr bool has_plane = HoldsInPlane<Closure>;        ///< the last row is that of a plane
+  static constexpr bool has_plane =
+      Closure::holds == Holds::distance_in_plane;                 ///< the last row is that of a plane
   static constexpr int driven_rows = rows - (has_plane ? 1 : 0);  ///< rows that the link's coordinates close
 
   template <class S>
@@ -63,7 +64,7 @@ struct Leg {
   /// A length to compare errors with [m].
   double size() const {
     double size = base.p.norm() + platform_point.norm() + link.size();
-    if constexpr (requires { closure.length; } && !HasArc<Link>) size += closure.length;
+    if constexpr (HasStrut<Closure> && !HasArc<Link>) size += closure.length;
     return size;
   }
 
@@ -84,39 +85,51 @@ struct Leg {
                                           const LinkTip<S>& tip) const {
     const Vec<S, dimension> b = platform.rotate(platform_point.template cast<S>());
     const Vec<S, dimension> r = in_base<S>(platform.p + b - base.p.template cast<S>());
-    const auto anchor = closure.template anchor<dimension>(tip);
+    const auto anchor = anchor_of<dimension>(closure, tip);
+    const Vec<S, dimension> n = r - anchor.position;
+    const auto held = closure_rows<Closure::holds>(n, anchor.half_square, plane_normal<S>());
     using std::sqrt;
     Blocks<S> blocks;
-    if constexpr (driven_rows == 1) {
-      const DistanceRow<S, dimension, coordinates> row = distance_row(r, anchor);
-      blocks.g[0] = row.g;
-      blocks.g_x.row(0) = Space::line(to_world<S>(row.normal), b);
-      blocks.g_q.row(0) = row.g_q;
-      blocks.error = sqrt(squared_norm(row.normal)) - sqrt(S(2) * anchor.half_square);
-      if constexpr (has_plane) {  // its rows of K are 0: the plane holds the carriage's path
-        const Vec<S, dimension> normal = Closure::template plane_normal<S>();
-        blocks.g[1] = dot(normal, row.normal);
-        blocks.g_x.row(1) = Space::line(to_world<S>(normal), b);
-        blocks.g_q.row(1) = -(normal.transpose() * anchor.rate);
-      }
-    } else {
-      blocks.g = to_world<S>(r - anchor.position);
-      for (int k = 0; k < dimension; ++k) {
-        blocks.g_x.row(k) = Space::line(Vec<S, dimension>(Vec<S, dimension>::Unit(k)), b);
-        for (int j = 0; j < coordinates; ++j)
-          blocks.g_q(k, j) = -to_world<S>(Vec<S, dimension>(anchor.rate.col(j)))[k];
-      }
-      blocks.error = sqrt(squared_norm(blocks.g));
+    blocks.g = held.g;
+    for (int k = 0; k < rows; ++k) {  // those of K are 0 in a plane: it holds the carriage's path
+      const Vec<S, dimension> direction = held.direction.col(k);
+      blocks.g_x.row(k) = Space::line(to_world<S>(direction), b);
+      blocks.g_q.row(k) = -(direction.transpose() * anchor.rate);
     }
+    if constexpr (Closure::holds != Holds::point) blocks.g_q.row(0) -= anchor.half_square_rate;
+    blocks.error = sqrt(squared_norm(n)) - sqrt(S(2) * anchor.half_square);
     return blocks;
+  }
+
+  /// What the wrench λᵀ g_x of multipliers λ of the rows changes by, a column for each motion.
+  struct Curvature {
+    Mat<double, Space::dof, Space::dof> by_platform = Mat<double, Space::dof, Space::dof>::Zero();
+    Mat<double, Space::dof, coordinates> by_coordinates = Mat<double, Space::dof, coordinates>::Zero();
+  };
+  Curvature curvature(const Frame& platform, const Coordinates& q,
+                      const Vec<double, rows>& multipliers) const {
+    const Point b = platform.rotate(platform_point);
+    const auto anchor = anchor_of<dimension>(closure, link.tip(q));
+    const Point n = in_base<double>(platform.p + b - base.p) - anchor.position;
+    const auto held = closure_rows<Closure::holds>(n, anchor.half_square, plane_normal<double>());
+    Curvature change;
+    for (int k = 0; k < rows; ++k) {
+      const Point direction = to_world<double>(Point(held.direction.col(k)));
+      if (k > 0 || Closure::holds == Holds::point) {
+        change.by_platform += multipliers[k] * fixed_line_change<Space>(direction, b);
+        continue;
+      }
+      change.by_platform += multipliers[k] * distance_line_change<Space>(direction, b);
+      for (int j = 0; j < coordinates; ++j)
+        change.by_coordinates.col(j) -=
+            multipliers[k] * Space::line(to_world<double>(Point(anchor.rate.col(j))), b).transpose();
+    }
+    return change;
   }
 
   /// How far the leg is from closed [m].
   static double misfit(const Blocks<double>& blocks) {
-    if constexpr (has_plane)
-      return std::sqrt(blocks.error * blocks.error + blocks.g[rows - 1] * blocks.g[rows - 1]);
-    else
-      return std::abs(blocks.error);
+    return closure_misfit(blocks.error, 0, has_plane ? blocks.g[rows - 1] : 0);
   }
 
   /// The same, without the derivatives.
@@ -126,7 +139,7 @@ struct Leg {
 
   /// What is left of the leg once its link is shaped.
   Reach<dimension> reach(const Coordinates& q) const {
-    const auto anchor = closure.template anchor<dimension>(link.tip(q));
+    const auto anchor = anchor_of<dimension>(closure, link.tip(q));
     const double distance = std::sqrt(2 * anchor.half_square);
     if constexpr (HasSlide<Link> && has_plane)
       return {base.p + link.slide(q) * Space::second_axis(base), distance, platform_point,
@@ -194,7 +207,7 @@ struct Leg {
   /// Why `solutions_at` found none.
   void explain_unreachable(const Frame& platform, FixedText<240>& text) const {
     const Point r = offset<double>(platform);
-    if constexpr (Closure::tip_is_platform_point)
+    if constexpr (!HasStrut<Closure>)
       if (const double needed = link.arc().curvature_from_chord(r.norm());
           needed >= drive.domain() && needed < link.arc().bounds().domain) {
         text.append("would have to bend to a radius of ");
@@ -260,15 +273,18 @@ struct Leg {
   }
 
   double misfit_at(const Point& r, const Coordinates& q) const {
-    const auto anchor = closure.template anchor<dimension>(link.tip(q));
+    const auto anchor = anchor_of<dimension>(closure, link.tip(q));
     const Point n = r - anchor.position;
-    const double miss = std::sqrt(squared_norm(n)) - std::sqrt(2 * anchor.half_square);
-    if constexpr (has_plane) {
-      const double beside = dot(Closure::template plane_normal<double>(), n);
-      return std::sqrt(miss * miss + beside * beside);
-    } else {
-      return std::abs(miss);
-    }
+    return closure_misfit(n.norm(), std::sqrt(2 * anchor.half_square), dot(plane_normal<double>(), n));
+  }
+
+  /// Of the plane that holds the platform point; 0 without one.
+  template <Scalar S>
+  static Vec<S, dimension> plane_normal() {
+    if constexpr (has_plane)
+      return Closure::template plane_normal<S>();
+    else
+      return Vec<S, dimension>::Zero();
   }
 
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
@@ -281,10 +297,13 @@ struct Leg {
     const TipBounds bounds = link.bounds();
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * (r.norm() + bounds.reach);
     return [this, r, bounds, rounding](double q) {
-      const auto row = distance_row(r, closure.template anchor<dimension>(link.tip(q)));
-      const double pull = row.normal.norm();  // g = ½(pull² − D²), and pull is known to `rounding`
+      const auto anchor = anchor_of<dimension>(closure, link.tip(q));
+      const Point n = r - anchor.position;
+      const double pull = n.norm();  // g = ½(pull² − D²), and pull is known to `rounding`
       const double largest_pull = pull + bounds.rate * stride();
-      return RootSample{row.g, row.g_q[0], closure.rate_rate_bound(largest_pull, bounds),
+      const double slope = -dot(n, anchor.rate) - anchor.half_square_rate[0];
+      return RootSample{closure_rows<Closure::holds>(n, anchor.half_square, plane_normal<double>()).g[0],
+                        slope, rate_rate_bound<Closure>(largest_pull, bounds),
                         rounding * std::max(pull, rounding)};
     };
   }

@@ -13,17 +13,11 @@ namespace sinew::inline v0 {
 struct Pin {
   static constexpr std::string_view name = "pin";
   static constexpr bool base_turns = false;
-  static constexpr bool tip_is_platform_point = true;
-  template <int D>
-  static constexpr int rows = D;
+  static constexpr bool anchor_is_tip = true;
+  static constexpr Holds holds = Holds::point;
 
   template <class Self, class Visit>
   static void fields(Self&, Visit&&) {}
-
-  template <int D, Scalar S, int Q>
-  Anchor<S, D, Q> anchor(const Tip<S, D, Q>& tip) const {
-    return {tip.position, tip.rate, S(0), Mat<S, 1, Q>::Zero()};
-  }
 
   /// The chord ends at the platform point: ±κ, and the base turned half a bend beside it.
   template <HasArc Link>

@@ -3,7 +3,7 @@
 /// distance from, and of a hinged leg the plane it stays in. Forward kinematics needs no more, whatever the
 /// link, its drive and its closure.
 #pragma once
-#include "sinew/math/vec.hpp"
+#include "sinew/leg/closure.hpp"
 
 namespace sinew::inline v0 {
 
@@ -19,6 +19,21 @@ struct Reach {
   bool has_plane() const { return normal.squaredNorm() > 0; }
   /// How many freedoms it holds.
   int rows() const { return distance > 0 ? 1 + (has_plane() ? 1 : 0) : D; }
+
+  /// How far from closed it is where the way from the anchor to the platform point is n [m].
+  double misfit(const Vec<double, D>& n) const { return closure_misfit(n.norm(), distance, dot(normal, n)); }
+
+  /// Calls `use` with its rows there.
+  template <class Use>
+  void with_rows(const Vec<double, D>& n, Use&& use) const {
+    const double half_square = 0.5 * distance * distance;
+    if (!(distance > 0))
+      use(closure_rows<Holds::point>(n, half_square, normal));
+    else if (has_plane())
+      use(closure_rows<Holds::distance_in_plane>(n, half_square, normal));
+    else
+      use(closure_rows<Holds::distance>(n, half_square, normal));
+  }
 };
 
 }  // namespace sinew::inline v0

@@ -23,6 +23,18 @@ struct Planar {
     return {direction.x(), direction.y(), cross(point, direction)};
   }
 
+  /// ∂r/∂x of the platform point r = p + b:  (1, E b).
+  static Mat<double, 2, 3> point_rate(const Vec2<double>& b) {
+    Mat<double, 2, 3> rate;
+    rate << 1, 0, -b[1], 0, 1, b[0];
+    return rate;
+  }
+
+  /// What a turn of b alone changes the line of a direction through it by: the last rows and columns.
+  static void add_turn(const Vec2<double>& direction, const Vec2<double>& b, Mat<double, 3, 3>& change) {
+    change(2, 2) -= dot(direction, b);
+  }
+
   static bool is_finite(const SE2<double>& frame) {
     return frame.p.allFinite() && std::isfinite(frame.c) && std::isfinite(frame.s);
   }
@@ -69,6 +81,21 @@ struct Spatial {
     Mat<S, 1, 6> row;
     row << direction.transpose(), cross(point, direction).transpose();
     return row;
+  }
+
+  /// ∂r/∂x of the platform point r = p + b:  (1, −[b]×).
+  static Mat<double, 3, 6> point_rate(const Vec3<double>& b) {
+    Mat<double, 3, 6> rate;
+    rate << 1, 0, 0, 0, b[2], -b[1], 0, 1, 0, -b[2], 0, b[0], 0, 0, 1, b[1], -b[0], 0;
+    return rate;
+  }
+
+  /// What a turn of b alone changes the line of a direction through it by: the last rows and columns.
+  static void add_turn(const Vec3<double>& direction, const Vec3<double>& b, Mat<double, 6, 6>& change) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) change(3 + i, 3 + j) += b[i] * direction[j];
+      change(3 + i, 3 + i) -= dot(direction, b);
+    }
   }
 
   static bool is_finite(const SE3<double>& frame) {

@@ -16,29 +16,16 @@ namespace sinew::inline v0 {
 struct Strut {
   static constexpr std::string_view name = "strut";
   static constexpr bool base_turns = false;  ///< the base tangent has a direction of its own
-  static constexpr bool tip_is_platform_point = false;
-  template <int D>
-  static constexpr int rows = 1;
+  static constexpr bool anchor_is_tip = true;
+  static constexpr Holds holds = Holds::distance;
 
-  double length = 0;  ///< v [m], > 0
+  /// v [m], > 0. The row of J is vᵀ, vᵀ E Q c: TDPCR (29) prints vᵀ Eᵢ Qᵢ c, but (22) gives E Q. See
+  /// docs/errata.md.  @implements TDPCR (28)-(30)
+  double length = 0;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("length", self.length, Dimension::length, Range::size(), "length of the rigid link");
-  }
-
-  /// The row of J that follows is vᵀ, vᵀ E Q c: TDPCR (29) prints vᵀ Eᵢ Qᵢ c, but (22) gives E Q. See
-  /// docs/errata.md.
-  /// @implements TDPCR (21)-(24), (28)-(30)
-  template <int D, Scalar S, int Q>
-  Anchor<S, D, Q> anchor(const Tip<S, D, Q>& tip) const {
-    return {tip.position, tip.rate, S(0.5 * length * length), Mat<S, 1, Q>::Zero()};
-  }
-
-  /// Bound on |∂²g/∂q²| for a link with one coordinate while |r − u| ≤ pull: (½|r − u|²)″ = |u′|² − (r −
-  /// u)·u″.
-  double rate_rate_bound(double pull, const TipBounds& link) const {
-    return link.rate * link.rate + pull * link.rate_rate;
   }
 
   /// A link that turns at its base and the strut are two sides of a triangle on r: one curvature is free.

@@ -6,6 +6,9 @@
 #include <limits>
 
 #include "sinew/kinematics/chain.hpp"
+#include "sinew/leg/chord.hpp"
+#include "sinew/leg/closure_curvature.hpp"
+#include "sinew/leg/strut.hpp"
 
 namespace sinew::inline v0 {
 
@@ -44,76 +47,49 @@ struct ChainClosure {
   }
 };
 
-namespace detail {
-
-/// ∂r/∂x of a platform point: r_x = (1, E b) in the plane, (1, −[b]×) in space.
-inline Mat<double, 2, 3> point_rate(const Vec2<double>& b) {
-  Mat<double, 2, 3> rate;
-  rate << 1, 0, -b[1], 0, 1, b[0];
-  return rate;
-}
-inline Mat<double, 3, 6> point_rate(const Vec3<double>& b) {
-  Mat<double, 3, 6> rate;
-  rate << 1, 0, 0, 0, b[2], -b[1], 0, 1, 0, -b[2], 0, b[0], 0, 0, 1, b[1], -b[0], 0;
-  return rate;
+/// Calls `use` with the closure of a leg.
+template <class Space, class Use>
+void with_closure(const ChainLeg<Space>& leg, Use&& use) {
+  if constexpr (Space::dimension == 2)
+    if (leg.has_strut()) return use(Strut{leg.strut});
+  use(Chord{});
 }
 
-/// What the line along e through b changes by with a turn of b alone.
-inline void add_turn(const Vec2<double>& e, const Vec2<double>& b, Mat<double, 3, 3>& c_xx) {
-  c_xx(2, 2) -= dot(e, b);
-}
-inline void add_turn(const Vec3<double>& e, const Vec3<double>& b, Mat<double, 6, 6>& c_xx) {
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) c_xx(3 + i, 3 + j) += b[i] * e[j];
-    c_xx(3 + i, 3 + i) -= dot(e, b);
-  }
-}
-
-}  // namespace detail
-
+/// The row of a distance over that distance: c = |n| − D, and the closure's second derivatives by the tip
+/// across the line on which it pulls. Of that the tip's own rates make those by the angles.
 template <class Space>
 void close_chain(const ChainLeg<Space>& leg, const typename Space::template Frame<double>& platform,
                  std::span<const double> angles, ChainClosure<Space>& at) {
-  constexpr int dimension = Space::dimension;
-  using Point = Vec<double, dimension>;
+  using Point = Vec<double, Space::dimension>;
   const auto tip = leg.chain.tip(angles);
-  const std::size_t joints = angles.size();
-  const Point b = platform.rotate(leg.platform_point);
-  Point n = platform.p + b - leg.base.p;
-  if constexpr (dimension == 2)
-    if (leg.has_strut()) n -= leg.base.rotate(tip.position);
-  at.distance = std::sqrt(squared_norm(n));
-  const double per_distance = 1 / at.distance;
-  const Point e = n * per_distance;
-  const auto r_x = detail::point_rate(b);
-
-  at.c_x = Space::line(e, b).transpose();
-  for (int k = 0; k < Space::dof; ++k) {
-    const Point across = (r_x.col(k) - dot(e, Point(r_x.col(k))) * e) * per_distance;
-    for (int l = 0; l < Space::dof; ++l) at.c_xx(l, k) = dot(Point(r_x.col(l)), across);
-  }
-  detail::add_turn(e, b, at.c_xx);
-  at.turn.setZero();
-  Vec2<double> line = tip.position;  // in the axes of the chain
-  if constexpr (dimension == 2)
-    if (leg.has_strut()) {
-      const Vec2<double> beside(-e[1], e[0]);
-      line = leg.base.rotate_back(e);
-      for (int k = 0; k < Space::dof; ++k) at.turn[k] = -dot(beside, Point(r_x.col(k))) * per_distance;
-      at.c = at.distance - leg.strut;
+  with_closure(leg, [&]<class Closure>(const Closure& closure) {
+    const auto anchor =
+        anchor_of<Space::dimension>(closure, Tip<double, 2, 2>{tip.position, Mat<double, 2, 2>::Identity()});
+    const Point b = platform.rotate(leg.platform_point);
+    Point n = platform.p + b - leg.base.p;
+    if constexpr (Closure::anchor_is_tip) n -= leg.base.rotate(anchor.position);
+    const double distance = std::sqrt(squared_norm(n)), held = std::sqrt(2 * anchor.half_square);
+    const double per_distance = 1 / distance;
+    at.c = distance - held;
+    at.distance = distance;
+    at.c_x = Space::line(Point(n * per_distance), b).transpose();
+    at.c_xx = per_distance * (distance_line_change<Space>(n, b) - at.c_x * at.c_x.transpose());
+    Vec2<double> line;  // along which the tip is pulled, in the axes of the chain
+    if constexpr (Closure::anchor_is_tip) {
+      const Point beside(-n[1] * per_distance, n[0] * per_distance);
+      line = leg.base.rotate_back(n) * per_distance;
       at.sway = per_distance;
+      at.turn = -per_distance * (beside.transpose() * Space::point_rate(b)).transpose();
+    } else {
+      at.sway = -1 / held;
+      line = anchor.half_square_rate.transpose() / held;
+      at.turn.setZero();
     }
-  if (!(dimension == 2 && leg.has_strut())) {
-    const double chord = std::sqrt(squared_norm(tip.position)), per_chord = 1 / chord;
-    line = line * per_chord;
-    at.c = at.distance - chord;
-    at.sway = -per_chord;
-  }
-  for (std::size_t j = 0; j < joints; ++j) {
-    const Vec2<double>& rate = tip.rate[j];
-    at.c_q[j] = -dot(line, rate);
-    at.across[j] = line[0] * rate[1] - line[1] * rate[0];
-  }
+    for (std::size_t j = 0; j < angles.size(); ++j) {
+      at.c_q[j] = -dot(line, tip.rate[j]);
+      at.across[j] = cross(line, tip.rate[j]);
+    }
+  });
 }
 
 /// ∂c/∂θ of a motor at the base, which turns the whole chain.
