@@ -36,8 +36,7 @@ Equilibrium answer_of(const Report& report, const System& system, Workspace& wor
   answer.report = report;
   answer.pose = spatial_pose(system.platform());
   for (int k = 0; k < system.feeds(); ++k) work.inputs[at(system.input_of(k))] = system.length(k);
-  if constexpr (requires { system.closing_legs(); })
-    if (with_coordinates) system.get_closing(work.coordinates);
+  if (with_coordinates) system.get_closing(work.coordinates);
   for (int k = 0; k < system.rods(); ++k) {
     if (with_coordinates)
       system.get_rod(k,
@@ -141,9 +140,8 @@ RodAnalysis analysis_of(const AnyRobot& robot, System& system) {
   system.linearise();
   const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness = system.platform_stiffness();
   std::copy_n(stiffness.data(), 36, analysis.stiffness.begin());
-  if constexpr (requires { system.closing_legs(); })
-    for (std::size_t k = 0; k < system.closing_legs().size(); ++k)
-      analysis.closing_forces.push_back(system.closing_force(static_cast<int>(k)));
+  for (std::size_t k = 0; k < system.closing_legs().size(); ++k)
+    analysis.closing_forces.push_back(system.closing_force(static_cast<int>(k)));
   const Lu6 factors = system.factors();
   const auto inputs = at(system.inputs());
   analysis.sensitivity.resize(6 * inputs);
@@ -165,7 +163,7 @@ RodAnalysis analysis_of(const AnyRobot& robot, System& system) {
     if (!(values[k] < 0)) continue;
     analysis.unstable.emplace_back();
     SpatialWrench twist(vectors.data() + 6 * k);
-    if constexpr (requires { system.free_motion(twist); }) twist = system.free_motion(twist).normalized();
+    if (system.closes()) twist = system.free_motion(twist).normalized();
     std::ranges::copy(twist, analysis.unstable.back().begin());
   }
   analysis.unstable_directions = unstable_directions(system);

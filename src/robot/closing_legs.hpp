@@ -17,8 +17,8 @@ struct ClosingLeg {
   int index = 0;  ///< among the robot's legs
 };
 
-/// Most rows of all closing legs: a platform has no more freedoms.
-inline constexpr int max_closing_rows = 6;
+/// Most rows of all closing legs: more than a platform has freedoms, as several may forbid the same.
+inline constexpr int max_closing_rows = max_rows;
 
 using ClosingMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign, max_closing_rows, max_rows>;

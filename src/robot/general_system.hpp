@@ -88,9 +88,6 @@ class GeneralSystem {
   int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
   /// Where a rod's coordinates begin among the robot's.
   int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
-  static int leg_of(int rod) { return rod; }  ///< which of the robot's legs it is
-  /// What inputs feed: each rod its length.
-  int feeds() const { return rods(); }
   bool in_domain(int, double length) const { return length > 0 && std::isfinite(length); }
   double radius() const { return radius_; }  ///< of the platform [m]
   Vec3<double> base(int rod) const { return at(rod).frame.p; }
@@ -126,9 +123,6 @@ class GeneralSystem {
   Lu6 factors() const { return lu_; }
   MatrixView stiffness() const { return {stiffness_.data(), 6, 6}; }
   Wrench feed_wrench(int input) const;
-  Mat<double, 6, 6> platform_stiffness() const { return stiffness_; }
-  Wrench platform_feed(int input) const { return feed_wrench(input); }
-  Wrench felt(const Wrench& wrench) const { return wrench; }
   /// @}
 
   /// @name Single rods, after `evaluate`

@@ -63,9 +63,6 @@ class RodSystem {
   int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
   /// Where a rod's coordinates begin among the robot's.
   int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
-  static int leg_of(int rod) { return rod; }  ///< which of the robot's legs it is
-  /// What inputs feed: each rod its length.
-  int feeds() const { return rods_; }
   bool in_domain(int, double length) const { return length > 0 && std::isfinite(length); }
   double radius() const { return radius_; }  ///< of the platform [m]: makes moments comparable with forces
   Vec3<double> base(int rod) const;
@@ -104,14 +101,8 @@ class RodSystem {
   Wrench missing() const;
   /// A step of the platform, and lengths fed by each input; the rods follow to first order.
   void move(const Twist& twist, std::span<const double> fed = {});
-  Lu6 factors() const;  ///< of the stiffness
-  MatrixView stiffness() const { return {sums_.stiffness, 6, 6}; }
-  /// @name Nothing but rods holds the platform: the same
-  /// @{
-  Mat<double, 6, 6> platform_stiffness() const { return stiffness(); }
-  Wrench platform_feed(int input) const { return feed_wrench(input); }
-  Wrench felt(const Wrench& wrench) const { return wrench; }  ///< what of a load is not held anyway
-  /// @}  ///< ∂(F, M)/∂(p, φ) at fixed lengths
+  Lu6 factors() const;                                              ///< of the stiffness
+  MatrixView stiffness() const { return {sums_.stiffness, 6, 6}; }  ///< ∂(F, M)/∂(p, φ) at fixed lengths
   /// ∂(F, M)/∂length of one input at a resting platform [N/m, N].
   Wrench feed_wrench(int input) const;
   /// @}

@@ -40,14 +40,10 @@ Kind make_work(const AnyRobot& robot) {
   const ParallelRobot<RodLeg> rods = rods_of(robot);
   const Vec3<double>& gravity = robot.weight.gravity;
   const bool is_torque_free = std::ranges::all_of(rods.legs, &RodLeg::is_torque_free);
-  if (auto closing = closing_legs_of(robot); !closing.empty()) {
-    const MixedRobot mixed{rods, std::move(closing)};
-    return is_torque_free ? Kind(std::in_place_type<MixedWork>, mixed, gravity)
-                          : Kind(std::in_place_type<MixedGeneralWork>, mixed, gravity);
-  }
-  if (bend_in_planes(rods)) return Kind(std::in_place_type<RodWork>, rods);
-  return is_torque_free ? Kind(std::in_place_type<TangentWork>, rods, gravity)
-                        : Kind(std::in_place_type<GeneralWork>, rods, gravity);
+  auto closing = closing_legs_of(robot);
+  if (closing.empty() && bend_in_planes(rods)) return Kind(std::in_place_type<RodWork>, rods);
+  return is_torque_free ? Kind(std::in_place_type<TangentWork>, rods, gravity, std::move(closing))
+                        : Kind(std::in_place_type<GeneralWork>, rods, gravity, std::move(closing));
 }
 
 }  // namespace

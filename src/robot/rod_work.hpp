@@ -20,14 +20,16 @@ struct RodPlace {
 /// @tparam System one of rod_systems.hpp
 template <class System>
 struct RodWorkOf {
-  template <class Robot>
-  explicit RodWorkOf(const Robot& robot)
-      : system(robot),
+  explicit RodWorkOf(const ParallelRobot<RodLeg>& rods, const Vec3<double>& gravity = Vec3<double>::Zero(),
+                     std::vector<ClosingLeg> closing = {})
+      : system(rods, std::move(closing)),
         home(system.snapshot()),
         before(home),
         spare(home),
         places{RodPlace<System>{home}, RodPlace<System>{home}, RodPlace<System>{home},
-               RodPlace<System>{home}} {}
+               RodPlace<System>{home}} {
+    if constexpr (requires { system.set_gravity(gravity); }) system.set_gravity(gravity);
+  }
 
   System system;
   typename System::Snapshot home, before, spare;
@@ -42,23 +44,11 @@ struct RodWorkOf {
 /// The rods of a robot alone, in the order of its legs; their places are those in the whole robot. Allocates.
 ParallelRobot<RodLeg> rods_of(const AnyRobot& robot);
 
-/// Rods that bend in one plane each ...
-struct RodWork : RodWorkOf<RodSystem> {
-  using RodWorkOf::RodWorkOf;
-};
-/// ... and others, which may be heavy.
-template <class System>
-struct HeavyWork : RodWorkOf<System> {
-  template <class Robot>
-  explicit HeavyWork(const Robot& robot, const Vec3<double>& gravity = Vec3<double>::Zero())
-      : RodWorkOf<System>(robot) {
-    this->system.set_gravity(gravity);
-  }
-};
-using TangentWork = HeavyWork<TangentSystem>;  ///< without torque
-using GeneralWork = HeavyWork<GeneralSystem>;
-using MixedWork = HeavyWork<MixedSystem<TangentSystem>>;  ///< with closing legs beside them
-using MixedGeneralWork = HeavyWork<MixedSystem<GeneralSystem>>;
+/// Rods that bend in one plane each, without weight ...
+using RodWork = RodWorkOf<Mechanism<RodSystem>>;
+/// ... others without torque, and all others.
+using TangentWork = RodWorkOf<Mechanism<TangentSystem>>;
+using GeneralWork = RodWorkOf<Mechanism<GeneralSystem>>;
 
 /// The closing legs of a robot.
 std::vector<ClosingLeg> closing_legs_of(const AnyRobot& robot);
@@ -66,7 +56,7 @@ std::vector<ClosingLeg> closing_legs_of(const AnyRobot& robot);
 /// What a workspace keeps of rods: of the quickest kind that holds for all of them.
 struct RodWorks {
   explicit RodWorks(const AnyRobot& robot);  ///< of a robot that bears load
-  std::variant<RodWork, TangentWork, GeneralWork, MixedWork, MixedGeneralWork> kind;
+  std::variant<RodWork, TangentWork, GeneralWork> kind;
 };
 
 /// Calls `use(rods)` with a RodWorkOf, of whichever kind it is, that stops as the workspace does.

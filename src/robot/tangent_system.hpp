@@ -44,9 +44,6 @@ class TangentSystem {
   int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
   /// Where a rod's coordinates begin among the robot's.
   int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
-  static int leg_of(int rod) { return rod; }  ///< which of the robot's legs it is
-  /// What inputs feed: each rod its length.
-  int feeds() const { return rods_; }
   bool in_domain(int, double length) const { return length > 0 && std::isfinite(length); }
   double radius() const { return radius_; }  ///< of the platform [m]
   Vec3<double> base(int rod) const;
@@ -81,12 +78,6 @@ class TangentSystem {
   void move(const Twist& twist, std::span<const double> fed = {});
   Lu6 factors() const;
   MatrixView stiffness() const { return {sums_.stiffness, 6, 6}; }
-  /// @name Nothing but rods holds the platform: the same
-  /// @{
-  Mat<double, 6, 6> platform_stiffness() const { return stiffness(); }
-  Wrench platform_feed(int input) const { return feed_wrench(input); }
-  Wrench felt(const Wrench& wrench) const { return wrench; }  ///< what of a load is not held anyway
-  /// @}
   Wrench feed_wrench(int input) const;
   /// @}
 

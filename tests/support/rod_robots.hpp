@@ -12,6 +12,11 @@
 
 namespace sinew::test {
 
+/// Groups of rods as solvers have them: mechanisms without closing legs.
+using RodSystem = Mechanism<v0::RodSystem>;
+using TangentSystem = Mechanism<v0::TangentSystem>;
+using GeneralSystem = Mechanism<v0::GeneralSystem>;
+
 namespace judge = shooting;
 using RodRobot = ParallelRobot<RodLeg>;
 using Wrench6 = RodSystem::Wrench;

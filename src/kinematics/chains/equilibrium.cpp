@@ -69,8 +69,7 @@ Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<c
   if (done < 1) put(done);
   state.hold.assign(work.hold.begin(), work.hold.end());
   measure_tendons(robot, state);
-  const auto reduced =
-      done < 1 ? solver.reduce(state.pose, state.legs, state.hold, state.wrench) : solver.reached();
+  if (done < 1) solver.reduce(state.pose, state.legs, state.hold, state.wrench);  // what is left there
   Report report;
   report.residual = solver.residual();
   report.iterations = solver.iterations();
@@ -80,7 +79,9 @@ Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<c
   } else {
     name_slack(state, report);
   }
-  if (done == 0 || done == 1) check_regularity(solver, reduced, report);
+  // from a singular start a step may lead anywhere
+  if (solver.iterations() > 0) check_regularity(solver, solver.begun(), report);
+  if (done == 1) check_regularity(solver, solver.reached(), report);
   return report;
 }
 

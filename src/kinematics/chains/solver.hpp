@@ -53,8 +53,9 @@ class Solver {
     return sigma[dof - 1] / sigma[0];
   }
 
-  /// At the last equilibrium that `solve` found.
+  /// At the last equilibrium that `solve` found, and where its first call began.
   const Reduced& reached() const { return reached_; }
+  const Reduced& begun() const { return begun_; }
   double residual() const { return residual_; }  ///< unbalance as a length [m]
   int iterations() const { return iterations_; }
   bool has_budget() const { return iterations_ < options_.max_iterations; }
@@ -93,7 +94,7 @@ class Solver {
     for (int round = 0; round < 25 && has_budget(); ++round) {
       Reduced reduced = reduce(pose, legs, hold, wrench);
       if (!std::isfinite(residual_)) return false;
-      ++iterations_;
+      if (iterations_++ == 0) begun_ = reduced;
       const Motion motion = solution(reduced.S, -reduced.g);
       const double step = move(legs, hold, motion);
       if (free_ == Free::platform) pose = Space::moved(pose, motion);
@@ -148,7 +149,7 @@ class Solver {
   ChainOptions options_;
   Free free_;
   LegSystem<Space> system_;
-  Reduced reached_;
+  Reduced begun_{Mat<double, dof, dof>::Zero(), Motion::Zero()}, reached_ = begun_;
   double size_ = 0, stiffness_ = 0, residual_ = 0, reach_ = 0.5;
   int iterations_ = 0;
 };

@@ -23,10 +23,12 @@ double energy_of(const System& system) {
 }
 
 /// Of the rods' weight and own load [J].
-inline double weight_of(const RodSystem&) { return 0; }
 template <class System>
 double weight_of(const System& system) {
-  return system.weight_energy();
+  if constexpr (requires { system.weight_energy(); })
+    return system.weight_energy();
+  else
+    return 0;
 }
 
 /// A moment that keeps its axes has no potential.

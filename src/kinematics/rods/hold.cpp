@@ -190,13 +190,12 @@ Report check(const System& system, const SE3<double>& wanted, const RodQuestion&
     report = failed(Status::left_domain);
     report.message.append("the pose or the wrench is not a number");
   }
-  if constexpr (requires { system.undriven(); })
-    if (report.ok() && system.undriven() > 0) {
-      report = failed(Status::left_domain);
-      report.message.append(
-          "legs beside the rods hold motions that no input drives: not all of a pose can be "
-          "chosen; ask forward with inputs");
-    }
+  if (report.ok() && system.undriven() > 0) {
+    report = failed(Status::left_domain);
+    report.message.append(
+        "legs beside the rods hold motions that no input drives: not all of a pose can be "
+        "chosen; ask forward with inputs");
+  }
   return report;
 }
 

@@ -323,8 +323,10 @@ bool rest_at(GeneralSystem& system, const SE3<double>& platform) {
 }
 
 template <class Rods>
-bool rest_at(MixedSystem<Rods>& system, const SE3<double>& platform) {
-  if (!rest_at(static_cast<Rods&>(system), platform) || !system.close()) return false;
+bool rest_at(Mechanism<Rods>& system, const SE3<double>& platform) {
+  if (!rest_at(static_cast<Rods&>(system), platform)) return false;
+  if (!system.closes()) return true;
+  if (!system.close()) return false;
   system.set_wrench(Vec<double, 6>::Zero());
   system.evaluate();
   system.linearise();
@@ -332,7 +334,8 @@ bool rest_at(MixedSystem<Rods>& system, const SE3<double>& platform) {
   system.evaluate();
   return system.linearise();
 }
-template bool rest_at(MixedSystem<TangentSystem>&, const SE3<double>&);
-template bool rest_at(MixedSystem<GeneralSystem>&, const SE3<double>&);
+template bool rest_at(Mechanism<RodSystem>&, const SE3<double>&);
+template bool rest_at(Mechanism<TangentSystem>&, const SE3<double>&);
+template bool rest_at(Mechanism<GeneralSystem>&, const SE3<double>&);
 
 }  // namespace sinew::inline v0

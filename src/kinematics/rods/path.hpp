@@ -109,6 +109,6 @@ bool rest_at(TangentSystem& system, const SE3<double>& platform);
 bool rest_at(GeneralSystem& system, const SE3<double>& platform);
 /// ... with the inputs that close the other legs. False also where one cannot be closed.
 template <class Rods>
-bool rest_at(MixedSystem<Rods>& system, const SE3<double>& platform);
+bool rest_at(Mechanism<Rods>& system, const SE3<double>& platform);
 
 }  // namespace sinew::inline v0

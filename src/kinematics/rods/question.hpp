@@ -13,13 +13,14 @@ inline SE3<double> home_of(const AnyRobot& robot) {
 }
 
 /// What weighs on rods; a state at rest under another gravity is none.
-inline void set_gravity(RodWorkOf<RodSystem>&, const Vec3<double>&) {}  // rods without weight
 template <class System>
 void set_gravity(RodWorkOf<System>& rods, const Vec3<double>& gravity) {
-  if (rods.system.gravity() == gravity) return;
-  rods.system.set_gravity(gravity);
-  if (!rods.system.has_mass()) return;
-  rods.knows_home = rods.is_solved = false;
+  if constexpr (requires { rods.system.gravity(); }) {
+    if (rods.system.gravity() == gravity) return;
+    rods.system.set_gravity(gravity);
+    if (!rods.system.has_mass()) return;
+    rods.knows_home = rods.is_solved = false;
+  }
 }
 
 /// A step of rods that bear torque costs some hundred times as much as one of the others.

@@ -23,8 +23,7 @@ Report go_home(RodWorkOf<System>& work, const SE3<double>& home) {
     work.is_solved = false;
     if (!rest_at(work.system, home)) {
       Report report = failed(Status::singular);
-      if constexpr (requires { work.system.closing_legs(); })
-        report.message.append("a leg beside the rods cannot close at home, or ");
+      if (work.system.closes()) report.message.append("a leg beside the rods cannot close at home, or ");
       if constexpr (std::is_base_of_v<GeneralSystem, System>)
         report.message.append(
             "no equilibrium was found of each rod by itself, held at home: a wide strip or a strongly bent "

@@ -11,11 +11,11 @@
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {
-namespace mixed_system_test {
+namespace mechanism_test {
 
 AnyRobot builtin(const char* name) { return load(name).value(); }
 
-/// Legs of one robot beside rods around it.
+/// Legs of one robot beside rods around it, each as often as it is named.
 AnyRobot beside(const AnyRobot& closing, std::span<const std::size_t> kept, std::span<const RodLeg> rods,
                 const SpatialPose& home) {
   std::vector<AnyLoadedLeg> legs;
@@ -23,7 +23,7 @@ AnyRobot beside(const AnyRobot& closing, std::span<const std::size_t> kept, std:
       [&](const auto& robot) {
         robot.for_each_leg([&]<class L>(const L& leg, const LegPlace&, int i) {
           if constexpr (!BearsLoad<L> && L::dimension == 3)
-            if (std::ranges::find(kept, static_cast<std::size_t>(i)) != kept.end())
+            for (auto left = std::ranges::count(kept, static_cast<std::size_t>(i)); left > 0; --left)
               legs.push_back(AnyLoadedLeg{leg});
         });
       },
@@ -59,7 +59,7 @@ double distance(const SpatialPose& a, const SpatialPose& b) {
 
 /// All six freedoms are held by struts: rods and load do not move the platform, which is where that of the
 /// rigid robot is.
-TEST(MixedSystem, RodsDoNotMoveARigidTripod) {
+TEST(Mechanism, RodsDoNotMoveARigidTripod) {
   const AnyRobot rigid = builtin("3prs");
   const SpatialPose home = std::get<SpatialPose>(sinew::home(rigid));
   const std::size_t all[] = {0, 1, 2};
@@ -83,6 +83,48 @@ TEST(MixedSystem, RodsDoNotMoveARigidTripod) {
     EXPECT_LT(distance(found.pose, std::get<SpatialPose>(expected.pose)), 1e-10);
     EXPECT_EQ(analyse_equilibrium(mixed, work).unstable_directions, 0);
   }
+}
+
+/// Struts that stand twice, eight and twelve rows of a platform of six freedoms: what the others hold they
+/// hold again, and the twins share the force.
+TEST(Mechanism, RowsMayForbidTheSame) {
+  const AnyRobot rigid = builtin("3prs");
+  const SpatialPose home = std::get<SpatialPose>(sinew::home(rigid));
+  const std::size_t once[] = {0, 1, 2}, one_twice[] = {0, 0, 1, 2}, all_twice[] = {0, 0, 1, 1, 2, 2};
+  const RodLeg rods[] = {rod_at(0.5, 0.2, 0.1, true)};
+  const double chord = (SE3<double>::from(home).point(rods[0].platform_point) - rods[0].base.p).norm();
+  Workspace other(rigid);
+  const Inverse at_home = inverse(rigid, sinew::home(rigid), {}, other);
+  ASSERT_TRUE(at_home.ok());
+  const auto solved = [&](std::span<const std::size_t> kept, RodAnalysis& analysis) {
+    const AnyRobot robot = beside(rigid, kept, rods, home);
+    std::vector<double> inputs;
+    for (const std::size_t leg : kept) inputs.push_back(at_home.inputs[leg]);
+    inputs.insert(inputs.begin() + static_cast<std::ptrdiff_t>(kept.size() / 2), 1.02 * chord);
+    EquilibriumOptions options;
+    options.wrench = load();
+    Workspace work(robot);
+    const Equilibrium found = equilibrium(robot, inputs, options, work);
+    EXPECT_TRUE(found.is_solved()) << found.report.message.view();
+    EXPECT_LT(distance(found.pose, home), 1e-10);
+    analysis = analyse_equilibrium(robot, work);
+    inputs[0] += 0.01;  // twins that are fed differently cannot both close
+    if (kept.size() > 3) {
+      EXPECT_FALSE(equilibrium(robot, inputs, options, work).is_solved());
+    }
+  };
+  RodAnalysis single, twin, twins;
+  solved(once, single);
+  solved(one_twice, twin);
+  solved(all_twice, twins);
+  const auto half = [](const Vec3<double>& twice, const Vec3<double>& whole) {
+    return (2 * twice - whole).norm() / whole.norm();
+  };
+  EXPECT_LT((twin.closing_forces[0] - twin.closing_forces[1]).norm(), 1e-9);
+  EXPECT_LT(half(twin.closing_forces[0], single.closing_forces[0]), 1e-9);
+  EXPECT_LT((twin.closing_forces[2] - single.closing_forces[1]).norm(), 1e-9);
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_LT(half(twins.closing_forces[k], single.closing_forces[k / 2]), 1e-9);
 }
 
 struct Case {
@@ -123,7 +165,7 @@ EquilibriumOptions loaded(const AnyRobot&) {
 
 /// Forces of all legs and the load are in balance, with what the platform feels of each at its point; struts
 /// pull along themselves and their hinges.
-TEST(MixedSystem, LegsAndLoadAreInBalance) {
+TEST(Mechanism, LegsAndLoadAreInBalance) {
   for (const Case& one : cases()) {
     SCOPED_TRACE(one.name);
     Workspace work(one.robot);
@@ -158,7 +200,7 @@ TEST(MixedSystem, LegsAndLoadAreInBalance) {
 }
 
 /// What analysis says of inputs and loads is what solved poses do.
-TEST(MixedSystem, SensitivitiesAgainstDifferences) {
+TEST(Mechanism, SensitivitiesAgainstDifferences) {
   for (const Case& one : cases()) {
     SCOPED_TRACE(one.name);
     Workspace work(one.robot);
@@ -199,7 +241,7 @@ TEST(MixedSystem, SensitivitiesAgainstDifferences) {
 }
 
 /// Six inputs hold a pose, of struts and arcs too; let go, the platform stays there.
-TEST(MixedSystem, HoldsAPoseAndLetsItGo) {
+TEST(Mechanism, HoldsAPoseAndLetsItGo) {
   const Case one = cases()[1];
   Workspace work(one.robot);
   SpatialPose wanted = std::get<SpatialPose>(sinew::home(one.robot));
@@ -215,7 +257,7 @@ TEST(MixedSystem, HoldsAPoseAndLetsItGo) {
 }
 
 /// Resumed steps, curves and folds are those of any robot on rods.
-TEST(MixedSystem, FollowsPathsAndCurves) {
+TEST(Mechanism, FollowsPathsAndCurves) {
   const AnyRobot robot = builtin("2prs-1pfs");
   Workspace work(robot), other(robot);
   const auto begin = [&] { return inverse_equilibrium(robot, IndependentPose{0.5, 0.02, 0.01}, {}, work); };
@@ -250,7 +292,7 @@ TEST(MixedSystem, FollowsPathsAndCurves) {
   EXPECT_NEAR(600 * fold->parameter, path.load, 1e-5 * path.load);
 }
 
-TEST(MixedSystem, SaysWhatItCannotDo) {
+TEST(Mechanism, SaysWhatItCannotDo) {
   const AnyRobot robot = builtin("2prs-1pfs");
   Workspace work(robot);
   const std::vector<double> none{0.17, 0.17, -0.5}, backward{-2, 0.17, 0.52};
@@ -286,5 +328,5 @@ TEST(MixedSystem, SaysWhatItCannotDo) {
   EXPECT_NE(nowhere.report.message.view().find("cannot"), std::string_view::npos);
 }
 
-}  // namespace mixed_system_test
+}  // namespace mechanism_test
 }  // namespace sinew::test

@@ -1,8 +1,9 @@
-/// @file mixed_system.hpp
-/// Rods and closing legs between a base and a platform: the equations of the rods, projected onto the motions
-/// that the closing legs leave free, so that Newton's method sees six equations as ever.
-/// Theory: docs/theory/mixed_robot.md
+/// @file mechanism.hpp
+/// A platform on a group of rods and on legs that close, if there are any: the equations of the rods,
+/// projected onto the motions that the closing legs leave free, so that Newton's method sees six equations
+/// as ever. Theory: docs/theory/mixed_robot.md
 #pragma once
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 
@@ -12,24 +13,24 @@
 
 namespace sinew::inline v0 {
 
-/// A robot of both kinds of legs, taken apart.
-struct MixedRobot {
-  ParallelRobot<RodLeg> rods;  ///< with their places in the whole robot
-  std::vector<ClosingLeg> closing;
-};
-
-/// The face of `Rods`, to which it adds the closing legs. No function here allocates unless it says so.
-/// @tparam Rods a system of rods
+/// The face of `Rods`, to which it adds the closing legs; without any it is that of the rods. No function
+/// here allocates unless it says so.
+/// @tparam Rods a group of rods: RodSystem, TangentSystem or GeneralSystem
 template <class Rods>
-class MixedSystem : public Rods {
+class Mechanism : public Rods {
  public:
   using Wrench = Vec<double, 6>;
   using Twist = Vec<double, 6>;
 
-  explicit MixedSystem(const MixedRobot& robot)  ///< allocates
-      : Rods(robot.rods),
-        closing_(robot.closing, robot.rods.total.input),
-        fed_(static_cast<std::size_t>(closing_.feeds()), 0.0) {}
+  /// Allocates.  @param rods with their places in the whole robot
+  explicit Mechanism(const ParallelRobot<RodLeg>& rods, std::vector<ClosingLeg> closing = {})
+      : Rods(rods),
+        closing_(std::move(closing), rods.total.input),
+        fed_(static_cast<std::size_t>(closing_.feeds()), 0.0),
+        rank_(std::min(closing_.rows(), 6)) {}
+
+  /// Whether legs close beside the rods.
+  bool closes() const { return closing_.rows() > 0; }
 
   struct Snapshot : Rods::Snapshot {
     std::vector<double> closing;
@@ -53,7 +54,7 @@ class MixedSystem : public Rods {
     return leg;
   }
   /// Motions that the closing legs forbid, less those their own inputs drive.
-  int undriven() const { return closing_.rows() - closing_.feeds(); }
+  int undriven() const { return std::max(rank_ - closing_.feeds(), 0); }
   /// @name What inputs feed: the rods, then what the closing legs are driven by
   /// @{
   int feeds() const { return Rods::rods() + closing_.feeds(); }
@@ -79,18 +80,19 @@ class MixedSystem : public Rods {
   /// @name Newton's method
   /// @{
   double evaluate(bool anew = true) {
-    Rods::evaluate(anew);
+    const double own = Rods::evaluate(anew);
+    if (!closes()) return own;
     closing_.rows_at(Rods::platform(), fed_, rows_);
     for (int k = 0; k < rows_.count; ++k) rows_.by_platform.row(k).template tail<3>() /= Rods::radius();
-    gap_ = rows_.gap;
-    if (!project()) return std::numeric_limits<double>::quiet_NaN();
+    if (!rows_.by_platform.topRows(rows_.count).allFinite()) return std::numeric_limits<double>::quiet_NaN();
+    project();
     const Wrench left = free_ * scaled(Rods::missing());
     double force = 0, length = 0;
     for (int k = 0; k < Rods::rods(); ++k) {
       force = std::max(force, Rods::stiffness(k) / (Rods::length(k) * Rods::length(k)));
       length = std::max(length, Rods::length(k));
     }
-    const double gap = gap_.head(rows_.count).template lpNorm<Eigen::Infinity>() / length;
+    const double gap = rows_.gap.head(rows_.count).template lpNorm<Eigen::Infinity>() / length;
     const double error = std::max({Rods::rod_error(), gap, left.template lpNorm<Eigen::Infinity>() / force});
     return std::isnan(gap + left.sum()) ? std::numeric_limits<double>::quiet_NaN() : error;
   }
@@ -98,7 +100,8 @@ class MixedSystem : public Rods {
   double rod_error() const { return Rods::rod_error(); }
 
   bool linearise() {
-    Rods::linearise();  // which alone may not hold the platform
+    const bool is_held = Rods::linearise();
+    if (!closes()) return is_held;  // else the rods alone need not hold the platform
     // the closing legs push with what is missing, along their rows
     const Wrench missing = scaled(Rods::missing());
     force_.setZero();
@@ -119,11 +122,13 @@ class MixedSystem : public Rods {
 
   /// With the gaps of the closing legs closed by motions square to the free ones.
   Wrench missing() const {
-    const Wrench closes = -(inverse_ * gap_.head(rows_.count));
+    if (!closes()) return Rods::missing();
+    const Wrench closes = -(inverse_ * rows_.gap.head(rows_.count));
     const Wrench missing = scaled(Rods::missing());
     return unscaled(Wrench(free_ * (missing - inner_ * closes) + held_ * closes));
   }
   Twist step(bool fresh) {
+    if (!closes()) return Rods::step(fresh);
     if (!fresh) Rods::step(false);
     const Wrench wanted = missing();
     Twist twist;
@@ -132,28 +137,38 @@ class MixedSystem : public Rods {
   }
   void move(const Twist& twist, std::span<const double> fed = {}) {
     Rods::move(twist, fed);
-    if (!fed.empty())
+    if (closes() && !fed.empty())
       for (int k = 0; k < closing_.feeds(); ++k) fed_[at(k)] += fed[at(closing_.input_of(k))];
   }
-  Lu6 factors() const { return lu_; }
-  MatrixView stiffness() const { return {stiffness_.data(), 6, 6}; }
+  Lu6 factors() const { return closes() ? lu_ : Rods::factors(); }
+  MatrixView stiffness() const { return closes() ? MatrixView(stiffness_.data(), 6, 6) : Rods::stiffness(); }
   double stiffness(int rod) const { return Rods::stiffness(rod); }
   Wrench feed_wrench(int input) const {
+    if (!closes()) return Rods::feed_wrench(input);
     return platform_feed(input) + unscaled(Wrench(held_ * by_input_.col(input)));
   }
   /// @}
 
   /// @name On the motions that the closing legs leave free
   /// @{
-  Mat<double, 6, 6> platform_stiffness() const { return unscaled(Mat<double, 6, 6>(free_ * inner_ * free_)); }
+  Mat<double, 6, 6> platform_stiffness() const {
+    if (!closes()) return Rods::stiffness();
+    return unscaled(Mat<double, 6, 6>(free_ * inner_ * free_));
+  }
   Wrench platform_feed(int input) const {
+    if (!closes()) return Rods::feed_wrench(input);
     const Wrench own = scaled(Wrench(Rods::feed_wrench(input) - force_by_input_.col(input)));
     const Wrench moved = by_input_.col(input);  // against this the closing legs move the platform
     return unscaled(Wrench(free_ * (own - inner_ * moved)));
   }
-  Wrench felt(const Wrench& wrench) const { return unscaled(Wrench(free_ * scaled(wrench))); }
+  /// What of a load they leave to the rods.
+  Wrench felt(const Wrench& wrench) const {
+    if (!closes()) return wrench;
+    return unscaled(Wrench(free_ * scaled(wrench)));
+  }
   /// What of a twist they allow.
   Twist free_motion(Twist twist) const {
+    if (!closes()) return twist;
     twist.template tail<3>() *= Rods::radius();
     twist = free_ * twist;
     twist.template tail<3>() /= Rods::radius();
@@ -203,37 +218,45 @@ class MixedSystem : public Rods {
     matrix.template rightCols<3>() *= Rods::radius();
     return matrix;
   }
-  /// The pseudoinverse of the rows and the projection onto what they leave free. False where two of them
-  /// forbid the same.
-  bool project() {
-    const auto rows = rows_.by_platform.topRows(rows_.count);
-    Mat<double, max_closing_rows, max_closing_rows> square;
-    square.setIdentity();
-    square.topLeftCorner(rows_.count, rows_.count) = rows * rows.transpose();
-    Mat<double, max_closing_rows, max_closing_rows> inverse;
-    if (!solve(row_major(square), row_major(Mat<double, 6, 6>(Mat<double, 6, 6>::Identity())),
-               std::span(buffer_)))
-      return false;
-    inverse = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(buffer_.data());
-    inverse_.setZero(6, rows_.count);
-    inverse_ = rows.transpose() * inverse.topLeftCorner(rows_.count, rows_.count);
-    free_ = Mat<double, 6, 6>::Identity() - inverse_ * rows;
-    return true;
+  /// The pseudoinverse J⁺ of the rows and the projection onto what they leave free, by J = L Q, Q orthonormal
+  /// rows, as many as the rank: where rows forbid the same, J⁺ shares their gaps and forces evenly.
+  void project() {
+    constexpr double independent = 1e-9;  // the rows are unit directions
+    const int count = rows_.count;
+    Rows left = rows_.by_platform.topRows(count), along(count, 6);
+    Mat<double, 6, 6> basis = Mat<double, 6, 6>::Zero();
+    for (rank_ = 0; rank_ < 6; ++rank_) {
+      Eigen::Index farthest = 0;
+      const double length = left.rowwise().norm().maxCoeff(&farthest);
+      if (!(length > independent)) break;
+      Eigen::Matrix<double, 1, 6> axis = left.row(farthest) / length;
+      axis -= axis * basis.topRows(rank_).transpose() * basis.topRows(rank_);  // once more, for rounding
+      axis.normalize();
+      basis.row(rank_) = axis;
+      along.col(rank_) = left * axis.transpose();
+      left -= along.col(rank_) * axis;
+    }
+    const auto L = along.leftCols(rank_);
+    Mat<double, 6, 6> normal = Mat<double, 6, 6>::Identity();
+    normal.topLeftCorner(rank_, rank_) = L.transpose() * L;
+    const Mat<double, 6, 6> inverse = normal.llt().solve(Mat<double, 6, 6>::Identity());
+    inverse_ = basis.topRows(rank_).transpose() * inverse.topLeftCorner(rank_, rank_) * L.transpose();
+    free_ = Mat<double, 6, 6>::Identity() - basis.topRows(rank_).transpose() * basis.topRows(rank_);
   }
-  /// Symmetric matrices alone: rows first is columns first.
-  static MatrixView row_major(const Mat<double, 6, 6>& symmetric) { return {symmetric.data(), 6, 6}; }
 
+  using Rows =
+      Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::DontAlign | Eigen::ColMajor, max_closing_rows, 6>;
   ClosingLegs closing_;
   std::vector<double> fed_;  ///< inputs of the closing legs
   ClosingRows rows_;         ///< turns of the platform times its radius
-  Vec<double, max_closing_rows> gap_ = Vec<double, max_closing_rows>::Zero();
   Vec<double, max_closing_rows> force_ = Vec<double, max_closing_rows>::Zero();  ///< of each row [N]
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::DontAlign, 6, max_closing_rows> inverse_;
   Mat<double, 6, 6> free_ = Mat<double, 6, 6>::Identity();
   Mat<double, 6, 6> inner_ = Mat<double, 6, 6>::Zero();  ///< stiffness of rods and turned lines, scaled
   double held_ = 1;  ///< what stands for the infinite stiffness of held motions: any number of that size
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::DontAlign, 6, max_rows> by_input_, force_by_input_;
-  std::array<double, 36> stiffness_{}, buffer_{};
+  std::array<double, 36> stiffness_{};
+  int rank_;  ///< of the closing legs' rows
   Lu6 lu_;
 };
 
