@@ -370,9 +370,6 @@ void check_count(const Reader& legs, const std::vector<Any>& read) {
       rows += L::rows;
       inputs += L::inputs;
     });
-  if (std::is_same_v<Any, AnyLoadedLeg> && rows > 6)
-    legs.fail("too_many_legs",
-              fmt::format("the legs beside the rods have {} constraints; a platform has 6 freedoms", rows));
   if (read.empty()) legs.fail("too_few_legs", "there is none; list at least one leg.");
   if (rows > max_rows || inputs > max_rows)
     legs.fail("too_many_legs", fmt::format("there are {} legs with {} constraints and {} actuators; this "
