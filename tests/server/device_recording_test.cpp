@@ -99,6 +99,26 @@ TEST(DeviceRecording, HasWhatCameAfterDisarming) {
   EXPECT_NE(text_of(folder.path / "test.csv").find(",EXACT,OVER-TENSIONED,EXACT,EXACT,EXACT,,"),
             std::string::npos)
       << "the state that disarmed it";
+  EXPECT_NE(
+      text_of(folder.path / "test.csv").find(",over,\"S2 OVER-TENSIONED: Pay out tendon 2: over 20 N\"\n"),
+      std::string::npos)
+      << "in the words of the panel";
+}
+
+TEST(DeviceRecording, BeginsWithTheStatesThatThereAre) {
+  Folder folder("sinew-recording-before");
+  PanelDesk desk(true, folder.path.string());
+  desk.link.extra_tension[9] = -5;
+  desk.run(0.3);
+  make_ready(desk);
+  finish(desk);
+  const auto lines = lines_of(folder.path / "test.csv");
+  const auto columns =
+      std::ranges::find_if(lines, [](const auto& line) { return line.starts_with("time[s]"); });
+  ASSERT_GT(lines.end() - columns, 1);
+  EXPECT_TRUE(columns[1].ends_with(
+      ",EXACT,EXACT,EXACT,PARTLY SLACK,EXACT,slack,\"S4 PARTLY SLACK: Look at tendon 1: no tension\""))
+      << columns[1];
 }
 
 TEST(DeviceRecording, AFieldIsOneLineInQuotes) {

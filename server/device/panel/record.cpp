@@ -36,6 +36,9 @@ Outcome Panel::begin_recording() {
   RecordingHead head{arm_.robot().name, hello()->hash, arm_.model() == kernel::Model::exact ? "pcc" : "lsk",
                      hello()->tension_limit, record_columns()};
   recording_.begin(clock_.recording_name(), head, now_);
+  for (std::size_t m = 0; m < shown_.size(); ++m)  // their own events were before it
+    if (shown_[m].word() != Word::exact)
+      record_event(kind_of(shown_[m].word()), log_line(m, shown_[m], sections_[m]));
   return check_recording();
 }
 

@@ -85,8 +85,10 @@ std::optional<Alarm> find_alarm(const std::vector<ShownState>& shown, const std:
 }
 
 std::string log_line(std::size_t section, const ShownState& shown, const SectionState& state) {
-  return fmt::format("S{} {}{}", section + 1, name_of(shown.word(), shown.is_partial()),
-                     state.word == shown.word() ? amount_text(state.word, state.amount) : "");
+  std::string line = fmt::format("S{} {}", section + 1, name_of(shown.word(), shown.is_partial()));
+  if (state.word != shown.word()) return line;
+  line += amount_text(state.word, state.amount);
+  return state.advice.empty() ? line : line + ": " + state.advice;
 }
 
 }  // namespace sinew::server::device

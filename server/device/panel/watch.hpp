@@ -39,7 +39,7 @@ struct Alarm {
 std::optional<Alarm> find_alarm(const std::vector<ShownState>& shown, const std::vector<SectionState>& states,
                                 const std::optional<Alarm>& before, double now);
 
-/// `S4 OVER-TENSIONED 0.12 mm`.
+/// `S4 OVER-TENSIONED 0.12 mm: Pay out tendon 2 by 0.12 mm`.
 std::string log_line(std::size_t section, const ShownState& shown, const SectionState& state);
 
 }  // namespace sinew::server::device

@@ -1,5 +1,5 @@
 // A recording of a device: its text read into columns. It stands alone: robot, table and date are in its comments.
-import {type Bend, type Entry, kindOf} from './frame';
+import {type Bend, type Entry, kindOf, kindOfEntry} from './frame';
 
 const version = 1;
 const first = '# sinew recording, version ';
@@ -117,6 +117,11 @@ export class Recording {
   stateAt(section: number, time: number): Stretch {
     const own = this.ofSection[section]!;
     return own[lastUntil(own.length, (i) => own[i]!.from, time)]!;
+  }
+
+  /** What the log said of a state when it came, with what helps; empty: nothing. */
+  said({section, word, from}: Stretch): string {
+    return this.events.find(({time, kind, text}) => kindOfEntry(kind) && time === from && text.startsWith(`S${section + 1} ${word}`))?.text ?? '';
   }
 
   /** How many events there were until then. */

@@ -210,27 +210,22 @@ export class Replay implements Subject {
     if (this.isOver) return;
     this.stand.heard();
     if (shape.error) return this.stand.say(`no picture of row ${row + 1}: ${shape.error.message}`);
-    const told = sections.map((_: Json, i: number): SectionFrame => ({
-      ...(diagrams.length > 0 && !more[i]!.error ? asTold(more[i]!, recording.stateAt(i, time).word) : {}), word: recording.stateAt(i, time).word, commanded: set[i]!, target: set[i]!, measured: measured[i]!,
-      changes: changes[i]!, set: recording.ofTendons(row, i, 'set_change'), tension: recording.hasTension ? recording.ofTendons(row, i, 'tension') : null,
-    }));
+    const told = sections.map((_: Json, i: number): SectionFrame => {
+      const state = recording.stateAt(i, time), {word} = state, diagram = diagrams.length > 0 && !more[i]!.error ? more[i]! : {};
+      return {
+        ...asTold(diagram, word, recording.said(state)), word, commanded: set[i]!, target: set[i]!, measured: measured[i]!,
+        changes: changes[i]!, set: recording.ofTendons(row, i, 'set_change'), tension: recording.hasTension ? recording.ofTendons(row, i, 'tension') : null,
+      };
+    });
     const ghost = isElsewhere ? more.at(-1)! : null;
     [this.row, this.shape, this.ghost, this.isLate] = [row, shape, ghost?.backbones ? ghost : null, false];
     this.frame = this.frameOf(time, row, told, shape.tip?.position ?? [0, 0, 0]);
     this.stand.changed();
   }
 
-  /** Where tendons agree, and pull too hard. */
-  private tooTight({word, tension}: SectionFrame): string {
-    const {tensionLimit} = this, over = (tension ?? []).flatMap((force, i) => (tensionLimit > 0 && force > tensionLimit ? [i + 1] : []));
-    return kindOf(word) === 'over' && over.length > 0 ? `Pay out ${over.length > 1 ? 'tendons' : 'tendon'} ${over.join(', ')}: over ${tensionLimit} N.` : '';
-  }
-
   private frameOf(time: number, row: number, sections: SectionFrame[], tip: number[]): Frame {
     const {recording} = this, alarm = alarmOf(sections), stage = recording.column('measured_stage')[row]!, isBlind = sections.every(({word}) => kindOf(word) === 'stale');
     if (alarm) alarm.since = time - recording.stateAt(alarm.section, time).from;
-    if (alarm && !alarm.next) alarm.next = this.tooTight(sections[alarm.section]!);
-    if (alarm && !recording.isHomed(row) && kindOf(alarm.word) !== 'over') alarm.next = 'Its zeros were not set.';
     return {
       time, age: time - recording.times[row]!, link: isBlind ? 'silent' : 'ok', message: isBlind ? 'no measurement came' : '', round_trip: 0, rate: 0, errors: 0, control: {holder: null, since: ''}, state: 'view_only', activity: 'rest',
       armed_left: 0, why: '', homed: recording.isHomed(row), homing: null, stage: stage || 0, insertion: Math.max(0, stage || 0), stage_target: recording.column('stage')[row]! || 0, speed: 0, recording: null, tip, sections, alarm,
@@ -238,8 +233,8 @@ export class Replay implements Subject {
   }
 }
 
-/** What a diagram advises where tensions said something else then is not meant. */
-const asTold = ({advice, amount, ...diagram}: Json, word: string): Json => (diagram.word === word ? {...diagram, advice, amount} : diagram);
+/** Where tensions said something else then than the diagram, what helps is what the log said. */
+const asTold = ({amount, ...diagram}: Json, word: string, said: string): Json => (diagram.word === word ? {...diagram, amount} : {...diagram, advice: said.split(': ').slice(1).join(': ')});
 
 /** The diagram of a section as it was measured then. */
 export const diagramQuery = (recording: Recording, sections: Json[], row: number, section: number): Json => ({

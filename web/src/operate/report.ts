@@ -61,9 +61,8 @@ function states({sections, stretches, duration}: Recording): HTMLElement {
 }
 
 /** The log's own words for it, else its word. */
-function sentence(recording: Recording, {section, word, from}: Stretch, frame: SectionFrame | null): string {
-  const said = recording.events.find(({time, kind, text}) => kindOfEntry(kind) && Math.abs(time - from) < 0.1 && text.startsWith(`S${section + 1} ${word}`));
-  return said?.text ?? `S${section + 1} ${word}${frame ? amount({...frame, word}, 'mm') : ''}`;
+function sentence(recording: Recording, stretch: Stretch, frame: SectionFrame | null): string {
+  return recording.said(stretch) || `S${stretch.section + 1} ${stretch.word}${frame ? amount({...frame, word: stretch.word}, 'mm') : ''}`;
 }
 
 async function alarms({robot, described}: Opened, recording: Recording): Promise<Node[]> {
