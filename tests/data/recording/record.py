@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Makes the recording that the page's tests replay: python3 record.py URL FOLDER, at a server started as
-`sinew serve nottingham-tpcj --demo --record SOMEWHERE --port 8765`. Homes the simulated arm, moves it, cuts a tendon and
-mends it, holds another one fast until it is over-tensioned; keeps two pictures. Every few rows are kept, so that the file stays small."""
+`sinew serve nottingham-tpcj --demo --record SOMEWHERE --port 8765`. Homes the simulated arm, drives it along a plan and to a target,
+cuts a tendon and mends it, retracts, holds another tendon fast until it is over-tensioned, and unplugs the device; keeps a picture.
+Of the measurements few are kept, so that the file stays small."""
 import json
 import struct
 import sys
@@ -13,8 +14,8 @@ import urllib.request
 import zlib
 
 url, folder = sys.argv[1].rstrip("/"), sys.argv[2]
-every = 4
-lease, held, section = "", None, 0
+most_rows = 80
+lease, held = "", None
 
 
 def call(path, body=None, kind="application/json"):
@@ -24,11 +25,19 @@ def call(path, body=None, kind="application/json"):
         return answer.read()
 
 
-def order(name, **fields):
+def order(what, **fields):
     try:
-        return json.loads(call("/api/device/" + name, fields))
+        return json.loads(call("/api/device/" + what, fields))
     except urllib.error.HTTPError as error:
         return json.loads(error.read())
+
+
+def must(what, **fields):
+    answer = order(what, **fields)
+    if "error" in answer:
+        raise SystemExit(f"{what}: {answer['error']['message']}")
+    time.sleep(0.15)  # until frames tell of it
+    return answer
 
 
 def beat():
@@ -37,7 +46,7 @@ def beat():
         if lease:
             order("lease", lease=lease)
         if held:
-            order(held, lease=lease, held=True, section=section)
+            order(held, lease=lease, held=True)
         time.sleep(0.08)
 
 
@@ -52,16 +61,28 @@ def frames():
                 frame = json.loads(line[6:])
 
 
-def hold(button, seconds=0.0, until=lambda: True, of=0):
-    global held, section
-    held, section = button, of
+def wait(until):
     begin = time.monotonic()
-    while time.monotonic() - begin < seconds or not until():
+    while not until(frame):
         time.sleep(0.02)
-        if time.monotonic() - begin > 300:
-            raise SystemExit(f"{button}: it does not come to an end: {json.dumps(frame)[:2000]}")
+        if time.monotonic() - begin > 60:
+            raise SystemExit(f"it does not come: {json.dumps(frame)[:2000]}")
+
+
+def words(frame):
+    return [section["word"] for section in frame["sections"]]
+
+
+def is_there(frame):
+    return all(abs(a - b) < 3e-3 for section in frame["sections"] for a, b in zip(section["target"], section["measured"]))
+
+
+def hold(button, until):
+    global held
+    held = button
+    wait(until)
     held = None
-    order(button, lease=lease, held=False, section=of)
+    order(button, lease=lease, held=False)
     time.sleep(0.2)
 
 
@@ -77,49 +98,46 @@ def png(seed):
         b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
 
 
-def snapshot(words, seed):
-    return json.loads(call("/api/device/snapshot?text=" + urllib.parse.quote(words), png(seed), "image/png"))["name"]
-
-
 frame = None
 threading.Thread(target=frames, daemon=True).start()
-while not frame or frame["link"] != "ok":
-    time.sleep(0.05)
-lease = order("lease")["lease"]
+wait(lambda frame: frame and frame["link"] == "ok")
+lease = must("lease")["lease"]
 threading.Thread(target=beat, daemon=True).start()
-hold("home", until=lambda: frame["homed"] and frame["activity"] != "homing")
-time.sleep(1.5)
+hold("home", lambda frame: frame["homed"] and frame["activity"] != "homing")
+wait(lambda frame: words(frame) == ["EXACT"] * 5 and not frame["recording"])
 
-order("speed", lease=lease, tendon=0.006)
-order("arm", lease=lease)
-while frame["state"] != "armed":
-    time.sleep(0.02)
-    if frame["why"].startswith("the recording"):
-        raise SystemExit(frame["why"])
+must("speed", lease=lease, tendon=0.006)
+must("arm", lease=lease)
+wait(lambda frame: frame["state"] == "armed")
 name = frame["recording"]["name"]
-pictures = []
-order("target", lease=lease, bends=[[0.1, -0.05], [0.15, 0.1], [-0.1, 0.12], [0.2, -0.15], [0.15, 0.2]], stage=0.008)
-hold("move", 1.2)
-pictures.append(snapshot('at the "first" target', 10))
-order("fault", line="cut 3 1")
-hold("move", 0.5)
-time.sleep(0.8)
-order("fault", line="mend")
-time.sleep(1.2)
-order("target", lease=lease, bends=[[0.1, -0.05], [-0.2, -0.2], [-0.1, 0.12], [0.2, -0.15], [0.15, 0.2]], stage=0.008)
-order("fault", line="stick 2 1")
-hold("move", 1.0, until=lambda: frame["state"] != "armed" or frame["activity"] == "rest")
-try:
-    pictures.append(snapshot("after it was disarmed", 60))
-except urllib.error.HTTPError as error:
-    print("no second picture:", error.read().decode(), file=sys.stderr)
-time.sleep(1.5)
-print(frame["why"], "|", [one["word"] for one in frame["sections"]], file=sys.stderr)
-order("fault", line="free")
-order("release", lease=lease)
+way_in = [[0.1, -0.05], [0.15, 0.1], [-0.1, 0.12], [0.2, -0.15], [0.15, 0.2]]
+steps = [{"bends": [[k / 4 * x, k / 4 * y] for x, y in way_in], "stage": k / 4 * 0.012} for k in range(5)]
+must("plan", lease=lease, robot=json.loads(call("/api/device"))["device"]["robot"], name="way in", steps=steps)
+hold("follow", lambda frame: frame["plan"]["done"])
+must("plan", lease=lease)
+picture = json.loads(call("/api/device/snapshot?text=" + urllib.parse.quote('at the "first" target'), png(10), "image/png"))["name"]
+must("target", lease=lease, bends=[[0.1, -0.05], [0.1, 0.15], [-0.1, 0.12], [0.2, -0.15], [0.05, 0.25]], stage=0.015)
+hold("move", is_there)
+must("fault", line="cut 3 1")
+wait(lambda frame: words(frame)[2] == "PARTLY SLACK")
+time.sleep(0.5)
+must("fault", line="mend")
+wait(lambda frame: words(frame) == ["EXACT"] * 5)
+hold("retract", lambda frame: frame["insertion"] < 0.011)
+# A tendon that is stuck, and then all is gone: the recording ends a second later.
+must("target", lease=lease, bends=[[0.1, -0.05], [-0.3, -0.3], [-0.1, 0.12], [0.2, -0.15], [0.15, 0.2]])
+must("fault", line="stick 2 1")
+hold("move", lambda frame: frame["state"] != "armed")
+must("fault", line="unplug")
+wait(lambda frame: not frame["recording"])
+must("fault", line="plug")
+wait(lambda frame: frame["link"] == "ok")
+print(frame["why"], "|", words(frame), file=sys.stderr)
+must("fault", line="free")
+must("release", lease=lease)
 
-open(f"{folder}/{name}.csv", "wb").write(call(f"/api/recordings/{name}?every={every}"))
-for picture in pictures:
-    number = picture[-7:-4]
-    open(f"{folder}/{picture}", "wb").write(call(f"/api/recordings/{name}/snapshots/{number}"))
-print(name)
+recorded = next(one for one in json.loads(call("/api/recordings"))["recordings"] if one["name"] == name)
+every = -(-recorded["rows"] // most_rows)
+for path, kept in ((f"{name}?every={every}", ".csv"), (f"{name}/snapshots/{picture[-7:-4]}", picture[-8:])):
+    content = call(f"/api/recordings/{path}")
+    open(f"{folder}/nottingham-tpcj{kept}", "wb").write(content.replace(name.encode(), b"nottingham-tpcj"))
