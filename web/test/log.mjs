@@ -131,6 +131,8 @@ export async function log_time(browser) {
   assert.ok(await page.locator('.kept-picture').isHidden());
   await page.getByRole('button', {name: 'Full'}).click();
   // nothing is set in what was
+  await page.keyboard.press('j');
+  assert.ok(await page.locator('#op-jog').isHidden() && await page.locator('.jog-opener').isHidden());
   await page.locator('.plot-of').first().click();
   await page.locator('#op-notice', {hasText: 'this is a recording'}).waitFor();
   await page.keyboard.press('l');
@@ -166,7 +168,7 @@ export async function log_list(browser) {
     const {page, done} = await blank(browser, {width, height, theme: width < 720 ? 'dark' : 'light'});
     await page.goto(`${url}#robot=four-tendon-neutral&screen=operate`);
     await until(page, () => !!window.__sinew?.operate?.frame);
-    await page.evaluate(() => document.getElementById('recordings').click());  // a phone has no room for the button
+    await page.getByRole('button', {name: 'Recordings'}).click();
     const dialog = page.locator('.recordings-dialog');
     await dialog.getByText('OVER-TENSIONED').waitFor();
     assert.equal(await dialog.locator('li').count(), 2);
@@ -175,7 +177,7 @@ export async function log_list(browser) {
     await dialog.locator('li button').nth(1).click();
     await dialog.getByText('found version 7; this page reads version 1').waitFor();
     await dialog.getByRole('button', {name: 'Close'}).click();
-    await page.evaluate(() => document.getElementById('recordings').click());
+    await page.getByRole('button', {name: 'Recordings'}).click();
     await dialog.locator('li button').first().click();
     await until(page, () => !!window.__sinew.operate.replayed && window.__sinew.operate.frame?.sections.length === 5);
     await bar(page, 'Close').click();

@@ -235,7 +235,7 @@ export class Operate {
       {keys: ['← → ↑ ↓'], says: 'in a diagram: move the target by 0.1°, with Shift by 1°; Enter types numbers'},
       on(['v'], 'the arm from the side, above, the tip, as large as the page', () => this.view.next()),
       on(['f'], 'all of the arm in view', () => this.view.fit()),
-      on(['j'], 'the jog pad, or not; in it arrows push the target', () => this.pad.toggle()),
+      ...(this.replayed ? [] : [on(['j'], 'the jog pad, or not; in it arrows push the target', () => this.pad.toggle())]),
       on(['l'], 'all events', () => this.log.toggle()),
       on(['p'], 'keep the picture of the tip camera', () => void this.eye.snapshot()),
       ...(isLive ? [] : [on(['Escape'], 'close what is on top', () => this.closeTop())]),
@@ -363,7 +363,7 @@ export class Operate {
 
   private drawPad(count: number, hasStage: boolean): void {
     const {live, pad, root} = this, {chosen} = this.cards;
-    root.classList.toggle('has-jog', pad.isOpen);
+    root.classList.toggle('has-jog', pad.isOpen && !this.replayed);
     pad.show({section: `S${chosen + 1}`, tip: `S${count}`, names: this.names(chosen), held: live?.control.held ?? null, ...(hasStage && live && {locked: (motion) => live.locked(motion)})});
     if (pad.isOpen && pad.frame === 'tip') this.steering.at(this.opened!, this.subject!.targets());
   }
