@@ -2,7 +2,7 @@
 import './app.css';
 import './operate/operate.css';
 import {AnswerPanel, withUnit} from './answer';
-import {type Json, Lost, Newest, Refused, Robot, plans, robots, robotText, type Shipped, version} from './client';
+import {type Json, Lost, Newest, Refused, Robot, plan as planOf, plans, robots, robotText, type Shipped, version} from './client';
 import {copy} from './clipboard';
 import {command} from './command';
 import {Connection} from './connection';
@@ -22,7 +22,7 @@ import {isPhone} from './operate/phone';
 import {wayOf} from './operate/plan_way';
 import {Recording, Unreadable} from './operate/recording';
 import {listRecordings, recordingText, RecordingsDialog} from './operate/recordings';
-import type {Plan} from './plan';
+import {Plan} from './plan';
 import {makeSheet} from './sheet';
 import {Shell} from './shell';
 import {type Solution, Solutions} from './solutions';
@@ -110,6 +110,7 @@ class Page {
       if (opened) await this.open(opened.name, opened.text, new URLSearchParams({screen: 'design'}));
       return this.replay(link.get('recording')!, link);
     }
+    if (this.isOfSliders(link)) return this.resume(link);
     if (this.way && (link.has('plan') || (!wanted && !opened))) return this.showPlan(link);
     if (link.has('plan')) this.shell.say('the link shows a plan: start sinew serve with --scene and --plan');
     if (opened && (!wanted || wanted === opened.name)) return this.open(opened.name, opened.text, link);
@@ -236,6 +237,17 @@ class Page {
     if (this.source?.name !== name || this.source.isModified) await this.open(name, text, new URLSearchParams({screen: 'operate'}));
     this.screens.show('operate');
     this.panel.load(wayOf(plan));
+  }
+
+  /** Of the arm of sliders with a plan. */
+  private isOfSliders(link: URLSearchParams): boolean {
+    return !this.device && link.get('screen') === 'operate' && !!this.way?.has(link.get('plan'));
+  }
+
+  private async resume(link: URLSearchParams): Promise<void> {
+    const handle = link.get('plan')!, plan = new Plan(handle, await planOf(handle));
+    await this.open(plan.robot.name, plan.robot.text, link);
+    this.panel.load(wayOf(plan), Number(link.get('step')));
   }
 
   private badge(): void {
@@ -447,6 +459,7 @@ class Page {
     const link = new URLSearchParams(hash.slice(1));
     clearTimeout(this.linked);
     const name = link.get('robot');
+    if (this.isOfSliders(link)) return this.guarded(() => this.resume(link), () => void this.follow(hash));
     if (this.way && link.has('plan')) return this.showPlan(link);
     if (link.has('recording')) return this.replay(link.get('recording')!, link);
     if (name && this.screens.shown === 'trajectory') this.screens.show('design', false);

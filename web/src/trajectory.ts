@@ -71,6 +71,10 @@ export class Trajectory {
     return this.listed.find(({plan}) => plan === this.plan?.handle)?.name ?? 'plan';
   }
 
+  has(handle: string | null): boolean {
+    return this.listed.some(({plan}) => plan === handle);
+  }
+
   keys(): Key[] {
     const on = (keys: string[], says: string, go: (key: string) => void): Key => ({keys, says, go}), {transport} = this;
     return [

@@ -1,7 +1,7 @@
 // Plans that are driven: from the screen Trajectory to Operate, by a stand-in for a device and by the arm of sliders.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
-import {audit, blank, differs, drawn, fits, shot} from './harness.mjs';
+import {audit, blank, differs, drawn, fits, linked, shot} from './harness.mjs';
 import {framer, standIn} from './stand_in.mjs';
 import {plans} from './ways.mjs';
 
@@ -186,6 +186,20 @@ export async function drive_sliders(browser) {
   targets.forEach((pair, i) => pair.forEach((value, k) => assert.ok(Math.abs(value - a.configuration[i][k] - share * (b.configuration[i][k] - a.configuration[i][k])) < 1e-9, 'straight between two steps')));
   await shot(page, 'drive-sliders');
   await audit(page, 'drive sliders');
+  // loaded anew it is where it was
+  const place = () => page.evaluate(() => window.__sinew.operate.subject.plan?.place), before = [await place(), await page.evaluate(() => window.__sinew.operate.subject.targets())], address = await linked(page);
+  assert.match(address, new RegExp(`screen=operate.*plan=${handles.wall}&step=${before[0].toFixed(3).replace(/\.?0*$/, '')}`));
+  for (const to of [address, address.replace(handles.wall, 'ffffffffffffffff'), address.replace(/step=[\d.]+/, 'step=-1e9')]) {
+    await page.goto('about:blank');
+    await page.goto(to);
+    if (to.includes('ffffffff')) await page.locator('#plan-verdict', {hasText: 'a plan that this server does not have'}).waitFor();
+    else await until(page, () => window.__sinew?.operate?.subject?.tips?.length > 0 && !!window.__sinew.operate.frame);
+    if (to === address) assert.deepEqual([await place(), await page.evaluate(() => window.__sinew.operate.subject.targets())].flat(3).map((value) => value.toFixed(3)), before.flat(3).map((value) => value.toFixed(3)));
+  }
+  assert.equal(await place(), 0);
+  await page.goto('about:blank');
+  await page.goto(address);
+  await until(page, () => window.__sinew?.operate?.subject?.tips?.length > 0 && !!window.__sinew.operate.frame);
   await page.keyboard.down('b');
   await until(page, (from) => window.__sinew.operate.subject.plan.frame.step < from - 20, there);
   await page.evaluate(() => window.dispatchEvent(new Event('blur')));
@@ -202,7 +216,8 @@ export async function drive_sliders(browser) {
   await page.mouse.up();
   await bar(page, /Drop plan/).click();
   await bar(page, /Straighten/).waitFor();
-  await done();
+  assert.doesNotMatch(await linked(page), /plan=/);
+  await done(/404/);
 }
 
 /** By WebGL, at both sizes and in both themes: the way of the tip, the arm on it, where it leads. */

@@ -112,7 +112,7 @@ export class Operate {
       link.set('recording', this.subject.where.name);
       link.set('t', String(Number(this.subject.at.toFixed(3))));
     }
-    if (this.subject instanceof Sliders && this.subject.slack.some((one) => one !== 0)) link.set('slack', this.subject.slack.join(','));
+    if (this.subject instanceof Sliders) this.subject.toLink(link);
     if (this.cards.chosen > 0) link.set('section', String(this.cards.chosen));
   }
 
@@ -205,10 +205,10 @@ export class Operate {
     this.changed();
   }
 
-  /** A plan to follow, by the device or by the arm of sliders. */
-  load(way: PlanWay): void {
+  /** A plan to follow, by the device or by the arm of sliders. @param place where a link has the arm already */
+  load(way: PlanWay, place?: number): void {
     if (this.replayed) this.endReplay();
-    this.subject?.load(way);
+    this.subject?.load(way, place);
   }
 
   leave(): void {

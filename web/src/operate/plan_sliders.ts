@@ -7,12 +7,16 @@ const period = 50;    // ms between postures that are asked for
 
 export class SlidersPlan {
   held: 'follow' | 'back' | null = null;
-  private place = 0;
   private timer = 0;
   private since = 0;
 
-  /** @param go to a posture of it */
-  constructor(readonly way: PlanWay, private readonly go: (posture: Posture) => void) {}
+  /** @param go to a posture of it @param place in steps */
+  constructor(readonly way: PlanWay, private readonly go: (posture: Posture) => void, private place: number) {}
+
+  toLink(link: URLSearchParams): void {
+    link.set('plan', this.way.handle);
+    link.set('step', String(Number(this.place.toFixed(3))));
+  }
 
   get posture(): Posture {
     return this.way.at(this.place);

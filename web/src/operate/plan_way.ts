@@ -18,8 +18,8 @@ export class PlanWay {
   tips: TipPlace[] = [];
   private lengths: number[] = [];  // [m] from each step to the next, of the drive that has farthest to go
 
-  /** @param robot handle of its file @param clearance [m] of each step */
-  constructor(readonly name: string, readonly robot: string, readonly steps: Posture[], readonly clearance: number[] | null) {}
+  /** @param robot handle of its file @param clearance [m] of each step @param handle of the plan; empty: the server has it of a device */
+  constructor(readonly name: string, readonly robot: string, readonly steps: Posture[], readonly clearance: number[] | null, readonly handle = '') {}
 
   get last(): number {
     return this.steps.length - 1;
@@ -63,7 +63,7 @@ export class PlanWay {
 /** Of the screen Trajectory. Distances beyond the reach of its check are not told apart. */
 export const wayOf = (plan: Plan): PlanWay => new PlanWay(
   plan.title, plan.robot.robot, plan.steps.map(({stage, configuration}) => ({stage, bends: configuration.map(([a = 0, b = 0], i): Bend => (plan.isPolar(i) ? [a * Math.cos(b), a * Math.sin(b)] : [a, b]))})),
-  plan.check && plan.check.steps.map(({clearance}) => clearance));
+  plan.check && plan.check.steps.map(({clearance}) => clearance), plan.handle);
 
 /** As a device has it. */
 export const wayOfDevice = ({name, steps, clearance}: Json): PlanWay => new PlanWay(name, '', steps, clearance);

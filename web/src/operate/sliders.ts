@@ -62,6 +62,11 @@ export class Sliders implements Subject {
             ...(this.plan ? [['inserted', lengthOf(this.plan.posture.stage, system)] as Reading, ...planReadings(this.plan.frame, system)] : [])];
   }
 
+  toLink(link: URLSearchParams): void {
+    if (this.slack.some((one) => one !== 0)) link.set('slack', this.slack.join(','));
+    this.plan?.toLink(link);
+  }
+
   targets(): Bend[] {
     return this.bends;
   }
@@ -70,10 +75,10 @@ export class Sliders implements Subject {
     return true;
   }
 
-  load(way: PlanWay): void {
+  load(way: PlanWay, place?: number): void {
     this.letGo();
-    this.plan = new SlidersPlan(way, (posture) => this.go(posture));
-    this.go(this.plan.posture);
+    this.plan = new SlidersPlan(way, (posture) => this.go(posture), Math.min(way.last, Math.max(0, place || 0)));
+    if (place === undefined) this.go(this.plan.posture);
     void this.stand.guarded(async () => {
       await way.ask(this.opened.robot, this.opened.described.answer.sections);
       this.stand.changed();
@@ -112,6 +117,7 @@ export class Sliders implements Subject {
   private drop(): void {
     this.letGo();
     this.plan = null;
+    this.stand.linked();
     this.stand.changed();
   }
 

@@ -44,7 +44,7 @@ export interface Subject {
   targets(): Bend[];
   may(): boolean;                 ///< whether targets may be set; if not it says why
   aim(bends: Bend[]): void;
-  load(way: PlanWay): void;       ///< a plan to follow
+  load(way: PlanWay, place?: number): void;  ///< a plan to follow, from its first step or where a link was
   keyDown(key: string): boolean;  ///< of keys that act while they are down: whether it is one
   keyUp(key: string): void;
   motion(motion: Motion, isHeld: boolean): void;  ///< as its key does
