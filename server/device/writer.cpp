@@ -92,10 +92,11 @@ struct FileWriter::State {
   News news;
 
   void run() {
-    sigset_t broken_pipe;
-    sigemptyset(&broken_pipe);
-    sigaddset(&broken_pipe, SIGPIPE);
-    pthread_sigmask(SIG_BLOCK, &broken_pipe, nullptr);  // it is an error like others
+    sigset_t of_writing;
+    sigemptyset(&of_writing);
+    sigaddset(&of_writing, SIGPIPE);
+    sigaddset(&of_writing, SIGXFSZ);                   // a limit of file sizes (ulimit -f)
+    pthread_sigmask(SIG_BLOCK, &of_writing, nullptr);  // they are errors like others
     GrowingFile file;
     std::unique_lock lock(mutex);
     while (true) {

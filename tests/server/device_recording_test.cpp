@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -209,6 +210,42 @@ TEST(DeviceRecording, OneThatBreaksHoldsTheMotion) {
   desk.let_go();
   desk.run(0.4);
   EXPECT_EQ(desk.press(Activity::moving), "recording");
+}
+
+/// As a disk that is full amid a row: no file may grow beyond this size.
+struct SizeLimit {
+  explicit SizeLimit(rlim_t size) {
+    EXPECT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const rlimit limit{size, before.rlim_max};
+    EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  }
+  ~SizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before); }
+  rlimit before{};
+};
+
+TEST(DeviceRecording, ADiskThatIsFullAmidARowHoldsTheMotionAndKeepsWholeRows) {
+  Folder folder("sinew-recording-amid");
+  PanelDesk desk(true, folder.path.string());
+  make_ready(desk);
+  desk.press(Activity::moving);
+  desk.run(0.3);
+  EXPECT_EQ(desk.panel.activity(), Activity::moving);
+  {
+    const SizeLimit limit(fs::file_size(folder.path / "test.csv") + 100);
+    desk.run(0.4);
+  }
+  EXPECT_EQ(desk.panel.activity(), Activity::holding);
+  EXPECT_EQ(desk.panel.mode(), Mode::armed) << "the drives stay where they are";
+  EXPECT_EQ(desk.panel.frame(desk.now)["recording"]["error"], "File too large");
+  EXPECT_TRUE(text_of(folder.path / "test.csv").ends_with(",EXACT,EXACT,EXACT,EXACT,EXACT,,\n"));
+  desk.let_go();
+  desk.run(0.4);
+  EXPECT_EQ(desk.press(Activity::moving), "recording");
+  desk.let_go();
+  desk.panel.disarm(desk.secret, desk.now);
+  desk.run(0.4);
+  EXPECT_EQ(desk.arm(), "") << "there is room again";
+  EXPECT_EQ(desk.panel.mode(), Mode::armed);
 }
 
 /// A pipe that takes 64 KiB and then no more, as a disk that hangs.

@@ -123,6 +123,7 @@ const rows = {
   over: [[0, 0, 7.5e-4, -7e-4, 0], {more: {alarm: alarm(3, 'OVER-TENSIONED', 'Hold Relax S4 for 1 s.', 1)}, each: (i) => (i === 4 ? {target: [0.2, 0.1], locked: true} : {})}],
   unreachable: [null, {bends: [...bends.slice(0, 2), [0.47, 0.1], ...bends.slice(3)], more: {alarm: alarm(2, 'UNREACHABLE', 'Asked for 26.9°, limit 24°.')}}],
   'near-limit': [null, {bends: [...bends.slice(0, 2), [0.41, 0.1], ...bends.slice(3)], each: (i) => ({near_limit: i === 2})}],
+  'full-disk': [null, {more: {state: 'armed', recording: {name: 'now', rows: 812, error: 'No space left on device'}}}],
   'no-data': [[0, 0, 7.5e-4, 0, 0], {each: () => ({word: 'NO DATA'}), more: {age: 4.2, link: 'silent', message: 'the controller does not answer', rate: 0, alarm: {...alarm(0, 'NO DATA', 'Check the cable.', 4)}}}],
 };
 
@@ -143,6 +144,7 @@ export async function operate_states(browser, url) {
       const telling = setInterval(() => of.push(frames[name]), 50);
       await until(page, (words) => JSON.stringify(window.__sinew?.operate?.frame?.sections.map((one) => one.word)) === words && document.querySelectorAll('.diagram .axes').length > 0, JSON.stringify(frames[name].sections.map((one) => one.word)));
       await page.locator('.section.chosen').waitFor();
+      if (name === 'full-disk') await page.locator('#op-banner', {hasText: 'NOT RECORDED'}).waitFor();
       if (name === 'no-data') assert.match(await page.locator('.section.chosen .more').innerText(), /4\.\d s old/);
       if (width < 720) await page.locator('.chips button').nth(name === 'over' ? 3 : 2).click();
       for (const theme of themes) {

@@ -125,8 +125,8 @@ export class Actions {
     if (!frame.homed) return 'not homed';
     if (motion === 'straighten' && frame.insertion > 5e-4) return `locked: ${(1e3 * frame.insertion).toFixed(0)} mm in`;
     if (motion === 'advance' && frame.plan) return 'drop the plan first';
-    if (frame.recording?.error) return 'recording failed';
-    return frame.state === 'armed' ? null : 'arm first';
+    if (frame.state !== 'armed') return 'arm first';
+    return frame.recording?.error ? 'recording failed' : null;
   }
 
   private turnLease(): void {

@@ -7,7 +7,8 @@ import {heldButton, Labelled, slowButton} from './press';
 
 const longEnough = 1000;  // ms that Arm has to be held
 
-interface Check { says: string; isMet: boolean; why: string }
+/** `isTried`: only arming tells whether it holds by now. */
+interface Check { says: string; isMet: boolean; why: string; isTried?: boolean }
 
 function checks(frame: Frame, info: DeviceInfo): Check[] {
   const at = worstFirst(frame.sections)[0], worst = at === undefined ? null : frame.sections[at]!, kind = worst ? kindOf(worst.word) : 'stale';
@@ -15,7 +16,7 @@ function checks(frame: Frame, info: DeviceInfo): Check[] {
     {says: 'The firmware has the table of this robot', isMet: frame.link === 'ok', why: frame.message || 'the device does not answer'},
     {says: 'Homed: the zero of each tendon is known', isMet: frame.homed, why: info.has_tension ? 'hold Home until all tendons are done' : 'set the zeros by hand: its drives measure no tension'},
     {says: 'No state is worse than slack', isMet: kind === 'exact' || kind === 'slack', why: worst ? `S${at! + 1} is ${worst.word.toLowerCase()}` : ''},
-    {says: 'What happens is recorded', isMet: !frame.recording?.error, why: frame.recording?.error ?? ''},
+    {says: 'What happens is recorded', isMet: !frame.recording?.error, why: `the last time: ${frame.recording?.error}; make room on the disk, then arm`, isTried: true},
   ];
 }
 
@@ -56,7 +57,7 @@ export class ArmingDialog {
     const all = checks(frame, this.info), said = JSON.stringify(all);
     if (said !== this.said) this.list.replaceChildren(...all.map((one) => row(one)));
     this.said = said;
-    this.arm.disabled = all.some(({isMet}) => !isMet);
+    this.arm.disabled = all.some(({isMet, isTried}) => !isMet && !isTried);
     this.homing(frame);
   }
 

@@ -36,12 +36,17 @@ export class Banner {
   show(frame: Frame, lost: string | null, system: System): void {
     const {alarm, sections} = frame, isBlind = sections.length > 0 && sections.every(({word}) => kindOf(word) === 'stale');
     if (lost !== null) return this.say('stale', 'NO DATA', lost, 'The picture is the last one. Check the cable; motion is held.', false);
+    if (frame.recording?.error && kinds.indexOf(kindOf(alarm?.word ?? 'EXACT')) < kinds.indexOf('stale')) return this.unrecorded(frame.recording.error, frame.state === 'armed');
     if (!alarm) return this.quiet(frame);
     const section = sections[alarm.section]!, others = sections.flatMap((one, i) => (i !== alarm.section && kindOf(one.word) !== 'exact' ? [`S${i + 1} ${one.word.toLowerCase()}`] : []));
     const more = isBlind ? '' : alarm.more > 0 ? `${alarm.more} more: ${others.slice(0, 3).join(', ')}${others.length > 3 ? ', …' : ''}` : '';
     const since = alarm.since >= 1 ? `, ${alarm.since < 60 ? `${alarm.since.toFixed(0)} s` : `${Math.floor(alarm.since / 60)} min`}` : '';
     if (isBlind) return this.say('stale', 'NO DATA', since, [frame.message, alarm.did, alarm.next].map(asSentence).filter(Boolean).join(' '), !alarm.acknowledged);
     this.say(kindOf(alarm.word), `S${alarm.section + 1} ${alarm.word}${alarm.word === section.word ? amount(section, system) : ''}`, since, [alarm.did, alarm.next, more].map(asSentence).filter(Boolean).join(' '), !alarm.acknowledged);
+  }
+
+  private unrecorded(why: string, isArmed: boolean): void {
+    this.say('over', 'NOT RECORDED', '', `The recording failed: ${asSentence(why)} ${isArmed ? 'Motion is held. Make room on the disk, disarm, and arm again.' : 'Make room on the disk, and arm again.'}`, false);
   }
 
   private quiet({sections}: Frame): void {
