@@ -1,10 +1,11 @@
 // The screen Operate at the real thing: `sinew serve --demo`, with the firmware in simulation and the simulated arm on its drives.
 import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
 import {once} from 'node:events';
-import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {dirname, join} from 'node:path';
-import {blank, drawn, serve, shot, sinew} from './harness.mjs';
+import {blank, drawn, launch, serve, shot, sinew} from './harness.mjs';
 
 const isBuilt = ['sinew-simulate', 'sinew-firmware-panel.elf'].every((name) => existsSync(join(dirname(sinew), name)));
 
@@ -12,7 +13,7 @@ const isBuilt = ['sinew-simulate', 'sinew-firmware-panel.elf'].every((name) => e
 async function demonstrated(robot, act) {
   const folder = mkdtempSync(join(tmpdir(), 'sinew-demo-test-')), {server, url} = await serve(robot, '--demo', '--record', folder);
   try {
-    await act(url, folder);
+    await act(url, folder, server);
   } finally {
     const ended = once(server, 'exit');
     server.kill('SIGINT');
@@ -42,10 +43,12 @@ async function told(page, is, longest = 20e3) {
 const allExact = ({sections}) => sections.every(({word}) => word === 'EXACT');
 const bar = (page, name) => page.locator('#op-bar').getByRole('button', {name});
 
-/** Holds a button until a frame is so. A machine that stalls for 0.3 s stops the motion: then it is pressed anew, as by an operator. */
-async function holdUntil(page, button, is, {longest = 60e3, meanwhile} = {}) {
-  const {x, y, width, height} = await button.boundingBox(), end = performance.now() + longest;
-  await page.mouse.move(x + width / 2, y + height / 2);
+const centre = ({x, y, width, height}) => [x + width / 2, y + height / 2];
+
+/** Presses a button until a frame is so, and keeps it down. A machine that stalls for 0.3 s stops the motion: then it is pressed anew, as by an operator. */
+async function pressUntil(page, button, is, {longest = 60e3, meanwhile} = {}) {
+  const end = performance.now() + longest;
+  await page.mouse.move(...centre(await button.boundingBox()));
   for (let isDown = false; ;) {
     const now = await frame(page);
     if (is(now)) break;
@@ -63,6 +66,10 @@ async function holdUntil(page, button, is, {longest = 60e3, meanwhile} = {}) {
     }
     await pause(50);
   }
+}
+
+async function holdUntil(page, button, is, options) {
+  await pressUntil(page, button, is, options);
   await page.mouse.up();
   await drawn(page);
 }
@@ -115,12 +122,14 @@ async function aim(page, section, x, y) {
 
 const isThere = ({sections}) => sections.every(({target, measured}) => Math.hypot(target[0] - measured[0], target[1] - measured[1]) < 2e-3);
 
+const stalls = /answer|let go|no word|silent/;
+
 /** The same of a motion. A machine that stalls for longer disarms, and says so; more than a few times it would be wrong. */
 async function armed(page) {
   const {state, why} = await frame(page);
   if (state === 'armed') return;
   console.log(`  disarmed: ${why}`);
-  assert.match(why, /answer|let go|no word|silent/);
+  assert.match(why, stalls);
   await told(page, ({link}) => link === 'ok');
   if (state === 'view_only') await bar(page, /Take control/).click();
   await arm(page);
@@ -207,10 +216,104 @@ async function faults(page, url) {
   await page.getByRole('button', {name: 'Cancel'}).click();
 }
 
-/** From looking on to homing, moving, each fault, and back. */
+/** Frames of the server, as another client sees them: `next` is the first one that is so and came after this was asked. */
+async function watch(url) {
+  const ended = new AbortController(), reply = await fetch(new URL('/api/device/events', url), {signal: ended.signal}), frames = [];
+  let arrived = () => undefined;
+  void (async () => {
+    let text = '';
+    for await (const chunk of reply.body.pipeThrough(new TextDecoderStream())) {
+      const parts = (text += chunk).split('\n\n');
+      text = parts.pop();
+      for (const part of parts) if (part.startsWith('event: frame')) frames.push(JSON.parse(part.slice(part.indexOf('data: ') + 6)));
+      arrived();
+    }
+  })().catch((error) => assert.equal(error.name, 'AbortError'));
+  return {
+    frames,
+    next: async (is, longest = 20e3) => {
+      const late = performance.now() + longest;
+      for (let k = frames.length; ; ++k) {
+        while (k >= frames.length) {
+          assert.ok(performance.now() < late, `the server did not tell: ${is}; ${brief(frames.at(-1))}`);
+          await Promise.race([new Promise((next) => { arrived = next; }), pause(100)]);
+        }
+        if (is(frames[k])) return frames[k];
+      }
+    },
+    close: () => ended.abort(),
+  };
+}
+
+const farthest = (a, b) => Math.max(...a.sections.map(({measured: [x, y]}, i) => Math.hypot(x - b.sections[i].measured[0], y - b.sections[i].measured[1])));
+
+/** All processes that run pages stand still, as when a lid is closed; or they go on. */
+async function freeze(page, signal) {
+  const cdp = await page.context().browser().newBrowserCDPSession(), {processInfo} = await cdp.send('SystemInfo.getProcessInfo'), pages = processInfo.filter(({type}) => type === 'renderer');
+  assert.ok(pages.length > 0, 'no process runs pages');
+  for (const {id} of pages) process.kill(id, signal);
+  await cdp.detach();
+}
+
+/** A lid is closed while Move is held: shortly, and for longer than the lease lasts. */
+async function closedLid(url, page) {
+  const server = await watch(url), isMoving = ({activity}) => activity === 'moving';
+  for (const lasts of [0.6, 2.4]) {
+    await armed(page);
+    await aim(page, 1, lasts < 1 ? 0.3 : 0.7, 0.5);
+    await told(page, (now) => !isThere(now));
+    const from = await frame(page);
+    await pressUntil(page, bar(page, /MOVE/), (now) => isMoving(now) && farthest(now, from) > 0.01);
+    await freeze(page, 'SIGSTOP');
+    const frozen = await server.next(() => true), still = await server.next((now) => !isMoving(now));
+    assert.ok(still.time - frozen.time < 0.3 + 0.04 + 0.1, `it moved on for ${still.time - frozen.time} s`);  // and two frames
+    const there = await server.next(({time}) => time > still.time + 0.2);  // the arm swings after its drives
+    const ended = await server.next(({time}) => time > frozen.time + lasts);
+    if (lasts > 2) assert.equal(ended.state, 'view_only');
+    else assert.ok(ended.state === 'armed' || stalls.test(ended.why), ended.why);
+    await freeze(page, 'SIGCONT');
+    const awake = await server.next(({time}) => time > ended.time + 0.5);
+    assert.ok(server.frames.filter(({time}) => time > still.time).every((now) => !isMoving(now)), 'the button that is still held moves nothing');
+    assert.ok(farthest(awake, there) < 2e-3, `it moved by ${farthest(awake, there)}`);
+    await told(page, ({time, state, activity}) => time >= awake.time && state === ended.state && activity === 'rest');
+    if (lasts > 2) await bar(page, /Take control/).waitFor();
+    await shot(page, `demo-lid-${ended.state}`);
+    await page.mouse.up();
+  }
+  server.close();
+}
+
+/** No file of the server may grow any more, as on a disk that is full. */
+async function fullDisk(page, folder, {pid}) {
+  await armed(page);
+  await aim(page, 1, 0.3, 0.5);
+  await told(page, (now) => !isThere(now));
+  await pressUntil(page, bar(page, /MOVE/), ({activity}) => activity === 'moving');
+  const {recording: {name}} = await frame(page), limit = (size) => execFileSync('prlimit', ['--pid', String(pid), `--fsize=${size}:`]);
+  limit(statSync(join(folder, `${name}.csv`)).size + 200);
+  await told(page, ({recording, activity}) => recording.error !== '' && activity !== 'moving');
+  await page.mouse.up();
+  await page.locator('#op-banner', {hasText: /NOT RECORDED[^]*The recording failed: File too large\. Motion is held\. Make room/}).waitFor();
+  await page.locator('#op-bar').getByText('recording failed').first().waitFor();
+  assert.equal(await bar(page, /MOVE/).getAttribute('aria-disabled'), 'true');
+  await shot(page, 'demo-full-disk');
+  const {time} = await frame(page);
+  await told(page, (now) => now.time > time + 0.2 && allExact(now));  // one still looks on
+  await page.keyboard.press('x');
+  await told(page, ({state}) => state === 'control');
+  limit('unlimited');
+  await bar(page, /Arm…/).click();
+  await page.locator('.arming-dialog', {hasText: 'the last time: File too large; make room on the disk, then arm'}).waitFor();
+  await shot(page, 'demo-full-disk-arm');
+  await arm(page);
+  await told(page, ({state, recording}) => state === 'armed' && recording.error === '');
+  await page.locator('#op-banner', {hasText: 'ALL SECTIONS EXACT'}).waitFor();
+}
+
+/** From looking on to homing, moving, a closed lid, a full disk, each fault, and back. */
 export async function demo(browser) {
   if (!isBuilt) return console.log('demo: skipped: sinew-simulate and sinew-firmware-panel.elf are not built');
-  await demonstrated('nottingham-tpcj', async (url, folder) => {
+  await demonstrated('nottingham-tpcj', async (url, folder, server) => {
     const {page, done} = await look(browser, url);
     assert.equal(await page.locator('#source').innerText(), 'DEVICE · LIVE');
     await shot(page, 'demo-first');
@@ -218,6 +321,8 @@ export async function demo(browser) {
     await home(page, folder);
     await arm(page);
     await moves(page);
+    await closedLid(url, page);
+    await fullDisk(page, folder, server);
     await insertsAndRetracts(page);
     await secondPage(browser, url, page);
     await faults(page, url);
