@@ -12,7 +12,7 @@ export type Colours = Record<(typeof tokens)[number], string>;
 export const leastRod = 3;  // pixels of the thinnest
 
 const dashes: (number[] | undefined)[] = [undefined, [8, 4], [2, 4], [10, 3, 2, 3]];  // of tendons [px]
-const states: Record<string, string> = {'●': 'exact', '▼': 'slack', '⊗': 'over', '⧄': 'unreachable'};
+const states: Record<string, string> = {'●': 'exact', '▼': 'slack', '⊗': 'over', '▧': 'unreachable'};
 const axes = ['x', 'y', 'z'] as const;
 
 export interface Setting {

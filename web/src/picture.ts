@@ -16,7 +16,7 @@ export interface Drawing {
   struts: boolean[];       ///< whether the line of a leg is a strut, drawn as the rod it is
   isStale: boolean;        ///< the last solved one, while what is asked has no solution
   ghost: Json | null;      ///< another answer to `shape`, to compare with
-  states: string[];        ///< the shape of each section's state (●▼⊗⧄), at its end; empty of platforms
+  states: string[];        ///< the shape of each section's state (●▼⊗▧), at its end; empty of platforms
   isUnstable: boolean;
   directions: number[][];  ///< unstable ones: twists [v, ω]
   meeting: number[] | null;  ///< where the legs' lines meet at a type II

@@ -130,6 +130,7 @@ export async function jog_device(browser, url) {
   await arrived(stand, () => calls('lease').length > 1);
   await press(page, pad(page, 'target +β₁'), 700);
   await arrived(stand, () => calls('target').length > 3);
+  await until(page, () => !window.__sinew.operate.subject.control.isAiming);  // the last one waited for the one before
   assert.deepEqual([...new Set(said.map(({call}) => call))].sort(), ['lease', 'target'], 'jogging moves nothing');
   const last = calls('target').at(-1).body.bends, count = calls('target').length;
   near(last[0], [last[0][0], bends[0][1]], 1e-6, 'along one axis');

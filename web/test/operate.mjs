@@ -23,6 +23,7 @@ export async function operate_sliders(browser, url) {
   await answered(page, () => page.mouse.move(...at(0.99, 0.4), {steps: 3}));
   assert.equal(await page.locator('.diagram .pull').count(), 1);
   await shot(page, 'operate-beyond');
+  await fits(page);
   await page.mouse.up();
   await until(page, (limit) => Math.abs(window.__sinew.operate.frame.sections[1].target[0] - limit) < 1e-9, 24 * degree);
   assert.match(await page.locator('.section .more').nth(1).innerText(), /near limit/);

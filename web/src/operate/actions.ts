@@ -24,7 +24,7 @@ export class Actions {
   private readonly slider = make('input', {type: 'range', min: String(slowest), max: String(fastest), step: String(step), value: '2', id: 'jog-speed'});
   private readonly speedText = make('output', {htmlFor: 'jog-speed'} as object);
   private readonly turnText = make('span', {className: 'turn'});
-  private speedSetAt = 0;
+  private speedSetAt = -Infinity;
   private frame: Frame | null = null;
   private chosen = 0;
 

@@ -14,7 +14,7 @@ import type {Stages} from './subject';
 import {inPlace, type Scene, tubeOf} from './surround';
 
 const views: View[] = ['side', 'top', 'tip'];
-const shapes: Record<Kind, string> = {exact: '●', slack: '▼', over: '⊗', unreachable: '⧄', stale: '?'};
+const shapes: Record<Kind, string> = {exact: '●', slack: '▼', over: '⊗', unreachable: '▧', stale: '?'};
 const far = 2e-3;  // m that the stage goes before all is put in view again
 
 /** An arm as the server has it, where it is to go, its tip on the way of a plan, how its sections are. */
