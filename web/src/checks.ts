@@ -23,13 +23,14 @@ export class Checks {
   private readonly spots = make('ol', {className: 'spots'});
   private readonly head = make('h2');
   private readonly here = make('dl', {className: 'facts'});
+  private readonly title = make('h2', {textContent: 'Checks'});
   private readonly spotsHead = make('h2', {textContent: 'Tight spots'});
   private plan: Plan | null = null;
 
   /** @param go to a step */
   constructor(verdict: HTMLElement, panel: HTMLElement, private readonly go: (step: number) => void) {
     this.verdict = new VerdictBox(verdict, () => undefined);
-    panel.append(make('h2', {textContent: 'Checks'}), this.list, this.spotsHead, this.spots, this.head, this.here);
+    panel.append(this.title, this.list, this.spotsHead, this.spots, this.head, this.here);
   }
 
   /** Nothing to check. */
@@ -50,6 +51,7 @@ export class Checks {
       mark.ariaHidden = 'true';
       return make('li', {}, mark, make('strong', {textContent: name}), make('span', {className: 'value', textContent: value}));
     }));
+    this.title.hidden = !!plan.times;
     this.spotsHead.hidden = plan.spots.length === 0;
     this.spots.replaceChildren(...plan.spots.map((step) => {
       const at = check!.steps[step]!, {shape, state} = verdictOf({status: at.verdict === 'touches' ? 'touches' : at.clearance < plan.scene.margins.clearance ? 'clear_if_taut' : 'clear'});
@@ -69,13 +71,14 @@ export class Checks {
     if (checked) facts.push(['clearance', clearance(checked.clearance, plan.check!.reach, system)], ['nearest', plan.pair(checked)], ['verdict', verdictOf({status: checked.verdict}).word]);
     if (tip?.changes) facts.push(['largest tendon change', largest(tip.changes, system)]);
     if (limit) facts.push(['limit exceeded', limit]);
-    this.head.textContent = `At step ${step} of ${plan.last}`;
+    this.head.textContent = plan.times ? `At ${plan.times[step]!.toFixed(2)} s` : `At step ${step} of ${plan.last}`;
     this.here.replaceChildren(...facts.flatMap(([name, value]) => [make('dt', {textContent: name}), make('dd', {textContent: value})]));
     for (const spot of this.spots.querySelectorAll('button')) spot.setAttribute('aria-current', String(Number(spot.dataset.step) === step));
   }
 
   private rows(plan: Plan, system: System, tip: Tips | null | undefined): Row[] {
     const {check, steps, scene, failed} = plan, length = (value: number) => withUnit(value, 'm', system), rows: Row[] = [];
+    if (plan.times) return rows;
     const touching = failed.filter(({isLimit}) => !isLimit), count = check?.steps.filter(({verdict}) => verdict === 'touches').length ?? 0, limits = steps.filter(({limit}) => limit).length;
     if (check) {
       const off = check.off.tendons + check.off.sag + check.off.model;

@@ -10,6 +10,7 @@ import {format, shownValue, type System, type Unit, unitName} from './units';
 
 type Kind = 'clearance' | 'joint angles' | 'stage' | 'tendon changes';
 const kinds: Kind[] = ['clearance', 'joint angles', 'stage', 'tendon changes'];
+const kindsOf = (plan: Plan | null) => kinds.filter((kind) => kind !== 'clearance' || !plan?.times);
 const units: Record<Kind, Unit> = {clearance: 'm', 'joint angles': 'rad', stage: 'm', 'tendon changes': 'm'};
 const colours = ['tendon-1', 'tendon-2', 'tendon-3', 'tendon-4', 'section-5'];
 const dashes = [[], [6, 3], [2, 3], [8, 3, 2, 3]];
@@ -37,6 +38,7 @@ export class Curves {
   }
 
   show(plan: Plan, tips: (Tips | null)[], system: System): void {
+    if (!!plan.times !== !!this.plan?.times) this.panels.forEach((panel, i) => { panel.kind = kindsOf(plan)[i]!; });
     [this.plan, this.tips, this.system] = [plan, tips, system];
     this.draw();
   }
@@ -57,7 +59,7 @@ export class Curves {
 
   /** The next of what no other curve shows. */
   private change(panel: Panel): void {
-    const free = kinds.filter((kind) => kind === panel.kind || this.panels.every((one) => one.kind !== kind));
+    const free = kindsOf(this.plan).filter((kind) => kind === panel.kind || this.panels.every((one) => one.kind !== kind));
     panel.kind = free[(free.indexOf(panel.kind) + 1) % free.length]!;
     this.draw();
   }
@@ -96,7 +98,7 @@ export class Curves {
         return name;
       }) : []), ...(kind === 'joint angles' ? [`${plan.anglesOf[0]![1]} - -`] : []));
       if (width > 50 && height > 20 && panel.lines.length > 0)
-        panel.plot = new uPlot(this.options(panel, width, height, token, i === this.panels.length - 1), [plan.steps.map((_, k) => k), ...panel.lines.map(({values}) => values)] as uPlot.AlignedData, plotBox);
+        panel.plot = new uPlot(this.options(panel, width, height, token, i === this.panels.length - 1), [plan.steps.map((_, k) => plan.placeOf(k)), ...panel.lines.map(({values}) => values)] as uPlot.AlignedData, plotBox);
     });
     this.place();
     this.at(this.step);
@@ -110,8 +112,8 @@ export class Curves {
     };
     return {
       width, height, padding: [6, edge, isLast ? 0 : 6, 0], legend: {show: false}, cursor: {show: false},
-      scales: {x: {time: false, range: [0, Math.max(plan.last, 1)]}, y: {range}},
-      axes: [{show: isLast, stroke: token('mute'), font, grid: {show: false}, ticks: {...line, size: 3}, gap: 2, size: 18, incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]},
+      scales: {x: {time: false, range: [this.low, this.low + this.reach]}, y: {range}},
+      axes: [{show: isLast, stroke: token('mute'), font, grid: {show: false}, ticks: {...line, size: 3}, gap: 2, size: 18, ...(plan.times && {values: (_: uPlot, marks: number[]) => marks.map((mark) => `${mark} s`)}), incrs: [...(plan.times ? [0.1, 0.2, 0.5] : []), 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]},
              {stroke: token('mute'), font, size: axisWidth, grid: line, ticks: {...line, size: 3}, gap: 3, space: 16, values: (_, marks) => marks.map((mark) => String(Number(mark.toPrecision(6))))}],
       series: [{}, ...lines.map(({colour, dash}) => ({stroke: token(colour), width: 1.5, dash, points: {show: false}, spanGaps: false}))],
       hooks: {drawClear: [(plot) => this.marks(plot, kind, token)]},
@@ -158,10 +160,19 @@ export class Curves {
     return {left: box.getBoundingClientRect().left - this.section.getBoundingClientRect().left + axisWidth, width: box.clientWidth - axisWidth - edge};
   }
 
+  /** Of the axis that all of them have. */
+  private get low(): number {
+    return this.plan!.placeOf(0);
+  }
+
+  private get reach(): number {
+    return Math.max(this.plan!.placeOf(this.plan!.last) - this.low, 1e-3);
+  }
+
   private place(): void {
     const {span} = this;
     this.cursor.hidden = !span;
-    if (span && this.plan) this.cursor.style.transform = `translateX(${(span.left + (span.width * this.step) / Math.max(this.plan.last, 1)).toFixed(1)}px)`;
+    if (span && this.plan) this.cursor.style.transform = `translateX(${(span.left + (span.width * (this.plan.placeOf(this.step) - this.low)) / this.reach).toFixed(1)}px)`;
   }
 
   private press(event: PointerEvent): void {
@@ -175,6 +186,6 @@ export class Curves {
     const {span, plan} = this;
     if (!span || !plan) return;
     const part = (event.clientX - this.section.getBoundingClientRect().left - span.left) / span.width;
-    this.go(Math.round(Math.min(1, Math.max(0, part)) * plan.last));
+    this.go(plan.stepAt(this.low + Math.min(1, Math.max(0, part)) * this.reach));
   }
 }

@@ -100,7 +100,7 @@ class Page {
     const [says, {robots: shipped, opened}, {plans: listed}, device, recorded] = await Promise.all([version(), robots(), plans(), findDevice(), listRecordings()]);
     if (says.protocol !== protocol) return this.shell.say(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
     [this.shipped, this.device, this.openedName] = [shipped, device, opened?.name ?? ''];
-    this.panel = new Operate({system: () => this.shell.system, guarded: (task, again) => this.guarded(task, again), heard: () => this.heard(), linked: () => this.link(), turned: () => this.turnSource(), plans: () => listed}, device);
+    this.panel = new Operate({system: () => this.shell.system, guarded: (task, again) => this.guarded(task, again), heard: () => this.heard(), linked: () => this.link(), turned: () => this.turnSource(), plans: () => listed, way: (plan, to) => this.showRecorded(plan, to)}, device);
     byId('recordings').hidden = !recorded || (recorded.length === 0 && !device);
     for (const {name, title} of shipped) for (const list of [this.picker, this.against]) list.add(new Option(title, name));
     this.against.add(new Option('nothing', ''), 0);
@@ -193,7 +193,12 @@ class Page {
   // Screens
 
   private offerPlans(listed: Json[]): void {
-    this.way = new Trajectory(listed, {
+    this.way = this.makeWay(listed);
+    this.screens.offer('trajectory');
+  }
+
+  private makeWay(listed: Json[]): Trajectory {
+    return new Trajectory(listed, {
       system: () => this.shell.system, say: (text) => this.shell.say(text), heard: () => this.heard(), guarded: (task, again) => this.guarded(task, again),
       changed: () => {
         this.command();
@@ -202,7 +207,15 @@ class Page {
       save: (picture, name) => this.stage.give(picture, name),
       whyNot: (plan) => this.whyNotDriven(plan), drive: (plan) => void this.guarded(() => this.drive(plan)),
     });
+  }
+
+  private showRecorded(plan: Plan, link: URLSearchParams): void {
+    this.way ??= this.makeWay([]);
     this.screens.offer('trajectory');
+    this.screens.show('trajectory', false);
+    this.way.openRecorded(plan, link);
+    this.badge();
+    this.entitle();
   }
 
   private showPlan(link: URLSearchParams): void {
@@ -226,6 +239,7 @@ class Page {
   /** A plan moves the device that is the same robot; where there is none the arm of sliders. */
   private whyNotDriven(plan: Plan): string {
     const {device} = this;
+    if (plan.times) return 'a recording is no plan';
     if (!device) return '';
     if (plan.robot.robot !== device.robot && plan.robot.robot !== device.file) return `the device is another robot than ${plan.robot.name}, of which the plan is: start sinew serve with that`;
     if (isPhone.matches) return 'a phone looks on and holds';
@@ -254,7 +268,7 @@ class Page {
     const {shown} = this.screens, of = byId('source');
     of.classList.toggle('is-log', shown === 'operate' && !!this.panel.replayed);
     of.title = shown === 'operate' ? this.panel.badge : '';
-    of.textContent = shown === 'design' ? 'SLIDERS' : shown === 'operate' ? this.panel.badge : 'PLAN';
+    of.textContent = shown === 'design' ? 'SLIDERS' : shown === 'operate' ? this.panel.badge : this.way!.badge;
   }
 
   /** Targets that were set there are the inputs here. */
@@ -300,6 +314,7 @@ class Page {
     }
     this.start.hide();
     this.screens.show('operate', false);
+    if (link?.get('screen') === 'trajectory') this.panel.showWay(link);
   }
 
   /** The screen Operate has every serial robot: that of the device, or a simulated one. */

@@ -1,7 +1,7 @@
 // A plan of an insertion, as the server tells it: its steps, its check, and what of them stands out.
 import type {Json} from './client';
 
-export interface Step { stage: number; configuration: number[][]; limit: string | null }
+export interface Step { stage: number; configuration: number[][]; limit: string | null; changes?: number[][] }  ///< changes: of tendons, where they were measured
 export interface Checked { clearance: number; verdict: string; section?: number; solid?: number; on_robot?: number[]; on_solid?: number[] }
 export interface Check { verdict: string; clearance: number; worst: number; allowed_share: number; off: {tendons: number; sag: number; model: number}; reach: number; steps: Checked[] }
 
@@ -19,6 +19,7 @@ export class Plan {
   readonly files: {scene: string; plan: string};
   readonly robot: {name: string; text: string; robot: string};
   readonly title: string;
+  readonly times: number[] | null;  ///< of a recording [s]: a plan has none
   private readonly angles: string[];  ///< of each section the name of its first
   readonly spots: number[];  ///< steps where it is tight, the tightest first
   readonly failed: Run[];
@@ -28,6 +29,7 @@ export class Plan {
     [this.steps, this.check, this.scene, this.files, this.robot] = [told.steps, told.check, told.scene, told.files, told.robot];
     this.angles = told.angles;
     this.title = told.name;
+    this.times = told.times ?? null;
     this.spots = this.check ? tightSpots(this.check.steps.map(({clearance}) => clearance), this.check.reach) : [];
     this.failed = runs(this.steps, this.check);
   }
@@ -36,8 +38,21 @@ export class Plan {
     return this.steps.length - 1;
   }
 
+  /** Where a step is on the axis of the curves: its time, or which one it is. */
+  placeOf(step: number): number {
+    return this.times?.[step] ?? step;
+  }
+
+  /** The step nearest to a place. */
+  stepAt(place: number): number {
+    if (!this.times) return Math.round(place);
+    const after = this.times.findIndex((time) => time >= place), before = Math.max(0, after - 1);
+    return after < 0 ? this.last : place - this.times[before]! < this.times[after]! - place ? before : after;
+  }
+
   /** As a status of an answer, so that it has a word and a shape. */
   get status(): string {
+    if (this.times) return 'recorded';
     if (this.steps.some(({limit}) => limit)) return 'limit_exceeded';
     return this.check?.verdict ?? 'checking';
   }

@@ -83,7 +83,7 @@ export class Poses {
   private async askTips(robot: Robot): Promise<void> {
     const first = this.tips.length, steps = this.plan.steps.slice(first, first + forwards);
     const answers = await robot.ask(steps.map(({configuration}) => ({query: 'forward', configuration})));
-    answers.forEach((answer, i) => this.tips.push(answer.tip ? {position: mover(this.plan.scene as Place, steps[i]!.stage)(answer.tip.position), changes: answer.changes ?? null} : null));
+    answers.forEach((answer, i) => this.tips.push(answer.tip ? {position: mover(this.plan.scene as Place, steps[i]!.stage)(answer.tip.position), changes: steps[i]!.changes ?? answer.changes ?? null} : null));
     if (this.hasTips) this.came(null);
   }
 }

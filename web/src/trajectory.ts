@@ -52,6 +52,7 @@ export class Trajectory {
 
   constructor(private readonly listed: Json[], private readonly screen: Screen) {
     for (const {plan, name, scene} of listed) this.picker.add(new Option(scene ? `${name} (${scene})` : name, plan));
+    this.picker.hidden = listed.length === 0;
     this.picker.addEventListener('change', () => this.open(new URLSearchParams({plan: this.picker.value})));
     byId('way-tabs').append(...this.tabs);
     this.turnTo('curves');
@@ -67,8 +68,12 @@ export class Trajectory {
     return !!this.plan;
   }
 
+  get badge(): string {
+    return this.plan?.times ? `LOG ${this.plan.title}` : 'PLAN';
+  }
+
   get title(): string {
-    return this.listed.find(({plan}) => plan === this.plan?.handle)?.name ?? 'plan';
+    return this.plan?.times ? this.plan.title : this.listed.find(({plan}) => plan === this.plan?.handle)?.name ?? 'plan';
   }
 
   has(handle: string | null): boolean {
@@ -116,6 +121,14 @@ export class Trajectory {
     }, () => isHere() && this.open(link));
   }
 
+  /** A recording. */
+  openRecorded(plan: Plan, link: URLSearchParams): void {
+    ++this.opening;
+    clearTimeout(this.looking);
+    this.transport.pause();
+    this.use(plan, link);
+  }
+
   paint(): void {
     this.picture?.paint(getComputedStyle(document.documentElement));
     if (this.plan) this.write();
@@ -123,8 +136,8 @@ export class Trajectory {
 
   /** The address of what is shown. */
   toLink(): URLSearchParams | null {
-    if (!this.plan) return null;
-    const link = new URLSearchParams({plan: this.plan.handle, step: String(this.step)});
+    if (!this.plan?.handle) return null;
+    const {handle, times} = this.plan, link = new URLSearchParams({...(times ? {screen: 'trajectory', recording: handle} : {plan: handle}), step: String(this.step)});
     if (this.picture?.camera) link.set('camera', this.picture.camera);
     if (!this.picture?.isCut) link.set('clip', 'off');
     return link;
@@ -133,7 +146,7 @@ export class Trajectory {
   /** For a shell where the server was started. */
   command(): string {
     const word = (text: string) => (/^[\w./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
-    return this.plan ? `sinew plan ${word(this.plan.files.scene)} --check ${word(this.plan.files.plan)}` : '';
+    return this.plan && !this.plan.times ? `sinew plan ${word(this.plan.files.scene)} --check ${word(this.plan.files.plan)}` : '';
   }
 
   /** Another screen is shown. */
@@ -178,11 +191,12 @@ export class Trajectory {
     this.write();
     this.say(plan);
     const wanted = link.get('step'), step = Number(wanted);
-    this.go(wanted !== null && Number.isInteger(step) ? step : plan.last);
-    if (!plan.check) this.look(plan);
+    this.go(wanted !== null && Number.isInteger(step) ? step : plan.times ? 0 : plan.last);
+    if (!plan.check && !plan.times) this.look(plan);
   }
 
   private say(plan: Plan): void {
+    if (plan.times) return this.screen.say(`${plan.steps.length} measurements of ${plan.robot.name}`);
     const triangles = plan.scene.solids.reduce((sum: number, one: Json) => sum + one.triangles, 0);
     this.screen.say(`${plan.steps.length} steps of ${plan.robot.name} · ${plan.scene.solids.length} solids, ${triangles} triangles${plan.check ? '' : ' · being checked'}`);
   }
@@ -286,7 +300,7 @@ export class Trajectory {
 
   private around(plan: Plan, pose: Pose, step: number): Around {
     const {scene, check} = plan, tips = this.poses!.tips, at = check?.steps[step], trail = this.poses!.hasTips ? tips.flatMap((tip) => (tip ? [tip.position] : [])) : [];
-    const {on_robot: from, on_solid: to} = at ?? {}, extent: Point[] = [...(trail.length > 0 ? trail : [pose.tip.position]), scene.target.tip];
+    const {on_robot: from, on_solid: to} = at ?? {}, extent: Point[] = [...(trail.length > 0 ? trail : [pose.tip.position]), scene.target?.tip ?? scene.base.position];
     if (scene.port) extent.push(plus(scene.port.position, scene.axis, scene.port.radius), plus(scene.port.position, scene.axis, -scene.port.radius));
     return {
       trail, target: scene.target, port: scene.port, axis: scene.axis, tip: pose.tip, extent,

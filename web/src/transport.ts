@@ -56,7 +56,7 @@ export class Transport {
     this.step = step;
     this.slider.value = String(step);
     if (!this.plan) return;
-    const stage = `stage ${withUnit(this.plan.steps[step]!.stage, 'm', this.system)}`, count = `step ${step} / ${this.plan.last}`;
+    const stage = `stage ${withUnit(this.plan.steps[step]!.stage, 'm', this.system)}`, {times, last} = this.plan, count = times ? `${times[step]!.toFixed(2)} / ${times[last]!.toFixed(2)} s` : `step ${step} / ${last}`;
     this.slider.setAttribute('aria-valuetext', `${count}, ${stage}`);
     this.text.replaceChildren(make('strong', {textContent: count}), make('span', {textContent: stage}));
   }
@@ -92,7 +92,8 @@ export class Transport {
   /** Steps whose picture is not there yet are waited for. */
   private tick(): void {
     if (!this.isPlaying || !this.plan) return;
-    const now = performance.now(), steps = Math.floor(((now - this.since) / 1000) * rate * Number(this.speed.value));
+    const now = performance.now(), passed = ((now - this.since) / 1000) * Number(this.speed.value), {plan, step} = this;
+    const steps = plan.times ? plan.stepAt(plan.placeOf(step) + passed) - step : Math.floor(passed * rate);
     if (!this.isThere()) this.since = now;
     else if (steps > 0) {
       this.since = now;

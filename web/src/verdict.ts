@@ -22,6 +22,7 @@ const verdicts: Record<string, Verdict> = {
   touches: {word: 'TOUCHES', shape: '⊗', state: 'over', advice: 'Press E for the steps where it does.'},
   limit_exceeded: {word: 'LIMIT EXCEEDED', shape: '⊗', state: 'over', advice: 'Press E for the steps where it is.'},
   checking: {word: 'CHECKING…', shape: '…', state: 'stale', advice: 'The steps are those of the file; what they touch is not known yet.'},
+  recorded: {word: 'RECORDED', shape: '■', state: 'stale', advice: 'What was measured, in the axes of the base at stage 0. What it touched is not known.'},
   unknown_plan: {word: 'NO SUCH PLAN', shape: '?', state: 'stale', advice: ''},
   // The page's own words, where nobody has answered
   solving: {word: 'SOLVING…', shape: '…', state: 'stale', advice: 'The picture is still of the numbers before.'},

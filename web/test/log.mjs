@@ -249,6 +249,62 @@ export async function log_files(browser, url) {
   await done(/422/);
 }
 
+/** On the screen Trajectory: what was measured over time, without a scene, unchecked, and not to be driven. */
+export async function log_way(browser) {
+  const {page, done} = await replay(browser, '&t=3'), step = async () => Number(await page.locator('#transport input').inputValue());
+  const way = (of, is) => until(of, is ?? (() => document.documentElement.dataset.drawn !== undefined && Number(document.documentElement.dataset.drawn) === window.__sinew.way.step));
+  await at(page, 3);
+  await bar(page, 'Trajectory').click();
+  await way(page);
+  const {rows, times} = await page.evaluate(() => ({rows: window.__sinew.operate.replayed.rows, times: [...window.__sinew.operate.replayed.times]}));
+  assert.ok(Math.abs(times[await step()] - 3) < 0.1, 'where the replay was');
+  assert.match(await page.locator('#source').innerText(), /^LOG nottingham-tpcj$/);
+  assert.match(await page.locator('#plan-verdict').innerText(), /RECORDED[^]*What it touched is not known/);
+  assert.match(await page.locator('#plan-checks').innerText(), /^At 3\.0\d s\s+stage\s+12\.\d+ mm\s+tip x, y, z/);
+  assert.deepEqual(await page.locator('.curve .about button').allInnerTexts(), ['joint angles', 'stage', 'tendon changes']);
+  const said = await page.locator('.curve .value').allInnerTexts(), row = await step();
+  const changes = await page.evaluate((k) => [0, 1, 2, 3, 4].flatMap((m) => window.__sinew.operate.replayed.ofTendons(k, m, 'change')), row), most = changes.reduce((a, b) => (Math.abs(b) > Math.abs(a) ? b : a));
+  assert.ok(said[2].includes(Math.abs(1e3 * most).toFixed(1)), `${said[2]}: measured, not computed: ${most}`);
+  await page.getByRole('button', {name: 'Drive…'}).click({force: true});
+  await page.locator('#toast', {hasText: 'a recording is no plan'}).waitFor();
+  await page.keyboard.press('.');
+  assert.equal(await step(), row + 1);
+  // dragging in a curve is in time
+  const plot = await page.locator('.curve .plot').first().boundingBox();
+  await page.mouse.click(plot.x + 48 + 0.5 * (plot.width - 60), plot.y + 20);
+  const half = (times[0] + times.at(-1)) / 2;
+  assert.ok(Math.abs(times[await step()] - half) < 0.1);
+  await way(page);
+  const address = await linked(page);
+  assert.match(address, /screen=trajectory&recording=nottingham-tpcj&step=\d+/);
+  // played at the pace of the recording, to its end
+  for (let i = 0; i < 3; ++i) await page.keyboard.press('l');
+  await page.locator('#transport').getByRole('button', {name: /Play/}).click();
+  await until(page, (last) => Number(document.querySelector('#transport input').value) === last, rows - 1);
+  await page.keyboard.press('Alt+2');
+  await bar(page, 'Close').waitFor();
+  await done();
+  for (const [width, height] of sizes) {
+    const again = await blank(browser, {width, height});
+    await again.page.goto(address);
+    await way(again.page);
+    assert.match(await again.page.locator('#transport').innerText(), /\d\.\d\d \/ 6\.\d\d s/);
+    for (const theme of themes) {
+      await again.page.emulateMedia({colorScheme: theme});
+      await drawn(again.page);
+      await shot(again.page, `log-way-${width}-${theme}`);
+    }
+    await audit(again.page, `way ${width}`);
+    await again.done();
+  }
+  const unset = await replay(browser);
+  await drop(unset.page, 'unset.csv', text.replaceAll(/,1,((?:[A-Z -]+,){5})/g, ',0,$1'));
+  await until(unset.page, () => window.__sinew.operate.badge.startsWith('LOG unset'));
+  await bar(unset.page, 'Trajectory').click();
+  await unset.page.locator('#op-notice', {hasText: 'its zeros were not set'}).waitFor();
+  await unset.done();
+}
+
 /** One page with all of it, in which a text is a text. */
 export async function log_report(browser) {
   const {page, done} = await replay(browser, '&t=1'), evil = '<script>alert(1)</script><img src=x onerror=alert(2)>"&';

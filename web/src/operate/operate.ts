@@ -4,6 +4,7 @@ import {describe} from '../described';
 import {download} from '../file';
 import {isText, type Key} from '../keys';
 import {button, byId} from '../make';
+import type {Plan} from '../plan';
 import {sourceOf} from '../source';
 import {toast} from '../toast';
 import type {System} from '../units';
@@ -24,6 +25,7 @@ import {Log} from './log';
 import {NumbersDialog} from './numbers';
 import {isPhone} from './phone';
 import {lengthOf, Readings} from './readings';
+import {recordedWay} from './recorded_way';
 import {type Recording} from './recording';
 import {Replay, type Where} from './replay';
 import {reportOf} from './report';
@@ -40,6 +42,7 @@ export interface Screen {
   linked(): void;
   turned(): void;  ///< another source is shown
   plans(): Json[];  ///< of the server
+  way(plan: Plan, link: URLSearchParams): void;  ///< on the screen Trajectory
 }
 
 const patience = 6000;  // ms that a refusal is shown
@@ -133,11 +136,20 @@ export class Operate {
     const robot = await Robot.open(recording.text), described = await describe(robot), {text} = recording;
     if (!described.isSerial || described.answer.sections.length !== recording.sections) throw new Error(`${where.name}: it has ${recording.sections} sections, the robot in it ${described.isSerial ? described.answer.sections.length : 'is none of sections'}: copy the file anew`);
     const source = await sourceOf(recording.robot, text, text, described.answer), opened: Opened = {robot, described, source, inputs: described.inputs.map(({home}) => home)};
-    const orders = {report: () => void this.report(), close: () => this.endReplay(), hold: this.info ? () => void this.holdDevice() : null}, other = this.otherThan(recording);
+    const orders = {way: () => this.showWay(null), report: () => void this.report(), close: () => this.endReplay(), hold: this.info ? () => void this.holdDevice() : null}, other = this.otherThan(recording);
     this.change(opened, () => new Replay(opened, recording, {...where, other}, this.stand, orders), link);
     if (this.subject instanceof Replay) this.subject.go(Number(link?.get('t') ?? 0));
     const notes = [other, recording.leftOut > 0 ? `${recording.leftOut} lines were left out: ${recording.wrong[0]}` : '', where.every > 1 ? `one measurement in ${where.every} is shown` : ''].filter(Boolean);
     if (notes.length > 0) this.refuse(notes.join(' · '));
+  }
+
+  /** What is replayed, on the screen Trajectory. */
+  showWay(link: URLSearchParams | null): void {
+    const {subject, opened} = this;
+    if (!(subject instanceof Replay) || !opened) return;
+    const {recording, where} = subject, way = recordedWay(recording, opened.described.answer.sections, where.isOnServer ? where.name : '');
+    if (way) this.screen.way(way, link ?? new URLSearchParams({step: String(way.stepAt(subject.at))}));
+    else this.refuse('its zeros were not set: nothing is known of its bends');
   }
 
   /** Whose it is, where that is another one than is open. */

@@ -40,7 +40,7 @@ export class Replay implements Subject {
   private pictured = '';
   private isOver = false;
 
-  constructor(readonly opened: Opened, readonly recording: Recording, readonly where: Where, private readonly stand: Stand, orders: {report(): void; close(): void; hold: (() => void) | null}) {
+  constructor(readonly opened: Opened, readonly recording: Recording, readonly where: Where, private readonly stand: Stand, orders: {way(): void; report(): void; close(): void; hold: (() => void) | null}) {
     this.line = new ReplayBar(recording, {
       go: (time) => this.go(time), next: () => this.next(), isThere: () => this.row === this.wanted, turned: () => stand.turned(), ...orders,
     });

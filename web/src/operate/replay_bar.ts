@@ -8,6 +8,7 @@ const speeds = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 export interface Wishes {
   go(time: number): void;
   next(): void;
+  way(): void;              ///< on the screen Trajectory
   report(): void;
   close(): void;
   isThere(): boolean;       ///< what was asked last is shown
@@ -37,8 +38,10 @@ export class ReplayBar {
     this.play.classList.add('main');
     const hold = wishes.hold ? [button('HOLD', wishes.hold, 'of the device: freeze where it is (Esc)')] : [], next = button('Next alarm', () => wishes.next(), 'jump there (n)');
     for (const one of hold) one.className = 'hold';
+    const way = button('Trajectory', () => wishes.way(), 'the way of its tip, and bends over time');
+    way.classList.add('to-way');
     next.append(make('kbd', {textContent: 'N'}));
-    this.element.append(...hold, this.play, this.speedBox, make('div', {className: 'time-line'}, this.marks, this.slider), this.text, next, this.reporter, button('Close', () => wishes.close(), 'back to where it was opened'));
+    this.element.append(...hold, this.play, this.speedBox, make('div', {className: 'time-line'}, this.marks, this.slider), this.text, next, way, this.reporter, button('Close', () => wishes.close(), 'back to where it was opened'));
     this.mark();
   }
 
