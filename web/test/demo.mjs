@@ -228,7 +228,7 @@ async function watch(url) {
       for (const part of parts) if (part.startsWith('event: frame')) frames.push(JSON.parse(part.slice(part.indexOf('data: ') + 6)));
       arrived();
     }
-  })().catch((error) => assert.equal(error.name, 'AbortError'));
+  })().catch(() => undefined);  // it is ended, or the server is: then frames fail to come
   return {
     frames,
     next: async (is, longest = 20e3) => {
