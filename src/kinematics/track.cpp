@@ -6,6 +6,7 @@
 #include "robot/pose.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/leg/project.hpp"
+#include "solve/continuation.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
@@ -263,28 +264,24 @@ Report Track::advance(const AnyPose& next) {
   const std::vector<double> before = coordinates_;
   std::vector<double> tried;
   Report report;
-  progress_ = 0;
-  double part = 1;
-  for (int steps = 0; progress_ < 1; ++steps) {
-    if (note_stop(work_->stop, report)) return report;
-    if (steps == most_steps) {
-      report.status = Status::iteration_limit;
-      report.message.append("the path winds too tightly to be followed between two poses; give more poses");
-      return report;
-    }
-    const double to = std::min(1.0, progress_ + part);
+  ParameterPath end;
+  follow_parameter(end, {{1, 0, work_->stop}, 0, most_steps}, [&](double to, double part) {
+    ++end.iterations;
     const AnyPose pose = to == 1 ? next : settled(*robot_, between(from, next, to));
     const int stuck = step(pose, part, tried, report);
-    if (!report.ok()) return report;
-    if (stuck >= 0) {
-      part /= 2;
-      continue;
-    }
+    if (stuck >= 0 || !report.ok()) return ParameterStep{ParameterStep::failed, report.ok() ? part / 2 : 0};
     coordinates_ = tried;
     pose_ = pose;
-    progress_ = to;
-    part *= 2;
+    return ParameterStep{ParameterStep::reached, 2 * part};
+  });
+  progress_ = end.progress;
+  if (end.stopped) {
+    say_stopped(report);
+  } else if (end.ran_out) {
+    report.status = Status::iteration_limit;
+    report.message.append("the path winds too tightly to be followed between two poses; give more poses");
   }
+  if (!end.arrived) return report;
   settle();
   for (std::size_t k = 0; k < motion_.size(); ++k) motion_[k] = coordinates_[k] - before[k];
   report.residual = closure_error_;

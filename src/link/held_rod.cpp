@@ -8,6 +8,7 @@
 #include "sinew/math/inverse_sinc.hpp"
 #include "sinew/math/linalg.hpp"
 #include "sinew/solve/newton.hpp"
+#include "solve/continuation.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 using Turn = SO3<double>;
 using Point = Vec3<double>;
 constexpr double path_tolerance = 1e-6;  // of the length, on the way
+constexpr double shortest_step = 1e-4;
+constexpr int max_solves = 100;
 
 /// Any unit vector at right angles.
 Point beside(const Point& v) {
@@ -181,11 +184,12 @@ class Way {
     RodState<double> state{goal_.base.p, arc_.base, arc_.force, Point(arc_.moment * goal_.moment_unit())};
     x = at(0).unknowns_of(state, 0);
     Vec<double, 6> before = x;
-    double step = 0.2, last = 0;
-    for (int solves = 0; solves < 100 && done_ < 1; ++solves) {
-      const double next = std::min(1.0, done_ + step);
+    double last = 0;
+    ParameterPath end;
+    follow_parameter(end, {{0.2, shortest_step}, 0, max_solves}, [&](double next, double taken) {
+      ++end.iterations;
       Vec<double, 6> ahead = x;
-      if (last > 0) ahead += (x - before) * ((next - done_) / last);
+      if (last > 0) ahead += (x - before) * (taken / last);
       const Vec<double, 6> predicted = ahead;
       HoldProblem problem = at(next);
       if (options_.steps == 0) problem.steps = path_steps(problem, x);
@@ -193,18 +197,14 @@ class Way {
           newton(problem, ahead, {path_tolerance * goal_.length, std::min(12, options_.max_iterations)});
       iterations += report.iterations;
       const double miss = (ahead - predicted).norm();
-      if (report.ok() && miss < 1 + 0.3 * x.norm()) {
-        before = x;
-        x = ahead;
-        last = next - done_;
-        done_ = next;
-        if (report.iterations <= 4) step *= 1.7;
-      } else {
-        step *= 0.4;
-        if (step < 1e-4) return false;
-      }
-    }
-    return done_ == 1;
+      if (!(report.ok() && miss < 1 + 0.3 * x.norm()))
+        return ParameterStep{ParameterStep::failed, 0.4 * taken};
+      before = x;
+      x = ahead;
+      last = taken;
+      return ParameterStep{ParameterStep::reached, report.iterations <= 4 ? 1.7 * taken : taken};
+    });
+    return end.arrived;
   }
 
  private:
@@ -212,7 +212,6 @@ class Way {
   const HoldOptions& options_;
   ArcStart arc_;
   Point base_turn_, tip_turn_;
-  double done_ = 0;
 };
 
 /// Stiffness and feed by the implicit function theorem; false where the equations are singular.
@@ -306,28 +305,27 @@ HeldRod unanswered() {
 bool turn_downhill(const HoldProblem& problem, bool fixed_steps, Vec<double, 6>& x, int& iterations) {
   HoldProblem held = problem;
   held.seeks_spin = false;
-  double spin = 0, step = std::copysign(0.2, x[5]);
-  for (int solves = 0; solves < 100; ++solves) {
-    held.base.R = problem.base.R.compose(Turn::exp({0, 0, spin + step}));
-    Vec<double, 6> ahead = x;
-    if (!fixed_steps) held.steps = path_steps(held, x);
-    const Report report = newton(held, ahead, {path_tolerance * problem.length, 10});
-    iterations += report.iterations;
-    if (report.ok() && (ahead - x).norm() < 1 + 0.3 * x.norm()) {
-      const bool passed = ahead[5] * x[5] <= 0;
-      const double share = passed ? x[5] / (x[5] - ahead[5]) : 1;
-      x += share * (ahead - x);
-      spin += share * step;
-      if (passed) {
-        x[5] = spin;
-        return x.allFinite();
-      }
-    } else {
-      step *= 0.4;
-      if (std::abs(step) < 1e-4) return false;
-    }
-  }
-  return false;
+  const double side = std::copysign(1.0, x[5]);
+  double spin = 0;
+  int solves = 0;
+  const auto has_budget = [&] { return solves++ < max_solves; };
+  const StepsEnd end =
+      take_steps({0.2, shortest_step}, has_budget, [&](double step) -> std::optional<double> {
+        held.base.R = problem.base.R.compose(Turn::exp({0, 0, spin + side * step}));
+        Vec<double, 6> ahead = x;
+        if (!fixed_steps) held.steps = path_steps(held, x);
+        const Report report = newton(held, ahead, {path_tolerance * problem.length, 10});
+        iterations += report.iterations;
+        if (!(report.ok() && (ahead - x).norm() < 1 + 0.3 * x.norm())) return 0.4 * step;
+        const bool passed = ahead[5] * x[5] <= 0;
+        const double share = passed ? x[5] / (x[5] - ahead[5]) : 1;
+        x += share * (ahead - x);
+        spin += share * side * step;
+        return passed ? std::nullopt : std::optional(step);
+      });
+  if (end != StepsEnd::done) return false;
+  x[5] = spin;
+  return x.allFinite();
 }
 
 /// From one arc to the equilibrium, to the last digits.

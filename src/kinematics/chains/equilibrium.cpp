@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "kinematics/chains/solver.hpp"
+#include "solve/continuation.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
@@ -54,18 +55,21 @@ Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<c
   const auto put = [&](double part) {
     for (std::size_t i = 0; i < hold.size(); ++i) work.hold[i] = between(work.first[i], hold[i], part);
   };
-  const double done = walk(1, 1, 1e-6, [&](double next) {
-    if (!solver.has_budget() || work.stop.stop_requested()) return false;
+  ParameterPath end;
+  follow_parameter(end, {{1, 1e-6, work.stop}, 0, solver.max_iterations()}, [&](double next, double taken) {
     put(next);
     const Vec<double, Space::dof> load = first + next * (wrench - first);
     auto pose = state.pose;
     work.legs = state.legs;
-    if (!solver.solve(pose, work.legs, work.hold, load)) return false;
+    const bool is_solved = solver.solve(pose, work.legs, work.hold, load);
+    end.iterations = solver.iterations();
+    if (!is_solved) return ParameterStep{ParameterStep::failed, taken / 4};
     state.pose = pose;
     std::swap(state.legs, work.legs);
     state.wrench = load;
-    return true;
+    return ParameterStep{ParameterStep::reached, 2 * taken};
   });
+  const double done = end.progress;
   if (done < 1) put(done);
   state.hold.assign(work.hold.begin(), work.hold.end());
   measure_tendons(robot, state);
@@ -74,7 +78,7 @@ Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<c
   report.residual = solver.residual();
   report.iterations = solver.iterations();
   if (done < 1) {
-    report.status = solver.has_budget() ? Status::stalled : Status::iteration_limit;
+    report.status = end.ran_out ? Status::iteration_limit : Status::stalled;
     if (!note_stop(work.stop, report)) say_how_far(report, done);
   } else {
     name_slack(state, report);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kinematics/chains/solver.hpp"
+#include "solve/continuation.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
@@ -70,24 +71,36 @@ ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Spac
   const bool was_stable = least_curvature(robot, state) > 0;
   const Vec<double, Space::dof> first = state.wrench;
   ChainState<Space> ahead = state;
-  const double done =
-      walk(limit, std::min(limit, first_stride(robot, direction, state, work)), 1e-8, [&](double next) {
-        if (work.stop.stop_requested()) return false;
-        ahead = state;
-        ahead.wrench = first + next * direction;
-        path.end = solver.has_budget() ? ChainLoadEnd::fold : ChainLoadEnd::iterations;
-        if (!solver.solve(ahead.pose, ahead.legs, ahead.hold, ahead.wrench)) return false;
-        measure_tendons(robot, ahead);
-        path.end = ChainLoadEnd::slack;
-        Report report;
-        name_slack(ahead, report);
-        if (!report.ok()) return false;
-        path.end = ChainLoadEnd::fold;
-        if (was_stable && !(least_curvature(robot, ahead) > 0)) return false;
-        std::swap(state, ahead);
-        path.end = ChainLoadEnd::limit;
-        return true;
-      });
+  const auto attempt = [&](double next) {
+    ahead = state;
+    ahead.wrench = first + next * direction;
+    path.end = solver.has_budget() ? ChainLoadEnd::fold : ChainLoadEnd::iterations;
+    if (!solver.solve(ahead.pose, ahead.legs, ahead.hold, ahead.wrench)) return false;
+    measure_tendons(robot, ahead);
+    path.end = ChainLoadEnd::slack;
+    Report report;
+    name_slack(ahead, report);
+    if (!report.ok()) return false;
+    path.end = ChainLoadEnd::fold;
+    if (was_stable && !(least_curvature(robot, ahead) > 0)) return false;
+    std::swap(state, ahead);
+    path.end = ChainLoadEnd::limit;
+    return true;
+  };
+  double done = 0;
+  const double begin = std::min(limit, first_stride(robot, direction, state, work));
+  const auto step = [&](double stride) -> std::optional<double> {
+    const double next = stride < limit - done ? done + stride : limit;
+    if (!attempt(next)) {
+      const double shorter = std::min(stride, limit - done) / 4;
+      return shorter > 1e-8 * std::max(done, begin) ? shorter : 0;
+    }
+    done = next;
+    return done < limit ? std::optional(2 * stride) : std::nullopt;
+  };
+  if (begin > 0)
+    take_steps(
+        {begin, 0, work.stop}, [] { return true; }, step);
   path.load = done;
   if (path.end == ChainLoadEnd::fold && !answers(robot, direction, state, work))
     path.end = ChainLoadEnd::bifurcation;

@@ -58,6 +58,7 @@ class Solver {
   const Reduced& begun() const { return begun_; }
   double residual() const { return residual_; }  ///< unbalance as a length [m]
   int iterations() const { return iterations_; }
+  int max_iterations() const { return options_.max_iterations; }
   bool has_budget() const { return iterations_ < options_.max_iterations; }
 
   Reduced reduce(const Pose& pose, std::span<const ChainLegState> legs, std::span<const ChainHold> hold,
@@ -172,26 +173,6 @@ void name_slack(const ChainState<Space>& state, Report& report) {
       if (state.legs[i].tension[k] < -1e-9)
         return say_leg(report, Status::slack, i,
                        k == 0 ? ": tendon 1 would have to push" : ": tendon 2 would have to push");
-}
-
-/// Tries points ever farther on a path from 0 to `to`, in smaller steps where one fails; the last one
-/// reached.
-/// @param finest shortest step, relative to what was reached, or to the first one
-template <class Attempt>
-double walk(double to, double stride, double finest, Attempt&& attempt) {
-  const double first = stride;
-  double done = 0;
-  while (done < to) {
-    const double next = stride < to - done ? done + stride : to;
-    if (attempt(next)) {
-      done = next;
-      stride *= 2;
-    } else {
-      stride = std::min(stride, to - done) / 4;
-      if (!(stride > finest * std::max(done, first))) break;
-    }
-  }
-  return done;
 }
 
 /// Whether a length that is held leaves a leg's joints nothing: one equation for the length, one for the

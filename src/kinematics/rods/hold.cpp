@@ -49,7 +49,7 @@ class Holder {
   /// Newton's method with the platform there. Down to `tolerance`, or a little further.
   bool correct(const SE3<double>& pose, int& iterations, double& residual, double tolerance) {
     return contract([&] { return system_.evaluate(); }, [&] { return renew() && step(pose, true); },
-                    tolerance, iterations, residual);
+                    tolerance, rod_rounding, iterations, residual);
   }
 
   /// From the state before, near by: a step or two with the factors kept from there, then with new ones, and
@@ -116,10 +116,7 @@ RodPathEnd follow_poses(RodWorkOf<System>& work, const RodWay& way, int max_iter
   System& system = work.system;
   Holder<System> holder(work);
   RodPathEnd end;
-  double stride = 0.25;
-  while (end.progress < 1 && stride > shortest && end.iterations < max_iterations) {
-    if ((end.stopped = work.stop.stop_requested())) break;
-    const double next = std::min(1.0, end.progress + stride);
+  follow_parameter(end, {{0.25, shortest, work.stop}, 0, max_iterations}, [&](double next, double taken) {
     system.save(work.spare);
     system.evaluate();
     const bool renews = !work.knows_feeding;
@@ -134,17 +131,12 @@ RodPathEnd follow_poses(RodWorkOf<System>& work, const RodWay& way, int max_iter
       system.refine();
       is_reached = correct();
     }
-    if (is_reached) {
-      stride = (end.iterations - before <= 1 ? 2 : 1) * (next - end.progress);
-      end.progress = next;
-    } else {
-      system.restore(work.spare);
-      work.knows_feeding = false;
-      stride = (next - end.progress) / 3;
-    }
-  }
-  end.arrived = end.progress >= 1;
-  end.ran_out = !end.arrived && end.iterations >= max_iterations;
+    if (is_reached)
+      return ParameterStep{ParameterStep::reached, (end.iterations - before <= 1 ? 2 : 1) * taken};
+    system.restore(work.spare);
+    work.knows_feeding = false;
+    return ParameterStep{ParameterStep::failed, taken / 3};
+  });
   system.evaluate();
   return end;
 }

@@ -44,7 +44,7 @@ class Inverse {
   /// From a state near by. False where it does not contract.
   bool correct(const RodCoordinates& wanted, double& residual) {
     return contract([&] { return system_.evaluate(); }, [&] { return step(wanted, System::Twist::Zero()); },
-                    rod_tolerance, iterations_, residual);
+                    rod_tolerance, rod_rounding, iterations_, residual);
   }
 
   /// One step, with a given motion of the platform beside; then exactly onto the wanted coordinates.
@@ -116,11 +116,10 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
   // home with its own lengths: the tied ones are made equal on the way
   const RodTarget from = present(system);
   const RodCoordinates begin = coordinates_of(system.platform());
-  Inverse<System> inverse(system, report.iterations);
-  double part = 0, stride = 0.5;
-  while (part < 1 && stride > 1e-7 && report.iterations < question.max_iterations &&
-         !work.stop.stop_requested()) {
-    const double next = std::min(1.0, part + stride);
+  RodPathEnd end;
+  end.residual = 0;
+  Inverse<System> inverse(system, end.iterations);
+  follow_parameter(end, {{0.5, 1e-7, work.stop}, 0, question.max_iterations}, [&](double next, double taken) {
     system.save(work.spare);
     const RodCoordinates now{begin.z + next * (wanted.z - begin.z), begin.e1 + next * (wanted.e1 - begin.e1),
                              begin.e2 + next * (wanted.e2 - begin.e2)};
@@ -137,38 +136,26 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
       given << ahead->p - system.platform().p, ahead->R.compose(system.platform().R.inverse()).log();
       system.evaluate();
       is_reached =
-          given.tail<3>().norm() < 0.3 && inverse.step(now, given) && inverse.correct(now, report.residual);
-      ++report.iterations;  // the step that led there
+          given.tail<3>().norm() < 0.3 && inverse.step(now, given) && inverse.correct(now, end.residual);
+      ++end.iterations;  // the step that led there
     }
-    if (is_reached) {
-      part = next;
-      stride = 2 * (stride < 0.5 ? stride : 0.25);
-    } else {
-      system.restore(work.spare);
-      stride = (next - part) / 4;
-    }
-  }
+    if (is_reached) return ParameterStep{ParameterStep::reached, std::min(2 * taken, 0.5)};
+    system.restore(work.spare);
+    return ParameterStep{ParameterStep::failed, taken / 4};
+  });
   system.evaluate();
   system.linearise();
-  work.is_solved = part >= 1;
-  if (work.is_solved) {
-    while (work.is_solved && system.truncation() > System::best_truncation && !system.is_finest()) {
-      system.refine();
-      work.is_solved = inverse.correct(wanted, report.residual);
-    }
-    if (work.is_solved) {
-      report = settle(system, report, System::best_truncation);
-      work.is_solved = report.ok() || report.status == Status::unstable;
-      return report;
-    }
+  work.is_solved = end.arrived;
+  while (work.is_solved && system.truncation() > System::best_truncation && !system.is_finest()) {
+    system.refine();
+    work.is_solved = inverse.correct(wanted, end.residual);
   }
-  RodPathEnd end;
-  end.progress = part;
-  end.iterations = report.iterations;
-  end.residual = report.residual;
-  end.ran_out = report.iterations >= question.max_iterations;
-  end.stopped = work.stop.stop_requested();
-  return explain(system, end, {}, false);
+  if (!work.is_solved) return explain(system, end, {}, false);
+  report.iterations = end.iterations;
+  report.residual = end.residual;
+  report = settle(system, report, System::best_truncation);
+  work.is_solved = report.ok() || report.status == Status::unstable;
+  return report;
 }
 
 #define SINEW_FOR(System)                                                                      \

@@ -30,7 +30,7 @@ bool correct(System& system, int& iterations, double& residual, double tolerance
     system.move(system.step(true));
     return true;
   };
-  return contract([&] { return system.evaluate(); }, step, tolerance, iterations, residual);
+  return contract([&] { return system.evaluate(); }, step, tolerance, rod_rounding, iterations, residual);
 }
 
 template <class System>
@@ -44,7 +44,7 @@ bool correct_rods(System& system, int& iterations, double& residual, double tole
     system.move(System::Twist::Zero());
     return true;
   };
-  return contract(error, step, tolerance, iterations, residual);
+  return contract(error, step, tolerance, rod_rounding, iterations, residual);
 }
 
 template <class System>
@@ -89,36 +89,9 @@ class Follower {
         spare_(spare) {}
 
   RodPathEnd run() {
-    double stride = 1, stride_before = 1;
-    RodSigns signs = signs_of(system_);
-    while (end_.progress < 1 && stride > shortest * end_.progress && stride > least &&
-           end_.iterations < options_.max_iterations) {
-      if ((end_.stopped = options_.stop.stop_requested())) break;
-      const double next = next_of(stride);
-      const double taken = next - end_.progress;
-      system_.save(spare_);
-      if (!reach(next)) {
-        retreat();
-        const double fits = 0.9 * longest * system_.length(0) / predicted_;
-        stride = taken * (fits > 1e-6 ? std::min(fits, 0.25) : 1e-6);  // NaN too
-        continue;
-      }
-      pace_ = predicted_ / taken;
-      const RodSigns now = options_.may_stray ? signs : signs_of(system_);
-      if (now != signs && predicted_ > crossing * system_.length(0)) {
-        retreat();
-        if (!(suspect_ > end_.progress)) stride_before = taken;
-        suspect_ = next;
-        continue;
-      }
-      stride = quick_ ? 2 * taken : taken;
-      if (suspect_ > end_.progress && next >= suspect_) stride = stride_before;  // past it
-      if (now != signs) suspect_ = 0;
-      end_.progress = next;
-      signs = now;
-    }
-    end_.arrived = end_.progress == 1;
-    end_.ran_out = !end_.arrived && end_.iterations >= options_.max_iterations;
+    signs_ = signs_of(system_);
+    const ParameterOptions how{{1, least, options_.stop}, shortest, options_.max_iterations};
+    follow_parameter(end_, how, [&](double next, double taken) { return attempt(next, taken); });
     return end_;
   }
 
@@ -128,14 +101,23 @@ class Follower {
   static constexpr double longest = 0.15;   ///< predictor, over a rod's length
   static constexpr double crossing = 1e-5;  ///< ... over which signs may change
 
-  /// No further than half of the way to where another sign was met, until that is near.
-  double next_of(double stride) const {
-    double next = std::min(1.0, end_.progress + stride);
-    if (!(suspect_ > end_.progress)) return next;
-    const double ahead = suspect_ - end_.progress;
-    const bool is_near = pace_ * ahead <= crossing * system_.length(0);
-    next = std::min(next, is_near ? suspect_ : end_.progress + 0.5 * ahead);
-    return next > end_.progress ? next : suspect_;
+  ParameterStep attempt(double next, double taken) {
+    system_.save(spare_);
+    if (!reach(next)) {
+      retreat();
+      const double fits = 0.9 * longest * system_.length(0) / predicted_;
+      return {ParameterStep::failed, taken * (fits > 1e-6 ? std::min(fits, 0.25) : 1e-6)};  // NaN too
+    }
+    const double verifiable = crossing * system_.length(0) / predicted_ * taken;
+    const RodSigns now = options_.may_stray ? signs_ : signs_of(system_);
+    const bool changes = now != signs_;
+    if (changes && predicted_ > crossing * system_.length(0)) {
+      retreat();
+      return {ParameterStep::crossed, 0, verifiable};
+    }
+    signs_ = now;
+    return {changes ? ParameterStep::reached_other_side : ParameterStep::reached, quick_ ? 2 * taken : taken,
+            verifiable};
   }
 
   /// Predictor with the last factors, Newton's method after it. The corrections must stay small beside the
@@ -178,10 +160,9 @@ class Follower {
   const RodPathOptions& options_;
   typename System::Snapshot& spare_;
   RodPathEnd end_;
+  RodSigns signs_;
   bool quick_ = false;
   double predicted_ = 0;  ///< length of the last predictor [m]
-  double pace_ = 0;       ///< ... over its part of the path
-  double suspect_ = 0;    ///< where signs had changed; behind where none are
 };
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "robot/rod_systems.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/solve/report.hpp"
+#include "solve/continuation.hpp"
 
 namespace sinew::inline v0 {
 
@@ -40,32 +40,9 @@ struct RodPathOptions {
 };
 
 /// How a path ended.
-struct RodPathEnd {
-  bool arrived = false;
-  bool ran_out = false;  ///< of iterations
-  bool stopped = false;  ///< on request
-  double progress = 0;   ///< 0 at the start, 1 at the target
-  int iterations = 0;    ///< Newton steps
+struct RodPathEnd : ParameterPath {  ///< iterations: Newton steps
   double residual = std::numeric_limits<double>::infinity();
 };
-
-/// Newton's method as long as each step halves the error, at most twelve of them, to the last digits.
-/// @param error evaluates where the system is; @param step moves it, false where it cannot
-template <class Error, class Step>
-bool contract(Error&& error, Step&& step, double tolerance, int& iterations, double& residual) {
-  double here = error();
-  for (int k = 0; k < 12 && !(here <= rod_rounding); ++k) {
-    if (!step()) return false;
-    ++iterations;
-    const double next = error();
-    const bool is_done = next <= tolerance, gains = next < 0.1 * here;
-    if (!is_done && !(next < 0.5 * here)) return false;
-    here = next;
-    if (is_done && !gains) break;
-  }
-  residual = here;
-  return here <= tolerance;
-}
 
 /// At fixed lengths and wrench, pose and rods together ...
 /// @tparam System RodSystem, TangentSystem or GeneralSystem
@@ -76,9 +53,7 @@ template <class System>
 bool correct_rods(System& system, int& iterations, double& residual, double tolerance);
 
 /// From the state of `system`, which must be in equilibrium and linearised, to `target`. Afterwards the
-/// system is at the last equilibrium found, linearised there. `spare` is memory. A step over which stability
-/// or the sign of the determinant changes is halved until it is short: a long one may have led to a curve
-/// that passes near by.
+/// system is at the last equilibrium found, linearised there. `spare` is memory.
 template <class System>
 RodPathEnd follow(System& system, const RodTarget& target, const RodPathOptions& options,
                   typename System::Snapshot& spare);

@@ -89,28 +89,22 @@ Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
   std::array<double, 6> from, wanted;
   sensor.error(sensing.axial);
   for (int k = 0; k < count; ++k) from[at(k)] = system.axial_force(k);
-  double part = 0, stride = 1;
-  constexpr double shortest = 1e-4;
-  while (part < 1 && stride > shortest && report.iterations < sensing.max_iterations &&
-         !work.stop.stop_requested()) {
-    const double next = std::min(1.0, part + stride);
+  ParameterPath end;
+  follow_parameter(end, {{1, 1e-4, work.stop}, 0, sensing.max_iterations}, [&](double next, double taken) {
     for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k] = std::lerp(from[k], sensing.axial[k], next);
     system.save(work.spare);
     if (contract([&] { return sensor.error(wanted); }, [&] { return sensor.step(wanted); }, rod_tolerance,
-                 report.iterations, report.residual)) {
-      part = next;
-      stride *= 2;
-    } else {
-      system.restore(work.spare);
-      stride = (next - part) / 4;
-    }
-  }
+                 rod_rounding, end.iterations, report.residual))
+      return ParameterStep{ParameterStep::reached, 2 * taken};
+    system.restore(work.spare);
+    return ParameterStep{ParameterStep::failed, taken / 4};
+  });
+  report.iterations = end.iterations;
   work.is_solved = false;
-  if (part < 1) {
+  if (!end.arrived) {
     if (note_stop(work.stop, report)) return report;
-    const bool ran_out = report.iterations >= sensing.max_iterations;
-    report.status = ran_out ? Status::iteration_limit : Status::singular;
-    report.message.append(ran_out
+    report.status = end.ran_out ? Status::iteration_limit : Status::singular;
+    report.message.append(end.ran_out
                               ? "the way to these forces takes more steps than max_iterations; raise it"
                               : "no wrench near the unloaded platform makes the rods pull so; check signs "
                                 "(pull > 0) and lengths");
@@ -119,7 +113,7 @@ Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
   while (!system.is_finest() && system.truncation() > System::best_truncation) {
     system.refine();
     if (contract([&] { return sensor.error(sensing.axial); }, [&] { return sensor.step(sensing.axial); },
-                 rod_tolerance, report.iterations, report.residual))
+                 rod_tolerance, rod_rounding, report.iterations, report.residual))
       continue;
     report.status = Status::stalled;
     report.message.append("the rods bend too sharply to be resolved");

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/at.hpp"
 #include "kinematics/rods/verdict.hpp"
 
 namespace sinew::inline v0 {
-namespace {}  // namespace
-
 template <class System>
 RodTarget target_of(const System& system, Numbers inputs, const Vec<double, 6>& wrench) {
   RodTarget target;
@@ -55,29 +54,25 @@ bool lay_rods(RodWorkOf<System>& work, const SE3<double>& pose, Numbers inputs) 
   system.save(work.before);
   // from the lengths at which they rest to those that are given, the platform held
   RodTarget from = present(system), to = target_of(system, inputs, from.wrench);
-  double part = 0, stride = 0.25;
-  int iterations = 0;
-  while (part < 1 && stride > 1e-3 && !work.stop.stop_requested()) {
-    const double next = std::min(1.0, part + stride);
+  ParameterPath end;
+  constexpr int any = std::numeric_limits<int>::max();
+  follow_parameter(end, {{0.25, 1e-3, work.stop}, 0, any}, [&](double next, double taken) {
     system.save(work.spare);
     for (int k = 0; k < system.rods(); ++k)
       system.set_length(k, std::lerp(from.lengths[at(k)], to.lengths[at(k)], next));
     double residual;
-    if (correct_rods(system, iterations, residual, 1e-10)) {
-      part = next;
-      stride *= 1.5;
-    } else {
-      system.restore(work.spare);
-      stride /= 3;
-    }
-  }
-  if (part < 1) system.restore(work.before);
+    if (correct_rods(system, end.iterations, residual, 1e-10))
+      return ParameterStep{ParameterStep::reached, 1.5 * taken};
+    system.restore(work.spare);
+    return ParameterStep{ParameterStep::failed, taken / 3};
+  });
+  if (!end.arrived) system.restore(work.before);
   system.set_wrench(System::Wrench::Zero());
   system.evaluate();
   system.set_wrench(-system.missing());
   system.evaluate();
   work.is_solved = system.linearise();
-  return part >= 1 && work.is_solved;
+  return end.arrived && work.is_solved;
 }
 
 #define SINEW_FOR(System)                                                      \
