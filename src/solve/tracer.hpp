@@ -2,19 +2,6 @@
 /// One point after the other on the curve of N equations in N unknowns and a parameter λ, by predictor and
 /// corrector in all N + 1 of them: through folds, where no path along λ goes on.
 /// Theory: docs/theory/continuation.md
-///
-/// A problem has a state of its own and
-///
-///     static constexpr int unknowns; using Place;   what `Place` is: { state, lambda, tangent }, see
-///     RodPlace void save(State&); void restore(State&);      no more than that: `evaluate` and `linearise`
-///     follow double evaluate();                            the error where it is, against double
-///     tolerance();                           what counts as solved bool linearise(); there; false where it
-///     is singular at fixed λ bool refine();                                where the state asks for a finer
-///     one; false: fine as it is equations(scale), missing();                  [A c], rows first, c over
-///     `scale`; what balance lacks void move(unknowns, lambda, change);          to λ + change; every unknown
-///     is a length void put(lambda);                             exactly there double size(), unit(),
-///     longest_scale();       of a step that is refused, of A, and of λ CurveSigns signs(); `unstable` and
-///     `own`
 #pragma once
 #include <algorithm>
 #include <array>
@@ -36,7 +23,25 @@ struct CurveSigns {
   bool is_odd = false;  ///< the sign of the bordered determinant, without the poles of what is eliminated
 };
 
-template <class Problem>
+/// N equations and a state of its own. Every unknown is a length; `Place` is { state, lambda, tangent }.
+template <class P>
+concept CurveProblem = requires(P problem, const P& fixed, typename P::Place& place, double lambda,
+                                const Vec<double, P::unknowns>& step) {
+  fixed.save(place.state);
+  problem.restore(place.state);  // `evaluate` and `linearise` follow
+  problem.evaluate();            // the error where it is ...
+  problem.linearise();           // false where it is singular at fixed λ
+  problem.refine();              // where the state asks for a finer grid; false: fine as it is
+  problem.move(step, lambda, /* change of λ */ lambda);
+  problem.put(lambda);                                // exactly there
+  fixed.equations(/* length of λ */ lambda);          // [A c], rows first
+  fixed.missing();                                    // what is to become 0, negative
+  fixed.tolerance(), fixed.rounding();                // ... what counts as solved, and where no step can gain
+  fixed.size(), fixed.unit(), fixed.longest_scale();  // of steps, of A, of λ
+  fixed.signs();                                      // `unstable` and `own` of CurveSigns
+};
+
+template <CurveProblem Problem>
 class Tracer {
  public:
   static constexpr int N = Problem::unknowns;
@@ -258,13 +263,10 @@ class Tracer {
     if (dot(tangent_, ahead) < 0) tangent_ = -tangent_;  // just before a fold λ hardly grows
   }
 
-  /// No step where the error is small enough: near to where the equations are singular it would be one in the
-  /// dark.
   template <class Advance>
   bool contract_onto(Advance&& take_step) {
-    const double enough = problem_.tolerance();
     const auto error = [&] { return residual_ = problem_.evaluate(); };
-    return contract(error, take_step, enough, enough, iterations_, residual_);
+    return contract(error, take_step, problem_.tolerance(), problem_.rounding(), iterations_, residual_);
   }
 
   void move(const Step& step) {

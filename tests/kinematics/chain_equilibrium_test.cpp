@@ -304,6 +304,40 @@ TEST(ChainEquilibrium, AFoldIsFoundWhateverTheLimit) {
   }
 }
 
+ChainState<Planar> at_rest(const ChainRobot<Planar>& robot, const PlanarPose& pose) {
+  ChainState<Planar> state;
+  const Report report = rest(robot, pose, towards_plus, false, state);
+  EXPECT_TRUE(report.ok()) << to_string(report);
+  return state;
+}
+
+/// Nor does a limit far beyond lead over a fold onto the next branch, or a bifurcation to where it holds
+/// again.
+TEST(ChainEquilibrium, NothingIsSteppedOver) {
+  const auto chains = [](const char* name) {
+    const std::string file = std::string(source_folder) + "/robots/" + name;
+    return std::get<ChainRobot<Planar>>(
+        *chain_robot(*read_robot(*read_robot_file(file)), ChainModel::weighted));
+  };
+  struct Case {
+    ChainRobot<Planar> robot;
+    Vec<double, 3> direction;
+    double load;
+    ChainLoadEnd end;
+  };
+  for (const Case& one : {Case{chains("3-frr.yaml"), {0, -1, 0}, 0.0155017, ChainLoadEnd::fold},
+                          Case{chains("3-rfr.yaml"), {0, 1, 0}, 1.115808, ChainLoadEnd::bifurcation}}) {
+    for (const double share : {1.001, 1.3, 10.0, 1e5}) {
+      ChainState<Planar> state = at_rest(one.robot, {0, 0, 0});
+      ChainWork work;
+      const auto path = follow_load(one.robot, one.direction, share * one.load, state, work);
+      EXPECT_EQ(path.end, one.end) << to_string(path.end) << share;
+      EXPECT_NEAR(path.load, one.load, 1e-6 * one.load) << share;
+      EXPECT_NEAR(least_curvature(one.robot, state), 0, 1e-6);
+    }
+  }
+}
+
 TEST(ChainEquilibrium, ALoadMayBeCountedInAnyUnit) {  // squares of 1e±300 are no numbers, or zero
   for (const double unit : {1e-300, 1e-200, 1e200, 1e300}) {
     ChainState<Planar> state;

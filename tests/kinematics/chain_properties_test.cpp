@@ -179,6 +179,10 @@ void expect_moves(const ChainLeg<Space>& leg, const LegSystem<Space>& system, co
   const double scale = constant.head(n).cwiseAbs().maxCoeff() + moves.topRows(n).cwiseAbs().maxCoeff();
   const double condition = lu.maxPivot() / std::abs(lu.matrixLU().diagonal().cwiseAbs().minCoeff());
   if (!(condition < 1e12)) return;  // of two links in line any turn is as good
+  // Eigenvalues below zero: one for each of its constraints, and those of what is unstable
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(shape.transpose() * all.A * shape);
+  const Eigen::Index unstable = (spectrum.eigenvalues().array() < 0).count() - (all.r.size() - n);
+  EXPECT_EQ(found.is_odd(), unstable % 2 == 1) << unstable;
   const double tolerance = 1e-13 * std::max(1e2, condition);
   for (Eigen::Index side = -1; side < by.cols(); ++side) {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(by.cols());

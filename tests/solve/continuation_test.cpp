@@ -65,6 +65,7 @@ class Problem {
   bool linearise() { return true; }
   bool refine() { return false; }
   double tolerance() const { return 1e-13; }
+  double rounding() const { return tolerance(); }
   double size() const { return 1; }
   double unit() const { return 1; }
   double longest_scale() const { return 1; }

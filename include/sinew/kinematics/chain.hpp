@@ -146,7 +146,14 @@ SINEW_API Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Spa
                            ChainState<Space>& state, ChainWork& work, const ChainOptions& options = {});
 
 /// What a growing load comes to.
-enum class ChainLoadEnd { limit, fold, bifurcation, slack, iterations };
+enum class ChainLoadEnd {
+  limit,
+  fold,         ///< the path turns back
+  bifurcation,  ///< an equilibrium beside it takes its place
+  slack,        ///< a tendon would have to push
+  iterations,   ///< the bound on them was met
+  stability,    ///< the path goes on, but under this moment does not hold by itself: none takes its place
+};
 SINEW_API std::string_view to_string(ChainLoadEnd end) noexcept;
 
 struct ChainLoadPath {
@@ -155,8 +162,8 @@ struct ChainLoadPath {
   Report report;    ///< of the last equilibrium, iterations of all; `iteration_limit` where these ended it
 };
 
-/// Adds `direction` times a growing factor to the wrench until it is `limit`, or the path folds, an
-/// equilibrium beside it takes its place, or a tendon goes slack. `state` is the last one. Allocates.
+/// Adds `direction` times a growing factor to the wrench until it is `limit`, or something else ends it, by
+/// arc length: that load is exact to rounding. `state` is the last equilibrium before. Allocates.
 template <class Space>
 SINEW_API ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& direction,
                                     double limit, ChainState<Space>& state, ChainWork& work,

@@ -10,18 +10,21 @@ namespace sinew::inline v0 {
 
 /// Overwrites the right-hand sides (rows × sides) with the solution and A (rows × rows, `stride` apart) with
 /// its factors, by Gaussian elimination with partial pivoting. A singular A gives numbers that are not
-/// finite.
-inline void eliminate(double* A, int rows, int stride, double* right, int sides) {
+/// finite. Returns whether its determinant is negative.
+inline bool eliminate(double* A, int rows, int stride, double* right, int sides) {
+  bool is_negative = false;
   for (int k = 0; k < rows; ++k) {
     double* const pivot = A + k * stride;
     int best = k;
     for (int i = k + 1; i < rows; ++i)
       if (std::abs(A[i * stride + k]) > std::abs(A[best * stride + k])) best = i;
     if (best != k) {
+      is_negative = !is_negative;
       std::swap_ranges(pivot + k, pivot + rows, A + best * stride + k);
       std::swap_ranges(right + k * sides, right + (k + 1) * sides, right + best * sides);
     }
     const double inverse = 1 / pivot[k];
+    is_negative ^= inverse < 0;
     for (int i = k + 1; i < rows; ++i) {
       double* const row = A + i * stride;
       const double share = row[k] * inverse;
@@ -37,6 +40,7 @@ inline void eliminate(double* A, int rows, int stride, double* right, int sides)
     for (int i = 0; i < k; ++i)
       for (int j = 0; j < sides; ++j) right[i * sides + j] -= A[i * stride + k] * own[j];
   }
+  return is_negative;
 }
 
 }  // namespace sinew::inline v0

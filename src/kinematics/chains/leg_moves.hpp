@@ -45,9 +45,11 @@ class LegMoves {
     Slopes slopes;
     to_links(system, slopes);
     if (is_even_) bend_evenly(static_cast<std::size_t>(system.joints), slopes);
-    sweep();
-    join(system, slopes);
+    const bool swept = sweep(), joined = join(system, slopes);
+    is_odd_ = (swept != joined) != (system.holds_length && free_ == Free::platform);
   }
+  /// Whether an odd number of its directions is unstable with the platform held.
+  bool is_odd() const { return is_odd_; }
 
   /// What the leg adds to the platform's equation S y = −g, y what is free; `column` of S where that is a
   /// tension.
@@ -137,17 +139,21 @@ class LegMoves {
 
   /// Gauss, exchanging neighbours, of all links but the last; then each link's direction by the border's
   /// unknowns: ψ = right − of_line y − of_force f − of_tension t − of_last ψ_last.
-  void sweep() const {
+  /// Whether the pivots' product is negative.
+  bool sweep() const {
+    bool is_negative = false;
     double below = links_ > 1 ? row_[0][next] : 0;  // T is symmetric until its rows are exchanged
     for (std::size_t k = 0; k + 1 < links_; ++k) {
       auto &pivot = row_[k], &row = row_[k + 1];
       const double coming = row[next];
       if (std::abs(below) > std::abs(pivot[diagonal])) {
+        is_negative = !is_negative;
         std::swap(pivot[diagonal], below);
         std::swap(pivot[next], row[diagonal]);
         std::swap(pivot[second], row[next]);
         for (std::size_t s = right; s <= of_tension; ++s) std::swap(pivot[s], row[s]);
       }
+      is_negative ^= pivot[diagonal] < 0;
       const double share = below / pivot[diagonal];
       row[diagonal] -= share * pivot[next];
       row[next] -= share * pivot[second];
@@ -161,6 +167,7 @@ class LegMoves {
       put_in(row, second, k + 2);
       for (std::size_t s = right; s <= of_last; ++s) row[s] *= inverse;
     }
+    return is_negative;
   }
   void put_in(typename Rows::value_type& row, Entry entry, std::size_t link) const {
     if (link + 1 == links_) row[of_last] += row[entry];
@@ -168,8 +175,9 @@ class LegMoves {
     for (std::size_t s = right; s <= of_last; ++s) row[s] -= row[entry] * row_[link][s];
   }
 
-  /// The border's equations, the directions of all links but the last put in.
-  void join(const LegSystem<Space>& system, const Slopes& slopes) const {
+  /// The border's equations, the directions of all links but the last put in. Whether their determinant is
+  /// negative.
+  bool join(const LegSystem<Space>& system, const Slopes& slopes) const {
     const auto& closure = system.closure;
     // what slopes times directions are: a constant, and by each unknown of the border
     std::array<std::array<double, 5>, 3> dot;
@@ -200,7 +208,7 @@ class LegMoves {
     }
     if (free_ == Free::tensions)
       for (std::size_t row = 0; row < 3; ++row) to[row][1] = -A[row][tension];
-    sinew::eliminate(A[0], holds_length ? 4 : 3, 4, to[0], static_cast<int>(sides));
+    const bool is_negative = sinew::eliminate(A[0], holds_length ? 4 : 3, 4, to[0], static_cast<int>(sides));
     if (!holds_length) to[tension][1] = free_ == Free::tensions ? 1 : 0;
     for (std::size_t s = 0; s < sides; ++s) {
       border_[across][s] = s == 0 ? dot[0][0] : 0;
@@ -209,6 +217,7 @@ class LegMoves {
         border_[across][s] += dot[0][c + 1] * to[c][s];
       }
     }
+    return is_negative;
   }
 
   double link(std::size_t j, const std::array<double, 4>& by) const {
@@ -219,7 +228,7 @@ class LegMoves {
   }
 
   const PseudoRigid& chain_;
-  bool is_even_;
+  bool is_even_, is_odd_ = false;
   Free free_;
   std::size_t links_;
   Rows::value_type *border_, *row_;

@@ -3,45 +3,108 @@
 #include <cmath>
 
 #include "kinematics/chains/solver.hpp"
-#include "solve/continuation.hpp"
+#include "solve/growing_load.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
 
 std::string_view to_string(ChainLoadEnd end) noexcept {
-  constexpr std::string_view names[] = {"limit", "fold", "bifurcation", "slack", "iterations"};
+  constexpr std::string_view names[] = {"limit", "fold", "bifurcation", "slack", "iterations", "stability"};
   return names[static_cast<std::size_t>(end)];
 }
 
 namespace {
 
-/// Whether a load moves what is softest near the end of its path: then the path turns back there, else
-/// another one crosses it.
+/// What the solver of growing loads asks of chains (solve/tracer.hpp, growing_load.hpp): legs eliminated,
+/// unknowns are the platform's motion, turns over the longest chain.
 template <class Space>
-bool answers(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& direction,
-             const ChainState<Space>& state, ChainWork& work) {
-  Mat<double, Space::dof, Space::dof> C = compliance(robot, state, work);
-  Vec<double, Space::dof> load = direction;
-  double size = 0;
-  for (const auto& leg : robot.legs) size = std::max(size, leg.chain.length);
-  for (int k = Space::dimension; k < Space::dof; ++k) {
-    C.row(k) *= size, C.col(k) *= size;
-    load[k] /= size;
-  }
-  return std::sqrt(squared_norm(Vec<double, Space::dof>(C * load))) >
-         0.01 * C.norm() * std::sqrt(squared_norm(load));
-}
+class ChainProblem {
+ public:
+  static constexpr int unknowns = Space::dof;
+  using State = ChainState<Space>;
+  struct Place {
+    State state;
+    double lambda = 0;
+    Vec<double, unknowns + 1> tangent = Vec<double, unknowns + 1>::Zero();
+  };
+  using Motion = Vec<double, unknowns>;
 
-/// A load that moves the platform by about a hundredth of a leg's length.
-template <class Space>
-double first_stride(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& direction,
-                    const ChainState<Space>& state, ChainWork& work) {
-  double size = 0;
-  for (const auto& leg : robot.legs) size = std::max(size, leg.chain.length);
-  Vec<double, Space::dof> motion = compliance(robot, state, work) * direction;
-  for (int k = Space::dimension; k < Space::dof; ++k) motion[k] *= size;
-  return 0.01 * size / std::sqrt(squared_norm(motion));
-}
+  /// @param state is moved; @param load is added to its wrench, λ times
+  ChainProblem(const ChainRobot<Space>& robot, Solver<Space>& solver, State& state, const Motion& load)
+      : solver_(solver),
+        state_(state),
+        first_(state.wrench),
+        load_(load) {
+    for (const auto& leg : robot.legs) unit_ += leg.bending_stiffness / std::pow(leg.chain.length, 3);
+  }
+
+  void save(State& to) const { to = state_; }
+  void restore(const State& from) { state_ = from; }
+  double evaluate() {
+    reduced_ = solver_.reduce(state_.pose, state_.legs, state_.hold, state_.wrench);
+    return solver_.residual();
+  }
+  bool linearise() { return reduced_.S.allFinite(); }
+  bool refine() { return false; }
+  double tolerance() const { return 1e-11 * size(); }
+  double rounding() const { return 1e-14 * size(); }
+  double size() const { return solver_.size(); }
+  double unit() const { return unit_; }  ///< Σ EI/ℓ³
+  double longest_scale() const { return std::max(size(), per_length(load_).norm() / unit_); }
+
+  std::array<double, static_cast<std::size_t>(unknowns*(unknowns + 1))> equations(double scale) const {
+    std::array<double, static_cast<std::size_t>(unknowns * (unknowns + 1))> rows;
+    Eigen::Map<Eigen::Matrix<double, unknowns, unknowns + 1, Eigen::RowMajor>> to(rows.data());
+    for (int k = 0; k < unknowns; ++k)
+      to.col(k) = per_length(reduced_.S.col(k)) / (k < Space::dimension ? 1 : size());
+    to.col(unknowns) = per_length(load_) / -scale;
+    return rows;
+  }
+  Motion missing() const { return per_length(-reduced_.g); }
+  void move(const Motion& step, double lambda, double change) {
+    const Motion motion = per_length(step);
+    solver_.move(state_.legs, state_.hold, motion);
+    state_.pose = Space::moved(state_.pose, motion);
+    put(lambda + change);
+  }
+  void put(double lambda) { state_.wrench = first_ + lambda * load_; }
+  /// By the inertia of a Schur complement, but for what an even number of one leg's own directions would add.
+  CurveSigns signs() const {
+    const auto rows = equations(1);
+    Eigen::Matrix<double, unknowns, unknowns, Eigen::RowMajor> S;
+    for (int k = 0; k < unknowns * unknowns; ++k)
+      S.data()[k] = rows[static_cast<std::size_t>(k + k / unknowns)];
+    std::array<double, static_cast<std::size_t>(unknowns)> values;
+    symmetric_eigenvalues(MatrixView(S.data(), unknowns, unknowns), values);
+    CurveSigns signs;
+    signs.own = signs.unstable = solver_.odd_legs();
+    for (const double value : values) signs.unstable += value < 0;
+    return signs;
+  }
+  int giving_way(const CurveSigns& signs) const { return signs.unstable; }
+  bool is_symmetric() const {
+    return Space::dimension == 2 || state_.wrench.template tail<unknowns - Space::dimension>().isZero(0);
+  }
+  /// To where a tendon would push.
+  double margin() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const ChainLegState& leg : state_.legs) least = std::min({least, leg.tension[0], leg.tension[1]});
+    return least + slack_tolerance;
+  }
+
+ private:
+  /// Moments as forces, turns as lengths back to turns.
+  Motion per_length(Motion of) const {
+    of.template tail<unknowns - Space::dimension>() /= size();
+    return of;
+  }
+
+  Solver<Space>& solver_;
+  State& state_;
+  Motion first_, load_;
+  typename Solver<Space>::Reduced reduced_{Mat<double, unknowns, unknowns>::Zero(), Motion::Zero()};
+  double unit_ = 0;
+};
 
 }  // namespace
 
@@ -49,71 +112,40 @@ template <class Space>
 ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& direction,
                           double limit, ChainState<Space>& state, ChainWork& work,
                           const ChainOptions& options) {
-  const double largest = direction.cwiseAbs().maxCoeff();
-  const int scale = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
-  if (std::abs(scale) > 100) {  // its squares overflow or vanish; by a power of two, exactly
-    Vec<double, Space::dof> scaled = direction;
-    for (double& part : scaled) part = std::scalbn(part, -scale);
-    ChainLoadPath path = follow_load(robot, scaled, std::scalbn(limit, scale), state, work, options);
-    path.load = std::scalbn(path.load, -scale);
-    return path;
-  }
   ChainLoadPath path;
   if (!fits(robot, state)) {
     path.report.status = Status::bad_input;
     path.report.message.append("the state is of another robot");
     return path;
   }
-  Solver<Space> solver(robot, work, options);
   path.report = check_hold(robot, state.hold);
   if (!path.report.ok()) return path;
-  solver.set_reach(0.1);
-  const bool was_stable = least_curvature(robot, state) > 0;
-  const Vec<double, Space::dof> first = state.wrench;
-  ChainState<Space> ahead = state;
-  const auto attempt = [&](double next) {
-    ahead = state;
-    ahead.wrench = first + next * direction;
-    path.end = solver.has_budget() ? ChainLoadEnd::fold : ChainLoadEnd::iterations;
-    if (!solver.solve(ahead.pose, ahead.legs, ahead.hold, ahead.wrench)) return false;
-    measure_tendons(robot, ahead);
-    path.end = ChainLoadEnd::slack;
-    Report report;
-    name_slack(ahead, report);
-    if (!report.ok()) return false;
-    path.end = ChainLoadEnd::fold;
-    if (was_stable && !(least_curvature(robot, ahead) > 0)) return false;
-    std::swap(state, ahead);
-    path.end = ChainLoadEnd::limit;
-    return true;
-  };
-  double done = 0;
-  const double begin = std::min(limit, first_stride(robot, direction, state, work));
-  const auto step = [&](double stride) -> std::optional<double> {
-    const double next = stride < limit - done ? done + stride : limit;
-    if (!attempt(next)) {
-      const double shorter = std::min(stride, limit - done) / 4;
-      return shorter > 1e-8 * std::max(done, begin) ? shorter : 0;
-    }
-    done = next;
-    return done < limit ? std::optional(2 * stride) : std::nullopt;
-  };
-  if (begin > 0)
-    take_steps(
-        {begin, 0, work.stop}, [] { return true; }, step);
-  path.load = done;
-  if (path.end == ChainLoadEnd::fold && !answers(robot, direction, state, work))
-    path.end = ChainLoadEnd::bifurcation;
-  const auto reduced = solver.reduce(state.pose, state.legs, state.hold, state.wrench);
+  Solver<Space> solver(robot, work, options);
+  check_regularity(solver, solver.reduce(state.pose, state.legs, state.hold, state.wrench), path.report);
+  if (!path.report.ok()) return path;
+  double bending = 0;  // a force that bends the chains, roughly
+  for (const auto& leg : robot.legs) bending += leg.bending_stiffness / std::pow(leg.chain.length, 2);
+  const double largest = direction.cwiseAbs().maxCoeff(), unit = bending / largest;
+  using Problem = ChainProblem<Space>;
+  const Vec<double, Space::dof> load = direction / largest * bending;
+  typename Problem::Place places[4] = {{state}, {state}, {state}, {state}};
+  Tracer<Problem> tracer({robot, solver, state, load}, 0, places[0], places[1]);
+  const Growth grown = GrowingLoad<Problem>(tracer, places[2], places[3]).run(limit / unit, work.stop, [&] {
+    return tracer.iterations() < options.max_iterations;
+  });
+  using End = ChainLoadEnd;
+  constexpr End ends[] = {End::limit, End::fold, End::bifurcation, End::stability,
+                          End::slack, End::fold, End::iterations,  End::iterations};
+  path.end = ends[static_cast<int>(grown.end)];
+  path.load = grown.end == GrowthEnd::limit ? limit : grown.parameter * unit;
+  measure_tendons(robot, state);
+  solver.reduce(state.pose, state.legs, state.hold, state.wrench);
   path.report.residual = solver.residual();
-  path.report.iterations = solver.iterations();
-  if (note_stop(work.stop, path.report)) {
-    path.end = ChainLoadEnd::iterations;
-  } else if (path.end == ChainLoadEnd::iterations) {
+  path.report.iterations = tracer.iterations();
+  if (!note_stop(work.stop, path.report) && grown.end == GrowthEnd::ran_out) {
     path.report.status = Status::iteration_limit;
     path.report.message.append("the iterations ran out before the load stopped growing");
   }
-  if (done == 0) check_regularity(solver, reduced, path.report);
   return path;
 }
 

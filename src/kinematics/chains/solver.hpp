@@ -59,7 +59,6 @@ class Solver {
   double residual() const { return residual_; }  ///< unbalance as a length [m]
   int iterations() const { return iterations_; }
   int max_iterations() const { return options_.max_iterations; }
-  bool has_budget() const { return iterations_ < options_.max_iterations; }
 
   Reduced reduce(const Pose& pose, std::span<const ChainLegState> legs, std::span<const ChainHold> hold,
                  const Motion& wrench) {
@@ -67,12 +66,14 @@ class Solver {
     Reduced reduced{Mat<double, dof, dof>::Zero(), -wrench};
     Motion balance = -wrench;
     residual_ = 0;
+    odd_legs_ = 0;
     for (std::size_t i = 0; i < legs.size(); ++i) {
       const auto& leg = robot_.legs[i];
       form(leg, platform, legs[i], hold[i], system_);
       measure(leg);
       LegMoves<Space> moves = moves_of(i);
       moves.eliminate(system_);
+      odd_legs_ += moves.is_odd();
       moves.add_to(system_, static_cast<Eigen::Index>(i), reduced.S, reduced.g);
       balance += legs[i].force * system_.closure.c_x;
     }
@@ -81,8 +82,20 @@ class Solver {
     return reduced;
   }
 
-  /// A solve that turns a joint by more [rad] fails: it would be on another branch.
-  void set_reach(double reach) { reach_ = reach; }
+  /// Of the system last reduced: legs that are unstable by themselves in an odd number of directions.
+  int odd_legs() const { return odd_legs_; }
+  double size() const { return size_; }  ///< of the longest chain
+
+  /// The largest turn of a joint as the platform, or the tensions, move from where they were last reduced.
+  double move(std::vector<ChainLegState>& legs, std::span<const ChainHold> hold, const Motion& motion) {
+    double step = 0;
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      const std::span<const double> all(motion.data(), static_cast<std::size_t>(dof));
+      step =
+          worse(step, moves_of(i).move(free_ == Free::tensions ? all.subspan(i, 1) : all, hold[i], legs[i]));
+    }
+    return step;
+  }
 
   /// From where pose and legs are; false where it does not get there.
   bool solve(Pose& pose, std::vector<ChainLegState>& legs, std::span<const ChainHold> hold,
@@ -91,8 +104,9 @@ class Solver {
       for (int k = 0; k < 2; ++k)
         if (hold[i].length_of != k && free_ == Free::platform)
           legs[i].tension[static_cast<std::size_t>(k)] = hold[i].tension[static_cast<std::size_t>(k)];
+    constexpr double reach = 0.5;  // [rad]: who turns a joint by more would be on another branch
     double walked = 0;
-    for (int round = 0; round < 25 && has_budget(); ++round) {
+    for (int round = 0; round < 25 && iterations_ < options_.max_iterations; ++round) {
       Reduced reduced = reduce(pose, legs, hold, wrench);
       if (!std::isfinite(residual_)) return false;
       if (iterations_++ == 0) begun_ = reduced;
@@ -100,7 +114,7 @@ class Solver {
       const double step = move(legs, hold, motion);
       if (free_ == Free::platform) pose = Space::moved(pose, motion);
       walked += step;
-      if (!(walked < reach_)) return false;
+      if (!(walked < reach)) return false;
       if (step < 1e-11 || (residual_ < 1e-13 * size_ && step < 1e-9)) {
         reached_ = reduce(pose, legs, hold, wrench);
         return residual_ < 1e-11 * size_;
@@ -134,25 +148,14 @@ class Solver {
     if (options_.evenly_bent) residual_ = worse(residual_, even * (size_ / leg.spring(0)));
   }
 
-  /// The largest turn of a joint.
-  double move(std::vector<ChainLegState>& legs, std::span<const ChainHold> hold, const Motion& motion) {
-    double step = 0;
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-      const std::span<const double> all(motion.data(), static_cast<std::size_t>(dof));
-      step =
-          worse(step, moves_of(i).move(free_ == Free::tensions ? all.subspan(i, 1) : all, hold[i], legs[i]));
-    }
-    return step;
-  }
-
   const ChainRobot<Space>& robot_;
   ChainWork& work_;
   ChainOptions options_;
   Free free_;
   LegSystem<Space> system_;
   Reduced begun_{Mat<double, dof, dof>::Zero(), Motion::Zero()}, reached_ = begun_;
-  double size_ = 0, stiffness_ = 0, residual_ = 0, reach_ = 0.5;
-  int iterations_ = 0;
+  double size_ = 0, stiffness_ = 0, residual_ = 0;
+  int iterations_ = 0, odd_legs_ = 0;
 };
 
 void measure_tendons(const auto& leg, ChainLegState& state) {
@@ -166,11 +169,14 @@ void measure_tendons(const ChainRobot<Space>& robot, ChainState<Space>& state) {
   for (std::size_t i = 0; i < robot.legs.size(); ++i) measure_tendons(robot.legs[i], state.legs[i]);
 }
 
+/// A tendon that pushes by less counts as loose [N].
+inline constexpr double slack_tolerance = 1e-9;
+
 template <class Space>
 void name_slack(const ChainState<Space>& state, Report& report) {
   for (std::size_t i = 0; i < state.legs.size(); ++i)
     for (std::size_t k = 0; k < 2; ++k)
-      if (state.legs[i].tension[k] < -1e-9)
+      if (state.legs[i].tension[k] < -slack_tolerance)
         return say_leg(report, Status::slack, i,
                        k == 0 ? ": tendon 1 would have to push" : ": tendon 2 would have to push");
 }

@@ -48,6 +48,9 @@ class RodProblem {
   double unit() const { return unit_; }  ///< Σ EI/L³
   /// A pose that is held is known to rounding, which stiff rods turn into forces.
   double tolerance() const { return way_.holds_pose ? rod_quick_tolerance : rod_tolerance; }
+  /// No step where the error is small enough: near to where the equations are singular it would be one in the
+  /// dark.
+  double rounding() const { return tolerance(); }
   double longest_scale() const {
     double fed = 0;
     for (int k = 0; k < system_.feeds(); ++k) fed = std::max(fed, std::abs(rate(k)));
