@@ -278,11 +278,6 @@ FoundEquilibrium found_equilibrium(const Report& report, const System& system, W
           .unstable_directions = unstable_directions(system)};
 }
 
-/// Each start of rods that bear torque takes a tenth of a second.
-template <class Rods>
-constexpr bool is_slow =
-    std::is_base_of_v<GeneralSystem, std::decay_t<decltype(std::declval<Rods&>().system)>>;
-
 bool is_solution(const Report& report) { return report.ok() || report.status == Status::unstable; }
 
 }  // namespace
@@ -293,8 +288,8 @@ std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
   if (!bears_load(robot) || !check_workspace(robot, work).ok()) return found;
   const SE3<double> home = home_of(robot);
   const double size = home.p.norm();
-  with_rods(work, [&]<class Rods>(Rods& rods) {
-    const int starts = is_slow<Rods> ? 16 : 160;
+  with_rods(work, [&]<class System>(RodWorkOf<System>& rods) {
+    const int starts = System::is_slow ? 16 : 160;  // of the slow ones each takes a tenth of a second
     RodQuestion question = question_of(robot, options, rods);
     question.resume = false;
     question.start.reset();
@@ -322,8 +317,8 @@ std::vector<FoundEquilibrium> inverse_equilibria(const AnyRobot& robot, const Sp
                                 [&](double a, double b) { return std::abs(a - b) < 1e-7 * size; });
     });
   };
-  with_rods(work, [&]<class Rods>(Rods& rods) {
-    const int ways = is_slow<Rods> ? 4 : 60;
+  with_rods(work, [&]<class System>(RodWorkOf<System>& rods) {
+    const int ways = System::is_slow ? 4 : 60;
     RodQuestion question = question_of(robot, options, rods);
     for (int k = -1; k < ways && !rods.stop.stop_requested(); ++k) {
       question.resume = false;

@@ -68,6 +68,10 @@ class GeneralSystem {
  public:
   using Wrench = Vec<double, 6>;
   using Twist = Vec<double, 6>;
+  static constexpr bool is_slow = true;
+  static constexpr std::string_view has_no_rest =
+      "no equilibrium was found of each rod by itself, held at home: a wide strip or a strongly bent rod may "
+      "have none near an arc";
   explicit GeneralSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
 
   /// A state to return to.

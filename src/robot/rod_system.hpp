@@ -36,6 +36,12 @@ class RodSystem {
  public:
   using Wrench = Vec<double, 6>;
   using Twist = Vec<double, 6>;
+  /// Whether a step costs some hundred times as much as one of the others: fewer are tried then.
+  static constexpr bool is_slow = false;
+  /// What is said where rods cannot be laid to their home.
+  static constexpr std::string_view has_no_rest =
+      "the rods cannot be laid to home: a tip lies on the line of its guide, so that where it bends is not "
+      "determined, or behind it, or the rods' weight is too much for them";
   explicit RodSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
 
   /// Estimated error from which an answer that is not resumed takes the fine nodes: stiff robots turn it into

@@ -24,6 +24,8 @@ class TangentSystem {
  public:
   using Wrench = Vec<double, 6>;
   using Twist = Vec<double, 6>;
+  static constexpr bool is_slow = false;
+  static constexpr std::string_view has_no_rest = RodSystem::has_no_rest;
   explicit TangentSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
 
   /// A state to return to.

@@ -241,7 +241,7 @@ bool detour(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>&
 template <class System>
 bool reach_otherwise(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>& wanted,
                      const RodQuestion& question, const RodWay& way, const RodPathEnd& end, Report& report) {
-  if constexpr (std::is_base_of_v<GeneralSystem, System>) return false;  // each way would take seconds
+  if constexpr (System::is_slow) return false;  // each way would take seconds
   auto stopped = work.system.snapshot();
   if (detour(work, home, wanted, question, report)) return true;
   work.system.restore(stopped);

@@ -23,9 +23,8 @@ void set_gravity(RodWorkOf<System>& rods, const Vec3<double>& gravity) {
   }
 }
 
-/// A step of rods that bear torque costs some hundred times as much as one of the others.
 template <class System>
-inline constexpr int most_iterations = std::is_base_of_v<GeneralSystem, System> ? 400 : 4000;
+inline constexpr int most_iterations = System::is_slow ? 400 : 4000;
 
 /// The question with the weight of the platform in its wrench.
 template <class Work>

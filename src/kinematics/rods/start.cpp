@@ -23,15 +23,7 @@ Report go_home(RodWorkOf<System>& work, const SE3<double>& home) {
     if (!rest_at(work.system, home)) {
       Report report = failed(Status::singular);
       if (work.system.closes()) report.message.append("a leg beside the rods cannot close at home, or ");
-      if constexpr (std::is_base_of_v<GeneralSystem, System>)
-        report.message.append(
-            "no equilibrium was found of each rod by itself, held at home: a wide strip or a strongly bent "
-            "rod "
-            "may have none near an arc");
-      else
-        report.message.append(
-            "the rods cannot be laid to home: a tip lies on the line of its guide, so that where it bends is "
-            "not determined, or behind it, or the rods' weight is too much for them");
+      report.message.append(System::has_no_rest);
       report.message.append("; choose another home");
       return report;
     }

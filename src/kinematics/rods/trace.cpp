@@ -85,7 +85,7 @@ RodFold find_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) 
     fold.platform = work.system.platform();
     return true;
   };
-  walk_on(work, tracer, std::is_base_of_v<GeneralSystem, System> ? 40 : 200, is_beyond);
+  walk_on(work, tracer, System::is_slow ? 40 : 200, is_beyond);
   fold.residual = tracer.residual();
   if (!fold.arrived) tracer.restore(start);
   return fold;
@@ -118,7 +118,7 @@ RodLoad load_rods(RodWorkOf<System>& work, const Vec<double, 6>& direction, doub
   RodWay way{present(system), present(system), false, {}, {}};
   way.target.wrench += whole;
   auto tracer = tracer_of(work, way, 0);
-  constexpr int most = std::is_base_of_v<GeneralSystem, System> ? 400 : 4000;
+  constexpr int most = System::is_slow ? 400 : 4000;
   int steps = 0;
   const Growth grown = GrowingLoad<RodProblem<System>>(tracer, work.places[2], work.places[3])
                            .run(limit * largest / unit, work.stop, [&] { return steps++ < most; });
