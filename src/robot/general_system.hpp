@@ -9,8 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "robot/rod_system.hpp"
+#include "robot/rod_group.hpp"
 #include "sinew/link/held_rod.hpp"
+#include "sinew/robot/rod_reading.hpp"
 
 namespace sinew::inline v0 {
 
@@ -64,10 +65,8 @@ struct GeneralRod : GeneralRodState {
 };
 
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
-class GeneralSystem {
+class GeneralSystem : public HeavyRodGroup {
  public:
-  using Wrench = Vec<double, 6>;
-  using Twist = Vec<double, 6>;
   static constexpr bool is_slow = true;
   static constexpr std::string_view has_no_rest =
       "no equilibrium was found of each rod by itself, held at home: a wide strip or a strongly bent rod may "
@@ -87,26 +86,15 @@ class GeneralSystem {
 
   /// @name What is held
   /// @{
-  int rods() const { return static_cast<int>(rods_.size()); }
-  int inputs() const { return inputs_; }
-  int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
-  /// Where a rod's coordinates begin among the robot's.
-  int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
-  bool in_domain(int, double length) const { return length > 0 && std::isfinite(length); }
-  double radius() const { return radius_; }  ///< of the platform [m]
   Vec3<double> base(int rod) const { return at(rod).frame.p; }
   Vec3<double> platform_point(int rod) const { return at(rod).platform_point; }
   double stiffness(int rod) const { return at(rod).stiffness; }  ///< EI [N m²]
   double length(int rod) const { return at(rod).length; }
   void set_length(int rod, double length) { at(rod).length = length; }
   void set_inputs(std::span<const double> inputs);  ///< the lengths of all rods [m]
-  const SE3<double>& platform() const { return platform_; }
-  void set_platform(const SE3<double>& pose) { platform_ = pose; }
-  Wrench wrench() const { return wrench_; }  ///< of the world, base axes
+  Wrench wrench() const { return wrench_; }         ///< of the world, base axes
   void set_wrench(const Wrench& wrench) { wrench_ = wrench; }
-  const Vec3<double>& gravity() const { return gravity_; }  ///< on the rods [m/s²]
-  void set_gravity(const Vec3<double>& gravity);            ///< beside the rods' own load
-  bool has_mass() const;
+  void set_gravity(const Vec3<double>& gravity);
   double weight_energy() const;  ///< of all rods, after `evaluate` [J]; 0 with the rods in their bases
   int elements() const { return elements_; }  ///< even steps of the integration along each rod
   bool is_fine() const { return elements_ > coarse_elements; }
@@ -167,23 +155,16 @@ class GeneralSystem {
   static constexpr double quick_truncation = 1e-9;
 
  private:
-  GeneralRod& at(int rod) { return rods_[static_cast<std::size_t>(rod)]; }
-  const GeneralRod& at(int rod) const { return rods_[static_cast<std::size_t>(rod)]; }
+  GeneralRod& at(int rod) { return all_[static_cast<std::size_t>(rod)]; }
+  const GeneralRod& at(int rod) const { return all_[static_cast<std::size_t>(rod)]; }
   void sum_closed();
   static void move_rod(GeneralRod& rod, const Vec<double, 6>& by, double fed);
 
-  std::vector<GeneralRod> rods_;
-  std::vector<int> input_of_, coordinate_of_;
-  std::vector<double> mass_;        ///< of each rod along its length [kg/m]
-  std::vector<Vec3<double>> load_;  ///< beside its weight [N/m]
-  int inputs_ = 0, elements_ = coarse_elements;
-  SE3<double> platform_;
-  Vec3<double> gravity_ = Vec3<double>::Zero();
+  std::vector<GeneralRod> all_;
+  int elements_ = coarse_elements;
   Wrench wrench_ = Wrench::Zero(), sum_ = Wrench::Zero();
   double rod_error_ = 0;
   Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness_ = Mat<double, 6, 6>::Zero();
-  Lu6 lu_;
-  double radius_ = 1;
 };
 
 }  // namespace sinew::inline v0

@@ -8,34 +8,15 @@
 #include <span>
 #include <vector>
 
+#include "robot/rod_group.hpp"
 #include "robot/rod_kernels.hpp"
-#include "sinew/leg/rod_leg.hpp"
-#include "sinew/math/linalg.hpp"
-#include "sinew/robot/parallel.hpp"
 #include "sinew/robot/rod_reading.hpp"
 
 namespace sinew::inline v0 {
 
-/// LU factors of a 6×6 matrix whose moments are divided by a length first, with partial pivoting.
-class Lu6 {
- public:
-  /// False where a pivot is 0 or not a number.
-  bool factor(const double* matrix, double length);
-  void solve(const double* rhs, double* x) const;
-  double smallest_pivot() const { return smallest_; }  ///< over the largest, 0 to 1
-  bool has_negative_determinant() const;
-
- private:
-  std::array<double, 36> lu_;
-  std::array<int, 6> order_{};
-  double per_length_ = 1, smallest_ = 0;
-};
-
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
-class RodSystem {
+class RodSystem : public RodGroup {
  public:
-  using Wrench = Vec<double, 6>;
-  using Twist = Vec<double, 6>;
   /// Whether a step costs some hundred times as much as one of the others: fewer are tried then.
   static constexpr bool is_slow = false;
   /// What is said where rods cannot be laid to their home.
@@ -64,21 +45,12 @@ class RodSystem {
 
   /// @name What is held
   /// @{
-  int rods() const { return rods_; }
-  int inputs() const { return inputs_; }
-  int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
-  /// Where a rod's coordinates begin among the robot's.
-  int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
-  bool in_domain(int, double length) const { return length > 0 && std::isfinite(length); }
-  double radius() const { return radius_; }  ///< of the platform [m]: makes moments comparable with forces
   Vec3<double> base(int rod) const;
   Vec3<double> platform_point(int rod) const;
   double stiffness(int rod) const;  ///< EI [N m²]
   double length(int rod) const;
   void set_length(int rod, double length);
-  void set_inputs(std::span<const double> inputs);  ///< the lengths of all rods [m]
-  const SE3<double>& platform() const { return platform_; }
-  void set_platform(const SE3<double>& pose) { platform_ = pose; }
+  void set_inputs(std::span<const double> inputs);                          ///< the lengths of all rods [m]
   Wrench wrench() const { return Eigen::Map<const Wrench>(held_.wrench); }  ///< of the world, base axes
   void set_wrench(const Wrench& wrench) { Eigen::Map<Wrench>(held_.wrench) = wrench; }
   bool is_fine() const { return is_fine_; }
@@ -174,16 +146,11 @@ class RodSystem {
   std::vector<CoarseRods> coarse_;
   std::vector<FineRods> fine_;
   std::vector<RodFeed> fed_;
-  std::vector<int> input_of_, coordinate_of_;
-  int rods_ = 0, inputs_ = 0;
   bool is_fine_ = false;
-  SE3<double> platform_;
   int carried_ = 0;  ///< steps since the last evaluation anew
   RodPlatform held_{};
   RodSums sums_{};
   bool has_inverse_ = false;  ///< in `held_`; else there are factors
-  Lu6 lu_;
-  double radius_ = 1;
 };
 
 }  // namespace sinew::inline v0

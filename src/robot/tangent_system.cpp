@@ -41,16 +41,9 @@ NodePlace place_of(int node, int elements) {
 }  // namespace
 
 TangentSystem::TangentSystem(const ParallelRobot<RodLeg>& robot)
-    : groups_(at((robot.leg_count() + rod_lanes - 1) / rod_lanes)),
-      fed_(groups_.size()),
-      rods_(robot.leg_count()),
-      inputs_(robot.total.input),
-      platform_(SE3<double>::from(robot.home)),
-      radius_(robot.platform_radius) {
-  for (const LegPlace& place : robot.places) {
-    input_of_.push_back(place.input);
-    coordinate_of_.push_back(place.coordinate);
-  }
+    : HeavyRodGroup(robot),
+      groups_(at((robot.leg_count() + rod_lanes - 1) / rod_lanes)),
+      fed_(groups_.size()) {
   for (TangentRods& rods : groups_) rods = {};
   for (int k = 0; k < rods_; ++k) {
     const RodLeg& leg = robot.legs[at(k)];
@@ -66,8 +59,6 @@ TangentSystem::TangentSystem(const ParallelRobot<RodLeg>& robot)
     rods.shear[i] = leg.link.shear_compliance();
     rods.active[i] = 1;
     rods.length[i] = 1;
-    mass_.push_back(leg.link.mass_per_length());
-    load_.push_back(leg.link.load);
     put(leg.link.load, rods.weight, i);
   }
   fill_idle_lanes();
@@ -146,13 +137,8 @@ void TangentSystem::set_inputs(std::span<const double> inputs) {
 
 void TangentSystem::set_gravity(const Vec3<double>& gravity) {
   gravity_ = gravity;
-  for (int k = 0; k < rods_; ++k)
-    put(gravity * mass_[at(k)] + load_[at(k)], groups_[at(k / rod_lanes)].weight, k % rod_lanes);
+  for (int k = 0; k < rods_; ++k) put(weight_of(k), groups_[at(k / rod_lanes)].weight, k % rod_lanes);
   fill_idle_lanes();
-}
-
-bool TangentSystem::has_mass() const {
-  return std::ranges::any_of(mass_, [](double mass) { return mass > 0; });
 }
 
 /// The tangent at a place of [0, 1]: interpolated and put back to length 1.
@@ -259,9 +245,7 @@ void TangentSystem::move(const Twist& twist, std::span<const double> fed) {
       const int rod = k < rods_ ? k : k / rod_lanes * rod_lanes;  // idle lanes: the first of their group
       fed_[at(k / rod_lanes)].length[k % rod_lanes] = fed[at(input_of(rod))];
     }
-  // as RodSystem: by half-angle quaternion
-  const SO3<double> turn{1, Vec3<double>(twist.tail<3>()) / 2};
-  platform_ = {platform_.p + twist.head<3>(), turn.compose(platform_.R).normalised()};
+  move_platform(twist);
   tangent_kernels::apply(groups_, elements_, twist.data(), fed.empty() ? nullptr : fed_.data());
 }
 

@@ -20,10 +20,8 @@ inline bool bend_in_planes(const ParallelRobot<RodLeg>& robot) {
 }
 
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
-class TangentSystem {
+class TangentSystem : public HeavyRodGroup {
  public:
-  using Wrench = Vec<double, 6>;
-  using Twist = Vec<double, 6>;
   static constexpr bool is_slow = false;
   static constexpr std::string_view has_no_rest = RodSystem::has_no_rest;
   explicit TangentSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
@@ -41,26 +39,15 @@ class TangentSystem {
 
   /// @name What is held
   /// @{
-  int rods() const { return rods_; }
-  int inputs() const { return inputs_; }
-  int input_of(int rod) const { return input_of_[static_cast<std::size_t>(rod)]; }
-  /// Where a rod's coordinates begin among the robot's.
-  int coordinate_of(int rod) const { return coordinate_of_[static_cast<std::size_t>(rod)]; }
-  bool in_domain(int, double length) const { return length > 0 && std::isfinite(length); }
-  double radius() const { return radius_; }  ///< of the platform [m]
   Vec3<double> base(int rod) const;
   Vec3<double> platform_point(int rod) const;
   double stiffness(int rod) const;  ///< EI [N m²]
   double length(int rod) const;
   void set_length(int rod, double length);
-  void set_inputs(std::span<const double> inputs);  ///< the lengths of all rods [m]
-  const SE3<double>& platform() const { return platform_; }
-  void set_platform(const SE3<double>& pose) { platform_ = pose; }
+  void set_inputs(std::span<const double> inputs);                          ///< the lengths of all rods [m]
   Wrench wrench() const { return Eigen::Map<const Wrench>(held_.wrench); }  ///< of the world, base axes
   void set_wrench(const Wrench& wrench) { Eigen::Map<Wrench>(held_.wrench) = wrench; }
-  const Vec3<double>& gravity() const { return gravity_; }  ///< on the rods [m/s²]
-  void set_gravity(const Vec3<double>& gravity);            ///< beside the rods' own load
-  bool has_mass() const;
+  void set_gravity(const Vec3<double>& gravity);
   double weight_energy() const;  ///< of all rods, after `evaluate` [J]; 0 with the rods in their bases
   int elements() const { return elements_; }
   bool is_fine() const { return elements_ > coarse_elements; }
@@ -131,16 +118,9 @@ class TangentSystem {
 
   std::vector<TangentRods> groups_;
   std::vector<RodFeed> fed_;
-  std::vector<int> input_of_, coordinate_of_;
-  std::vector<double> mass_;        ///< of each rod along its length [kg/m]
-  std::vector<Vec3<double>> load_;  ///< beside its weight [N/m]
-  int rods_ = 0, inputs_ = 0, elements_ = coarse_elements;
-  SE3<double> platform_;
-  Vec3<double> gravity_ = Vec3<double>::Zero();
+  int elements_ = coarse_elements;
   RodPlatform held_{};
   RodSums sums_{};
-  Lu6 lu_;
-  double radius_ = 1;
 };
 
 }  // namespace sinew::inline v0
