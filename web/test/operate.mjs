@@ -130,6 +130,11 @@ const rows = {
 
 /** Every row of the table of states, at both sizes and in both themes; no two of them look the same to those who see no red or green. */
 export async function operate_states(browser, url) {
+  // by its place: each frame puts another element there
+  const iconOf = async (page, section) => page.screenshot({clip: await page.evaluate((i) => {
+    const {x, y, width, height} = document.querySelectorAll('.section')[i].querySelector('h2 .icon').getBoundingClientRect();
+    return {x, y, width, height};
+  }, section)});
   const {stand, make} = await device(url, 'nottingham-tpcj'), frames = {};
   for (const [name, [slack, {bends: own, ...options}]] of Object.entries(rows)) frames[name] = await make(own ?? bends, slack, options);
   const neutral = await device(url, 'four-tendon-neutral', {tendons: 4}), wide = [[0.8, -0.5], [-1, 0.6], [0.3, 1.2], [1, 0.2], [0.5, 0.5]];
@@ -156,7 +161,7 @@ export async function operate_states(browser, url) {
       }
       await fits(page);
       await vision.send('Emulation.setEmulatedVisionDeficiency', {type: 'deuteranopia'});
-      if (width > 720) heads.push([name, await page.locator('.section').nth(name === 'over' ? 3 : 2).locator('h2 .icon').screenshot()]);
+      if (width > 720) heads.push([name, await iconOf(page, name === 'over' ? 3 : 2)]);
       await vision.send('Emulation.setEmulatedVisionDeficiency', {type: 'none'});
       clearInterval(telling);
     }
