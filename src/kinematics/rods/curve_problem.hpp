@@ -116,13 +116,8 @@ class RodProblem {
   }
 
   CurveSigns signs() const {
-    CurveSigns signs;
-    signs.unstable = unstable_directions(system_);
-    for (int k = 0; k < system_.rods(); ++k) {
-      const auto [in_plane, aside] = system_.unstable_with_tip_held(k);
-      signs.own += in_plane + aside;
-    }
-    return signs;
+    const RodSigns signs = signs_of(system_);
+    return {.unstable = signs.unstable, .own = signs.own};
   }
   /// @}
 

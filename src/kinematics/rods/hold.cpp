@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/at.hpp"
 #include "kinematics/rods/start.hpp"
 #include "kinematics/rods/trace.hpp"
 #include "kinematics/rods/verdict.hpp"
@@ -79,35 +80,16 @@ class Holder {
 };
 
 /// Corrections must stay small beside the prediction: else it may have found another branch.
-class Watch {
- public:
-  template <class System>
-  explicit Watch(const System& system) : feeds_(system.feeds()) {
-    read(system, before_);
+template <class System>
+bool is_near(const System& system, const RodTarget& before, const RodTarget& predicted) {
+  double change = 0, correction = 0;
+  for (int k = 0; k < system.feeds(); ++k) {
+    const double length = predicted.lengths[at(k)];
+    change = std::max(change, std::abs(length - before.lengths[at(k)]));
+    correction = std::max(correction, std::abs(system.length(k) - length));
   }
-  template <class System>
-  void predicted(const System& system) {
-    read(system, predicted_);
-  }
-  template <class System>
-  bool is_near(const System& system) const {
-    double change = 0, correction = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(feeds_); ++k) {
-      change = std::max(change, std::abs(predicted_[k] - before_[k]));
-      correction = std::max(correction, std::abs(system.length(static_cast<int>(k)) - predicted_[k]));
-    }
-    return correction < 0.5 * change + 0.01 * system.length(0);
-  }
-
- private:
-  using Lengths = std::array<double, max_rods>;
-  template <class System>
-  void read(const System& system, Lengths& to) const {
-    for (int k = 0; k < feeds_; ++k) to[static_cast<std::size_t>(k)] = system.length(k);
-  }
-  int feeds_;
-  Lengths before_, predicted_;
-};
+  return correction < 0.5 * change + 0.01 * system.length(0);
+}
 
 /// Follows the path as far as it goes. The system is then there, solved to `loose`.
 template <class System>
@@ -120,13 +102,13 @@ RodPathEnd follow_poses(RodWorkOf<System>& work, const RodWay& way, int max_iter
     system.save(work.spare);
     system.evaluate();
     const bool renews = !work.knows_feeding;
-    Watch watch(system);
+    const RodTarget here = present(system);
     system.set_wrench(way.at(next, 0).wrench);
     bool is_reached = (!renews || holder.renew()) && holder.step(way.pose(next), renews);
-    watch.predicted(system);
+    const RodTarget predicted = present(system);
     const int before = ++end.iterations;
     const auto correct = [&] { return holder.correct(way.pose(next), end.iterations, end.residual, loose); };
-    is_reached = is_reached && correct() && watch.is_near(system);
+    is_reached = is_reached && correct() && is_near(system, here, predicted);
     while (is_reached && !system.is_finest() && system.truncation() > loose_truncation) {
       system.refine();
       is_reached = correct();

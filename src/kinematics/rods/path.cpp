@@ -65,9 +65,10 @@ RodSigns signs_of(const System& system) {
   RodSigns signs;
   for (int k = 0; k < system.rods(); ++k) {
     const auto [in_plane, aside] = system.unstable_with_tip_held(k);
-    signs.unstable += in_plane + aside;
+    signs.own += in_plane + aside;
   }
-  signs.is_odd = system.factors().has_negative_determinant() != (signs.unstable % 2 == 1);
+  signs.is_odd = system.factors().has_negative_determinant() != (signs.own % 2 == 1);
+  signs.unstable = signs.own;
   std::array<double, 6> values;
   symmetric_eigenvalues(system.stiffness(), values);
   for (const double value : values) signs.unstable += value < 0;

@@ -65,8 +65,11 @@ RodTarget present(const System& system);
 /// What does not change on a smooth piece of a curve of equilibria, at fixed inputs and load.
 struct RodSigns {
   int unstable = 0;     ///< directions of the whole robot
+  int own = 0;          ///< ... of its rods, tips held; as `unstable` has them
   bool is_odd = false;  ///< the sign of the determinant of the whole, rods and platform
-  bool operator==(const RodSigns&) const = default;
+  bool operator==(const RodSigns& other) const {
+    return unstable == other.unstable && is_odd == other.is_odd;
+  }
 };
 template <class System>
 RodSigns signs_of(const System& system);
