@@ -1,10 +1,6 @@
 /// sinew-simulate: firmware on a simulated ATmega2560, its UART0 on stdin and stdout or on a
 /// pseudo-terminal, servo drives on its SPI.
-#include <poll.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
@@ -13,18 +9,19 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <utility>
 
 #include "simulator/drives.hpp"
 #include "simulator/panel.hpp"
 #include "simulator/player.hpp"
+#include "simulator/standard_input.hpp"
 
 namespace {
 
 using sinew::firmware::Controller;
 using sinew::firmware::Drives;
+using sinew::firmware::StandardInput;
 
 constexpr const char* help =
     "sinew-simulate: firmware on a simulated ATmega2560, UART0 on stdin and stdout\n\n"
@@ -115,39 +112,27 @@ Options parse(int count, char** arguments) {
   return options;
 }
 
-/// stdin as it comes, or a line for each reply.
+/// stdin for the controller: as it comes, or a line for each reply.
 class Input {
  public:
   explicit Input(bool turns) : turns_(turns) {}
 
   void pass_on(Controller& controller) {
-    read_what_is_there();
-    const std::size_t line = turns_ ? pending_.find('\n') + 1 : pending_.size();
-    if (awaiting_ || line == 0) return;
-    controller.send(std::string_view(pending_).substr(0, line));
-    pending_.erase(0, line);
+    if (awaiting_) return;
+    const std::string bytes = turns_ ? input_.line().value_or("") : input_.bytes();
+    if (bytes.empty()) return;
+    controller.send(bytes);
     passed_on_ = true;
     awaiting_ = turns_;
   }
   void answered() { awaiting_ = false; }
   /// Since this was last asked.
   bool is_new() { return std::exchange(passed_on_, false); }
-  bool is_over() const { return ended_ && !awaiting_ && pending_.find('\n') == std::string::npos; }
+  bool is_over() const { return input_.has_ended() && !awaiting_; }
 
  private:
-  void read_what_is_there() {
-    pollfd in{STDIN_FILENO, POLLIN, 0};
-    if (ended_ || poll(&in, 1, 0) <= 0) return;
-    std::array<char, 4096> bytes{};
-    const ssize_t read = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-    if (read <= 0)
-      ended_ = true;
-    else
-      pending_.append(bytes.data(), static_cast<std::size_t>(read));
-  }
-
-  bool turns_, awaiting_ = false, passed_on_ = false, ended_ = false;
-  std::string pending_;
+  StandardInput input_;
+  bool turns_, awaiting_ = false, passed_on_ = false;
 };
 
 void load(Controller& controller, const std::string& path) {

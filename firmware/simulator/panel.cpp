@@ -1,10 +1,6 @@
 #include "simulator/panel.hpp"
 
-#include <poll.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -12,6 +8,7 @@
 #include <thread>
 
 #include "simulator/faults.hpp"
+#include "simulator/standard_input.hpp"
 #include "simulator/terminal.hpp"
 #include "sinew/io/parse.hpp"
 #include "sinew/io/serial_file.hpp"
@@ -20,36 +17,6 @@ namespace sinew::firmware {
 namespace {
 
 volatile std::sig_atomic_t is_ended = 0;
-
-/// Whole lines of stdin as they come.
-class Lines {
- public:
-  /// Empty optional: there is none yet.
-  std::optional<std::string> next() {
-    read_what_is_there();
-    const std::size_t end = pending_.find('\n');
-    if (end == std::string::npos) return {};
-    std::string line = pending_.substr(0, end);
-    pending_.erase(0, end + 1);
-    return line;
-  }
-  bool have_ended() const { return have_ended_; }
-
- private:
-  void read_what_is_there() {
-    pollfd in{STDIN_FILENO, POLLIN, 0};
-    if (have_ended_ || poll(&in, 1, 0) <= 0) return;
-    std::array<char, 1024> bytes{};
-    const ssize_t size = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-    if (size <= 0)
-      have_ended_ = true;
-    else
-      pending_.append(bytes.data(), static_cast<std::size_t>(size));
-  }
-
-  std::string pending_;
-  bool have_ended_ = false;
-};
 
 /// Sleeps until simulated time has come. What a busy machine has lost for good is not made up for.
 class Pace {
@@ -118,12 +85,12 @@ bool serve_terminal(Controller& controller, Drives& drives, const std::optional<
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { is_ended = 1; });
   Terminal terminal(link);
   Faults faults(controller, arm ? &*arm : nullptr, tendons_of(robot));
-  Lines lines;
+  StandardInput input;
   Pace pace;
   const std::uint64_t slice = controller.cycles(1e-3);
   say("ready " + link);
-  while (!is_ended && !faults.has_quit() && !lines.have_ended()) {
-    while (const auto line = lines.next()) say(faults.obey(*line));
+  while (!is_ended && !faults.has_quit() && !input.has_ended()) {
+    while (const auto line = input.line()) say(faults.obey(*line));
     controller.send(faults.on_line(terminal.read()));
     if (!controller.run(slice)) return !controller.has_crashed();
     terminal.write(faults.on_line(controller.received()));
