@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "noise.hpp"
 #include "panel/panel_desk.hpp"
@@ -248,6 +249,132 @@ TEST(PanelFirmware, NoRequestKeepsTheDrivesWaiting) {
     std::printf("%c: %.2f ms without an exchange\n", verb, 1e3 * longest);
     EXPECT_LT(longest, 3e-3) << verb;
     bench.run(5e-3);
+  }
+}
+
+/// One direction of SPI, on which some exchanges have one to three wrong bits.
+struct DamagedWire {
+  std::uint8_t operator()(std::uint8_t byte) {
+    if (at == 0) {
+      const bool is_damaged = every > 0 && ++exchanges % every == 0;
+      mask = is_damaged ? noise.with_flips(std::string(size, 0), 1 + noise.below(3)) : std::string(size, 0);
+    }
+    const auto wrong = static_cast<std::uint8_t>(mask[at]);
+    at = (at + 1) % size;
+    return byte ^ wrong;
+  }
+
+  static constexpr std::size_t size = 4 * drive_count + 2 * tendon_drives + 2;
+  Noise noise{31};
+  int every = 0, exchanges = 0;
+  std::size_t at = 0;
+  std::string mask;
+};
+
+struct DamagedBench : Bench {
+  explicit DamagedBench(bool outwards) {
+    auto& side = outwards ? drives.to_drives : drives.from_drives;
+    side = [this](std::uint8_t byte) { return wire(byte); };
+    start();
+    for (int i = 0; i < drive_count; ++i) EXPECT_EQ(ask('Z', zero_payload(i, 0)).verb, 'Z');
+    origin = drives.setpoints;
+  }
+  /// Whether all that drives were told for so long lies between two of the host's setpoints.
+  bool stay_between(const Setpoints& from, const Setpoints& to, double seconds) {
+    for (double left = seconds; left > 0; left -= 1e-3) {
+      run(1e-3);
+      for (std::size_t i = 0; i < to.size(); ++i) {
+        const auto [least, most] = std::minmax(from[i], to[i]);
+        const std::int32_t now = drives.setpoints[i] - origin[i];
+        if (now < least || now > most) return false;
+      }
+    }
+    return true;
+  }
+  Setpoints told() const {
+    Setpoints counts(drive_count);
+    std::ranges::transform(drives.setpoints, origin, counts.begin(), std::minus());
+    return counts;
+  }
+  /// Asked again where the drives' answer was damaged, each time another while later.
+  Answer insist(char verb, const std::string& sent = {}) {
+    Answer answer = ask(verb, sent);
+    for (int i = 1; i < 20 && answer.code == static_cast<int>(Error::drives); ++i) {
+      run(1e-3 * i);
+      answer = ask(verb, sent);
+    }
+    return answer;
+  }
+
+  DamagedWire wire;
+  Setpoints origin;  ///< the drives' own counts where the host's are zero
+};
+
+/// Between this controller and its drives: what is damaged is noticed, and the next exchange mends it.
+TEST(PanelFirmware, DamagedExchangesCostTimeAndNothingElse) {
+  for (const bool outwards : {false, true}) {
+    DamagedBench bench(outwards);
+    bench.wire.every = 3;
+    Setpoints from(drive_count, 0);
+    for (int i = 0; i < test::count_of(30, 300); ++i) {
+      Setpoints to(drive_count, 0);  // or straight by a pose, only the stage elsewhere
+      const bool is_pose = i % 3 == 2;
+      for (std::int32_t& count : to) count = is_pose ? 0 : bench.wire.noise.below(4000);
+      to.back() = bench.wire.noise.below(4000);
+      std::vector<int> straight(pose_size, 0);
+      straight.back() = to.back();
+      const Answer moved = is_pose ? bench.pose(straight, 40) : bench.move(to, 40);
+      ASSERT_EQ(moved.verb, is_pose ? 'P' : 'T') << i << " code " << moved.code;
+      ASSERT_TRUE(bench.stay_between(from, to, 0.05)) << i;
+      ASSERT_EQ(bench.told(), to) << i;
+      ASSERT_EQ(bench.insist('S').verb, 'S');
+      // A tendon whose place was read wrong would jump: it is where its setpoint is.
+      bench.run(0.1);
+      const int drive = i % drive_count;
+      const Answer zeroed = bench.insist('Z', zero_payload(drive, to[static_cast<std::size_t>(drive)]));
+      ASSERT_EQ(zeroed.verb, 'Z') << i << " code " << zeroed.code;
+      ASSERT_EQ(bench.told(), to) << i;
+      ASSERT_TRUE(bench.drives.are_enabled());
+      from = to;
+    }
+    ASSERT_EQ(bench.insist('S').verb, 'S');
+    EXPECT_GT(read_state(bench.payload).damaged, 1000u);
+  }
+}
+
+/// Five in a row let go, wherever it was; what is armed anew stays there.
+TEST(PanelFirmware, FiveDamagedExchangesLetGo) {
+  for (const bool outwards : {false, true}) {
+    DamagedBench bench(outwards);
+    const Setpoints from(drive_count, 0), to(drive_count, 8000);
+    ASSERT_EQ(bench.move(to, 400).verb, 'T');
+    ASSERT_TRUE(bench.stay_between(from, to, 0.1));
+    bench.wire.every = 1;
+    const Setpoints before = bench.told();
+    const std::uint64_t begin = bench.controller.cycle();
+    while (bench.drives.are_enabled() && bench.controller.cycle() < begin + bench.controller.cycles(0.1))
+      bench.controller.step();
+    const double time = static_cast<double>(bench.controller.cycle() - begin) / bench.controller.frequency();
+    std::printf("let go %.2f ms after the first\n", 1e3 * time);
+    EXPECT_LT(time, 1e-3 * (damage_limit + 2));
+    const Setpoints stopped = bench.told();
+    // What drives refuse they do not follow; else the ramp went on till then.
+    const int most = outwards ? 0 : (damage_limit + 2) * 8000 / 400;
+    for (std::size_t i = 0; i < stopped.size(); ++i) {
+      EXPECT_GE(stopped[i], before[i]);
+      EXPECT_LE(stopped[i], before[i] + most);
+    }
+    const Answer refused = bench.ask('A');
+    EXPECT_EQ(refused.code, static_cast<int>(Error::drives));
+    EXPECT_EQ(refused.state, "lost");
+    EXPECT_FALSE(bench.drives.are_enabled());
+    bench.wire.every = 0;
+    bench.run(0.2);  // an arm that was let go comes to rest
+    const auto rest = bench.drives.positions;
+    ASSERT_EQ(bench.ask('A').verb, 'A');
+    bench.run(0.1);
+    EXPECT_EQ(bench.drives.positions, rest);
+    EXPECT_EQ(bench.state().homed, 0xFFFFu);
   }
 }
 
