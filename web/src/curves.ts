@@ -20,6 +20,9 @@ interface Line { values: (number | null)[]; colour: string; dash: number[]; name
 
 interface Panel { kind: Kind; box: HTMLElement; title: HTMLButtonElement; unit: HTMLElement; note: HTMLElement; value: HTMLElement; plotBox: HTMLElement; plot: uPlot | null; lines: Line[] }
 
+/** With one value more before each gap. */
+const broken = <T>(values: T[], gaps: ReadonlySet<number>, between: (step: number) => T): T[] => values.flatMap((value, step) => (gaps.has(step) ? [between(step), value] : [value]));
+
 export class Curves {
   private readonly panels: Panel[];
   private readonly cursor = make('div', {className: 'cursor'});
@@ -98,7 +101,7 @@ export class Curves {
         return name;
       }) : []), ...(kind === 'joint angles' ? [`${plan.anglesOf[0]![1]} - -`] : []));
       if (width > 50 && height > 20 && panel.lines.length > 0)
-        panel.plot = new uPlot(this.options(panel, width, height, token, i === this.panels.length - 1), [plan.steps.map((_, k) => plan.placeOf(k)), ...panel.lines.map(({values}) => values)] as uPlot.AlignedData, plotBox);
+        panel.plot = new uPlot(this.options(panel, width, height, token, i === this.panels.length - 1), [broken(plan.steps.map((_, k) => plan.placeOf(k)), plan.gaps, (k) => (plan.placeOf(k - 1) + plan.placeOf(k)) / 2), ...panel.lines.map(({values}) => broken(values, plan.gaps, () => null))] as uPlot.AlignedData, plotBox);
     });
     this.place();
     this.at(this.step);

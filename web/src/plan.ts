@@ -20,6 +20,7 @@ export class Plan {
   readonly robot: {name: string; text: string; robot: string};
   readonly title: string;
   readonly times: number[] | null;  ///< of a recording [s]: a plan has none
+  readonly gaps: ReadonlySet<number>;  ///< of a recording: steps before which nothing is known
   private readonly angles: string[];  ///< of each section the name of its first
   readonly spots: number[];  ///< steps where it is tight, the tightest first
   readonly failed: Run[];
@@ -30,6 +31,7 @@ export class Plan {
     this.angles = told.angles;
     this.title = told.name;
     this.times = told.times ?? null;
+    this.gaps = new Set(told.gaps);
     this.spots = this.check ? tightSpots(this.check.steps.map(({clearance}) => clearance), this.check.reach) : [];
     this.failed = runs(this.steps, this.check);
   }

@@ -249,6 +249,34 @@ export async function log_files(browser, url) {
   await done(/422/);
 }
 
+/** The recording without its measurements of a while. */
+const without = (from, to) => lines.filter((line, i) => i < first || !(Number(line.split(',')[0]) > from && Number(line.split(',')[0]) < to) || line.endsWith('"')).join('\n');
+
+/** Curves are broken where measurements are missing, and nowhere else: nobody knows what was there. */
+export async function log_gap(browser) {
+  const {page, done} = await replay(browser);
+  const drawnGaps = () => page.evaluate(() => window.__sinew.way.curves.panels.map(({plot}) => plot.data.slice(1).map((line) => line.filter((value) => value === null).length)));
+  const reported = async () => {
+    const saved = page.waitForEvent('download');
+    await bar(page, 'Report').click();
+    const html = readFileSync(await (await saved).path(), 'utf8');
+    return [...html.matchAll(/class="curve[^"]*" d="([^"]*)"/g)].map(([, d]) => d.split('M').length - 2);
+  };
+  const all = (found, count) => assert.deepEqual([...new Set(found.flat(2))], [count], JSON.stringify(found));
+  for (const [file, content, count] of [['whole.csv', text, 0], ['gap.csv', without(2, 2.8), 1], ['gaps.csv', text.split('\n').filter((line) => without(2, 2.8).includes(line) && without(4.1, 4.9).includes(line)).join('\n'), 2]]) {
+    await drop(page, file, content);
+    await until(page, (name) => window.__sinew.operate.badge?.startsWith(`LOG ${name}`), file.split('.')[0]);
+    all(await reported(), count);
+    await bar(page, 'Trajectory').click();
+    await until(page, () => document.querySelectorAll('.curve canvas').length === 3);
+    all(await drawnGaps(), count);
+    if (count > 0) await shot(page, `log-${file.split('.')[0]}`);
+    await page.keyboard.press('Alt+2');
+    await bar(page, 'Close').waitFor();
+  }
+  await done();
+}
+
 /** On the screen Trajectory: what was measured over time, without a scene, unchecked, and not to be driven. */
 export async function log_way(browser) {
   const {page, done} = await replay(browser, '&t=3'), step = async () => Number(await page.locator('#transport input').inputValue());

@@ -6,6 +6,9 @@ import type {Recording} from './recording';
 
 const alone = {name: '', base: {position: [0, 0, 0], quaternion: [1, 0, 0, 0]}, axis: [0, 0, 1], port: null, target: null, margins: {clearance: 0}, solids: []};
 
+/** Steps before which rows are missing, or were left out. */
+const gapsOf = ({gaps}: Recording, rows: number[]) => rows.flatMap((row, step) => (step > 0 && (gaps.has(row) || row !== rows[step - 1]! + 1) ? [step] : []));
+
 /** @param handle of a link, empty: of a file of this computer; null: its zeros were never set, so nothing is known of its bends */
 export function recordedWay(recording: Recording, sections: {type: string}[], handle: string): Plan | null {
   const stages = recording.column('measured_stage'), rows = Array.from({length: recording.rows}, (_, row) => row).filter((row) => recording.isHomed(row));
@@ -15,6 +18,6 @@ export function recordedWay(recording: Recording, sections: {type: string}[], ha
       return isPolar(one) ? [Math.hypot(x, y), Math.atan2(y, x)] : [x, y];
     }),
   }));
-  const told: Json = {name: recording.name, steps, times: rows.map((row) => recording.times[row]!), check: null, scene: alone, files: {scene: '', plan: ''}, robot: {name: recording.robot, text: recording.text, robot: ''}, angles: sections.map((one) => (isPolar(one) ? 'theta' : 'beta_1'))};
+  const told: Json = {name: recording.name, steps, times: rows.map((row) => recording.times[row]!), gaps: gapsOf(recording, rows), check: null, scene: alone, files: {scene: '', plan: ''}, robot: {name: recording.robot, text: recording.text, robot: ''}, angles: sections.map((one) => (isPolar(one) ? 'theta' : 'beta_1'))};
   return steps.length > 0 ? new Plan(handle, told) : null;
 }

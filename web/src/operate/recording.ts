@@ -5,6 +5,8 @@ const version = 1;
 const first = '# sinew recording, version ';
 const known = new Set(['EXACT', 'SLACK', 'PARTLY SLACK', 'OVER-TENSIONED', 'UNREACHABLE', 'NO DATA']);
 const shown = 20;  // of wrong lines, in words
+const usual = 3;     // times between two measurements that are no gap yet,
+const least = 0.15;  // nor is what the server calls no data only after it [s]
 
 /** Why a file is no recording that can be replayed: place, what was found, the rule, the way out. */
 export class Unreadable extends Error {}
@@ -25,6 +27,7 @@ export class Recording {
   hasStage = false;
   hasTension = false;
   times: Column = new Float64Array();
+  readonly gaps = new Set<number>();  ///< rows before which measurements are missing
   private columns = new Map<string, Column>();
   private readonly ofSection: Stretch[][] = [];
 
@@ -86,8 +89,17 @@ export class Recording {
     for (const own of this.ofSection) if (own.length > 0) own.at(-1)!.to = before;
     for (const at of numeric) this.columns.set(names[at]!, Float64Array.from(rows, (fields) => (fields[at] === '' ? NaN : Number(fields[at]))));
     this.times = this.column('time');
+    this.findGaps();
     this.hasStage = this.column('measured_stage').some(Number.isFinite);
     this.hasTension = this.column('S0_tension_1').some(Number.isFinite);
+  }
+
+  /** Where no data began, or much longer passed than between others, as in a thinned one, nothing is known of the time between two rows. */
+  private findGaps(): void {
+    const {times} = this, waits = times.slice(1).map((time, i) => time - times[i]!).sort(), most = Math.max(least, usual * (waits[waits.length >> 1] ?? 0));
+    const blind = this.stretches.filter(({word}) => kindOf(word) === 'stale').map(({from}) => from);
+    for (let row = 1; row < this.rows; ++row)
+      if (times[row]! - times[row - 1]! > most || blind.some((from) => from > times[row - 1]! && from <= times[row]!)) this.gaps.add(row);
   }
 
   private leave(why: string): void {

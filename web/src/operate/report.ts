@@ -85,9 +85,9 @@ async function alarms({robot, described}: Opened, recording: Recording): Promise
 const turned = (values: Float64Array) => values.map((value) => value * degrees);
 
 function curves({described}: Opened, recording: Recording): Node[] {
-  const {times, duration, alarms: bad} = recording, nodes: Node[] = [], bands = (section: number | null) => bad.filter((one) => one.section === section).map(({word, from, to}) => ({from, to, looks: kindOf(word)}));
+  const {times, gaps, duration, alarms: bad} = recording, nodes: Node[] = [], bands = (section: number | null) => bad.filter((one) => one.section === section).map(({word, from, to}) => ({from, to, looks: kindOf(word)}));
   const add = (title: string, note: string, lines: Line[], section: number | null) => {
-    const drawn = chart(title, times, lines, duration, bands(section));
+    const drawn = chart(title, times, gaps, lines, duration, bands(section));
     if (drawn) nodes.push(make('section', {}, make('h3', {textContent: title}), make('p', {className: 'note', textContent: note}), drawn));
   };
   for (let m = 0; m < recording.sections; ++m) {
@@ -131,7 +131,7 @@ export async function reportOf(opened: Opened, recording: Recording, name: strin
   page.body.append(make('h1', {textContent: `Recording of ${recording.robot}`}), facts(recording));
   part('Time in each state', states(recording));
   part('Alarms', ...await alarms(opened, recording));
-  part('Curves', make('p', {className: 'note', textContent: 'Shaded: this section was not exact.'}), ...curves(opened, recording));
+  part('Curves', make('p', {className: 'note', textContent: 'Shaded: this section was not exact. Where measurements are missing a line is broken.'}), ...curves(opened, recording));
   part('Snapshots', ...await pictures(recording, name));
   part('Events', table(['Time', 'At', '', 'Event'], events.slice(0, most.events).map(({clock, time, kind, text}) => [clock, seconds(time), kindOfEntry(kind) ? icon(kindOfEntry(kind)!, 14) : '', text])), ...left(events.length - most.events, 'events'));
   part('Robot', make('pre', {textContent: recording.text}));

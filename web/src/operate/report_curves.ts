@@ -12,8 +12,8 @@ function ticks(low: number, high: number, about: number): number[] {
   return Array.from({length: Math.floor(high / step) - Math.ceil(low / step) + 1}, (_, i) => Number(((Math.ceil(low / step) + i) * step).toPrecision(12)));
 }
 
-/** Where there is nothing, the line is broken. */
-function path(times: ArrayLike<number>, values: ArrayLike<number>, x: (time: number) => number, y: (value: number) => number): string {
+/** Where there is nothing, and at gaps, the line is broken. */
+function path(times: ArrayLike<number>, values: ArrayLike<number>, gaps: ReadonlySet<number>, x: (time: number) => number, y: (value: number) => number): string {
   const size = Math.max(1, Math.ceil((2 * times.length) / points));
   let [text, isDown] = ['', false];
   const to = (i: number) => {
@@ -22,11 +22,12 @@ function path(times: ArrayLike<number>, values: ArrayLike<number>, x: (time: num
     text += `${isDown ? 'L' : 'M'}${x(times[i]!).toFixed(1)} ${y(value).toFixed(1)}`;
     isDown = true;
   };
-  for (let from = 0; from < times.length; from += size) {
+  for (let from = 0, end = 0; from < times.length; from = end) {
+    if (gaps.has(from)) isDown = false;
     let [least, most] = [from, from];
-    for (let i = from; i < Math.min(times.length, from + size); ++i) {
-      if (!(values[i]! >= values[least]!)) least = i;
-      if (!(values[i]! <= values[most]!)) most = i;
+    for (end = from; end < Math.min(times.length, from + size) && (end === from || !gaps.has(end)); ++end) {
+      if (!(values[end]! >= values[least]!)) least = end;
+      if (!(values[end]! <= values[most]!)) most = end;
     }
     to(Math.min(least, most));
     if (least !== most) to(Math.max(least, most));
@@ -34,8 +35,8 @@ function path(times: ArrayLike<number>, values: ArrayLike<number>, x: (time: num
   return text;
 }
 
-/** @param bands stretches of time with a look @returns null where no line has a value */
-export function chart(title: string, times: ArrayLike<number>, lines: Line[], duration: number, bands: {from: number; to: number; looks: string}[]): SVGSVGElement | null {
+/** @param gaps rows before which measurements are missing @param bands stretches of time with a look @returns null where no line has a value */
+export function chart(title: string, times: ArrayLike<number>, gaps: ReadonlySet<number>, lines: Line[], duration: number, bands: {from: number; to: number; looks: string}[]): SVGSVGElement | null {
   const all = lines.flatMap(({values}) => Array.from(values).filter(Number.isFinite));
   if (all.length === 0) return null;
   let [low, high] = all.reduce(([a, b], value) => [Math.min(a, value), Math.max(b, value)], [0, 0]);
@@ -47,5 +48,5 @@ export function chart(title: string, times: ArrayLike<number>, lines: Line[], du
   const foot = ticks(0, end, 8).map((time) => svg('text', {class: 'tick', x: x(time), y: height - 5, 'text-anchor': 'middle'}, `${time} s`));
   const shade = bands.map(({from, to, looks}) => svg('rect', {class: `band ${looks}`, x: x(from), width: Math.max(1, x(to) - x(from)), y: top, height: height - top - bottom}));
   return svg('svg', {class: 'chart', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': title}, ...shade, ...grid, ...foot,
-             ...lines.map(({values, looks}) => svg('path', {class: `curve ${looks}`, d: path(times, values, x, y)})), svg('rect', {class: 'box', x: left, y: top, width: width - left - right, height: height - top - bottom}));
+             ...lines.map(({values, looks}) => svg('path', {class: `curve ${looks}`, d: path(times, values, gaps, x, y)})), svg('rect', {class: 'box', x: left, y: top, width: width - left - right, height: height - top - bottom}));
 }
