@@ -1,7 +1,7 @@
 // The Design screen, each part of it as people use it.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {answers, blank, differs, drawn, fill, linked, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
+import {answers, blank, differs, drawn, fill, linked, looks, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
 
 /** What is typed, wrong and right; links; units. */
 export async function words(browser, url) {
@@ -191,7 +191,7 @@ export async function response(browser, url) {
   await then(page, () => page.locator('#inputs input[type=range]').first().press('End'));
   assert.equal(await verdict(page), 'UNREACHABLE');
   await rested(page);
-  await shot(page, 'unreachable');
+  await looks(page, 'unreachable');
   const back = page.locator('#verdict').getByRole('button', {name: /^Go to ℓ₁ = /});
   await then(page, () => back.click());
   assert.match(await verdict(page), /SOLVED/);
@@ -266,7 +266,7 @@ export async function file(browser, url) {
   await page.locator('.cm-changed').first().waitFor();
   same(await picture(page), before);
   await page.locator('#file li button').first().click();
-  await shot(page, 'file-error');
+  await looks(page, 'file-error');
   assert.match(await page.evaluate(() => document.querySelector('.editor').shadowRoot.querySelector('.cm-activeLine, .cm-line.cm-changed')?.textContent ?? ''), /plane/);
   await then(page, () => paste(page, area, text.replaceAll('radius: 50 mm', 'radius: 70 mm')));
   assert.equal(await page.locator('#file li').count(), 0);

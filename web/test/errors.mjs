@@ -3,18 +3,20 @@ import assert from 'node:assert/strict';
 import {copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import {answers, blank, differs, hold, launch, numbers, open, picture, rested, serve, settled, shot, tab, then, verdict} from './harness.mjs';
+import {answers, blank, differs, hold, launch, looks, numbers, open, picture, rested, serve, settled, tab, then, verdict} from './harness.mjs';
 
 /** A server that goes away and comes back, with none of its robots. */
 export async function connection(browser) {
-  const first = await serve(), {page, done} = await open(browser, first.url, '3-rfr');
+  const first = await serve(), {page, done} = await open(browser, first.url, '3-rfr'), before = await numbers(page);
   const gone = new Promise((ended) => first.server.once('exit', ended));
   first.server.kill('SIGINT');
   await gone;
   await page.locator('#inputs input[type=range]').first().press('ArrowRight');
   await page.locator('#lost', {hasText: /NO CONNECTION \d+ s/}).waitFor();
   assert.ok(await page.evaluate(() => document.body.classList.contains('lost')));
-  await shot(page, 'no-connection');
+  assert.equal(await numbers(page), before, 'the last answer stays');
+  await page.locator('#answer.stale').waitFor();
+  await looks(page, 'no-connection');
   const count = await answers(page), second = await serve('--port', new URL(first.url).port);
   await settled(page, count);
   assert.match(await verdict(page), /SOLVED/);
@@ -30,7 +32,7 @@ export async function slow(browser, url) {
   for (let i = 0; i < 5; ++i) await slider.press('ArrowRight');
   await page.locator('#verdict.waiting').waitFor();
   await page.locator('#verdict', {hasText: 'solving…'}).waitFor();
-  await shot(page, 'slow');
+  await looks(page, 'slow');
   await held.next();
   await settled(page, count);
   await held.arrival(2);
@@ -62,6 +64,7 @@ export async function another_version(browser, url) {
   await page.route('**/api/version', (route) => route.fulfill({json: {sinew: '9.0.0', protocol: 2}}));
   await page.goto(url);
   await page.locator('#status', {hasText: 'page and program differ (protocol 1, 2): reload'}).waitFor();
+  await looks(page, 'another-version');
   await done();
 }
 
@@ -80,7 +83,7 @@ export async function disk(browser) {
   writeFileSync(path, other);
   await page.evaluate(() => window.dispatchEvent(new Event('focus')));
   await page.locator('#file .disk').waitFor();
-  await shot(page, 'changed-on-disk');
+  await looks(page, 'changed-on-disk');
   await then(page, () => page.locator('#file .disk').getByRole('button', {name: 'Reload'}).click());
   assert.notEqual(await numbers(page), before);
   writeFileSync(path, text);
@@ -102,7 +105,7 @@ export async function no_webgl(_, url) {
   const before = await picture(page);
   await then(page, () => page.locator('#inputs input[type=range]').first().press('Shift+ArrowRight'));
   differs(await picture(page), before);
-  await shot(page, 'no-webgl');
+  await looks(page, 'no-webgl');
   await done();
   await browser.close();
 }
@@ -113,6 +116,7 @@ export async function token(browser) {
   here.hostname = '127.0.0.1';
   await page.goto(here.origin);
   assert.match(await page.locator('body').innerText(), /^open the address printed by sinew serve/);
+  await looks(page, 'token');
   await page.goto(`${here.href}#robot=3-rfr`);
   await settled(page, 0);
   assert.match(await verdict(page), /SOLVED/);

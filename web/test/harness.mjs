@@ -116,6 +116,23 @@ export const picture = async (page) => capture(page, await page.evaluate(() => {
 }));
 export const shot = async (page, name) => writeFileSync(join(folder, `${name}.png`), await capture(page));
 
+/** What is seen now, as large as a desk and as a phone, by day and in the dark; then as it was. */
+export async function looks(page, name) {
+  const size = page.viewportSize(), theme = await page.evaluate(() => (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
+  for (const [width, height] of [[1280, 800], [390, 844]]) {
+    await page.setViewportSize({width, height});
+    for (const colorScheme of ['light', 'dark']) {
+      await page.emulateMedia({colorScheme});
+      await drawn(page);
+      await shot(page, `${name}-${width}-${colorScheme}`);
+      await fits(page);
+    }
+  }
+  await page.setViewportSize(size);
+  await page.emulateMedia({colorScheme: theme});
+  await drawn(page);
+}
+
 /** Of screenshots: unlike them assert.deepEqual would print every byte. */
 export const differs = (a, b, what = '') => assert.ok(!a.equals(b), `${what}: the picture did not change`);
 export const same = (a, b, what = '') => assert.ok(a.equals(b), `${what}: another picture`);

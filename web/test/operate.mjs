@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
-import {audit, blank, differs, drawn, fits, linked, open, same, shot, sinew} from './harness.mjs';
+import {audit, blank, differs, drawn, fits, linked, looks, open, same, shot, sinew} from './harness.mjs';
 import {alarm, answered, arrived, bar, bends, control, degree, device, draws, frame, operated, pause, see, sizes, textOf, themes, until, word} from './operating.mjs';
 
 /** The target by pointer, keys and numbers; the command gives the numbers of the page; the link brings them back. */
@@ -125,10 +125,20 @@ const rows = {
   unreachable: [null, {bends: [...bends.slice(0, 2), [0.47, 0.1], ...bends.slice(3)], more: {alarm: alarm(2, 'UNREACHABLE', 'Asked for 26.9°, limit 24°.')}}],
   'near-limit': [null, {bends: [...bends.slice(0, 2), [0.41, 0.1], ...bends.slice(3)], each: (i) => ({near_limit: i === 2})}],
   'full-disk': [null, {more: {state: 'armed', recording: {name: 'now', rows: 812, error: 'No space left on device'}}}],
+  noise: [null, {more: {link: 'bad_checksum', message: 'line 3 of 200 failed its checksum', errors: 7, why: 'a line failed its checksum'}}],
+  'wrong-table': [null, {each: () => ({word: 'NO DATA'}), more: {age: null, link: 'wrong_table', message: "the firmware has another robot's table", homed: false, rate: 0, alarm: {...alarm(0, 'NO DATA', '', 4)}}}],
+  taken: [null, {more: {control: {holder: 3, since: '10:41'}}}],
   'no-data': [[0, 0, 7.5e-4, 0, 0], {each: () => ({word: 'NO DATA'}), more: {age: 4.2, link: 'silent', message: 'the controller does not answer', rate: 0, alarm: {...alarm(0, 'NO DATA', 'Check the cable.', 4)}}}],
 };
 
-/** Every row of the table of states, at both sizes and in both themes; no two of them look the same to those who see no red or green. */
+/** What the picture of a row has that of others has not, and what is said. */
+const drawnOf = {slack: '.free', 'slack-small': '.inset .free', over: '.empty', 'partly-slack': '.taut'};
+const says = {
+  'near-limit': ['#op-banner', 'S3 near the limit.'], 'full-disk': ['#op-banner', 'NOT RECORDED'], noise: ['#op-banner', 'Line 3 of 200 failed its checksum.'],
+  'wrong-table': ['#op-banner', "The firmware has another robot's table."], unreachable: ['#op-banner', 'Asked for 26.9°, limit 24°.'], over: ['#op-banner', '1 more: S3 slack'],
+};
+
+/** Every row of the table of states, and those of the table of errors that a device tells, at both sizes and in both themes; no two of them look the same to those who see no red or green. */
 export async function operate_states(browser, url) {
   // by its place: each frame puts another element there
   const iconOf = async (page, section) => page.screenshot({clip: await page.evaluate((i) => {
@@ -150,9 +160,12 @@ export async function operate_states(browser, url) {
       const telling = setInterval(() => of.push(frames[name]), 50);
       await until(page, (words) => JSON.stringify(window.__sinew?.operate?.frame?.sections.map((one) => one.word)) === words && document.querySelectorAll('.diagram .axes').length > 0, JSON.stringify(frames[name].sections.map((one) => one.word)));
       await page.locator('.section.chosen').waitFor();
-      if (name === 'full-disk') await page.locator('#op-banner', {hasText: 'NOT RECORDED'}).waitFor();
       if (name === 'no-data') assert.match(await page.locator('.section.chosen .more').innerText(), /4\.\d s old/);
       if (width < 720) await page.locator('.chips button').nth(name === 'over' ? 3 : 2).click();
+      await drawn(page);
+      for (const [of, selector] of Object.entries(drawnOf)) if (width > 720 && of !== 'slack') assert.equal(await page.locator(`.section .diagram ${selector}`).count() > 0, of === name, `${name}: ${selector}`);
+      if (says[name]) await page.locator(says[name][0], {hasText: says[name][1]}).waitFor();
+      if (name === 'taken' && width > 720) await bar(page, /VIEW ONLY.*another page controls since 10:41/s).waitFor();
       for (const theme of themes) {
         await page.emulateMedia({colorScheme: theme});
         await drawn(page);
@@ -302,7 +315,76 @@ export async function operate_locked(browser, url) {
   await done();
 }
 
-/** A feed that ends makes no quiet picture. A phone looks on and holds, whatever it is asked for. */
+/** A server that is gone makes no quiet picture: the last one fades and says so, and what is held is let go. */
+export async function operate_gone(browser, url) {
+  const {stand, page, done} = await control(browser, url, {isOwn: true}), {calls} = stand;
+  await bar(page, /Take control/).click();
+  await arrived(stand, () => calls('lease').length > 1);
+  stand.push({...stand.frame, state: 'armed', armed_left: 60});
+  await bar(page, /MOVE/).waitFor();
+  await page.locator('#op-view').focus();
+  await page.keyboard.down('m');
+  await arrived(stand, () => calls('move').length > 2);
+  stand.close();
+  await page.locator('#op-banner', {hasText: /NO DATA, \d+ s[^]*The picture is the last one/}).waitFor();
+  await page.locator('#op-notice', {hasText: 'no connection'}).waitFor();
+  await until(page, () => window.__sinew.operate.subject.control.held === null);
+  await page.locator('#op-bar.lost').waitFor();
+  await looks(page, 'operate-gone');
+  await page.keyboard.up('m');
+  await done();
+}
+
+/** A gamepad at a device: its shoulder moves while it is down; what is let go, or pulled out, moves nothing; its second button holds. */
+export async function operate_gamepad(browser, url) {
+  const {stand, page, done} = await control(browser, url, {locale: 'en'}), {calls} = stand;
+  await page.addInitScript(() => {
+    window.__pad = {connected: true, axes: [0, 0, 0, 0], buttons: Array.from({length: 16}, () => ({pressed: false}))};
+    navigator.getGamepads = () => [window.__pad];
+  });
+  await page.reload();
+  await operated(page, 0);
+  const press = (button, is) => page.evaluate(([one, down]) => { window.__pad.buttons[one].pressed = down; }, [button, is]);
+  await press(5, true);
+  await page.locator('#op-notice', {hasText: 'take control first'}).waitFor();
+  await press(5, false);
+  await bar(page, /Take control/).click();
+  await arrived(stand, () => calls('lease').length > 1);
+  await press(5, true);
+  await page.locator('#op-notice', {hasText: 'arm first'}).waitFor();
+  await press(5, false);
+  assert.equal(calls('move').length, 0);
+  stand.push({...stand.frame, state: 'armed', armed_left: 60});
+  await bar(page, /MOVE/).waitFor();
+  const isLetGo = async (call) => {
+    await arrived(stand, () => calls(call).at(-1).body.held === false);
+    const count = calls(call).length;
+    await pause(250);
+    assert.ok(calls(call).slice(count).every(({body}) => !body.held), call);
+  };
+  for (const [button, call] of [[5, 'move'], [12, 'advance'], [13, 'retract']]) {
+    await press(button, true);
+    await arrived(stand, () => calls(call).filter(({body}) => body.held).length > 2);
+    await press(button, false);
+    await isLetGo(call);
+  }
+  const before = calls('move').length;
+  await press(5, true);
+  await arrived(stand, () => calls('move').length > before + 2);
+  await page.evaluate(() => { window.__pad.connected = false; });
+  await isLetGo('move');
+  await page.evaluate(() => {
+    window.__pad.connected = true;
+    window.__pad.buttons[5].pressed = false;
+    window.dispatchEvent(new Event('gamepadconnected'));
+  });
+  const holds = calls('hold').length;
+  await press(1, true);
+  await arrived(stand, () => calls('hold').length === holds + 1);
+  await done();
+}
+
+/** A phone looks on and holds, whatever it is asked for. */
 export async function operate_phone(browser, url) {
   const {stand, page, done} = await control(browser, url, {width: 390, height: 844}), {said, calls} = stand;
   assert.equal(await page.locator('#source').innerText(), 'VIEW ONLY');
@@ -343,6 +425,14 @@ export async function operate_aids(browser, url) {
   });
   await page.goto(`${url}#robot=nottingham-tpcj&screen=operate`);
   await operated(page, 0);
+  const give = await page.evaluateHandle(() => navigator.mediaDevices.getUserMedia);
+  for (const [name, why] of [['NotAllowedError', 'the browser was not allowed to use a camera'], ['NotReadableError', 'no picture comes from the camera']]) {
+    await page.evaluate((of) => { navigator.mediaDevices.getUserMedia = () => Promise.reject(new DOMException('', of)); }, name);
+    await page.getByRole('button', {name: 'Show the camera'}).click();
+    await page.locator('.eye-note', {hasText: why}).waitFor();
+  }
+  await shot(page, 'operate-no-camera');
+  await page.evaluate((of) => { navigator.mediaDevices.getUserMedia = of; }, give);
   await page.getByRole('button', {name: 'Show the camera'}).click();
   const saved = page.waitForEvent('download');
   await page.getByRole('button', {name: /Snapshot/}).click();

@@ -42,16 +42,16 @@ export class Banner {
     const more = isBlind ? '' : alarm.more > 0 ? `${alarm.more} more: ${others.slice(0, 3).join(', ')}${others.length > 3 ? ', …' : ''}` : '';
     const since = alarm.since >= 1 ? `, ${alarm.since < 60 ? `${alarm.since.toFixed(0)} s` : `${Math.floor(alarm.since / 60)} min`}` : '';
     if (isBlind) return this.say('stale', 'NO DATA', since, [frame.message, alarm.did, alarm.next].map(asSentence).filter(Boolean).join(' '), !alarm.acknowledged);
-    this.say(kindOf(alarm.word), `S${alarm.section + 1} ${alarm.word}${alarm.word === section.word ? amount(section, system) : ''}`, since, [alarm.did, alarm.next, more].map(asSentence).filter(Boolean).join(' '), !alarm.acknowledged);
+    this.say(kindOf(alarm.word), `S${alarm.section + 1} ${alarm.word}${alarm.word === section.word ? amount(section, system) : ''}`, since, [alarm.did, alarm.next, frame.message, more].map(asSentence).filter(Boolean).join(' '), !alarm.acknowledged);
   }
 
   private unrecorded(why: string, isArmed: boolean): void {
     this.say('over', 'NOT RECORDED', '', `The recording failed: ${asSentence(why)} ${isArmed ? 'Motion is held. Make room on the disk, disarm, and arm again.' : 'Make room on the disk, and arm again.'}`, false);
   }
 
-  private quiet({sections}: Frame): void {
+  private quiet({sections, message}: Frame): void {
     const near = sections.flatMap((one, i) => (one.near_limit ? [`S${i + 1}`] : []));
-    this.say('exact', 'ALL SECTIONS EXACT', '', near.length > 0 ? `${near.join(', ')} near the limit.` : '', false);
+    this.say('exact', 'ALL SECTIONS EXACT', '', [near.length > 0 ? `${near.join(', ')} near the limit.` : '', asSentence(message)].filter(Boolean).join(' '), false);
     this.box.classList.add('quiet');
   }
 
