@@ -98,7 +98,7 @@ class Page {
   private async enter(): Promise<void> {
     const link = new URLSearchParams(location.hash.slice(1) || location.search), wanted = link.get('robot');
     const [says, {robots: shipped, opened}, {plans: listed}, device, recorded] = await Promise.all([version(), robots(), plans(), findDevice(), listRecordings()]);
-    if (says.protocol !== protocol) return this.shell.say(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
+    if (says.protocol !== protocol) return this.shell.refuse(`page and program differ (protocol ${protocol}, ${says.protocol}): reload`);
     [this.shipped, this.device, this.openedName] = [shipped, device, opened?.name ?? ''];
     this.panel = new Operate({system: () => this.shell.system, guarded: (task, again) => this.guarded(task, again), heard: () => this.heard(), linked: () => this.link(), turned: () => this.turnSource(), plans: () => listed, way: (plan, to) => this.showRecorded(plan, to)}, device);
     byId('recordings').hidden = !recorded || (recorded.length === 0 && !device);

@@ -1,5 +1,5 @@
 // What is around every screen: units, theme, panels, help, the status line.
-import {byId} from './make';
+import {button, byId, make} from './make';
 import {type System, unitName} from './units';
 
 const themes = ['auto', 'day', 'dark'];
@@ -18,6 +18,12 @@ export class Shell {
 
   say(text: string): void {
     byId('status').textContent = text;
+  }
+
+  /** Why there is nothing to be seen, where everybody sees it: a phone has no status line. */
+  refuse(text: string): void {
+    this.say(text);
+    byId('lost').before(make('p', {className: 'plate', role: 'alert'}, text, ' ', button('Reload', () => location.reload())));
   }
 
   connected(is: boolean): void {

@@ -64,6 +64,7 @@ export async function another_version(browser, url) {
   await page.route('**/api/version', (route) => route.fulfill({json: {sinew: '9.0.0', protocol: 2}}));
   await page.goto(url);
   await page.locator('#status', {hasText: 'page and program differ (protocol 1, 2): reload'}).waitFor();
+  await page.locator('.plate', {hasText: 'page and program differ'}).getByRole('button', {name: 'Reload'}).waitFor();
   await looks(page, 'another-version');
   await done();
 }

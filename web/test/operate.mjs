@@ -326,9 +326,11 @@ export async function operate_gone(browser, url) {
   await page.keyboard.down('m');
   await arrived(stand, () => calls('move').length > 2);
   stand.close();
-  await page.locator('#op-banner', {hasText: /NO DATA, \d+ s[^]*The picture is the last one/}).waitFor();
+  await page.locator('#op-banner', {hasText: /NO DATA, \d+ s[^]*the picture is the last one/}).waitFor();
+  await page.locator('#lost', {hasText: /NO CONNECTION \d+ s/}).waitFor();
   await page.locator('#op-notice', {hasText: 'no connection'}).waitFor();
   await until(page, () => window.__sinew.operate.subject.control.held === null);
+  await bar(page, /VIEW ONLY.*no connection/s).waitFor();
   await page.locator('#op-bar.lost').waitFor();
   await looks(page, 'operate-gone');
   await page.keyboard.up('m');

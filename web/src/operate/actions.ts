@@ -27,6 +27,7 @@ export class Actions {
   private speedSetAt = -Infinity;
   private frame: Frame | null = null;
   private chosen = 0;
+  private isLost = false;
 
   constructor(private readonly control: Control, info: DeviceInfo, private readonly orders: Orders, private readonly plan: PlanButtons, private readonly degreesOfMillimetre: () => number) {
     this.hold.element.classList.add('hold');
@@ -55,8 +56,9 @@ export class Actions {
     this.setSpeed(Math.min(fastest, Math.max(slowest, Number(this.slider.value) + by * step)));
   }
 
-  show(frame: Frame, chosen: number): void {
-    [this.frame, this.chosen] = [frame, chosen];
+  /** @param isLost frames do not come any more: who controls it now is not known */
+  show(frame: Frame, chosen: number, isLost: boolean): void {
+    [this.frame, this.chosen, this.isLost] = [frame, chosen, isLost];
     const {control} = this, isMine = this.isMine, isArmed = isMine && frame.state === 'armed', isBusy = (motion: Motion) => control.held === motion;
     this.hold.say('HOLD', 'Space', frame.activity === 'holding' ? 'held' : '', false);
     this.put(this.advance, 'Advance', 'W', 'advance', 'on its path');
@@ -74,6 +76,7 @@ export class Actions {
     this.lease.element.hidden = isArmed;
     const taken = !isMine && frame.control.holder !== null;
     if (isMine) this.lease.say('Release', '', 'control', false);
+    else if (isLost) this.lease.say('VIEW ONLY', '', 'no connection', true);
     else this.lease.say(taken ? 'VIEW ONLY' : 'Take control', '', taken ? `another page controls since ${frame.control.since}` : 'one page at a time may move it', taken);
     this.element.dataset.state = isArmed ? 'armed' : isMine ? 'control' : 'view';
     this.speed(frame);
@@ -132,7 +135,7 @@ export class Actions {
   private turnLease(): void {
     if (this.control.isMine) this.control.giveBack();
     else if (!this.lease.isLocked) void this.control.take();
-    else this.orders.say(`another page controls since ${this.frame?.control.since}; Hold works from here, too`);
+    else this.orders.say(this.isLost ? 'no connection: who controls it is not known' : `another page controls since ${this.frame?.control.since}; Hold works from here, too`);
   }
 
   private turnArm(): void {

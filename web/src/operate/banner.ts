@@ -35,7 +35,7 @@ export class Banner {
   /** @param lost why nothing is known; null: it is */
   show(frame: Frame, lost: string | null, system: System): void {
     const {alarm, sections} = frame, isBlind = sections.length > 0 && sections.every(({word}) => kindOf(word) === 'stale');
-    if (lost !== null) return this.say('stale', 'NO DATA', lost, 'The picture is the last one. Check the cable; motion is held.', false);
+    if (lost !== null) return this.say('stale', 'NO DATA', lost, 'The server does not answer, the picture is the last one. What was held stops by itself.', false);
     if (frame.recording?.error && kinds.indexOf(kindOf(alarm?.word ?? 'EXACT')) < kinds.indexOf('stale')) return this.unrecorded(frame.recording.error, frame.state === 'armed');
     if (!alarm) return this.quiet(frame);
     const section = sections[alarm.section]!, others = sections.flatMap((one, i) => (i !== alarm.section && kindOf(one.word) !== 'exact' ? [`S${i + 1} ${one.word.toLowerCase()}`] : []));

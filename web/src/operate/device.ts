@@ -28,7 +28,7 @@ export async function findDevice(): Promise<DeviceInfo | null> {
   return reply?.ok ? (await reply.json()).device ?? null : null;
 }
 
-export interface Listener { frame(frame: Frame): void; entry(entry: Entry): void; again(): void }
+export interface Listener { frame(frame: Frame): void; entry(entry: Entry): void; again(): void; broken(): void }
 
 export class Device {
   private events: EventSource | null = null;
@@ -43,6 +43,7 @@ export class Device {
     events.addEventListener('frame', (event) => this.listener.frame(JSON.parse(event.data)));
     events.addEventListener('log', (event) => this.listener.entry(JSON.parse(event.data)));
     events.addEventListener('error', () => {
+      this.listener.broken();
       if (events.readyState !== EventSource.CLOSED) return;
       this.deafen();
       setTimeout(() => this.listen(), 1000);  // a server that ended it for good

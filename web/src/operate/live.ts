@@ -1,5 +1,5 @@
 // The source DEVICE: what it tells ten times as often as one can read, and what may be done with it from this page.
-import {type Json, Newest} from '../client';
+import {type Json, Newest, version} from '../client';
 import type {Key} from '../keys';
 import {button, make} from '../make';
 import {Actions} from './actions';
@@ -48,7 +48,7 @@ export class Live implements Subject {
 
   constructor(private readonly opened: Opened, readonly info: DeviceInfo, private readonly stand: Stand, box: HTMLElement) {
     this.tensionLimit = info.tension_limit;
-    this.device = new Device(info, {frame: (frame) => this.take(frame), entry: (entry) => stand.entry(entry), again: () => stand.forgetEntries()});
+    this.device = new Device(info, {frame: (frame) => this.take(frame), entry: (entry) => stand.entry(entry), again: () => stand.forgetEntries(), broken: () => void stand.guarded(version)});
     this.control = new Control(this.device, (why) => stand.say(why), () => stand.changed());
     this.dialog = new ArmingDialog(box, this.control, info);
     this.plan = new LivePlan(this.device, this.control, opened.robot, opened.described.answer.sections, (task) => stand.guarded(task), () => stand.changed());
@@ -183,7 +183,7 @@ export class Live implements Subject {
 
   show(): void {
     if (!this.frame) return;
-    this.actions.show(this.frame, this.stand.chosen());
+    this.actions.show(this.frame, this.stand.chosen(), this.lost !== null);
     this.dialog.show(this.frame);
     this.bar.parentElement?.classList.toggle('lost', this.isStale);
   }

@@ -182,7 +182,7 @@ export class Operate {
 
   /** Of the device beside a recording. */
   private async holdDevice(): Promise<void> {
-    await new Device(this.info!, {frame() {}, entry() {}, again() {}}).call('hold').then(() => toast('the device is held'), (error) => this.refuse(error.message));
+    await new Device(this.info!, {frame() {}, entry() {}, again() {}, broken() {}}).call('hold').then(() => toast('the device is held'), (error) => this.refuse(error.message));
   }
 
   private change(opened: Opened, make: () => Subject, link: URLSearchParams | null): void {
