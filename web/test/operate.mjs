@@ -185,6 +185,44 @@ export async function operate_states(browser, url) {
   for (const one of [stand, neutral.stand]) one.close();
 }
 
+/** Bars to the side of what is wrong, the way of the last seconds, events by kind and as a file; what pulses does so for nobody who asked for calm. */
+export async function operate_details(browser, url) {
+  const {stand, make, page, done} = await control(browser, url), [slack, options] = rows.over;
+  stand.push(await make(bends, slack, options));
+  await until(page, () => window.__sinew.operate.frame.sections[3].word === 'OVER-TENSIONED');
+  const bars = (section) => page.locator('.section').nth(section).locator('.tendon').evaluateAll((all) => all.map((one) => {
+    const track = one.querySelector('.track').getBoundingClientRect(), fill = one.querySelector('.fill').getBoundingClientRect(), middle = track.left + track.width / 2;
+    return [one.querySelector('.value').textContent, fill.width < 1 ? '' : fill.left >= middle - 1 ? 'right' : fill.right <= middle + 1 ? 'left' : 'across'];
+  }));
+  assert.deepEqual(await bars(2), Array(3).fill(['+0.75 mm', 'right']));
+  assert.deepEqual(await bars(3), Array(3).fill(['−0.70 mm', 'left']));
+  assert.deepEqual(await bars(0), Array(3).fill(['0.00 mm', '']));
+  const pulse = () => page.locator('#op-banner.new').evaluate((one) => getComputedStyle(one).animationName);
+  assert.equal(await pulse(), 'pulse');
+  await page.emulateMedia({reducedMotion: 'reduce'});
+  assert.equal(await pulse(), 'none');
+  for (const x of [0.1, 0.15, 0.2]) {
+    stand.push(await make([[x, -0.05], ...bends.slice(1)]));
+    await until(page, (to) => Math.abs(window.__sinew.operate.frame.sections[0].point[0] - to) < 1e-3, x);
+  }
+  assert.equal(await page.locator('.diagram').nth(0).locator('.trail').count(), 1);
+  assert.equal(await page.locator('.diagram').nth(4).locator('.trail').count(), 0, 'what stands still has no trail');
+  await page.locator('#op-view').focus();
+  await page.keyboard.press('l');
+  const entries = page.locator('.drawer ol li');
+  assert.equal(await entries.count(), 5);
+  assert.match(await entries.first().innerText(), /S4 OVER-TENSIONED/, 'the newest first');
+  await page.getByLabel('States').selectOption('slack');
+  assert.equal(await entries.count(), 1);
+  await page.getByLabel('States').selectOption('');
+  const saved = page.waitForEvent('download');
+  await page.locator('.drawer').getByRole('button', {name: 'CSV'}).click();
+  const csv = readFileSync(await (await saved).path(), 'utf8').split('\n');
+  assert.equal(csv[0], 'time[s],clock,kind,text');
+  assert.equal(csv[5], '1.000,10:42:17,over,"S4 OVER-TENSIONED 0.70 mm"');
+  await done();
+}
+
 /** From looking on to moving and back: the lease, the dialog, Move while it is held, and every way in which it ends. */
 export async function operate_control(browser, url) {
   const {stand, page, done} = await control(browser, url), {said, calls} = stand;
