@@ -30,7 +30,7 @@ export interface Tube { from: number[]; to: number[]; shaft: number[]; axis: num
 
 /** What is around a robot that goes in, in the axes of the scene [m]. */
 export interface Around {
-  trail: number[][];       ///< the way of the tip
+  trail: number[][][];     ///< the way of the tip, in pieces where something of it is not known
   target: {tip: number[]; direction: number[] | null; tolerance: number} | null;
   port: {position: number[]; radius: number} | null;
   axis: number[];          ///< in which it goes in

@@ -14,7 +14,7 @@ export function surroundings({trail, target, port, axis, near}: Around, pen: Pen
     const [u, v] = across(axis);
     pen.circle(port.position, u, v, port.radius, {colour: colours.text, width: 1.5, isAbove: true});
   }
-  if (trail.length > 1) pen.line(trail, {colour: colours.accent, width: 1.6, dash: [2, 4], isAbove: true});
+  for (const piece of trail) if (piece.length > 1) pen.line(piece, {colour: colours.accent, width: 1.6, dash: [2, 4], isAbove: true});
   if (target) aimedAt(target, axis, pen, metres, target_look);
   if (!near) return;
   const colour = near.isBad ? colours.over : colours.text;

@@ -8,7 +8,7 @@ import {isPhone} from './operate/phone';
 import {type Around, type Drawing, type Picture, type Solids} from './picture';
 import {makePicture} from './picture_of';
 import {Plan} from './plan';
-import {type Pose, Poses} from './poses';
+import {type Pose, Poses, type Tips} from './poses';
 import {views} from './stage';
 import {toast} from './toast';
 import {Transport} from './transport';
@@ -27,6 +27,16 @@ export interface Screen {
   save(blob: Blob, name: string): void;
   whyNot(plan: Plan): string;  ///< why it cannot be driven; empty: it can
   drive(plan: Plan): void;
+}
+
+/** Where the tip was, in one piece as far as that is known. */
+function pieces(tips: (Tips | null)[], gaps: ReadonlySet<number>): Point[][] {
+  const found: Point[][] = [[]];
+  tips.forEach((tip, step) => {
+    if (!tip || gaps.has(step)) found.push([]);
+    if (tip) found.at(-1)!.push(tip.position);
+  });
+  return found;
 }
 
 export class Trajectory {
@@ -299,8 +309,8 @@ export class Trajectory {
   }
 
   private around(plan: Plan, pose: Pose, step: number): Around {
-    const {scene, check} = plan, tips = this.poses!.tips, at = check?.steps[step], trail = this.poses!.hasTips ? tips.flatMap((tip) => (tip ? [tip.position] : [])) : [];
-    const {on_robot: from, on_solid: to} = at ?? {}, extent: Point[] = [...(trail.length > 0 ? trail : [pose.tip.position]), scene.target?.tip ?? scene.base.position];
+    const {scene, check} = plan, tips = this.poses!.tips, at = check?.steps[step], trail = this.poses!.hasTips ? pieces(tips, plan.gaps) : [], points = trail.flat();
+    const {on_robot: from, on_solid: to} = at ?? {}, extent: Point[] = [...(points.length > 0 ? points : [pose.tip.position]), scene.target?.tip ?? scene.base.position];
     if (scene.port) extent.push(plus(scene.port.position, scene.axis, scene.port.radius), plus(scene.port.position, scene.axis, -scene.port.radius));
     return {
       trail, target: scene.target, port: scene.port, axis: scene.axis, tip: pose.tip, extent,

@@ -207,6 +207,10 @@ export async function operate_details(browser, url) {
   }
   assert.equal(await page.locator('.diagram').nth(0).locator('.trail').count(), 1);
   assert.equal(await page.locator('.diagram').nth(4).locator('.trail').count(), 0, 'what stands still has no trail');
+  stand.push({...stand.frame, link: 'silent', sections: stand.frame.sections.map((one) => ({...one, word: 'NO DATA'}))});
+  await until(page, () => window.__sinew.operate.frame.sections[0].word === 'NO DATA');
+  stand.push(await make([[-0.1, -0.05], ...bends.slice(1)]));
+  await until(page, () => window.__sinew.operate.frame.sections[0].point[0] < 0 && document.querySelectorAll('.diagram')[0].querySelectorAll('.trail').length === 0);  // where it was meanwhile nobody knows
   await page.locator('#op-view').focus();
   await page.keyboard.press('l');
   const entries = page.locator('.drawer ol li');

@@ -135,5 +135,5 @@ function around({shape, tip}: Pose, scene: Json | null, tube: Tube | null, trail
   if (target) points.push(target.tip);
   if (port) points.push(plus(port.position, axis, port.radius), plus(port.position, axis, -port.radius));
   if (tube) for (const sign of [1, -1]) points.push(plus(tube.from, [sign, sign, 0], tube.radius));
-  return {trail, target, port, axis, tip, base: shape.backbones[0]?.[0] ?? tip.position, near: null, extent: points};
+  return {trail: [trail], target, port, axis, tip, base: shape.backbones[0]?.[0] ?? tip.position, near: null, extent: points};
 }

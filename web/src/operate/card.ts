@@ -55,7 +55,8 @@ export class Card {
   /** @param now [ms] of the trail */
   show(frame: SectionFrame, look: Look, now: number): void {
     [this.frame, this.look] = [frame, look];
-    if (frame.point && kindOf(frame.word) !== 'stale') this.trail.put(frame.point, now);
+    if (kindOf(frame.word) === 'stale') this.trail.clear();  // where it was meanwhile nobody knows
+    else if (frame.point) this.trail.put(frame.point, now);
     this.write();
     this.draw();
     this.bars.show(frame, look.tensionLimit, look.system);
