@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import {audit, blank, differs, drawn, fits, linked, looks, open, same, shot, sinew} from './harness.mjs';
+import {standIn} from './stand_in.mjs';
 import {alarm, answered, arrived, bar, bends, control, degree, device, draws, frame, operated, pause, see, sizes, textOf, themes, until, word} from './operating.mjs';
 
 /** The target by pointer, keys and numbers; the command gives the numbers of the page; the link brings them back. */
@@ -375,8 +376,19 @@ export async function operate_gone(browser, url) {
   await bar(page, /VIEW ONLY.*no connection/s).waitFor();
   await page.locator('#op-bar.lost').waitFor();
   await looks(page, 'operate-gone');
+  // it is back while the key is still down: the picture is live again, and nothing moves
+  const back = await standIn(url, 'nottingham-tpcj', textOf('nottingham-tpcj'), {}, Number(new URL(stand.url).port));
+  back.push({...stand.frame, control: back.control(), state: 'view_only', armed_left: 0});
+  const telling = setInterval(() => back.push(back.frame), 50);
+  await page.locator('#lost').waitFor({state: 'hidden'});
+  await page.locator('#op-banner', {hasText: 'ALL SECTIONS EXACT'}).waitFor();
+  await bar(page, /Take control/).waitFor();
+  await pause(300);
+  assert.deepEqual(back.said.filter(({body}) => body.held), []);
   await page.keyboard.up('m');
+  clearInterval(telling);
   await done();
+  back.close();
 }
 
 /** A gamepad at a device: its shoulder moves while it is down; what is let go, or pulled out, moves nothing; its second button holds. */

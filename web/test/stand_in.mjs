@@ -5,7 +5,7 @@ import {createServer, request} from 'node:http';
 const usual = {source: 'demo', name: '/dev/stand-in', file: '', sections: 5, tendons: 3, has_tension: true, tension_limit: 20, has_stage: true, stage_limit: 0.15, faults: true};
 
 /** @param robot the file that the server says it was started with */
-export async function standIn(url, robot, text, info = {}) {
+export async function standIn(url, robot, text, info = {}, port = 0) {
   const said = [], refusals = {}, listeners = new Set(), entries = [];
   let last = null, lease = null, number = 6, plan = null, plans = 0;
   const send = (response, event, data) => response.write(`event: ${event}\ndata: ${JSON.stringify(data)}\n\n`);
@@ -87,7 +87,7 @@ export async function standIn(url, robot, text, info = {}) {
     if (pathname === '/api/robots') return void get().catch(get).then((answer) => answer.json()).then((json) => reply(response, 200, {...json, opened: {name: robot, text}}));
     pass(incoming, response);
   });
-  await new Promise((done) => server.listen(0, '127.0.0.1', done));
+  await new Promise((done) => server.listen(port, '127.0.0.1', done));
   server.unref();
   return {
     url: `http://127.0.0.1:${server.address().port}/`, said, refusals, push, control, atStep,
