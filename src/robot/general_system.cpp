@@ -159,268 +159,267 @@ GeneralSystem::GeneralSystem(const ParallelRobot<RodLeg>& robot) : HeavyRodGroup
     rod.gap.setZero();
     spoil(rod);
     all_.push_back(rod);
-    mass_.push_back(leg.link.mass_per_length());
   }
+}
 
-  GeneralSystem::Snapshot GeneralSystem::snapshot() const {
-    Snapshot to;
-    to.rods.resize(all_.size());
-    save(to);
-    return to;
+GeneralSystem::Snapshot GeneralSystem::snapshot() const {
+  Snapshot to;
+  to.rods.resize(all_.size());
+  save(to);
+  return to;
+}
+
+void GeneralSystem::save(Snapshot& to) const {
+  std::copy(all_.begin(), all_.end(), to.rods.begin());
+  to.elements = elements_;
+  to.platform = platform_;
+  to.wrench = wrench_;
+}
+
+void GeneralSystem::restore(const Snapshot& from) {
+  for (std::size_t k = 0; k < all_.size(); ++k) static_cast<GeneralRodState&>(all_[k]) = from.rods[k];
+  elements_ = from.elements;
+  platform_ = from.platform;
+  wrench_ = from.wrench;
+}
+
+void GeneralSystem::set_inputs(std::span<const double> inputs) {
+  for (int k = 0; k < rods(); ++k) at(k).length = inputs[v0::at(input_of(k))];
+}
+
+void GeneralSystem::set_gravity(const Vec3<double>& gravity) {
+  gravity_ = gravity;
+  for (int k = 0; k < rods(); ++k) at(k).rod.load = weight_of(k);
+}
+
+double GeneralSystem::weight_energy() const {
+  double energy = 0;
+  for (const GeneralRod& rod : all_) energy += rod.potential - rod.length * dot(rod.rod.load, rod.frame.p);
+  return energy;
+}
+
+/// Order 8: half the steps leave 256 times the error.
+bool GeneralSystem::can_coarsen(double wanted) const { return is_fine() && 1000 * truncation() < wanted; }
+
+double GeneralSystem::evaluate(bool) {
+  sum_.setZero();
+  rod_error_ = 0;
+  double stiffest[2] = {0, 0}, nothing = 0;
+  const Mat<double, 3, 3> R = platform_.R.matrix();
+  for (GeneralRod& rod : all_) {
+    const SO3<double> section = rod.frame.R.compose(SO3<double>::exp({0, 0, rod.spin}));
+    rod.from = {rod.frame.p, section, rod.force, rod.moment};
+    const RodTip tip = integrate(rod.rod, rod.length, rod.from, {elements_, 0});
+    rod.tip = tip.state;
+    rod.energy = tip.energy - tip.potential;
+    rod.potential = tip.potential;
+    rod.arm = R * rod.platform_point;
+    rod.gap = gaps_of(rod, platform_).gap(rod.tip);
+    if (tip.status != Status::converged) rod.gap.setConstant(not_a_number);
+    rod_error_ = std::max(rod_error_, rod.gap.lpNorm<Eigen::Infinity>());
+    nothing += rod.gap.sum() * 0;
+    sum_ += on_platform(rod, wrench_of(rod));
+    const double moment = rod.stiffness / rod.length, force = moment / rod.length;
+    stiffest[0] = std::max(stiffest[0], force);
+    stiffest[1] = std::max(stiffest[1], moment);
   }
+  rod_error_ += nothing;
+  const Wrench open = missing();
+  const double balance = std::max(open.head<3>().lpNorm<Eigen::Infinity>() / stiffest[0],
+                                  open.tail<3>().lpNorm<Eigen::Infinity>() / stiffest[1]);
+  return std::max(rod_error_, balance) + nothing + open.sum() * 0;
+}
 
-  void GeneralSystem::save(Snapshot & to) const {
-    std::copy(all_.begin(), all_.end(), to.rods.begin());
-    to.elements = elements_;
-    to.platform = platform_;
-    to.wrench = wrench_;
+/// The sum of what the rods hand over once their gaps are closed.
+void GeneralSystem::sum_closed() {
+  sum_.setZero();
+  for (GeneralRod& rod : all_) {
+    const Vector6 open = -rod.gap;
+    if (rod.is_regular) rod.factors.solve(open.data(), rod.fix.data());
+    sum_ += on_platform(rod, wrench_of(rod) + rod.handed * rod.fix);
   }
+}
 
-  void GeneralSystem::restore(const Snapshot& from) {
-    for (std::size_t k = 0; k < all_.size(); ++k) static_cast<GeneralRodState&>(all_[k]) = from.rods[k];
-    elements_ = from.elements;
-    platform_ = from.platform;
-    wrench_ = from.wrench;
+bool GeneralSystem::linearise() {
+  stiffness_.setZero();
+  for (GeneralRod& rod : all_) {
+    linearise_rod(rod, platform_, elements_);
+    stiffness_ += on_platform_stiffness(rod);
   }
+  sum_closed();
+  return lu_.factor(stiffness_.data(), radius_);
+}
 
-  void GeneralSystem::set_inputs(std::span<const double> inputs) {
-    for (int k = 0; k < rods(); ++k) at(k).length = inputs[v0::at(input_of(k))];
+GeneralSystem::Twist GeneralSystem::step(bool fresh) {
+  if (!fresh) sum_closed();
+  const Wrench wanted = missing();
+  Twist twist;
+  lu_.solve(wanted.data(), twist.data());
+  return twist;
+}
+
+void GeneralSystem::move_rod(GeneralRod& rod, const Vector6& by, double fed) {
+  rod.force += by.head<3>() * rod.force_unit;
+  const Vec3<double> bent(by[3], by[4], rod.seeks_spin ? 0 : by[5]);
+  rod.moment += rod.frame.R.rotate(bent) * rod.moment_unit;
+  if (rod.seeks_spin) rod.spin += by[5];
+  rod.length += fed;
+}
+
+void GeneralSystem::move(const Twist& twist, std::span<const double> fed) {
+  move_platform(twist);
+  for (int k = 0; k < rods(); ++k) {
+    GeneralRod& rod = at(k);
+    const double more = fed.empty() ? 0 : fed[v0::at(input_of(k))];
+    move_rod(rod, rod.fix + rod.by_twist * twist + rod.by_length * more, more);
   }
+}
 
-  void GeneralSystem::set_gravity(const Vec3<double>& gravity) {
-    gravity_ = gravity;
-    for (int k = 0; k < rods(); ++k) at(k).rod.load = weight_of(k);
+GeneralSystem::Wrench GeneralSystem::feed_wrench(int input) const {
+  Wrench sum = Wrench::Zero();
+  for (int k = 0; k < rods(); ++k)
+    if (input_of(k) == input) sum += on_platform(at(k), at(k).feed);
+  return sum;
+}
+
+double GeneralSystem::axial_force(int rod) const { return dot(at(rod).from.tangent(), at(rod).force); }
+
+double GeneralSystem::closing_axial_force(int rod) const {
+  const GeneralRod& one = at(rod);
+  return axial_force(rod) + dot(one.from.tangent(), Vec3<double>(one.fix.head<3>())) * one.force_unit;
+}
+
+GeneralSystem::Twist GeneralSystem::axial_row(int rod) const {
+  const GeneralRod& one = at(rod);
+  return one.by_twist.topRows<3>().transpose() * one.from.tangent() * one.force_unit;
+}
+
+RodReading GeneralSystem::rod(int index) const {
+  const GeneralRod& rod = at(index);
+  const Vec3<double> compliance(1 / rod.rod.bending_stiffness[0], 1 / rod.rod.bending_stiffness[1],
+                                1 / rod.rod.torsion_stiffness);
+  const auto bend = [&](const RodState<double>& here) -> Vec3<double> {  // beyond that at rest
+    return compliance.cwiseProduct(here.R.rotate_back(here.m));
+  };
+  const Vec3<double> t0 = rod.from.tangent(), way = rod.tip.p - rod.frame.p, last = rod.tip.tangent();
+  RodReading reading;
+  reading.length = rod.length;
+  reading.chord = way.norm();
+  reading.tip = rod.tip.p;
+  reading.force = rod.tip.n;
+  reading.force_0 = rod.force;
+  if (rod.ends.tip != RodEnds::Tip::ball) reading.moment = rod.tip.m;
+  reading.moment_0 = rod.moment;
+  reading.curvature_0 = rod.from.R.rotate(Vec3<double>(rod.rod.precurvature + bend(rod.from)));
+  reading.axial_force = dot(reading.force, t0);
+  // away from the guide's line, as the tip lies; of a rod that does not bend in one plane what is left
+  const Vec3<double> aside = (way - t0 * dot(t0, way)).stableNormalized();
+  reading.lateral_force =
+      std::copysign((reading.force - t0 * reading.axial_force).norm(), dot(reading.force, aside));
+  reading.tip_angle = std::copysign(std::atan2(cross(t0, last).norm(), dot(t0, last)), dot(last, aside));
+  reading.energy = rod.energy;
+  std::array<RodState<double>, 65> sections;
+  rod_sections(rod.rod, rod.length, rod.from, sections, {elements_, 0});
+  for (const RodState<double>& section : sections) {
+    const Vec2<double> about = bend(section).head<2>();
+    reading.largest_curvature = std::max(reading.largest_curvature, about.norm());
+    if (rod.reach[0] > 0)  // at a corner of a strip
+      reading.largest_strain =
+          std::fmax(reading.largest_strain, dot(Vec2<double>(about.cwiseAbs()), rod.reach));
   }
+  return reading;
+}
 
-  double GeneralSystem::weight_energy() const {
-    double energy = 0;
-    for (const GeneralRod& rod : all_) energy += rod.potential - rod.length * dot(rod.rod.load, rod.frame.p);
-    return energy;
+std::array<int, 2> GeneralSystem::unstable_with_tip_held(int index) const {
+  const GeneralRod& rod = at(index);
+  const int count = v0::unstable_directions(rod.rod, rod.length, rod.from, rod.ends);
+  return {count < 0 ? 1 : count, 0};  // what cannot be counted is not vouched for
+}
+
+double GeneralSystem::truncation() const {
+  constexpr double per_difference = 1.0 / 64;  // 1/255 by the order; fewer and long steps do not show it yet
+  double worst = 0;
+  for (const GeneralRod& rod : all_) {
+    const RodTip coarse = integrate(rod.rod, rod.length, rod.from, {elements_ / 2, 0});
+    const double turn = rod.tip.R.compose(coarse.state.R.inverse()).log().norm();
+    const double missed = std::max((rod.tip.p - coarse.state.p).norm() / rod.length, turn) * per_difference;
+    if (!(missed <= worst)) worst = missed;  // NaN stays
   }
+  return worst;
+}
 
-  /// Order 8: half the steps leave 256 times the error.
-  bool GeneralSystem::can_coarsen(double wanted) const { return is_fine() && 1000 * truncation() < wanted; }
+std::vector<Vec3<double>> GeneralSystem::centreline(int index, int samples) const {
+  const GeneralRod& rod = at(index);
+  std::vector<RodState<double>> sections(v0::at(samples));
+  rod_sections(rod.rod, rod.length, rod.from, sections, {elements_, 0});
+  std::vector<Vec3<double>> points;
+  for (const RodState<double>& section : sections) points.push_back(section.p);
+  return points;
+}
 
-  double GeneralSystem::evaluate(bool) {
-    sum_.setZero();
-    rod_error_ = 0;
-    double stiffest[2] = {0, 0}, nothing = 0;
-    const Mat<double, 3, 3> R = platform_.R.matrix();
-    for (GeneralRod& rod : all_) {
-      const SO3<double> section = rod.frame.R.compose(SO3<double>::exp({0, 0, rod.spin}));
-      rod.from = {rod.frame.p, section, rod.force, rod.moment};
-      const RodTip tip = integrate(rod.rod, rod.length, rod.from, {elements_, 0});
-      rod.tip = tip.state;
-      rod.energy = tip.energy - tip.potential;
-      rod.potential = tip.potential;
-      rod.arm = R * rod.platform_point;
-      rod.gap = gaps_of(rod, platform_).gap(rod.tip);
-      if (tip.status != Status::converged) rod.gap.setConstant(not_a_number);
-      rod_error_ = std::max(rod_error_, rod.gap.lpNorm<Eigen::Infinity>());
-      nothing += rod.gap.sum() * 0;
-      sum_ += on_platform(rod, wrench_of(rod));
-      const double moment = rod.stiffness / rod.length, force = moment / rod.length;
-      stiffest[0] = std::max(stiffest[0], force);
-      stiffest[1] = std::max(stiffest[1], moment);
+void GeneralSystem::get_rod(int index, std::span<double> coordinates) const {
+  const GeneralRod& rod = at(index);
+  auto to = std::ranges::copy(rod.force, coordinates.begin()).out;
+  to = std::ranges::copy(rod.moment, to).out;
+  *to++ = rod.spin;
+  *to++ = rod.length;
+  std::fill(to, coordinates.end(), 0.0);
+}
+
+void GeneralSystem::set_rods(std::span<const double> coordinates) {
+  elements_ = most_elements;
+  for (int k = 0; k < rods(); ++k) {
+    const auto from = coordinates.subspan(v0::at(coordinate_of(k)));
+    GeneralRod& rod = at(k);
+    rod.force = {from[0], from[1], from[2]};
+    rod.moment = {from[3], from[4], from[5]};
+    rod.spin = from[6];
+    rod.length = from[7];
+  }
+}
+
+bool GeneralSystem::draw_rods() {
+  elements_ = coarse_elements;
+  const Mat<double, 3, 3> R = platform_.R.matrix();
+  for (GeneralRod& rod : all_) {
+    const SE3<double> tip{platform_.p + R * rod.platform_point, platform_.R.compose(rod.platform_section)};
+    const Vec3<double> way = tip.p - rod.frame.p;
+    const double chord = way.norm();
+    if (!(chord > 0)) return false;
+    const Vec3<double> from = rod.frame.R.rotate(Vec3<double>(0, 0, chord));
+    // without moment at the tip the cubic's second derivative is 0 there
+    const Vec3<double> to = rod.ends.tip == RodEnds::Tip::ball ? Vec3<double>(1.5 * way - 0.5 * from)
+                                                               : tip.R.rotate(Vec3<double>(0, 0, chord));
+    const Vec3<double> twice = 6 * way - 4 * from - 2 * to, thrice = 6 * from + 6 * to - 12 * way;
+    constexpr int panels = 32;
+    rod.length = 0;
+    for (int k = 0; k < panels; ++k) {
+      const double s = (k + 0.5) / panels;
+      rod.length += (from + s * twice + s * s / 2 * thrice).norm() / panels;
     }
-    rod_error_ += nothing;
-    const Wrench open = missing();
-    const double balance = std::max(open.head<3>().lpNorm<Eigen::Infinity>() / stiffest[0],
-                                    open.tail<3>().lpNorm<Eigen::Infinity>() / stiffest[1]);
-    return std::max(rod_error_, balance) + nothing + open.sum() * 0;
+    // one that turns further than its steps resolve at rest, too
+    if (!(rod.length * rod.rod.precurvature.norm() < most_elements)) return false;
+    const HeldRod held = hold(rod.rod, rod.frame, rod.length, rod.ends, tip, {.tolerance = 1e-9});
+    if (!held.report.ok()) return false;
+    rod.force = held.base.n;
+    rod.moment = held.base.m;
+    rod.spin = held.spin;
   }
+  return true;
+}
 
-  /// The sum of what the rods hand over once their gaps are closed.
-  void GeneralSystem::sum_closed() {
-    sum_.setZero();
-    for (GeneralRod& rod : all_) {
-      const Vector6 open = -rod.gap;
-      if (rod.is_regular) rod.factors.solve(open.data(), rod.fix.data());
-      sum_ += on_platform(rod, wrench_of(rod) + rod.handed * rod.fix);
-    }
+double GeneralSystem::move_to_rest(double most) {
+  double largest = 0;
+  for (GeneralRod& rod : all_) {
+    const Vec3<double> way = platform_.p + rod.arm - rod.frame.p, ahead = way / way.norm();
+    const Vector6 by_fix = rod.handed * rod.fix;
+    const double pull = dot(ahead, Vec3<double>(rod.tip.n + by_fix.head<3>()));
+    const double wanted = -pull / dot(ahead, Vec3<double>(rod.feed.head<3>())), limit = most * rod.length;
+    const double fed = std::isfinite(wanted) ? std::clamp(wanted, -limit, limit) : 0;
+    largest = std::max(largest, std::abs(fed) / rod.length);
+    move_rod(rod, rod.fix + rod.by_length * fed, fed);
   }
-
-  bool GeneralSystem::linearise() {
-    stiffness_.setZero();
-    for (GeneralRod& rod : all_) {
-      linearise_rod(rod, platform_, elements_);
-      stiffness_ += on_platform_stiffness(rod);
-    }
-    sum_closed();
-    return lu_.factor(stiffness_.data(), radius_);
-  }
-
-  GeneralSystem::Twist GeneralSystem::step(bool fresh) {
-    if (!fresh) sum_closed();
-    const Wrench wanted = missing();
-    Twist twist;
-    lu_.solve(wanted.data(), twist.data());
-    return twist;
-  }
-
-  void GeneralSystem::move_rod(GeneralRod & rod, const Vector6& by, double fed) {
-    rod.force += by.head<3>() * rod.force_unit;
-    const Vec3<double> bent(by[3], by[4], rod.seeks_spin ? 0 : by[5]);
-    rod.moment += rod.frame.R.rotate(bent) * rod.moment_unit;
-    if (rod.seeks_spin) rod.spin += by[5];
-    rod.length += fed;
-  }
-
-  void GeneralSystem::move(const Twist& twist, std::span<const double> fed) {
-    move_platform(twist);
-    for (int k = 0; k < rods(); ++k) {
-      GeneralRod& rod = at(k);
-      const double more = fed.empty() ? 0 : fed[v0::at(input_of(k))];
-      move_rod(rod, rod.fix + rod.by_twist * twist + rod.by_length * more, more);
-    }
-  }
-
-  GeneralSystem::Wrench GeneralSystem::feed_wrench(int input) const {
-    Wrench sum = Wrench::Zero();
-    for (int k = 0; k < rods(); ++k)
-      if (input_of(k) == input) sum += on_platform(at(k), at(k).feed);
-    return sum;
-  }
-
-  double GeneralSystem::axial_force(int rod) const { return dot(at(rod).from.tangent(), at(rod).force); }
-
-  double GeneralSystem::closing_axial_force(int rod) const {
-    const GeneralRod& one = at(rod);
-    return axial_force(rod) + dot(one.from.tangent(), Vec3<double>(one.fix.head<3>())) * one.force_unit;
-  }
-
-  GeneralSystem::Twist GeneralSystem::axial_row(int rod) const {
-    const GeneralRod& one = at(rod);
-    return one.by_twist.topRows<3>().transpose() * one.from.tangent() * one.force_unit;
-  }
-
-  RodReading GeneralSystem::rod(int index) const {
-    const GeneralRod& rod = at(index);
-    const Vec3<double> compliance(1 / rod.rod.bending_stiffness[0], 1 / rod.rod.bending_stiffness[1],
-                                  1 / rod.rod.torsion_stiffness);
-    const auto bend = [&](const RodState<double>& here) -> Vec3<double> {  // beyond that at rest
-      return compliance.cwiseProduct(here.R.rotate_back(here.m));
-    };
-    const Vec3<double> t0 = rod.from.tangent(), way = rod.tip.p - rod.frame.p, last = rod.tip.tangent();
-    RodReading reading;
-    reading.length = rod.length;
-    reading.chord = way.norm();
-    reading.tip = rod.tip.p;
-    reading.force = rod.tip.n;
-    reading.force_0 = rod.force;
-    if (rod.ends.tip != RodEnds::Tip::ball) reading.moment = rod.tip.m;
-    reading.moment_0 = rod.moment;
-    reading.curvature_0 = rod.from.R.rotate(Vec3<double>(rod.rod.precurvature + bend(rod.from)));
-    reading.axial_force = dot(reading.force, t0);
-    // away from the guide's line, as the tip lies; of a rod that does not bend in one plane what is left
-    const Vec3<double> aside = (way - t0 * dot(t0, way)).stableNormalized();
-    reading.lateral_force =
-        std::copysign((reading.force - t0 * reading.axial_force).norm(), dot(reading.force, aside));
-    reading.tip_angle = std::copysign(std::atan2(cross(t0, last).norm(), dot(t0, last)), dot(last, aside));
-    reading.energy = rod.energy;
-    std::array<RodState<double>, 65> sections;
-    rod_sections(rod.rod, rod.length, rod.from, sections, {elements_, 0});
-    for (const RodState<double>& section : sections) {
-      const Vec2<double> about = bend(section).head<2>();
-      reading.largest_curvature = std::max(reading.largest_curvature, about.norm());
-      if (rod.reach[0] > 0)  // at a corner of a strip
-        reading.largest_strain =
-            std::fmax(reading.largest_strain, dot(Vec2<double>(about.cwiseAbs()), rod.reach));
-    }
-    return reading;
-  }
-
-  std::array<int, 2> GeneralSystem::unstable_with_tip_held(int index) const {
-    const GeneralRod& rod = at(index);
-    const int count = v0::unstable_directions(rod.rod, rod.length, rod.from, rod.ends);
-    return {count < 0 ? 1 : count, 0};  // what cannot be counted is not vouched for
-  }
-
-  double GeneralSystem::truncation() const {
-    constexpr double per_difference =
-        1.0 / 64;  // 1/255 by the order; fewer and long steps do not show it yet
-    double worst = 0;
-    for (const GeneralRod& rod : all_) {
-      const RodTip coarse = integrate(rod.rod, rod.length, rod.from, {elements_ / 2, 0});
-      const double turn = rod.tip.R.compose(coarse.state.R.inverse()).log().norm();
-      const double missed = std::max((rod.tip.p - coarse.state.p).norm() / rod.length, turn) * per_difference;
-      if (!(missed <= worst)) worst = missed;  // NaN stays
-    }
-    return worst;
-  }
-
-  std::vector<Vec3<double>> GeneralSystem::centreline(int index, int samples) const {
-    const GeneralRod& rod = at(index);
-    std::vector<RodState<double>> sections(v0::at(samples));
-    rod_sections(rod.rod, rod.length, rod.from, sections, {elements_, 0});
-    std::vector<Vec3<double>> points;
-    for (const RodState<double>& section : sections) points.push_back(section.p);
-    return points;
-  }
-
-  void GeneralSystem::get_rod(int index, std::span<double> coordinates) const {
-    const GeneralRod& rod = at(index);
-    auto to = std::ranges::copy(rod.force, coordinates.begin()).out;
-    to = std::ranges::copy(rod.moment, to).out;
-    *to++ = rod.spin;
-    *to++ = rod.length;
-    std::fill(to, coordinates.end(), 0.0);
-  }
-
-  void GeneralSystem::set_rods(std::span<const double> coordinates) {
-    elements_ = most_elements;
-    for (int k = 0; k < rods(); ++k) {
-      const auto from = coordinates.subspan(v0::at(coordinate_of(k)));
-      GeneralRod& rod = at(k);
-      rod.force = {from[0], from[1], from[2]};
-      rod.moment = {from[3], from[4], from[5]};
-      rod.spin = from[6];
-      rod.length = from[7];
-    }
-  }
-
-  bool GeneralSystem::draw_rods() {
-    elements_ = coarse_elements;
-    const Mat<double, 3, 3> R = platform_.R.matrix();
-    for (GeneralRod& rod : all_) {
-      const SE3<double> tip{platform_.p + R * rod.platform_point, platform_.R.compose(rod.platform_section)};
-      const Vec3<double> way = tip.p - rod.frame.p;
-      const double chord = way.norm();
-      if (!(chord > 0)) return false;
-      const Vec3<double> from = rod.frame.R.rotate(Vec3<double>(0, 0, chord));
-      // without moment at the tip the cubic's second derivative is 0 there
-      const Vec3<double> to = rod.ends.tip == RodEnds::Tip::ball ? Vec3<double>(1.5 * way - 0.5 * from)
-                                                                 : tip.R.rotate(Vec3<double>(0, 0, chord));
-      const Vec3<double> twice = 6 * way - 4 * from - 2 * to, thrice = 6 * from + 6 * to - 12 * way;
-      constexpr int panels = 32;
-      rod.length = 0;
-      for (int k = 0; k < panels; ++k) {
-        const double s = (k + 0.5) / panels;
-        rod.length += (from + s * twice + s * s / 2 * thrice).norm() / panels;
-      }
-      // one that turns further than its steps resolve at rest, too
-      if (!(rod.length * rod.rod.precurvature.norm() < most_elements)) return false;
-      const HeldRod held = hold(rod.rod, rod.frame, rod.length, rod.ends, tip, {.tolerance = 1e-9});
-      if (!held.report.ok()) return false;
-      rod.force = held.base.n;
-      rod.moment = held.base.m;
-      rod.spin = held.spin;
-    }
-    return true;
-  }
-
-  double GeneralSystem::move_to_rest(double most) {
-    double largest = 0;
-    for (GeneralRod& rod : all_) {
-      const Vec3<double> way = platform_.p + rod.arm - rod.frame.p, ahead = way / way.norm();
-      const Vector6 by_fix = rod.handed * rod.fix;
-      const double pull = dot(ahead, Vec3<double>(rod.tip.n + by_fix.head<3>()));
-      const double wanted = -pull / dot(ahead, Vec3<double>(rod.feed.head<3>())), limit = most * rod.length;
-      const double fed = std::isfinite(wanted) ? std::clamp(wanted, -limit, limit) : 0;
-      largest = std::max(largest, std::abs(fed) / rod.length);
-      move_rod(rod, rod.fix + rod.by_length * fed, fed);
-    }
-    return largest;
-  }
+  return largest;
+}
 
 }  // namespace sinew::inline v0
