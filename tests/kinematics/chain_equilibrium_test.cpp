@@ -338,6 +338,23 @@ TEST(ChainEquilibrium, NothingIsSteppedOver) {
   }
 }
 
+TEST(ChainEquilibrium, ALoadThatIsNoneGrowsWithoutEffect) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                   inf = std::numeric_limits<double>::infinity();
+  ChainState<Planar> state;
+  for (const double wrong : {nan, inf, -inf})
+    EXPECT_EQ(path_to(ChainModel::even, {0, wrong, 1}, 1, state).report.status, Status::bad_input);
+  EXPECT_EQ(path_to(ChainModel::even, {0, 0, 1}, nan, state).report.status, Status::bad_input);
+  EXPECT_EQ(path_to(ChainModel::even, {0, 0, 0}, 7, state).load, 7);
+  const PlanarPose before = state.pose;
+  EXPECT_EQ(path_to(ChainModel::even, {0, 0, 1}, 0, state).load, 0);
+  EXPECT_EQ(path_to(ChainModel::even, {0, 0, 1}, -1, state).load, 0);
+  EXPECT_EQ(state.pose.x, before.x);
+  const auto unbounded = path_to(ChainModel::even, {0, 0, 1}, inf, state);
+  EXPECT_EQ(unbounded.end, ChainLoadEnd::fold);
+  EXPECT_NEAR(unbounded.load, 6.3236e-3, 1e-6);
+}
+
 TEST(ChainEquilibrium, ALoadMayBeCountedInAnyUnit) {  // squares of 1e±300 are no numbers, or zero
   for (const double unit : {1e-300, 1e-200, 1e200, 1e300}) {
     ChainState<Planar> state;

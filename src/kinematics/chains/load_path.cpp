@@ -118,11 +118,20 @@ ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Spac
     path.report.message.append("the state is of another robot");
     return path;
   }
+  if (!direction.allFinite() || std::isnan(limit)) {
+    path.report.status = Status::bad_input;
+    path.report.message.append("the direction of the load, or its limit, is not a number");
+    return path;
+  }
   path.report = check_hold(robot, state.hold);
   if (!path.report.ok()) return path;
   Solver<Space> solver(robot, work, options);
   check_regularity(solver, solver.reduce(state.pose, state.legs, state.hold, state.wrench), path.report);
   if (!path.report.ok()) return path;
+  if (!(limit > 0) || direction.isZero(0)) {  // nothing grows
+    path.load = std::max(limit, 0.0);
+    return path;
+  }
   double bending = 0;  // a force that bends the chains, roughly
   for (const auto& leg : robot.legs) bending += leg.bending_stiffness / std::pow(leg.chain.length, 2);
   const double largest = direction.cwiseAbs().maxCoeff(), unit = bending / largest;
