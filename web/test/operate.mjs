@@ -331,6 +331,8 @@ export async function operate_locked(browser, url) {
   const relax = await bar(page, /Relax S4/).boundingBox();
   await page.mouse.move(relax.x + 20, relax.y + 20);
   await page.mouse.down();
+  await pause(400);
+  assert.equal(calls('relax').length, 0, 'not before a second');
   await arrived(stand, () => calls('relax').length > 2);
   await page.mouse.up();
   assert.equal(calls('relax')[0].body.section, 3);

@@ -3,10 +3,11 @@ import {button, make} from '../make';
 import type {Control, Motion} from './control';
 import {type DeviceInfo, type Frame, kindOf} from './frame';
 import type {PlanButtons} from './plan_buttons';
-import {heldButton, Labelled} from './press';
+import {heldButton, Labelled, slowButton} from './press';
 
 const [slowest, fastest, step] = [0.5, 20, 0.5];  // mm/s
 
+const relaxAfter = 1000;  // ms
 const takeFirst = 'take control first';
 
 export interface Orders { hold(): void; arm(): void; say(why: string): void }
@@ -17,7 +18,7 @@ export class Actions {
   private readonly advance = this.motion('advance');
   private readonly retract = this.motion('retract');
   private readonly straighten = this.motion('straighten');
-  private readonly relax = this.motion('relax');
+  private readonly relax = new Labelled(slowButton('', relaxAfter, () => this.press('relax'), () => this.letGo('relax'), () => this.may('relax')));
   private readonly move = this.motion('move');
   private readonly lease = new Labelled(button('', () => this.turnLease()));
   private readonly arm = new Labelled(button('', () => this.turnArm()));
@@ -39,17 +40,26 @@ export class Actions {
   }
 
   private motion(motion: Motion): Labelled {
-    const labelled: Labelled = new Labelled(heldButton(() => this.press(motion), () => this.control.held === motion && this.control.letGo()));
+    const labelled: Labelled = new Labelled(heldButton(() => this.press(motion), () => this.letGo(motion)));
     labelled.element.dataset.motion = motion;
     return labelled;
+  }
+
+  private letGo(motion: Motion): void {
+    if (this.control.held === motion) void this.control.letGo();
+  }
+
+  /** Where it may not, it says why. */
+  private may(motion: Motion): boolean {
+    const why = this.locked(motion);
+    if (why) this.orders.say(why);
+    return !why;
   }
 
   /** By a button or a key. */
   press(motion: Motion): void {
     if (motion === 'back' || (motion === 'move' && this.frame?.plan)) return this.frame?.plan ? this.plan.press(motion === 'back') : undefined;
-    const why = this.locked(motion);
-    if (why) return this.orders.say(why);
-    this.control.press(motion, motion === 'relax' ? {section: this.relaxed} : {});
+    if (this.may(motion)) this.control.press(motion, motion === 'relax' ? {section: this.relaxed} : {});
   }
 
   faster(by: number): void {
@@ -109,7 +119,7 @@ export class Actions {
 
   private get payOut(): string {
     const lacks = this.frame!.sections[this.relaxed]?.amount ?? 0;
-    return this.isOver && lacks > 0 ? `hold: pays out ${(1e3 * lacks).toFixed(2)} mm` : 'hold: until slack';
+    return this.isOver && lacks > 0 ? `hold 1 s: pays out ${(1e3 * lacks).toFixed(2)} mm` : 'hold 1 s: until slack';
   }
 
   /** What is over-tensioned comes first. */

@@ -29,10 +29,11 @@ export function heldButton(down: () => void, up: () => void): HTMLButtonElement 
   return made;
 }
 
-/** Does something once it has been held for so long [ms]; a bar shows how far it is. @param end it was released */
-export function slowButton(text: string, after: number, go: () => void, end: () => void = () => undefined): HTMLButtonElement {
+/** Does something once it has been held for so long [ms]; a bar shows how far it is. @param end it was released @param may it be begun? */
+export function slowButton(text: string, after: number, go: () => void, end: () => void = () => undefined, may: () => boolean = () => true): HTMLButtonElement {
   let timer = 0;
   const made = heldButton(() => {
+    if (!may()) return;
     made.classList.add('filling');
     timer = window.setTimeout(() => {
       made.classList.remove('filling');
