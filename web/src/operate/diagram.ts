@@ -75,7 +75,7 @@ export class Diagram {
     if (isApart(goal, 4)) nodes.push(...crossHair(goal));
     const [x, y] = measured ? plane.at(measured) : [0, 0];
     if (measured && isApart([x, y], 4)) nodes.push(svg('path', {class: 'measured', d: `M${x} ${y - 6}L${x + 6} ${y}L${x} ${y + 6}L${x - 6} ${y}Z`}));
-    if (here) nodes.push(svg('circle', {class: 'plate', cx: here[0], cy: here[1], r: radius + 3}), mark(kind, ...this.seen(here), radius));
+    if (here) nodes.push(svg('circle', {class: 'halo', cx: here[0], cy: here[1], r: radius + 3}), mark(kind, ...this.seen(here), radius));
     return nodes;
   }
 
