@@ -8,7 +8,13 @@ import {plans} from './ways.mjs';
 const text = readFileSync(new URL('../../robots/nottingham-tpcj.yaml', import.meta.url), 'utf8');
 const pause = (ms) => new Promise((next) => setTimeout(next, ms));
 const bar = (page, name) => page.locator('#op-bar').getByRole('button', {name});
-const readings = (page) => page.locator('#op-tip').innerText();
+const readings = async (page, wanted) => {
+  for (let tries = 0, said = ''; !wanted.test(said); ++tries) {
+    assert.ok(tries < 300, `${wanted}: ${said}`);
+    if (tries > 0) await pause(50);
+    said = await page.locator('#op-tip').innerText();
+  }
+};
 
 const until = async (page, is, ...values) => {
   for (let tries = 0; !await page.evaluate(is, ...values); ++tries) {
@@ -64,7 +70,7 @@ export async function drive_device(browser) {
   await to(0, {}, {off_path: off, clearance: null});
   await bar(page, /MOVE.*first step/).waitFor();
   await until(page, () => window.__sinew.operate.subject.tips.length > 0);
-  assert.match(await readings(page), /plan step\s+off path\s+clearance\s+–/);
+  await readings(page, /plan step\s+off path\s+clearance\s+–/);
   await shot(page, 'drive-off');
   await page.locator('#op-view').focus();
   await page.keyboard.down('m');
@@ -86,7 +92,7 @@ export async function drive_device(browser) {
   assert.ok(calls('follow').every(({body: {back}}) => !back));
   await to(200.5);
   await until(page, () => /200 of/.test(document.getElementById('op-tip').innerText));
-  assert.match(await readings(page), new RegExp(`plan step\\s+200 of ${last}\\s+clearance\\s+\\d\\.\\d mm`));
+  await readings(page, new RegExp(`plan step\\s+200 of ${last}\\s+clearance\\s+\\d\\.\\d mm`));
   await audit(page, 'drive');
   await shot(page, 'drive-along');
   const before = calls('follow').length, box = await bar(page, /Back/).boundingBox();
@@ -152,7 +158,7 @@ export async function drive_refused(browser) {
   await driver(page).click();
   await page.locator('#op-notice', {hasText: 'another page controls'}).waitFor();
   assert.equal(calls('plan').length, 0);
-  assert.match(await readings(page), /plan\s+waits for control/);
+  await readings(page, /plan\s+waits for control/);
   delete stand.refusals.lease;
   stand.forgetLease();
   await bar(page, /Take control/).click();
@@ -172,7 +178,7 @@ export async function drive_sliders(browser) {
   await bar(page, /FOLLOW PLAN/).waitFor();
   await until(page, () => window.__sinew.operate.subject.tips.length > 0);
   assert.equal(await page.locator('#source').innerText(), 'SLIDERS');
-  assert.match(await readings(page), /plan step\s+0 of/);
+  await readings(page, /plan step\s+0 of/);
   const step = () => page.evaluate(() => window.__sinew.operate.subject.plan.frame.step);
   await page.keyboard.down('m');
   await until(page, () => window.__sinew.operate.subject.plan.frame.step > 60);

@@ -439,6 +439,15 @@ export async function operate_gamepad(browser, url) {
   const holds = calls('hold').length;
   await press(1, true);
   await arrived(stand, () => calls('hold').length === holds + 1);
+  await page.keyboard.press('j');
+  const title = (ending) => page.locator('#op-jog h2', {hasText: new RegExp(`· ${ending}$`)}).waitFor();
+  await title('gamepad');
+  await page.evaluate(() => {
+    window.__pad.connected = false;
+    window.dispatchEvent(new Event('gamepaddisconnected'));
+  });
+  await title('no gamepad');
+  await fits(page);
   await done();
 }
 

@@ -33,6 +33,11 @@ export class Gamepads {
     this.isOn = false;
   }
 
+  /** A browser shows one only when a button of it has been pressed. */
+  get isThere(): boolean {
+    return this.pad !== null;
+  }
+
   private get pad(): Gamepad | null {
     return [...navigator.getGamepads()].find((one) => one?.connected) ?? null;
   }

@@ -20,7 +20,7 @@ export interface Pushed {
 }
 
 /** What it shows. `locked`: why a motion is not to be had; undefined: there is no stage */
-export interface Shown { section: string; tip: string; names: [string, string]; held: Motion | null; locked?: (motion: Motion) => string | null }
+export interface Shown { section: string; tip: string; names: [string, string]; held: Motion | null; hasGamepad: boolean; locked?: (motion: Motion) => string | null }
 
 export class JogPad {
   frame: JogFrame = localStorage.getItem(frameKey) === 'tip' ? 'tip' : 'section';
@@ -68,9 +68,10 @@ export class JogPad {
     for (const side of Object.keys(ways) as Side[]) this.end(side);
   }
 
-  show({section, tip, names: [x, y], held, locked}: Shown): void {
+  show({section, tip, names: [x, y], held, hasGamepad, locked}: Shown): void {
     const isTip = this.frame === 'tip', said: Record<Side, string> = isTip ? {up: 'up', left: 'left', right: 'right', down: 'down'} : {up: `+${y}`, left: `−${x}`, right: `+${x}`, down: `−${y}`};
-    put(this.title, isTip ? `Jog the tip: ${tip}, as its camera sees` : `Jog ${section}: its target`);
+    put(this.title, `${isTip ? `Jog the tip: ${tip}, as its camera sees` : `Jog ${section}: its target`} · ${hasGamepad ? 'gamepad' : 'no gamepad'}`);
+    this.title.title = hasGamepad ? 'its sticks move the target, its shoulder is Move' : 'to use a gamepad press one of its buttons';
     put(this.middle, isTip ? tip : section);
     this.middle.disabled = isTip;
     this.middle.title = isTip ? '' : 'the next section';

@@ -81,6 +81,7 @@ export class Operate {
     document.addEventListener('pointerdown', () => { this.notice.hidden = true; }, {capture: true});  // what is done next may say something else
     window.addEventListener('blur', () => (this.live ? this.live.blur(false) : this.subject?.motion('move', false)));
     window.addEventListener('pagehide', () => this.live?.blur(true));
+    for (const turned of ['gamepadconnected', 'gamepaddisconnected'] as const) window.addEventListener(turned, () => this.changed());
     document.addEventListener('visibilitychange', () => document.hidden && this.live?.blur(true));
     isPhone.addEventListener('change', ({matches}) => matches && this.live?.control.giveBack());
     Object.assign((window as any).__sinew, {operate: this});
@@ -376,7 +377,7 @@ export class Operate {
   private drawPad(count: number, hasStage: boolean): void {
     const {live, pad, root} = this, {chosen} = this.cards;
     root.classList.toggle('has-jog', pad.isOpen && !this.replayed);
-    pad.show({section: `S${chosen + 1}`, tip: `S${count}`, names: this.names(chosen), held: live?.control.held ?? null, ...(hasStage && live && {locked: (motion) => live.locked(motion)})});
+    pad.show({section: `S${chosen + 1}`, tip: `S${count}`, names: this.names(chosen), held: live?.control.held ?? null, hasGamepad: this.gamepads.isThere, ...(hasStage && live && {locked: (motion) => live.locked(motion)})});
     if (pad.isOpen && pad.frame === 'tip') this.steering.at(this.opened!, this.subject!.targets());
   }
 
