@@ -93,7 +93,9 @@ def difference(old, new, tolerance):
         one, other = a[path], b[path]
         if isinstance(one, (int, float)) and not isinstance(one, bool):
             one, other = [one], [other]
-        if isinstance(one, list):
+        if isinstance(one, list) and isinstance(other, list):
+            if len(one) != len(other):
+                return f"{path}: {len(one)} -> {len(other)} numbers"
             plain = [(x, y) for x, y in zip(one, other) if isinstance(x, (int, float)) and isinstance(y, (int, float))]
             scale = max([abs(x) for x, _ in plain] + [1e-6])
             gap = max([abs(x - y) for x, y in plain] + [0]) / scale
@@ -122,6 +124,8 @@ def main():
         print(f"{robot}: {count} questions, " + ", ".join(f"{n} {s}" for s, n in states.most_common()), flush=True)
         if len(old) != count or len(new) != count:
             sys.exit(f"{robot}: {len(old)} and {len(new)} answers to {count} questions")
+        if states["error"]:
+            sys.exit(f"{robot}: {states['error']} questions are none: {next(one for one in new if 'error' in one)}")
         asked += count
         for one, before, after in zip(questions, old, new):
             if what := difference(before, after, given.tolerance):

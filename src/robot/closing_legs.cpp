@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/at.hpp"
+#include "sinew/leg/leg_curvature.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -87,7 +88,7 @@ void ClosingLegs::force_change(
   for_each([&]<class L>(const L& leg, const LegPlace& place, int row, int first) {
     Vec<double, L::rows> multipliers;  // the force of each row along its line, of which only the line changes
     for (int k = 0; k < L::rows; ++k) multipliers[k] = force[row + k] * rows.scale[row + k];
-    const auto change = leg.curvature(platform, coordinates(leg, feeds, first), multipliers);
+    const auto change = leg_curvature(leg, platform, coordinates(leg, feeds, first), multipliers);
     by_platform += change.by_platform;
     by_input.template middleCols<L::inputs>(place.input) += change.by_coordinates * leg.input_rate();
   });

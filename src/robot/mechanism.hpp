@@ -9,7 +9,7 @@
 
 #include "base/at.hpp"
 #include "robot/closing_legs.hpp"
-#include "robot/tangent_system.hpp"
+#include "robot/rod_group.hpp"
 
 namespace sinew::inline v0 {
 
@@ -223,7 +223,7 @@ class Mechanism : public Rods {
   void project() {
     constexpr double independent = 1e-9;  // the rows are unit directions
     const int count = rows_.count;
-    Rows left = rows_.by_platform.topRows(count), along(count, 6);
+    RowMatrix left = rows_.by_platform.topRows(count), along(count, 6);
     Mat<double, 6, 6> basis = Mat<double, 6, 6>::Zero();
     for (rank_ = 0; rank_ < 6; ++rank_) {
       Eigen::Index farthest = 0;
@@ -244,7 +244,7 @@ class Mechanism : public Rods {
     free_ = Mat<double, 6, 6>::Identity() - basis.topRows(rank_).transpose() * basis.topRows(rank_);
   }
 
-  using Rows =
+  using RowMatrix =
       Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::DontAlign | Eigen::ColMajor, max_closing_rows, 6>;
   ClosingLegs closing_;
   std::vector<double> fed_;  ///< inputs of the closing legs

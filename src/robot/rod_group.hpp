@@ -1,32 +1,18 @@
 /// @file rod_group.hpp
 /// What every group of rods on a platform holds beside the rods themselves: which inputs feed them, the
-/// platform's pose and load, and the factors of its stiffness.
+/// platform's pose, and the factors of its stiffness.
 #pragma once
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
 
+#include "robot/lu6.hpp"
 #include "sinew/leg/rod_leg.hpp"
 #include "sinew/math/linalg.hpp"
 #include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
-
-/// LU factors of a 6×6 matrix whose moments are divided by a length first, with partial pivoting.
-class Lu6 {
- public:
-  /// False where a pivot is 0 or not a number.
-  bool factor(const double* matrix, double length);
-  void solve(const double* rhs, double* x) const;
-  double smallest_pivot() const { return smallest_; }  ///< over the largest, 0 to 1
-  bool has_negative_determinant() const;
-
- private:
-  std::array<double, 36> lu_;
-  std::array<int, 6> order_{};
-  double per_length_ = 1, smallest_ = 0;
-};
 
 class RodGroup {
  public:

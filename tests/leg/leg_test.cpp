@@ -4,6 +4,7 @@
 
 #include "check_jacobian.hpp"
 #include "random_leg.hpp"
+#include "sinew/leg/leg_curvature.hpp"
 #include "sinew/leg/project.hpp"
 #include "sinew/robot/catalog.hpp"
 
@@ -107,7 +108,9 @@ TYPED_TEST(EveryLeg, CurvatureIsTheDerivativeOfTheWrench) {
     z << Vec<double, WrenchOfRows<TypeParam>::dof>::Zero(), random_coordinates(this->random, leg);
     Vec<double, TypeParam::rows> multipliers;
     for (double& one : multipliers) one = std::normal_distribution()(this->random);
-    const auto change = leg.curvature(platform, z.template tail<WrenchOfRows<TypeParam>::Q>(), multipliers);
+    const auto change = leg_curvature(
+        leg, platform, typename TypeParam::Coordinates(z.template tail<WrenchOfRows<TypeParam>::Q>()),
+        multipliers);
     Mat<double, WrenchOfRows<TypeParam>::dof, WrenchOfRows<TypeParam>::dof + WrenchOfRows<TypeParam>::Q>
         jacobian;
     jacobian << change.by_platform, change.by_coordinates;

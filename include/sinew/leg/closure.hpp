@@ -1,6 +1,7 @@
 /// @file closure.hpp
 /// What every closure is made of: an anchor that moves with the link, and how far the platform point keeps
-/// from it. One formula each for rows, slopes and second derivatives. Theory: docs/theory/leg.md
+/// from it. Rows, slopes and misfit, one formula each; second derivatives are in closure_curvature.hpp.
+/// Theory: docs/theory/leg.md
 ///
 /// On the way n = r − A from the anchor A to the platform point r a closure has one or more rows: of a
 /// distance   g = ½ (|n|² − D²),   of a plane   g = u·n,   of a point   g = n.   The squares keep the papers'
@@ -86,6 +87,15 @@ template <Holds holds, int D, Scalar S>
     }
     return rows;
   }
+}
+
+/// ∂g/∂q of row k.
+template <Holds holds, Scalar S, int D, int Q>
+[[gnu::always_inline]] inline Mat<S, 1, Q> closure_slope(const ClosureRows<S, D, held_rows<holds, D>>& rows,
+                                                         int k, const Anchor<S, D, Q>& anchor) {
+  const Mat<S, 1, Q> by_anchor = -(rows.direction.col(k).transpose() * anchor.rate);
+  if (k > 0 || holds == Holds::point) return by_anchor;
+  return by_anchor - anchor.half_square_rate;
 }
 
 /// How far from closed [m].  @param beside how far the platform point is from the plane; 0 without one

@@ -9,7 +9,7 @@
 
 #include "sinew/base/fixed_text.hpp"
 #include "sinew/leg/blocks.hpp"
-#include "sinew/leg/closure_curvature.hpp"
+#include "sinew/leg/closure.hpp"
 #include "sinew/leg/reach.hpp"
 #include "sinew/leg/space.hpp"
 #include "sinew/leg/state.hpp"
@@ -79,6 +79,34 @@ struct Leg {
     return in_base<S>(platform.point(platform_point.template cast<S>()) - base.p.template cast<S>());
   }
 
+  /// @name Axes
+  /// Only the tip of a clamped link has axes of its own; a free base leaves distances alone, and a link with
+  /// a joint of its own has the base's.
+  /// @{
+  template <Scalar S>
+  Vec<S, dimension> in_base(const Vec<S, dimension>& world) const {
+    if constexpr (is_clamped)
+      return Space::template cast<S>(base).rotate_back(world);
+    else
+      return world;
+  }
+  template <Scalar S>
+  Vec<S, dimension> to_world(const Vec<S, dimension>& local) const {
+    if constexpr (is_clamped)
+      return Space::template cast<S>(base).rotate(local);
+    else
+      return local;
+  }
+  /// Of the plane that holds the platform point; 0 without one.
+  template <Scalar S>
+  static Vec<S, dimension> plane_normal() {
+    if constexpr (has_plane)
+      return Closure::template plane_normal<S>();
+    else
+      return Vec<S, dimension>::Zero();
+  }
+  /// @}
+
   /// @implements TDPCR (18)
   template <Scalar S>
   [[gnu::always_inline]] Blocks<S> blocks(const typename Space::template Frame<S>& platform,
@@ -94,37 +122,10 @@ struct Leg {
     for (int k = 0; k < rows; ++k) {  // those of K are 0 in a plane: it holds the carriage's path
       const Vec<S, dimension> direction = held.direction.col(k);
       blocks.g_x.row(k) = Space::line(to_world<S>(direction), b);
-      blocks.g_q.row(k) = -(direction.transpose() * anchor.rate);
+      blocks.g_q.row(k) = closure_slope<Closure::holds>(held, k, anchor);
     }
-    if constexpr (Closure::holds != Holds::point) blocks.g_q.row(0) -= anchor.half_square_rate;
     blocks.error = sqrt(squared_norm(n)) - sqrt(S(2) * anchor.half_square);
     return blocks;
-  }
-
-  /// What the wrench λᵀ g_x of multipliers λ of the rows changes by, a column for each motion.
-  struct Curvature {
-    Mat<double, Space::dof, Space::dof> by_platform = Mat<double, Space::dof, Space::dof>::Zero();
-    Mat<double, Space::dof, coordinates> by_coordinates = Mat<double, Space::dof, coordinates>::Zero();
-  };
-  Curvature curvature(const Frame& platform, const Coordinates& q,
-                      const Vec<double, rows>& multipliers) const {
-    const Point b = platform.rotate(platform_point);
-    const auto anchor = anchor_of<dimension>(closure, link.tip(q));
-    const Point n = in_base<double>(platform.p + b - base.p) - anchor.position;
-    const auto held = closure_rows<Closure::holds>(n, anchor.half_square, plane_normal<double>());
-    Curvature change;
-    for (int k = 0; k < rows; ++k) {
-      const Point direction = to_world<double>(Point(held.direction.col(k)));
-      if (k > 0 || Closure::holds == Holds::point) {
-        change.by_platform += multipliers[k] * fixed_line_change<Space>(direction, b);
-        continue;
-      }
-      change.by_platform += multipliers[k] * distance_line_change<Space>(direction, b);
-      for (int j = 0; j < coordinates; ++j)
-        change.by_coordinates.col(j) -=
-            multipliers[k] * Space::line(to_world<double>(Point(anchor.rate.col(j))), b).transpose();
-    }
-    return change;
   }
 
   /// How far the leg is from closed [m].
@@ -278,15 +279,6 @@ struct Leg {
     return closure_misfit(n.norm(), std::sqrt(2 * anchor.half_square), dot(plane_normal<double>(), n));
   }
 
-  /// Of the plane that holds the platform point; 0 without one.
-  template <Scalar S>
-  static Vec<S, dimension> plane_normal() {
-    if constexpr (has_plane)
-      return Closure::template plane_normal<S>();
-    else
-      return Vec<S, dimension>::Zero();
-  }
-
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
   double distance(const Coordinates& q, const Wish& wish) const {
     return std::abs(link.branch(q) - wish.near);
@@ -301,35 +293,14 @@ struct Leg {
       const Point n = r - anchor.position;
       const double pull = n.norm();  // g = ½(pull² − D²), and pull is known to `rounding`
       const double largest_pull = pull + bounds.rate * stride();
-      const double slope = -dot(n, anchor.rate) - anchor.half_square_rate[0];
-      return RootSample{closure_rows<Closure::holds>(n, anchor.half_square, plane_normal<double>()).g[0],
-                        slope, rate_rate_bound<Closure>(largest_pull, bounds),
-                        rounding * std::max(pull, rounding)};
+      const auto held = closure_rows<Closure::holds>(n, anchor.half_square, plane_normal<double>());
+      return RootSample{held.g[0], closure_slope<Closure::holds>(held, 0, anchor)[0],
+                        rate_rate_bound<Closure>(largest_pull, bounds), rounding * std::max(pull, rounding)};
     };
   }
   double stride() const { return domain() / 8; }
   RootsOptions search_for(int sign) const {
     return {.low = sign > 0 ? 0 : -domain(), .high = sign < 0 ? 0 : domain(), .stride = stride()};
-  }
-
-  template <class S>
-  using Vector = Vec<S, dimension>;
-
-  // Only the tip of a clamped link has axes of its own; a free base leaves distances alone, and a link with a
-  // joint of its own has the base's.
-  template <Scalar S>
-  Vector<S> in_base(const Vector<S>& world) const {
-    if constexpr (is_clamped)
-      return Space::template cast<S>(base).rotate_back(world);
-    else
-      return world;
-  }
-  template <Scalar S>
-  Vector<S> to_world(const Vector<S>& local) const {
-    if constexpr (is_clamped)
-      return Space::template cast<S>(base).rotate(local);
-    else
-      return local;
   }
 };
 

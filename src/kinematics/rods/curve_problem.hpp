@@ -148,6 +148,8 @@ class RodProblem {
   CurvePoint point(double lambda, double residual, CurveMark mark, int unstable) const {
     CurvePoint point;
     point.parameter = lambda;
+    static_assert(static_cast<int>(CurveEvent::fold) == static_cast<int>(CurveMark::fold) &&
+                  static_cast<int>(CurveEvent::stability) == static_cast<int>(CurveMark::stability));
     point.event = static_cast<CurveEvent>(mark);
     point.pose = spatial_pose(system_.platform());
     point.inputs.resize(at(system_.inputs()));

@@ -1,6 +1,7 @@
-#include "robot/rod_group.hpp"
+#include "robot/lu6.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/at.hpp"
