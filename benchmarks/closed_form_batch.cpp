@@ -10,6 +10,7 @@
 #include "sinew/analysis/velocity_batch.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/inverse.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::bench {
 namespace {
@@ -25,7 +26,7 @@ enum class Asked { everything, homogenised, determinant, inputs };
 struct Batch {
   static constexpr std::size_t poses = 4096;
 
-  AnyRobot robot;
+  Robot robot;
   Workspace work;
   std::vector<AnyPose> each;
   std::vector<double> axes, inputs, determinant, condition, homogenised, position, rotation;

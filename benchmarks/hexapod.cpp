@@ -17,6 +17,7 @@
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/link/spatial_rod.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::bench {
 namespace {
@@ -31,7 +32,7 @@ SpatialPose pose_of(const Vec3<double>& p, const SO3<double>& R) { return spatia
 /// A platform that wanders `range` to the sides and from 0.37 to 0.58 m, or half as far upwards, in steps of
 /// one size, a new direction every 50. Heavy rods, and free platforms, meet folds further out.
 struct Walk {
-  AnyRobot robot;
+  Robot robot;
   Workspace work;
   std::vector<SpatialPose> poses;
   std::vector<std::vector<double>> lengths;
@@ -76,7 +77,7 @@ struct FieldWalk {
 
   explicit FieldWalk(std::shared_ptr<Walk> same)
       : walk(std::move(same)),
-        hexapod(std::get<ParallelRobot<RodLeg>>(walk->robot.model), Vec3<double>::Zero(), 40),
+        hexapod(legs_of<RodLeg>(walk->robot), Vec3<double>::Zero(), 40),
         state(hexapod.straight(0.42)) {
     hexapod.solve(state, SE3<double>::from(walk->poses[0]), Vec<double, 6>::Zero(), 1e-10, 60);
   }
@@ -213,8 +214,8 @@ void print_orders(Median&& median) {
 void print_costs() {
   fmt::print("{:>6} {:>9} {:>7} {:>14} {:>16}\n", "rods", "elements", "order", "evaluation[ns]",
              "linearised[ns]");
-  const AnyRobot hexapod = load("hexapod").value();
-  const auto& six = std::get<ParallelRobot<RodLeg>>(hexapod.model);
+  const Robot hexapod = load("hexapod").value();
+  const auto six = legs_of<RodLeg>(hexapod);
   const auto median = [](auto&& run) {
     std::vector<double> times;
     for (int k = 0; k < 101; ++k) {
@@ -245,7 +246,7 @@ void print_costs() {
 
 /// Random poses from home, every one a new start.
 void print_cold(const char* name, double tilt, int count, const char* published = nullptr) {
-  const AnyRobot robot = load(name).value();
+  const Robot robot = load(name).value();
   Workspace work(robot);
   std::mt19937 random(7);
   const auto uniform = [&](double low, double high) {

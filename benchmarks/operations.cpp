@@ -25,6 +25,7 @@
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
+#include "sinew/robot/parallel.hpp"
 #include "sinew/study/sweep.hpp"
 
 namespace {
@@ -37,13 +38,13 @@ double turn(int step) { return 2 * std::numbers::pi * step / walk_length; }
 
 /// A closed walk of poses, and what belongs to each.
 struct Walk {
-  AnyRobot robot;
+  Robot robot;
   Workspace work;
   std::vector<AnyPose> poses;
   std::vector<std::vector<double>> inputs, coordinates;
   std::size_t at = 0;
 
-  Walk(const char* name, const std::function<AnyPose(const AnyRobot&, double)>& pose_at)
+  Walk(const char* name, const std::function<AnyPose(const Robot&, double)>& pose_at)
       : robot(load(name).value()),
         work(robot) {
     for (int k = 0; k < walk_length; ++k) {
@@ -58,12 +59,12 @@ struct Walk {
   std::size_t last() const { return (at + poses.size() - 1) % poses.size(); }
 };
 std::shared_ptr<Walk> planar_walk() {
-  return std::make_shared<Walk>("3-rfr", [](const AnyRobot&, double t) -> AnyPose {
+  return std::make_shared<Walk>("3-rfr", [](const Robot&, double t) -> AnyPose {
     return PlanarPose{0.015 * std::cos(t), 0.015 * std::sin(t) - 0.01, 0.1 * std::sin(t)};
   });
 }
 std::shared_ptr<Walk> spatial_walk() {
-  return std::make_shared<Walk>("6-ufs", [](const AnyRobot& robot, double t) -> AnyPose {
+  return std::make_shared<Walk>("6-ufs", [](const Robot& robot, double t) -> AnyPose {
     return Spatial::moved(std::get<SpatialPose>(home(robot)),
                           Vec<double, 6>(0.03 * std::cos(t), 0.03 * std::sin(t), 0.01 * std::sin(2 * t),
                                          0.2 * std::cos(t), 0.2 * std::sin(t), 0.3 * std::sin(t)));
@@ -106,7 +107,7 @@ std::vector<double> tripod_lengths(int count) {
   return lengths;
 }
 struct Tripod {
-  AnyRobot robot = load("3pfs-g2").value();
+  Robot robot = load("3pfs-g2").value();
   Workspace work{robot};
   std::vector<double> lengths;
   std::vector<SpatialPose> poses;
@@ -146,7 +147,7 @@ Operation tripod_batch() {
 }
 Operation warm_hexapod() {
   struct Case {
-    AnyRobot robot = load("hexapod").value();
+    Robot robot = load("hexapod").value();
     Workspace work{robot};
     int step = 0;
     double next() {

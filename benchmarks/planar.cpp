@@ -10,6 +10,7 @@
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::bench {
 namespace {
@@ -18,7 +19,7 @@ using Unknowns = Eigen::Matrix<double, 6, 1>;  // x, y, φ, and three inputs
 
 /// A robot on a smooth walk inside its workspace, steps of about 0.5 mm and 0.25°.
 struct Walk {
-  AnyRobot robot;
+  Robot robot;
   Workspace work;
   std::vector<PlanarPose> poses;
   std::vector<std::vector<double>> inputs, coordinates;
@@ -57,26 +58,19 @@ double residual_as_printed(const Leg<Planar, Arc, TendonPair, Strut>& leg, const
 }
 
 /// All residuals of a robot at (pose, inputs).
-Eigen::Vector3d residuals_as_printed(const AnyRobot& any, const Unknowns& z) {
-  return std::visit(
-      [&]<class LegT>(const ParallelRobot<LegT>& robot) {
-        Eigen::Vector3d g = Eigen::Vector3d::Zero();
-        if constexpr (requires(const LegT& leg) { residual_as_printed(leg, Eigen::Vector2d(), 0.0); }) {
-          const double c = std::cos(z[2]), s = std::sin(z[2]);
-          for (int i = 0; i < 3; ++i) {
-            const LegT& leg = robot.legs[static_cast<std::size_t>(i)];
-            const auto& b = leg.platform_point;
-            g[i] =
-                residual_as_printed(leg, {z[0] + c * b[0] - s * b[1], z[1] + s * b[0] + c * b[1]}, z[3 + i]);
-          }
-        }
-        return g;
-      },
-      any.model);
+Eigen::Vector3d residuals_as_printed(const Robot& any, const Unknowns& z) {
+  const double c = std::cos(z[2]), s = std::sin(z[2]);
+  Eigen::Vector3d g = Eigen::Vector3d::Zero();
+  any.planar()->for_each_leg([&]<class LegT>(const LegT& leg, const LegPlace&, int i) {
+    const auto& b = leg.platform_point;
+    if constexpr (requires { residual_as_printed(leg, Eigen::Vector2d(), 0.0); })
+      g[i] = residual_as_printed(leg, {z[0] + c * b[0] - s * b[1], z[1] + s * b[0] + c * b[1]}, z[3 + i]);
+  });
+  return g;
 }
 
 /// Central differences by all six unknowns: 12 evaluations.
-Eigen::Matrix<double, 3, 6> differences(const AnyRobot& robot, const Unknowns& z, int columns) {
+Eigen::Matrix<double, 3, 6> differences(const Robot& robot, const Unknowns& z, int columns) {
   Eigen::Matrix<double, 3, 6> jacobian;
   for (int j = 0; j < columns; ++j) {
     Unknowns ahead = z, behind = z;
@@ -119,7 +113,7 @@ void compare_jacobians(const std::string& name) {
 }
 
 /// κ of one leg by 60 halvings of the residual as printed, on the bending side of the known solution.
-double bisected(const AnyRobot& robot, Unknowns z, int leg, double low, double high) {
+double bisected(const Robot& robot, Unknowns z, int leg, double low, double high) {
   const auto at = [&](double input) {
     z[3 + leg] = input;
     return residuals_as_printed(robot, z)[leg];
@@ -154,7 +148,7 @@ void compare_inverse(const std::string& name, bool warm) {
 }
 
 /// Newton from the last pose with a finite-difference Jacobian at every iterate, to the same residual.
-Unknowns newton_on_differences(const AnyRobot& robot, Unknowns z) {
+Unknowns newton_on_differences(const Robot& robot, Unknowns z) {
   for (int i = 0; i < 20; ++i) {
     const Eigen::Vector3d g = residuals_as_printed(robot, z);
     if (g.cwiseAbs().maxCoeff() < 1e-15) break;

@@ -246,16 +246,14 @@ void compare_cold(Backbone backbone, Task task, int sections) {
 
 void compare_rates() {
   auto walk = std::make_shared<Walk>(Backbone::twin_pivot, Task::pose);
-  auto rates = std::make_shared<RateWorkspace>(walk->robot);
   const TipTwist twist{Vec3<double>(0.01, 0.02, -0.01), Vec3<double>(0.1, 0, 0.2)};
   double missed = 0;
   for (const Bends& bends : walk->bends)
-    missed =
-        std::max(missed, resolved_rate(walk->robot, bends, twist, {}, walk->work, *rates).report.residual);
+    missed = std::max(missed, resolved_rate(walk->robot, bends, twist, {}, walk->work).report.residual);
   compare({"twin-pivot x 5: resolved rates", "pseudoinverse by SVD, without limits and tendons",
-           [walk, rates, twist] {
+           [walk, twist] {
              benchmark::DoNotOptimize(
-                 resolved_rate(walk->robot, walk->bends[walk->next()], twist, {}, walk->work, *rates).held);
+                 resolved_rate(walk->robot, walk->bends[walk->next()], twist, {}, walk->work).held);
            },
            [walk, twist] {
              tip_motion(walk->bends[walk->next()], walk->work);

@@ -11,6 +11,7 @@
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::bench {
 namespace {
@@ -21,7 +22,7 @@ using Six = Eigen::Matrix<double, 6, 1>;
 
 /// The robot on a smooth walk inside its workspace, steps of about 1 mm and 0.5°.
 struct Walk {
-  AnyRobot robot = load("6-ufs").value();
+  Robot robot = load("6-ufs").value();
   Workspace work{robot};
   std::vector<SpatialPose> poses;
   std::vector<std::vector<double>> inputs, coordinates;
@@ -42,7 +43,7 @@ struct Walk {
   }
   std::size_t next() { return step = (step + 1) % poses.size(); }
   std::size_t before(std::size_t i) const { return (i + poses.size() - 1) % poses.size(); }
-  const std::vector<UfsLeg>& legs() const { return std::get<ParallelRobot<UfsLeg>>(robot.model).legs; }
+  const std::vector<UfsLeg> legs = legs_of<UfsLeg>(robot).legs;
 };
 
 /// Closure residuals as the paper writes them: (57) with (1) and (7); undefined at κ = 0.
@@ -85,7 +86,7 @@ void compare_jacobians() {
   double gap = 0;
   for (std::size_t i = 0; i < walk->poses.size(); ++i) {
     const Reduced reduced = assemble(walk->robot, walk->poses[i], walk->coordinates[i], walk->work);
-    const auto fd = differences(walk->legs(), walk->poses[i], walk->inputs[i], 12);
+    const auto fd = differences(walk->legs, walk->poses[i], walk->inputs[i], 12);
     gap =
         std::max(gap, (fd.leftCols<6>() - reduced.J).cwiseAbs().maxCoeff() / reduced.J.cwiseAbs().maxCoeff());
     gap = std::max(gap,
@@ -99,7 +100,7 @@ void compare_jacobians() {
            },
            [walk] {
              const std::size_t i = walk->next();
-             benchmark::DoNotOptimize(differences(walk->legs(), walk->poses[i], walk->inputs[i], 12));
+             benchmark::DoNotOptimize(differences(walk->legs, walk->poses[i], walk->inputs[i], 12));
            },
            fmt::format("differences are off by up to {:.0e}, ours by rounding", gap)});
 }
@@ -134,7 +135,7 @@ void compare_forward() {
            [walk] {
              const std::size_t i = walk->next();
              benchmark::DoNotOptimize(
-                 newton_on_differences(walk->legs(), walk->poses[walk->before(i)], walk->inputs[i]));
+                 newton_on_differences(walk->legs, walk->poses[walk->before(i)], walk->inputs[i]));
            },
            fmt::format("position to {:.0e} m in {:.1f} iterations", error, iterations)});
 }

@@ -39,7 +39,7 @@ paper::Wrench wrench_of(const SpatialWrench& wrench) {
 }
 
 /// Largest error of an answer's rods and balances when its rods are integrated anew [m, N].
-std::pair<double, double> judge(const paper::Tripod& tripod, const Asked& asked, const AnyRobot& robot,
+std::pair<double, double> judge(const paper::Tripod& tripod, const Asked& asked, const Robot& robot,
                                 const Equilibrium& answer, Workspace& work) {
   const RodAnalysis rods = analyse_equilibrium(robot, work);
   paper::PerRod<paper::Vector3d> forces;
@@ -55,7 +55,7 @@ void run(const char* set_name, const char* file, int count) {
   const paper::Json set = paper::reference(set_name);
   const paper::Tripod tripod = paper::tripod(set);
   const double home = set["L_home"].get<double>();
-  const AnyRobot robot = load(file).value();
+  const Robot robot = load(file).value();
   Workspace work(robot);
   std::mt19937 random(4);
   std::map<std::string, int> statuses;

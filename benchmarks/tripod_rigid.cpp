@@ -12,6 +12,7 @@
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::bench {
 namespace {
@@ -22,7 +23,7 @@ using Six = Eigen::Matrix<double, 6, 1>;
 
 /// The robot on a smooth walk inside its workspace, steps of about 1 mm and 0.5°.
 struct Walk {
-  AnyRobot robot = load("3prs").value();
+  Robot robot = load("3prs").value();
   Workspace work{robot};
   std::vector<SpatialPose> poses;
   std::vector<std::vector<double>> inputs, coordinates;
@@ -41,7 +42,7 @@ struct Walk {
   }
   std::size_t next() { return step = (step + 1) % poses.size(); }
   std::size_t before(std::size_t i) const { return (i + poses.size() - 1) % poses.size(); }
-  const std::vector<PrsLeg>& legs() const { return std::get<ParallelRobot<PrsLeg>>(robot.model).legs; }
+  const std::vector<PrsLeg> legs = legs_of<PrsLeg>(robot).legs;
 };
 
 /// Closure residuals as the paper writes them: (2) and (11), the latter squared and halved.
@@ -87,7 +88,7 @@ void compare_jacobians() {
   double gap = 0;
   for (std::size_t i = 0; i < walk->poses.size(); ++i) {
     const Reduced reduced = assemble(walk->robot, walk->poses[i], walk->coordinates[i], walk->work);
-    const auto fd = differences(walk->legs(), walk->poses[i], walk->inputs[i], 9);
+    const auto fd = differences(walk->legs, walk->poses[i], walk->inputs[i], 9);
     gap =
         std::max(gap, (fd.leftCols<6>() - reduced.J).cwiseAbs().maxCoeff() / reduced.J.cwiseAbs().maxCoeff());
     gap = std::max(gap,
@@ -101,7 +102,7 @@ void compare_jacobians() {
            },
            [walk] {
              const std::size_t i = walk->next();
-             benchmark::DoNotOptimize(differences(walk->legs(), walk->poses[i], walk->inputs[i], 9));
+             benchmark::DoNotOptimize(differences(walk->legs, walk->poses[i], walk->inputs[i], 9));
            },
            fmt::format("differences are off by up to {:.0e}, ours by rounding", gap)});
 }
@@ -136,7 +137,7 @@ void compare_forward() {
            [walk] {
              const std::size_t i = walk->next();
              benchmark::DoNotOptimize(
-                 newton_on_differences(walk->legs(), walk->poses[walk->before(i)], walk->inputs[i]));
+                 newton_on_differences(walk->legs, walk->poses[walk->before(i)], walk->inputs[i]));
            },
            fmt::format("position to {:.0e} m in {:.1f} iterations", error, iterations)});
 }
@@ -161,11 +162,11 @@ void compare_inverse() {
              for (int k = 0; k < 3; ++k)
                z[6 + k] = walk->inputs[walk->before(i)][static_cast<std::size_t>(k)];
              for (int iteration = 0; iteration < 20; ++iteration) {
-               const Six g = residuals_as_printed(walk->legs(), walk->poses[i], z);
+               const Six g = residuals_as_printed(walk->legs, walk->poses[i], z);
                if (g.head<3>().cwiseAbs().maxCoeff() < 1e-15) break;
                Nine ahead = z;
                ahead.tail<3>().array() += 1e-6;
-               const Six beside = residuals_as_printed(walk->legs(), walk->poses[i], ahead);
+               const Six beside = residuals_as_printed(walk->legs, walk->poses[i], ahead);
                for (int k = 0; k < 3; ++k) z[6 + k] -= g[k] * 1e-6 / (beside[k] - g[k]);
              }
              benchmark::DoNotOptimize(z);

@@ -36,7 +36,7 @@ constexpr InstructionSet instruction_sets[] = {
 
 /// Lengths that wander about home in steps of one size, a new direction every 50 steps.
 struct Walk {
-  AnyRobot robot;
+  Robot robot;
   Workspace work;
   double home;
   std::vector<std::array<double, 3>> lengths;

@@ -103,14 +103,14 @@ class Request {
     errors_.push_back({std::string(code), fmt::format("--{}", option), std::string(message)});
   }
 
-  void pose(std::string_view option, const Robot& robot, std::string_view key = {});
+  void pose(std::string_view option, const OpenRobot& robot, std::string_view key = {});
   void independent();
-  void poses(const Robot& robot);
-  void inputs(std::string_view option, const Robot& robot, std::string_view key = {});
-  void twist(const Robot& robot);
-  void wrench(const Robot& robot);
-  void until(const Robot& robot);
-  void target(const Robot& robot);
+  void poses(const OpenRobot& robot);
+  void inputs(std::string_view option, const OpenRobot& robot, std::string_view key = {});
+  void twist(const OpenRobot& robot);
+  void wrench(const OpenRobot& robot);
+  void until(const OpenRobot& robot);
+  void target(const OpenRobot& robot);
   void range();
   void per_section(std::string_view key, Dimension dimension);
   void quantity(std::string_view option, Dimension dimension);
@@ -133,7 +133,7 @@ class Request {
   std::vector<double> values(std::string_view option, std::span<const std::string_view> parts,
                              std::span<const Dimension> dimensions, std::string_view per = {},
                              std::span<const std::string_view> names = {});
-  std::string wrench(std::string_view option, const Robot& robot);
+  std::string wrench(std::string_view option, const OpenRobot& robot);
 
   std::string_view query_;
   const Arguments& arguments_;
@@ -161,7 +161,7 @@ std::vector<double> Request::values(std::string_view option, std::span<const std
 }
 
 /// A path out of a .csv file: the columns that `track -o` writes, any others are left alone.
-void Request::poses(const Robot& robot) {
+void Request::poses(const OpenRobot& robot) {
   const std::string* file = arguments_.text("poses");
   if (!file) return;
   const Expected<Table> table = read_csv(*file);
@@ -192,7 +192,7 @@ void Request::poses(const Robot& robot) {
   member("poses", list_of(std::move(list)));
 }
 
-void Request::pose(std::string_view option, const Robot& robot, std::string_view key) {
+void Request::pose(std::string_view option, const OpenRobot& robot, std::string_view key) {
   const std::string* given = arguments_.text(option);
   if (!given) return;
   const auto parts = split(*given);
@@ -240,7 +240,7 @@ void Request::independent() {
                                     si_text(values_of[1]), si_text(values_of[2]), mode));
 }
 
-void Request::inputs(std::string_view option, const Robot& robot, std::string_view key) {
+void Request::inputs(std::string_view option, const OpenRobot& robot, std::string_view key) {
   const std::string* given = arguments_.text(option);
   if (!given) return;
   const auto parts = split(*given);
@@ -257,7 +257,7 @@ void Request::inputs(std::string_view option, const Robot& robot, std::string_vi
   member(key.empty() ? option : key, json_list(values(option, parts, dimensions, {}, names)));
 }
 
-void Request::twist(const Robot& robot) {
+void Request::twist(const OpenRobot& robot) {
   const std::string* given = arguments_.text("twist");
   if (!given) return;
   const auto parts = split(*given);
@@ -275,7 +275,7 @@ void Request::twist(const Robot& robot) {
 }
 
 /// Forces, then moments, as JSON; nothing where there are not as many as the robot's space has.
-std::string Request::wrench(std::string_view option, const Robot& robot) {
+std::string Request::wrench(std::string_view option, const OpenRobot& robot) {
   const std::string& given = *arguments_.text(option);
   const auto parts = split(given);
   const std::size_t forces = robot.is_spatial ? 3 : 2, count = robot.is_spatial ? 6 : 3;
@@ -297,13 +297,13 @@ std::string Request::wrench(std::string_view option, const Robot& robot) {
   return json_list(values(option, parts, dimensions));
 }
 
-void Request::wrench(const Robot& robot) {
+void Request::wrench(const OpenRobot& robot) {
   if (!arguments_.has("wrench")) return;
   if (const std::string list = wrench("wrench", robot); !list.empty()) member("wrench", list);
 }
 
 /// What changes along a curve of equilibria: `to` and its members.
-void Request::target(const Robot& robot) {
+void Request::target(const OpenRobot& robot) {
   std::vector<Member> outer;
   std::swap(outer, members_);
   inputs("to-inputs", robot, "inputs");
@@ -326,7 +326,7 @@ void Request::range() {
 }
 
 /// A load that grows, and how far.
-void Request::until(const Robot& robot) {
+void Request::until(const OpenRobot& robot) {
   const std::string *given = arguments_.text("until"), *limit = arguments_.text("limit");
   if (given && !limit)
     return fail(
@@ -496,12 +496,12 @@ Expected<std::vector<Member>> settings(const Arguments& arguments) {
   return members;
 }
 
-std::string Robot::input_unit() const {
+std::string OpenRobot::input_unit() const {
   const auto is_first = [&](const Input& input) { return input.unit == inputs.front().unit; };
   return !inputs.empty() && std::ranges::all_of(inputs, is_first) ? inputs.front().unit : std::string();
 }
 
-Expected<Robot> open(const Arguments& arguments) {
+Expected<OpenRobot> open(const Arguments& arguments) {
   auto session = Session::open(arguments.operand());
   if (!session) return tl::unexpected(session.error());
   Request about("describe", arguments);
@@ -517,11 +517,11 @@ Expected<Robot> open(const Arguments& arguments) {
     inputs.push_back({input.find("name")->text, input.find("unit")->text});
   const bool is_spatial = description.text("space") == "spatial";
   const bool is_on_rods = description.text("model") == "rod";
-  return Robot{
+  return OpenRobot{
       std::move(*session), std::move(description), std::move(inputs), is_spatial, is_on_rods, is_quiet};
 }
 
-Expected<Robot> open_with_platform(const Arguments& arguments) {
+Expected<OpenRobot> open_with_platform(const Arguments& arguments) {
   auto robot = open(arguments);
   if (robot && is_serial(*robot))
     return tl::unexpected(Errors{
@@ -533,7 +533,7 @@ Expected<Robot> open_with_platform(const Arguments& arguments) {
   return robot;
 }
 
-Member at_home(const Robot& robot) {
+Member at_home(const OpenRobot& robot) {
   if (is_serial(robot)) return {.key = "configuration", .value = list_of({})};  // straight
   const Node& home = *robot.description.find("home");
   if (!robot.is_on_rods || robot.inputs.size() == 6) return {.key = "pose", .value = home};
@@ -544,9 +544,9 @@ Member at_home(const Robot& robot) {
   return {.key = "independent", .value = map_of(std::move(free))};
 }
 
-Answer ask(Robot& robot, const Document& query) { return ask(robot.session, query, robot.is_quiet); }
+Answer ask(OpenRobot& robot, const Document& query) { return ask(robot.session, query, robot.is_quiet); }
 
-Expected<Document> request(std::string_view query, const Arguments& arguments, const Robot& robot) {
+Expected<Document> request(std::string_view query, const Arguments& arguments, const OpenRobot& robot) {
   Request request(query, arguments);
   const bool is_curve = arguments.verb == "branches";
   request.pose("pose", robot);
@@ -593,6 +593,7 @@ Expected<Document> request(std::string_view query, const Arguments& arguments, c
   request.per_section("measured", Dimension::length);
   request.list("slack", "slack", Dimension::length);
   request.list("axial-forces", "axial_forces", Dimension::force);
+  request.list("measured-tensions", "measured_tensions", Dimension::force);
   request.quantity("deviation", Dimension::force);
   request.quantity("tolerance", Dimension::length);
   request.vector("position", Dimension::length);

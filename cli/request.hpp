@@ -15,7 +15,7 @@ struct Input {
 };
 
 /// A robot and what the spelling of options and the headings of tables depend on.
-struct Robot {
+struct OpenRobot {
   Session session;
   Answer description;  ///< answer to `describe`
   std::vector<Input> inputs;
@@ -27,13 +27,13 @@ struct Robot {
   std::string input_unit() const;
 };
 /// The robot that the command line names, as `--set` and `--theta-is` change it.
-Expected<Robot> open(const Arguments& arguments);
+Expected<OpenRobot> open(const Arguments& arguments);
 /// The same; an error where that is a serial robot.
-Expected<Robot> open_with_platform(const Arguments& arguments);
+Expected<OpenRobot> open_with_platform(const Arguments& arguments);
 
 /// What puts a query at the robot's home: its `pose`, of a serial robot `configuration`, of a robot on rods
 /// its `independent` coordinates.
-Member at_home(const Robot& robot);
+Member at_home(const OpenRobot& robot);
 
 /// Without the blanks around it.
 std::string_view trimmed(std::string_view text);
@@ -47,8 +47,8 @@ int whole_option(const Arguments& arguments, std::string_view name, int least, i
 
 /// The query that the options of a verb stand for (`--pose "10 mm, 0, 5 deg"`, `--set path=value`, ...). A
 /// tree, which no limit of texts binds: the path of a file may be long.
-Expected<Document> request(std::string_view query, const Arguments& arguments, const Robot& robot);
+Expected<Document> request(std::string_view query, const Arguments& arguments, const OpenRobot& robot);
 /// Puts it; the answer may be an error.
-Answer ask(Robot& robot, const Document& query);
+Answer ask(OpenRobot& robot, const Document& query);
 
 }  // namespace sinew::cli

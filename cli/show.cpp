@@ -121,7 +121,7 @@ std::string show_legs(const Node& legs) {
   return table.text();
 }
 
-std::string show_inputs(std::string_view title, const std::vector<double>& values, const Robot& robot,
+std::string show_inputs(std::string_view title, const std::vector<double>& values, const OpenRobot& robot,
                         std::string_view per) {
   const std::string unit = robot.input_unit();
   std::vector<std::string> header{
@@ -149,7 +149,7 @@ std::string signs(const Node& solution, std::string_view key) {
 
 }  // namespace
 
-std::string show_working_modes(const Node& solutions, const Robot& robot) {
+std::string show_working_modes(const Node& solutions, const OpenRobot& robot) {
   const auto first_leg_has = [&](std::string_view path) {
     return !solutions.items.empty() && at(solutions.items.front(), path);
   };
@@ -188,7 +188,7 @@ std::string show_assembly_modes(const Answer& answer) {
                                     is_complete ? ", all there are" : "");
 }
 
-std::string show_path(const Node& rows, const Robot& robot) {
+std::string show_path(const Node& rows, const OpenRobot& robot) {
   const auto columns = pose_columns(robot.is_spatial);
   std::vector<std::string> header{"sample"};
   add_headings(header, columns);
@@ -215,7 +215,8 @@ std::string show_report(const Answer& answer) {
   report.iterations = static_cast<int>(answer.number("iterations").value_or(0));
   std::string text = to_string(report);
   if (!answer.number("residual")) text = "converged";  // in closed form
-  if (is_on_rods(answer) || answer.find("wrench_sensitivity") || answer.find("curves")) {
+  if (is_on_rods(answer) || (answer.find("wrench_sensitivity") && !is_on_chains(answer)) ||
+      answer.find("curves")) {
     text.resize(text.size() - 2);                    // a residual of rods is relative, and has no unit
     if (!answer.find("curves")) text += ", stable";  // else the answer is not a converged one
   }

@@ -22,54 +22,56 @@ std::string show_matrix(const Node& matrix, std::vector<std::string> header,
                         const std::vector<std::string>& rows,
                         const std::function<double(std::size_t, std::size_t)>& factor);
 /// One row an input; `per` ends its unit: `/s`.
-std::string show_inputs(std::string_view title, const std::vector<double>& values, const Robot& robot,
+std::string show_inputs(std::string_view title, const std::vector<double>& values, const OpenRobot& robot,
                         std::string_view per = {});
 /// One row a working mode: its bending as `--bending` takes it, and its inputs.
-std::string show_working_modes(const Node& solutions, const Robot& robot);
+std::string show_working_modes(const Node& solutions, const OpenRobot& robot);
 /// One row an assembly mode, and whether these are all.
 std::string show_assembly_modes(const Answer& answer);
 /// One row a pose of a path: pose, inputs, condition number.
-std::string show_path(const Node& rows, const Robot& robot);
+std::string show_path(const Node& rows, const OpenRobot& robot);
 
 /// @name Robots on rods
 /// @{
 bool is_on_rods(const Answer& answer);
 /// What an answer has beside pose and legs: energies and what was wanted.
-std::string show_equilibrium(const Answer& answer, const Robot& robot);
+std::string show_equilibrium(const Answer& answer, const OpenRobot& robot);
 /// One row an equilibrium: of the same inputs and load, or of the same pose and load.
-std::string show_equilibria(const Answer& answer, const Robot& robot);
-std::string show_rod_velocity(const Answer& answer, const Robot& robot);
+std::string show_equilibria(const Answer& answer, const OpenRobot& robot);
+std::string show_rod_velocity(const Answer& answer, const OpenRobot& robot);
 /// Pose, and the wrench that the rods' forces tell.
 std::string show_sensed(const Answer& answer);
+std::string show_wrench(const Answer& answer);  ///< that was sensed
+std::string show_margins(const Node& margins);
 /// @}
 
 /// @name Robots on pseudo-rigid chains
 /// @{
 bool is_on_chains(const Answer& answer);
 /// Pose, tendons, joints, energies, simpler models.
-std::string show_chains(const Answer& answer, const Robot& robot);
-std::string show_chain_velocity(const Answer& answer, const Robot& robot);
+std::string show_chains(const Answer& answer, const OpenRobot& robot);
+std::string show_chain_velocity(const Answer& answer, const OpenRobot& robot);
 /// Joints of a row of a path: `legs[0].theta_2`.
-std::vector<Input> angle_columns(const Node& angles, const Robot& robot);
+std::vector<Input> angle_columns(const Node& angles, const OpenRobot& robot);
 std::vector<double> angle_values(const Node& angles);
 /// @}
 
 /// @name Serial robots
 /// @{
-bool is_serial(const Robot& robot);
+bool is_serial(const OpenRobot& robot);
 /// What it is made of.
-std::string show_serial_robot(const Robot& robot);
+std::string show_serial_robot(const OpenRobot& robot);
 /// Sections and their ends; of velocity J, K and indices.
-std::string show_serial(const Answer& answer, const Robot& robot);
+std::string show_serial(const Answer& answer, const OpenRobot& robot);
 /// Class, slack, polygons of one section's diagram.
-std::string show_diagram(const Answer& answer, const Robot& robot, std::size_t section);
+std::string show_diagram(const Answer& answer, const OpenRobot& robot, std::size_t section);
 /// @}
 
 /// J, K, U, indices, singularities.
-std::string show_velocity(const Answer& answer, const Robot& robot);
+std::string show_velocity(const Answer& answer, const OpenRobot& robot);
 /// U, or what has its form.
-std::string show_sensitivity(std::string_view title, const Node& matrix, const Robot& robot);
-std::string show_indices(const Answer& answer, const Robot& robot);
+std::string show_sensitivity(std::string_view title, const Node& matrix, const OpenRobot& robot);
+std::string show_indices(const Answer& answer, const OpenRobot& robot);
 std::string show_singularities(const Answer& answer);
 /// `converged in 4 iterations, residual 5.0e-14 m`; of rods `converged in 4 iterations, residual 5.0e-14,
 /// stable`.

@@ -11,7 +11,7 @@ namespace sinew::cli {
 namespace {
 
 /// Joints as the paper counts them: the last one is n.
-int first_joint(const Robot& robot, std::size_t leg, std::size_t count) {
+int first_joint(const OpenRobot& robot, std::size_t leg, std::size_t count) {
   const Node* joints = at(robot.description.find("legs")->items.at(leg), "link.joints");
   return joints ? static_cast<int>(joints->number) - static_cast<int>(count) + 1 : 1;
 }
@@ -24,7 +24,7 @@ std::vector<const Node*> angles_of(const Node& legs) {
 
 /// One row a leg, one column a joint.
 std::string per_joint(const std::string& title, const std::vector<std::vector<double>>& legs,
-                      const Robot& robot, std::string_view unit) {
+                      const OpenRobot& robot, std::string_view unit) {
   std::vector<std::string> header{title};
   int first = first_joint(robot, 0, legs.front().size()), last = 0;
   for (std::size_t i = 0; i < legs.size(); ++i) {  // legs may be of unlike chains
@@ -57,27 +57,34 @@ std::vector<std::vector<double>> per_leg(const Node& legs, const std::vector<dou
   return split;
 }
 
-std::string show_angles(const Node& legs, const Robot& robot) {
+std::string show_angles(const Node& legs, const OpenRobot& robot) {
   std::vector<std::vector<double>> angles;
   for (const Node* of : angles_of(legs)) angles.push_back(numbers(of));
   return per_joint("joints", angles, robot, "rad");
 }
 
 std::string show_forces(const Node& legs) {
-  TextTable table({"leg", "tendon_1[mm]", "tendon_2[mm]", "tension_1[N]", "tension_2[N]", "chord_force[N]"});
+  const bool has_motors = !legs.items.empty() && legs.items.front().find("motor_torque");
+  std::vector<std::string> header{"leg",          "tendon_1[mm]", "tendon_2[mm]",
+                                  "tension_1[N]", "tension_2[N]", "chord_force[N]"};
+  if (has_motors) header.emplace_back("motor_torque[N m]");
+  TextTable table(std::move(header));
   for (std::size_t i = 0; i < legs.items.size(); ++i) {
     const Node& leg = legs.items[i];
     const auto value = [&](std::string_view path, std::string_view unit) {
       return cell(number(leg, path), unit);
     };
-    table.add({fmt::format("legs[{}]", i), value("tendon_lengths[0]", "m"), value("tendon_lengths[1]", "m"),
-               value("tensions[0]", "N"), value("tensions[1]", "N"), value("chord_force", "N")});
+    std::vector<std::string> row{fmt::format("legs[{}]", i),      value("tendon_lengths[0]", "m"),
+                                 value("tendon_lengths[1]", "m"), value("tensions[0]", "N"),
+                                 value("tensions[1]", "N"),       value("chord_force", "N")};
+    if (has_motors) row.push_back(six_digits(number(leg, "motor_torque")));
+    table.add(std::move(row));
   }
   return table.text();
 }
 
 /// The loaded pose beside what simpler models make of the load.
-std::string show_models(const Answer& answer, const Robot& robot) {
+std::string show_models(const Answer& answer, const OpenRobot& robot) {
   const auto columns = pose_columns(robot.is_spatial);
   std::vector<std::string> header{"model"};
   for (const Input& column : columns) header.push_back(heading(column.name, column.unit));
@@ -115,7 +122,7 @@ std::string show_numbers(const Answer& answer) {
 
 bool is_on_chains(const Answer& answer) { return answer.find("legs[0].angles") != nullptr; }
 
-std::vector<Input> angle_columns(const Node& angles, const Robot& robot) {
+std::vector<Input> angle_columns(const Node& angles, const OpenRobot& robot) {
   std::vector<Input> columns;
   for (std::size_t i = 0; i < angles.items.size(); ++i) {
     const std::size_t count = angles.items[i].items.size();
@@ -133,11 +140,14 @@ std::vector<double> angle_values(const Node& angles) {
   return values;
 }
 
-std::string show_chains(const Answer& answer, const Robot& robot) {
+std::string show_chains(const Answer& answer, const OpenRobot& robot) {
   const Node& legs = *answer.find("legs");
   std::string text = show_pose(*answer.find("pose")) + '\n' + show_forces(legs) + '\n' +
                      show_angles(legs, robot) + '\n' + show_numbers(answer);
   if (answer.find("linear_error")) text += '\n' + show_models(answer, robot);
+  if (answer.find("wrench_sensitivity")) text += '\n' + show_wrench(answer);
+  if (const Node* margins = answer.find("margins")) text += '\n' + show_margins(*margins);
+  if (answer.find("solutions")) text += '\n' + show_equilibria(answer, robot);
   if (answer.find("load"))
     text += fmt::format("\nload: {} times the wrench of --until, {}\n", six_digits(*answer.number("load")),
                         answer.text("why"));
@@ -145,7 +155,7 @@ std::string show_chains(const Answer& answer, const Robot& robot) {
 }
 
 /// K row by row: a leg's row has columns of its own joints only.
-std::string show_chain_velocity(const Answer& answer, const Robot& robot) {
+std::string show_chain_velocity(const Answer& answer, const OpenRobot& robot) {
   const Node &legs = *answer.find("legs"), &K = *answer.find("K");
   std::vector<std::string> J{"J"}, rows;
   for (const Input& column : pose_columns(robot.is_spatial))

@@ -70,13 +70,6 @@ std::string show_stability(const Answer& answer) {
   return text;
 }
 
-std::string show_margins(const Node& margins) {
-  TextTable table({"margin", "value"});
-  table.add({"fold", six_digits(number(margins, "fold"))});
-  table.add({"strain[%]", six_digits(100 * number(margins, "strain"))});
-  return table.text();
-}
-
 std::string show_load(const Answer& answer) {
   const std::string why = answer.text("why");
   return fmt::format(
@@ -98,7 +91,7 @@ bool is_on_rods(const Answer& answer) {
          std::ranges::any_of(legs->items, [](const Node& leg) { return leg.find("tip_angle") != nullptr; });
 }
 
-std::string show_equilibrium(const Answer& answer, const Robot& robot) {
+std::string show_equilibrium(const Answer& answer, const OpenRobot& robot) {
   std::string text = show_energies(answer);
   if (const Node* stiffness = answer.find("stiffness")) text += '\n' + show_stiffness(*stiffness);
   if (const Node* matrix = answer.find("sensitivity"))
@@ -109,10 +102,17 @@ std::string show_equilibrium(const Answer& answer, const Robot& robot) {
   return text;
 }
 
-std::string show_equilibria(const Answer& answer, const Robot& robot) {
+std::string show_margins(const Node& margins) {
+  TextTable table({"margin", "value"});
+  table.add({"fold", six_digits(number(margins, "fold"))});
+  table.add({"strain[%]", six_digits(100 * number(margins, "strain"))});
+  return table.text();
+}
+
+std::string show_equilibria(const Answer& answer, const OpenRobot& robot) {
   const auto& solutions = answer.find("solutions")->items;
   const bool is_forward = answer.text("query") == "forward";  // else one pose is held, by several lengths
-  const std::vector<Input> columns = is_forward ? pose_columns(true) : robot.inputs;
+  const std::vector<Input> columns = is_forward ? pose_columns(robot.is_spatial) : robot.inputs;
   const bool has_potential =
       std::ranges::any_of(solutions, [](const Node& one) { return one.find("potential") != nullptr; });
   std::vector<std::string> header{is_forward ? "equilibrium" : "solution"};
@@ -135,7 +135,7 @@ std::string show_equilibria(const Answer& answer, const Robot& robot) {
                              : fmt::format("at least {} solution{}\n", solutions.size(), is_one ? "" : "s"));
 }
 
-std::string show_rod_velocity(const Answer& answer, const Robot& robot) {
+std::string show_rod_velocity(const Answer& answer, const OpenRobot& robot) {
   const auto si = [](std::size_t, std::size_t) { return 1.0; };
   std::vector<std::string> K{"K"};
   for (const Input& input : robot.inputs) K.push_back(input.name + "[1/m]");
@@ -154,18 +154,22 @@ std::string show_rod_velocity(const Answer& answer, const Robot& robot) {
               : "\ntype II: none, the stiffness is regular\n");
 }
 
-std::string show_sensed(const Answer& answer) {
+std::string show_wrench(const Answer& answer) {
   const auto wrench = numbers(answer.find("wrench"));
   const Node* covariance = answer.find("covariance");
   std::vector<std::string> header{"wrench", "value"};
   if (covariance) header.emplace_back("deviation");
   TextTable table(std::move(header));
   for (std::size_t k = 0; k < wrench.size(); ++k) {
-    std::vector<std::string> row{wrench_rows[k], six_digits(wrench[k])};
+    std::vector<std::string> row{wrench_rows[wrench.size() == 3 && k == 2 ? 5 : k], six_digits(wrench[k])};
     if (covariance) row.push_back(six_digits(std::sqrt(covariance->items[k].items[k].number)));
     table.add(std::move(row));
   }
-  return show_pose(*answer.find("pose")) + '\n' + table.text();
+  return table.text();
+}
+
+std::string show_sensed(const Answer& answer) {
+  return show_pose(*answer.find("pose")) + '\n' + show_wrench(answer);
 }
 
 }  // namespace sinew::cli

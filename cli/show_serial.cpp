@@ -11,7 +11,7 @@ namespace sinew::cli {
 namespace {
 
 /// The two numbers of a section's configuration.
-std::array<std::string_view, 2> coordinates(const Robot& robot, std::size_t section) {
+std::array<std::string_view, 2> coordinates(const OpenRobot& robot, std::size_t section) {
   const bool is_twin = robot.description.text(fmt::format("sections[{}].type", section)) == "tpcj";
   return is_twin ? std::array<std::string_view, 2>{"beta_1", "beta_2"}
                  : std::array<std::string_view, 2>{"theta", "phi"};
@@ -24,7 +24,7 @@ std::size_t most_tendons(const Node& changes) {
 }
 
 /// Columns for the coordinates of all sections. Where these are of two kinds, the headings name both's.
-std::vector<std::string> coordinate_columns(const Robot& robot, std::string_view per = {}) {
+std::vector<std::string> coordinate_columns(const OpenRobot& robot, std::string_view per = {}) {
   const auto& sections = robot.description.find("sections")->items;
   const auto first = coordinates(robot, 0);
   bool is_one_kind = true, has_extension = false;
@@ -46,7 +46,7 @@ void append_coordinates(const Node& section, std::size_t columns, std::vector<st
 }
 
 /// Configuration and changes of each section.
-std::string show_sections(const Answer& answer, const Robot& robot) {
+std::string show_sections(const Answer& answer, const OpenRobot& robot) {
   const auto &bends = answer.find("configuration")->items, &changes = answer.find("changes")->items;
   const auto columns = coordinate_columns(robot);
   std::vector<std::string> header{"section"};
@@ -80,7 +80,7 @@ std::string show_ends(const Node& ends) {
 }
 
 /// One row a solution and section, where all were asked for.
-std::string show_solutions(const Answer& answer, const Robot& robot) {
+std::string show_solutions(const Answer& answer, const OpenRobot& robot) {
   const Node* solutions = answer.find("solutions");
   if (!solutions) return {};
   const auto names = coordinates(robot, 0);
@@ -97,7 +97,7 @@ std::string show_solutions(const Answer& answer, const Robot& robot) {
                      solutions->items.size() == 1 ? "" : "s", is_complete ? ", all there are" : "");
 }
 
-std::string show_tip_velocity(const Answer& answer, const Robot& robot) {
+std::string show_tip_velocity(const Answer& answer, const OpenRobot& robot) {
   std::vector<std::string> J{"J"}, K{"K"}, tendons;
   const auto& sections = robot.description.find("sections")->items;
   for (std::size_t m = 0; m < sections.size(); ++m) {
@@ -130,7 +130,8 @@ std::string show_tip_velocity(const Answer& answer, const Robot& robot) {
   return text;
 }
 
-std::string show_points(std::string_view title, const Node* points, const Robot& robot, std::size_t section) {
+std::string show_points(std::string_view title, const Node* points, const OpenRobot& robot,
+                        std::size_t section) {
   if (!points || points->items.empty()) return {};
   const bool is_twin = coordinates(robot, section)[0] == "beta_1";
   TextTable table({std::string(title), heading(is_twin ? "beta_1" : "theta cos phi", "rad"),
@@ -143,9 +144,9 @@ std::string show_points(std::string_view title, const Node* points, const Robot&
 
 }  // namespace
 
-bool is_serial(const Robot& robot) { return robot.description.text("kind") == "serial"; }
+bool is_serial(const OpenRobot& robot) { return robot.description.text("kind") == "serial"; }
 
-std::string show_serial_robot(const Robot& robot) {
+std::string show_serial_robot(const OpenRobot& robot) {
   const Answer& about = robot.description;
   const auto& sections = about.find("sections")->items;
   TextTable table({"section", "type", "segments", "length[mm]", "joint[mm]", "disc_radius[mm]", "tendons",
@@ -175,7 +176,7 @@ std::string show_serial_robot(const Robot& robot) {
          table.text();
 }
 
-std::string show_serial(const Answer& answer, const Robot& robot) {
+std::string show_serial(const Answer& answer, const OpenRobot& robot) {
   if (answer.text("query") == "velocity") return show_tip_velocity(answer, robot);
   if (!answer.find("configuration")) return {};
   return show_sections(answer, robot) + '\n' + show_ends(*answer.find("sections")) +
@@ -194,7 +195,7 @@ std::string_view outline_note(const Answer& answer) {
   return answer.find("outline") ? ": see outline" : "";
 }
 
-std::string show_diagram(const Answer& answer, const Robot& robot, std::size_t section) {
+std::string show_diagram(const Answer& answer, const OpenRobot& robot, std::size_t section) {
   const auto slack = numbers(answer.find("slack"));
   TextTable table({"tendon", heading("slack", "m")});
   for (std::size_t i = 0; i < slack.size(); ++i) table.add({fmt::format("{}", i), cell(slack[i], "m")});

@@ -23,7 +23,7 @@ struct Rows {
   int pinned = 0;  ///< rows in [m] instead of [m²]
 };
 
-Rows rows_of(const Robot& robot) {
+Rows rows_of(const OpenRobot& robot) {
   Rows rows;
   const auto& legs = robot.description.find("legs")->items;
   std::vector<std::string> planes;
@@ -44,7 +44,7 @@ Rows rows_of(const Robot& robot) {
 
 /// J and K are the paper's: J·(platform velocity) = K·(input rates), rows times the chord, so they stay in
 /// SI. Where rows have different units the headings leave them out.
-std::string show_equations(const Answer& answer, const Robot& robot) {
+std::string show_equations(const Answer& answer, const OpenRobot& robot) {
   const Rows rows = rows_of(robot);
   const auto si = [](std::size_t, std::size_t) { return 1.0; };
   const auto named = [&](const std::string& name, bool is_length) {
@@ -99,7 +99,7 @@ std::string show_matrix(const Node& matrix, std::vector<std::string> header,
 
 /// U maps inputs to the platform. Inputs of one unit: a ratio of lengths is one in any unit, the rest is in
 /// degrees and mm. Mixed inputs: rows and columns each have theirs.
-std::string show_sensitivity(std::string_view title, const Node& matrix, const Robot& robot) {
+std::string show_sensitivity(std::string_view title, const Node& matrix, const OpenRobot& robot) {
   const auto platform = pose_columns(robot.is_spatial);
   const std::string unit = robot.input_unit();
   std::vector<std::string> header{std::string(title)}, rows;
@@ -113,7 +113,7 @@ std::string show_sensitivity(std::string_view title, const Node& matrix, const R
   });
 }
 
-std::string show_indices(const Answer& answer, const Robot& robot) {
+std::string show_indices(const Answer& answer, const OpenRobot& robot) {
   TextTable table({"index", "value"});
   const auto row = [&](std::string_view name, std::optional<double> number, double factor) {
     // beyond what doubles resolve a condition number is noise
@@ -156,7 +156,7 @@ std::string show_singularities(const Answer& answer) {
   return text + "; the platform moves with the inputs held" + screw(answer) + "\n";
 }
 
-std::string show_velocity(const Answer& answer, const Robot& robot) {
+std::string show_velocity(const Answer& answer, const OpenRobot& robot) {
   if (is_on_rods(answer)) return show_rod_velocity(answer, robot);
   if (is_on_chains(answer)) return show_chain_velocity(answer, robot);
   std::string text = show_pose(*answer.find("pose")) + '\n' + show_equations(answer, robot) + '\n';

@@ -9,7 +9,7 @@
 
 int main() {
   using Clock = std::chrono::steady_clock;
-  const sinew::AnyRobot robot = sinew::load("3pfs-g2").value();
+  const sinew::Robot robot = sinew::load("3pfs-g2").value();
   sinew::Workspace work(robot);  // allocates here, and never in the loop
 
   // Once, before the loop: from home to the lengths at which it begins.

@@ -208,7 +208,7 @@ Reply Calls::open_robot(const std::string& text) {
   return {422, written({{"errors", errors}})};
 }
 
-std::string Calls::answers(Robot& robot, const std::vector<std::string_view>& queries, bool is_list,
+std::string Calls::answers(OpenRobot& robot, const std::vector<std::string_view>& queries, bool is_list,
                            const Watchdog::IsOver& is_gone) {
   auto session = robot.take();
   if (!session) return error_text("internal", "robot", "the robot cannot be opened again");

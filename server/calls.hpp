@@ -50,7 +50,7 @@ class Calls {
   std::optional<Errors> read_opened();
 
  private:
-  std::string answers(Robot& robot, const std::vector<std::string_view>& queries, bool is_list,
+  std::string answers(OpenRobot& robot, const std::vector<std::string_view>& queries, bool is_list,
                       const Watchdog::IsOver& is_gone);
 
   std::optional<Errors> open_device();

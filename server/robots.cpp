@@ -17,11 +17,11 @@ std::string handle_of(std::string_view text) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-Robot::Robot(Document document, Session first) : document_(std::move(document)) {
+OpenRobot::OpenRobot(Document document, Session first) : document_(std::move(document)) {
   idle_.push_back(std::move(first));
 }
 
-Expected<Session> Robot::take() {
+Expected<Session> OpenRobot::take() {
   {
     const std::lock_guard lock(mutex_);
     if (!idle_.empty()) {
@@ -33,7 +33,7 @@ Expected<Session> Robot::take() {
   return Session::open(document_);
 }
 
-void Robot::give_back(Session session) {
+void OpenRobot::give_back(Session session) {
   session.forget();
   session.stop_on({});
   const std::lock_guard lock(mutex_);
@@ -55,7 +55,7 @@ Expected<std::string> Robots::open(const std::string& text) {
   if (!document) return tl::unexpected(document.error());
   auto session = Session::open(*document);
   if (!session) return tl::unexpected(session.error());
-  auto robot = std::make_shared<Robot>(std::move(*document), std::move(*session));
+  auto robot = std::make_shared<OpenRobot>(std::move(*document), std::move(*session));
   const std::lock_guard lock(mutex_);
   const bool has_come = std::ranges::find(entries_, handle, &Entry::handle) != entries_.end();  // meanwhile
   if (has_come) return handle;
@@ -68,7 +68,7 @@ Expected<std::string> Robots::open(const std::string& text) {
   return handle;
 }
 
-std::shared_ptr<Robot> Robots::find(std::string_view handle) {
+std::shared_ptr<OpenRobot> Robots::find(std::string_view handle) {
   const std::lock_guard lock(mutex_);
   const auto found =
       std::ranges::find_if(entries_, [&](const Entry& entry) { return entry.handle == handle; });

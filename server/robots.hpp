@@ -18,9 +18,9 @@ namespace sinew::server {
 std::string handle_of(std::string_view text);
 
 /// One text, and sessions of it that nobody uses at the moment.
-class Robot {
+class OpenRobot {
  public:
-  Robot(Document document, Session first);
+  OpenRobot(Document document, Session first);
 
   /// A session for this thread until it is given back, as when it was opened: `"start": "last"` is of the
   /// same request or job.
@@ -45,13 +45,13 @@ class Robots {
   /// The handle of a robot file's text, or all its errors; their places are `robot:LINE:COLUMN`.
   Expected<std::string> open(const std::string& text);
   /// Null where there is none (any more).
-  std::shared_ptr<Robot> find(std::string_view handle);
+  std::shared_ptr<OpenRobot> find(std::string_view handle);
 
  private:
   struct Entry {
     std::string handle;
     std::size_t bytes;  // of its text
-    std::shared_ptr<Robot> robot;
+    std::shared_ptr<OpenRobot> robot;
   };
 
   std::size_t most_, most_bytes_;

@@ -5,7 +5,8 @@ usage: same_answers.py [--questions 2000] [--seed 1] [--tolerance 1e-8] OLD NEW
 
 OLD and NEW are `sinew` commands. Questions are statics, forward and inverse of rods and of pseudo-rigid chains under
 random forces and moments, most of what their robots bear, some of far more. Told are: another status, and numbers that
-differ by more than the tolerance of the largest in their list; iteration counts and residuals are not compared.
+differ by more than the tolerance of the largest in their list, or are gone; fields that only the new build has,
+iteration counts and residuals are not compared.
 """
 import argparse
 import collections
@@ -86,8 +87,8 @@ def difference(old, new, tolerance):
     if old.get("status") != new.get("status"):
         return f"status {old.get('status')} -> {new.get('status')}: {new.get('message', '')}"
     a, b = dict(numbers(old)), dict(numbers(new))
-    if a.keys() != b.keys():
-        return "fields " + ", ".join(sorted(a.keys() ^ b.keys()))
+    if gone := a.keys() - b.keys():
+        return "without " + ", ".join(sorted(gone))
     worst = ("", 0.0)
     for path in a:
         one, other = a[path], b[path]

@@ -67,7 +67,7 @@ std::size_t section_of(const Arguments& arguments) {
   return text ? static_cast<std::size_t>(std::strtoul(text->c_str(), nullptr, 10)) : 0;
 }
 
-Figure diagram_figure(const Answer& answer, const Robot& robot, std::size_t section) {
+Figure diagram_figure(const Answer& answer, const OpenRobot& robot, std::size_t section) {
   const bool is_travel = answer.text("envelope.kind") == "actuator";
   double limit = is_travel ? 0 : number(*answer.find("envelope"), "limit") / degree;
   for (const char* key : {"boundary", "polygon"})

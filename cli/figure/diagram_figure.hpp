@@ -10,6 +10,6 @@ namespace sinew::cli {
 std::size_t section_of(const Arguments& arguments);
 
 /// The answer to `diagram`, one with a class.
-Figure diagram_figure(const Answer& answer, const Robot& robot, std::size_t section);
+Figure diagram_figure(const Answer& answer, const OpenRobot& robot, std::size_t section);
 
 }  // namespace sinew::cli

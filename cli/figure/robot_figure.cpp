@@ -293,7 +293,7 @@ Panel space(std::vector<Series> all, std::array<Axis, 3> axes, const Answer& sha
 
 }  // namespace
 
-Figure robot_figure(const Answer& shape, const Robot& robot, const std::optional<Eye>& eye) {
+Figure robot_figure(const Answer& shape, const OpenRobot& robot, const std::optional<Eye>& eye) {
   const auto all = is_serial(robot) ? serial_drawing(shape) : drawing(shape, *robot.description.find("legs"));
   const auto axes = axes_around(all);
   Figure figure;

@@ -60,7 +60,7 @@ std::string show_events(const Answer& answer) {
          fmt::format("equilibria found at 1: {}, of them stable: {}\n", equilibria.size(), stable);
 }
 
-Table table_of(const Answer& answer, const Robot& robot) {
+Table table_of(const Answer& answer, const OpenRobot& robot) {
   Table table;
   table.comments = {fmt::format("sinew {}: branches {}", version(), answer.text("robot")),
                     "event: 1 begin, 2 target, 3 fold, 4 bifurcation, 5 rod_bifurcation, 6 stability"};
@@ -187,7 +187,7 @@ class Diagram {
   bool shows_inputs_;
 };
 
-Figure picture(const Answer& answer, const Robot& robot, bool is_led_by_pose) {
+Figure picture(const Answer& answer, const OpenRobot& robot, bool is_led_by_pose) {
   const Diagram diagram(answer, is_led_by_pose ? robot.inputs : pose_columns(true), is_led_by_pose);
   const auto [first, second] = diagram.farthest();
   Figure figure;

@@ -20,11 +20,11 @@ namespace {
 
 /// A robot, what it needs at home, and how it moves there.
 struct Checked {
-  Robot robot;
+  OpenRobot robot;
   Answer home, velocity;
 };
 
-Checked put_questions(Robot robot) {
+Checked put_questions(OpenRobot robot) {
   const auto put = [&](std::string_view query, std::vector<std::string_view> want) {
     std::vector<Member> members{{.key = "query", .value = make_node(query)}, at_home(robot)};
     std::vector<Node> words;

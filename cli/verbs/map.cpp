@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 7> axis_names{"x", "y", "z", "phi", "rx",
 
 /// The robot itself, and the branch its legs are on.
 struct Subject {
-  AnyRobot robot;
+  Robot robot;
   std::vector<int> bending, elbow;
   std::vector<double> curvature;
   InverseOptions branch() const { return {.bending = bending, .curvature = curvature, .elbow = elbow}; }
@@ -40,7 +40,7 @@ std::vector<int> signs(const Node* list) {
 }
 
 /// The options, read as those of an inverse query at home, which tells what is wrong with them.
-Expected<Subject> subject(const Arguments& arguments, Robot& opened) {
+Expected<Subject> subject(const Arguments& arguments, OpenRobot& opened) {
   auto query = request("inverse", arguments, opened);
   if (!query) return tl::unexpected(query.error());
   query->root.members.push_back(at_home(opened));
@@ -97,8 +97,7 @@ MapAxis read_axis(std::string_view name, std::string_view text, Dimension dimens
 }
 
 /// Home, with the axes of the command line.
-Expected<PoseGrid> read_grid(const Arguments& arguments, const AnyRobot& robot,
-                             const std::vector<Input>& axes) {
+Expected<PoseGrid> read_grid(const Arguments& arguments, const Robot& robot, const std::vector<Input>& axes) {
   PoseGrid grid = PoseGrid::at(home(robot));
   Errors errors;
   std::vector<std::string_view> known;
@@ -186,7 +185,7 @@ Expected<Tally> write_rows(const Subject& subject, const PoseGrid& grid, const P
   Workspace work(subject.robot);
   Tally tally;
   std::string rows;
-  Expected<void> written = write(heading_of(grid, pose_columns(grid.is_spatial), subject.robot.name));
+  Expected<void> written = write(heading_of(grid, pose_columns(grid.is_spatial), subject.robot.name()));
   if (!written || !progress(0, total)) return written.map([&] { return tally; });
   visit_map(subject.robot, grid, subject.branch(), work, [&](std::size_t k, const MapSample& sample) {
     tally.add(sample);
@@ -224,7 +223,7 @@ Expected<Tally> draw(const Subject& subject, const PoseGrid& grid, const std::ve
   const Probe probe = [&](const AnyPose& pose) {
     return map_sample(subject.robot, pose, subject.branch(), work);
   };
-  exit = write_figure_file(arguments, map_figure(map, probe, axes, subject.robot.name),
+  exit = write_figure_file(arguments, map_figure(map, probe, axes, subject.robot.name()),
                            *arguments.text("output"));
   return tally;
 }
@@ -274,13 +273,13 @@ int run_map(const Arguments& arguments) {
   if (!tally) return refuse("map", tally.error());
   if (exit != solved) return exit;
   if (tally->poses < grid->size()) {
-    message(fmt::format("map {}: stopped after {} of {} poses; {}", asked->robot.name, tally->poses,
+    message(fmt::format("map {}: stopped after {} of {} poses; {}", asked->robot.name(), tally->poses,
                         grid->size(), file ? "nothing was written" : "these are written"));
     return stopped;
   }
   if (file && !arguments.has("quiet")) print((is_figure ? "" : visible_line(*file) + '\n') + tally->text());
   if (tally->reachable > 0) return solved;
-  message(fmt::format("map {}: unreachable: no pose of the grid", asked->robot.name), Style::bad);
+  message(fmt::format("map {}: unreachable: no pose of the grid", asked->robot.name()), Style::bad);
   return no_solution;
 }
 

@@ -96,7 +96,7 @@ Errors refuse_idle(const Arguments& arguments, std::string_view name) {
 
 /// The answer that a figure is drawn from. Nothing where there is none; `exit` then says why. One that does
 /// not hold is drawn, and `exit` says so.
-std::optional<Answer> asked(Robot& robot, const Document& query, std::string_view needs, int& exit) {
+std::optional<Answer> asked(OpenRobot& robot, const Document& query, std::string_view needs, int& exit) {
   Answer answer = ask(robot, query);
   exit = exit_code(answer);
   if (const Errors errors = answer.errors(); !errors.empty())
@@ -135,7 +135,7 @@ Expected<Eye> eye_of(const Arguments& arguments) {
 }
 
 /// The robot's shape at the asked configuration, default its home.
-Expected<Document> shape_query(const Arguments& arguments, const Robot& robot) {
+Expected<Document> shape_query(const Arguments& arguments, const OpenRobot& robot) {
   auto query = request("shape", arguments, robot);
   constexpr std::array places{"pose", "independent", "inputs", "configuration", "changes"};
   if (!query || std::ranges::any_of(places, [&](auto place) { return arguments.has(place); })) return query;

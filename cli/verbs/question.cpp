@@ -8,7 +8,7 @@
 namespace sinew::cli {
 namespace {
 
-std::string show(const Answer& answer, const Robot& robot) {
+std::string show(const Answer& answer, const OpenRobot& robot) {
   if (is_serial(robot)) return show_serial(answer, robot);
   const std::string query = answer.text("query");
   if (query == "velocity") return show_velocity(answer, robot);
@@ -53,7 +53,7 @@ int conclude(const Answer& answer, const Arguments& arguments, const std::string
   return exit_code(answer);
 }
 
-Expected<Answer> put(std::string_view query, const Arguments& arguments, Robot& robot) {
+Expected<Answer> put(std::string_view query, const Arguments& arguments, OpenRobot& robot) {
   const auto asked = request(query, arguments, robot);
   if (!asked) return tl::unexpected(asked.error());
   return ask(robot, *asked);

@@ -10,7 +10,7 @@ namespace sinew::cli {
 int refuse_question(const Arguments& arguments, const Errors& errors);
 
 /// The answer to the query that the options of this verb stand for; it may be an error, too.
-Expected<Answer> put(std::string_view query, const Arguments& arguments, Robot& robot);
+Expected<Answer> put(std::string_view query, const Arguments& arguments, OpenRobot& robot);
 
 /// Prints what people read, or with --json the answer as it is; on stderr its error, or why there is no
 /// solution, or what the solution leaves out. The answer is the exit code.

@@ -10,7 +10,7 @@
 namespace sinew::cli {
 namespace {
 
-std::vector<Input> columns_of(const Answer& answer, const Robot& robot) {
+std::vector<Input> columns_of(const Answer& answer, const OpenRobot& robot) {
   std::vector<Input> columns{{"sample", ""}};
   const auto add = [&](const std::vector<Input>& more) {
     columns.insert(columns.end(), more.begin(), more.end());
@@ -27,7 +27,7 @@ std::vector<Input> columns_of(const Answer& answer, const Robot& robot) {
 }
 
 /// The path in SI.
-Table table_of(const Answer& answer, const Robot& robot) {
+Table table_of(const Answer& answer, const OpenRobot& robot) {
   Table table;
   table.comments = {fmt::format("sinew {}: track {}", version(), answer.text("robot"))};
   for (const Input& column : columns_of(answer, robot))

@@ -20,4 +20,5 @@
 #include "sinew/kinematics/three_arcs.hpp"      // IWYU pragma: export
 #include "sinew/kinematics/track.hpp"           // IWYU pragma: export
 #include "sinew/query/session.hpp"              // IWYU pragma: export
+#include "sinew/robot/parallel.hpp"             // IWYU pragma: export
 #include "sinew/tendon/diagram.hpp"             // IWYU pragma: export

@@ -77,7 +77,7 @@ Outcome run_study(const std::string& name, const JobLimits& limits, Job& job) {
   return table_of(*summary, path, limits.result);
 }
 
-Outcome answer_all(Robot& robot, const std::vector<std::string>& queries, Watchdog& dog, Job& job) {
+Outcome answer_all(OpenRobot& robot, const std::vector<std::string>& queries, Watchdog& dog, Job& job) {
   auto session = robot.take();
   if (!session) return failed({"internal", "robot", "the robot cannot be opened again"});
   const Watchdog::Watched watched(dog, [&] { return job.is_over(); });
@@ -102,7 +102,7 @@ Work study_work(std::string name, const JobLimits& limits) {
   return [name = std::move(name), limits](Job& job) { return run_study(name, limits, job); };
 }
 
-Work query_work(std::shared_ptr<Robot> robot, std::vector<std::string> queries, Watchdog& dog) {
+Work query_work(std::shared_ptr<OpenRobot> robot, std::vector<std::string> queries, Watchdog& dog) {
   return [robot = std::move(robot), queries = std::move(queries), &dog](Job& job) {
     return answer_all(*robot, queries, dog, job);
   };

@@ -11,6 +11,6 @@ namespace sinew::server {
 Work study_work(std::string name, const JobLimits& limits);
 
 /// Queries to a robot, answered in order by one session. One that runs is stopped when the job is over.
-Work query_work(std::shared_ptr<Robot> robot, std::vector<std::string> queries, Watchdog& dog);
+Work query_work(std::shared_ptr<OpenRobot> robot, std::vector<std::string> queries, Watchdog& dog);
 
 }  // namespace sinew::server

@@ -11,6 +11,8 @@
 #include <numbers>
 
 #include "analysis/pose_lanes-inl.hpp"
+#include "sinew/base/units.hpp"
+#include "sinew/leg/hinged_strut.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sinew::inline v0::velocity_lanes {

@@ -1,4 +1,5 @@
 #include "sinew/analysis/shape.hpp"
+#include "sinew/robot/parallel.hpp"
 
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
@@ -60,7 +61,7 @@ void add_leg(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const ty
 
 /// Rods as their coordinates shape them, between the base and the platform, and closing legs among them.
 template <class System>
-AnyShape loaded_shape(const AnyRobot& robot, System& system, const SpatialPose& pose, Numbers coordinates,
+AnyShape loaded_shape(const Robot& robot, System& system, const SpatialPose& pose, Numbers coordinates,
                       int samples) {
   SpatialShape shape;
   const SE3<double> platform = SE3<double>::from(pose);
@@ -76,27 +77,28 @@ AnyShape loaded_shape(const AnyRobot& robot, System& system, const SpatialPose& 
       shape.lines.push_back({tip, tip});
       shape.platform.push_back(tip);
       shape.base.push_back(leg.base.p);
-    } else if constexpr (L::dimension == 3) {
+    } else {
       add_leg(shape, leg, platform, own_coordinates(leg, place, coordinates), samples);
     }
   };
-  std::visit([&](const auto& whole) { whole.for_each_leg(add); }, robot.model);
+  robot.spatial()->for_each_leg(add);
   return shape;
 }
 
 }  // namespace
 
-AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
-  const bool fits = std::holds_alternative<PlanarPose>(pose) == is_planar(robot) && samples >= 2 &&
+AnyShape any_shape(const Robot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
+  const bool fits = std::holds_alternative<PlanarPose>(pose) == is_planar(robot) &&
+                    robot.is_within_limits() && samples >= 2 &&
                     coordinates.size() == static_cast<std::size_t>(coordinate_count(robot));
   if (!fits) return is_planar(robot) ? AnyShape(PlanarShape{}) : AnyShape(SpatialShape{});
-  return visit_closing(
+  return with_closing_legs(
       robot,
       [&]<class LegT>(const ParallelRobot<LegT>& r) -> AnyShape {
         using Space = typename LegT::Space;
         ShapeOf<Space::dimension> shape;
         const auto platform = Space::frame(in_space<Space>(pose));
-        r.for_each_leg([&](const auto& leg, const LegPlace& place, int) {
+        r.for_each_closing_leg([&](const auto& leg, const LegPlace& place, int) {
           add_leg(shape, leg, platform, own_coordinates(leg, place, coordinates), samples);
         });
         return shape;

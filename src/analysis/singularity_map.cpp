@@ -54,8 +54,7 @@ AnyPose PoseGrid::pose(const std::array<double, 6>& coordinates) const {
   return spatial_pose(SE3<double>{Vec3<double>(x, y, third), SO3<double>::exp(Vec3<double>(rx, ry, rz))});
 }
 
-MapSample map_sample(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& branch,
-                     Workspace& work) {
+MapSample map_sample(const Robot& robot, const AnyPose& pose, const InverseOptions& branch, Workspace& work) {
   MapSample sample;
   const Inverse solved = inverse(robot, pose, branch, work);
   if (!solved.ok()) return sample;
@@ -71,8 +70,8 @@ MapSample map_sample(const AnyRobot& robot, const AnyPose& pose, const InverseOp
   return sample;
 }
 
-std::size_t visit_map(const AnyRobot& robot, const PoseGrid& grid, const InverseOptions& branch,
-                      Workspace& work, const TakeSample& take) {
+std::size_t visit_map(const Robot& robot, const PoseGrid& grid, const InverseOptions& branch, Workspace& work,
+                      const TakeSample& take) {
   if (grid.is_spatial == is_planar(robot) || !check_workspace(robot, work).ok())
     return 0;  // not poses of this robot
   const std::size_t total = grid.size();
@@ -83,7 +82,7 @@ std::size_t visit_map(const AnyRobot& robot, const PoseGrid& grid, const Inverse
   return total;
 }
 
-SingularityMap singularity_map(const AnyRobot& robot, const PoseGrid& grid, const InverseOptions& branch,
+SingularityMap singularity_map(const Robot& robot, const PoseGrid& grid, const InverseOptions& branch,
                                Workspace& work, const Progress& progress) {
   SingularityMap map{.grid = grid, .samples = {}};
   const std::size_t total = grid.size();

@@ -22,7 +22,7 @@ constexpr double least_dip = 1e-9;  // of the volume beside a smallest one; less
 
 /// A straight motion of the platform, by its distance s; put back into the planes that hinges may hold it in.
 struct Line {
-  const AnyRobot& robot;
+  const Robot& robot;
   AnyPose start;
   Vec<double, 6> direction;  // in the plane the first three
   double step;               // of the search, in s
@@ -32,7 +32,7 @@ struct Line {
     const auto* spatial = std::get_if<SpatialPose>(&start);
     if (!spatial || plane_count(robot) == 0) return true;
     const SpatialPose moved = Spatial::moved(*spatial, Vec<double, 6>(step * direction));
-    const double radius = std::visit([](const auto& r) { return r.platform_radius; }, robot.model);
+    const double radius = platform_radius(robot);
     return gap(std::get<SpatialPose>(settled(robot, moved)), moved, radius) <
            0.5 * gap(moved, *spatial, radius);
   }
@@ -54,7 +54,7 @@ struct Place {
 /// Walks along the line and looks for zeros of the volume that the unit lines span.
 class Walk {
  public:
-  Walk(const AnyRobot& robot, const Line& line, double limit, Workspace& work)
+  Walk(const Robot& robot, const Line& line, double limit, Workspace& work)
       : robot_(robot),
         line_(line),
         limit_(limit),
@@ -76,7 +76,7 @@ class Walk {
     return velocity(robot_, track.pose(), track.coordinates(), work_).type_2;
   }
 
-  const AnyRobot& robot_;
+  const Robot& robot_;
   const Line& line_;
   double limit_;
   Workspace& work_;
@@ -188,19 +188,19 @@ TypeTwoDistance Walk::run(const InverseOptions& branch) {
 }
 
 /// A step of the search: small against the platform, and against a radian.
-double step_of(const AnyRobot& robot, const Vec<double, 6>& direction) {
-  const double radius = std::visit([](const auto& r) { return r.platform_radius; }, robot.model);
+double step_of(const Robot& robot, const Vec<double, 6>& direction) {
+  const double radius = platform_radius(robot);
   const int dimension = dof(robot) == 3 ? 2 : 3;
   const double turning = direction.segment(dimension, dof(robot) - dimension).norm();
   return step_size / std::max(direction.head(dimension).norm() / radius, turning);
 }
 
-double full_turn(const AnyRobot& robot, const Vec<double, 6>& direction) {
+double full_turn(const Robot& robot, const Vec<double, 6>& direction) {
   const int dimension = dof(robot) == 3 ? 2 : 3;
   return 2 * std::numbers::pi / direction.segment(dimension, dof(robot) - dimension).norm();
 }
 
-TypeTwoDistance one_way(const AnyRobot& robot, const AnyPose& pose, const Vec<double, 6>& direction,
+TypeTwoDistance one_way(const Robot& robot, const AnyPose& pose, const Vec<double, 6>& direction,
                         const TypeTwoSearch& search, Workspace& work) {
   const Line line{robot, pose, direction, step_of(robot, direction)};
   if (!std::isfinite(line.step) || line.step == 0) {
@@ -221,7 +221,7 @@ TypeTwoDistance one_way(const AnyRobot& robot, const AnyPose& pose, const Vec<do
 
 }  // namespace
 
-TypeTwoDistance type_2_distance(const AnyRobot& robot, const AnyPose& pose, Numbers direction,
+TypeTwoDistance type_2_distance(const Robot& robot, const AnyPose& pose, Numbers direction,
                                 const TypeTwoSearch& search, Workspace& work) {
   TypeTwoDistance refused{.found = false, .distance = 0, .pose = pose, .type_2 = {}, .report = {}};
   refused.report = check_arguments(robot, pose, work);

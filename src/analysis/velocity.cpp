@@ -5,6 +5,7 @@
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/base/numbers.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -54,7 +55,7 @@ std::size_t type_one(const ParallelRobot<LegT>& robot, const AnyPose& pose, Numb
   using Space = typename LegT::Space;
   const auto platform = Space::frame(in_space<Space>(pose));
   std::size_t count = 0;
-  robot.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
+  robot.for_each_closing_leg([&](const auto& leg, const LegPlace& place, int i) {
     if (is_type_one(leg, platform, own_coordinates(leg, place, coordinates))) work.type_1[count++] = i;
   });
   return count;
@@ -94,7 +95,7 @@ void sensitivities(Velocity& answer, const MatrixView& lines, double radius, Wor
 }
 
 template <class LegT>
-Velocity velocity_of(const ParallelRobot<LegT>& robot, const AnyRobot& any, const AnyPose& pose,
+Velocity velocity_of(const ParallelRobot<LegT>& robot, const Robot& any, const AnyPose& pose,
                      Numbers coordinates, const Reduced& reduced, Workspace& work) {
   using Space = typename LegT::Space;
   Velocity answer = nothing_yet(reduced, work);
@@ -129,7 +130,7 @@ Velocity velocity_of(const ParallelRobot<LegT>& robot, const AnyRobot& any, cons
 
 }  // namespace
 
-Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
+Velocity velocity(const Robot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
   const Report fits = check_arguments(robot, pose, coordinates, work);
   if (!fits.ok()) {
     Velocity answer = nothing_yet(assemble(robot, pose, coordinates, work), work);
@@ -137,7 +138,7 @@ Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinate
     return answer;
   }
   const Reduced reduced = assemble(robot, pose, coordinates, work);
-  return visit_closing(
+  return with_closing_legs(
       robot, [&](const auto& r) { return velocity_of(r, robot, pose, coordinates, reduced, work); },
       [&] {
         Velocity answer = nothing_yet(reduced, work);

@@ -7,6 +7,7 @@
 #include "robot/pose.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/kinematics/inverse.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -16,16 +17,9 @@ using velocity_lanes::ChordLeg, velocity_lanes::ChordRobot, velocity_lanes::Hing
 
 constexpr std::size_t poses_at_a_time = 512;
 
-template <class LegT>
-concept IsChordLeg = requires {
-  requires std::same_as<typename LegT::Link, Arc> && std::same_as<typename LegT::Drive, TendonPair> &&
-      std::same_as<typename LegT::Closure, Chord>;
-};
-
-template <class LegT>
-concept IsHingedLeg = requires {
-  requires std::same_as<typename LegT::Link, Rail> && std::same_as<typename LegT::Closure, HingedStrut>;
-};
+using PlanarChordLeg = Leg<Planar, Arc, TendonPair, Chord>;
+using SpatialChordLeg = Leg<Spatial, Arc, TendonPair, Chord>;
+using PrsLeg = Leg<Spatial, Rail, SlideDrive, HingedStrut>;
 
 template <class Vector>
 std::array<double, 3> numbers(const Vector& vector) {
@@ -44,8 +38,7 @@ ChordLeg chord_leg(const LegT& leg, int bending) {
           .point = numbers(leg.platform_point)};
 }
 
-template <class LegT>
-HingedLeg hinged_leg(const LegT& leg, int elbow) {
+HingedLeg hinged_leg(const PrsLeg& leg, int elbow) {
   const Vec3<double> hinge = Spatial::first_axis(leg.base), rail = Spatial::second_axis(leg.base);
   return {.strut = leg.closure.length,
           .elbow = elbow < 0 ? -1.0 : 1.0,
@@ -56,39 +49,53 @@ HingedLeg hinged_leg(const LegT& leg, int elbow) {
           .across = numbers(cross(hinge, rail))};
 }
 
-LaneRobot lane_robot(const AnyRobot& robot, const PoseBatch& batch) {
-  const auto sign = [](std::span<const int> signs, std::size_t i) { return signs.empty() ? 0 : signs[i]; };
-  return std::visit(
-      [&]<class LegT>(const ParallelRobot<LegT>& r) -> LaneRobot {
-        if constexpr (IsChordLeg<LegT>) {
-          if (r.leg_count() != LegT::Space::dof || r.has_ties()) return {};
-          ChordRobot found{.dof = LegT::Space::dof, .radius = r.platform_radius};
-          for (std::size_t i = 0; i < r.legs.size(); ++i)
-            found.legs[i] = chord_leg(r.legs[i], sign(batch.bending, i));
-          return found;
-        } else if constexpr (IsHingedLeg<LegT>) {
-          if (r.leg_count() != 3 || r.has_ties()) return {};
-          HingedRobot found{.radius = r.platform_radius};
-          for (std::size_t i = 0; i < r.legs.size(); ++i) {
-            found.legs[i] = hinged_leg(r.legs[i], sign(batch.elbow, i));
-            found.size = std::max(found.size, r.legs[i].size());
-          }
-          return found;
-        } else {
-          return {};
-        }
-      },
-      robot.model);
+int sign(std::span<const int> signs, std::size_t i) { return signs.empty() ? 0 : signs[i]; }
+
+/// Calls `use(leg, i)` with each leg of this kind; whether these are all, so many, each with its own inputs.
+template <class LegT, class Use>
+bool with_alike(const Robot& robot, int count, const Use& use) {
+  if (leg_count(robot) != count || has_ties(robot)) return false;
+  with_legs(robot, [&](const auto& legs) {
+    legs.for_each_leg([&]<class L>(const L& leg, const LegPlace&, int i) {
+      if constexpr (std::is_same_v<L, LegT>) use(leg, static_cast<std::size_t>(i)), --count;
+    });
+  });
+  return count == 0;
 }
 
-std::size_t axes_of(const AnyRobot& robot, const PoseBatch& batch) {
+template <class LegT>
+LaneRobot chord_robot(const Robot& robot, const PoseBatch& batch) {
+  constexpr int dof = LegT::Space::dof;
+  ChordRobot found{.dof = dof, .radius = platform_radius(robot)};
+  const auto add = [&](const LegT& leg, std::size_t i) {
+    found.legs[i] = chord_leg(leg, sign(batch.bending, i));
+  };
+  return with_alike<LegT>(robot, dof, add) ? LaneRobot(found) : LaneRobot();
+}
+
+LaneRobot hinged_robot(const Robot& robot, const PoseBatch& batch) {
+  HingedRobot found{.radius = platform_radius(robot)};
+  const auto add = [&](const PrsLeg& leg, std::size_t i) {
+    found.legs[i] = hinged_leg(leg, sign(batch.elbow, i));
+    found.size = std::max(found.size, leg.size());
+  };
+  return with_alike<PrsLeg>(robot, 3, add) ? LaneRobot(found) : LaneRobot();
+}
+
+LaneRobot lane_robot(const Robot& robot, const PoseBatch& batch) {
+  if (robot.planar()) return chord_robot<PlanarChordLeg>(robot, batch);
+  const LaneRobot chords = chord_robot<SpatialChordLeg>(robot, batch);
+  return chords.index() != 0 ? chords : hinged_robot(robot, batch);
+}
+
+std::size_t axes_of(const Robot& robot, const PoseBatch& batch) {
   return batch.independent || dof(robot) == Planar::dof ? 3 : 7;
 }
 
 /// One pose by the functions that the lanes stand in for.
 class OneByOne {
  public:
-  OneByOne(const AnyRobot& robot, const PoseBatch& batch, std::size_t total, const VelocityBatch& out,
+  OneByOne(const Robot& robot, const PoseBatch& batch, std::size_t total, const VelocityBatch& out,
            Workspace& work)
       : robot_(robot),
         batch_(batch),
@@ -151,7 +158,7 @@ class OneByOne {
     for (std::size_t i = 0; i < numbers.size(); ++i) put(to, i * total_ + k, numbers[i]);
   }
 
-  const AnyRobot& robot_;
+  const Robot& robot_;
   const PoseBatch& batch_;
   std::size_t total_;
   const VelocityBatch& out_;
@@ -169,11 +176,11 @@ bool fits(const VelocityBatch& out, std::size_t poses, std::size_t legs) {
 
 }  // namespace
 
-bool has_velocity_batch(const AnyRobot& robot) {
+bool has_velocity_batch(const Robot& robot) {
   return !std::holds_alternative<std::monostate>(lane_robot(robot, {.coordinates = {}}));
 }
 
-std::size_t velocity_batch(const AnyRobot& robot, const PoseBatch& batch, const VelocityBatch& out,
+std::size_t velocity_batch(const Robot& robot, const PoseBatch& batch, const VelocityBatch& out,
                            Workspace& work) {
   const auto legs = static_cast<std::size_t>(leg_count(robot));
   const auto is_for_legs = [&](std::span<const int> signs) { return signs.empty() || signs.size() == legs; };

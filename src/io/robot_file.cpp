@@ -14,6 +14,7 @@
 #include "sinew/io/read_pose.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/serial_file.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -285,8 +286,8 @@ bool is_supported(Reader& leg) {
 
 /// The kind of leg that link and closure name, out of all kinds of one space; none where there is no such
 /// kind.
-template <class... Legs>
-std::optional<AnyLeg<Legs...>> read_leg(Reader& leg, TypeList<Legs...>) {
+template <class Any, class... Legs>
+std::optional<Any> read_leg(Reader& leg, TypeList<Legs...>) {
   if (!is_supported(leg)) return {};
   Reader link = leg.required("link", "{type, length, ...}"), closure = leg.required("closure", "{type, ...}");
   const auto kind = [](Reader& part, std::vector<std::string_view> names) {
@@ -294,7 +295,7 @@ std::optional<AnyLeg<Legs...>> read_leg(Reader& leg, TypeList<Legs...>) {
     names.erase(std::unique(names.begin(), names.end()), names.end());
     return names[part.required("type").choice_index(names)];
   };
-  AnyLeg<Legs...> result{};
+  Any result{};
   const std::string_view link_name = kind(link, {Legs::Link::name...});
   std::string_view closure_name;
   const auto read_if = [&]<class LegT>(std::type_identity<LegT>) {
@@ -353,7 +354,7 @@ Legs<Any> read_legs(Reader& robot, Kinds kinds) {
   Legs<Any> result;
   auto items = robot.required("legs", "a list, one entry a leg").items();
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const auto leg = read_leg(items[i], kinds);
+    const auto leg = read_leg<Any>(items[i], kinds);
     result.is_whole = result.is_whole && leg;
     result.legs.push_back(leg.value_or(Any{}));
     result.tied.push_back(read_tie(items[i], result.legs, i));
@@ -450,18 +451,17 @@ double largest_platform_point(const std::vector<Any>& legs) {
 }
 
 /// What weighs on rods; on legs that bear no load nothing does.
-template <class Any>
-void read_mass(Reader& platform, Weight& weight) {
+void read_mass(Reader& platform, bool has_rods, Weight& weight) {
   const auto mass = platform.optional("mass");
   if (!mass) return;
-  if (!std::is_same_v<Any, AnyLoadedLeg>)
-    mass->fail("no_effect", "has no effect: the legs bear no load; leave it out");
+  if (!has_rods) mass->fail("no_effect", "has no effect: the legs bear no load; leave it out");
   weight.platform_mass = mass->quantity(Dimension::mass, Range::not_negative());
 }
 
 /// Legs, platform and home of one space.
-template <class Any, class Kinds>
-std::optional<RobotModel> read_model(Reader& robot, Kinds kinds, Weight& weight) {
+template <class RobotT, class Kinds>
+RobotT read_model(Reader& robot, Kinds kinds, Weight& weight) {
+  using Any = typename RobotT::Leg;
   const Legs<Any> read = read_legs<Any>(robot, kinds);
   double radius = largest_platform_point(read.legs);
   typename Any::Space::Pose home;
@@ -469,7 +469,7 @@ std::optional<RobotModel> read_model(Reader& robot, Kinds kinds, Weight& weight)
     home = read_home<typename Any::Space>(*platform);
     if (const auto given = platform->optional("radius"))
       radius = given->quantity(Dimension::length, Range::size());
-    read_mass<Any>(*platform, weight);
+    read_mass(*platform, std::is_same_v<Kinds, LoadedLegs>, weight);
     platform->close();
   } else if (Any::Space::dimension == 3) {
     robot.required("platform", "{home: {position, quaternion}}");
@@ -485,7 +485,7 @@ std::optional<RobotModel> read_model(Reader& robot, Kinds kinds, Weight& weight)
         Any::Space::dimension == 2
             ? "all platform points coincide, so nothing holds the platform's rotation; spread them"
             : "all platform points lie on a line, so nothing holds the rotation about it; spread them");
-  return make_robot(read.legs, read.tied, home, radius);
+  return RobotT(read.legs, home, radius, read.tied);
 }
 
 /// The link types of the legs as the file writes them; empty where there is none.
@@ -514,31 +514,31 @@ bool has_misplaced_rods(Reader& robot, bool is_spatial) {
   return true;
 }
 
-std::optional<RobotModel> read_model_of_space(Reader& robot, bool is_spatial, Weight& weight) {
-  const bool has_rods = is_spatial && std::ranges::count(link_types(robot), Rod::name) > 0;
-  if (const auto gravity = robot.optional("gravity")) {
-    if (!has_rods) gravity->fail("no_effect", "has no effect: the legs bear no load; leave it out");
-    weight.gravity = read_gravity(*gravity);
-  }
-  if (has_rods) return read_model<AnyLoadedLeg>(robot, LoadedLegs{}, weight);
-  if (is_spatial) return read_model<AnySpatialLeg>(robot, SpatialLegs{}, weight);
-  return read_model<AnyPlanarLeg>(robot, PlanarLegs{}, weight);
-}
-
 /// Reads a document that lists its legs.
-AnyRobot read_listed(Reader& robot) {
-  AnyRobot result;
-  result.name = robot.required("name").text();
-  if (const auto geometry = robot.optional("geometry"))
-    result.geometry_inferred = geometry->choice({"given", "inferred"}) == "inferred";
+Robot read_listed(Reader& robot) {
+  const std::string name = robot.required("name").text();
+  const auto geometry = robot.optional("geometry");
+  const bool is_inferred = geometry && geometry->choice({"given", "inferred"}) == "inferred";
   if (const auto defaults = robot.optional("defaults"))  // already merged into the legs
     if (!defaults->is(Node::Kind::map)) defaults->refuse("wrong_type", "give a map of what the legs share.");
   const auto space = robot.optional("space");
   const bool is_spatial = space && space->choice({"planar", "spatial"}) == "spatial";
-  if (has_misplaced_rods(robot, is_spatial)) return result;
-  auto model = read_model_of_space(robot, is_spatial, result.weight);
+  if (has_misplaced_rods(robot, is_spatial)) return {};
+  const bool has_rods = is_spatial && std::ranges::count(link_types(robot), Rod::name) > 0;
+  Weight weight;
+  if (const auto gravity = robot.optional("gravity")) {
+    if (!has_rods) gravity->fail("no_effect", "has no effect: the legs bear no load; leave it out");
+    weight.gravity = read_gravity(*gravity);
+  }
+  Robot result;
+  if (!is_spatial) {
+    result = Robot(name, read_model<PlanarRobot>(robot, PlanarLegs{}, weight), is_inferred);
+  } else {
+    auto legs = has_rods ? read_model<SpatialRobot>(robot, LoadedLegs{}, weight)
+                         : read_model<SpatialRobot>(robot, SpatialLegs{}, weight);
+    result = Robot(name, std::move(legs), weight, is_inferred);
+  }
   robot.close();
-  if (model) result.model = std::move(*model);
   return result;
 }
 
@@ -586,7 +586,7 @@ Expected<void> check_size(const Document& document) {
                  fmt::format("it has {} values; a robot has at most {}.", values, most));
 }
 
-Expected<AnyRobot> read_robot(const Document& document) {
+Expected<Robot> read_robot(const Document& document) {
   if (auto fits = check_size(document); !fits) return tl::unexpected(fits.error());
   const Expected<Document> longer = expanded(document);
   if (!longer) return tl::unexpected(longer.error());
@@ -598,7 +598,7 @@ Expected<AnyRobot> read_robot(const Document& document) {
   check_head(robot);
   const auto is_final = [](const Error& error) { return error.code == "not_available"; };
   if (!robot.is(Node::Kind::map) || std::ranges::any_of(errors, is_final)) return tl::unexpected(errors);
-  AnyRobot result = read_listed(robot);
+  Robot result = read_listed(robot);
   if (!errors.empty()) return tl::unexpected(errors);
   return result;
 }
@@ -636,7 +636,7 @@ Expected<Document> read_robot_file(const std::string& path_or_name) {
   return text ? parse_yaml(*text, path_or_name) : tl::unexpected(text.error());
 }
 
-Expected<AnyRobot> load(const std::string& path_or_name) {
+Expected<Robot> load(const std::string& path_or_name) {
   const Expected<Document> document = read_robot_file(path_or_name);
   return document ? read_robot(*document) : tl::unexpected(document.error());
 }

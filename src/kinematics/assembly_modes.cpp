@@ -51,7 +51,7 @@ void put_modes(AssemblyModes& modes, std::span<const Reach<3>> reaches, StopToke
 
 }  // namespace
 
-AssemblyModes assembly_modes(const AnyRobot& robot, Numbers inputs, Workspace& work) {
+AssemblyModes assembly_modes(const Robot& robot, Numbers inputs, Workspace& work) {
   AssemblyModes modes{.report = command(robot, inputs, work),
                       .poses = {},
                       .residual = {},
@@ -59,25 +59,22 @@ AssemblyModes assembly_modes(const AnyRobot& robot, Numbers inputs, Workspace& w
                       .is_complete = true,
                       .coordinates = work.coordinates};
   if (modes.report.ok())
-    visit_closing(
-        robot, [&](const auto& r) { put_modes(modes, reaches_of(r, work.coordinates).view(), work.stop); },
-        [] {});
+    with_legs(robot,
+              [&](const auto& r) { put_modes(modes, reaches_of(r, work.coordinates).view(), work.stop); });
   return modes;
 }
 
-std::size_t nearest_pose(const AnyRobot& robot, std::span<const AnyPose> poses, const AnyPose& start) {
-  return std::visit(
-      [&]<class LegT>(const ParallelRobot<LegT>& r) {
-        using Space = typename LegT::Space;
-        std::size_t best = 0;
-        const auto gap_of = [&](std::size_t k) {
-          return gap(in_space<Space>(poses[k]), in_space<Space>(start), r.platform_radius);
-        };
-        for (std::size_t k = 1; k < poses.size(); ++k)
-          if (gap_of(k) < gap_of(best)) best = k;
-        return best;
-      },
-      robot.model);
+std::size_t nearest_pose(const Robot& robot, std::span<const AnyPose> poses, const AnyPose& start) {
+  return with_legs(robot, [&]<class LegT>(const ParallelRobot<LegT>& r) {
+    using Space = typename LegT::Space;
+    std::size_t best = 0;
+    const auto gap_of = [&](std::size_t k) {
+      return gap(in_space<Space>(poses[k]), in_space<Space>(start), r.platform_radius);
+    };
+    for (std::size_t k = 1; k < poses.size(); ++k)
+      if (gap_of(k) < gap_of(best)) best = k;
+    return best;
+  });
 }
 
 }  // namespace sinew::inline v0

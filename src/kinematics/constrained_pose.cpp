@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "robot/pose.hpp"
+#include "sinew/robot/parallel.hpp"
 #include "sinew/solve/newton.hpp"
 
 namespace sinew::inline v0 {
@@ -23,19 +24,17 @@ struct Planes {
 };
 
 /// The planes of a robot do not depend on its inputs: a hinge is square to its rail.
-Planes planes_of(const AnyRobot& robot) {
+Planes planes_of(const Robot& robot) {
   Planes planes;
-  std::visit(
-      [&](const auto& r) {
-        r.for_each_leg([&]<class L>(const L& leg, const LegPlace&, int) {
-          if constexpr (L::has_plane) {
-            const auto reach = leg.reach(L::Coordinates::Zero());
-            planes.data[planes.count++] = {reach.anchor, reach.normal, reach.platform_point};
-            planes.size = std::max(planes.size, leg.size());
-          }
-        });
-      },
-      robot.model);
+  if (!robot.is_within_limits()) return planes;
+  if (const SpatialRobot* legs = robot.spatial())
+    legs->for_each_leg([&]<class L>(const L& leg, const LegPlace&, int) {
+      if constexpr (L::has_plane) {
+        const auto reach = leg.reach(L::Coordinates::Zero());
+        planes.data[planes.count++] = {reach.anchor, reach.normal, reach.platform_point};
+        planes.size = std::max(planes.size, leg.size());
+      }
+    });
   return planes;
 }
 
@@ -137,7 +136,7 @@ ConstrainedPose refused(std::string_view why) {
 
 }  // namespace
 
-ConstrainedPose constrained_pose(const AnyRobot& robot, const Independent& independent, OperationMode mode) {
+ConstrainedPose constrained_pose(const Robot& robot, const Independent& independent, OperationMode mode) {
   const Planes planes = planes_of(robot);
   if (planes.count != 3)
     return refused(
@@ -160,7 +159,7 @@ ConstrainedPose constrained_pose(const AnyRobot& robot, const Independent& indep
   return answer;
 }
 
-AnyPose settled(const AnyRobot& robot, const AnyPose& pose) {
+AnyPose settled(const Robot& robot, const AnyPose& pose) {
   if (plane_count(robot) == 0 || !std::holds_alternative<SpatialPose>(pose)) return pose;
   const Planes planes = planes_of(robot);
   SE3<double> platform = SE3<double>::from(in_space<Spatial>(pose));

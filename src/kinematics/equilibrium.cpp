@@ -11,6 +11,7 @@
 #include "kinematics/rods/inverse.hpp"
 #include "kinematics/rods/question.hpp"
 #include "kinematics/rods/trace.hpp"
+#include "kinematics/spread.hpp"
 #include "robot/arguments.hpp"
 
 namespace sinew::inline v0 {
@@ -56,7 +57,7 @@ double largest_singular_value(const double* rows, int columns) {
 
 /// Calls `solve(rods, home, question)` and answers with what it found.
 template <class Solve>
-Equilibrium solved(const AnyRobot& robot, const EquilibriumOptions& options, Workspace& work, Solve&& solve) {
+Equilibrium solved(const Robot& robot, const EquilibriumOptions& options, Workspace& work, Solve&& solve) {
   if (!bears_load(robot)) return refused();
   if (const Report fits = check_workspace(robot, work); !fits.ok()) return refused(fits);
   return with_rods(work, [&](auto& rods) {
@@ -67,34 +68,34 @@ Equilibrium solved(const AnyRobot& robot, const EquilibriumOptions& options, Wor
 
 }  // namespace
 
-Equilibrium equilibrium(const AnyRobot& robot, Numbers inputs, const EquilibriumOptions& options,
+Equilibrium equilibrium(const Robot& robot, Numbers inputs, const EquilibriumOptions& options,
                         Workspace& work) {
   return solved(robot, options, work, [&](auto& rods, const SE3<double>& home, const RodQuestion& question) {
     return solve_rods(rods, home, inputs, question);
   });
 }
 
-Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
+Equilibrium inverse_equilibrium(const Robot& robot, const IndependentPose& wanted,
                                 const EquilibriumOptions& options, Workspace& work) {
   return solved(robot, options, work, [&](auto& rods, const SE3<double>& home, const RodQuestion& question) {
     return solve_rods_at(rods, home, {wanted.z, wanted.e1, wanted.e2}, question);
   });
 }
 
-Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted,
+Equilibrium inverse_equilibrium(const Robot& robot, const SpatialPose& wanted,
                                 const EquilibriumOptions& options, Workspace& work) {
   return solved(robot, options, work, [&](auto& rods, const SE3<double>& home, const RodQuestion& question) {
     return hold_rods(rods, home, SE3<double>::from(wanted), question);
   });
 }
 
-bool has_equilibrium_batch(const AnyRobot& robot) {
+bool has_equilibrium_batch(const Robot& robot) {
   if (!bears_load(robot)) return false;
   const Workspace work(robot);
   return std::holds_alternative<RodWork>(work.rods->kind);
 }
 
-void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
+void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wrench,
                        std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
                        bool judge) {
   std::fill(statuses.begin(), statuses.end(), Status::left_domain);
@@ -134,14 +135,13 @@ void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench&
 namespace {
 
 template <class System>
-RodAnalysis analysis_of(const AnyRobot& robot, System& system) {
+RodAnalysis analysis_of(const Robot& robot, System& system) {
   RodAnalysis analysis;
   system.evaluate();
   system.linearise();
   const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness = system.platform_stiffness();
   std::copy_n(stiffness.data(), 36, analysis.stiffness.begin());
-  for (std::size_t k = 0; k < system.closing_legs().size(); ++k)
-    analysis.closing_forces.push_back(system.closing_force(static_cast<int>(k)));
+  for (int k = 0; k < system.closing_legs(); ++k) analysis.closing_forces.push_back(system.closing_force(k));
   const Lu6 factors = system.factors();
   const auto inputs = at(system.inputs());
   analysis.sensitivity.resize(6 * inputs);
@@ -185,7 +185,7 @@ RodAnalysis analysis_of(const AnyRobot& robot, System& system) {
 
 }  // namespace
 
-RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work) {
+RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work) {
   if (!bears_load(robot) || !check_workspace(robot, work).ok()) return {};
   return with_rods(work, [&](auto& rods) { return analysis_of(robot, rods.system); });
 }
@@ -214,7 +214,7 @@ std::string_view to_string(LoadEnd end) noexcept {
   return "";
 }
 
-LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit, Workspace& work) {
+LoadPath follow_load(const Robot& robot, const SpatialWrench& direction, double limit, Workspace& work) {
   LoadPath path;
   path.end = LoadEnd::stalled;
   if (!bears_load(robot) || !check_workspace(robot, work).ok() || !direction.allFinite() ||
@@ -241,14 +241,7 @@ namespace {
 
 /// The k-th of many starts around home: tilted, turned and moved by low-discrepancy numbers.
 SE3<double> scattered(const SE3<double>& home, double size, int k) {
-  const auto number = [&](int base) {  // van der Corput, in (−1, 1)
-    double value = 0, part = 1;
-    for (int n = k + 1; n > 0; n /= base) {
-      part /= base;
-      value += part * (n % base);
-    }
-    return 2 * value - 1;
-  };
+  const auto number = [&](int base) { return spread_number(k, base); };
   const Vec3<double> shift = 0.4 * size * Vec3<double>(number(2), number(3), 0.5 * number(5) - 0.3);
   const Vec3<double> turn(number(7), number(11), number(13));
   return {home.p + shift, SO3<double>::exp(turn).compose(home.R)};
@@ -282,7 +275,7 @@ bool is_solution(const Report& report) { return report.ok() || report.status == 
 
 }  // namespace
 
-std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
+std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
                                          const EquilibriumOptions& options, Workspace& work) {
   std::vector<FoundEquilibrium> found;
   if (!bears_load(robot) || !check_workspace(robot, work).ok()) return found;
@@ -305,7 +298,7 @@ std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
   return found;
 }
 
-std::vector<FoundEquilibrium> inverse_equilibria(const AnyRobot& robot, const SpatialPose& wanted,
+std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const SpatialPose& wanted,
                                                  const EquilibriumOptions& options, Workspace& work) {
   std::vector<FoundEquilibrium> found;
   if (!bears_load(robot) || !check_workspace(robot, work).ok()) return found;

@@ -11,7 +11,7 @@
 namespace sinew::inline v0 {
 namespace {
 
-bool is_answerable(const AnyRobot& robot, const CurveOptions& how) {
+bool is_answerable(const Robot& robot, const CurveOptions& how) {
   const auto inputs = static_cast<std::size_t>(input_count(robot));
   if (!how.inputs.empty() && how.inputs.size() != inputs) return false;
   if (how.pose && (inputs != 6 || has_ties(robot) || !how.inputs.empty())) return false;
@@ -63,7 +63,7 @@ std::string_view to_string(CurveEnd end) noexcept {
   return "";
 }
 
-std::vector<EquilibriumCurve> equilibrium_curves(const AnyRobot& robot, const CurveOptions& how,
+std::vector<EquilibriumCurve> equilibrium_curves(const Robot& robot, const CurveOptions& how,
                                                  Workspace& work) {
   if (!bears_load(robot) || !check_workspace(robot, work).ok() || !is_answerable(robot, how)) return {};
   return with_rods(work, [&](auto& rods) -> std::vector<EquilibriumCurve> {

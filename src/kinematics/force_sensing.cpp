@@ -25,11 +25,11 @@ std::array<double, 36> covariance_of(const std::array<double, 36>& rows, Numbers
 
 }  // namespace
 
-SensedWrench sense_wrench(const AnyRobot& robot, Numbers inputs, Numbers axial, Numbers deviations,
+SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Numbers deviations,
                           const EquilibriumOptions& options, Workspace& work) {
   SensedWrench sensed{};
   const auto is_number = [](double x) { return std::isfinite(x); };
-  if (!bears_load(robot) || rod_count(robot) != 6 || leg_count(robot) != 6 || axial.size() != 6 ||
+  if (!bears_load(robot) || robot.rod_count() != 6 || leg_count(robot) != 6 || axial.size() != 6 ||
       deviations.size() != 6 || !std::ranges::all_of(axial, is_number) ||
       !std::ranges::all_of(deviations, is_number)) {
     sensed.report = failed(Status::left_domain);

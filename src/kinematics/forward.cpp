@@ -101,7 +101,7 @@ void ask_all_modes(std::span<const Reach<3>> reaches, const SpatialPose& start, 
 }
 
 template <class LegT>
-Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, const ForwardOptions& options,
+Forward forward_robot(const ParallelRobot<LegT>& robot, const Robot& any, const ForwardOptions& options,
                       Workspace& work) {
   using Space = typename LegT::Space;
   const auto reaches = reaches_of(robot, work.coordinates);
@@ -127,8 +127,7 @@ Forward forward_robot(const ParallelRobot<LegT>& robot, const AnyRobot& any, con
 }
 
 /// Rods without a load on the platform.
-Forward forward_loaded(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options,
-                       Workspace& work) {
+Forward forward_loaded(const Robot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work) {
   EquilibriumOptions unloaded;
   if (options.start) unloaded.start = in_space<Spatial>(*options.start);
   const Equilibrium found = equilibrium(robot, inputs, unloaded, work);
@@ -137,15 +136,14 @@ Forward forward_loaded(const AnyRobot& robot, Numbers inputs, const ForwardOptio
 
 }  // namespace
 
-Forward forward(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work) {
+Forward forward(const Robot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work) {
   const AnyPose start = options.start.value_or(home(robot));
   if (const Report fits = check_arguments(robot, start, work, "start"); !fits.ok())
     return {fits, home(robot), {}};
   if (bears_load(robot)) return forward_loaded(robot, inputs, options, work);
   const Report commanded = command(robot, inputs, work);
   if (!commanded.ok()) return {commanded, start, work.coordinates};
-  return visit_closing(
-      robot, [&](const auto& r) { return forward_robot(r, robot, options, work); }, [] { return Forward{}; });
+  return with_legs(robot, [&](const auto& legs) { return forward_robot(legs, robot, options, work); });
 }
 
 }  // namespace sinew::inline v0

@@ -7,6 +7,7 @@
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/leg/project.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -46,14 +47,14 @@ Report without_solution(const LegT& leg, const Frame& platform, std::size_t i, i
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// The inverse problem of one robot at one pose.
-template <class Robot>
+template <class Legs>
 class Problem {
  public:
-  using Space = typename Robot::Space;
+  using Space = typename Legs::Space;
   using Frame = typename Space::template Frame<double>;
 
-  Problem(const Robot& robot, const AnyPose& pose, const InverseOptions& options, Workspace& work)
-      : robot_(robot),
+  Problem(const Legs& legs, const AnyPose& pose, const InverseOptions& options, Workspace& work)
+      : legs_(legs),
         platform_(Space::frame(in_space<Space>(pose))),
         options_(options),
         work_(work) {}
@@ -72,7 +73,7 @@ class Problem {
   /// The wanted solution of every leg into the workspace.
   Report solve_wanted() {
     return each_owner([&](const auto& leg, const LegPlace& place, std::size_t i) {
-      return robot_.has_ties() ? choose(leg, place, i) : nearest(leg, place, i);
+      return legs_.has_ties() ? choose(leg, place, i) : nearest(leg, place, i);
     });
   }
 
@@ -81,7 +82,7 @@ class Problem {
   template <class Use>
   Report each_owner(const Use& use) {
     Report report;
-    robot_.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
+    legs_.for_each_closing_leg([&](const auto& leg, const LegPlace& place, int i) {
       if (place.is_tied)
         work_.solution_count[index(i)] = 1;
       else if (report.ok())
@@ -93,7 +94,7 @@ class Problem {
   /// Calls `use` with the legs that the same inputs move.
   template <class Use>
   void each_sharing(const LegPlace& owner, const Use& use) const {
-    robot_.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
+    legs_.for_each_closing_leg([&](const auto& leg, const LegPlace& place, int i) {
       if (place.input == owner.input) use(leg, place, index(i));
     });
   }
@@ -163,8 +164,8 @@ class Problem {
       for (int k = 0; k < count; ++k) {
         const auto a = tidy_inputs(leg, roots[index(k)]);
         const std::span<const double> inputs(a.data(), L::inputs);
-        if (!robot_.has_ties() || misfit(place, inputs) <= common_tolerance)
-          add(place, i, inputs, robot_.has_ties() ? owner.size() : 0);
+        if (!legs_.has_ties() || misfit(place, inputs) <= common_tolerance)
+          add(place, i, inputs, legs_.has_ties() ? owner.size() : 0);
       }
     });
     if (!report.ok() || work_.solution_count[i] > 0) return report;
@@ -261,14 +262,14 @@ class Problem {
     std::copy(a.begin(), a.end(), work_.inputs.begin() + place.input);
   }
 
-  const Robot& robot_;
+  const Legs& legs_;
   Frame platform_;
   const InverseOptions& options_;
   Workspace& work_;
   double misfit_ = 0;
 };
 
-Report check(const AnyRobot& robot, const InverseOptions& options) {
+Report check(const Robot& robot, const InverseOptions& options) {
   const auto legs = static_cast<std::size_t>(leg_count(robot));
   const auto fits = [](std::size_t size, std::size_t needed) { return size == 0 || size == needed; };
   if (fits(options.bending.size(), legs) && fits(options.curvature.size(), legs) &&
@@ -281,11 +282,11 @@ Report check(const AnyRobot& robot, const InverseOptions& options) {
 
 /// Calls `solve` with the problem, if the pose is one.
 template <class Solve>
-Report with_problem(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options,
-                    Workspace& work, const Solve& solve) {
+Report with_problem(const Robot& robot, const AnyPose& pose, const InverseOptions& options, Workspace& work,
+                    const Solve& solve) {
   if (const Report report = check_arguments(robot, pose, work); !report.ok()) return report;
   if (const Report report = check(robot, options); !report.ok()) return report;
-  return visit_closing(
+  return with_closing_legs(
       robot,
       [&](const auto& r) {
         Problem problem(r, pose, options, work);
@@ -302,7 +303,7 @@ Report with_problem(const AnyRobot& robot, const AnyPose& pose, const InverseOpt
 
 }  // namespace
 
-Inverse inverse(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options, Workspace& work) {
+Inverse inverse(const Robot& robot, const AnyPose& pose, const InverseOptions& options, Workspace& work) {
   const Report report = with_problem(robot, pose, options, work, [](auto& problem) {
     Report solved = problem.solve_wanted();
     if (solved.ok()) solved.residual = problem.closure_error();
@@ -311,7 +312,7 @@ Inverse inverse(const AnyRobot& robot, const AnyPose& pose, const InverseOptions
   return {report, work.inputs, work.coordinates};
 }
 
-WorkingModes working_modes(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options,
+WorkingModes working_modes(const Robot& robot, const AnyPose& pose, const InverseOptions& options,
                            Workspace& work) {
   WorkingModes modes{
       with_problem(robot, pose, options, work, [](auto& problem) { return problem.solve_all(); }),
@@ -322,28 +323,26 @@ WorkingModes working_modes(const AnyRobot& robot, const AnyPose& pose, const Inv
   return modes;
 }
 
-void WorkingModes::mode(const AnyRobot& robot, std::size_t k, std::span<double> inputs) const {
+void WorkingModes::mode(const Robot& robot, std::size_t k, std::span<double> inputs) const {
   const auto width = static_cast<std::size_t>(input_count(robot));
   if (!report.ok() || inputs.size() != width || solutions.size() != width * per_leg ||
       solution_count.size() != static_cast<std::size_t>(leg_count(robot)))
     return void(
         std::ranges::fill(inputs,
                           std::numeric_limits<double>::quiet_NaN()));  // modes of another robot, or none
-  std::visit(
-      [&](const auto& r) {
-        for (std::size_t i = r.legs.size(); i-- > 0;) {
-          const LegPlace& place = r.places[i];
-          if (place.is_tied) continue;
-          const auto n = static_cast<std::size_t>(solution_count[i]);
-          with_leg(r.legs[i], [&]<class L>(const L&) {
-            const auto from = solutions.begin() + place.input * Workspace::max_solutions +
-                              static_cast<std::ptrdiff_t>(k % n) * L::inputs;
-            std::copy(from, from + L::inputs, inputs.begin() + place.input);
-          });
-          k /= n;
-        }
-      },
-      robot.model);
+  with_legs(robot, [&](const auto& r) {
+    for (std::size_t i = r.legs.size(); i-- > 0;) {
+      const LegPlace& place = r.places[i];
+      if (place.is_tied) continue;
+      const auto n = static_cast<std::size_t>(solution_count[i]);
+      with_leg(r.legs[i], [&]<class L>(const L&) {
+        const auto from = solutions.begin() + place.input * Workspace::max_solutions +
+                          static_cast<std::ptrdiff_t>(k % n) * L::inputs;
+        std::copy(from, from + L::inputs, inputs.begin() + place.input);
+      });
+      k /= n;
+    }
+  });
 }
 
 }  // namespace sinew::inline v0

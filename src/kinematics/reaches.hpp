@@ -5,6 +5,7 @@
 #include <new>
 #include <type_traits>
 
+#include "sinew/robot/parallel.hpp"
 #include "sinew/robot/workspace.hpp"
 
 namespace sinew::inline v0 {
@@ -29,7 +30,7 @@ class Reaches {
 template <class LegT>
 Reaches<LegT::Space::dimension> reaches_of(const ParallelRobot<LegT>& robot, Numbers coordinates) {
   Reaches<LegT::Space::dimension> reaches;
-  robot.for_each_leg([&](const auto& leg, const LegPlace& place, int) {
+  robot.for_each_closing_leg([&](const auto& leg, const LegPlace& place, int) {
     reaches.add(leg.reach(own_coordinates(leg, place, coordinates)));
   });
   return reaches;

@@ -6,6 +6,7 @@
 #include "robot/pose.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/leg/project.hpp"
+#include "sinew/robot/parallel.hpp"
 #include "solve/continuation.hpp"
 #include "solve/stopped.hpp"
 
@@ -41,15 +42,15 @@ Mat<double, LegT::coordinates, LegT::coordinates> null_space(const LegT& leg,
 }
 
 /// One robot following its path: all on plain coordinates, nothing is kept here.
-template <class Robot>
+template <class Legs>
 class Follower {
  public:
-  using Space = typename Robot::Space;
+  using Space = typename Legs::Space;
   using Frame = typename Space::template Frame<double>;
 
-  Follower(const Robot& robot, const AnyRobot& any, const TrackOptions& options, Workspace& work)
-      : robot_(robot),
-        any_(any),
+  Follower(const Legs& legs, const Robot& robot, const TrackOptions& options, Workspace& work)
+      : legs_(legs),
+        robot_(robot),
         options_(options),
         work_(work) {}
 
@@ -58,7 +59,7 @@ class Follower {
   int close(const AnyPose& pose, Numbers motion, double lead, std::span<double> q) const {
     const Frame platform = Space::frame(in_space<Space>(pose));
     int stuck = -1;
-    robot_.for_each_leg([&]<class L>(const L& leg, const LegPlace& place, int i) {
+    legs_.for_each_closing_leg([&]<class L>(const L& leg, const LegPlace& place, int i) {
       auto own = own_coordinates(leg, place, q);
       if constexpr (L::is_redundant)
         if (lead > 0) own += lead * typename L::Coordinates(motion.data() + place.coordinate);
@@ -73,7 +74,7 @@ class Follower {
   bool close_at_fold(const AnyPose& pose, std::span<double> q) const {
     const Frame platform = Space::frame(in_space<Space>(pose));
     bool closed = true;
-    robot_.for_each_leg([&]<class L>(const L& leg, const LegPlace& place, int) {
+    legs_.for_each_closing_leg([&]<class L>(const L& leg, const LegPlace& place, int) {
       auto own = own_coordinates(leg, place, q);
       auto tried = own;
       const Projection done = project(leg, platform, 1e-15 * leg.size(), tried);
@@ -91,10 +92,10 @@ class Follower {
   /// Why leg i ends the path at this pose, coming from coordinates q.
   void explain(int i, const AnyPose& pose, Numbers q, FixedText<240>& text) const {
     const Frame platform = Space::frame(in_space<Space>(pose));
-    const auto index = static_cast<std::size_t>(i);
-    with_leg(robot_.legs[index], [&]<class L>(const L& leg) {
+    legs_.for_each_closing_leg([&]<class L>(const L& leg, const LegPlace& place, int at) {
+      if (at != i) return;
       std::array<typename L::Coordinates, Workspace::max_solutions> roots;
-      const double branch = leg.link.branch(own_coordinates(leg, robot_.places[index], q));
+      const double branch = leg.link.branch(own_coordinates(leg, place, q));
       if (leg.solutions_at(platform, {}, roots) <= 0)
         leg.explain_unreachable(platform, text);
       else if (std::abs(branch) > 0.999 * leg.domain())
@@ -107,7 +108,7 @@ class Follower {
   /// Inputs of link coordinates. False where tied legs ask for different ones.
   bool inputs_of(Numbers q, std::span<double> inputs) const {
     bool agree = true;
-    robot_.for_each_leg([&]<class L>(const L& leg, const LegPlace& place, int) {
+    legs_.for_each_closing_leg([&]<class L>(const L& leg, const LegPlace& place, int) {
       const auto a = leg.inputs_of(own_coordinates(leg, place, q));
       for (int j = 0; j < L::inputs; ++j) {
         double& input = inputs[static_cast<std::size_t>(place.input + j)];
@@ -137,7 +138,7 @@ class Follower {
   double merit(const AnyPose& pose, Numbers q) const {
     if (options_.objective == Objective::singularity) return log_volume(pose, q);
     double sum = 0;
-    robot_.for_each_leg([&](const auto& leg, const LegPlace& place, int) {
+    legs_.for_each_closing_leg([&](const auto& leg, const LegPlace& place, int) {
       const double part = leg.link.branch(own_coordinates(leg, place, q)) / leg.domain();
       sum -= part * part;
     });
@@ -147,7 +148,7 @@ class Follower {
   /// log |det J| of unit lines; of a wide or tall J the volume its rows or columns span.
   double log_volume(const AnyPose& pose, Numbers q) const {
     std::array<double, max_rows> sigma;
-    const MatrixView lines = homogenise(any_, assemble(any_, pose, q, work_), work_);
+    const MatrixView lines = homogenise(robot_, assemble(robot_, pose, q, work_), work_);
     const auto count = static_cast<std::size_t>(std::min(lines.rows(), lines.cols()));
     singular_values(lines, std::span(sigma).first(count));
     double sum = 0;
@@ -160,7 +161,7 @@ class Follower {
     const Frame platform = Space::frame(in_space<Space>(pose));
     std::vector<double> beside(q.begin(), q.end());
     double square = 0;
-    robot_.for_each_leg([&]<class L>(const L& leg, const LegPlace& place, int) {
+    legs_.for_each_closing_leg([&]<class L>(const L& leg, const LegPlace& place, int) {
       if constexpr (L::is_redundant) {
         const auto scale = coordinate_scale(leg);
         typename L::Coordinates slope;
@@ -183,23 +184,21 @@ class Follower {
     return std::sqrt(square);
   }
 
+  const Legs& legs_;
   const Robot& robot_;
-  const AnyRobot& any_;
   const TrackOptions& options_;
   Workspace& work_;
 };
 
 /// Legs that bear load never get here: the first pose already has no inverse.
 template <class Use>
-auto follow(const AnyRobot& robot, const TrackOptions& options, Workspace& work, const Use& use) {
-  using Result = decltype(use(Follower(std::get<0>(robot.model), robot, options, work)));
-  return visit_closing(
-      robot, [&](const auto& r) { return use(Follower(r, robot, options, work)); }, [] { return Result(); });
+auto follow(const Robot& robot, const TrackOptions& options, Workspace& work, const Use& use) {
+  return with_legs(robot, [&](const auto& legs) { return use(Follower(legs, robot, options, work)); });
 }
 
 }  // namespace
 
-Track::Track(const AnyRobot& robot, TrackOptions options, Workspace& work)
+Track::Track(const Robot& robot, TrackOptions options, Workspace& work)
     : robot_(&robot),
       options_(options),
       work_(&work),

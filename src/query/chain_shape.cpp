@@ -33,10 +33,6 @@ Asked<Space> read_asked(Context& context, ChainRobot<Space>& robot) {
   if (asked.joints.are_given()) query.required("pose", "that the chains of these angles lead to");
   if (asked.at.pose && asked.at.inputs)
     query.fail("ambiguous", "pose and inputs both say where the platform is; keep one");
-  if (asked.at.inputs && robot.has_base_motors)
-    query.fail("not_available",
-               "model prb has no inputs for legs with a motor at the base; give a pose, on a branch or with "
-               "angles");
   return asked;
 }
 
@@ -51,9 +47,7 @@ Report rest_under(Context& context, ChainRobot<Space>& robot, const Asked<Space>
     return report.ok() ? hold_pose(robot, wrench, state, work, asked.options) : report;
   }
   const HeldInputs held = hold_inputs(context, robot, *asked.at.inputs, asked.at.start);
-  if (!held.report.ok()) return held.report;
-  const Report report =
-      unloaded(context, robot, held.pose, held.branch, held.hold, state, work, asked.options);
+  const Report report = unloaded(robot, held.pose, held.arcs, held.hold, state, work, asked.options);
   return is_solved(report) ? equilibrium(robot, held.hold, wrench, state, work, asked.options) : report;
 }
 
@@ -72,7 +66,8 @@ void answer_shape_of(Context& context, ChainRobot<Space>& robot) {
     report = rest_under(context, robot, asked, state);
   }
   const bool is_found = is_solved(report);
-  if (is_found && !asked.joints.are_given()) judge(robot, state, report);
+  ChainWork work;
+  if (is_found && !asked.joints.are_given()) judge(robot, state, work, report);
   context.report(report);
   context.remember({});
   if (!is_found) return;

@@ -19,7 +19,7 @@ Json K_json(const ChainRates<Space>& rates) {
   Json rows = Json::array();
   const auto all = std::accumulate(rates.columns.begin(), rates.columns.end(), std::size_t{0});
   std::size_t first = 0;
-  for (std::size_t i = 0; i < rates.K.size(); ++i) {
+  for (std::size_t i = 0; i < rates.legs(); ++i) {
     std::vector<double> row(all);
     std::copy_n(rates.K[i].begin(), rates.columns[i], row.begin() + static_cast<std::ptrdiff_t>(first));
     first += static_cast<std::size_t>(rates.columns[i]);
@@ -33,7 +33,7 @@ Json U_json(const ChainVelocity<Space>& velocity) {
   Json rows = Json::array();
   for (int k = 0; k < Space::dof; ++k) {
     std::vector<double> row;
-    for (std::size_t i = 0; i < velocity.rates.K.size(); ++i)
+    for (std::size_t i = 0; i < velocity.rates.legs(); ++i)
       for (std::size_t j = 0; j < static_cast<std::size_t>(velocity.rates.columns[i]); ++j)
         row.push_back(velocity.inverse(k, static_cast<Eigen::Index>(i)) * velocity.rates.K[i][j]);
     rows.push_back(to_json(row));
@@ -46,10 +46,10 @@ void put_velocity(Context& context, const ChainRobot<Space>& robot, const ChainV
                   const std::vector<ChainLegState>& legs, std::span<const double> twist) {
   Json& answer = context.answer;
   context.report(velocity.report);
-  const Eigen::Matrix<double, Space::dof, Space::dof, Eigen::RowMajor> J = velocity.rates.J;
-  answer["J"] = to_json(MatrixView(J.data(), Space::dof, Space::dof));
+  const Eigen::Matrix<double, Eigen::Dynamic, Space::dof, Eigen::RowMajor> J = velocity.rates.J;
+  answer["J"] = to_json(MatrixView(J.data(), J.rows(), Space::dof));
   answer["K"] = K_json(velocity.rates);
-  if (velocity.report.ok()) answer["U"] = U_json(velocity);
+  if (velocity.has_inverse) answer["U"] = U_json(velocity);
   put_number(answer, "determinant", velocity.determinant);
   answer["indices"] = to_json(velocity.indices);
   answer["type_1"] = std::vector<int>(velocity.type_1().begin(), velocity.type_1().end());

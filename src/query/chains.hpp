@@ -1,8 +1,8 @@
 /// @file chains.hpp
 /// Handlers of queries about robots whose links are taken as pseudo-rigid chains (`"model": "prb"`).
 #pragma once
-#include "query/context.hpp"
-#include "sinew/kinematics/chain.hpp"
+#include "query/loads.hpp"
+#include "sinew/kinematics/chain_analysis.hpp"
 #include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v0 {
@@ -30,22 +30,15 @@ struct Arcs {
   std::vector<double> curvature, base_tangent;
 };
 Arcs arcs_at(Context& context, const AnyPose& pose, const Branch& branch);
+Arcs arcs_of(Context& context, const AnyPose& pose, std::vector<double> coordinates);
 
 template <class Space>
 using Wrench = Vec<double, Space::dof>;
 
-/// Forces, then moments.
-template <class Space>
-Wrench<Space> read_wrench(const Reader& list) {
-  Wrench<Space> wrench = Wrench<Space>::Zero();
-  const auto items = list.items(static_cast<std::size_t>(Space::dof));
-  for (std::size_t k = 0; k < items.size() && k < static_cast<std::size_t>(Space::dof); ++k)
-    wrench[static_cast<Eigen::Index>(k)] =
-        items[k].quantity(static_cast<int>(k) < Space::dimension ? Dimension::force : Dimension::moment);
-  return wrench;
-}
-
 /// First links along the tangents of the arcs, less the half of a link that they stand for.
+inline double first_link(double tangent, double curvature, const PseudoRigid& chain) {
+  return tangent - 0.5 * curvature * chain.link_length();
+}
 void aim_bases(ChainRobot<Planar>& robot, const Arcs& arcs);
 inline void aim_bases(ChainRobot<Spatial>&, const Arcs&) {}
 
@@ -82,14 +75,20 @@ Json angles_json(const ChainRobot<Space>& robot, std::span<const ChainLegState> 
   return list;
 }
 
+/// Rests at a pose near arcs, on whose bases the motors put the first links.
+template <class Space>
+Report rest_near(ChainRobot<Space>& robot, const AnyPose& pose, const Arcs& arcs, bool holds_lengths,
+                 ChainState<Space>& state) {
+  if (!arcs.report.ok()) return arcs.report;
+  aim_bases(robot, arcs);
+  return rest(robot, std::get<typename Space::Pose>(pose), arcs.curvature, holds_lengths, state);
+}
+
 /// Rests at a pose on a branch; the report says if the arcs, or the chains, do not reach.
 template <class Space>
 Report rest_at(Context& context, ChainRobot<Space>& robot, const AnyPose& pose, const Branch& branch,
                bool holds_lengths, ChainState<Space>& state) {
-  const Arcs arcs = arcs_at(context, pose, branch);
-  if (!arcs.report.ok()) return arcs.report;
-  aim_bases(robot, arcs);
-  return rest(robot, std::get<typename Space::Pose>(pose), arcs.curvature, holds_lengths, state);
+  return rest_near(robot, pose, arcs_at(context, pose, branch), holds_lengths, state);
 }
 
 /// Angles as given, or a branch on which chains are at rest.
@@ -128,36 +127,40 @@ class Joints {
 void refuse_open_legs(Context& context, double closure_error);
 
 /// What arcs of these inputs say of the chains: where searches begin, and which tendon lengths are held.
+/// Motors hold what `arcs` aim the bases at, which the inputs alone decide.
 struct HeldInputs {
-  Report report;
   AnyPose pose;
-  Branch branch;
+  Arcs arcs;
   std::vector<ChainHold> hold;
 };
 /// Tendon 1 of the arcs' lengths; where it is the outer one the inner is held, whose length is as much
-/// shorter.
+/// shorter. Of more legs than freedoms, whose lengths chains need not agree on, arcs begin where the search
+/// does.
 template <class Space>
 HeldInputs hold_inputs(Context& context, const ChainRobot<Space>& robot, std::span<const double> inputs,
                        const std::optional<AnyPose>& start) {
   const ForwardOptions options{.start = start, .max_iterations = context.max_iterations.value_or(100)};
-  const Forward arcs = forward(context.robot, inputs, options, context.work);
-  HeldInputs held{arcs.report, arcs.pose, {}, {}};
-  if (!arcs.ok()) return held;
+  const Forward found = forward(context.robot, inputs, options, context.work);
+  const bool is_redundant = robot.legs.size() > static_cast<std::size_t>(Space::dof);
+  if (!found.ok() && !(is_redundant && command(context.robot, inputs, context.work).ok()))
+    return {found.pose, {found.report, {}, {}}, {}};
+  HeldInputs held{found.ok() ? found.pose : start.value_or(home(context.robot)), {}, {}};
+  held.arcs = arcs_of(context, held.pose, context.work.coordinates);
+  const std::size_t own = robot.has_base_motors ? 2 : 1;
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    held.branch.curvature.push_back(arcs.coordinates[i]);
-    const double rest_length = robot.legs[i].chain.length;
-    const bool is_inner = inputs[i] <= rest_length;
-    held.hold.push_back({is_inner ? 0 : 1, is_inner ? inputs[i] : 2 * rest_length - inputs[i], {}});
+    const double rest_length = robot.legs[i].chain.length, length = inputs[own * i + own - 1];
+    const bool is_inner = length <= rest_length;
+    held.hold.push_back({is_inner ? 0 : 1, is_inner ? length : 2 * rest_length - length, {}});
   }
   return held;
 }
 
-/// What motors hold, without load, from rest at a pose.
+/// What motors hold, without load, from rest near arcs at a pose.
 template <class Space>
-Report unloaded(Context& context, ChainRobot<Space>& robot, const AnyPose& start, const Branch& branch,
+Report unloaded(ChainRobot<Space>& robot, const AnyPose& start, const Arcs& arcs,
                 std::span<const ChainHold> hold, ChainState<Space>& state, ChainWork& work,
                 const ChainOptions& options) {
-  const Report report = rest_at(context, robot, start, branch, false, state);
+  const Report report = rest_near(robot, start, arcs, false, state);
   if (!report.ok()) return report;
   return equilibrium(robot, hold, Wrench<Space>::Zero().eval(), state, work, options);
 }
@@ -165,15 +168,16 @@ Report unloaded(Context& context, ChainRobot<Space>& robot, const AnyPose& start
 /// Whether there is an equilibrium; tendons that would have to push are told of, not forbidden.
 inline bool is_solved(const Report& report) { return report.ok() || report.status == Status::slack; }
 
-/// The smallest eigenvalue of a solved equilibrium; `unstable` where it does not hold by itself.
+/// Of a solved equilibrium; the report is `unstable` where it does not hold by itself.
 template <class Space>
-double judge(const ChainRobot<Space>& robot, const ChainState<Space>& state, Report& report) {
-  const double least = least_curvature(robot, state);
-  if (report.ok() && !(least > 0)) {
+ChainStability<Space> judge(const ChainRobot<Space>& robot, const ChainState<Space>& state, ChainWork& work,
+                            Report& report) {
+  ChainStability<Space> found = check_stability(robot, state, work);
+  if (report.ok() && !found.is_stable()) {
     report.status = Status::unstable;
     report.message.append("the equilibrium does not hold by itself: smallest_eigenvalue is not above 0");
   }
-  return least;
+  return found;
 }
 
 }  // namespace chains

@@ -109,11 +109,11 @@ std::vector<double> read_inputs(Context& context, const Reader& inputs) {
   return values;
 }
 
-std::string_view model_of(const AnyRobot& robot) {
+std::string_view model_of(const Robot& robot) {
   return bears_load(robot) ? "rod" : has_arc(robot) ? "cc" : "rigid";
 }
 
-bool has_chain_model(const AnyRobot& robot) { return model_of(robot) == "cc"; }
+bool has_chain_model(const Robot& robot) { return model_of(robot) == "cc"; }
 
 std::string_view meaning_of(std::string_view model) {
   return model == "cc" ? " (constant curvature)" : model == "rod" ? " (elastic rods)" : " (rigid links)";
@@ -225,7 +225,7 @@ Json to_json(const Indices& indices) {
   return object;
 }
 
-Json legs_json(const AnyRobot& robot, const AnyPose& pose, std::span<const double> coordinates,
+Json legs_json(const Robot& robot, const AnyPose& pose, std::span<const double> coordinates,
                Workspace& work) {
   const bool is_planar = std::holds_alternative<PlanarPose>(pose);
   Json legs = Json::array();

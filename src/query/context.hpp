@@ -53,7 +53,7 @@ struct Question {
 
 /// One put to a robot with a platform.
 struct Context : Question {
-  const AnyRobot& robot;
+  const Robot& robot;
   Workspace& work;
 };
 
@@ -99,9 +99,9 @@ struct Solved {
 };
 
 /// The model a robot is taken for where a query says nothing: `cc`, `rigid` or `rod`.
-std::string_view model_of(const AnyRobot& robot);
+std::string_view model_of(const Robot& robot);
 /// Whether its links may be taken as pseudo-rigid chains instead: `prb`.
-bool has_chain_model(const AnyRobot& robot);
+bool has_chain_model(const Robot& robot);
 std::string_view meaning_of(std::string_view model);  ///< ` (constant curvature)`
 
 Configuration read_configuration(Context& context);
@@ -121,8 +121,7 @@ Json to_json(const Vec<double, D>& point) {
   return to_json(std::span<const double>(point.data(), D));
 }
 void put_number(Json& object, const char* key, double value);  ///< leaves out NaN and infinity
-Json legs_json(const AnyRobot& robot, const AnyPose& pose, std::span<const double> coordinates,
-               Workspace& work);
+Json legs_json(const Robot& robot, const AnyPose& pose, std::span<const double> coordinates, Workspace& work);
 
 /// The field `along` of a velocity query, with its `limit`: a direction to look for type II in.
 struct Along {

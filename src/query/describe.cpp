@@ -2,6 +2,7 @@
 #include "query/context.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/kinematics/chain.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -110,16 +111,12 @@ Json pose_json(bool is_planar) {
 void answer_describe(Context& context) {
   if (!context.ready()) return;
   Json inputs = Json::array(), legs = Json::array();
-  double radius = 0;
-  std::visit(
-      [&](const auto& robot) {
-        radius = robot.platform_radius;
-        robot.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
-          if (!place.is_tied) add_inputs(inputs, leg, static_cast<std::size_t>(i));
-          legs.push_back(leg_json(leg, place));
-        });
-      },
-      context.robot.model);
+  with_legs(context.robot, [&](const auto& robot) {
+    robot.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
+      if (!place.is_tied) add_inputs(inputs, leg, static_cast<std::size_t>(i));
+      legs.push_back(leg_json(leg, place));
+    });
+  });
   Json& answer = context.answer;
   const bool is_planar = std::holds_alternative<PlanarPose>(home(context.robot));
   answer["status"] = "converged";
@@ -128,10 +125,10 @@ void answer_describe(Context& context) {
   answer["inputs"] = inputs;
   answer["pose"] = pose_json(is_planar);
   answer["home"] = to_json(home(context.robot));
-  answer["platform"] = {{"radius", radius}};
+  answer["platform"] = {{"radius", platform_radius(context.robot)}};
   if (bears_load(context.robot)) {
-    answer["platform"]["mass"] = context.robot.weight.platform_mass;
-    answer["gravity"] = to_json(context.robot.weight.gravity);
+    answer["platform"]["mass"] = context.robot.weight().platform_mass;
+    answer["gravity"] = to_json(context.robot.weight().gravity);
   }
   answer["freedoms"] = {{"platform", dof(context.robot)},
                         {"constraints", row_count(context.robot)},
@@ -141,7 +138,7 @@ void answer_describe(Context& context) {
   if (chain_robot(context.robot)) models.push_back("prb");
   answer["models"] = std::move(models);
   answer["model"] = model_of(context.robot);
-  answer["geometry"] = context.robot.geometry_inferred ? "inferred" : "given";
+  answer["geometry"] = context.robot.geometry_inferred() ? "inferred" : "given";
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }
 

@@ -23,7 +23,7 @@ void read_target(Context& context, CurveQuery& asked) {
   const auto inputs = to.optional("inputs"), wrench = to.optional("wrench");
   auto pose = to.optional("pose");
   if (inputs) asked.how.inputs = read_inputs(context, *inputs);
-  if (wrench) asked.wrench = read_wrench(*wrench);
+  if (wrench) asked.wrench = read_wrench<Spatial>(*wrench);
   if (pose && inputs) pose->fail("ambiguous", "inputs and pose both say where the curve leads; keep one");
   if (pose && (input_count(context.robot) != 6 || has_ties(context.robot)))
     pose->fail("not_available", "a pose is held by six inputs, each of one leg; give inputs");

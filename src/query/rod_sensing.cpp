@@ -7,17 +7,8 @@
 #include "sinew/kinematics/force_sensing.hpp"
 
 namespace sinew::inline v0 {
-namespace {
 
-/// One number for all, or one each.
-std::vector<double> read_forces(const Reader& given, std::size_t count, const Range& range,
-                                bool one_for_all) {
-  if (one_for_all && !given.is(Node::Kind::list))
-    return std::vector<double>(count, given.quantity(Dimension::force, range));
-  std::vector<double> forces;
-  for (const Reader& item : given.items(count)) forces.push_back(item.quantity(Dimension::force, range));
-  return forces;
-}
+namespace {
 
 struct SensingQuery {
   std::vector<double> inputs, axial, deviations;

@@ -7,42 +7,10 @@
 #include "sinew/analysis/shape.hpp"
 #include "sinew/io/read_pose.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
+#include "sinew/robot/parallel.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
-namespace {
-
-/// What is asked of an equilibrium beside it.
-struct Wanted {
-  bool stiffness = false, stability = false, margins = false, sensitivity = false;
-};
-
-Wanted read_want(Context& context) {
-  Wanted wanted;
-  const auto list = context.query.optional("want");
-  if (!list) return wanted;
-  for (const Reader& word : list->items()) {
-    const std::string name = word.choice({"stiffness", "stability", "margins", "sensitivity", "lines"});
-    if (name == "lines") word.refuse("not_available", "legs that bear load have no lines; ask for stiffness");
-    wanted.stiffness = wanted.stiffness || name == "stiffness";
-    wanted.stability = wanted.stability || name == "stability";
-    wanted.margins = wanted.margins || name == "margins";
-    wanted.sensitivity = wanted.sensitivity || name == "sensitivity";
-  }
-  if (const auto of = context.query.optional("with_respect_to"))
-    of->fail("not_available", "sensitivity is by the inputs in this version; leave this out");
-  return wanted;
-}
-
-}  // namespace
-
-SpatialWrench read_wrench(const Reader& list) {
-  SpatialWrench wrench = SpatialWrench::Zero();
-  const auto items = list.items(6);
-  for (std::size_t k = 0; k < items.size() && k < 6; ++k)
-    wrench[static_cast<Eigen::Index>(k)] = items[k].quantity(k < 3 ? Dimension::force : Dimension::moment);
-  return wrench;
-}
 
 std::optional<Vec3<double>> read_gravity_of(Context& context) {
   const auto gravity = context.query.optional("gravity");
@@ -58,30 +26,10 @@ namespace {
 
 EquilibriumOptions read_options(Context& context) {
   EquilibriumOptions options;
-  if (const auto wrench = context.query.optional("wrench")) options.wrench = read_wrench(*wrench);
+  if (const auto wrench = context.query.optional("wrench")) options.wrench = read_wrench<Spatial>(*wrench);
   options.gravity = read_gravity_of(context);
   if (context.max_iterations) options.max_iterations = *context.max_iterations;
   return options;
-}
-
-/// A load that grows.
-struct Until {
-  SpatialWrench direction;
-  double limit = 0;
-};
-
-std::optional<Until> read_until(Context& context) {
-  auto asked = context.query.optional("until");
-  if (!asked) return {};
-  Until until;
-  const Reader wrench = asked->required("wrench", "the load that is added: [fx, fy, fz, mx, my, mz]");
-  until.direction = read_wrench(wrench);
-  if (context.errors.empty() && until.direction == SpatialWrench::Zero())
-    wrench.fail("out_of_range", "is the load that is added; not all of its numbers may be zero");
-  until.limit =
-      asked->required("limit", "how many times the wrench is added at most").number(Range::positive());
-  asked->close();
-  return until;
 }
 
 Json rods_json(std::span<const RodReading> rods) {
@@ -249,20 +197,12 @@ void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& w
 }
 
 /// What `equilibria` and `inverse_equilibria` tell of one of them beside where it is.
-void put_found(Json& solution, const FoundEquilibrium& one, const AnyRobot& robot) {
+void put_found(Json& solution, const FoundEquilibrium& one, const Robot& robot) {
   solution["residual"] = one.residual;
   solution["stable"] = one.unstable_directions == 0;
   solution["unstable_directions"] = one.unstable_directions;
   put_number(solution, "potential", one.potential);
-  if (rod_count(robot) == leg_count(robot)) solution["legs"] = rods_json(one.rods);
-}
-
-/// Found by many starts, without proof.
-void put_solutions(Context& context, Json solutions) {
-  if (Report stopped; note_stop(context.work.stop, stopped)) context.report(stopped);
-  context.answer["count"] = solutions.size();
-  context.answer["complete"] = false;
-  context.answer["solutions"] = std::move(solutions);
+  if (robot.rod_count() == leg_count(robot)) solution["legs"] = rods_json(one.rods);
 }
 
 void put_all(Context& context, std::span<const double> inputs, const EquilibriumOptions& options) {
@@ -298,7 +238,7 @@ void answer_rods_forward(Context& context) {
   asked.options = read_options(context);
   asked.options.start = read_spatial_start(context);
   const Wanted wanted = read_want(context);
-  const std::optional<Until> until = read_until(context);
+  const auto until = read_until<Spatial>(context);
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
   if (until && want_all) all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
@@ -403,8 +343,9 @@ void answer_rods_shape(Context& context) {
   context.report(found.report);
   if (!found.is_solved()) return;
   context.answer["pose"] = to_json(found.pose);
-  AnyRobot seen = context.robot;  // rods that bear torque are drawn from their bases, under their weight
-  seen.weight.gravity = asked.options.gravity.value_or(seen.weight.gravity);
+  Weight weight = context.robot.weight();  // rods that bear torque are drawn from their bases, under theirs
+  weight.gravity = asked.options.gravity.value_or(weight.gravity);
+  const Robot seen = context.robot.under(weight);
   put_shape(context.answer, any_shape(seen, found.pose, found.coordinates, count));
   context.answer["frames"] = Json::array({to_json(found.pose)});
 }

@@ -1,16 +1,13 @@
 /// @file rods.hpp
 /// Handlers of the queries put to robots whose legs bear load.
 #pragma once
-#include "query/context.hpp"
+#include "query/loads.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 
 namespace sinew::inline v0 {
 
 /// Gravity of the question; refused where nothing has a mass.
 std::optional<Vec3<double>> read_gravity_of(Context& context);
-
-/// [fx, fy, fz, mx, my, mz].
-SpatialWrench read_wrench(const Reader& list);
 
 /// Where a robot of rods is asked to be: at inputs, or at a pose or coordinates that lengths are found for.
 struct RodQuery {

@@ -319,10 +319,9 @@ void answer_serial_velocity(SerialContext& context) {
   std::vector<double> straight(shape.bends.size(), 0.0);
   Json rates;
   if (!twist.empty()) {
-    RateWorkspace memory(context.robot);
     const TipTwist wanted{{twist[0], twist[1], twist[2]}, {twist[3], twist[4], twist[5]}};
     const ResolvedRate found =
-        resolved_rate(context.robot, shape.bends, wanted, {.model = model}, context.work, memory);
+        resolved_rate(context.robot, shape.bends, wanted, {.model = model}, context.work);
     if (found.ok())
       rates = rates_json(context, shape.bends, found, straight);
     else

@@ -14,6 +14,7 @@
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -62,7 +63,7 @@ Json read_id(Reader& query) {
 }
 
 /// Whether the robot's links are to be taken as chains.
-bool reads_chains(Reader& query, const AnyRobot& robot, const Kind& kind) {
+bool reads_chains(Reader& query, const Robot& robot, const Kind& kind) {
   const auto model = query.optional("model");
   if (!model) return false;
   const std::string_view own = model_of(robot);
@@ -126,16 +127,16 @@ Node node_of(Json&& json) {
 
 /// A robot, and the memory for questions to it.
 struct Platform {
-  AnyRobot robot;
+  Robot robot;
   Workspace work;
   RobotScale scale;
   std::vector<InputOfLeg> inputs;
-  explicit Platform(AnyRobot any)
-      : robot(std::move(any)),
+  explicit Platform(const Robot& any)
+      : robot(any),
         work(robot),
         scale(scale_of(robot)),
         inputs(inputs_of(robot)) {}
-  const std::string& name() const { return robot.name; }
+  const std::string& name() const { return robot.name(); }
 };
 struct Chain {
   SerialRobot robot;
@@ -182,7 +183,7 @@ struct Session::State {
 
 namespace {
 
-/// The reading of θ that a query asks for, into every drive that has one.
+/// The robot with the reading of θ that a query asks for in every drive that has one.
 void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
   bool found = false;
   const auto choose = [&](auto& leg) {
@@ -191,12 +192,8 @@ void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
       found = true;
     }
   };
-  if (auto* platform = std::get_if<Platform>(&opened))
-    std::visit(
-        [&](auto& r) {
-          for (auto& any : r.legs) with_leg(any, choose);
-        },
-        platform->robot.model);
+  if (const auto* platform = std::get_if<Platform>(&opened))
+    opened.emplace<Platform>(with_changed_legs(Robot(platform->robot), choose));
   if (!found) asked.fail("no_effect", "has no effect: no leg of this robot has an input theta; remove it");
 }
 

@@ -17,8 +17,7 @@ constexpr int most_samples = 100000;
 
 /// From, to and how many: angles of the plane as the numbers say, rotations the shortest way; in between put
 /// back into the planes that hinges may hold the platform in.
-std::vector<AnyPose> straight_path(const AnyRobot& robot, const AnyPose& from, const AnyPose& to,
-                                   int samples) {
+std::vector<AnyPose> straight_path(const Robot& robot, const AnyPose& from, const AnyPose& to, int samples) {
   std::vector<AnyPose> poses;
   const auto *a = std::get_if<PlanarPose>(&from), *b = std::get_if<PlanarPose>(&to);
   for (int k = 0; k < samples; ++k) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sinew/io/quantity.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -220,7 +221,7 @@ std::string far_answer(const Json& answer, const RobotScale& scale) {
 
 }  // namespace
 
-RobotScale scale_of(const AnyRobot& robot) {
+RobotScale scale_of(const Robot& robot) {
   RobotScale scale;
   const double height = std::visit(
       []<class Pose>(const Pose& pose) {
@@ -231,20 +232,18 @@ RobotScale scale_of(const AnyRobot& robot) {
       },
       home(robot));
   double stiffness = 0;
-  std::visit(
-      [&](const auto& r) {
-        r.for_each_leg([&]<class L>(const L& leg, const LegPlace&, int) {
-          double size = leg.base.p.norm() + leg.platform_point.norm() + height;
-          if constexpr (requires { leg.size(); }) size += leg.size();
-          scale.length = std::max(scale.length, size);
-          if constexpr (BearsLoad<L>)
-            stiffness += leg.link.bending_stiffness();
-          else if (leg.backbone.youngs_modulus && leg.backbone.diameter)
-            stiffness +=
-                *leg.backbone.youngs_modulus * std::numbers::pi / 64 * std::pow(*leg.backbone.diameter, 4);
-        });
-      },
-      robot.model);
+  with_legs(robot, [&](const auto& r) {
+    r.for_each_leg([&]<class L>(const L& leg, const LegPlace&, int) {
+      double size = leg.base.p.norm() + leg.platform_point.norm() + height;
+      if constexpr (requires { leg.size(); }) size += leg.size();
+      scale.length = std::max(scale.length, size);
+      if constexpr (BearsLoad<L>)
+        stiffness += leg.link.bending_stiffness();
+      else if (leg.backbone.youngs_modulus && leg.backbone.diameter)
+        stiffness +=
+            *leg.backbone.youngs_modulus * std::numbers::pi / 64 * std::pow(*leg.backbone.diameter, 4);
+    });
+  });
   if (scale.length > 0) scale.force = stiffness / (scale.length * scale.length);
   return scale;
 }

@@ -15,7 +15,7 @@ struct RobotScale {
   double length = 0;  ///< that the robot can reach [m]
   double force = 0;   ///< that bends its links by about their length [N]
 };
-RobotScale scale_of(const AnyRobot& robot);
+RobotScale scale_of(const Robot& robot);
 RobotScale scale_of(const SerialRobot& robot);
 
 /// About a number of the query that is far outside, or else of the answer: one sentence, without a full stop.

@@ -1,5 +1,6 @@
 #include "robot/arguments.hpp"
 
+#include "sinew/base/limits.hpp"
 #include "sinew/robot/assembly.hpp"
 
 namespace sinew::inline v0 {
@@ -32,24 +33,29 @@ Report wrong_coordinates(std::size_t found, int needed) {
 
 }  // namespace
 
-bool is_planar(const AnyRobot& robot) { return dof(robot) == Planar::dof; }
+bool is_planar(const Robot& robot) { return robot.planar() != nullptr; }
 
-Report check_workspace(const AnyRobot& robot, const Workspace& work) {
-  if (work.robot && work.robot == robot.identity) return {};
+Report check_workspace(const Robot& robot, const Workspace& work) {
+  if (robot.is_within_limits() && work.robot && work.robot.get() == robot.identity()) return {};
   Report report = bad_input();
+  if (!robot.is_within_limits()) {
+    report.message.append("the robot has more constraints or actuators than this build carries, ");
+    append_number(report.message, max_rows);
+    report.message.append(" of either");
+    return report;
+  }
   report.message.append("the workspace was made for another robot: make one of this robot, Workspace(robot)");
   return report;
 }
 
-Report check_arguments(const AnyRobot& robot, const AnyPose& pose, const Workspace& work,
+Report check_arguments(const Robot& robot, const AnyPose& pose, const Workspace& work,
                        std::string_view name) {
   if (Report report = check_workspace(robot, work); !report.ok()) return report;
   if (std::holds_alternative<PlanarPose>(pose) == is_planar(robot)) return {};
   return wrong_space(is_planar(robot), name);
 }
 
-Report check_arguments(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates,
-                       const Workspace& work) {
+Report check_arguments(const Robot& robot, const AnyPose& pose, Numbers coordinates, const Workspace& work) {
   if (Report report = check_arguments(robot, pose, work); !report.ok()) return report;
   const int needed = coordinate_count(robot);
   if (coordinates.size() == static_cast<std::size_t>(needed)) return {};

@@ -8,17 +8,16 @@
 
 namespace sinew::inline v0 {
 
-bool is_planar(const AnyRobot& robot);
+bool is_planar(const Robot& robot);
 
 /// `bad_input` where the workspace was made for another robot.
-Report check_workspace(const AnyRobot& robot, const Workspace& work);
+Report check_workspace(const Robot& robot, const Workspace& work);
 
 /// ... or the pose is of the other space. @param name what the message calls it: `pose`, `start`
-Report check_arguments(const AnyRobot& robot, const AnyPose& pose, const Workspace& work,
+Report check_arguments(const Robot& robot, const AnyPose& pose, const Workspace& work,
                        std::string_view name = "pose");
 
 /// ... or there are more or fewer link coordinates than the robot has.
-Report check_arguments(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates,
-                       const Workspace& work);
+Report check_arguments(const Robot& robot, const AnyPose& pose, Numbers coordinates, const Workspace& work);
 
 }  // namespace sinew::inline v0

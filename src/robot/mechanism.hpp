@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/at.hpp"
-#include "robot/closing_legs.hpp"
+#include "robot/kinematic_group.hpp"
 #include "robot/rod_group.hpp"
 
 namespace sinew::inline v0 {
@@ -22,59 +22,62 @@ class Mechanism : public Rods {
   using Wrench = Vec<double, 6>;
   using Twist = Vec<double, 6>;
 
-  /// Allocates.  @param rods with their places in the whole robot
-  explicit Mechanism(const ParallelRobot<RodLeg>& rods, std::vector<ClosingLeg> closing = {})
-      : Rods(rods),
-        closing_(std::move(closing), rods.total.input),
-        fed_(static_cast<std::size_t>(closing_.feeds()), 0.0),
-        rank_(std::min(closing_.rows(), 6)) {}
+  explicit Mechanism(const SpatialRobot& robot)  ///< allocates
+      : Rods(legs_of<RodLeg>(robot)),
+        robot_(robot),
+        inputs_(at(robot.total.input), 0.0),
+        coordinates_(closes() ? at(robot.total.coordinate) : 0, 0.0),
+        K_(at(robot.total.row * robot.total.input), 0.0),
+        rank_(std::min(group().rows(), 6)) {
+    robot_.for_each_leg([&]<class L>(const L&, const LegPlace& place, int i) {
+      if constexpr (BearsLoad<L>) return leg_of_.push_back(i);
+      ++closing_legs_;
+      for (int k = 0; k < L::inputs; ++k) driven_by_.push_back(place.input + k);
+    });
+  }
 
   /// Whether legs close beside the rods.
-  bool closes() const { return closing_.rows() > 0; }
+  bool closes() const { return group().rows() > 0; }
 
   struct Snapshot : Rods::Snapshot {
-    std::vector<double> closing;
+    std::vector<double> inputs;
   };
   Snapshot snapshot() const {
-    Snapshot to{Rods::snapshot(), fed_};
+    Snapshot to{Rods::snapshot(), inputs_};
     return to;
   }
   void save(Snapshot& to) const {
     Rods::save(to);
-    std::ranges::copy(fed_, to.closing.begin());
+    std::ranges::copy(inputs_, to.inputs.begin());
   }
   void restore(const Snapshot& from) {
     Rods::restore(from);
-    std::ranges::copy(from.closing, fed_.begin());
+    std::ranges::copy(from.inputs, inputs_.begin());
   }
 
-  int leg_of(int rod) const {
-    int leg = rod;
-    for (const ClosingLeg& other : closing_.legs()) leg += other.index <= leg;  // in ascending order
-    return leg;
-  }
+  int leg_of(int rod) const { return leg_of_[at(rod)]; }
   /// Motions that the closing legs forbid, less those their own inputs drive.
-  int undriven() const { return std::max(rank_ - closing_.feeds(), 0); }
+  int undriven() const { return std::max(rank_ - drives(), 0); }
   /// @name What inputs feed: the rods, then what the closing legs are driven by
   /// @{
-  int feeds() const { return Rods::rods() + closing_.feeds(); }
-  int input_of(int feed) const { return is_rod(feed) ? Rods::input_of(feed) : closing_.input_of(own(feed)); }
-  double length(int feed) const { return is_rod(feed) ? Rods::length(feed) : fed_[at(own(feed))]; }
+  int feeds() const { return Rods::rods() + drives(); }
+  int input_of(int feed) const { return is_rod(feed) ? Rods::input_of(feed) : driven_by_[at(own(feed))]; }
+  double length(int feed) const { return is_rod(feed) ? Rods::length(feed) : inputs_[at(input_of(feed))]; }
   void set_length(int feed, double value) {
     if (is_rod(feed))
       Rods::set_length(feed, value);
     else
-      fed_[at(own(feed))] = value;
+      inputs_[at(input_of(feed))] = value;
   }
   bool in_domain(int feed, double value) const {
-    return is_rod(feed) ? Rods::in_domain(feed, value) : closing_.in_domain(own(feed), value);
+    return is_rod(feed) ? Rods::in_domain(feed, value) : group().in_domain(input_of(feed), value);
   }
   void set_inputs(std::span<const double> inputs) {
     Rods::set_inputs(inputs);
-    for (int k = 0; k < closing_.feeds(); ++k) fed_[at(k)] = inputs[at(closing_.input_of(k))];
+    std::ranges::copy(inputs, inputs_.begin());
   }
   /// Inputs of the closing legs that close them where the platform is; false where one cannot.
-  bool close() { return closing_.close_at(Rods::platform(), fed_); }
+  bool close() { return group().close_at(Rods::platform(), inputs_); }
   /// @}
 
   /// @name Newton's method
@@ -82,9 +85,10 @@ class Mechanism : public Rods {
   double evaluate(bool anew = true) {
     const double own = Rods::evaluate(anew);
     if (!closes()) return own;
-    closing_.rows_at(Rods::platform(), fed_, rows_);
-    for (int k = 0; k < rows_.count; ++k) rows_.by_platform.row(k).template tail<3>() /= Rods::radius();
-    if (!rows_.by_platform.topRows(rows_.count).allFinite()) return std::numeric_limits<double>::quiet_NaN();
+    group().to_coordinates(inputs_, coordinates_);
+    group().evaluate(Rods::platform(), coordinates_, {J_, K_, s_});
+    scale_rows();
+    if (!lines_.allFinite()) return std::numeric_limits<double>::quiet_NaN();
     project();
     const Wrench left = free_ * scaled(Rods::missing());
     double force = 0, length = 0;
@@ -92,7 +96,7 @@ class Mechanism : public Rods {
       force = std::max(force, Rods::stiffness(k) / (Rods::length(k) * Rods::length(k)));
       length = std::max(length, Rods::length(k));
     }
-    const double gap = rows_.gap.head(rows_.count).template lpNorm<Eigen::Infinity>() / length;
+    const double gap = gap_.template lpNorm<Eigen::Infinity>() / length;
     const double error = std::max({Rods::rod_error(), gap, left.template lpNorm<Eigen::Infinity>() / force});
     return std::isnan(gap + left.sum()) ? std::numeric_limits<double>::quiet_NaN() : error;
   }
@@ -104,15 +108,17 @@ class Mechanism : public Rods {
     if (!closes()) return is_held;  // else the rods alone need not hold the platform
     // the closing legs push with what is missing, along their rows
     const Wrench missing = scaled(Rods::missing());
-    force_.setZero();
-    force_.head(rows_.count) = -(inverse_.transpose() * missing).head(rows_.count);
+    force_ = -(inverse_.transpose() * missing).cwiseProduct(scale_);
     Mat<double, 6, 6> turned;
-    closing_.force_change(Rods::platform(), fed_, rows_, force_, turned, force_by_input_);
+    const Numbers multipliers(force_.data(), at(group().rows()));
+    group().curvature(Rods::platform(), coordinates_, multipliers, turned, force_by_input_);
     Mat<double, 6, 6> stiffness = Rods::stiffness();
     stiffness -= turned;
     inner_ = scaled(stiffness);
     held_ = std::max(inner_.diagonal().template lpNorm<Eigen::Infinity>(), 1e-300);
-    by_input_ = inverse_ * rows_.by_input;
+    const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::DontAlign, 6, max_rows> scaled_inverse =
+        inverse_ * scale_.asDiagonal();
+    by_input_ = -scaled_inverse.lazyProduct(by_inputs());
     Mat<double, 6, 6> projected = free_ * inner_ * free_;
     projected += held_ * (Mat<double, 6, 6>::Identity() - free_);
     const Mat<double, 6, 6> whole = unscaled(projected);
@@ -123,7 +129,7 @@ class Mechanism : public Rods {
   /// With the gaps of the closing legs closed by motions square to the free ones.
   Wrench missing() const {
     if (!closes()) return Rods::missing();
-    const Wrench closes = -(inverse_ * rows_.gap.head(rows_.count));
+    const Wrench closes = -(inverse_ * gap_);
     const Wrench missing = scaled(Rods::missing());
     return unscaled(Wrench(free_ * (missing - inner_ * closes) + held_ * closes));
   }
@@ -138,7 +144,7 @@ class Mechanism : public Rods {
   void move(const Twist& twist, std::span<const double> fed = {}) {
     Rods::move(twist, fed);
     if (closes() && !fed.empty())
-      for (int k = 0; k < closing_.feeds(); ++k) fed_[at(k)] += fed[at(closing_.input_of(k))];
+      for (std::size_t k = 0; k < inputs_.size(); ++k) inputs_[k] += fed[k];
   }
   Lu6 factors() const { return closes() ? lu_ : Rods::factors(); }
   MatrixView stiffness() const { return closes() ? MatrixView(stiffness_.data(), 6, 6) : Rods::stiffness(); }
@@ -176,28 +182,54 @@ class Mechanism : public Rods {
   }
   /// @}
 
-  std::span<const ClosingLeg> closing_legs() const { return closing_.legs(); }
+  int closing_legs() const { return closing_legs_; }
   /// Of the platform on a closing leg, at its platform point, base axes [N]; after `linearise`.
   Vec3<double> closing_force(int leg) const {
-    int first = 0;
-    for (int k = 0; k < leg; ++k) first += rows_of(k);
     Vec3<double> force = Vec3<double>::Zero();
-    for (int k = first; k < first + rows_of(leg); ++k)
-      force -= force_[k] * rows_.by_platform.row(k).template head<3>().transpose();
+    robot_.for_each_closing_leg([&]<class L>(const L&, const LegPlace& place, int) {
+      if (leg-- != 0) return;
+      for (int k = 0; k < L::rows; ++k) {
+        const int row = place.template row_of<L>(k);
+        force -= force_[row] * directions().row(row).transpose();
+      }
+    });
     return force;
   }
-  void get_closing(std::span<double> coordinates) const { closing_.get_coordinates(fed_, coordinates); }
+  void get_closing(std::span<double> coordinates) const { group().to_coordinates(inputs_, coordinates); }
   void set_rods(std::span<const double> coordinates) {
     Rods::set_rods(coordinates);
-    closing_.set_coordinates(coordinates, fed_);
+    group().to_inputs(coordinates, inputs_);
   }
 
  private:
   bool is_rod(int feed) const { return feed < Rods::rods(); }
   int own(int feed) const { return feed - Rods::rods(); }
-  int rows_of(int leg) const {
-    return with_leg(closing_.legs()[at(leg)].leg, []<class L>(const L&) { return L::rows; });
+  int drives() const { return static_cast<int>(driven_by_.size()); }
+  KinematicGroup<AnySpatialLeg> group() const { return KinematicGroup<AnySpatialLeg>(robot_); }
+
+  /// @name Rows as the group wrote them
+  /// @{
+  template <int Columns>
+  using RowsView = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>, 0,
+                              Eigen::OuterStride<>>;
+  RowsView<3> directions() const { return {J_.data(), group().rows(), 3, Eigen::OuterStride<>(6)}; }
+  RowsView<Eigen::Dynamic> by_inputs() const {
+    return {K_.data(), group().rows(), robot_.total.input, Eigen::OuterStride<>(robot_.total.input)};
   }
+  /// Each divided by the length of its direction: gaps in metres, lines of one size.
+  void scale_rows() {
+    const int count = group().rows();
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>> J(J_.data(), count, 6);
+    scale_.resize(count);
+    for (int k = 0; k < count; ++k) {
+      const double length = J.row(k).template head<3>().norm();
+      scale_[k] = length > 0 ? 1 / length : 0;
+    }
+    gap_ = -scale_.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(s_.data(), count));
+    lines_ = scale_.asDiagonal() * J;
+    lines_.template rightCols<3>() /= Rods::radius();
+  }
+  /// @}
 
   /// Moments over the platform's radius, turns times it: numbers of one kind.
   Wrench scaled(Wrench wrench) const {
@@ -222,8 +254,7 @@ class Mechanism : public Rods {
   /// rows, as many as the rank: where rows forbid the same, J⁺ shares their gaps and forces evenly.
   void project() {
     constexpr double independent = 1e-9;  // the rows are unit directions
-    const int count = rows_.count;
-    RowMatrix left = rows_.by_platform.topRows(count), along(count, 6);
+    RowMatrix left = lines_, along(lines_.rows(), 6);
     Mat<double, 6, 6> basis = Mat<double, 6, 6>::Zero();
     for (rank_ = 0; rank_ < 6; ++rank_) {
       Eigen::Index farthest = 0;
@@ -244,13 +275,20 @@ class Mechanism : public Rods {
     free_ = Mat<double, 6, 6>::Identity() - basis.topRows(rank_).transpose() * basis.topRows(rank_);
   }
 
-  using RowMatrix =
-      Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::DontAlign | Eigen::ColMajor, max_closing_rows, 6>;
-  ClosingLegs closing_;
-  std::vector<double> fed_;  ///< inputs of the closing legs
-  ClosingRows rows_;         ///< turns of the platform times its radius
-  Vec<double, max_closing_rows> force_ = Vec<double, max_closing_rows>::Zero();  ///< of each row [N]
-  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::DontAlign, 6, max_closing_rows> inverse_;
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::DontAlign, max_rows, 6>;
+  using RowVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign, max_rows, 1>;
+  SpatialRobot robot_;
+  std::vector<int> leg_of_;     ///< of each rod
+  std::vector<int> driven_by_;  ///< inputs of the closing legs, one after the other
+  int closing_legs_ = 0;
+  std::vector<double> inputs_, coordinates_;  ///< of the robot; those of its rods are not used
+  std::array<double, 6 * max_rows> J_{};
+  std::array<double, max_rows> s_{};
+  std::vector<double> K_;
+  RowVector scale_, gap_;  ///< 1 over the length of a row's direction; [m]
+  RowMatrix lines_;        ///< unit directions; turns of the platform times its radius
+  RowVector force_;        ///< multiplier of each row as the group wrote it
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::DontAlign, 6, max_rows> inverse_;
   Mat<double, 6, 6> free_ = Mat<double, 6, 6>::Identity();
   Mat<double, 6, 6> inner_ = Mat<double, 6, 6>::Zero();  ///< stiffness of rods and turned lines, scaled
   double held_ = 1;  ///< what stands for the infinite stiffness of held motions: any number of that size

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "sinew/base/numbers.hpp"
-#include "sinew/robot/any_robot.hpp"
+#include "sinew/leg/space.hpp"
+#include "sinew/robot/robot.hpp"
 
 namespace sinew::inline v0 {
 

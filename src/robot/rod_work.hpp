@@ -20,9 +20,8 @@ struct RodPlace {
 /// @tparam System one of rod_systems.hpp
 template <class System>
 struct RodWorkOf {
-  explicit RodWorkOf(const ParallelRobot<RodLeg>& rods, const Vec3<double>& gravity = Vec3<double>::Zero(),
-                     std::vector<ClosingLeg> closing = {})
-      : system(rods, std::move(closing)),
+  explicit RodWorkOf(const SpatialRobot& robot, const Vec3<double>& gravity = Vec3<double>::Zero())
+      : system(robot),
         home(system.snapshot()),
         before(home),
         spare(home),
@@ -41,21 +40,15 @@ struct RodWorkOf {
   bool knows_feeding = false;
 };
 
-/// The rods of a robot alone, in the order of its legs; their places are those in the whole robot. Allocates.
-ParallelRobot<RodLeg> rods_of(const AnyRobot& robot);
-
 /// Rods that bend in one plane each, without weight ...
 using RodWork = RodWorkOf<Mechanism<RodSystem>>;
 /// ... others without torque, and all others.
 using TangentWork = RodWorkOf<Mechanism<TangentSystem>>;
 using GeneralWork = RodWorkOf<Mechanism<GeneralSystem>>;
 
-/// The closing legs of a robot.
-std::vector<ClosingLeg> closing_legs_of(const AnyRobot& robot);
-
 /// What a workspace keeps of rods: of the quickest kind that holds for all of them.
 struct RodWorks {
-  explicit RodWorks(const AnyRobot& robot);  ///< of a robot that bears load
+  explicit RodWorks(const Robot& robot);  ///< of a robot that bears load
   std::variant<RodWork, TangentWork, GeneralWork> kind;
 };
 

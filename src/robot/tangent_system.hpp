@@ -13,12 +13,6 @@
 
 namespace sinew::inline v0 {
 
-/// Whether every rod is an elastica, which RodSystem solves.
-inline bool bend_in_planes(const ParallelRobot<RodLeg>& robot) {
-  return std::all_of(robot.legs.begin(), robot.legs.end(),
-                     [](const RodLeg& leg) { return leg.is_elastica(); });
-}
-
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
 class TangentSystem : public HeavyRodGroup {
  public:

@@ -6,29 +6,9 @@
 #include <optional>
 
 #include "sinew/base/stop.hpp"
+#include "solve/contraction.hpp"
 
 namespace sinew::inline v0 {
-
-/// Newton's method as long as each step halves the error, at most twelve of them; on below `tolerance` while
-/// it gains a digit a step, down to `rounding`.
-/// @param error evaluates where the problem is; @param step moves it, false where it cannot
-/// @param residual is left alone where it does not contract
-template <class Error, class Step>
-bool contract(Error&& error, Step&& step, double tolerance, double rounding, int& iterations,
-              double& residual) {
-  double here = error();
-  for (int k = 0; k < 12 && !(here <= rounding); ++k) {
-    if (!step()) return false;
-    ++iterations;
-    const double next = error();
-    const bool is_done = next <= tolerance, gains = next < 0.1 * here;
-    if (!is_done && !(next < 0.5 * here)) return false;
-    here = next;
-    if (is_done && !gains) break;
-  }
-  residual = here;
-  return here <= tolerance;
-}
 
 /// How a series of steps ended; `lost`: no step however short succeeds.
 enum class StepsEnd { done, lost, ran_out, stopped };

@@ -88,13 +88,13 @@ inline std::vector<double> axes(const std::vector<AnyPose>& poses) {
   return numbers;
 }
 
-inline Answer in_batch(const AnyRobot& robot, const PoseBatch& batch, std::size_t poses) {
+inline Answer in_batch(const Robot& robot, const PoseBatch& batch, std::size_t poses) {
   Workspace work(robot);
   Answer answer(poses, static_cast<std::size_t>(leg_count(robot)));
   answer.left = velocity_batch(robot, batch, answer.spans(), work);
   return answer;
 }
-inline Answer in_batch(const AnyRobot& robot, const std::vector<AnyPose>& poses,
+inline Answer in_batch(const Robot& robot, const std::vector<AnyPose>& poses,
                        std::span<const int> bending = {}) {
   return in_batch(robot, {axes(poses), bending}, poses.size());
 }
@@ -106,7 +106,7 @@ struct Errors {
   double determinant = 0, condition = 0, norms = 0;  ///< relative, over max(1, condition/1e5)
   std::size_t statuses = 0, converged = 0, type_1 = 0, type_2 = 0;
 
-  void of_pose(const AnyRobot& robot, const Answer& batch, std::size_t k, const AnyPose& pose,
+  void of_pose(const Robot& robot, const Answer& batch, std::size_t k, const AnyPose& pose,
                const PoseBatch& branch, Workspace& work) {
     const Inverse solved = inverse(robot, pose, {.bending = branch.bending, .elbow = branch.elbow}, work);
     if (!solved.ok()) {
@@ -149,7 +149,7 @@ struct Errors {
   }
 };
 
-inline Errors errors(const AnyRobot& robot, const std::vector<AnyPose>& poses,
+inline Errors errors(const Robot& robot, const std::vector<AnyPose>& poses,
                      std::span<const int> bending = {}) {
   Workspace work(robot);
   const Answer batch = in_batch(robot, poses, bending);

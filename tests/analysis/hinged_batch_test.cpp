@@ -10,7 +10,7 @@
 namespace sinew::test {
 namespace hinged_batch_test {
 
-using Tripod = ParallelRobot<Leg<Spatial, Rail, SlideDrive, HingedStrut>>;
+using PrsLeg = Leg<Spatial, Rail, SlideDrive, HingedStrut>;
 
 /// z, e₁, e₂ of each of n.
 using Places = std::vector<double>;
@@ -56,7 +56,7 @@ struct Compared {
   std::size_t left = 0, poses = 0;
 };
 
-Compared compare(const AnyRobot& robot, const PoseBatch& batch) {
+Compared compare(const Robot& robot, const PoseBatch& batch) {
   Workspace work(robot);
   const std::size_t n = batch.coordinates.size() / 3;
   const Answer answer = in_batch(robot, batch, n);
@@ -87,7 +87,7 @@ void expect_small(const Compared& found, double size = 1) {
 }
 
 TEST(HingedBatch, SaysWhatConstrainedPoseInverseAndVelocitySay) {
-  const AnyRobot robot = load("3prs").value();
+  const Robot robot = load("3prs").value();
   const Places many = places(4000, 1.05, 3), few = borders();
   with_each_instruction_set([&] {
     const Compared found = compare(robot, {.coordinates = many, .independent = OperationMode::tilt});
@@ -102,8 +102,9 @@ TEST(HingedBatch, SaysWhatConstrainedPoseInverseAndVelocitySay) {
 }
 
 TEST(HingedBatch, TurnsOver) {
-  AnyRobot robot = load("3prs").value();
-  for (auto& leg : std::get<Tripod>(robot.model).legs) leg.closure.length = 0.6;
+  auto legs = legs_of<PrsLeg>(load("3prs").value());
+  for (PrsLeg& leg : legs.legs) leg.closure.length = 0.6;
+  const Robot robot("long struts", legs);
   const Compared found =
       compare(robot, {.coordinates = places(2000, 0.7, 5), .independent = OperationMode::half_turn});
   expect_small(found);
@@ -115,9 +116,8 @@ TEST(HingedBatch, ServesTripodsOfAnyShapeAndSize) {  // planes that do not meet 
   std::size_t converged = 0, left = 0, poses = 0;
   for (int robots = 0; robots < 60; ++robots) {
     const double size = std::pow(10.0, robots % 7 - 3);
-    AnyRobot robot = load("3prs").value();
-    Tripod& model = std::get<Tripod>(robot.model);
-    for (auto& leg : model.legs) {
+    auto model = legs_of<PrsLeg>(load("3prs").value());
+    for (PrsLeg& leg : model.legs) {
       for (int i = 0; i < 3; ++i) leg.base.p[i] += uniform(random, -0.05, 0.05);
       for (int i = 0; i < 3; ++i) leg.platform_point[i] += uniform(random, -0.03, 0.03);
       leg.base = leg.base.displaced(Vec<double, 6>(0.0, 0.0, 0.0, uniform(random, -0.3, 0.3),
@@ -127,6 +127,7 @@ TEST(HingedBatch, ServesTripodsOfAnyShapeAndSize) {  // planes that do not meet 
       leg.platform_point *= size;
     }
     model.platform_radius *= size;
+    const Robot robot("another", model);
     Places all = places(500, 0.4, static_cast<std::uint32_t>(robots));
     for (std::size_t k = 0; k < 500; ++k) all[k] *= size;
     const Compared found = compare(robot, {.coordinates = all, .independent = OperationMode::tilt});
@@ -138,7 +139,7 @@ TEST(HingedBatch, ServesTripodsOfAnyShapeAndSize) {  // planes that do not meet 
 }
 
 TEST(HingedBatch, TakesWholePosesInTheirPlanesAndOutside) {
-  const AnyRobot robot = load("3prs").value();
+  const Robot robot = load("3prs").value();
   std::mt19937 random{31};
   std::vector<AnyPose> poses;
   const Places at = places(500, 0.8, 9);
@@ -157,7 +158,7 @@ TEST(HingedBatch, TakesWholePosesInTheirPlanesAndOutside) {
 }
 
 TEST(HingedBatch, AnswersAPoseAlikeAmongAnyOthers) {
-  const AnyRobot robot = load("3prs").value();
+  const Robot robot = load("3prs").value();
   const Places all = places(40, 1, 2);
   with_each_instruction_set([&] {
     const Answer whole = in_batch(robot, {.coordinates = all, .independent = OperationMode::tilt}, 40);

@@ -19,7 +19,7 @@ MapAxis axis(const nlohmann::json& values) {
 
 TEST(SingularityMap, Of3RfrIsTheReference) {  // all 13 × 13 × 9 poses
   const nlohmann::json& map = reference()["3-RFR_map"];
-  const AnyRobot robot = load("3-rfr").value();
+  const Robot robot = load("3-rfr").value();
   Workspace work(robot);
   std::size_t k = 0, reachable = 0;
   for (const double phi : map["phi"]) {
@@ -48,7 +48,7 @@ TEST(SingularityMap, Of3RfrIsTheReference) {  // all 13 × 13 × 9 poses
 
 TEST(SingularityMap, Of3FrrOnTheReferencesBranchIsTheReference) {
   const nlohmann::json& map = reference()["3-FRR_map"];
-  const AnyRobot robot = load("3-frr").value();
+  const Robot robot = load("3-frr").value();
   Workspace work(robot);
   std::size_t k = 0, reachable = 0;
   for (const double phi : map["phi"])
@@ -71,7 +71,7 @@ TEST(SingularityMap, Of3FrrOnTheReferencesBranchIsTheReference) {
 
 TEST(SingularityMap, OfUfsTurningAboutZHasTheReferencesDeterminant) {
   const nlohmann::json& line = reference()["6-UFS_det_rotz"];
-  const AnyRobot robot = load("6-ufs").value();
+  const Robot robot = load("6-ufs").value();
   Workspace work(robot);
   PoseGrid grid = PoseGrid::at(home(robot));
   EXPECT_EQ(grid.axes[2].from, line["p"][2].get<double>());
@@ -104,7 +104,7 @@ TEST(SingularityMap, ASpatialGridOfOnePoseIsThatPose) {
 }
 
 TEST(SingularityMap, TellsBothTypesWithTheirLegsAndClass) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   const MapSample centre = map_sample(robot, PlanarPose{0, 0, std::numbers::pi / 3}, {}, work);
   EXPECT_TRUE(centre.is_type_2);
@@ -119,7 +119,7 @@ TEST(SingularityMap, TellsBothTypesWithTheirLegsAndClass) {
 }
 
 TEST(SingularityMap, StopsWhenItsCallerHasEnough) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   const PoseGrid grid{.axes = {MapAxis{-0.02, 0.02, 40}, MapAxis{-0.02, 0.02, 40}, MapAxis{}}};
   std::vector<std::size_t> told;
@@ -140,7 +140,7 @@ TEST(SingularityMap, StopsWhenItsCallerHasEnough) {
 }
 
 TEST(SingularityMap, HandsItsSamplesOverInTheOrderOfTheGrid) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   const PoseGrid grid{.axes = {MapAxis{-0.02, 0.02, 4}, MapAxis{-0.02, 0.02, 3}, MapAxis{}}};
   const SingularityMap kept = singularity_map(robot, grid, {}, work);

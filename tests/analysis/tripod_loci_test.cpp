@@ -12,7 +12,7 @@ constexpr TripodSize size{0.25, 0.125, 0.35};
 constexpr double degree = std::numbers::pi / 180;
 
 struct Tripod {
-  AnyRobot robot = load("3prs").value();
+  Robot robot = load("3prs").value();
   Workspace work{robot};
 
   SpatialPose pose(double e1, double e2) { return constrained_pose(robot, {0.5, e1, e2}).pose; }
@@ -25,8 +25,7 @@ struct Tripod {
 
 TEST(TripodLoci, LeftSidesAreWhereThePlatformPointsAre) {  // @verifies 3PFS (19)
   Tripod tripod;
-  const auto& legs =
-      std::get<ParallelRobot<Leg<Spatial, Rail, SlideDrive, HingedStrut>>>(tripod.robot.model).legs;
+  const auto& legs = legs_of<Leg<Spatial, Rail, SlideDrive, HingedStrut>>(tripod.robot).legs;
   std::mt19937 random{1};
   for (int sample = 0; sample < 200; ++sample) {
     const double e1 = uniform(random, -0.7, 0.7), e2 = uniform(random, -0.7, 0.7);

@@ -15,7 +15,7 @@ class OfTheRfr : public testing::Test {
   TypeTwoDistance along(const PlanarPose& pose, Numbers direction, const TypeTwoSearch& search = {}) {
     return type_2_distance(robot, pose, direction, search, work);
   }
-  AnyRobot robot = rfr_in_code();
+  Robot robot = rfr_in_code();
   Workspace work{robot};
 };
 
@@ -111,7 +111,7 @@ TEST_F(OfTheRfr, ADirectionOfZeroAndAPoseOutOfReachAreNamed) {
 }
 
 TEST(TypeTwoDistance, OfUfsTurningAboutZItIsAtNinetyDegrees) {  // Fichter
-  const AnyRobot robot = load("6-ufs").value();
+  const Robot robot = load("6-ufs").value();
   Workspace work(robot);
   for (const double side : {1.0, -1.0}) {
     const TypeTwoDistance there = type_2_distance(robot, home(robot), {0, 0, 0, 0, 0, side}, {}, work);
@@ -127,7 +127,7 @@ TEST(TypeTwoDistance, WhereTheDeterminantOnlyTouchesZero) {
   // that J has four rows and its volume never changes sign.
   std::vector<RfrLeg> legs = rfr_legs();
   legs.push_back(legs[2]);
-  const AnyRobot robot{"four legs", ParallelRobot<RfrLeg>(legs, {}, 0.05, {})};
+  const Robot robot{"four legs", ParallelRobot<RfrLeg>(legs, {}, 0.05, {})};
   Workspace work(robot);
   const TypeTwoDistance there = type_2_distance(robot, PlanarPose{0.01, 0.005, 0.3}, {0, 0, 1}, {}, work);
   ASSERT_TRUE(there.found) << to_string(there.report);
@@ -136,7 +136,7 @@ TEST(TypeTwoDistance, WhereTheDeterminantOnlyTouchesZero) {
 
 TEST(TypeTwoDistance, OfEveryRobotIsTheFirstOneOnItsWay) {
   for (const std::string& name : builtin_robots(false)) {
-    const AnyRobot robot = load(name).value();
+    const Robot robot = load(name).value();
     Workspace work(robot);
     std::vector<double> turn(static_cast<std::size_t>(dof(robot)));
     (plane_count(robot) > 0 ? turn[4] : turn.back()) = 1;
@@ -154,7 +154,7 @@ TEST(TypeTwoDistance, OfEveryRobotIsTheFirstOneOnItsWay) {
 }
 
 TEST(TypeTwoDistance, OfATripodIsWhereItsTiltIsAndNoneWhereItsHingesDoNotLetIt) {
-  const AnyRobot robot = load("3prs").value();
+  const Robot robot = load("3prs").value();
   Workspace work(robot);
   // about y: e = (cos, 0, sin, 0) of half the angle, and det (17) = 0 at e₂ = 0.536485
   const TypeTwoDistance there = type_2_distance(robot, home(robot), {0, 0, 0, 0, 1, 0}, {}, work);

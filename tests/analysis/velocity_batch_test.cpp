@@ -39,7 +39,7 @@ std::vector<AnyPose> planar_borders() {
 }
 
 /// Of the built-in 6-UFS.
-std::vector<AnyPose> spatial_borders(const AnyRobot& robot) {
+std::vector<AnyPose> spatial_borders(const Robot& robot) {
   std::vector<AnyPose> poses;
   const auto from_home = [&](double up, double turn) {
     SpatialPose pose = std::get<SpatialPose>(home(robot));
@@ -65,14 +65,14 @@ std::vector<AnyPose> spatial_borders(const AnyRobot& robot) {
 }
 
 /// In and out of reach.
-std::vector<AnyPose> poses_around(const AnyRobot& robot, int count) {
+std::vector<AnyPose> poses_around(const Robot& robot, int count) {
   std::mt19937 random{11};
   std::vector<AnyPose> poses;
   for (int k = 0; k < count; ++k) poses.push_back(pose_near_home(robot, random, 0.1, 1.5));
   return poses;
 }
 
-std::vector<AnyPose> many_poses(const AnyRobot& robot, int count) {
+std::vector<AnyPose> many_poses(const Robot& robot, int count) {
   std::vector<AnyPose> poses = dof(robot) == 3 ? planar_borders() : spatial_borders(robot);
   const std::vector<AnyPose> around = poses_around(robot, count);
   poses.insert(poses.begin() + 10, around.begin(), around.end());
@@ -101,7 +101,7 @@ TEST(VelocityBatch, ServesRobotsThatCloseInClosedForm) {
 }
 
 TEST(VelocityBatch, SaysWhatInverseAndVelocitySay) {
-  const AnyRobot planar = load("3-rfr").value(), spatial = load("6-ufs").value();
+  const Robot planar = load("3-rfr").value(), spatial = load("6-ufs").value();
   const auto poses = many_poses(planar, 20000), more = many_poses(spatial, 4000);
   with_each_instruction_set([&] {
     expect_small(errors(planar, poses));
@@ -124,7 +124,7 @@ TEST(VelocityBatch, ServesLegsOfUnlikeSizeAndRobotsOfAnySize) {
       leg.link.length = any(0.1, 0.4);
       leg.drive.offset = any(0.002, 0.06);
     }
-    const AnyRobot robot{"any 3-RFR", ParallelRobot<RfrLeg>(legs, {}, any(0.01, 0.1))};
+    const Robot robot{"any 3-RFR", ParallelRobot<RfrLeg>(legs, {}, any(0.01, 0.1))};
     std::vector<AnyPose> poses;
     for (int k = 0; k < 2000; ++k)
       poses.push_back(PlanarPose{any(-0.2, 0.2), any(-0.2, 0.2), uniform(random, -7, 7)});
@@ -139,7 +139,7 @@ TEST(VelocityBatch, ServesLegsOfUnlikeSizeAndRobotsOfAnySize) {
 
 TEST(VelocityBatch, AnswersAPoseAlikeAmongAnyOthers) {
   for (const char* name : {"3-rfr", "6-ufs"}) {
-    const AnyRobot robot = load(name).value();
+    const Robot robot = load(name).value();
     const auto poses = many_poses(robot, 40);
     with_each_instruction_set([&] {
       const Answer whole = in_batch(robot, poses);
@@ -154,7 +154,7 @@ TEST(VelocityBatch, AnswersAPoseAlikeAmongAnyOthers) {
 }
 
 TEST(VelocityBatch, ComputesOnlyWhatIsAskedFor) {
-  const AnyRobot robot = load("3-rfr").value();
+  const Robot robot = load("3-rfr").value();
   const auto poses = many_poses(robot, 100);
   const Answer whole = in_batch(robot, poses);
   Workspace work(robot);
@@ -180,9 +180,9 @@ TEST(VelocityBatch, ComputesOnlyWhatIsAskedFor) {
 }
 
 TEST(VelocityBatch, LeavesOnlyPosesNearABorder) {
-  const AnyRobot robot = load("3-rfr").value();
+  const Robot robot = load("3-rfr").value();
   EXPECT_LE(in_batch(robot, poses_around(robot, 100000)).left, 2u);
-  const AnyRobot spatial = load("6-ufs").value();
+  const Robot spatial = load("6-ufs").value();
   EXPECT_LE(in_batch(spatial, poses_around(spatial, 20000)).left, 2u);
   EXPECT_EQ(in_batch(robot, {PlanarPose{0, 0, pi / 3}, PlanarPose{0, 0, 0}}).left, 1u);
 }
@@ -191,7 +191,7 @@ TEST(VelocityBatch, AnswersWithNothingForARobotItDoesNotServe) {
 #ifndef NDEBUG
   GTEST_SKIP() << "a broken precondition";
 #else
-  const AnyRobot robot = load("3-frr").value();
+  const Robot robot = load("3-frr").value();
   const Answer answer = in_batch(robot, {PlanarPose{}});
   EXPECT_EQ(answer.status[0], Status::left_domain);
   EXPECT_TRUE(std::isnan(answer.determinant[0]) && std::isnan(answer.inputs[2]));

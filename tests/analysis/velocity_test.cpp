@@ -12,7 +12,7 @@ namespace velocity_test {
 
 class EveryRobotMoves : public testing::TestWithParam<std::string> {
  protected:
-  AnyRobot robot = load(GetParam()).value();
+  Robot robot = load(GetParam()).value();
   Workspace work{robot};
   std::mt19937 random{7};
 };
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, EveryRobotMoves, testing::ValuesIn(builtin_rob
                          [](const auto& robot) { return "robot_" + std::to_string(robot.index); });
 
 TEST(TypeTwo, LastPoseOfTheExampleIsConcurrentAtItsKnownPoint) {  // TDPCR 5.1
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   const PlanarPose pose{0.03, 0, std::numbers::pi / 3};
   ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
@@ -88,7 +88,7 @@ TEST(TypeTwo, LastPoseOfTheExampleIsConcurrentAtItsKnownPoint) {  // TDPCR 5.1
 }
 
 TEST(Velocity, NotANumberIsNamed) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   EXPECT_EQ(velocity(robot, PlanarPose{0, std::nan(""), 0}, {1, 2, 3}, work).report.status,
             Status::left_domain);
@@ -97,7 +97,7 @@ TEST(Velocity, NotANumberIsNamed) {
 }
 
 TEST(TypeOne, AStraightLegOfTheRfrIsLostNotUndefined) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   // Put the platform so that leg 1 is straight: forward with its tendon at the backbone's length.
   const Forward there = forward(robot, {0.19, 0.2, 0.19}, {}, work);
@@ -112,14 +112,14 @@ TEST(TypeOne, AStraightLegOfTheRfrIsLostNotUndefined) {
 
 TEST(TypeOne,
      OfAStrutIsWhereTwoSolutionsMergeNotWhereItIsStraight) {  // poses of an independent implementation
-  const AnyRobot robot = load("3-frr").value();
+  const Robot robot = load("3-frr").value();
   Workspace work(robot);
   const std::array<std::array<double, 2>, 3> merging{
       {{-0.11660045356481855, 6.4429325505368045},
        {0.0834680089743687, 6.0593172943123985},
        {0.2560229770646485, 30.44513830878642}}};  // y, κ of leg 0
   for (const auto& [y, curvature] : merging) {
-    const auto& leg = std::get<1>(robot.model).legs[0];
+    const FrrLeg leg = legs_of<FrrLeg>(robot).legs[0];
     const auto at = leg.blocks<double>(Planar::frame({0, y, 0}), leg.link.tip(curvature));
     EXPECT_LT(std::abs(at.error), 1e-14);
     EXPECT_LT(std::abs(at.g_q[0]), 1e-10);
@@ -136,7 +136,7 @@ TEST(TypeOne,
 }
 
 TEST(Rates, OfTiedLegsAreRefusedWhereTheyWouldDiffer) {
-  const AnyRobot robot = rfr_in_code(std::array{-1, -1, 0});
+  const Robot robot = rfr_in_code(std::array{-1, -1, 0});
   Workspace work(robot);
   const Forward at = forward(robot, {0.19, 0.19}, {}, work);
   ASSERT_TRUE(at.ok());
@@ -149,10 +149,10 @@ TEST(Rates, OfTiedLegsAreRefusedWhereTheyWouldDiffer) {
 }
 
 TEST(Rates, OfLegsOfUnlikeSizeAreAllFollowed) {
-  AnyRobot robot = rfr_in_code();
-  auto& legs = std::get<0>(robot.model).legs;
+  std::vector<RfrLeg> legs = rfr_legs();
   legs[2].link.length = 700;  // beside legs of 0.2 m
   legs[2].base.p = Vec2<double>(650, -100);
+  const Robot robot("unlike", ParallelRobot<RfrLeg>(legs, {}, 0.05));
   Workspace work(robot);
   const PlanarPose pose{0.01, 0, 0.1};
   ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
@@ -164,9 +164,9 @@ TEST(Rates, OfLegsOfUnlikeSizeAreAllFollowed) {
 }
 
 TEST(TypeOne, OfASwivelledLegIsWhereItAndItsStrutAreStraight) {  // whichever angle its motor commands
-  const AnyRobot robot = load("3-rfrr").value();
+  const Robot robot = load("3-rfrr").value();
   Workspace work(robot);
-  const auto& leg = std::get<2>(robot.model).legs[0];
+  const RfrrLeg leg = legs_of<RfrrLeg>(robot).legs[0];
   const Vec2<double> head = leg.base.p + Vec2<double>(0, -0.23);  // link 150 mm and strut 80 mm in line
   const PlanarPose pose{head.x() - leg.platform_point.x(), head.y() - leg.platform_point.y(), 0};
   const double down = -std::numbers::pi / 2;
@@ -181,7 +181,7 @@ TEST(TypeOne, OfASwivelledLegIsWhereItAndItsStrutAreStraight) {  // whichever an
 TEST(Velocity, OfTooFewLegsLeavesTheirFreedomOpen) {
   std::vector<RfrLeg> legs = rfr_legs();
   legs.pop_back();
-  const AnyRobot robot("2-RFR", ParallelRobot<RfrLeg>(legs, {}, 0.05));
+  const Robot robot("2-RFR", ParallelRobot<RfrLeg>(legs, {}, 0.05));
   Workspace work(robot);
   const PlanarPose pose{0.01, 0, 0.1};
   ASSERT_TRUE(inverse(robot, pose, {}, work).ok());
@@ -200,7 +200,7 @@ TEST(Velocity, OfTooFewLegsLeavesTheirFreedomOpen) {
 }
 
 TEST(Shape, LegsRunFromTheirBaseToTheirPlatformPoint) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   const PlanarPose pose{0.01, -0.01, 0.1};
   ASSERT_TRUE(inverse(robot, pose, {}, work).ok());

@@ -54,7 +54,7 @@ class NoHeap : public testing::TestWithParam<std::string> {
     inputs = values(work.inputs);
     coordinates = values(work.coordinates);
   }
-  AnyRobot robot = load(GetParam()).value();
+  Robot robot = load(GetParam()).value();
   Workspace work{robot};
   std::mt19937 random{4};
   AnyPose pose = reachable_pose(robot, random, work);
@@ -92,7 +92,7 @@ TEST_P(NoHeap, Velocity) {
 }
 
 TEST(NoHeapInBatches, InLanesOrOneByOne) {
-  const AnyRobot robot = load("3-rfr").value();
+  const Robot robot = load("3-rfr").value();
   Workspace work(robot);
   const std::vector<double> poses{0, 0.01, 1, 0, 0, 0, 0, 0, 0.1, 0.2, 0, std::numbers::pi / 3};  // 4
   std::vector<double> inputs(12), position(4);
@@ -108,8 +108,9 @@ INSTANTIATE_TEST_SUITE_P(Builtin, NoHeap, testing::ValuesIn(builtin_robots(false
                          [](const auto& robot) { return "robot_" + std::to_string(robot.index); });
 
 TEST(NoHeapOfRods, ThatBearTorque) {
-  AnyRobot robot = load("hexapod").value();
-  for (RodLeg& leg : std::get<ParallelRobot<RodLeg>>(robot.model).legs) leg.is_spin_held = true;
+  auto rods = legs_of<RodLeg>(load("hexapod").value());
+  for (RodLeg& leg : rods.legs) leg.is_spin_held = true;
+  const Robot robot("held", rods);
   Workspace work(robot);
   const SpatialPose at_home = std::get<SpatialPose>(home(robot));
   SpatialPose beside = at_home;
@@ -124,7 +125,7 @@ TEST(NoHeapOfRods, ThatBearTorque) {
 
 TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
   for (const std::string& name : builtin_robots(true)) {
-    const AnyRobot robot = load(name).value();
+    const Robot robot = load(name).value();
     Workspace work(robot);
     const SpatialPose at_home = std::get<SpatialPose>(home(robot));
     const bool is_hexapod = input_count(robot) == 6;
@@ -153,7 +154,7 @@ TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
     inputs[1] = 0.005;  // of a tripod out of reach
     bool is_solved = false;
     none([&] { is_solved = equilibrium(robot, inputs, {}, work).is_solved(); });
-    EXPECT_TRUE(is_hexapod || rod_count(robot) < leg_count(robot) || !is_solved);
+    EXPECT_TRUE(is_hexapod || robot.rod_count() < leg_count(robot) || !is_solved);
   }
 }
 
@@ -161,7 +162,6 @@ TEST(NoHeapOfSerialRobots, FromTendonsToTipAndBack) {
   for (const char* name : {"nottingham-tpcj", "four-tendon-neutral"}) {
     const SerialRobot robot = load_serial(name).value();
     SerialWorkspace work(robot);
-    RateWorkspace rates(robot);
     std::mt19937 random(4);
     const std::vector<Bend> bends = random_bends(robot, random);
     const auto none = [&](auto&& run) { EXPECT_EQ(allocations_of(run), 0) << name; };
@@ -178,7 +178,7 @@ TEST(NoHeapOfSerialRobots, FromTendonsToTipAndBack) {
     none([&] { EXPECT_TRUE(inverse(robot, {tip.p, axis}, {}, work).ok()); });
     none([&] { EXPECT_TRUE(inverse(robot, {tip.p, {}, tip.R}, {}, work).ok()); });
     none([&] { EXPECT_FALSE(inverse(robot, {Vec3<double>(1, 0, 0)}, {}, work).ok()); });
-    none([&] { resolved_rate(robot, bends, {{0.01, 0, 0}, {0, 0.1, 0}}, {}, work, rates); });
+    none([&] { resolved_rate(robot, bends, {{0.01, 0, 0}, {0, 0.1, 0}}, {}, work); });
   }
 }
 

@@ -13,9 +13,7 @@
 namespace sinew::test {
 namespace robot_file_test {
 
-Expected<AnyRobot> read(const std::string& yaml) {
-  return read_robot(parse_yaml(yaml, "robot.yaml").value());
-}
+Expected<Robot> read(const std::string& yaml) { return read_robot(parse_yaml(yaml, "robot.yaml").value()); }
 
 const std::string head = "sinew: 1\nname: test\n";
 const std::string rfr_parts =
@@ -27,7 +25,7 @@ const std::string rfr_legs =
     "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, platform_point: {radius: 50 mm, angle: 270 "
     "deg}}\n";
 
-void expect_same_motion(const AnyRobot& a, const AnyRobot& b) {
+void expect_same_motion(const Robot& a, const Robot& b) {
   Workspace wa(a), wb(b);
   const PlanarPose pose{0.01, -0.008, 0.2};
   ASSERT_TRUE(inverse(a, pose, {}, wa).ok());
@@ -47,7 +45,7 @@ TEST(RobotFile, ListsLegsOrNamesAnArchitectureOrIsBuiltInCodeAllTheSame) {
   expect_same_motion(*listed, rfr_in_code());
   expect_same_motion(*listed, load("3-rfr").value());
   expect_same_motion(*listed, load(std::string(source_folder) + "/robots/3-rfr.yaml").value());
-  EXPECT_EQ(named->model.index(), 0U);  // alike legs take the static path
+  EXPECT_EQ(legs_of<RfrLeg>(*named).legs.size(), 3U);
 }
 
 TEST(RobotFile, FrrAsAnArchitectureIsTheListedOne) {
@@ -61,8 +59,7 @@ TEST(RobotFile, FrrAsAnArchitectureIsTheListedOne) {
 }
 
 /// Legs, home and size of two robots, which must be of one kind.
-void expect_same_robot(const AnyRobot& a, const AnyRobot& b) {
-  ASSERT_EQ(a.model.index(), b.model.index());
+void expect_same_robot(const Robot& a, const Robot& b) {
   EXPECT_LT(motion(home(a), home(b)).norm(), 1e-15);
   const auto expect_same_legs = [](const auto& leg, const auto& other) {
     EXPECT_LT((leg.base.p - other.base.p).norm(), 1e-15);
@@ -87,15 +84,15 @@ void expect_same_robot(const AnyRobot& a, const AnyRobot& b) {
     EXPECT_EQ(leg.backbone.joints, other.backbone.joints);
     EXPECT_EQ(leg.backbone.youngs_modulus, other.backbone.youngs_modulus);
   };
-  std::visit(
-      [&]<class Robot>(const Robot& robot) {
-        const auto& other = std::get<Robot>(b.model);
-        ASSERT_EQ(robot.legs.size(), other.legs.size());
-        EXPECT_EQ(robot.platform_radius, other.platform_radius);
-        for (std::size_t i = 0; i < robot.legs.size(); ++i)
-          if constexpr (requires { robot.legs[i].closure; }) expect_same_legs(robot.legs[i], other.legs[i]);
-      },
-      a.model);
+  ASSERT_EQ(leg_count(a), leg_count(b));
+  EXPECT_EQ(platform_radius(a), platform_radius(b));
+  with_legs(a, [&]<class LegT>(const ParallelRobot<LegT>& robot) {
+    robot.for_each_closing_leg([&]<class L>(const L& leg, const LegPlace&, int i) {
+      const auto others = legs_of<L>(b).legs;
+      ASSERT_EQ(others.size(), robot.legs.size());
+      expect_same_legs(leg, others[static_cast<std::size_t>(i)]);
+    });
+  });
 }
 
 TEST(RobotFile, AShortFormIsTheListedRobot) {
@@ -226,7 +223,7 @@ TEST(RobotFile, UnlikeLegsMakeAMixedRobotThatMovesAsItsParts) {
                           "  - {base: {point: {radius: 190 mm, angle: 330 deg}}, closure: {type: chord}, "
                           "platform_point: {radius: 50 mm, angle: 270 deg}}\n");
   ASSERT_TRUE(mixed) << to_string(mixed.error());
-  const AnyRobot rfr = load("3-rfr").value(), frr = load("3-frr").value();
+  const Robot rfr = load("3-rfr").value(), frr = load("3-frr").value();
   Workspace work(*mixed), rfr_work(rfr), frr_work(frr);
   const PlanarPose pose{0.01, -0.008, 0.02};
   ASSERT_TRUE(inverse(*mixed, pose, {}, work).ok());
@@ -248,12 +245,12 @@ TEST(RobotFile, PointsArePolarOrCartesianAndHomeIsRead) {
                           "  - {base: {point: [-0.16, -0.1]}, platform_point: [-0.04, 0.02]}\n"
                           "  - {base: {point: [0.16, -0.1]}, platform_point: [0, -0.05]}\n");
   ASSERT_TRUE(robot) << to_string(robot.error());
-  const auto& model = std::get<0>(robot->model);
+  const PlanarRobot& model = *robot->planar();
   EXPECT_EQ(model.home.x, 0.001);
   EXPECT_EQ(model.home.y, 0);
   EXPECT_NEAR(model.home.phi, 0.17453292519943295, 1e-16);
   EXPECT_EQ(model.platform_radius, 0.06);
-  EXPECT_EQ(model.legs[0].base.p.y(), 0.19);
+  EXPECT_EQ(legs_of<RfrLeg>(*robot).legs[0].base.p.y(), 0.19);
 }
 
 TEST(RobotFile, TiedLegsShareAnActuator) {
@@ -312,18 +309,18 @@ TEST(RobotFile, ASettingReplacesOneValue) {
   Node length = make_node(0.21);
   const auto changed = read_robot(with(document, "legs[1].link.length", length).value());
   ASSERT_TRUE(changed) << to_string(changed.error());
-  const auto& legs = std::get<0>(changed->model).legs;
+  const auto legs = legs_of<RfrLeg>(*changed).legs;
   EXPECT_EQ(legs[0].link.length, 0.2);
   EXPECT_EQ(legs[1].link.length, 0.21);
   const auto all = read_robot(with(document, "defaults.link.length", length).value());
-  EXPECT_EQ(std::get<0>(all->model).legs[2].link.length, 0.21);
+  EXPECT_EQ(legs_of<RfrLeg>(*all).legs[2].link.length, 0.21);
   // a setting of the defaults still reaches a leg of which something else was set before
   const Document leg_first = with(document, "legs[1].link.length", length).value();
   const auto both = read_robot(with(leg_first, "defaults.link.tendon_offset", make_node(0.004)).value());
   ASSERT_TRUE(both) << to_string(both.error());
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(std::get<0>(both->model).legs[k].drive.offset, 0.004) << k;
-    EXPECT_EQ(std::get<0>(both->model).legs[k].link.length, k == 1 ? 0.21 : 0.2) << k;
+    EXPECT_EQ(legs_of<RfrLeg>(*both).legs[k].drive.offset, 0.004) << k;
+    EXPECT_EQ(legs_of<RfrLeg>(*both).legs[k].link.length, k == 1 ? 0.21 : 0.2) << k;
   }
   EXPECT_FALSE(with(document, "legs[7].link.length", length));
 }

@@ -22,23 +22,23 @@ namespace arguments_test {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const AnyPose planar = PlanarPose{0.01, 0, 0}, spatial = SpatialPose{{0, 0, 0.2}, {1, 0, 0, 0}};
 
-bool is_planar(const AnyRobot& robot) { return std::holds_alternative<PlanarPose>(home(robot)); }
-const AnyPose& other_space(const AnyRobot& robot) { return is_planar(robot) ? spatial : planar; }
+bool is_planar(const Robot& robot) { return std::holds_alternative<PlanarPose>(home(robot)); }
+const AnyPose& other_space(const Robot& robot) { return is_planar(robot) ? spatial : planar; }
 
 std::vector<double> numbers(int count) { return std::vector<double>(static_cast<std::size_t>(count), 0.4); }
 
 /// Counts the answers that say `bad_input`; all others are errors.
 struct Asked {
   int count = 0;
-  void refused(const Report& report, const AnyRobot& robot, const char* what) {
+  void refused(const Report& report, const Robot& robot, const char* what) {
     ++count;
-    EXPECT_EQ(report.status, Status::bad_input) << robot.name << ": " << what << ": " << to_string(report);
-    EXPECT_FALSE(report.message.empty()) << robot.name << ": " << what;
+    EXPECT_EQ(report.status, Status::bad_input) << robot.name() << ": " << what << ": " << to_string(report);
+    EXPECT_FALSE(report.message.empty()) << robot.name() << ": " << what;
   }
 };
 
 /// Every typed question, with this pose and this workspace, at least one of which does not fit.
-void ask_all(const AnyRobot& robot, const AnyPose& pose, Workspace& work, Asked& asked, bool is_pose_wrong) {
+void ask_all(const Robot& robot, const AnyPose& pose, Workspace& work, Asked& asked, bool is_pose_wrong) {
   const std::vector<double> inputs = numbers(input_count(robot)), q = numbers(coordinate_count(robot)),
                             twist = numbers(dof(robot));
   asked.refused(forward(robot, inputs, {.start = pose}, work).report, robot, "forward");
@@ -48,8 +48,8 @@ void ask_all(const AnyRobot& robot, const AnyPose& pose, Workspace& work, Asked&
   asked.refused(type_2_distance(robot, pose, twist, {}, work).report, robot, "type_2_distance");
   Track track(robot, {}, work);
   asked.refused(track.advance(pose), robot, "track");
-  EXPECT_TRUE(std::isinf(assemble(robot, pose, q, work).closure_error)) << robot.name;
-  EXPECT_TRUE(leg_states(robot, pose, q, work).empty()) << robot.name;
+  EXPECT_TRUE(std::isinf(assemble(robot, pose, q, work).closure_error)) << robot.name();
+  EXPECT_TRUE(leg_states(robot, pose, q, work).empty()) << robot.name();
   EXPECT_FALSE(map_sample(robot, pose, {}, work).is_reachable);
   EXPECT_TRUE(singularity_map(robot, PoseGrid::at(pose), {}, work).samples.empty());
   std::visit([](const auto& shape) { EXPECT_TRUE(shape.backbones.empty()); },
@@ -61,7 +61,7 @@ void ask_all(const AnyRobot& robot, const AnyPose& pose, Workspace& work, Asked&
   settled(robot, pose);
 }
 
-void ask_rods(const AnyRobot& robot, Workspace& work, Asked& asked) {
+void ask_rods(const Robot& robot, Workspace& work, Asked& asked) {
   const std::vector<double> inputs = numbers(input_count(robot)), six = numbers(6);
   const SpatialWrench load = SpatialWrench::Ones();
   asked.refused(equilibrium(robot, inputs, {}, work).report, robot, "equilibrium");
@@ -81,7 +81,7 @@ void ask_rods(const AnyRobot& robot, Workspace& work, Asked& asked) {
 TEST(Arguments, APoseOfTheOtherSpaceIsAnsweredByEveryQuestion) {
   Asked asked;
   for (const std::string_view name : test::parallel_robot_names()) {
-    const AnyRobot robot = load(std::string(name)).value();
+    const Robot robot = load(std::string(name)).value();
     Workspace work(robot);
     ask_all(robot, other_space(robot), work, asked, true);
     EXPECT_TRUE(std::isnan(std::get<PlanarPose>(between(planar, spatial, 0.5)).x));
@@ -95,7 +95,7 @@ TEST(Arguments, AWorkspaceOfAnotherRobotIsAnsweredByEveryQuestion) {
   for (const std::string_view name : names)
     for (const std::string_view other : names) {
       if (name == other) continue;
-      const AnyRobot robot = load(std::string(name)).value(), another = load(std::string(other)).value();
+      const Robot robot = load(std::string(name)).value(), another = load(std::string(other)).value();
       Workspace work(another);
       ask_all(robot, home(robot), work, asked, false);
       if (bears_load(robot)) ask_rods(robot, work, asked);
@@ -103,8 +103,32 @@ TEST(Arguments, AWorkspaceOfAnotherRobotIsAnsweredByEveryQuestion) {
   RecordProperty("questions", asked.count);
 }
 
+/// The legs of a robot, each so often.
+Robot many_times(const Robot& robot, int times) {
+  const auto repeated = [&](auto legs) {
+    const auto once = legs.legs;
+    for (int k = 1; k < times; ++k) legs.legs.insert(legs.legs.end(), once.begin(), once.end());
+    return decltype(legs)(legs.legs, legs.home, legs.platform_radius);
+  };
+  return robot.planar() ? Robot("many", repeated(*robot.planar()))
+                        : Robot("many", repeated(*robot.spatial()));
+}
+
+TEST(Arguments, RobotsOfMoreLegsThanTheBuildCarriesAreAnswered) {
+  Asked asked;
+  for (const char* name : {"3-rfr", "3prs", "6-ufs", "3pfs-g2", "hexapod", "hexapod-heavy", "2prs-1pfs"}) {
+    const Robot robot = many_times(load(name).value(), 12);
+    Workspace work(robot);
+    ask_all(robot, home(robot), work, asked, false);
+    if (bears_load(robot)) ask_rods(robot, work, asked);
+    std::visit([](const auto& shape) { EXPECT_TRUE(shape.backbones.empty()); },
+               any_shape(robot, home(robot), numbers(coordinate_count(robot)), 5));
+    EXPECT_FALSE(constrained_pose(robot, {0.4, 0.1, 0}).ok());
+  }
+}
+
 TEST(Arguments, TheSameFileOpenedTwiceIsTwoRobots) {
-  const AnyRobot one = load("3pfs-g2").value(), other = load("3pfs-g2").value(), copy = one;
+  const Robot one = load("3pfs-g2").value(), other = load("3pfs-g2").value(), copy = one;
   Workspace work(one);
   const std::vector<double> inputs{0.44, 0.42, 0.41};
   EXPECT_EQ(equilibrium(other, inputs, {}, work).report.status, Status::bad_input);
@@ -115,7 +139,7 @@ TEST(Arguments, TheSameFileOpenedTwiceIsTwoRobots) {
 TEST(Arguments, SpansOfAnotherLengthAreAnswered) {
   Asked asked;
   for (const std::string_view name : test::parallel_robot_names()) {
-    const AnyRobot robot = load(std::string(name)).value();
+    const Robot robot = load(std::string(name)).value();
     Workspace work(robot);
     const AnyPose at = home(robot);
     for (const int more : {-1, 1, 40}) {
@@ -175,7 +199,6 @@ TEST(Arguments, ChainsOfAnotherRobotAreAnswered) {
 TEST(Arguments, SerialQuestionsOfAnotherRobotAreAnswered) {
   const SerialRobot five = load_serial("nottingham-tpcj").value(), three = load_serial("three-arcs").value();
   SerialWorkspace work(five), other(three);
-  RateWorkspace rates(five);
   const std::vector<Bend> bends(5, Bend(0.1, 0)), two(2, Bend(0.1, 0)), many(13, Bend(0.1, 0));
   const TipTarget target{.position = {0.01, 0, 0.1}};
   const auto model = kernel::Model::exact;
@@ -189,8 +212,8 @@ TEST(Arguments, SerialQuestionsOfAnotherRobotAreAnswered) {
   EXPECT_EQ(bends_of_changes(five, std::vector<double>(15), model, other).status, Status::bad_input);
   EXPECT_EQ(check_limits(five, many).status, Status::bad_input);
   EXPECT_EQ(check_limits(five, bends, std::vector<double>(2)).status, Status::bad_input);
-  EXPECT_EQ(resolved_rate(five, two, {}, {}, work, rates).report.status, Status::bad_input);
-  EXPECT_EQ(resolved_rate(five, bends, {}, {}, other, rates).report.status, Status::bad_input);
+  EXPECT_EQ(resolved_rate(five, two, {}, {}, work).report.status, Status::bad_input);
+  EXPECT_EQ(resolved_rate(five, bends, {}, {}, other).report.status, Status::bad_input);
   for (const std::span<const Bend> wrong :
        {std::span<const Bend>(), std::span<const Bend>(two), std::span<const Bend>(many)}) {
     tendon_changes(wrong, model, work);

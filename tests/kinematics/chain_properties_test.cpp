@@ -13,7 +13,7 @@
 namespace sinew::test {
 namespace chain_properties_test {
 
-AnyRobot robot_of(const char* name) { return *load(name); }
+Robot robot_of(const char* name) { return *load(name); }
 
 template <class Space>
 ChainRobot<Space> chains_of(const char* name, ChainModel model) {
@@ -200,7 +200,8 @@ void expect_moves(const ChainLeg<Space>& leg, const LegSystem<Space>& system, co
   }
   Mat<double, dof, dof> S = Mat<double, dof, dof>::Zero();
   Vec<double, dof> g = Vec<double, dof>::Zero();
-  found.add_to(system, 0, S, g);
+  found.add_to(system, S, g);
+  if (free == Free::tensions) S.col(0) = found.pull(system);
   Eigen::MatrixXd expected_S = Eigen::MatrixXd::Zero(dof, dof);
   expected_S.leftCols(by.cols()) = all.B.transpose() * moves;
   if (free == Free::platform) expected_S += system.force * Eigen::MatrixXd(system.closure.c_xx);
@@ -293,7 +294,7 @@ TEST(ChainForces, DoNoWorkAlongMotionsThatStayClosed) {
       const auto robot = chains_of<Planar>(name, model);
       const bool is_frr = robot.legs[0].has_strut();
       const PlanarPose pose = is_frr ? PlanarPose{0, 0, 0.1} : PlanarPose{0.01, 0, 0.3};
-      AnyRobot any = robot_of(name);
+      Robot any = robot_of(name);
       Workspace memory(any);
       const Inverse arcs = inverse(any, pose, {}, memory);
       ChainState<Planar> state;
@@ -340,7 +341,7 @@ TEST(ChainForces, DoNoWorkAlongMotionsThatStayClosed) {
 /// Tendon lengths of an unloaded pose against those of constant curvature, links doubled.
 template <class Space>
 void expect_order(const char* name, const typename Space::Pose& pose, ChainModel model, double order) {
-  AnyRobot any = robot_of(name);
+  Robot any = robot_of(name);
   Workspace memory(any);
   const Inverse arcs = inverse(any, pose, {}, memory);
   ASSERT_TRUE(arcs.ok());

@@ -10,17 +10,17 @@ namespace constrained_pose_test {
 using PrsLeg = Leg<Spatial, Rail, SlideDrive, HingedStrut>;
 
 /// How far platform points are beside their planes.
-double beside(const AnyRobot& robot, const SpatialPose& pose) {
+double beside(const Robot& robot, const SpatialPose& pose) {
   double worst = 0;
   const SE3<double> platform = SE3<double>::from(pose);
-  for (const PrsLeg& leg : std::get<ParallelRobot<PrsLeg>>(robot.model).legs)
+  for (const PrsLeg& leg : legs_of<PrsLeg>(robot).legs)
     worst = std::max(worst, std::abs(dot(leg.base.rotate(Vec3<double>(1, 0, 0)),
                                          platform.point(leg.platform_point) - leg.base.p)));
   return worst;
 }
 
 TEST(ConstrainedPose, OfThe3PrsIsAsPrintedInBothModes) {  // @verifies 3PFS (2), (9)-(10)
-  const AnyRobot robot = load("3prs").value();
+  const Robot robot = load("3prs").value();
   std::mt19937 random{1};
   for (int sample = 0; sample < 500; ++sample) {
     const double e1 = uniform(random, -0.7, 0.7), e2 = uniform(random, -0.7, 0.7), z = uniform(random, 0, 1);
@@ -58,7 +58,7 @@ TEST(ConstrainedPose, OfThreePlanesOfAnyDirection) {
       leg.closure.length = 0.35;
       legs.push_back(leg);
     }
-    const AnyRobot robot("bent 3-PRS", ParallelRobot<PrsLeg>(legs, {}, 0.12));
+    const Robot robot("bent 3-PRS", ParallelRobot<PrsLeg>(legs, {}, 0.12));
     const double e1 = uniform(random, -0.3, 0.3), e2 = uniform(random, -0.3, 0.3);
     const ConstrainedPose found = constrained_pose(robot, {0.5, e1, e2});
     if (!found.ok()) continue;
@@ -76,7 +76,7 @@ TEST(ConstrainedPose, OfThreePlanesOfAnyDirection) {
 }
 
 TEST(ConstrainedPose, WhatIsNoQuaternionOrNoTripodIsRefused) {
-  const AnyRobot robot = load("3prs").value();
+  const Robot robot = load("3prs").value();
   EXPECT_TRUE(constrained_pose(robot, {0.5, 1, 0}).ok());  // both modes in one: e₀ = e₃ = 0
   for (const Independent& wrong : {Independent{0.5, 0.8, 0.8}, Independent{0.5, std::nan(""), 0},
                                    Independent{0.5, 0, std::nan("")}, Independent{std::nan(""), 0, 0}})
@@ -86,7 +86,7 @@ TEST(ConstrainedPose, WhatIsNoQuaternionOrNoTripodIsRefused) {
 }
 
 TEST(Settled, IsInThePlanesNearbyAndStaysThere) {
-  const AnyRobot robot = load("3prs").value();
+  const Robot robot = load("3prs").value();
   std::mt19937 random{3};
   for (int sample = 0; sample < 300; ++sample) {
     const AnyPose any = pose_near_home(robot, random), there = settled(robot, any);
@@ -94,7 +94,7 @@ TEST(Settled, IsInThePlanesNearbyAndStaysThere) {
     EXPECT_LT(motion(there, settled(robot, there)).norm(), 1e-14);
     EXPECT_LT(motion(any, there).norm(), 1.2);  // about as far as home, in the planes too, is from it
   }
-  const AnyRobot free = load("6-ufs").value();
+  const Robot free = load("6-ufs").value();
   const AnyPose any = pose_near_home(free, random);
   EXPECT_EQ(motion(any, settled(free, any)).norm(), 0);
 }

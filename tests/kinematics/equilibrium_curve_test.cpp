@@ -11,7 +11,7 @@
 namespace sinew::test {
 namespace equilibrium_curve_test {
 
-AnyRobot builtin(const char* name) { return load(name).value(); }
+Robot builtin(const char* name) { return load(name).value(); }
 
 double distance(const SpatialPose& a, const SpatialPose& b) {
   const SE3<double> p = SE3<double>::from(a), q = SE3<double>::from(b);
@@ -38,7 +38,7 @@ TEST(EquilibriumCurve, SymmetricTripodsBifurcateIntoSixCurves) {
   const std::pair<const char*, double> robots[] = {{"3pfs-g1", -194.987}, {"3pfs-g2", -110.923}};
   for (const auto& [name, load] : robots) {
     SCOPED_TRACE(name);
-    const AnyRobot robot = builtin(name);
+    const Robot robot = builtin(name);
     Workspace work(robot);
     const SpatialPose home = std::get<SpatialPose>(sinew::home(robot));
     ASSERT_TRUE(inverse_equilibrium(robot, IndependentPose{home.position[2], 0, 0}, {}, work).is_solved());
@@ -72,7 +72,7 @@ TEST(EquilibriumCurve, SymmetricTripodsBifurcateIntoSixCurves) {
 /// The points of a curve are equilibria by themselves: the solver that starts there stays there. Beyond the
 /// fold rods laid to a pose alone may bend otherwise; some of them do not.
 TEST(EquilibriumCurve, ItsPointsAreEquilibria) {
-  const AnyRobot robot = builtin("3pfs-g2");
+  const Robot robot = builtin("3pfs-g2");
   Workspace work(robot), other(robot);
   ASSERT_TRUE(inverse_equilibrium(robot, IndependentPose{0.4, 0.05, 0}, {}, work).is_solved());
   CurveOptions how;
@@ -103,7 +103,7 @@ TEST(EquilibriumCurve, ItsPointsAreEquilibria) {
 TEST(EquilibriumCurve, FoldsWhereTheLoadPathEnds) {
   for (const char* name : {"3pfs-g1", "3pfs-g2", "hexapod-heavy"}) {
     SCOPED_TRACE(name);
-    const AnyRobot robot = builtin(name);
+    const Robot robot = builtin(name);
     Workspace work(robot);
     EquilibriumOptions options;
     options.wrench[0] = 0.5;
@@ -130,7 +130,7 @@ TEST(EquilibriumCurve, FoldsWhereTheLoadPathEnds) {
 /// From its target backwards a curve leads to its beginning, and beyond a fold to an equilibrium that starts
 /// scattered around home may find too.
 TEST(EquilibriumCurve, LeadsBackAndFindsOtherEquilibria) {
-  const AnyRobot robot = builtin("3pfs-g2");
+  const Robot robot = builtin("3pfs-g2");
   Workspace work(robot);
   const Equilibrium begun = inverse_equilibrium(robot, IndependentPose{0.4, 0.1, 0.05}, {}, work);
   ASSERT_TRUE(begun.is_solved());
@@ -155,7 +155,7 @@ TEST(EquilibriumCurve, LeadsBackAndFindsOtherEquilibria) {
 
 /// A load just below the fold is met twice, on the way there and back, however short that way is.
 TEST(EquilibriumCurve, MeetsALoadJustBelowItsFoldTwice) {
-  const AnyRobot robot = builtin("3pfs-g2");
+  const Robot robot = builtin("3pfs-g2");
   Workspace work(robot);
   const auto begin = [&] {
     return inverse_equilibrium(robot, IndependentPose{0.4, 0.05, 0.02}, {}, work).is_solved();
@@ -182,7 +182,7 @@ TEST(EquilibriumCurve, MeetsALoadJustBelowItsFoldTwice) {
 /// A pose on the straight way from home where the lengths fold: the tracer, which knows no path, and the cold
 /// inverse agree on where; rods then grow.
 TEST(EquilibriumCurve, FoldsOfHeldPosesAreThoseTheInverseNames) {
-  const AnyRobot robot = builtin("hexapod");
+  const Robot robot = builtin("hexapod");
   Workspace work(robot);
   const SpatialPose wanted = pose_of(
       {Vec3<double>(0.0725, 0.109, 0.5287), SO3<double>::exp(Vec3<double>(0.3437, -0.2009, -0.1995))});
@@ -212,7 +212,7 @@ TEST(EquilibriumCurve, FoldsOfHeldPosesAreThoseTheInverseNames) {
 }
 
 TEST(EquilibriumCurve, RefusesWhatIsNoCurve) {
-  const AnyRobot rods = builtin("3pfs-g2"), arcs = builtin("6-ufs");
+  const Robot rods = builtin("3pfs-g2"), arcs = builtin("6-ufs");
   Workspace work(rods), other(arcs);
   CurveOptions how;
   how.added_wrench = along_z(-1);

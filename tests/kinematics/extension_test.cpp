@@ -237,16 +237,15 @@ TEST_P(Extension, MayBeAsLongAsARodThatSlidesIn) {
 }
 
 TEST_P(Extension, RatesUseItAndStopAtItsLimits) {
-  RateWorkspace rates(robot);
   std::vector<Bend> straight(5, Bend::Zero());
   const TipTwist along{.linear = Vec3<double>(0, 0, 0.01)};
   extend(robot, std::array{0.0, 5 * mm, 0.0, 0.0, 0.0}, work);
-  ResolvedRate answer = resolved_rate(robot, straight, along, {.task = TipTask::position}, work, rates);
+  ResolvedRate answer = resolved_rate(robot, straight, along, {.task = TipTask::position}, work);
   ASSERT_TRUE(answer.ok()) << to_string(answer.report);
   EXPECT_NEAR(answer.extensions[1] + answer.extensions[3], 0.01, 1e-8);
   for (const double tendon : answer.tendons.last(3)) EXPECT_NEAR(tendon, 0.01, 1e-8);
   extend(robot, std::array{0.0, 15 * mm, 0.0, 15 * mm, 0.0}, work);
-  answer = resolved_rate(robot, straight, along, {.task = TipTask::position}, work, rates);
+  answer = resolved_rate(robot, straight, along, {.task = TipTask::position}, work);
   EXPECT_EQ(answer.report.status, Status::left_domain);
   EXPECT_EQ(answer.held, 2);
 
@@ -254,7 +253,7 @@ TEST_P(Extension, RatesUseItAndStopAtItsLimits) {
   const std::vector<Bend> from = bends;
   const std::vector<double> at_first = extensions;
   const TipTwist wanted{Vec3<double>(0.004, -0.003, 0.002), Vec3<double>(0.1, 0.2, -0.1)};
-  answer = resolved_rate(robot, bends, wanted, {}, work, rates);
+  answer = resolved_rate(robot, bends, wanted, {}, work);
   ASSERT_TRUE(answer.ok()) << to_string(answer.report);
   const auto after = [&](double time) {
     for (std::size_t m = 0; m < 5; ++m) {

@@ -30,13 +30,13 @@ struct Loaded {
     const Equilibrium found = equilibrium(robot, inputs, {.wrench = wrench}, work);
     pose = found.pose;
     axial.clear();
-    const auto& legs = std::get<ParallelRobot<RodLeg>>(robot.model).legs;
+    const auto legs = legs_of<RodLeg>(robot).legs;
     const RodAnalysis analysis = analyse_equilibrium(robot, work);
     for (std::size_t k = 0; k < 6; ++k) axial.push_back(dot(legs[k].tangent(), analysis.rods[k].force_0));
     return found.report.ok();
   }
 
-  AnyRobot robot;
+  Robot robot;
   Workspace work;
   std::vector<double> inputs, axial;
   SpatialPose pose;

@@ -14,7 +14,7 @@
 namespace sinew::test {
 namespace hexapod_test {
 
-AnyRobot builtin(const char* name) { return load(name).value(); }
+Robot builtin(const char* name) { return load(name).value(); }
 
 SpatialPose pose_at(RodRandom& random, double tilt) {
   const double x = random.uniform(-0.12, 0.12), y = random.uniform(-0.12, 0.12),
@@ -29,7 +29,7 @@ double distance(const SpatialPose& a, const SpatialPose& b) {
 }
 
 TEST(Hexapod, EveryUntiltedPoseIsHeldFromHome) {
-  const AnyRobot robot = builtin("hexapod");
+  const Robot robot = builtin("hexapod");
   Workspace work(robot);
   RodRandom random(2);
   for (int k = 0; k < 200; ++k) {
@@ -43,7 +43,7 @@ TEST(Hexapod, EveryUntiltedPoseIsHeldFromHome) {
 
 /// A tilted pose is held, or it is said where the way from home folds and that other ways do not lead there.
 TEST(Hexapod, EveryTiltedPoseIsHeldOrDiagnosed) {
-  const AnyRobot robot = builtin("hexapod");
+  const Robot robot = builtin("hexapod");
   Workspace work(robot), other(robot);
   RodRandom random(12);
   int straight = 0, elsewhere = 0, folds = 0;
@@ -70,7 +70,7 @@ TEST(Hexapod, EveryTiltedPoseIsHeldOrDiagnosed) {
 
 TEST(Hexapod, ForwardFindsThePoseThatWasHeld) {
   for (const char* name : {"hexapod", "hexapod-heavy", "6pfs"}) {
-    const AnyRobot robot = builtin(name);
+    const Robot robot = builtin(name);
     Workspace work(robot);
     RodRandom random(4);
     int solved = 0;
@@ -94,7 +94,7 @@ TEST(Hexapod, ForwardFindsThePoseThatWasHeld) {
 }
 
 TEST(Hexapod, ResumedStepsAgreeWithTheWayFromHome) {
-  const AnyRobot robot = builtin("hexapod");
+  const Robot robot = builtin("hexapod");
   Workspace walker(robot), other(robot);
   RodRandom random(6);
   SE3<double> pose = SE3<double>::from(pose_of(level(0.42)));
@@ -134,9 +134,9 @@ TEST(Hexapod, HoldsElasticasAsWell) {
 /// Another formulation: rods with a rotation along them, integrated from the guide by what we say of it.
 TEST(Hexapod, RodsIntegratedAnewEndWhereThePlatformHoldsThem) {
   for (const char* name : {"hexapod", "hexapod-heavy", "hexapod-self-weight", "6pfs"}) {
-    const AnyRobot robot = builtin(name);
-    const auto& rods = std::get<ParallelRobot<RodLeg>>(robot.model);
-    const ShootingHexapod judge(rods, robot.weight.gravity, 600);
+    const Robot robot = builtin(name);
+    const auto rods = legs_of<RodLeg>(robot);
+    const ShootingHexapod judge(rods, robot.weight().gravity, 600);
     Workspace work(robot);
     RodRandom random(14);
     int solved = 0;
@@ -152,7 +152,7 @@ TEST(Hexapod, RodsIntegratedAnewEndWhereThePlatformHoldsThem) {
       ShootingHexapod::Unknowns v;
       for (int i = 0; i < 6; ++i) v.segment<6>(6 * i) = judge.unknowns(i, analysis.rods[std::size_t(i)]);
       Vec<double, 6> wrench = options.wrench;
-      wrench.head<3>() += robot.weight.platform_mass * robot.weight.gravity;
+      wrench.head<3>() += robot.weight().platform_mass * robot.weight().gravity;
       const auto gaps = judge.gaps(judge.rods(v), SE3<double>::from(wanted), wrench);
       EXPECT_LT(gaps.lpNorm<Eigen::Infinity>(), 2e-8) << name;
     }
@@ -161,7 +161,7 @@ TEST(Hexapod, RodsIntegratedAnewEndWhereThePlatformHoldsThem) {
 }
 
 TEST(Hexapod, SaysWhyAPoseIsNotHeld) {
-  const AnyRobot robot = builtin("hexapod"), tripod = builtin("3pfs-g2");
+  const Robot robot = builtin("hexapod"), tripod = builtin("3pfs-g2");
   Workspace work(robot), three(tripod);
   const auto status = [&](const SpatialPose& pose, const EquilibriumOptions& options = {}) {
     const Equilibrium found = inverse_equilibrium(robot, pose, options, work);
@@ -182,13 +182,13 @@ TEST(Hexapod, SaysWhyAPoseIsNotHeld) {
 
 /// A pose needs each rod's own length: tied rods are refused, and stay as they are fed.
 TEST(Hexapod, TiedRodsHoldNoPose) {
-  const RodRobot six = std::get<ParallelRobot<RodLeg>>(builtin("hexapod").model);
+  const RodRobot six = legs_of<RodLeg>(builtin("hexapod"));
   std::vector<RodLeg> legs = six.legs;
   RodLeg more = legs[0];
   more.base.p += Vec3<double>(0, 0.02, 0);
   legs.push_back(more);
   const std::array<int, 7> tied = {-1, -1, -1, -1, -1, -1, 0};
-  const AnyRobot robot("seven", RodRobot(legs, six.home, six.platform_radius, tied));
+  const Robot robot("seven", RodRobot(legs, six.home, six.platform_radius, tied));
   Workspace work(robot);
   EXPECT_EQ(inverse_equilibrium(robot, pose_of(level(0.41)), {}, work).report.status, Status::left_domain);
   const std::vector<double> inputs(6, 0.41);
@@ -198,7 +198,7 @@ TEST(Hexapod, TiedRodsHoldNoPose) {
 
 TEST(Hexapod, SeveralEquilibriaAreOfTheQuestionsGravity) {
   if (test::addresses_are_checked) GTEST_SKIP() << "a hundred and sixty searches take too long here";
-  const AnyRobot robot = builtin("hexapod-heavy");
+  const Robot robot = builtin("hexapod-heavy");
   Workspace work(robot);
   const std::vector<double> inputs(6, 0.45);
   EquilibriumOptions none;
@@ -213,7 +213,7 @@ TEST(Hexapod, SeveralEquilibriaAreOfTheQuestionsGravity) {
 
 /// What the workspace and pictures are given of a solved state is that state.
 TEST(Hexapod, CoordinatesHoldWhatWasSolved) {
-  const AnyRobot robot = builtin("hexapod-heavy");
+  const Robot robot = builtin("hexapod-heavy");
   Workspace work(robot), other(robot);
   const Equilibrium held = inverse_equilibrium(robot, pose_of(level(0.43)), {}, work);
   ASSERT_TRUE(held.is_solved());
@@ -226,7 +226,7 @@ TEST(Hexapod, CoordinatesHoldWhatWasSolved) {
 }
 
 TEST(Hexapod, GravityOfAQuestionIsItsOwn) {
-  const AnyRobot heavy = builtin("hexapod-self-weight"), light = builtin("hexapod");
+  const Robot heavy = builtin("hexapod-self-weight"), light = builtin("hexapod");
   Workspace work(heavy), other(light);
   const SpatialPose pose =
       pose_of({Vec3<double>(0.02, 0.03, 0.45), SO3<double>::exp(Vec3<double>(0.1, 0, 0))});

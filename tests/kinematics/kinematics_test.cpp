@@ -12,7 +12,7 @@ const PlanarPose& planar(const AnyPose& pose) { return std::get<PlanarPose>(pose
 /// Every robot that comes with the library.
 class EveryRobot : public testing::TestWithParam<std::string> {
  protected:
-  AnyRobot robot = load(GetParam()).value();
+  Robot robot = load(GetParam()).value();
   Workspace work{robot};
   std::mt19937 random{20261121};
   std::size_t legs = static_cast<std::size_t>(leg_count(robot));
@@ -149,7 +149,6 @@ INSTANTIATE_TEST_SUITE_P(Builtin, EveryRobot, testing::ValuesIn(builtin_robots(f
 /// Legs 0 and 1 on one motor: a random robot, its pose for a known common curvature.
 TEST(Inverse, TiedLegsAreSolvedTogether) {  // by whichever value closes them all, not leg by leg
   std::mt19937 random{5};
-  using FrrLeg = Leg<Planar, Arc, TendonPair, Strut>;
   for (int sample = 0; sample < 300; ++sample) {
     std::vector<FrrLeg> legs;
     const PlanarPose pose = random_pose(random);
@@ -163,7 +162,7 @@ TEST(Inverse, TiedLegsAreSolvedTogether) {  // by whichever value closes them al
       leg.closure.length = (platform.point(leg.platform_point) - tip).norm();
       legs.push_back(leg);
     }
-    const AnyRobot robot("tied", ParallelRobot<FrrLeg>(legs, {}, 0.05, std::array{-1, 0, -1}));
+    const Robot robot("tied", ParallelRobot<FrrLeg>(legs, {}, 0.05, std::array{-1, 0, -1}));
     Workspace work(robot);
     const Inverse answer = inverse(robot, pose, {}, work);
     ASSERT_TRUE(answer.ok()) << sample << " " << to_string(answer.report);
@@ -181,8 +180,7 @@ TEST(Inverse, TiedLegsAreSolvedTogether) {  // by whichever value closes them al
 TEST(Inverse, TiedLegsNearStraightAgree) {  // κ is a square root there
   std::mt19937 random{6};
   for (int sample = 0; sample < 200; ++sample) {
-    AnyRobot robot = rfr_in_code(std::array{-1, 0, -1});
-    auto& model = std::get<0>(robot.model);
+    ParallelRobot<RfrLeg> model(rfr_legs(), {}, 0.05, std::array{-1, 0, -1});
     const double curvature = std::pow(10.0, uniform(random, -8, -2)),
                  chord = model.legs[0].link.chord(curvature);
     const PlanarPose pose{uniform(random, -0.01, 0.01), 0, uniform(random, -0.3, 0.3)};
@@ -191,6 +189,7 @@ TEST(Inverse, TiedLegsNearStraightAgree) {  // κ is a square root there
       const Vec2<double> head = Planar::frame(pose).point(leg.platform_point);
       leg.base.p = head + chord * (leg.base.p - head).normalized();
     }
+    const Robot robot("tied", model);
     Workspace work(robot);
     const Inverse answer = inverse(robot, pose, {}, work);
     ASSERT_TRUE(answer.ok()) << curvature << " " << to_string(answer.report);
@@ -199,7 +198,7 @@ TEST(Inverse, TiedLegsNearStraightAgree) {  // κ is a square root there
 }
 
 TEST(Inverse, OptionsOfTheWrongSizeAreNamed) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   const std::array<int, 2> two{1, 1};
   EXPECT_EQ(inverse(robot, PlanarPose{}, {.bending = two}, work).report.status, Status::bad_input);
@@ -221,7 +220,7 @@ TEST(Inverse, AFoldedLegAndATendonBeyondTheCentreAreNoSolutions) {
 }
 
 TEST(Inverse, DefaultIsTheSmallestCurvatureAndPositiveOfTwo) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   const Inverse answer = inverse(robot, PlanarPose{0.01, 0, 0.1}, {}, work);
   ASSERT_TRUE(answer.ok());
@@ -243,7 +242,7 @@ TEST(Forward,
      InputsThatNoPoseClosesAreUnreachable) {  // proven by the four bars of two legs, whatever the start
   std::mt19937 random{3};
   for (const char* name : {"3-rfr", "3-frr"}) {
-    const AnyRobot robot = load(name).value();
+    const Robot robot = load(name).value();
     Workspace work(robot);
     int proven = 0, stalled = 0;
     for (int sample = 0; sample < 500; ++sample) {
@@ -262,8 +261,9 @@ TEST(Forward,
 }
 
 TEST(Inverse, ACurvatureBeyondTheDomainIsAnsweredByTheNearestWithin) {
-  AnyRobot robot = load("3-rfrr").value();
-  for (auto& leg : std::get<2>(robot.model).legs) leg.drive.tendons.offset = 0.05;  // 1/d = 20 1/m
+  auto legs = legs_of<RfrrLeg>(load("3-rfrr").value());
+  for (RfrrLeg& leg : legs.legs) leg.drive.tendons.offset = 0.05;  // 1/d = 20 1/m
+  const Robot robot("bent", legs);
   Workspace work(robot);
   const std::array<double, 3> wild{1000, -1000, 1000};
   const Inverse answer = inverse(robot, PlanarPose{}, {.curvature = wild}, work);
@@ -287,7 +287,7 @@ TEST(Forward, DoesNotDependOnTheUnitOfLength) {  // also where the legs leave a 
         leg.drive.offset *= unit;
         leg.platform_point *= unit;
       }
-      const AnyRobot robot("2-RFR", ParallelRobot<RfrLeg>(scaled, {}, 0.05 * unit));
+      const Robot robot("2-RFR", ParallelRobot<RfrLeg>(scaled, {}, 0.05 * unit));
       Workspace work(robot);
       const Forward there = forward(robot, {0.19 * unit, 0.188 * unit},
                                     {.start = PlanarPose{start.x * unit, start.y * unit, start.phi}}, work);
@@ -298,7 +298,7 @@ TEST(Forward, DoesNotDependOnTheUnitOfLength) {  // also where the legs leave a 
 }
 
 TEST(Forward, ConstraintsBeyondTheFreedomsNeedNotFitToRounding) {
-  const AnyRobot robot = load(std::string(source_folder) + "/examples/robots/four-legged.yaml").value();
+  const Robot robot = load(std::string(source_folder) + "/examples/robots/four-legged.yaml").value();
   Workspace work(robot);
   ASSERT_TRUE(inverse(robot, PlanarPose{0.003, 0.001, 0.02}, {}, work).ok());
   std::vector<double> inputs = values(work.inputs);
@@ -311,7 +311,7 @@ TEST(Forward, ConstraintsBeyondTheFreedomsNeedNotFitToRounding) {
 }
 
 TEST(Forward, TraceTellsEveryIterate) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   std::array<TraceStep, 50> trace{};
   const Forward answer = forward(robot, {0.193, 0.189, 0.187}, {.trace = trace}, work);
@@ -322,7 +322,7 @@ TEST(Forward, TraceTellsEveryIterate) {
 }
 
 TEST(Forward, NoIterationsIsAnAnswerToo) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   const Forward answer = forward(robot, {0.193, 0.189, 0.187}, {.max_iterations = 0}, work);
   EXPECT_EQ(answer.report.status, Status::iteration_limit);

@@ -19,7 +19,6 @@ class ResolvedRateOf : public testing::TestWithParam<Backbone> {
  protected:
   SerialRobot robot = nottingham(GetParam());
   SerialWorkspace work{robot};
-  RateWorkspace rates{robot};
   std::mt19937 random{3};
 
   std::vector<Bend> shape(double share = 0.7) {
@@ -31,7 +30,8 @@ class ResolvedRateOf : public testing::TestWithParam<Backbone> {
 
   /// Of the tip, in base axes, with the rates that stand in the workspace.
   Vec<double, 6> moved() const {
-    return work.jacobian() * Eigen::Map<const Eigen::VectorXd>(rates.bends.data(), work.jacobian().cols());
+    return work.jacobian() *
+           Eigen::Map<const Eigen::VectorXd>(work.bend_rates.data(), work.jacobian().cols());
   }
 };
 
@@ -41,8 +41,7 @@ TEST_P(ResolvedRateOf, MovesTheTipAsCommanded) {
     const TipTwist wanted = twist();
     for (const TipFrame frame : {TipFrame::base, TipFrame::tip})
       for (const TipTask task : {TipTask::position, TipTask::axis, TipTask::whole}) {
-        const ResolvedRate answer =
-            resolved_rate(robot, bends, wanted, {.frame = frame, .task = task}, work, rates);
+        const ResolvedRate answer = resolved_rate(robot, bends, wanted, {.frame = frame, .task = task}, work);
         ASSERT_TRUE(answer.ok()) << answer.report.message.view();
         const SE3<double>& tip = work.ends.back();
         const Vec<double, 6> motion = moved();
@@ -67,7 +66,7 @@ TEST_P(ResolvedRateOf, IsTheSlowestThatDoes) {  // as the pseudoinverse, in what
   for (int i = 0; i < 50; ++i) {
     const std::vector<Bend> bends = shape(0.5);
     const TipTwist wanted = twist();
-    ASSERT_TRUE(resolved_rate(robot, bends, wanted, {}, work, rates).ok());
+    ASSERT_TRUE(resolved_rate(robot, bends, wanted, {}, work).ok());
     const double count = robot.sections[0].is_twin() ? 4 : 1;
     Eigen::Matrix<double, 6, 10, Eigen::RowMajor> J = work.jacobian() / count;
     Vec<double, 6> t;
@@ -76,7 +75,7 @@ TEST_P(ResolvedRateOf, IsTheSlowestThatDoes) {  // as the pseudoinverse, in what
     t.head<3>() /= robot.length();
     std::array<double, 10> slowest;
     least_norm(MatrixView(J.data(), 6, 10), {t.data(), 6}, slowest);
-    for (std::size_t j = 0; j < 10; ++j) EXPECT_NEAR(rates.bends[j], slowest[j] / count, 1e-5);
+    for (std::size_t j = 0; j < 10; ++j) EXPECT_NEAR(work.bend_rates[j], slowest[j] / count, 1e-5);
   }
 }
 
@@ -92,11 +91,11 @@ TEST_P(ResolvedRateOf, NothingTurnsBeyondItsLimit) {
         bends[m] *= limit / bends[m].norm();
     }
     const TipTwist wanted = twist();
-    const ResolvedRate answer = resolved_rate(robot, bends, wanted, {.task = TipTask::axis}, work, rates);
+    const ResolvedRate answer = resolved_rate(robot, bends, wanted, {.task = TipTask::axis}, work);
     (answer.ok() ? followed : blocked) += 1;
     EXPECT_EQ(answer.report.status, answer.ok() ? Status::converged : Status::left_domain);
     for (std::size_t m = 0; m < bends.size(); m += 2) {
-      const Bend rate(rates.bends[2 * m], rates.bends[2 * m + 1]);
+      const Bend rate(work.bend_rates[2 * m], work.bend_rates[2 * m + 1]);
       EXPECT_LE(robot.sections[m].is_twin() ? rate.x() * bends[m].x() : rate.dot(bends[m]), 1e-12);
     }
   }
@@ -112,9 +111,10 @@ TEST_P(ResolvedRateOf, FollowsAPathWhenIntegrated) {
   const double step = 0.01;
   const int steps = 100;
   const auto rate = [&](const std::vector<Bend>& at) {
-    EXPECT_TRUE(resolved_rate(robot, at, wanted, {}, work, rates).ok());
+    EXPECT_TRUE(resolved_rate(robot, at, wanted, {}, work).ok());
     std::vector<Bend> all;
-    for (std::size_t m = 0; m < at.size(); ++m) all.emplace_back(rates.bends[2 * m], rates.bends[2 * m + 1]);
+    for (std::size_t m = 0; m < at.size(); ++m)
+      all.emplace_back(work.bend_rates[2 * m], work.bend_rates[2 * m + 1]);
     return all;
   };
   for (int i = 0; i < steps; ++i) {
@@ -132,7 +132,7 @@ TEST_P(ResolvedRateOf, FollowsAPathWhenIntegrated) {
 TEST_P(ResolvedRateOf, TendonsMoveWithTheBends) {
   const std::vector<Bend> bends = shape();
   for (const kernel::Model model : {kernel::Model::exact, kernel::Model::linear}) {
-    const ResolvedRate answer = resolved_rate(robot, bends, twist(), {.model = model}, work, rates);
+    const ResolvedRate answer = resolved_rate(robot, bends, twist(), {.model = model}, work);
     const auto after = [&](double time) {
       std::vector<Bend> at = bends;
       for (std::size_t m = 0; m < at.size(); ++m)
@@ -150,20 +150,20 @@ TEST_P(ResolvedRateOf, TendonsMoveWithTheBends) {
 TEST_P(ResolvedRateOf, AStraightRobotCannotGrow) {
   const std::vector<Bend> straight(5, Bend(0, 0));
   const TipTwist along{.linear = Vec3<double>(0, 0, 0.01)};
-  const ResolvedRate answer = resolved_rate(robot, straight, along, {.task = TipTask::position}, work, rates);
+  const ResolvedRate answer = resolved_rate(robot, straight, along, {.task = TipTask::position}, work);
   EXPECT_EQ(answer.report.status, Status::singular);
   EXPECT_NEAR(answer.report.residual, 0.01, 1e-6);
   EXPECT_FALSE(answer.report.message.empty());
   for (const double rate : answer.bends) EXPECT_LT(std::abs(rate), 1e-6);
   const TipTwist across{.linear = Vec3<double>(0.01, 0, 0)};
-  EXPECT_TRUE(resolved_rate(robot, straight, across, {.task = TipTask::position}, work, rates).ok());
+  EXPECT_TRUE(resolved_rate(robot, straight, across, {.task = TipTask::position}, work).ok());
 }
 
 TEST_P(ResolvedRateOf, KeepsToTheFastestRate) {
   const std::vector<Bend> bends = shape(0.3);
   const TipTwist wanted{.linear = Vec3<double>(0.2, 0.1, 0)};
   const ResolvedRate answer =
-      resolved_rate(robot, bends, wanted, {.task = TipTask::position, .fastest = 0.1}, work, rates);
+      resolved_rate(robot, bends, wanted, {.task = TipTask::position, .fastest = 0.1}, work);
   EXPECT_EQ(answer.report.status, Status::left_domain);
   EXPECT_GT(answer.held, 0);
   const double count = robot.sections[0].is_twin() ? 4 : 1;
@@ -172,7 +172,7 @@ TEST_P(ResolvedRateOf, KeepsToTheFastestRate) {
 }
 
 TEST_P(ResolvedRateOf, NoMotionTakesNone) {
-  const ResolvedRate answer = resolved_rate(robot, shape(), {}, {}, work, rates);
+  const ResolvedRate answer = resolved_rate(robot, shape(), {}, {}, work);
   EXPECT_TRUE(answer.ok());
   for (const double rate : answer.bends) EXPECT_EQ(rate, 0);
   for (const double rate : answer.tendons) EXPECT_EQ(rate, 0);

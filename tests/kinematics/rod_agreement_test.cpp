@@ -31,7 +31,7 @@ struct Trial {
 
 class Trials {
  public:
-  Trials(const AnyRobot& robot, double force, unsigned seed) : force_(force), random_(seed) {
+  Trials(const Robot& robot, double force, unsigned seed) : force_(force), random_(seed) {
     Workspace work(robot);
     const SpatialPose home = std::get<SpatialPose>(sinew::home(robot));
     const Equilibrium begun =
@@ -65,7 +65,7 @@ struct Arrival {
   double definite_until = -1;
 };
 
-Arrival by_forward(const AnyRobot& robot, const Trial& trial, Workspace& work) {
+Arrival by_forward(const Robot& robot, const Trial& trial, Workspace& work) {
   EquilibriumOptions options;
   options.wrench = trial.wrench;
   const Equilibrium found = equilibrium(robot, trial.inputs, options, work);
@@ -74,7 +74,7 @@ Arrival by_forward(const AnyRobot& robot, const Trial& trial, Workspace& work) {
       0, std::string(to_string(found.report.status)) + ": " + std::string(found.report.message.view()), {}};
 }
 
-Arrival by_until(const AnyRobot& robot, const Trial& trial, Workspace& work) {
+Arrival by_until(const Robot& robot, const Trial& trial, Workspace& work) {
   if (!equilibrium(robot, trial.inputs, {}, work).report.ok()) return {-1, "unloaded"};
   const LoadPath path = follow_load(robot, trial.wrench, 1, work);
   Arrival arrival{path.load, std::string(to_string(path.end)), {}, true};
@@ -90,7 +90,7 @@ struct Traced : Arrival {
   std::vector<CurvePoint> events;
 };
 
-Traced by_track(const AnyRobot& robot, const Trial& trial, Workspace& work) {
+Traced by_track(const Robot& robot, const Trial& trial, Workspace& work) {
   Traced traced;
   if (!equilibrium(robot, trial.inputs, {}, work).report.ok()) {
     traced.part = -1;
@@ -117,7 +117,7 @@ Traced by_track(const AnyRobot& robot, const Trial& trial, Workspace& work) {
 }
 
 /// The load in equal small steps, each resumed from the one before: what nobody could miss.
-Arrival by_steps(const AnyRobot& robot, const Trial& trial, Workspace& work, int steps) {
+Arrival by_steps(const Robot& robot, const Trial& trial, Workspace& work, int steps) {
   Equilibrium found = equilibrium(robot, trial.inputs, {}, work);
   if (!found.report.ok()) return {-1, "unloaded"};
   EquilibriumOptions options;
@@ -195,7 +195,7 @@ TEST(RodAgreement, ForwardUntilAndTrackTellOneStory) {
                         {"hexapod", 5, 3},  {"hexapod-heavy", 25, 4}, {"hexapod-self-weight", 5, 1}};
   int arrived = 0, told = 0, wrong = 0;
   for (const Case& one : cases) {
-    const AnyRobot robot = load(one.name).value();
+    const Robot robot = load(one.name).value();
     Workspace work(robot);
     Trials trials(robot, one.force, 11);
     for (int k = 0; k < whole * one.share / 20; ++k) {
@@ -236,7 +236,7 @@ SpatialWrench wrench_of(std::array<double, 6> parts) { return SpatialWrench(part
 /// The curve passes near a bifurcation, of which a step from one side of it to the other made one on the
 /// curve, each time where that step happened to end.
 TEST(RodAgreement, ACurveNearABifurcationStaysItself) {
-  const AnyRobot robot = load("hexapod-heavy").value();
+  const Robot robot = load("hexapod-heavy").value();
   Workspace work(robot);
   const std::vector<double> inputs{.435, .409, .417, .431, .408, .413};
   const SpatialWrench direction = wrench_of({-.6, -.78, 5.25, .09, -.11, -.08});
@@ -258,7 +258,7 @@ TEST(RodAgreement, ACurveNearABifurcationStaysItself) {
 
 /// A load that is reached is not refused, nor is a fold claimed that no curve has.
 TEST(RodAgreement, AFoldIsClaimedOnlyWhereTheCurveTurns) {
-  const AnyRobot robot = load("3pfs-g1").value();
+  const Robot robot = load("3pfs-g1").value();
   Workspace work(robot);
   const Trial trial{{.4167, .4279, .4096}, wrench_of({31.36, 12.56, -29.79, 0, 0, 0})};
   const Arrival forward = by_forward(robot, trial, work), until = by_until(robot, trial, work);
@@ -272,7 +272,7 @@ TEST(RodAgreement, AFoldIsClaimedOnlyWhereTheCurveTurns) {
 /// Under a moment the symmetric part of the stiffness loses definiteness before the fold; that is told apart,
 /// and neither depends on what the load is counted in.
 TEST(RodAgreement, AMomentFoldsWhereTheCurveTurns) {
-  const AnyRobot robot = load("3pfs-g2").value();
+  const Robot robot = load("3pfs-g2").value();
   Workspace work(robot);
   const std::vector<double> inputs{.43, .44, .435};
   int apart = 0;
@@ -297,7 +297,7 @@ TEST(RodAgreement, AMomentFoldsWhereTheCurveTurns) {
 /// The load found is exact beside itself, however far it might have gone.
 TEST(RodAgreement, ALoadDoesNotDependOnItsLimit) {
   for (const char* name : {"3pfs-g2", "hexapod"}) {
-    const AnyRobot robot = load(name).value();
+    const Robot robot = load(name).value();
     Workspace work(robot);
     const SpatialPose home = std::get<SpatialPose>(sinew::home(robot));
     std::optional<double> first;

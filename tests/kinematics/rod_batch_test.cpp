@@ -19,7 +19,7 @@ struct Both {
   Both(const char* name, const std::vector<double>& rows, const SpatialWrench& wrench = SpatialWrench::Zero())
       : poses(rows.size() / 3),
         statuses(rows.size() / 3) {
-    const AnyRobot robot = load(name).value();
+    const Robot robot = load(name).value();
     Workspace work(robot), alone(robot);
     equilibrium_batch(robot, rows, wrench, poses, statuses, work);
     for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -88,7 +88,7 @@ TEST(RodBatch, SaysWhichRowsHaveNoPoseAndGoesOn) {
 }
 
 TEST(RodBatch, AnswersAlikeWhateverTheWorkspaceHeld) {
-  const AnyRobot robot = load("3pfs-g1").value();
+  const Robot robot = load("3pfs-g1").value();
   const std::vector<double> rows = walked_rows(100, 0.2076, 0.03);
   std::vector<SpatialPose> first(100), second(100);
   std::vector<Status> statuses(100);
@@ -108,7 +108,7 @@ TEST(RodBatch, JudgesStabilityAsOneByOne) {
   for (const auto& [name, home, load_z, is_symmetric] : {std::tuple{"3pfs-g2", 0.4347, -105.0, false},
                                                          {"3pfs-g1", 0.2076, -185.0, false},
                                                          {"3pfs-g2", 0.4347, -115.0, true}}) {
-    const AnyRobot robot = load(name).value();
+    const Robot robot = load(name).value();
     Workspace work(robot), alone(robot);
     SpatialWrench wrench;
     wrench << 0.5, 0, load_z, 0, 0.1, 0;

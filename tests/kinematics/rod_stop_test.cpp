@@ -22,7 +22,7 @@ constexpr double most_seconds = 0.1;
 /// One public function, on a workspace that holds an equilibrium; whether its answer says it was stopped.
 struct Question {
   const char* name;
-  std::function<bool(const AnyRobot&, Workspace&)> ask;
+  std::function<bool(const Robot&, Workspace&)> ask;
 };
 
 SpatialWrench pressed() {
@@ -31,7 +31,7 @@ SpatialWrench pressed() {
   return wrench;
 }
 
-std::vector<double> inputs_of_home(const AnyRobot& robot, Workspace& work) {
+std::vector<double> inputs_of_home(const Robot& robot, Workspace& work) {
   const SpatialPose home = std::get<SpatialPose>(sinew::home(robot));
   const Equilibrium begun =
       input_count(robot) == 3 ? inverse_equilibrium(robot, IndependentPose{home.position[2], 0, 0}, {}, work)
@@ -45,20 +45,20 @@ std::vector<Question> questions(const std::vector<double>& home) {
   std::vector<double> beside = home;
   for (std::size_t k = 0; k < beside.size(); ++k) beside[k] *= 1 + 0.03 * std::sin(double(k));
   std::vector<Question> all{{"equilibrium",
-                             [=](const AnyRobot& r, Workspace& work) {
+                             [=](const Robot& r, Workspace& work) {
                                return is_stopped(equilibrium(r, beside, {.wrench = pressed()}, work).report);
                              }},
                             {"follow_load",
-                             [=](const AnyRobot& r, Workspace& work) {
+                             [=](const Robot& r, Workspace& work) {
                                return follow_load(r, pressed(), 1e3, work).end == LoadEnd::stopped;
                              }},
                             {"equilibria",
-                             [=](const AnyRobot& r, Workspace& work) {
+                             [=](const Robot& r, Workspace& work) {
                                equilibria(r, home, {}, work);
                                return work.stop.stop_requested();
                              }},
                             {"equilibrium_curves",
-                             [=](const AnyRobot& r, Workspace& work) {
+                             [=](const Robot& r, Workspace& work) {
                                CurveOptions how;
                                how.added_wrench = 100 * pressed();
                                how.max_points = 20000;
@@ -67,11 +67,11 @@ std::vector<Question> questions(const std::vector<double>& home) {
                                return curves.empty() || curves.front().end == CurveEnd::stopped;
                              }},
                             {"sense_wrench",
-                             [=](const AnyRobot& r, Workspace& work) {
+                             [=](const Robot& r, Workspace& work) {
                                const std::vector<double> axial{-.1, .05, -.02, .1, .03, -.04}, none(6, 0.0);
                                return is_stopped(sense_wrench(r, beside, axial, none, {}, work).report);
                              }},
-                            {"equilibrium_batch", [=](const AnyRobot& r, Workspace& work) {
+                            {"equilibrium_batch", [=](const Robot& r, Workspace& work) {
                                constexpr std::size_t count = 4000;
                                std::vector<double> rows;
                                for (std::size_t k = 0; k < count; ++k)
@@ -83,14 +83,14 @@ std::vector<Question> questions(const std::vector<double>& home) {
                                return statuses.back() == Status::stopped;
                              }}};
   if (home.size() == 6)
-    all.push_back({"inverse_equilibrium of a pose", [=](const AnyRobot& r, Workspace& work) {
+    all.push_back({"inverse_equilibrium of a pose", [=](const Robot& r, Workspace& work) {
                      const SpatialPose wanted = pose_of(
                          {Vec3<double>(0.02, 0.03, 0.42), SO3<double>::exp(Vec3<double>(0.2, -0.1, 0.1))});
                      return is_stopped(inverse_equilibrium(r, wanted, {}, work).report);
                    }});
   else
     all.push_back(
-        {"inverse_equilibrium of coordinates", [=](const AnyRobot& r, Workspace& work) {
+        {"inverse_equilibrium of coordinates", [=](const Robot& r, Workspace& work) {
            const double z = std::get<SpatialPose>(sinew::home(r)).position[2];
            return is_stopped(inverse_equilibrium(r, IndependentPose{z, 0.05, 0.1}, {}, work).report);
          }});
@@ -99,7 +99,7 @@ std::vector<Question> questions(const std::vector<double>& home) {
 
 TEST(RodStop, ATokenStoppedBeforeIsSeenAtOnce) {
   for (const char* name : {"3pfs-g2", "hexapod", "hexapod-torsion"}) {
-    const AnyRobot robot = load(name).value();
+    const Robot robot = load(name).value();
     Workspace work(robot);
     const std::vector<double> home = inputs_of_home(robot, work);
     const std::atomic<bool> flag{true};
@@ -118,7 +118,7 @@ TEST(RodStop, ATokenStoppedBeforeIsSeenAtOnce) {
 /// Asked again and again until it is stopped: the last answer comes soon after the request.
 TEST(RodStop, ARunningSolveEndsSoonAfterTheRequest) {
   for (const char* name : {"3pfs-g2", "hexapod", "hexapod-torsion"}) {
-    const AnyRobot robot = load(name).value();
+    const Robot robot = load(name).value();
     Workspace work(robot);
     const std::vector<double> home = inputs_of_home(robot, work);
     for (const Question& question : questions(home)) {

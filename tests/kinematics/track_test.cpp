@@ -8,7 +8,7 @@ namespace sinew::test {
 namespace track_test {
 
 /// Smallest singular value of J with unit lines at where a track is.
-double distance_from_type_2(const AnyRobot& robot, const Track& track, Workspace& work) {
+double distance_from_type_2(const Robot& robot, const Track& track, Workspace& work) {
   const std::vector<double> coordinates = values(track.coordinates());
   const MatrixView lines = homogenise(robot, assemble(robot, track.pose(), coordinates, work), work);
   std::array<double, max_rows> sigma;
@@ -18,7 +18,7 @@ double distance_from_type_2(const AnyRobot& robot, const Track& track, Workspace
 
 class EveryRobotTracks : public testing::TestWithParam<std::string> {
  protected:
-  AnyRobot robot = load(GetParam()).value();
+  Robot robot = load(GetParam()).value();
   Workspace work{robot};
   std::mt19937 random{11};
 };
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, EveryRobotTracks, testing::ValuesIn(builtin_ro
                          [](const auto& robot) { return "robot_" + std::to_string(robot.index); });
 
 TEST(Track, FollowsTheTrajectoryOfTheExampleToItsSingularEnd) {  // TDPCR 5.1
-  const AnyRobot robot = load("3-rfr").value();
+  const Robot robot = load("3-rfr").value();
   Workspace work(robot), other(robot);
   const std::array<int, 3> bending{1, -1, 1};
   Track track(robot, {.branch = {.bending = bending}}, work);
@@ -78,7 +78,7 @@ TEST(Track, FollowsTheTrajectoryOfTheExampleToItsSingularEnd) {  // TDPCR 5.1
 }
 
 TEST(Track, PassesStraightLegsOfTheFrrWithoutNotice) {
-  const AnyRobot robot = load("3-frr").value();
+  const Robot robot = load("3-frr").value();
   Workspace work(robot);
   // κ of leg 0 is 0 at x = 0.03, y = −0.02368; the way leads through
   Track track(robot, {}, work);
@@ -97,7 +97,7 @@ TEST(Track, PassesStraightLegsOfTheFrrWithoutNotice) {
 }
 
 TEST(Track, SaysWhereAPathLeavesTheWorkspace) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   Track track(robot, {}, work);
   ASSERT_TRUE(track.advance(PlanarPose{0, 0, 0}).ok());
@@ -112,7 +112,7 @@ TEST(Track, SaysWhereAPathLeavesTheWorkspace) {
 }
 
 TEST(Track, MayEndExactlyAtTheWorkspaceBoundary) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   const double b = 0.05 * std::cos(std::numbers::pi / 6);
   const PlanarPose edge{0, std::nextafter(0.19 - 0.025 - std::sqrt(0.04 - b * b), 1), 0};
@@ -125,14 +125,14 @@ TEST(Track, MayEndExactlyAtTheWorkspaceBoundary) {
 }
 
 TEST(Track, OfTheStraightWayOverABranchThatEndsStops) {  // the other solution further away is not jumped to
-  const AnyRobot robot = load("3-frr").value();
+  const Robot robot = load("3-frr").value();
   Workspace work(robot);
   const PlanarPose start{0.0, -0.10, 0};
   std::array<Vec<double, 1>, 8> roots;
-  const auto& leg = std::get<1>(robot.model).legs[0];
+  const FrrLeg leg = legs_of<FrrLeg>(robot).legs[0];
   ASSERT_EQ(leg.solutions_at(Planar::frame(start), {}, roots), 2);
-  ParallelRobot<Leg<Planar, Arc, TendonPair, Strut>> alone({leg}, {}, 0.05);  // one leg of it
-  const AnyRobot one("one leg", alone);
+  ParallelRobot<FrrLeg> alone({leg}, {}, 0.05);  // one leg of it
+  const Robot one("one leg", alone);
   Workspace one_work(one);
   const std::array<double, 1> near{roots[1][0]};
   Track track(one, {.branch = {.curvature = near}}, one_work);
@@ -143,7 +143,7 @@ TEST(Track, OfTheStraightWayOverABranchThatEndsStops) {  // the other solution f
 }
 
 TEST(Track, TurnsAsTheNumbersSayNotTheShortWay) {
-  const AnyRobot robot = rfr_in_code();
+  const Robot robot = rfr_in_code();
   Workspace work(robot);
   Track track(robot, {}, work);
   ASSERT_TRUE(track.advance(PlanarPose{0, 0, -0.5}).ok());
@@ -153,14 +153,17 @@ TEST(Track, TurnsAsTheNumbersSayNotTheShortWay) {
 
 class Redundant : public testing::Test {
  protected:
-  AnyRobot robot = load("3-rfrr").value();
+  Robot robot = load("3-rfrr").value();
   Workspace work{robot};
 };
 
 TEST_F(Redundant, GoesOnByItsMotorsWhereALinkCanBendNoFurther) {
-  for (auto& leg : std::get<2>(robot.model).legs) leg.drive.tendons.offset = 0.1;  // 1/d = 10 1/m
+  auto legs = legs_of<RfrrLeg>(robot);
+  for (RfrrLeg& leg : legs.legs) leg.drive.tendons.offset = 0.1;  // 1/d = 10 1/m
+  const Robot stiff("less bent", legs);
+  Workspace memory(stiff);
   const std::array<double, 3> bent{9, 9, 9};
-  Track track(robot, {.branch = {.curvature = bent}}, work);
+  Track track(stiff, {.branch = {.curvature = bent}}, memory);
   for (int k = 0; k <= 39; ++k) {
     const double eta = k / 39.0;
     ASSERT_TRUE(track.advance(PlanarPose{-0.05 * eta, 0.02 * eta, 0.1 * eta}).ok()) << k;
@@ -170,10 +173,10 @@ TEST_F(Redundant, GoesOnByItsMotorsWhereALinkCanBendNoFurther) {
 
 /// Inputs at a pose about the origin whose struts are turned by `beside` from the platform's radii. At 0 all
 /// three meet in its centre: a type II singularity.
-std::vector<double> beside_singular(const AnyRobot& robot, const PlanarPose& pose, double beside) {
+std::vector<double> beside_singular(const Robot& robot, const PlanarPose& pose, double beside) {
   std::vector<double> inputs;
   const auto platform = Planar::frame(pose);
-  for (const auto& leg : std::get<2>(robot.model).legs) {
+  for (const RfrrLeg& leg : legs_of<RfrrLeg>(robot).legs) {
     const Vec2<double> out = platform.rotate(leg.platform_point).normalized();
     const Vec2<double> strut =
         SE2<double>::from(0.0, 0.0, beside).rotate(Vec2<double>(leg.closure.length * out));

@@ -318,7 +318,6 @@ TEST(ChainShape, SaysOneThingOnce) {
   EXPECT_EQ(code("3-rfr", {{"pose", pose}, {"angles", straight}, {"wrench", {0, 0, 0}}}), "no_effect");
   EXPECT_EQ(code("3-rfr", {{"pose", pose}, {"angles", straight}}), "not_closed");
   EXPECT_EQ(code("3-rfr", {{"pose", pose}, {"samples", 5}}), "no_effect");
-  EXPECT_EQ(code("3-rfrr", {{"inputs", {0, 0.15, 2, 0.15, 4, 0.15}}}), "not_available");
 }
 
 }  // namespace chain_shape_test

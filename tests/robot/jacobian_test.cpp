@@ -26,7 +26,7 @@ std::vector<std::string> every_robot() {
 
 class EveryRobotsJacobians : public testing::TestWithParam<std::string> {
  protected:
-  AnyRobot robot = load(GetParam()).value();
+  Robot robot = load(GetParam()).value();
   Workspace work{robot};
   std::mt19937 random{20261121};
 
@@ -60,10 +60,10 @@ class EveryRobotsJacobians : public testing::TestWithParam<std::string> {
     std::vector<double> inputs;
     for (const InputOfLeg& input : inputs_of(robot))
       inputs.push_back(input.kind.dimension == Dimension::angle ? uniform(random, -3, 3) : 0);
-    visit_closing(
+    with_closing_legs(
         robot,
         [&](const auto& r) {
-          r.for_each_leg([&]<class L>(const L& leg, const LegPlace& place, int) {
+          r.for_each_closing_leg([&]<class L>(const L& leg, const LegPlace& place, int) {
             auto q = L::Coordinates::Zero().eval();
             for (int j = 0; j + 1 < L::coordinates; ++j) q[j] = uniform(random, -3, 3);
             q[L::coordinates - 1] = uniform(random, -most, most);

@@ -13,28 +13,19 @@
 namespace sinew::test {
 namespace mechanism_test {
 
-AnyRobot builtin(const char* name) { return load(name).value(); }
+Robot builtin(const char* name) { return load(name).value(); }
 
 /// Legs of one robot beside rods around it, each as often as it is named.
-AnyRobot beside(const AnyRobot& closing, std::span<const std::size_t> kept, std::span<const RodLeg> rods,
-                const SpatialPose& home) {
-  std::vector<AnyLoadedLeg> legs;
-  std::visit(
-      [&](const auto& robot) {
-        robot.for_each_leg([&]<class L>(const L& leg, const LegPlace&, int i) {
-          if constexpr (!BearsLoad<L> && L::dimension == 3)
-            for (auto left = std::ranges::count(kept, static_cast<std::size_t>(i)); left > 0; --left)
-              legs.push_back(AnyLoadedLeg{leg});
-        });
-      },
-      closing.model);
+Robot beside(const Robot& closing, std::span<const std::size_t> kept, std::span<const RodLeg> rods,
+             const SpatialPose& home) {
+  std::vector<AnySpatialLeg> legs;
+  closing.spatial()->for_each_closing_leg([&](const auto& leg, const LegPlace&, int i) {
+    for (auto left = std::ranges::count(kept, static_cast<std::size_t>(i)); left > 0; --left)
+      legs.push_back(AnySpatialLeg{leg});
+  });
   for (const RodLeg& rod : rods)
     legs.insert(legs.begin() + static_cast<std::ptrdiff_t>(legs.size() / 2), {rod});
-  const std::vector<int> tied(legs.size(), -1);
-  AnyRobot robot;
-  robot.name = "mixed";
-  robot.model = make_robot(legs, tied, home, 0.1);
-  return robot;
+  return Robot("mixed", SpatialRobot(legs, home, 0.1));
 }
 
 /// @param ahead of the platform point's azimuth before that of the guide
@@ -60,11 +51,11 @@ double distance(const SpatialPose& a, const SpatialPose& b) {
 /// All six freedoms are held by struts: rods and load do not move the platform, which is where that of the
 /// rigid robot is.
 TEST(Mechanism, RodsDoNotMoveARigidTripod) {
-  const AnyRobot rigid = builtin("3prs");
+  const Robot rigid = builtin("3prs");
   const SpatialPose home = std::get<SpatialPose>(sinew::home(rigid));
   const std::size_t all[] = {0, 1, 2};
   const RodLeg rods[] = {rod_at(0.5, 0.2, 0.1, true)};
-  const AnyRobot mixed = beside(rigid, all, rods, home);
+  const Robot mixed = beside(rigid, all, rods, home);
   ASSERT_TRUE(bears_load(mixed));
   Workspace work(mixed), other(rigid);
   RodRandom random(3);
@@ -88,7 +79,7 @@ TEST(Mechanism, RodsDoNotMoveARigidTripod) {
 /// Struts that stand twice, eight and twelve rows of a platform of six freedoms: what the others hold they
 /// hold again, and the twins share the force.
 TEST(Mechanism, RowsMayForbidTheSame) {
-  const AnyRobot rigid = builtin("3prs");
+  const Robot rigid = builtin("3prs");
   const SpatialPose home = std::get<SpatialPose>(sinew::home(rigid));
   const std::size_t once[] = {0, 1, 2}, one_twice[] = {0, 0, 1, 2}, all_twice[] = {0, 0, 1, 1, 2, 2};
   const RodLeg rods[] = {rod_at(0.5, 0.2, 0.1, true)};
@@ -97,7 +88,7 @@ TEST(Mechanism, RowsMayForbidTheSame) {
   const Inverse at_home = inverse(rigid, sinew::home(rigid), {}, other);
   ASSERT_TRUE(at_home.ok());
   const auto solved = [&](std::span<const std::size_t> kept, RodAnalysis& analysis) {
-    const AnyRobot robot = beside(rigid, kept, rods, home);
+    const Robot robot = beside(rigid, kept, rods, home);
     std::vector<double> inputs;
     for (const std::size_t leg : kept) inputs.push_back(at_home.inputs[leg]);
     inputs.insert(inputs.begin() + static_cast<std::ptrdiff_t>(kept.size() / 2), 1.02 * chord);
@@ -129,13 +120,13 @@ TEST(Mechanism, RowsMayForbidTheSame) {
 
 struct Case {
   const char* name;
-  AnyRobot robot;
+  Robot robot;
   std::vector<double> inputs;
 };
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  const AnyRobot tripod = builtin("3prs"), arcs = builtin("6-ufs");
+  const Robot tripod = builtin("3prs"), arcs = builtin("6-ufs");
   const std::size_t two[] = {0, 1}, one[] = {2};
   const SpatialPose home = std::get<SpatialPose>(sinew::home(tripod));
   const std::vector<RodLeg> pair{rod_at(5.4, 0.25, 0.125), rod_at(5.9, 0.25, 0.12, true)};
@@ -156,7 +147,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-EquilibriumOptions loaded(const AnyRobot&) {
+EquilibriumOptions loaded(const Robot&) {
   EquilibriumOptions options;
   options.wrench = 0.3 * load();
   options.gravity = Vec3<double>(0, 0, -9.81);
@@ -181,18 +172,14 @@ TEST(Mechanism, LegsAndLoadAreInBalance) {
       moment += cross(platform.rotate(point), pull) + turn;
     };
     std::size_t rod = 0, closing = 0;
-    std::visit(
-        [&](const auto& robot) {
-          robot.for_each_leg([&]<class L>(const L& leg, const LegPlace&, int) {
-            if constexpr (BearsLoad<L>) {
-              add(leg.platform_point, analysis.rods[rod].force, analysis.rods[rod].moment);
-              ++rod;
-            } else if constexpr (L::dimension == 3) {
-              add(leg.platform_point, analysis.closing_forces[closing++], Vec3<double>::Zero());
-            }
-          });
-        },
-        one.robot.model);
+    one.robot.spatial()->for_each_leg([&]<class L>(const L& leg, const LegPlace&, int) {
+      if constexpr (BearsLoad<L>) {
+        add(leg.platform_point, analysis.rods[rod].force, analysis.rods[rod].moment);
+        ++rod;
+      } else {
+        add(leg.platform_point, analysis.closing_forces[closing++], Vec3<double>::Zero());
+      }
+    });
     EXPECT_LT((force - options.wrench.head<3>()).norm(), 1e-9);
     EXPECT_LT((moment - options.wrench.tail<3>()).norm(), 1e-9);
     EXPECT_GT(analysis.closing_forces[0].norm(), 1e-3);
@@ -258,7 +245,7 @@ TEST(Mechanism, HoldsAPoseAndLetsItGo) {
 
 /// Resumed steps, curves and folds are those of any robot on rods.
 TEST(Mechanism, FollowsPathsAndCurves) {
-  const AnyRobot robot = builtin("2prs-1pfs");
+  const Robot robot = builtin("2prs-1pfs");
   Workspace work(robot), other(robot);
   const auto begin = [&] { return inverse_equilibrium(robot, IndependentPose{0.5, 0.02, 0.01}, {}, work); };
   const Equilibrium begun = begin();
@@ -293,7 +280,7 @@ TEST(Mechanism, FollowsPathsAndCurves) {
 }
 
 TEST(Mechanism, SaysWhatItCannotDo) {
-  const AnyRobot robot = builtin("2prs-1pfs");
+  const Robot robot = builtin("2prs-1pfs");
   Workspace work(robot);
   const std::vector<double> none{0.17, 0.17, -0.5}, backward{-2, 0.17, 0.52};
   EXPECT_EQ(equilibrium(robot, none, {}, work).report.status, Status::left_domain);
@@ -306,22 +293,18 @@ TEST(Mechanism, SaysWhatItCannotDo) {
                 .find("legs[2] and legs[3] are too short"),
             std::string_view::npos);
   // six inputs, but the struts hold motions that none drives
-  const AnyRobot tripod = builtin("3prs");
+  const Robot tripod = builtin("3prs");
   const std::size_t two[] = {0, 1};
   const RodLeg four[] = {rod_at(5.2, 0.25, 0.125), rod_at(5.4, 0.25, 0.12), rod_at(5.7, 0.25, 0.12),
                          rod_at(5.9, 0.25, 0.11)};
-  const AnyRobot six = beside(tripod, two, four, std::get<SpatialPose>(sinew::home(tripod)));
+  const Robot six = beside(tripod, two, four, std::get<SpatialPose>(sinew::home(tripod)));
   Workspace sixth(six);
   const Equilibrium refused = inverse_equilibrium(six, std::get<SpatialPose>(sinew::home(six)), {}, sixth);
   EXPECT_EQ(refused.report.status, Status::left_domain);
   EXPECT_NE(refused.report.message.view().find("no input drives"), std::string_view::npos);
-  AnyRobot unreachable = robot;
-  std::visit(
-      [](auto& one) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(one.home)>, SpatialPose>)
-          one.home.position = Vec3<double>(0.5, 0, 0.5);
-      },
-      unreachable.model);
+  SpatialRobot beyond = *robot.spatial();
+  beyond.home.position = Vec3<double>(0.5, 0, 0.5);
+  const Robot unreachable("beyond", beyond);
   Workspace other(unreachable);
   const Equilibrium nowhere = equilibrium(unreachable, std::vector<double>{0.17, 0.17, 0.52}, {}, other);
   EXPECT_EQ(nowhere.report.status, Status::singular);

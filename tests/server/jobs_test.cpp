@@ -165,7 +165,7 @@ TEST(Jobs, EndWithTheirServer) {
   EXPECT_FALSE(stopped.start(nothing));
 }
 
-std::shared_ptr<Robot> robot_of(const char* name) {
+std::shared_ptr<OpenRobot> robot_of(const char* name) {
   Robots robots(1, 1'000'000);
   return robots.find(robots.open(read_robot_text(name).value()).value());
 }

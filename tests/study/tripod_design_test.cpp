@@ -61,7 +61,7 @@ struct Solved {
   Eigen::VectorXd e3;
 };
 
-Solved solve(const AnyRobot& robot, double height, const SpatialWrench& wrench = SpatialWrench::Zero()) {
+Solved solve(const Robot& robot, double height, const SpatialWrench& wrench = SpatialWrench::Zero()) {
   Workspace work(robot);
   Solved all{Eigen::MatrixX2d(49, 2), Eigen::MatrixX2d(49, 2), Eigen::VectorXd(49)};
   Eigen::Index n = 0;
@@ -107,7 +107,7 @@ void expect_measures(const Table& table, std::size_t row, const Solved& solved) 
   expect("poses", 49);
 }
 
-AnyRobot changed(const std::string& name, const std::vector<std::pair<std::string, double>>& settings) {
+Robot changed(const std::string& name, const std::vector<std::pair<std::string, double>>& settings) {
   Document document = read_robot_file(name).value();
   for (const auto& [path, value] : settings) document = with(document, path, make_node(value)).value();
   return read_robot(document).value();

@@ -271,7 +271,7 @@ double norm_of(const Eigen::Matrix<double, 6, 3>& U, int first) {
 
 TEST(TripodFig7, SensitivitiesAreThoseOfForwardKinematics) {  // poses of slides a little off
   const Made& fig = made("fig7");
-  const AnyRobot robot = load("3prs").value();
+  const Robot robot = load("3prs").value();
   Workspace work(robot);
   constexpr double h = 1e-6;
   int compared = 0;

@@ -90,7 +90,7 @@ TEST(PrintedTables, AreOfTwoModuli) {
 // ---------------------------------------------------------------- samples
 
 /// The variables of the pose at rest, by a robot that has rods of 4 mm and 210 GPa, or those of its file.
-std::array<double, 4> at_rest(const AnyRobot& robot, const std::array<double, 3>& lengths,
+std::array<double, 4> at_rest(const Robot& robot, const std::array<double, 3>& lengths,
                               const SpatialWrench& wrench, Workspace& work) {
   const Equilibrium found = equilibrium(robot, lengths, {.wrench = wrench}, work);
   EXPECT_TRUE(found.report.ok());
@@ -98,7 +98,7 @@ std::array<double, 4> at_rest(const AnyRobot& robot, const std::array<double, 3>
   return {position.x(), position.y(), position.z(), quaternion[3]};
 }
 
-AnyRobot robot_of(Rods rods) {
+Robot robot_of(Rods rods) {
   Document file = read_robot_file("3pfs-g2").value();
   if (rods == Rods::thick_steel)
     for (const auto& [path, value] : {std::pair{"diameter", "4 mm"}, {"material.E", "210 GPa"}})
@@ -112,7 +112,7 @@ TEST(TripodLoads, RelativeRmsIsThatOfEquilibriaSolvedOneByOne) {
   for (const auto& [rods, load, wrench] :
        {std::tuple{Rods::thin, Load::force_z, SpatialWrench(0, 0, -7.5, 0, 0, 0)},
         {Rods::thick_steel, Load::moment_y, SpatialWrench(0, 0, 0, 0, 0.75, 0)}}) {
-    const AnyRobot robot = robot_of(rods);
+    const Robot robot = robot_of(rods);
     Workspace work(robot);
     const std::vector<std::size_t> rows = rows_of(all, {rods, load, 3});
     std::vector<std::array<double, 4>> unloaded, loaded;

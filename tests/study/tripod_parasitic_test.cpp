@@ -88,7 +88,7 @@ TEST(FlexibleFigures, SamplesAreEquilibriaOfTheirInputs) {
     const tripod::Swept& swept = study(name);
     ASSERT_EQ(swept.size(), 183u);
     EXPECT_EQ(swept.converged(), 183u);
-    const AnyRobot robot = load(std::string(name).substr(0, 7)).value();
+    const Robot robot = load(std::string(name).substr(0, 7)).value();
     Workspace work(robot);
     for (std::size_t k = 0; k < swept.size(); k += 9) {
       const double sum = swept["L1"][k] + swept["L2"][k] + swept["L3"][k];
@@ -105,7 +105,7 @@ TEST(FlexibleFigures, SamplesAreEquilibriaOfTheirInputs) {
 
 TEST(FlexibleFigures, HeightIsKeptByTheInputsFound) {
   const tripod::Swept& swept = study("3pfs-g1-height");
-  const AnyRobot robot = load("3pfs-g1").value();
+  const Robot robot = load("3pfs-g1").value();
   Workspace work(robot);
   ASSERT_EQ(swept.converged(), swept.size());
   for (std::size_t k = 0; k < swept.size(); k += 41) {

@@ -28,7 +28,7 @@ inline std::vector<std::string> builtin_robots(bool loaded) {
 }
 
 /// A pose near home.
-inline AnyPose pose_near_home(const AnyRobot& robot, std::mt19937& random, double shift = 0.04,
+inline AnyPose pose_near_home(const Robot& robot, std::mt19937& random, double shift = 0.04,
                               double turn = 0.6) {
   const auto any = [&](double size) { return uniform(random, -size, size); };
   if (const AnyPose start = home(robot); const auto* planar = std::get_if<PlanarPose>(&start))
@@ -39,12 +39,12 @@ inline AnyPose pose_near_home(const AnyRobot& robot, std::mt19937& random, doubl
 }
 
 /// A pose near home that every leg reaches, and that hinges allow.
-inline AnyPose reachable_pose(const AnyRobot& robot, std::mt19937& random, Workspace& work) {
+inline AnyPose reachable_pose(const Robot& robot, std::mt19937& random, Workspace& work) {
   for (int tries = 0; tries < 10000; ++tries) {
     const AnyPose pose = settled(robot, pose_near_home(robot, random));
     if (inverse(robot, pose, {}, work).ok()) return pose;
   }
-  throw std::runtime_error(robot.name + " reaches no pose near home");
+  throw std::runtime_error(robot.name() + " reaches no pose near home");
 }
 
 /// The pose after a small motion in base axes.

@@ -4,12 +4,15 @@
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::test {
 
 inline std::vector<double> values(std::span<const double> view) { return {view.begin(), view.end()}; }
 
 using RfrLeg = Leg<Planar, Arc, TendonPair, Chord>;
+using FrrLeg = Leg<Planar, Arc, TendonPair, Strut>;
+using RfrrLeg = Leg<Planar, Swivel<Arc>, SwivelDrive, Strut>;
 
 /// Legs of a 3-RFR of the paper's sizes, without a file.
 inline std::vector<RfrLeg> rfr_legs() {
@@ -27,7 +30,7 @@ inline std::vector<RfrLeg> rfr_legs() {
   return legs;
 }
 
-inline AnyRobot rfr_in_code(std::span<const int> tied = {}) {
+inline Robot rfr_in_code(std::span<const int> tied = {}) {
   return {"3-RFR in code", ParallelRobot<RfrLeg>(rfr_legs(), {}, 0.05, tied)};
 }
 

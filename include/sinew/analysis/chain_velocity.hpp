@@ -12,20 +12,24 @@ namespace sinew::inline v0 {
 /// joints there are.
 template <class Space>
 struct ChainVelocity {
+  template <class T>
+  using OfLegs = typename ChainRates<Space>::template OfLegs<T>;
   Report report;  ///< singular where J is; residual: closure error [m]
   ChainRates<Space> rates;
-  Mat<double, Space::dof, Space::dof> inverse;  ///< J⁻¹; not to be used where singular
-  double determinant = 0;                       ///< of J
+  Mat<double, Space::dof, Space::dof> inverse;  ///< J⁻¹, where `has_inverse`
+  bool has_inverse = false;                     ///< as many legs as freedoms, and not singular
+  double determinant = 0;                       ///< of J where it is square, else NaN
   Indices indices{};
-  std::array<double, Space::dof> drive{};  ///< |gᵢ|, the norm of the leg's row of K
-  std::array<int, Space::dof> type_1_legs{};
+  OfLegs<double> drive{};  ///< |gᵢ|, the norm of the leg's row of K
+  OfLegs<int> type_1_legs{};
   int type_1_count = 0;  ///< legs whose joints move their chord in no direction: straight or folded
   TypeTwo type_2;
 
   std::span<const int> type_1() const { return {type_1_legs.data(), static_cast<std::size_t>(type_1_count)}; }
 };
 
-/// At a pose and angles that close the legs. No heap.
+/// At a pose and angles that close the legs. There is no U of more legs than freedoms; `singular` where they
+/// are fewer, `bad_input` of more than `max_rows`. No heap.
 /// @implements TDPCR (35), (40)
 template <class Space>
 SINEW_API ChainVelocity<Space> chain_velocity(const ChainRobot<Space>& robot,

@@ -25,10 +25,10 @@ using AnyShape = std::variant<PlanarShape, SpatialShape>;
 
 /// Of a robot of either space.
 /// @param samples points of each backbone, at least 2
-SINEW_API AnyShape any_shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples);
+SINEW_API AnyShape any_shape(const Robot& robot, const AnyPose& pose, Numbers coordinates, int samples);
 
 /// Of a planar robot.
-inline PlanarShape shape(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
+inline PlanarShape shape(const Robot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
   const AnyShape any = any_shape(robot, pose, coordinates, samples);
   const auto* planar = std::get_if<PlanarShape>(&any);
   return planar ? *planar : PlanarShape{};

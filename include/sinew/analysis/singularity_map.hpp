@@ -71,7 +71,7 @@ using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
 /// A pose by inverse kinematics on a branch, its leg's solution chosen anew at each pose, and its velocity
 /// analysis. No heap.
-SINEW_API MapSample map_sample(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& branch,
+SINEW_API MapSample map_sample(const Robot& robot, const AnyPose& pose, const InverseOptions& branch,
                                Workspace& work);
 
 /// Takes a sample of pose k of a grid; false ends the map.
@@ -80,11 +80,11 @@ using TakeSample = std::function<bool(std::size_t k, const MapSample& sample)>;
 /// The samples of a map in the order of its grid, handed over one by one and kept nowhere: a map of any size
 /// in constant memory. Answers how many were taken; fewer than the grid has where `take` ended it, a stop was
 /// requested, or the poses are none of this robot's.
-SINEW_API std::size_t visit_map(const AnyRobot& robot, const PoseGrid& grid, const InverseOptions& branch,
+SINEW_API std::size_t visit_map(const Robot& robot, const PoseGrid& grid, const InverseOptions& branch,
                                 Workspace& work, const TakeSample& take);
 
 /// The same, kept.
-SINEW_API SingularityMap singularity_map(const AnyRobot& robot, const PoseGrid& grid,
+SINEW_API SingularityMap singularity_map(const Robot& robot, const PoseGrid& grid,
                                          const InverseOptions& branch, Workspace& work,
                                          const Progress& progress = {});
 

@@ -33,7 +33,7 @@ struct TypeTwoDistance {
 /// multiple of the direction given, exact to 1e-10 for directions of a length near one. A pose that is itself
 /// singular has the distance 0.
 /// @param direction a twist (v, ω) in base axes
-SINEW_API TypeTwoDistance type_2_distance(const AnyRobot& robot, const AnyPose& pose, Numbers direction,
+SINEW_API TypeTwoDistance type_2_distance(const Robot& robot, const AnyPose& pose, Numbers direction,
                                           const TypeTwoSearch& search, Workspace& work);
 
 }  // namespace sinew::inline v0

@@ -33,7 +33,7 @@ struct Velocity {
 inline constexpr double type_1_tolerance = 1e-6;
 
 /// Velocity analysis at a pose and link coordinates that close the legs. No heap.
-SINEW_API Velocity velocity(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
+SINEW_API Velocity velocity(const Robot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
 
 /// Input rates for a platform twist, into `work.rates`, at the configuration last put to `velocity` with this
 /// workspace; the shortest where there are many. `singular` where a leg at a type I singularity cannot

@@ -37,12 +37,12 @@ struct VelocityBatch {
 
 /// Whether `velocity_batch` serves this robot: chord legs of arcs with tendons of their own, as many as the
 /// platform has freedoms, or three struts on hinges at carriages of their own.
-SINEW_API bool has_velocity_batch(const AnyRobot& robot);
+SINEW_API bool has_velocity_batch(const Robot& robot);
 
 /// What `inverse` and `velocity` say of each pose. Poses with a chord within 1e-7 of its backbone, or whose
 /// status rounding could turn, are put to these two one by one, with `work`; returns how many were. The
 /// answer for a pose does not depend on the others. No heap.
-SINEW_API std::size_t velocity_batch(const AnyRobot& robot, const PoseBatch& batch, const VelocityBatch& out,
+SINEW_API std::size_t velocity_batch(const Robot& robot, const PoseBatch& batch, const VelocityBatch& out,
                                      Workspace& work);
 
 }  // namespace sinew::inline v0

@@ -10,7 +10,8 @@
 #include "sinew/base/error.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/io/reader.hpp"
-#include "sinew/robot/any_robot.hpp"
+#include "sinew/robot/robot.hpp"
+#include "sinew/tendon/swivel_drive.hpp"
 
 namespace sinew::inline v0 {
 
@@ -36,10 +37,10 @@ SINEW_API std::string_view scene_template();
 /// column.
 ///
 ///     auto robot = sinew::load("robots/3-rfr.yaml").value();
-SINEW_API Expected<AnyRobot> load(const std::string& path_or_name);
+SINEW_API Expected<Robot> load(const std::string& path_or_name);
 
 /// The robot a document describes.
-SINEW_API Expected<AnyRobot> read_robot(const Document& document);
+SINEW_API Expected<Robot> read_robot(const Document& document);
 
 /// The same document with a named architecture written out as a list of legs; unchanged if it lists them.
 SINEW_API Expected<Document> expanded(const Document& document);

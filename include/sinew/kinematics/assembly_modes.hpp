@@ -19,10 +19,9 @@ struct AssemblyModes {
 };
 
 /// All solutions of TDPCR (42); `forward` finds the one a start leads to.
-SINEW_API AssemblyModes assembly_modes(const AnyRobot& robot, Numbers inputs, Workspace& work);
+SINEW_API AssemblyModes assembly_modes(const Robot& robot, Numbers inputs, Workspace& work);
 
 /// Index of the pose nearest to `start`, turns counted by what they move a point at the platform's radius.
-SINEW_API std::size_t nearest_pose(const AnyRobot& robot, std::span<const AnyPose> poses,
-                                   const AnyPose& start);
+SINEW_API std::size_t nearest_pose(const Robot& robot, std::span<const AnyPose> poses, const AnyPose& start);
 
 }  // namespace sinew::inline v0

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "sinew/base/error.hpp"
+#include "sinew/base/limits.hpp"
 #include "sinew/base/stop.hpp"
 #include "sinew/leg/space.hpp"
 #include "sinew/link/pseudo_rigid.hpp"
-#include "sinew/robot/any_robot.hpp"
+#include "sinew/robot/robot.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v0 {
@@ -27,6 +28,7 @@ struct ChainLeg {
   double tendon_offset = 0;      ///< d [m], > 0
   double strut = 0;              ///< its length [m]; 0: there is none
   Vec<double, Space::dimension> platform_point = Vec<double, Space::dimension>::Zero();
+  double diameter = 0;  ///< of the round backbone [m]; 0: not known
 
   bool has_strut() const { return strut > 0; }
   /// Stiffness of a joint [N m/rad].
@@ -46,7 +48,7 @@ using AnyChainRobot = std::variant<ChainRobot<Planar>, ChainRobot<Spatial>>;
 /// The robot with its arcs replaced by chains of as many joints as its file gives (n of a spatial leg counts
 /// both axes of its universal joint, [TDPCR] section 4.1). An error names what a leg lacks: `joints`,
 /// `material` or `diameter`, or that there are no chains of its kind.
-SINEW_API Expected<AnyChainRobot> chain_robot(const AnyRobot& robot, ChainModel model = ChainModel::weighted);
+SINEW_API Expected<AnyChainRobot> chain_robot(const Robot& robot, ChainModel model = ChainModel::weighted);
 
 /// The chain's own frame, x beside its first link and y along it: held by the base where there is a strut,
 /// else turned so that the tip lies towards the platform point.
@@ -119,6 +121,8 @@ struct ChainWork {
   StopToken stop = {};  ///< solves that use it end with `stopped` once it is requested
   using Rows = std::vector<std::array<double, 8>>;
   Rows moves = {};                               ///< how each leg's unknowns move with what is free
+  Rows pulls = {};                               ///< of each leg's tension, on the platform
+  std::vector<double> step = {}, near = {};      ///< of what is free; tensions that others should be near
   std::vector<ChainLegState> legs = {};          ///< iterates
   std::vector<ChainHold> first = {}, hold = {};  ///< of the path, and on it
 };
@@ -139,11 +143,17 @@ SINEW_API Report equilibrium(const ChainRobot<Space>& robot, std::span<const Cha
                              const ChainOptions& options = {});
 
 /// Tensions of the inner tendons that hold the platform there under this wrench, from the equilibrium in
-/// `state`, of that pose; what its motors hold, tensions or lengths, is what they then have. `unreachable`
-/// where legs and freedoms are not as many, or the path to the wrench is lost.
+/// `state`, of that pose; what its motors hold, tensions or lengths, is what they then have. Of more legs
+/// than freedoms the tensions are those nearest to the ones in `state`, in least squares. `unreachable` where
+/// legs are fewer, `stalled` where the path to the wrench is lost.
 template <class Space>
 SINEW_API Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& wrench,
                            ChainState<Space>& state, ChainWork& work, const ChainOptions& options = {});
+
+/// What the motor at a base exerts on the first link, counter-clockwise [N m]: the energy's derivative by the
+/// motor's angle, whatever else is held. Theory: docs/theory/chain_equilibrium.md
+SINEW_API double motor_torque(const ChainLeg<Planar>& leg, const ChainLegState& state,
+                              const SE2<double>& platform);
 
 /// What a growing load comes to.
 enum class ChainLoadEnd {
@@ -193,20 +203,23 @@ SINEW_API double potential(const ChainRobot<Space>& robot, const ChainState<Spac
 /// length times the leg's line, row i of K has columns of leg i alone.
 template <class Space>
 struct ChainRates {
-  Mat<double, Space::dof, Space::dof> J;
-  std::array<std::array<double, max_chain_joints + 1>, Space::dof> K{};  ///< of each leg
-  /// Of each leg: its sprung joints, after the base motor's angle where there is one.
-  std::array<int, Space::dof> columns{};
+  template <class T>
+  using OfLegs = std::array<T, max_rows>;  ///< of more legs there are none
+  Eigen::Matrix<double, Eigen::Dynamic, Space::dof, Eigen::DontAlign, max_rows, Space::dof> J;
+  OfLegs<std::array<double, max_chain_joints + 1>> K{};
+  OfLegs<int> columns{};     ///< sprung joints, after the base motor's angle where there is one
   double closure_error = 0;  ///< largest [m]; NaN where one is
+
+  std::size_t legs() const { return static_cast<std::size_t>(J.rows()); }
 };
 /// @implements TDPCR (34), (36)-(38), (60)-(62)
 template <class Space>
 SINEW_API ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
                                         std::span<const ChainLegState> legs);
 
-/// The paper's linear model of a load: ∂(pose)/∂(wrench) = U k⁻¹ Uᵀ with U = J⁻¹ K of the unloaded robot. It
-/// leaves out the geometric stiffness; where lengths are held, motions that keep them. @implements TDPCR
-/// (44), (45), (46)
+/// The paper's linear model of a load: ∂(pose)/∂(wrench) = U k⁻¹ Uᵀ with U = J⁻¹ K of the unloaded robot, of
+/// more legs than freedoms the inverse of the sum of their stiffnesses. It leaves out the geometric
+/// stiffness; where lengths are held, motions that keep them. @implements TDPCR (44), (45), (46)
 template <class Space>
 SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& robot,
                                                                 const ChainState<Space>& state);

@@ -29,12 +29,12 @@ struct ConstrainedPose {
 /// exactly x = −2r e₁e₂, y = r(e₂² − e₁²) and e₃ = 0 or e₀ = 0. `left_domain` where the robot has not three
 /// planes, or the coordinates are no quaternion's. No heap, no throw, bounded work.
 /// @implements 3PFS (9)-(10)
-SINEW_API ConstrainedPose constrained_pose(const AnyRobot& robot, const Independent& independent,
+SINEW_API ConstrainedPose constrained_pose(const Robot& robot, const Independent& independent,
                                            OperationMode mode = OperationMode::tilt);
 
 /// The pose put back into the planes of the robot's hinges, by shifts where these suffice and small turns
 /// where not; of a robot without such planes the pose itself. A pose from which no steps lead there is
 /// answered by the nearest one found.
-SINEW_API AnyPose settled(const AnyRobot& robot, const AnyPose& pose);
+SINEW_API AnyPose settled(const Robot& robot, const AnyPose& pose);
 
 }  // namespace sinew::inline v0

@@ -47,7 +47,7 @@ struct Equilibrium {
 /// ends early the report says why: rods pulled straight, a fold of the inputs, buckling under the load. No
 /// heap, no throw, bounded work.
 /// @implements 3PFS (25)-(30)
-SINEW_API Equilibrium equilibrium(const AnyRobot& robot, Numbers inputs, const EquilibriumOptions& options,
+SINEW_API Equilibrium equilibrium(const Robot& robot, Numbers inputs, const EquilibriumOptions& options,
                                   Workspace& work);
 
 /// Coordinates of a spatial pose that a robot with three inputs can be asked for; the others are parasitic.
@@ -57,17 +57,17 @@ struct IndependentPose {
 };
 
 /// Lengths that hold the platform at z, e₁, e₂, and where the parasitic coordinates x, y, e₃ come to rest.
-SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const IndependentPose& wanted,
+SINEW_API Equilibrium inverse_equilibrium(const Robot& robot, const IndependentPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
 /// Six inputs that hold the platform at a pose. Begins at home, or from the last answer: `start` is not
 /// asked, here and above. Allocates where the straight way there ends early, to find the fold and other ways.
-SINEW_API Equilibrium inverse_equilibrium(const AnyRobot& robot, const SpatialPose& wanted,
+SINEW_API Equilibrium inverse_equilibrium(const Robot& robot, const SpatialPose& wanted,
                                           const EquilibriumOptions& options, Workspace& work);
 
 /// Whether `equilibrium_batch` walks the robot's rods in lanes: all its legs are rods that bend in one plane
 /// each.
-SINEW_API bool has_equilibrium_batch(const AnyRobot& robot);
+SINEW_API bool has_equilibrium_batch(const Robot& robot);
 
 /// Many equilibria under one wrench: `rows` holds the inputs of each, one after the other, `poses` and
 /// `statuses` have one entry each. Neighbouring rows should be near each other: eight stretches of them are
@@ -78,7 +78,7 @@ SINEW_API bool has_equilibrium_batch(const AnyRobot& robot);
 /// @param judge whether it is asked if equilibria hold by themselves, and where they do not whether home
 /// leads
 ///     to one that does; else they are all `converged`
-SINEW_API void equilibrium_batch(const AnyRobot& robot, Numbers rows, const SpatialWrench& wrench,
+SINEW_API void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wrench,
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
                                  bool judge = false);
 
@@ -106,7 +106,7 @@ struct RodAnalysis {
 };
 
 /// Allocates.
-SINEW_API RodAnalysis analyse_equilibrium(const AnyRobot& robot, Workspace& work);
+SINEW_API RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work);
 
 /// Why a load path ended.
 enum class LoadEnd {
@@ -136,7 +136,7 @@ struct LoadPath {
 /// Adds `direction` times a growing factor to the wrench of the equilibrium the workspace holds, up to
 /// `limit`. Afterwards the workspace holds the last equilibrium that holds by itself. Where it held none, or
 /// the direction or limit is no load, the factor is 0 and the end `stalled`.
-SINEW_API LoadPath follow_load(const AnyRobot& robot, const SpatialWrench& direction, double limit,
+SINEW_API LoadPath follow_load(const Robot& robot, const SpatialWrench& direction, double limit,
                                Workspace& work);
 
 /// One of several equilibria under the same load: of the same inputs, or of the same pose.
@@ -152,12 +152,12 @@ struct FoundEquilibrium {
 /// number, never proven to be all. Allocates; takes tens of milliseconds, of rods that bear torque, with
 /// fewer starts, seconds.
 /// @param options of every search; its start is not asked
-SINEW_API std::vector<FoundEquilibrium> equilibria(const AnyRobot& robot, Numbers inputs,
+SINEW_API std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
                                                    const EquilibriumOptions& options, Workspace& work);
 
 /// Equilibria of one pose on several branches, each with its inputs, found by ways from home through many
 /// poses around it; as `equilibria` else. The first way is that of `inverse_equilibrium`.
-SINEW_API std::vector<FoundEquilibrium> inverse_equilibria(const AnyRobot& robot, const SpatialPose& wanted,
+SINEW_API std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const SpatialPose& wanted,
                                                            const EquilibriumOptions& options,
                                                            Workspace& work);
 

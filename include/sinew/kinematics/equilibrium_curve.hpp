@@ -70,7 +70,7 @@ struct EquilibriumCurve {
 /// Curves through the equilibrium the workspace holds; the first is the one it was asked for. Empty where it
 /// holds none, or where what is asked for is not finite, does not fit the robot, or is what it begins with.
 /// Afterwards the workspace holds none. Allocates.
-SINEW_API std::vector<EquilibriumCurve> equilibrium_curves(const AnyRobot& robot, const CurveOptions& how,
+SINEW_API std::vector<EquilibriumCurve> equilibrium_curves(const Robot& robot, const CurveOptions& how,
                                                            Workspace& work);
 
 }  // namespace sinew::inline v0

@@ -20,7 +20,7 @@ struct SensedWrench {
 /// @param axial of each of six rods, pull > 0 [N]
 /// @param deviations standard deviations of these, independent of each other [N]
 /// @param options of the unloaded platform, from which the search begins; its wrench is not asked
-SINEW_API SensedWrench sense_wrench(const AnyRobot& robot, Numbers inputs, Numbers axial, Numbers deviations,
+SINEW_API SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Numbers deviations,
                                     const EquilibriumOptions& options, Workspace& work);
 
 }  // namespace sinew::inline v0

@@ -31,7 +31,6 @@ struct Forward {
 /// the size. Where the legs hold fewer freedoms than the platform has, the pose is one of a continuum, and
 /// the message says so. No heap, no throw, bounded work.
 /// @implements TDPCR (42)
-SINEW_API Forward forward(const AnyRobot& robot, Numbers inputs, const ForwardOptions& options,
-                          Workspace& work);
+SINEW_API Forward forward(const Robot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work);
 
 }  // namespace sinew::inline v0

@@ -27,7 +27,7 @@ struct Inverse {
 };
 
 /// Inputs at `pose`. Residual: largest closure error [m]. No heap, no throw, bounded work.
-SINEW_API Inverse inverse(const AnyRobot& robot, const AnyPose& pose, const InverseOptions& options,
+SINEW_API Inverse inverse(const Robot& robot, const AnyPose& pose, const InverseOptions& options,
                           Workspace& work);
 
 /// Every solution of every leg at a pose; of a leg with a continuum of them those of the curvature wished
@@ -40,10 +40,10 @@ struct WorkingModes {
   bool is_continuum = false;            ///< a leg is redundant: these are some of infinitely many
 
   /// Inputs of mode k < count, the first leg turning slowest. `command` gives their link coordinates.
-  SINEW_API void mode(const AnyRobot& robot, std::size_t k, std::span<double> inputs) const;
+  SINEW_API void mode(const Robot& robot, std::size_t k, std::span<double> inputs) const;
 };
 
-SINEW_API WorkingModes working_modes(const AnyRobot& robot, const AnyPose& pose,
-                                     const InverseOptions& options, Workspace& work);
+SINEW_API WorkingModes working_modes(const Robot& robot, const AnyPose& pose, const InverseOptions& options,
+                                     Workspace& work);
 
 }  // namespace sinew::inline v0

@@ -31,22 +31,14 @@ struct ResolvedRateOptions {
   kernel::Model model = kernel::Model::exact;  ///< of the tendons
 };
 
-/// Memory for the rates of one robot; one per thread.
-struct RateWorkspace {
-  std::vector<double> bends;       ///< section by section [rad/s]
-  std::vector<double> extensions;  ///< of every section [m/s]
-  std::vector<double> tendons;     ///< of Δl [m/s], section by section; > 0 pays out
-  SINEW_API explicit RateWorkspace(const SerialRobot& robot);
-};
-
 struct ResolvedRate {
   /// `left_domain` where limits, or `fastest`, keep the tip from following; `singular` where the shape does;
   /// the rates are then those that come nearest. Residual: what is missed, the larger of velocity and, times
   /// the robot's length, angular velocity [m/s]. Its iterations are 0.
   Report report;
-  std::span<const double> bends;       ///< view into the rates' workspace
-  std::span<const double> extensions;  ///< view into the rates' workspace
-  std::span<const double> tendons;     ///< view into the rates' workspace
+  std::span<const double> bends;       ///< view of `work.bend_rates`
+  std::span<const double> extensions;  ///< view of `work.extension_rates`
+  std::span<const double> tendons;     ///< view of `work.tendon_rates`
   int held = 0;  ///< bends' components, and extensions, that a limit, or `fastest`, holds
 
   bool ok() const noexcept { return report.ok(); }
@@ -57,6 +49,6 @@ struct ResolvedRate {
 /// tip's Jacobian in `work.J`, the tendons' in `work.K`. No heap, no throw. At most `max_sections` sections.
 SINEW_API ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends,
                                      const TipTwist& twist, const ResolvedRateOptions& options,
-                                     SerialWorkspace& work, RateWorkspace& rates);
+                                     SerialWorkspace& work);
 
 }  // namespace sinew::inline v0

@@ -30,10 +30,13 @@ struct SerialWorkspace {
   std::vector<Bend> bends;      ///< per section [rad]
   std::vector<double> changes;  ///< Δl of every tendon [m], section by section; > 0 pays out
   std::vector<double> slack;    ///< what every tendon has beyond what the bends need [m]
-  std::vector<SE3<double>> ends;   ///< pose of every section's end
-  std::vector<double> J;           ///< tip twist (base axes, of the tip) per bend rate: 6 × 2M [m, rad]
-  std::vector<double> K;           ///< tendon rates per bend rate: tendons × 2M [m]
-  std::vector<double> extensions;  ///< of every section [m], by `extend`; 0 at first
+  std::vector<SE3<double>> ends;        ///< pose of every section's end
+  std::vector<double> J;                ///< tip twist (base axes, of the tip) per bend rate: 6 × 2M [m, rad]
+  std::vector<double> K;                ///< tendon rates per bend rate: tendons × 2M [m]
+  std::vector<double> extensions;       ///< of every section [m], by `extend`; 0 at first
+  std::vector<double> bend_rates;       ///< by `resolved_rate`, section by section [rad/s]
+  std::vector<double> extension_rates;  ///< of every section [m/s]
+  std::vector<double> tendon_rates;     ///< of Δl [m/s], section by section; > 0 pays out
   std::vector<ExtensionMotion> lengthwise;            ///< of every section, by `extension_motion`
   std::vector<Section> sections;                      ///< as long as they are
   std::vector<kernel::Section<double>> maps;          ///< of the sections at rest

@@ -26,7 +26,7 @@ struct TrackOptions {
 class SINEW_API Track {
  public:
   /// Robot and workspace must outlive the track.
-  Track(const AnyRobot& robot, TrackOptions options, Workspace& work);
+  Track(const Robot& robot, TrackOptions options, Workspace& work);
 
   /// To the first pose by inverse kinematics, to every further one by continuation. On the way between two
   /// poses a platform that hinges hold in planes stays in them; the poses themselves must lie in them.
@@ -44,7 +44,7 @@ class SINEW_API Track {
   int step(const AnyPose& pose, double part, std::vector<double>& coordinates, Report& report);
   void settle();
 
-  const AnyRobot* robot_;
+  const Robot* robot_;
   TrackOptions options_;
   Workspace* work_;
   bool has_begun_ = false;

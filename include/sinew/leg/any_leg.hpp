@@ -18,7 +18,6 @@ template <class First, class... Rest>
 struct AnyLeg {
   using Space = typename First::Space;
   static_assert((std::same_as<Space, typename Rest::Space> && ...));
-  static constexpr bool bears_load = (BearsLoad<First> || ... || BearsLoad<Rest>);  ///< a kind does
 
   std::variant<First, Rest...> kind;
 };

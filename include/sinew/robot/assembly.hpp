@@ -6,6 +6,7 @@
 #include "sinew/math/linalg.hpp"
 #include "sinew/robot/workspace.hpp"
 #include "sinew/solve/report.hpp"
+#include "sinew/tendon/input_kind.hpp"
 
 namespace sinew::inline v0 {
 
@@ -21,41 +22,40 @@ struct Reduced {
 
 /// J, K and s at a platform pose and link coordinates (of an arc its curvature κ [1/m], of a swivelled one θ
 /// [rad] and κ, of a rail its slide ρ [m]), leg by leg, the rows of planes last.
-/// @implements TDPCR (5)-(6), (17), (19)-(20), (59), (67)
-/// @implements 3PFS (15)-(18)
-SINEW_API Reduced assemble(const AnyRobot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
+SINEW_API Reduced assemble(const Robot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
 
 /// J with its rows scaled to unit lines and their moments divided by the platform radius, and K scaled alike,
 /// in `work.unit_J` and `work.unit_K`: numbers of one size, whatever the robot's. A row without direction
 /// becomes 0. View of `work.unit_J`.
-SINEW_API MatrixView homogenise(const AnyRobot& robot, const Reduced& reduced, Workspace& work);
+SINEW_API MatrixView homogenise(const Robot& robot, const Reduced& reduced, Workspace& work);
 
 /// Link coordinates that the inputs command, in `work.coordinates`; the view returned is of them.
 /// The report says which input is missing, not finite or outside the link's domain.
-SINEW_API Report command(const AnyRobot& robot, Numbers inputs, Workspace& work);
+SINEW_API Report command(const Robot& robot, Numbers inputs, Workspace& work);
 
 /// What people want to know of each leg. View of `work.legs`.
-SINEW_API std::span<const LegState> leg_states(const AnyRobot& robot, const AnyPose& pose,
-                                               Numbers coordinates, Workspace& work);
+SINEW_API std::span<const LegState> leg_states(const Robot& robot, const AnyPose& pose, Numbers coordinates,
+                                               Workspace& work);
 
-SINEW_API AnyPose home(const AnyRobot& robot);
-SINEW_API int leg_count(const AnyRobot& robot);
-SINEW_API int input_count(const AnyRobot& robot);
-SINEW_API bool has_ties(const AnyRobot& robot);  ///< legs share inputs
-SINEW_API int coordinate_count(const AnyRobot& robot);
-SINEW_API int row_count(const AnyRobot& robot);
-SINEW_API int dof(const AnyRobot& robot);
+SINEW_API AnyPose home(const Robot& robot);            ///< where solvers start when told nothing else
+SINEW_API double platform_radius(const Robot& robot);  ///< homogenises moments in the indices [m]
+SINEW_API int leg_count(const Robot& robot);
+SINEW_API int input_count(const Robot& robot);
+SINEW_API bool has_ties(const Robot& robot);  ///< legs share inputs
+SINEW_API int coordinate_count(const Robot& robot);
+SINEW_API int row_count(const Robot& robot);
+SINEW_API int dof(const Robot& robot);
 /// A leg can move while the platform stands still.
-SINEW_API bool has_redundant_leg(const AnyRobot& robot);
-SINEW_API bool has_elbow(const AnyRobot& robot);   ///< a leg's strut may lead to either side
-SINEW_API bool has_arc(const AnyRobot& robot);     ///< a leg has a curvature
-SINEW_API int plane_count(const AnyRobot& robot);  ///< rows of planes, the last of all
+SINEW_API bool has_redundant_leg(const Robot& robot);
+SINEW_API bool has_elbow(const Robot& robot);   ///< a leg's strut may lead to either side
+SINEW_API bool has_arc(const Robot& robot);     ///< a leg has a curvature
+SINEW_API int plane_count(const Robot& robot);  ///< rows of planes, the last of all
 
 /// An input of the robot, as messages and tables name it: `legs[0].tendon_1`.
 struct InputOfLeg {
   int leg;
   InputKind kind;
 };
-SINEW_API std::vector<InputOfLeg> inputs_of(const AnyRobot& robot);
+SINEW_API std::vector<InputOfLeg> inputs_of(const Robot& robot);
 
 }  // namespace sinew::inline v0

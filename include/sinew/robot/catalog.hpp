@@ -29,12 +29,12 @@ using PlanarLegs =
     TypeList<Leg<Planar, Arc, TendonPair, Chord>, Leg<Planar, Arc, TendonPair, Strut>,
              Leg<Planar, Swivel<Arc>, SwivelDrive, Strut>, Leg<Planar, Swivel<Arc>, SwivelDrive, Pin>>;
 
-/// ... and of spatial leg.
+/// ... and of spatial leg that closes.
 using SpatialLegs =
     TypeList<Leg<Spatial, Arc, TendonPair, Chord>, Leg<Spatial, Rail, SlideDrive, HingedStrut>>;
 
-/// Every kind of leg that bears load: of rods at least one leg is. Closing legs beside them bear whatever it
-/// takes to keep them closed.
+/// Every kind of leg of a robot that bears load: of rods at least one leg is. Closing legs beside them bear
+/// whatever it takes to keep them closed.
 template <class List>
 struct WithRods;
 template <class... Ts>

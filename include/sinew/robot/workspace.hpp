@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "sinew/base/stop.hpp"
-#include "sinew/robot/any_robot.hpp"
+#include "sinew/leg/state.hpp"
+#include "sinew/robot/robot.hpp"
 
 namespace sinew::inline v0 {
 
@@ -16,12 +17,12 @@ struct Workspace {
   /// Most solutions of one leg that are kept; an arc within a full turn either way has fewer.
   static constexpr int max_solutions = 8;
 
-  SINEW_API explicit Workspace(const AnyRobot& robot);
+  SINEW_API explicit Workspace(const Robot& robot);
   SINEW_API ~Workspace();
   SINEW_API Workspace(Workspace&&) noexcept;
   SINEW_API Workspace& operator=(Workspace&&) noexcept;
 
-  std::shared_ptr<const char> robot;  ///< identity of the robot it is for, and of that robot's copies
+  std::shared_ptr<const void> robot;  ///< identity of the robot it is for, and of that robot's copies
   StopToken stop;  ///< solves that use this workspace end with `stopped` once it is requested
   std::vector<double> coordinates;  ///< link coordinates, leg by leg
   std::vector<double> inputs;

@@ -9,14 +9,9 @@
 #include "sinew/base/units.hpp"
 #include "sinew/kernel/tendon_pair.h"
 #include "sinew/math/vec.hpp"
+#include "sinew/tendon/input_kind.hpp"
 
 namespace sinew::inline v0 {
-
-/// What a motor commands, and in which unit.
-struct InputKind {
-  std::string_view name;
-  Dimension dimension;
-};
 
 /// A drive turns inputs a (what motors command) into link coordinates q. Here a is the length of tendon 1,
 /// q the signed curvature; tendon 2 follows so that the backbone keeps its length.

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kinematics/chains/solver.hpp"
-#include "solve/continuation.hpp"
+#include "kinematics/chains/path.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
@@ -52,23 +51,11 @@ Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<c
   for (std::size_t i = 0; i < hold.size(); ++i) work.first[i] = present(state.legs[i], hold[i]);
   work.hold.resize(hold.size());
   const Vec<double, Space::dof> first = state.wrench;
-  const auto put = [&](double part) {
+  const auto put = [&](double part) -> Vec<double, Space::dof> {
     for (std::size_t i = 0; i < hold.size(); ++i) work.hold[i] = between(work.first[i], hold[i], part);
+    return first + part * (wrench - first);
   };
-  ParameterPath end;
-  follow_parameter(end, {{1, 1e-6, work.stop}, 0, solver.max_iterations()}, [&](double next, double taken) {
-    put(next);
-    const Vec<double, Space::dof> load = first + next * (wrench - first);
-    auto pose = state.pose;
-    work.legs = state.legs;
-    const bool is_solved = solver.solve(pose, work.legs, work.hold, load);
-    end.iterations = solver.iterations();
-    if (!is_solved) return ParameterStep{ParameterStep::failed, taken / 4};
-    state.pose = pose;
-    std::swap(state.legs, work.legs);
-    state.wrench = load;
-    return ParameterStep{ParameterStep::reached, 2 * taken};
-  });
+  const ParameterPath end = follow_path(solver, state, work, put);
   const double done = end.progress;
   if (done < 1) put(done);
   state.hold.assign(work.hold.begin(), work.hold.end());
@@ -175,14 +162,17 @@ Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> ho
 template <class Space>
 Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& wrench,
                  ChainState<Space>& state, ChainWork& work, const ChainOptions& options) {
-  if (robot.legs.size() != static_cast<std::size_t>(Space::dof)) {
+  if (robot.legs.size() < static_cast<std::size_t>(Space::dof)) {
     Report report;
     report.status = Status::unreachable;
     report.message.append(
-        "a pose under load is held by as many legs as the platform has freedoms, one tendon each");
+        "fewer legs than the platform has freedoms hold no pose under load; give the robot more legs");
     return report;
   }
   if (!fits(robot, state)) return wrong_sizes();
+  work.near.clear();
+  for (std::size_t i = 0; i < robot.legs.size(); ++i)
+    work.near.push_back(state.legs[i].tension[inner_tendon(state.legs[i], robot.legs[i].chain)]);
   Solver<Space> solver(robot, work, options, Free::tensions);
   const std::vector<ChainHold> held = state.hold;
   const std::vector<ChainHold> hold(held.size());  // whatever tensions come out

@@ -51,21 +51,23 @@ class LegMoves {
   /// Whether an odd number of its directions is unstable with the platform held.
   bool is_odd() const { return is_odd_; }
 
-  /// What the leg adds to the platform's equation S y = −g, y what is free; `column` of S where that is a
-  /// tension.
-  void add_to(const LegSystem<Space>& system, Eigen::Index column, Mat<double, dof, dof>& S,
-              Motion& g) const {
-    const Motion pull = system.force * system.closure.turn;
-    const auto push = [&](std::size_t side) -> Motion {
-      return pull * border_[across][side] + system.closure.c_x * border_[force][side];
-    };
-    g += system.force * system.closure.c_x + push(0);
-    if (free_ == Free::tensions) {
-      S.col(column) += push(1);
-    } else {
-      for (int k = 0; k < dof; ++k) S.col(k) += push(static_cast<std::size_t>(k) + 1);
-      S += system.force * system.closure.c_xx;
-    }
+  /// What the leg adds to the platform's equation S y = −g, y the platform's motion; of free tensions to g
+  /// alone.
+  void add_to(const LegSystem<Space>& system, Mat<double, dof, dof>& S, Motion& g) const {
+    g += system.force * system.closure.c_x + push(system, 0);
+    if (free_ == Free::tensions) return;
+    for (int k = 0; k < dof; ++k) S.col(k) += push(system, static_cast<std::size_t>(k) + 1);
+    S += system.force * system.closure.c_xx;
+  }
+  /// What the leg's own imbalance does to the platform, once its unknowns have made up for it.
+  Motion shift(const LegSystem<Space>& system) const { return push(system, 0); }
+  /// What a change of the tension that is free does to the platform.
+  Motion pull(const LegSystem<Space>& system) const { return push(system, 1); }
+  /// How the tension of a length that is held changes: a constant, and by the platform's motion.
+  std::span<const double> tension_moves() const { return border_[tension]; }
+  /// The change of that tension that leaves the platform without the leg's force.
+  double relief(const LegSystem<Space>& system) const {
+    return -(system.force + border_[force][0]) / border_[force][1];
   }
 
   /// Moves the leg along with y; returns the largest turn of a joint.
@@ -94,6 +96,11 @@ class LegMoves {
   }
 
  private:
+  Motion push(const LegSystem<Space>& system, std::size_t side) const {
+    return system.force * system.closure.turn * border_[across][side] +
+           system.closure.c_x * border_[force][side];
+  }
+
   /// Unknowns of the border: the direction of the last link, the turn of the force's line, the force, a
   /// tension; and how far the tip moves across that line.
   enum Border : std::size_t { last, line, force, tension, across };

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/chains/solver.hpp"
+#include "kinematics/chains/path.hpp"
 #include "solve/growing_load.hpp"
 #include "solve/stopped.hpp"
 
@@ -63,7 +63,7 @@ class ChainProblem {
   Motion missing() const { return per_length(-reduced_.g); }
   void move(const Motion& step, double lambda, double change) {
     const Motion motion = per_length(step);
-    solver_.move(state_.legs, state_.hold, motion);
+    solver_.move(state_.legs, state_.hold, {motion.data(), unknowns});
     state_.pose = Space::moved(state_.pose, motion);
     put(lambda + change);
   }

@@ -12,11 +12,11 @@ template <class Space>
 ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
                               std::span<const ChainLegState> legs) {
   ChainRates<Space> rates;
-  if (legs.size() != robot.legs.size() || legs.size() != static_cast<std::size_t>(Space::dof)) {
+  if (legs.size() != robot.legs.size() || legs.size() > static_cast<std::size_t>(max_rows)) {
     rates.closure_error = std::numeric_limits<double>::quiet_NaN();
-    rates.J.setConstant(rates.closure_error);
     return rates;
   }
+  rates.J.resize(static_cast<Eigen::Index>(legs.size()), Space::dof);
   const auto platform = Space::frame(pose);
   ChainClosure<Space> at;
   for (std::size_t i = 0; i < legs.size(); ++i) {
@@ -34,16 +34,42 @@ ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Spa
   return rates;
 }
 
+namespace {
+
+/// ∂(pose)/∂(wrench) of springs: row i of `lines` times the platform's motion is what yields by `soft`[i]
+/// times the force along it. Of as many lines as freedoms none has to yield.
+template <class Lines>
+auto compliance_along(const Lines& lines, std::span<const double> soft) {
+  constexpr int dof = Lines::ColsAtCompileTime;
+  using Square = Eigen::Matrix<double, dof, dof, Eigen::RowMajor>;
+  Square S = Square::Zero(), inverse = Square::Identity();
+  const bool is_square = lines.rows() == dof;
+  if (lines.rows() < dof) return Mat<double, dof, dof>(inverse * std::numeric_limits<double>::quiet_NaN());
+  for (Eigen::Index i = 0; i < lines.rows(); ++i)
+    if (is_square)
+      S.row(i) = lines.row(i);
+    else
+      S += lines.row(i).transpose() * lines.row(i) / soft[static_cast<std::size_t>(i)];
+  eliminate(S.data(), dof, dof, inverse.data(), dof);
+  if (!is_square) return Mat<double, dof, dof>(inverse);
+  Mat<double, dof, dof> C = Mat<double, dof, dof>::Zero();
+  for (int i = 0; i < dof; ++i)
+    for (int k = 0; k < dof; ++k)
+      for (int l = 0; l < dof; ++l)
+        C(k, l) += soft[static_cast<std::size_t>(i)] * inverse(k, i) * inverse(l, i);
+  return C;
+}
+
+}  // namespace
+
 template <class Space>
 Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& robot,
                                                       const ChainState<Space>& state) {
-  constexpr int dof = Space::dof;
-  if (!fits(robot, state)) return Mat<double, dof, dof>::Constant(std::numeric_limits<double>::quiet_NaN());
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const ChainRates<Space> rates = chain_rates(robot, state.pose, state.legs);
+  if (!fits(robot, state) || rates.legs() == 0) return Mat<double, Space::dof, Space::dof>::Constant(none);
   const std::size_t motors = robot.has_base_motors ? 1 : 0;
-  Eigen::Matrix<double, dof, dof, Eigen::RowMajor> J = rates.J, inverse = Mat<double, dof, dof>::Identity();
-  eliminate(J.data(), dof, dof, inverse.data(), dof);
-  Mat<double, dof, dof> C = Mat<double, dof, dof>::Zero();
+  std::array<double, max_rows> softness{};
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     const auto& leg = robot.legs[i];
     const int held = state.hold[i].length_of;
@@ -60,45 +86,43 @@ Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& r
       tendon += pull * pull / k;
     }
     if (held >= 0) soft -= along * along / tendon;  // what would change the length is not left
-    for (int k = 0; k < dof; ++k)
-      for (int l = 0; l < dof; ++l)
-        C(k, l) += soft * inverse(k, static_cast<Eigen::Index>(i)) * inverse(l, static_cast<Eigen::Index>(i));
+    softness[i] = soft;
   }
-  return C;
+  return compliance_along(rates.J, softness);
 }
 
 template <class Space>
 double evenness_gap(const ChainRobot<Space>& robot, const ChainState<Space>& unloaded,
                     const Vec<double, Space::dof>& wrench) {
-  constexpr int dof = Space::dof;
-  if (!fits(robot, unloaded) || robot.legs.size() != static_cast<std::size_t>(dof))
+  if (!fits(robot, unloaded) || robot.legs.size() > static_cast<std::size_t>(max_rows))
     return std::numeric_limits<double>::quiet_NaN();
   const auto platform = Space::frame(unloaded.pose);
   ChainClosure<Space> at;
-  Eigen::Matrix<double, dof, dof, Eigen::RowMajor> lines;
-  std::array<double, max_rows> excess{};
+  decltype(ChainRates<Space>::J) lines(static_cast<Eigen::Index>(robot.legs.size()), Space::dof);
+  std::array<double, max_rows> chain{}, even{};
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     const auto& leg = robot.legs[i];
     close_chain(leg, platform, unloaded.legs[i].of(leg.chain), at);
-    double soft = 0, along = 0, stiff = 0;
+    double along = 0, stiff = 0;
     for (int j = 0; j < leg.chain.joints(); ++j) {
       const double slope = at.c_q[static_cast<std::size_t>(j)], w = even_bend(leg.chain, j),
                    k = leg.spring(j);
-      soft += slope * slope / k;
+      chain[i] += slope * slope / k;
       along += slope * w;
       stiff += w * k * w;
     }
-    excess[i] = soft - along * along / stiff;
-    lines.col(static_cast<Eigen::Index>(i)) = at.c_x;
+    even[i] = along * along / stiff;
+    lines.row(static_cast<Eigen::Index>(i)) = at.c_x.transpose();
   }
-  Vec<double, dof> force = wrench;
-  eliminate(lines.data(), dof, dof, force.data(), 1);
-  double gap = 0;
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    const double f = force[static_cast<Eigen::Index>(i)];
-    gap += 0.5 * f * f * excess[i];
-  }
-  return gap;
+  return 0.5 * dot(wrench, Vec<double, Space::dof>(
+                               (compliance_along(lines, chain) - compliance_along(lines, even)) * wrench));
+}
+
+double motor_torque(const ChainLeg<Planar>& leg, const ChainLegState& state, const SE2<double>& platform) {
+  ChainClosure<Planar> at;
+  const auto angles = state.of(leg.chain);
+  close_chain(leg, platform, angles, at);
+  return state.force * motor_slope(leg, angles, at);
 }
 
 TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,

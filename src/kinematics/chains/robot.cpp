@@ -6,6 +6,7 @@
 
 #include "sinew/kinematics/chain.hpp"
 #include "sinew/robot/catalog.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -52,6 +53,7 @@ ChainLeg<Space> chain_leg(const LegT& leg, ChainModel model) {
   chain.tendon_offset = leg.drive.tendon_offset();
   if constexpr (requires { leg.closure.length; }) chain.strut = leg.closure.length;
   chain.platform_point = leg.platform_point;
+  chain.diameter = d;
   return chain;
 }
 
@@ -81,11 +83,8 @@ Expected<AnyChainRobot> chain_robot_of(const ParallelRobot<LegT>& robot, ChainMo
   if (errors.empty() && robot.has_ties())
     errors.push_back({"not_available", "legs",
                       "some legs share their inputs (tied); model prb needs each leg to have its own."});
-  if (errors.empty() && chains.legs.size() != static_cast<std::size_t>(Space::dof))
-    errors.push_back(
-        {"not_available", "legs",
-         fmt::format("the robot has {} legs; model prb needs as many as the platform has freedoms, {}.",
-                     chains.legs.size(), Space::dof)});
+  if (errors.empty() && chains.legs.empty())
+    errors.push_back({"not_available", "legs", "the robot has no legs; give it one or more."});
   if (errors.empty() && motors != 0 && motors != chains.legs.size())
     errors.push_back({"not_available", "legs",
                       "some legs have a motor at the base and some have none; model prb needs all or none."});
@@ -96,8 +95,8 @@ Expected<AnyChainRobot> chain_robot_of(const ParallelRobot<LegT>& robot, ChainMo
 
 }  // namespace
 
-Expected<AnyChainRobot> chain_robot(const AnyRobot& robot, ChainModel model) {
-  return visit_closing(
+Expected<AnyChainRobot> chain_robot(const Robot& robot, ChainModel model) {
+  return with_closing_legs(
       robot, [&](const auto& r) { return chain_robot_of(r, model); },
       []() -> Expected<AnyChainRobot> {
         return failure("not_available", "legs",

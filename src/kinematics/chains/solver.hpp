@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "kinematics/chains/leg_moves.hpp"
+#include "sinew/kinematics/chain_sensing.hpp"
 #include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v0 {
@@ -27,13 +28,22 @@ class Solver {
         options_(options),
         free_(free) {
     work.moves.resize(robot.legs.size() * LegMoves<Space>::rows);
+    work.pulls.resize(robot.legs.size());
+    work.step.resize(free == Free::tensions ? robot.legs.size() : static_cast<std::size_t>(dof));
     for (const auto& leg : robot.legs) {
       size_ = std::max(size_, leg.chain.length);
       stiffness_ = std::max(stiffness_, leg.bending_stiffness / std::pow(leg.chain.length, 3));
     }
   }
 
-  /// What is left for the platform with the legs eliminated: S y = −g, y its motion, or the tensions.
+  /// From now on the platform's equation is that tensions of lengths that are held are these, whatever the
+  /// wrench: that is `balance` then, if 0 is given.
+  void measure(std::span<const MeasuredTension> measured) { measured_ = measured; }
+  /// Of the platform, what is left of its forces less the wrench.
+  const Motion& balance() const { return balance_; }
+
+  /// What is left for the platform with the legs eliminated: S y = −g, y its motion, or the tensions; of
+  /// tensions that are not as many as freedoms A Aᵀ in place of S, for the work's `pulls` A.
   struct Reduced {
     Mat<double, dof, dof> S;
     Motion g;
@@ -44,13 +54,15 @@ class Solver {
   double regularity(const Reduced& reduced) const {
     Eigen::Matrix<double, dof, dof, Eigen::RowMajor> S = reduced.S;
     for (int k = Space::dimension; k < dof; ++k) {
-      S.row(k) /= size_;
+      if (measured_.empty()) S.row(k) /= size_;
       if (free_ == Free::platform) S.col(k) /= size_;
     }
+    if (free_ == Free::tensions && !is_square()) S.rightCols(dof - Space::dimension) /= size_;
     if (!S.allFinite()) return 0;
     std::array<double, max_rows> sigma;
     singular_values(MatrixView(S.data(), dof, dof), sigma);
-    return sigma[dof - 1] / sigma[0];
+    const double ratio = sigma[dof - 1] / sigma[0];
+    return free_ == Free::platform || is_square() ? ratio : std::sqrt(ratio);
   }
 
   /// At the last equilibrium that `solve` found, and where its first call began.
@@ -64,7 +76,7 @@ class Solver {
                  const Motion& wrench) {
     const auto platform = Space::frame(pose);
     Reduced reduced{Mat<double, dof, dof>::Zero(), -wrench};
-    Motion balance = -wrench;
+    balance_ = -wrench;
     residual_ = 0;
     odd_legs_ = 0;
     for (std::size_t i = 0; i < legs.size(); ++i) {
@@ -74,11 +86,15 @@ class Solver {
       LegMoves<Space> moves = moves_of(i);
       moves.eliminate(system_);
       odd_legs_ += moves.is_odd();
-      moves.add_to(system_, static_cast<Eigen::Index>(i), reduced.S, reduced.g);
-      balance += legs[i].force * system_.closure.c_x;
+      if (measured_.empty())
+        moves.add_to(system_, reduced.S, reduced.g);
+      else
+        add_reading(moves, i, legs[i], reduced);
+      if (free_ == Free::tensions) add_pull(moves, i, reduced.S);
+      balance_ += legs[i].force * system_.closure.c_x;
     }
-    for (int k = 0; k < dof; ++k)
-      residual_ = worse(residual_, balance[k] / stiffness_ / (k >= Space::dimension ? size_ : 1));
+    for (int k = 0; k < dof && measured_.empty(); ++k)
+      residual_ = worse(residual_, balance_[k] / stiffness_ / (k >= Space::dimension ? size_ : 1));
     return reduced;
   }
 
@@ -87,13 +103,12 @@ class Solver {
   double size() const { return size_; }  ///< of the longest chain
 
   /// The largest turn of a joint as the platform, or the tensions, move from where they were last reduced.
-  double move(std::vector<ChainLegState>& legs, std::span<const ChainHold> hold, const Motion& motion) {
+  double move(std::vector<ChainLegState>& legs, std::span<const ChainHold> hold,
+              std::span<const double> all) {
     double step = 0;
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-      const std::span<const double> all(motion.data(), static_cast<std::size_t>(dof));
+    for (std::size_t i = 0; i < legs.size(); ++i)
       step =
           worse(step, moves_of(i).move(free_ == Free::tensions ? all.subspan(i, 1) : all, hold[i], legs[i]));
-    }
     return step;
   }
 
@@ -110,14 +125,14 @@ class Solver {
       Reduced reduced = reduce(pose, legs, hold, wrench);
       if (!std::isfinite(residual_)) return false;
       if (iterations_++ == 0) begun_ = reduced;
-      const Motion motion = solution(reduced.S, -reduced.g);
-      const double step = move(legs, hold, motion);
-      if (free_ == Free::platform) pose = Space::moved(pose, motion);
+      find_step(reduced, legs);
+      const double step = move(legs, hold, work_.step);
+      if (free_ == Free::platform) pose = Space::moved(pose, Motion(work_.step.data()));
       walked += step;
       if (!(walked < reach)) return false;
       if (step < 1e-11 || (residual_ < 1e-13 * size_ && step < 1e-9)) {
         reached_ = reduce(pose, legs, hold, wrench);
-        return residual_ < 1e-11 * size_;
+        if (residual_ < 1e-11 * size_) return true;  // or else the platform moves, and no joint yet
       }
     }
     return false;
@@ -130,6 +145,53 @@ class Solver {
   }
 
  private:
+  bool is_square() const { return robot_.legs.size() == static_cast<std::size_t>(dof); }
+
+  void add_pull(const LegMoves<Space>& moves, std::size_t leg, Mat<double, dof, dof>& S) {
+    const Motion pull = moves.pull(system_);
+    auto& row = work_.pulls[leg];
+    std::copy_n(pull.data(), dof, row.begin());
+    row[relief] = moves.relief(system_);
+    if (is_square())
+      S.col(static_cast<Eigen::Index>(leg)) = pull;
+    else
+      S += pull * pull.transpose();
+  }
+
+  /// A tension that is measured, as an equation for the platform.
+  void add_reading(const LegMoves<Space>& moves, std::size_t leg, const ChainLegState& state,
+                   Reduced& reduced) {
+    for (std::size_t k = 0; k < measured_.size(); ++k) {
+      if (measured_[k].leg != static_cast<int>(leg)) continue;
+      const auto row = static_cast<Eigen::Index>(k);
+      const auto by = moves.tension_moves();
+      const double gap =
+          state.tension[static_cast<std::size_t>(work_.hold[leg].length_of)] - measured_[k].tension;
+      reduced.g[row] = gap + by[0];
+      for (int j = 0; j < dof; ++j) reduced.S(row, j) = by[static_cast<std::size_t>(j) + 1];
+      residual_ = worse(residual_, gap * robot_.legs[leg].tendon_offset / size_ / stiffness_);
+    }
+  }
+
+  /// Tensions that are not as many as freedoms: the nearest ones to the work's `near`, or without those the
+  /// ones that leave every leg without force.
+  void find_step(const Reduced& reduced, std::span<const ChainLegState> legs) {
+    if (free_ == Free::platform || is_square()) {
+      const Motion step = solution(reduced.S, -reduced.g);
+      std::copy_n(step.data(), dof, work_.step.begin());
+      return;
+    }
+    const auto column = [&](std::size_t i) { return Motion(work_.pulls[i].data()); };
+    const auto gone = [&](std::size_t i) {
+      return legs[i].tension[inner_tendon(legs[i], robot_.legs[i].chain)] - work_.near[i];
+    };
+    Motion right = -reduced.g;
+    for (std::size_t i = 0; i < work_.near.size(); ++i) right += gone(i) * column(i);
+    const Motion share = solution(reduced.S, right);
+    for (std::size_t i = 0; i < legs.size(); ++i)
+      work_.step[i] = work_.near.empty() ? work_.pulls[i][relief] : dot(column(i), share) - gone(i);
+  }
+
   LegMoves<Space> moves_of(std::size_t leg) {
     return {robot_.legs[leg].chain, options_.evenly_bent, free_,
             work_.moves.data() + leg * LegMoves<Space>::rows};
@@ -153,79 +215,12 @@ class Solver {
   ChainOptions options_;
   Free free_;
   LegSystem<Space> system_;
+  std::span<const MeasuredTension> measured_ = {};
+  Motion balance_ = Motion::Zero();
   Reduced begun_{Mat<double, dof, dof>::Zero(), Motion::Zero()}, reached_ = begun_;
   double size_ = 0, stiffness_ = 0, residual_ = 0;
   int iterations_ = 0, odd_legs_ = 0;
+  static constexpr std::size_t relief = 7;  ///< behind a leg's pull
 };
-
-void measure_tendons(const auto& leg, ChainLegState& state) {
-  for (const int side : {1, -1})
-    state.tendon_length[side > 0 ? 0 : 1] =
-        leg.chain.tendon_length(state.of(leg.chain), leg.tendon_offset, side);
-}
-
-template <class Space>
-void measure_tendons(const ChainRobot<Space>& robot, ChainState<Space>& state) {
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) measure_tendons(robot.legs[i], state.legs[i]);
-}
-
-/// A tendon that pushes by less counts as loose [N].
-inline constexpr double slack_tolerance = 1e-9;
-
-template <class Space>
-void name_slack(const ChainState<Space>& state, Report& report) {
-  for (std::size_t i = 0; i < state.legs.size(); ++i)
-    for (std::size_t k = 0; k < 2; ++k)
-      if (state.legs[i].tension[k] < -slack_tolerance)
-        return say_leg(report, Status::slack, i,
-                       k == 0 ? ": tendon 1 would have to push" : ": tendon 2 would have to push");
-}
-
-/// Whether a length that is held leaves a leg's joints nothing: one equation for the length, one for the
-/// closure, which of evenly bent free ends are the same where there are but two joints.
-template <class Space>
-bool is_rigid(const ChainLeg<Space>& leg, const ChainHold& hold) {
-  return hold.length_of >= 0 && leg.chain.joints() <= (leg.has_strut() ? 1 : 2);
-}
-
-/// The largest change of a tendon's length that no joint needs half a turn for [m].
-template <class Space>
-double most_change(const ChainLeg<Space>& leg) {
-  double most = 0;
-  for (int j = 0; j < leg.chain.joints(); ++j)
-    most += std::numbers::pi * leg.tendon_offset * leg.chain.turn_weight(j);
-  return most;
-}
-
-/// Why no path can lead to that; ok where one may.
-template <class Space>
-Report check_hold(const ChainRobot<Space>& robot, std::span<const ChainHold> hold) {
-  Report report;
-  for (std::size_t i = 0; i < hold.size() && report.ok(); ++i) {
-    const ChainLeg<Space>& leg = robot.legs[i];
-    if (is_rigid(leg, hold[i])) {
-      say_leg(report, Status::singular, i,
-              " has so few joints that none can yield while its tendon's length is held; give the link more "
-              "joints, or hold tensions");
-    } else if (hold[i].length_of >= 0 && !(std::abs(hold[i].length - leg.chain.length) < most_change(leg))) {
-      say_leg(report, Status::left_domain, i, ": a tendon that is ");
-      append_mm(report.message, hold[i].length);
-      report.message.append(
-          " long would fold every joint by half a turn; its length at rest changes by at most ");
-      append_mm(report.message, most_change(leg));
-    }
-  }
-  return report;
-}
-
-/// `singular` where the platform is not held at all.
-template <class Space>
-void check_regularity(const Solver<Space>& solver, const typename Solver<Space>::Reduced& reduced,
-                      Report& report) {
-  if (solver.regularity(reduced) > 1e-10) return;
-  report.status = Status::singular;
-  report.message = {};
-  report.message.append("the platform can move with everything held: a type II singularity, see velocity");
-}
 
 }  // namespace sinew::inline v0

@@ -3,43 +3,52 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "kinematics/chains/leg_system.hpp"
+#include "kinematics/chains/solver.hpp"
+#include "sinew/kinematics/chain_analysis.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
 using Eigen::MatrixXd;
 
-/// Smallest eigenvalue of H where C is 0; infinite where that leaves nothing.
-double least_on_null_space(const MatrixXd& H, const MatrixXd& C) {
+/// Eigenvalues of H where C is 0, ascending; none where that leaves nothing.
+Eigen::VectorXd on_null_space(const MatrixXd& H, const MatrixXd& C) {
   Eigen::ColPivHouseholderQR<MatrixXd> qr(C.transpose());  // rows may say the same twice
   qr.setThreshold(1e-12);
-  if (qr.rank() >= H.cols()) return std::numeric_limits<double>::infinity();
+  if (qr.rank() >= H.cols()) return {};
   const MatrixXd Q = qr.householderQ();
   const MatrixXd Z = Q.rightCols(H.cols() - qr.rank()), reduced = Z.transpose() * H * Z;
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(reduced, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(reduced, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-}  // namespace
+/// The energy's Hessian H and what is held C, in the pose and all angles.
+struct Variation {
+  MatrixXd H, C;
+  struct Block {
+    Eigen::Index angle, angles, row, rows;
+  };
+  std::vector<Block> legs;
+};
 
 template <class Space>
-double least_curvature(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+Variation variation(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
   constexpr int dof = Space::dof;
-  if (!fits(robot, state)) return std::numeric_limits<double>::quiet_NaN();
+  Variation all;
   Eigen::Index size = dof, rows = 0;
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    size += robot.legs[i].chain.joints();
-    rows += state.hold[i].length_of >= 0 ? 2 : 1;
+    all.legs.push_back({size, robot.legs[i].chain.joints(), rows, state.hold[i].length_of >= 0 ? 2 : 1});
+    size += all.legs.back().angles;
+    rows += all.legs.back().rows;
   }
-  MatrixXd H = MatrixXd::Zero(size, size), C = MatrixXd::Zero(rows, size);
+  MatrixXd &H = all.H, &C = all.C;
+  H = MatrixXd::Zero(size, size), C = MatrixXd::Zero(rows, size);
   const auto platform = Space::frame(state.pose);
   LegSystem<Space> system;
-  Eigen::Index first = dof, row = 0;
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    const auto& [first, n, row, own_rows] = all.legs[i];
     form(robot.legs[i], platform, state.legs[i], state.hold[i], system);
     const auto& closure = system.closure;
     const double force = system.force;
-    const Eigen::Index n = system.joints;
     C.row(row).head<dof>() = closure.c_x.transpose();
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto joint = static_cast<std::size_t>(j);
@@ -48,14 +57,81 @@ double least_curvature(const ChainRobot<Space>& robot, const ChainState<Space>& 
       H(first + j, first + j) += system.stiffness[joint];
       H.row(first + j).head<dof>() = force * closure.across[joint] * closure.turn.transpose();
       C(row, first + j) = closure.c_q[joint];
-      if (system.holds_length) C(row + 1, first + j) = system.tendon[joint];
+      if (own_rows > 1) C(row + 1, first + j) = system.tendon[joint];
     }
     H.block(0, first, dof, n) = H.block(first, 0, n, dof).transpose();
     H.topLeftCorner<dof, dof>() += 0.5 * force * (closure.c_xx + closure.c_xx.transpose());
-    row += system.holds_length ? 2 : 1;
-    first += n;
   }
-  return least_on_null_space(H, C);
+  return all;
+}
+
+int count_negative(const Eigen::VectorXd& values) { return static_cast<int>((values.array() < 0).count()); }
+
+double least(const Eigen::VectorXd& values) {
+  return values.size() > 0 ? values[0] : std::numeric_limits<double>::infinity();
+}
+
+/// Turns as lengths on the longest chain.
+template <class Space>
+Vec<double, Space::dof> scale_of(const ChainRobot<Space>& robot) {
+  double size = 0;
+  for (const auto& leg : robot.legs) size = std::max(size, leg.chain.length);
+  Vec<double, Space::dof> scale = Vec<double, Space::dof>::Ones();
+  scale.template tail<Space::dof - Space::dimension>() /= size;
+  return scale;
+}
+
+}  // namespace
+
+template <class Space>
+double least_curvature(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+  if (!fits(robot, state)) return std::numeric_limits<double>::quiet_NaN();
+  const Variation all = variation(robot, state);
+  return least(on_null_space(all.H, all.C));
+}
+
+template <class Space>
+ChainStability<Space> check_stability(const ChainRobot<Space>& robot, const ChainState<Space>& state,
+                                      ChainWork& work) {
+  constexpr int dof = Space::dof;
+  ChainStability<Space> stability{std::numeric_limits<double>::quiet_NaN(), 0, {}, {}};
+  if (!fits(robot, state)) return stability;
+  const Variation all = variation(robot, state);
+  const Eigen::VectorXd values = on_null_space(all.H, all.C);
+  stability.smallest_eigenvalue = least(values);
+  stability.unstable_directions = count_negative(values);
+  if (stability.unstable_directions == 0) return stability;  // nor are they in any part
+  for (std::size_t i = 0; i < all.legs.size(); ++i) {
+    const auto& [angle, angles, row, rows] = all.legs[i];
+    if (count_negative(on_null_space(all.H.block(angle, angle, angles, angles),
+                                     all.C.block(row, angle, rows, angles))) > 0)
+      stability.unstable_legs.push_back(static_cast<int>(i));
+  }
+  const Vec<double, dof> scale = scale_of(robot);
+  const MatrixXd S = scale.asDiagonal() * stiffness(robot, state, work) * scale.asDiagonal();
+  if (!S.allFinite()) return stability;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> own(0.5 * (S + S.transpose()));
+  for (int k = 0; k < count_negative(own.eigenvalues()); ++k)
+    stability.unstable.push_back(scale.cwiseProduct(own.eigenvectors().col(k)));
+  return stability;
+}
+
+template <class Space>
+ChainMargins margins(const ChainRobot<Space>& robot, const ChainState<Space>& state, ChainWork& work) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!fits(robot, state)) return {none, none};
+  Solver<Space> solver(robot, work, {});
+  ChainMargins found{solver.regularity(solver.reduce(state.pose, state.legs, state.hold, state.wrench)), 0};
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    const auto& leg = robot.legs[i];
+    if (!(leg.diameter > 0)) found.strain = none;
+    for (int j = 0; j < leg.chain.joints(); ++j) {
+      const double bend = state.legs[i].angles[static_cast<std::size_t>(j)] /
+                          (even_bend(leg.chain, j) * leg.chain.link_length());
+      found.strain = worse(found.strain, 0.5 * leg.diameter * bend);
+    }
+  }
+  return found;
 }
 
 namespace {
@@ -88,8 +164,11 @@ double potential(const ChainRobot<Space>& robot, const ChainState<Space>& state)
   return sum;
 }
 
-#define SINEW_OF(Space)                                                                          \
-  template SINEW_API double least_curvature(const ChainRobot<Space>&, const ChainState<Space>&); \
+#define SINEW_OF(Space)                                                                                    \
+  template SINEW_API double least_curvature(const ChainRobot<Space>&, const ChainState<Space>&);           \
+  template SINEW_API ChainStability<Space> check_stability(const ChainRobot<Space>&,                       \
+                                                           const ChainState<Space>&, ChainWork&);          \
+  template SINEW_API ChainMargins margins(const ChainRobot<Space>&, const ChainState<Space>&, ChainWork&); \
   template SINEW_API double potential(const ChainRobot<Space>&, const ChainState<Space>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)

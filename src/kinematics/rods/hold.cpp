@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -53,25 +54,12 @@ class Holder {
                     tolerance, rod_rounding, iterations, residual);
   }
 
-  /// From the state before, near by: a step or two with the factors kept from there, then with new ones, and
-  /// with those kept as long as they gain as much as newer ones would.
+  /// From the state before, near by.
   bool follow(const SE3<double>& pose, Report& report, double tolerance) {
-    constexpr double worth_starting = 1e-6, worth_renewing = 3e-9;
-    double error = 0;
-    int renewals = 0;
-    for (int& k = report.iterations; k == 0 || !(error <= tolerance); ++k) {
-      const bool renews = renewals == 0 ? k == 2 || (k == 1 && error < worth_starting)
-                                        : renewals < 3 && error > worth_renewing;
-      if (renews && !renew()) return false;
-      renewals += renews;
-      if (!step(pose, renews)) return false;
-      const double next = system_.evaluate(false);
-      if (renewals > 0 && !(next < 0.3 * error) && !(next <= tolerance)) return false;
-      if (k > 10) return false;
-      error = next;
-    }
-    report.residual = error;
-    return true;
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    return contract_with_kept_factors([&] { return system_.evaluate(false); }, [&] { return renew(); },
+                                      [&](bool fresh) { return step(pose, fresh); }, tolerance, unknown,
+                                      report.iterations, report.residual);
   }
 
  private:

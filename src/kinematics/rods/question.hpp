@@ -8,7 +8,7 @@
 namespace sinew::inline v0 {
 
 /// Home of a robot in space.
-inline SE3<double> home_of(const AnyRobot& robot) {
+inline SE3<double> home_of(const Robot& robot) {
   return SE3<double>::from(std::get<SpatialPose>(home(robot)));
 }
 
@@ -28,12 +28,12 @@ inline constexpr int most_iterations = System::is_slow ? 400 : 4000;
 
 /// The question with the weight of the platform in its wrench.
 template <class Work>
-RodQuestion question_of(const AnyRobot& robot, const EquilibriumOptions& options, Work& rods) {
+RodQuestion question_of(const Robot& robot, const EquilibriumOptions& options, Work& rods) {
   RodQuestion question;
-  const Vec3<double> gravity = options.gravity.value_or(robot.weight.gravity);
+  const Vec3<double> gravity = options.gravity.value_or(robot.weight().gravity);
   set_gravity(rods, gravity);
   question.wrench = options.wrench;
-  question.wrench.head<3>() += robot.weight.platform_mass * gravity;
+  question.wrench.head<3>() += robot.weight().platform_mass * gravity;
   if (options.start) question.start = SE3<double>::from(*options.start);
   question.resume = options.resume;
   using System = std::decay_t<decltype(rods.system)>;

@@ -59,27 +59,16 @@ Report check_reach(const System& system, Numbers inputs) {
   return report;
 }
 
-/// Newton's method from the state before: a step or two with the factors kept from there, until new ones
-/// would end it at once, then with new ones, and with those kept as long as they gain as much as newer ones
-/// would. False, with the state lost, where it does not contract.
+/// Newton's method from the state before. False, with the state lost, where it does not contract.
 template <class System>
 bool solve_warm(System& system, Report& report) {
-  constexpr double worth_starting = 1e-6, worth_renewing = 3e-9;
-  double error = system.evaluate(false);
-  int renewals = 0;
-  for (int& k = report.iterations; !(error <= rod_tolerance); ++k) {
-    const bool renews =
-        renewals == 0 ? k == 2 || (k == 1 && error < worth_starting) : renewals < 3 && error > worth_renewing;
-    if (renews && !system.linearise()) return false;
-    renewals += renews;
-    system.move(system.step(renews));
-    const double next = system.evaluate(false);
-    if (renewals > 0 && !(next < 0.3 * error) && !(next <= rod_tolerance)) return false;
-    if (k > 10) return false;
-    error = next;
-  }
-  report.residual = error;
-  return true;
+  const auto step = [&](bool fresh) {
+    system.move(system.step(fresh));
+    return true;
+  };
+  return contract_with_kept_factors([&] { return system.evaluate(false); },
+                                    [&] { return system.linearise(); }, step, rod_tolerance,
+                                    system.evaluate(false), report.iterations, report.residual);
 }
 
 /// Back to the coarse nodes where they resolve the shapes. `before` holds the state.

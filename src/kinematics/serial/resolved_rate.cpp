@@ -95,20 +95,14 @@ void judge(double missed, double wanted, const ResolvedRateOptions& options, Res
 
 }  // namespace
 
-RateWorkspace::RateWorkspace(const SerialRobot& robot)
-    : bends(2 * robot.sections.size()),
-      extensions(robot.sections.size()),
-      tendons(static_cast<std::size_t>(robot.tendon_count())) {}
-
 ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends, const TipTwist& twist,
-                           const ResolvedRateOptions& options, SerialWorkspace& work, RateWorkspace& rates) {
+                           const ResolvedRateOptions& options, SerialWorkspace& work) {
   if (!work.fits(robot) || !work.fits(bends) || bends.empty() || robot.section_count() > max_sections ||
-      rates.bends.size() != 2 * bends.size() || rates.tendons.size() != work.changes.size() ||
       !(options.fastest > 0)) {
     ResolvedRate refused;
     refused.report.status = Status::bad_input;
     refused.report.message.append(
-        "robot, bends and both workspaces are not of one robot, or fastest is not above 0");
+        "robot, bends and workspace are not of one robot, or fastest is not above 0");
     return refused;
   }
   tip_motion(bends, work);
@@ -130,24 +124,24 @@ ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends
   judge(length * speed(system.r, system.rows), wanted, options, answer);
   for (std::size_t m = 0; m < bends.size(); ++m) {
     const Bend rate = bend_change(robot.sections[m], bends[m], unknown[2 * m], unknown[2 * m + 1]);
-    rates.bends[2 * m] = rate.x();
-    rates.bends[2 * m + 1] = rate.y();
-    rates.extensions[m] = is_extensible ? length * unknown[2 * bends.size() + m] : 0;
+    work.bend_rates[2 * m] = rate.x();
+    work.bend_rates[2 * m + 1] = rate.y();
+    work.extension_rates[m] = is_extensible ? length * unknown[2 * bends.size() + m] : 0;
   }
   tendon_rates(bends, options.model, work);
   double paid_out = 0;  // of the tendons that pass a section, by the extensions so far
   std::size_t i = 0;
   for (std::size_t m = 0; m < bends.size(); ++m) {
-    paid_out += work.lengthwise[m].tendons * rates.extensions[m];
+    paid_out += work.lengthwise[m].tendons * work.extension_rates[m];
     for (int k = 0; k < work.tendons[m]; ++k, ++i) {
-      rates.tendons[i] = paid_out;
-      for (std::size_t j = 0; j < rates.bends.size(); ++j)
-        rates.tendons[i] += work.K[i * rates.bends.size() + j] * rates.bends[j];
+      work.tendon_rates[i] = paid_out;
+      for (std::size_t j = 0; j < work.bend_rates.size(); ++j)
+        work.tendon_rates[i] += work.K[i * work.bend_rates.size() + j] * work.bend_rates[j];
     }
   }
-  answer.bends = rates.bends;
-  answer.extensions = rates.extensions;
-  answer.tendons = rates.tendons;
+  answer.bends = work.bend_rates;
+  answer.extensions = work.extension_rates;
+  answer.tendons = work.tendon_rates;
   return answer;
 }
 

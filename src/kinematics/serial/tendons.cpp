@@ -76,6 +76,9 @@ SerialWorkspace::SerialWorkspace(const SerialRobot& any)
       J(12 * bends.size()),
       K(changes.size() * 2 * bends.size()),
       extensions(bends.size()),
+      bend_rates(2 * bends.size()),
+      extension_rates(bends.size()),
+      tendon_rates(changes.size()),
       lengthwise(bends.size()),
       sections(any.sections) {
   for (const Section& section : any.sections) {

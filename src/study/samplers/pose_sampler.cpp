@@ -120,7 +120,7 @@ bool read_pose(const Node& pose, const Study& study, PoseStudy& asked) {
                     : add(std::vector<QueryEntry>{{1}, {0}, {0}, {0}}, 4);
 }
 
-std::optional<PoseStudy> pose_study(const Study& study, const AnyRobot& robot) {
+std::optional<PoseStudy> pose_study(const Study& study, const Robot& robot) {
   PoseStudy asked{.is_spatial = std::holds_alternative<SpatialPose>(home(robot)),
                   .pose = {},
                   .independent = {},
@@ -155,7 +155,7 @@ std::optional<PoseStudy> pose_study(const Study& study, const AnyRobot& robot) {
 
 class PoseSampler {
  public:
-  PoseSampler(const AnyRobot& robot, const PoseStudy& asked) : robot_(robot), asked_(asked), work_(robot) {}
+  PoseSampler(const Robot& robot, const PoseStudy& asked) : robot_(robot), asked_(asked), work_(robot) {}
 
   void operator()(const SampleBlock& block) {
     place(block);
@@ -261,7 +261,7 @@ class PoseSampler {
     }
   }
 
-  const AnyRobot& robot_;
+  const Robot& robot_;
   const PoseStudy& asked_;
   Workspace work_;
   std::vector<double> poses_, squares_;  ///< of the quaternions given
@@ -278,7 +278,7 @@ SamplerKind pose_sampler(const Study& study) {
   auto asked = pose_study(study, *robot);
   if (!asked) return {};
   struct Shared {
-    AnyRobot robot;
+    Robot robot;
     PoseStudy asked;
   };
   const auto shared = std::make_shared<const Shared>(Shared{std::move(*robot), std::move(*asked)});

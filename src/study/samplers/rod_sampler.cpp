@@ -50,7 +50,7 @@ std::optional<RodStudy> rod_study(const Study& study) {
 
 class RodSampler {
  public:
-  RodSampler(const AnyRobot& robot, const RodStudy& asked) : robot_(robot), asked_(asked) {}
+  RodSampler(const Robot& robot, const RodStudy& asked) : robot_(robot), asked_(asked) {}
 
   void operator()(const SampleBlock& block) {
     const std::size_t inputs = asked_.inputs.size();
@@ -78,7 +78,7 @@ class RodSampler {
     block.statuses[k] = static_cast<SampleStatus>(statuses_[k]);
   }
 
-  const AnyRobot& robot_;
+  const Robot& robot_;
   const RodStudy& asked_;
   std::vector<double> rows_;
   std::vector<SpatialPose> poses_;
@@ -95,7 +95,7 @@ SamplerKind rod_sampler(const Study& study) {
       static_cast<std::size_t>(input_count(*robot)) != asked->inputs.size())
     return {};
   struct Shared {
-    AnyRobot robot;
+    Robot robot;
     RodStudy asked;
   };
   const auto shared = std::make_shared<const Shared>(Shared{std::move(*robot), *asked});

@@ -26,7 +26,7 @@ std::array<Vec2<double>, 3> Printed::platform_points() const {
 
 PlanarPose pose(double eta) { return {Printed{}.last_x * eta, 0.0, eta * pi / 3}; }
 
-Expected<Sample> sample(const AnyRobot& robot, double eta, Workspace& work) {
+Expected<Sample> sample(const Robot& robot, double eta, Workspace& work) {
   Sample answer{.eta = eta,
                 .pose = pose(eta),
                 .tendons = {},
@@ -39,7 +39,7 @@ Expected<Sample> sample(const AnyRobot& robot, double eta, Workspace& work) {
                 .type_2 = {}};
   const std::vector<int> bending(static_cast<std::size_t>(leg_count(robot)), 1);
   const Inverse inverse_answer = inverse(robot, answer.pose, {.bending = bending}, work);
-  if (!inverse_answer.ok()) return failure("no_solution", robot.name, to_string(inverse_answer.report));
+  if (!inverse_answer.ok()) return failure("no_solution", robot.name(), to_string(inverse_answer.report));
   answer.tendons.assign(inverse_answer.inputs.begin(), inverse_answer.inputs.end());
   answer.curvatures.assign(inverse_answer.coordinates.begin(), inverse_answer.coordinates.end());
 
@@ -53,7 +53,7 @@ Expected<Sample> sample(const AnyRobot& robot, double eta, Workspace& work) {
   return answer;
 }
 
-Expected<std::vector<Sample>> trajectory(const AnyRobot& robot) {
+Expected<std::vector<Sample>> trajectory(const Robot& robot) {
   const int last = Printed{}.configurations - 1;
   Workspace work(robot);
   std::vector<Sample> samples;

@@ -10,7 +10,7 @@
 #include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/base/error.hpp"
-#include "sinew/robot/any_robot.hpp"
+#include "sinew/robot/robot.hpp"
 
 namespace sinew::inline v0::example51 {
 
@@ -60,10 +60,10 @@ struct Sample {
 };
 
 /// Bending positive in every leg.
-Expected<Sample> sample(const AnyRobot& robot, double eta, Workspace& work);
+Expected<Sample> sample(const Robot& robot, double eta, Workspace& work);
 
 /// η = k/59 for k = 0 … 59.
-Expected<std::vector<Sample>> trajectory(const AnyRobot& robot);
+Expected<std::vector<Sample>> trajectory(const Robot& robot);
 
 /// det J = −(3√3/2) R_b R_p sin ψ (x² + y² − R_b² − R_p² + 2 R_b R_p cos ψ), ψ = φ − π/3 [m⁴].
 double determinant(const PlanarPose& pose);

@@ -11,7 +11,7 @@ tl::unexpected<Errors> failed(std::string_view where, const Report& report) {
 
 }  // namespace
 
-Expected<ChainRobot<Planar>> chains(const AnyRobot& robot) {
+Expected<ChainRobot<Planar>> chains(const Robot& robot) {
   auto any = chain_robot(robot, ChainModel::even);
   if (!any) return tl::unexpected(std::move(any.error()));
   return std::get<ChainRobot<Planar>>(*any);

@@ -17,7 +17,7 @@ struct ChainSample {
   ChainVelocity<Planar> velocity;
 };
 
-Expected<ChainRobot<Planar>> chains(const AnyRobot& robot);
+Expected<ChainRobot<Planar>> chains(const Robot& robot);
 
 /// Bent evenly towards positive curvature.
 Expected<std::vector<ChainLegState>> evenly_bent(const ChainRobot<Planar>& robot, const PlanarPose& pose);

@@ -150,7 +150,7 @@ void add_rank(std::vector<Finding>& findings, const Sample& last, const PlanarSh
 }
 
 /// With the inputs held the platform turns about the common point: v = −E c, ω = 1.
-Finding free_motion(const AnyRobot& robot, const Sample& last, Workspace& work) {
+Finding free_motion(const Robot& robot, const Sample& last, Workspace& work) {
   const Velocity at = velocity(robot, last.pose, last.curvatures, work);
   const Point c = example51::meeting_point() - Point(last.pose.x, last.pose.y);
   const Eigen::Vector3d twist(c.y(), -c.x(), 1);
@@ -161,7 +161,7 @@ Finding free_motion(const AnyRobot& robot, const Sample& last, Workspace& work) 
 }
 
 /// The translation plays no part: everywhere at φ = 60° the lines meet, in p/(1 − R_p/R_b).
-Expected<Finding> elsewhere(const AnyRobot& robot, Workspace& work) {
+Expected<Finding> elsewhere(const Robot& robot, Workspace& work) {
   const double ratio = Printed{}.platform_radius / Printed{}.base_radius;
   const std::vector<int> bending(static_cast<std::size_t>(leg_count(robot)), 1);
   double off = 0;
@@ -170,7 +170,7 @@ Expected<Finding> elsewhere(const AnyRobot& robot, Workspace& work) {
     for (const double y : {-0.03, 0.0, 0.03}) {
       const PlanarPose pose{x, y, pi / 3};
       const Inverse there = inverse(robot, pose, {.bending = bending}, work);
-      if (!there.ok()) return failure("no_solution", robot.name, to_string(there.report));
+      if (!there.ok()) return failure("no_solution", robot.name(), to_string(there.report));
       const std::vector<double> curvatures(there.coordinates.begin(), there.coordinates.end());
       const TypeTwo type = velocity(robot, pose, curvatures, work).type_2;
       ++all;

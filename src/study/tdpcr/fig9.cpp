@@ -61,7 +61,7 @@ Table table_of(const Samples& samples) {
 
 // ---------------------------------------------------------------- findings
 
-void add_geometry(std::vector<Finding>& findings, const AnyRobot& robot, const Samples& samples) {
+void add_geometry(std::vector<Finding>& findings, const Robot& robot, const Samples& samples) {
   const Printed paper;
   // The picture of the home pose, x = y = φ = 0, shows the robot's points as section 5.1 prints them.
   const PlanarShape home = shape(robot, samples[0].pose, samples[0].curvatures, 2);
@@ -203,7 +203,7 @@ Series outline(std::string label, const Polyline& points, Mark mark, Colour colo
 }
 
 /// @param drawn length of the lines, in distances from base to platform point
-Panel pose_panel(const AnyRobot& robot, const Sample& sample, std::string title, double drawn) {
+Panel pose_panel(const Robot& robot, const Sample& sample, std::string title, double drawn) {
   const PlanarShape picture = shape(robot, sample.pose, sample.curvatures, 49);
   Panel panel{.title = std::move(title),
               .x = {.label = "x", .unit = "mm", .low = -270, .high = 220, .step = 100},
@@ -230,7 +230,7 @@ Panel pose_panel(const AnyRobot& robot, const Sample& sample, std::string title,
   return panel;
 }
 
-Figure poses_figure(const AnyRobot& robot, const Samples& samples) {
+Figure poses_figure(const Robot& robot, const Samples& samples) {
   Figure figure{.title = "",
                 .panels = {},
                 .columns = 2,

@@ -9,12 +9,13 @@
 #include "sinew/base/numbers.hpp"
 #include "sinew/kinematics/inverse.hpp"
 #include "sinew/math/tilt.hpp"
+#include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0::tripod {
 namespace {
 
 using std::numbers::pi;
-using Model = ParallelRobot<Leg<Spatial, Rail, SlideDrive, HingedStrut>>;
+using HingedLeg = Leg<Spatial, Rail, SlideDrive, HingedStrut>;
 
 constexpr double degree = pi / 180;
 
@@ -46,17 +47,16 @@ double inverse_sector(const TripodSize& size, double direction) {
 
 }  // namespace
 
-TripodSize size_of(const AnyRobot& robot) {
-  const auto* model = std::get_if<Model>(&robot.model);
-  if (!model || model->legs.empty()) return {not_a_number, not_a_number, not_a_number};
-  const auto& leg = model->legs.front();
+TripodSize size_of(const Robot& robot) {
+  const auto legs = legs_of<HingedLeg>(robot).legs;
+  if (legs.empty()) return {not_a_number, not_a_number, not_a_number};
+  const auto& leg = legs.front();
   return {leg.base.p.norm(), leg.platform_point.norm(), leg.closure.length};
 }
 
-AnyRobot with_platform_radius(AnyRobot robot, double radius) {
-  if (auto* model = std::get_if<Model>(&robot.model))
-    for (auto& leg : model->legs) leg.platform_point *= radius / leg.platform_point.norm();
-  return robot;
+Robot with_platform_radius(const Robot& robot, double radius) {
+  return with_changed_legs(robot,
+                           [&](auto& leg) { leg.platform_point *= radius / leg.platform_point.norm(); });
 }
 
 double tilt(double radius) {
@@ -77,7 +77,7 @@ double Sample::frobenius() const { return std::hypot(rises[0], rises[1], rises[2
 double Sample::largest() const { return is_reached() ? *std::ranges::max_element(rises) : not_a_number; }
 double Sample::smallest() const { return is_reached() ? *std::ranges::min_element(rises) : not_a_number; }
 
-Sample sample(const AnyRobot& robot, const Independent& at, Workspace& work) {
+Sample sample(const Robot& robot, const Independent& at, Workspace& work) {
   Sample out{at.e1,        at.e2,        {not_a_number, not_a_number, not_a_number},
              not_a_number, not_a_number, not_a_number,
              not_a_number};
@@ -94,14 +94,14 @@ Sample sample(const AnyRobot& robot, const Independent& at, Workspace& work) {
   return out;
 }
 
-std::vector<Sample> samples(const AnyRobot& robot, Workspace& work) {
+std::vector<Sample> samples(const Robot& robot, Workspace& work) {
   std::vector<Sample> all;
   for (const double e2 : places())
     for (const double e1 : places()) all.push_back(sample(robot, {height, e1, e2}, work));
   return all;
 }
 
-double change_with_height(const AnyRobot& robot, const std::vector<Sample>& all,
+double change_with_height(const Robot& robot, const std::vector<Sample>& all,
                           const std::function<double(const Sample&, const Sample&)>& off, Workspace& work) {
   double most = 0;
   for (std::size_t k = 0; k < all.size(); k += 7) {

@@ -25,10 +25,10 @@ inline constexpr const char* as_printed =
     "Altuzarra et al. 2023, section 3.1: 3PRS, r_A = 0.25 m, L = 0.35 m, r = 0.125 m, e3 = 0";
 
 /// What a robot of these three legs is like, by the first; NaN for any other robot.
-TripodSize size_of(const AnyRobot& robot);
+TripodSize size_of(const Robot& robot);
 
 /// The same robot with a platform of this radius [m].
-AnyRobot with_platform_radius(AnyRobot robot, double radius);
+Robot with_platform_radius(const Robot& robot, double radius);
 
 /// Tilt of the platform, φ = 2 arcsin |(e₁, e₂)|, of 0 to 1 [deg].
 double tilt(double radius);
@@ -56,14 +56,14 @@ struct Sample {
 };
 
 /// Through the whole robot: pose by (10), slides by inverse kinematics, J, K and U by the velocity analysis.
-Sample sample(const AnyRobot& robot, const Independent& at, Workspace& work);
+Sample sample(const Robot& robot, const Independent& at, Workspace& work);
 
 /// At every place of the grid, e₁ fastest.
-std::vector<Sample> samples(const AnyRobot& robot, Workspace& work);
+std::vector<Sample> samples(const Robot& robot, Workspace& work);
 
 /// Every seventh place of the grid compared with itself at another height: the largest `off(sample, other)`;
 /// NaN where one of the two is reached and the other not.
-double change_with_height(const AnyRobot& robot, const std::vector<Sample>& all,
+double change_with_height(const Robot& robot, const std::vector<Sample>& all,
                           const std::function<double(const Sample&, const Sample&)>& off, Workspace& work);
 
 // ---------------------------------------------------------------- loci

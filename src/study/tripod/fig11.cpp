@@ -29,13 +29,13 @@ constexpr Coordinate e3{"e3", "e₃", "", 1}, x{"x", "x_p", "mm", 1e3}, y{"y", "
 
 struct PresetHeights {
   const Preset* preset;
-  AnyRobot robot;
+  Robot robot;
   Swept near, exact;  ///< poses near the three heights, and at them
 };
 
 /// The rigid twin at the tilt of each sample.
 struct Rigid {
-  AnyRobot robot;
+  Robot robot;
 
   double at(const Coordinate& what, double z, double e1, double e2) const {
     const ConstrainedPose pose = constrained_pose(robot, {z, e1, e2});

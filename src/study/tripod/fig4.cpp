@@ -30,7 +30,7 @@ struct Parasitic {
   double beside = not_a_number;  ///< largest distance of a platform point from its plane [m]
 };
 
-Parasitic parasitic(const AnyRobot& robot, const Independent& at) {
+Parasitic parasitic(const Robot& robot, const Independent& at) {
   Parasitic out{at.e1, at.e2};
   if (at.e1 * at.e1 + at.e2 * at.e2 > 1) return out;
   const ConstrainedPose found = constrained_pose(robot, at);
@@ -44,7 +44,7 @@ Parasitic parasitic(const AnyRobot& robot, const Independent& at) {
   return out;
 }
 
-std::vector<Parasitic> everywhere(const AnyRobot& robot) {
+std::vector<Parasitic> everywhere(const Robot& robot) {
   std::vector<Parasitic> all;
   for (const double e2 : tripod::places())
     for (const double e1 : tripod::places()) all.push_back(parasitic(robot, {tripod::height, e1, e2}));
@@ -110,7 +110,7 @@ Finding extremes(const char* quantity, double Parasitic::*value, const std::vect
 }
 
 /// x_p has its ends at 45° on the rim, between the places of the grid: at (1, ∓1)/√2.
-Finding extremes_of_x(const AnyRobot& robot) {
+Finding extremes_of_x(const Robot& robot) {
   const double half = std::sqrt(0.5) * (1 - 1e-15);  // not beyond the rim by rounding
   const double low = parasitic(robot, {tripod::height, half, half}).x,
                high = parasitic(robot, {tripod::height, half, -half}).x;
@@ -120,7 +120,7 @@ Finding extremes_of_x(const AnyRobot& robot) {
 }
 
 /// The place turned by 120° about the robot's axis has its pose turned by 120°; the mirrored one mirrored.
-Finding symmetry(const AnyRobot& robot) {
+Finding symmetry(const Robot& robot) {
   const double c = std::cos(2 * pi / 3), s = std::sin(2 * pi / 3);
   double off = 0;
   int count = 0;
@@ -138,7 +138,7 @@ Finding symmetry(const AnyRobot& robot) {
                           fmt::format("{} places, each turned and mirrored", count), off, 1e-14, "m");
 }
 
-void add_shape(std::vector<Finding>& findings, const AnyRobot& robot, const std::vector<Parasitic>& all) {
+void add_shape(std::vector<Finding>& findings, const Robot& robot, const std::vector<Parasitic>& all) {
   findings.push_back(extremes_of_x(robot));
   findings.push_back(extremes("y_p from −1 to 1 m, derived at (±1, 0), (0, ±1)", &Parasitic::y, all, -1, 1));
   findings.push_back(extremes("e_0 from 0 on the rim to 1 at home, derived", &Parasitic::e0, all, 0, 1));
@@ -162,7 +162,7 @@ void add_shape(std::vector<Finding>& findings, const AnyRobot& robot, const std:
 }
 
 /// Below (9) the paper drops e₀ = 0 because it "is only null when there is no output rotation".
-Finding null_of_e0(const AnyRobot& robot) {
+Finding null_of_e0(const Robot& robot) {
   const double unturned = parasitic(robot, {tripod::height, 0, 0}).e0,
                rim = parasitic(robot, {tripod::height, 0, 1}).e0;
   return {"where e_0 = cos(φ/2) is null", "only without output rotation (φ = 0)",
@@ -209,7 +209,7 @@ Figure figure_of(const std::vector<Parasitic>& all) {
 Expected<ItemResult> tripod_fig4(const StudyItem&, const std::filesystem::path&) {
   auto file = load("3prs");
   if (!file) return tl::unexpected(file.error());
-  const AnyRobot robot = tripod::with_platform_radius(std::move(*file), radius);
+  const Robot robot = tripod::with_platform_radius(*file, radius);
   const std::vector<Parasitic> all = everywhere(robot);
 
   ItemResult result;

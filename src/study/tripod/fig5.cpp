@@ -97,7 +97,7 @@ void add_inverse(std::vector<Finding>& findings, const TripodSize& size, const s
 }
 
 /// The same through the robot: poses just inside have slides, those just outside have none.
-Finding reach(const AnyRobot& robot, const std::vector<Locus>& loci, Workspace& work) {
+Finding reach(const Robot& robot, const std::vector<Locus>& loci, Workspace& work) {
   std::size_t inside = 0, outside = 0;
   const auto is_reached = [&](const Locus& at, double factor) {
     const double radius = factor * at.inverse, direction = at.direction * degree;
@@ -115,7 +115,7 @@ Finding reach(const AnyRobot& robot, const std::vector<Locus>& loci, Workspace& 
 }
 
 /// The forward locus by the velocity analysis of the robot: its determinant there over that at home.
-Finding singular_there(const AnyRobot& robot, const TripodSize& size, const std::vector<Locus>& loci,
+Finding singular_there(const Robot& robot, const TripodSize& size, const std::vector<Locus>& loci,
                        Workspace& work) {
   std::size_t places = 0, found = 0;
   double most = 0;
@@ -144,7 +144,7 @@ double on_the_axis(const TripodSize& size, double e1) {
          2 * e1 * f / std::sqrt((size.strut_length - f) * (size.strut_length + f));
 }
 
-void add_forward(std::vector<Finding>& findings, const AnyRobot& robot, const TripodSize& size,
+void add_forward(std::vector<Finding>& findings, const Robot& robot, const TripodSize& size,
                  const std::vector<Locus>& loci, Workspace& work) {
   const double gap = tripod::gap(size) / degree, end = tripod::inverse_radius(size, gap * degree);
   const auto found = std::ranges::count_if(loci, [](const Locus& at) { return !std::isnan(at.forward); });

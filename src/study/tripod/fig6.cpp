@@ -88,7 +88,7 @@ Finding range(const char* name, double (Sample::*value)() const, const Samples& 
 }
 
 /// A strut near its locus is √(2 L f′ δ) high: halving the distance δ divides it by √2.
-Finding vanishing(const AnyRobot& robot, const TripodSize& size, Workspace& work) {
+Finding vanishing(const Robot& robot, const TripodSize& size, Workspace& work) {
   double most = 0, ratio = 0;
   for (int k = 0; k < 36; ++k) {
     const double direction = (10 * k + 2) * pi / 180, edge = tripod::inverse_radius(size, direction);
@@ -107,7 +107,7 @@ Finding vanishing(const AnyRobot& robot, const TripodSize& size, Workspace& work
                           ratio, 1e-6, "of the ratio");
 }
 
-void add_values(std::vector<Finding>& findings, const AnyRobot& robot, const TripodSize& size,
+void add_values(std::vector<Finding>& findings, const Robot& robot, const TripodSize& size,
                 const Samples& all, Workspace& work) {
   const Sample home = tripod::sample(robot, {tripod::height, 0, 0}, work);
   const double f = size.base_radius - size.platform_radius, L = size.strut_length;

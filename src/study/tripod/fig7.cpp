@@ -66,7 +66,7 @@ Finding range(const char* name, double Sample::*value, const char* unit, const S
 }
 
 /// The same place looked at from a little inside and a little beyond the forward locus.
-Finding blind_norm(const AnyRobot& robot, const TripodSize& size, Workspace& work) {
+Finding blind_norm(const Robot& robot, const TripodSize& size, Workspace& work) {
   double least = 1e9, most = 0;
   for (int k = 0; k < 24; ++k) {
     const double direction = (15 * k + 7) * pi / 180;
@@ -82,7 +82,7 @@ Finding blind_norm(const AnyRobot& robot, const TripodSize& size, Workspace& wor
 }
 
 /// Near a simple zero of the determinant a norm of U grows as 1/distance: ten times nearer, ten times larger.
-Finding growth(const char* name, double Sample::*value, const char* unit, const AnyRobot& robot,
+Finding growth(const char* name, double Sample::*value, const char* unit, const Robot& robot,
                const TripodSize& size, Workspace& work) {
   double off = 0, least = 1e300;
   for (int k = 0; k < 24; ++k) {
@@ -104,7 +104,7 @@ Finding growth(const char* name, double Sample::*value, const char* unit, const 
                           "of ten times that 1e-6 inside");
 }
 
-Finding height(const AnyRobot& robot, const Samples& all, double home_determinant, Workspace& work) {
+Finding height(const Robot& robot, const Samples& all, double home_determinant, Workspace& work) {
   const double change = tripod::change_with_height(
       robot, all,
       [&](const Sample& a, const Sample& b) {
@@ -118,7 +118,7 @@ Finding height(const AnyRobot& robot, const Samples& all, double home_determinan
 }
 
 /// A pose turned by 120° or mirrored is the same robot with its legs renamed.
-Finding symmetry(const AnyRobot& robot, Workspace& work) {
+Finding symmetry(const Robot& robot, Workspace& work) {
   const double c = std::cos(2 * pi / 3), s = std::sin(2 * pi / 3);
   double off = 0;
   int count = 0;

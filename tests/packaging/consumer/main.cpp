@@ -11,7 +11,7 @@ using PlanarLeg = sinew::Leg<sinew::Planar, sinew::Arc, sinew::TendonPair, sinew
 static_assert(alignof(PlanarLeg) == alignof(double), "a public type is over-aligned");
 static_assert(alignof(sinew::Velocity) == alignof(double) && alignof(sinew::Forward) == alignof(double));
 
-sinew::AnyRobot in_code() {
+sinew::Robot in_code() {
   std::vector<PlanarLeg> legs;
   for (int i = 0; i < 3; ++i) {
     const double foot = (90 + 120 * i) * std::numbers::pi / 180,
@@ -31,7 +31,7 @@ int main() {
   const auto missing = sinew::load("no/such/file.yaml");
   if (missing || sinew::to_string(missing.error()).find("no/such/file.yaml") == std::string::npos) return 2;
 
-  const sinew::AnyRobot mine = in_code(), theirs = sinew::load("3-rfr").value();
+  const sinew::Robot mine = in_code(), theirs = sinew::load("3-rfr").value();
   sinew::Workspace work(mine), their_work(theirs);
   const sinew::PlanarPose pose{0.01, -0.005, 0.1};
   const auto inputs = sinew::inverse(mine, pose, {}, work);

@@ -1,0 +1,80 @@
+/// @file robot.hpp
+/// A robot: what files load to and what every question is put to. What its legs are made of is in
+/// robot/parallel.hpp; who only asks needs none of it.
+#pragma once
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "sinew/base/export.hpp"
+#include "sinew/math/se2.hpp"
+#include "sinew/math/se3.hpp"
+
+namespace sinew::inline v0 {
+
+template <class LegT>
+struct ParallelRobot;
+struct PlanarRobot;
+struct SpatialRobot;
+
+/// A pose of the robot's space.
+using AnyPose = std::variant<PlanarPose, SpatialPose>;
+
+/// What weighs on a robot whose legs bear load.
+struct Weight {
+  Vec3<double> gravity = Vec3<double>::Zero();  ///< [m/s²], base axes
+  double platform_mass = 0;                     ///< at the platform's reference point [kg]
+};
+
+/// Constant once built and shared between threads; a copy is the same robot. All memory that changes is in a
+/// Workspace.
+class Robot {
+ public:
+  SINEW_API Robot();  ///< in the plane, without legs
+  /// @param geometry_inferred the source does not print the geometry; it was inferred from its results
+  SINEW_API Robot(std::string name, PlanarRobot legs, bool geometry_inferred = false);
+  SINEW_API Robot(std::string name, SpatialRobot legs, const Weight& weight = {},
+                  bool geometry_inferred = false);
+  /// Of legs all alike; needs robot/parallel.hpp.
+  template <class LegT>
+  Robot(std::string name, const ParallelRobot<LegT>& legs);
+  Robot(const Robot&) = default;
+  Robot& operator=(const Robot&) = default;
+
+  SINEW_API const std::string& name() const;
+  SINEW_API const Weight& weight() const;
+  SINEW_API bool geometry_inferred() const;
+
+  /// Its legs; null of a robot of the other space.
+  const PlanarRobot* planar() const { return planar_; }
+  const SpatialRobot* spatial() const { return spatial_; }
+
+  /// The robot with another weight: one of its own.
+  SINEW_API Robot under(const Weight& weight) const;
+
+  int rod_count() const { return rods_; }
+  /// Whether it has no more rows, inputs and rods than this build carries (base/limits.hpp); of one that has
+  /// more every question is answered by `bad_input`.
+  bool is_within_limits() const { return is_within_limits_; }
+
+  /// One for a robot and its copies: by it a workspace knows the robot that it was made for ...
+  const void* identity() const { return data_.get(); }
+  /// ... while it keeps it.
+  std::shared_ptr<const void> shared() const { return data_; }
+
+ private:
+  struct Data;
+  explicit Robot(std::shared_ptr<const Data> data);
+
+  std::shared_ptr<const Data> data_;
+  const PlanarRobot* planar_ = nullptr;
+  const SpatialRobot* spatial_ = nullptr;
+  int rods_ = 0;
+  bool is_within_limits_ = true;
+};
+
+/// Whether legs of this robot bear load: it then has equilibria (kinematics/equilibrium.hpp).
+inline bool bears_load(const Robot& robot) { return robot.rod_count() > 0; }
+SINEW_API bool has_weight(const Robot& robot);  ///< gravity does something to it
+
+}  // namespace sinew::inline v0

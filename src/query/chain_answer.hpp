@@ -1,0 +1,202 @@
+/// @file chain_answer.hpp
+/// What questions about loaded chains may say, and what is answered about an equilibrium.
+#pragma once
+#include <cmath>
+
+#include "query/chains.hpp"
+
+namespace sinew::inline v0::chains {
+
+/// What every question about loaded chains may say.
+template <class Space>
+struct Load {
+  Wrench<Space> wrench = Wrench<Space>::Zero();
+  std::optional<Until<Space>> until;
+  Wanted wanted;
+  std::optional<double> threshold;  ///< of joints, beyond which the linear model is not to be trusted [rad]
+  ChainOptions options;
+};
+
+template <class Space>
+Load<Space> read_load(Context& context) {
+  Load<Space> load;
+  if (const auto wrench = context.query.optional("wrench")) load.wrench = read_wrench<Space>(*wrench);
+  load.until = read_until<Space>(context);
+  load.wanted = read_want(context);
+  if (const auto threshold = context.query.optional("posture_threshold"))
+    load.threshold = threshold->quantity(Dimension::angle, Range::positive());
+  if (context.max_iterations) load.options.max_iterations = *context.max_iterations;
+  return load;
+}
+
+/// Lengths [[l₁ or null, l₂ or null], ...]; a tendon without a length is loose.
+std::vector<ChainHold> read_lengths(const Reader& list, std::size_t legs);
+
+template <class Space>
+Json chain_legs_json(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+  const auto platform = Space::frame(state.pose);
+  Json legs = Json::array(), angles = angles_json<Space>(robot, state.legs);
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    const ChainLegState& leg = state.legs[i];
+    legs.push_back({{"angles", std::move(angles[i])},
+                    {"chord_force", leg.force},
+                    {"tendon_lengths", leg.tendon_length},
+                    {"tensions", leg.tension},
+                    {"tip_wrench",
+                     to_json<Space::dof>(tip_wrench(robot.legs[i], leg.of(robot.legs[i].chain), platform))}});
+    if constexpr (Space::dimension == 2)
+      if (robot.has_base_motors) legs.back()["motor_torque"] = motor_torque(robot.legs[i], leg, platform);
+  }
+  return legs;
+}
+
+/// Left out where it is not finite.
+template <class Space>
+void put_matrix(Json& answer, const char* key, const Mat<double, Space::dof, Space::dof>& matrix) {
+  const Eigen::Matrix<double, Space::dof, Space::dof, Eigen::RowMajor> rows = matrix;
+  if (rows.allFinite()) answer[key] = to_json(MatrixView(rows.data(), Space::dof, Space::dof));
+}
+
+/// The paper's linear model and constant curvature, beside the answer.
+template <class Space>
+void put_simpler_models(Context& context, const ChainRobot<Space>& robot, const ChainState<Space>& unloaded,
+                        const ChainState<Space>& loaded, const Load<Space>& load, ChainWork& work) {
+  Json& answer = context.answer;
+  const Vec<double, Space::dof> change = linear_compliance(robot, unloaded) * loaded.wrench,
+                                actual = twist_between(unloaded.pose, loaded.pose);
+  if (change.allFinite()) answer["linear"] = to_json<Space::dof>(change);
+  double scale = 0, gap = 0;
+  for (int k = 0; k < Space::dof; ++k) {
+    const double unit = k < Space::dimension ? 1 : robot.platform_radius;
+    scale += std::pow(unit * actual[k], 2);
+    gap += std::pow(unit * (change[k] - actual[k]), 2);
+  }
+  if (scale > 0 && loaded.wrench != unloaded.wrench)
+    put_number(answer, "linear_error", std::sqrt(gap / scale));
+  double posture = 0;
+  for (std::size_t i = 0; i < robot.legs.size(); ++i)
+    for (std::size_t j = 0; j < static_cast<std::size_t>(robot.legs[i].chain.joints()); ++j)
+      posture = std::max(posture, std::abs(loaded.legs[i].angles[j] - unloaded.legs[i].angles[j]));
+  answer["posture_error"] = posture;
+  if (load.threshold) answer["linear_valid"] = posture <= *load.threshold;
+
+  std::size_t held = 0;
+  for (const ChainHold& hold : loaded.hold) held += hold.length_of >= 0 ? 1 : 0;
+  ChainState<Space> even = unloaded;
+  if (held == 0) {
+    ChainOptions options = load.options;
+    options.evenly_bent = true;
+    if (!equilibrium(robot, loaded.hold, loaded.wrench, even, work, options).ok()) return;
+  } else if (held == loaded.hold.size()) {
+    even.wrench = loaded.wrench;  // whose curvature a length holds does not yield
+    even.hold = loaded.hold;
+  } else {
+    return;
+  }
+  put_number(answer, "cc_gap", potential(robot, even) - potential(robot, loaded));
+  put_number(answer, "cc_gap_estimate", evenness_gap(robot, unloaded, loaded.wrench));
+  answer["cc_pose"] = to_json(AnyPose(Space::tidy(even.pose)));
+}
+
+/// Directions of the first links where θ of each motor is 0, at lengths of tendon 1, as arcs have them. None
+/// without motors.
+template <class Space>
+std::vector<double> first_links(Context& context, const ChainRobot<Space>& robot, const AnyPose& pose,
+                                std::span<const double> lengths) {
+  std::vector<double> inputs, directions;
+  if (!robot.has_base_motors) return directions;
+  for (const double length : lengths) inputs.insert(inputs.end(), {0, length});
+  static_cast<void>(command(context.robot, inputs, context.work));  // of arcs beyond their domain, too
+  const Arcs arcs = arcs_of(context, pose, context.work.coordinates);
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    directions.push_back(first_link(arcs.base_tangent[i], arcs.curvature[i], robot.legs[i].chain));
+  return directions;
+}
+
+/// In the order of the robot's inputs.
+template <class Space>
+std::vector<double> inputs_of(Context& context, const ChainRobot<Space>& robot,
+                              const ChainState<Space>& state) {
+  std::vector<double> lengths, inputs;
+  for (const ChainLegState& leg : state.legs) lengths.push_back(leg.tendon_length[0]);
+  const std::vector<double> at_zero = first_links(context, robot, state.pose, lengths);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    if constexpr (Space::dimension == 2)
+      if (robot.has_base_motors)
+        inputs.push_back(wrap_angle(robot.legs[i].base.angle() + std::numbers::pi / 2 - at_zero[i]));
+    inputs.push_back(lengths[i]);
+  }
+  return inputs;
+}
+
+/// What inputs do, in the robot's order where lengths are held: those of tendon 1, and θ that puts a first
+/// link farther with its tendon.
+template <class Space>
+void put_sensitivity(Context& context, const ChainRobot<Space>& robot, const ChainState<Space>& state,
+                     ChainWork& work) {
+  Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor> rows =
+      input_sensitivity(robot, state, work);
+  std::vector<double> shorter;
+  for (const auto& leg : robot.legs) shorter.push_back(0.9 * leg.chain.length);
+  const std::vector<double> turned = first_links(context, robot, state.pose, shorter);
+  Eigen::Index column = 0;
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    const int held = state.hold[i].length_of;
+    column += robot.has_base_motors ? 1 : 0;
+    if (held == 1) rows.col(column) *= -1;
+    if (held >= 0 && robot.has_base_motors)  // first links are affine in the length
+      rows.col(column) += rows.col(column - 1) * turned[i] / (shorter[i] - robot.legs[i].chain.length);
+    column += held >= 0 ? 1 : 2;
+  }
+  if (rows.allFinite())
+    context.answer["sensitivity"] = to_json(MatrixView(rows.data(), Space::dof, rows.cols()));
+}
+
+template <class Space>
+void put_wanted(Context& context, const ChainRobot<Space>& robot, const ChainState<Space>& state,
+                const ChainStability<Space>& stability, const Wanted& wanted, ChainWork& work) {
+  Json& answer = context.answer;
+  if (wanted.stability) {
+    Json twists = Json::array();
+    for (const auto& twist : stability.unstable) twists.push_back(to_json<Space::dof>(twist));
+    answer["unstable"] = std::move(twists);
+    answer["unstable_legs"] = stability.unstable_legs;
+  }
+  if (wanted.margins) {
+    const ChainMargins found = margins(robot, state, work);
+    answer["margins"] = Json::object();
+    put_number(answer["margins"], "fold", found.fold);
+    put_number(answer["margins"], "strain", found.strain);
+  }
+  if (wanted.sensitivity) put_sensitivity(context, robot, state, work);
+}
+
+/// @param unloaded what simpler models start from, if it is known
+template <class Space>
+void put_equilibrium(Context& context, const ChainRobot<Space>& robot, const ChainState<Space>& state,
+                     Report report, const ChainState<Space>* unloaded, const Load<Space>& load,
+                     ChainWork& work) {
+  Json& answer = context.answer;
+  const bool is_found = is_solved(report);
+  ChainStability<Space> stability{};
+  if (is_found) stability = judge(robot, state, work, report);
+  context.report(report);
+  answer["iterations"] = report.iterations;
+  put_number(answer, "residual", report.residual);
+  if (!is_found) return;
+  const AnyPose pose = Space::tidy(state.pose);
+  context.remember(pose);
+  answer["pose"] = to_json(pose);
+  answer["legs"] = chain_legs_json(robot, state);
+  answer["wrench"] = to_json<Space::dof>(state.wrench);
+  put_matrix<Space>(answer, "stiffness", stiffness(robot, state, work));
+  put_matrix<Space>(answer, "compliance", compliance(robot, state, work));
+  answer["stable"] = stability.is_stable();
+  answer["unstable_directions"] = stability.unstable_directions;
+  put_number(answer, "smallest_eigenvalue", stability.smallest_eigenvalue);
+  put_number(answer, "potential", potential(robot, state));
+  put_wanted(context, robot, state, stability, load.wanted, work);
+  if (unloaded) put_simpler_models(context, robot, *unloaded, state, load, work);
+}
+
+}  // namespace sinew::inline v0::chains

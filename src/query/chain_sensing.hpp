@@ -1,0 +1,11 @@
+/// @file chain_sensing.hpp
+/// `statics` of pseudo-rigid chains with tensions that are measured.
+#pragma once
+#include "query/chain_answer.hpp"
+
+namespace sinew::inline v0::chains {
+
+template <class Space>
+void answer_sensing(Context& context, ChainRobot<Space>& robot);
+
+}  // namespace sinew::inline v0::chains

@@ -1,0 +1,85 @@
+/// All solutions of chains that are found.
+#include "query/chain_solutions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sinew/kinematics/assembly_modes.hpp"
+#include "sinew/kinematics/chain_equilibria.hpp"
+
+namespace sinew::inline v0::chains {
+namespace {
+
+constexpr double most_inverses = 256;
+
+template <class Space>
+Json solution_json(Json begun, const ChainRobot<Space>& robot, const FoundChains<Space>& one) {
+  begun["residual"] = one.report.residual;
+  begun["stable"] = one.stability.is_stable();
+  begun["unstable_directions"] = one.stability.unstable_directions;
+  put_number(begun, "potential", one.potential);
+  if (!one.report.ok()) begun["slack"] = true;
+  begun["legs"] = chain_legs_json(robot, one.state);
+  return begun;
+}
+
+}  // namespace
+
+template <class Space>
+void put_all_equilibria(Context& context, const ChainRobot<Space>& robot, const HeldInputs& held,
+                        std::span<const double> inputs, const Load<Space>& load) {
+  using Pose = typename Space::Pose;
+  std::vector<ChainStart<Space>> starts{{std::get<Pose>(held.pose), held.arcs.curvature}};
+  const AssemblyModes modes = assembly_modes(context.robot, inputs, context.work);
+  for (const AnyPose& pose : modes.poses) starts.push_back({std::get<Pose>(pose), held.arcs.curvature});
+  ChainWork work{.stop = context.work.stop};
+  Json solutions = Json::array();
+  const std::span<const ChainStart<Space>> all(starts);
+  for (const auto& one : chain_equilibria(robot, all, held.hold, load.wrench, work, load.options))
+    solutions.push_back(solution_json({{"pose", to_json(AnyPose(Space::tidy(one.state.pose)))}}, robot, one));
+  put_solutions(context, std::move(solutions));
+}
+
+template <class Space>
+void put_all_inverses(Context& context, ChainRobot<Space> robot, const AnyPose& pose, const Branch& branch,
+                      const Load<Space>& load) {
+  const WorkingModes modes = working_modes(context.robot, pose, branch.options(), context.work);
+  std::vector<std::vector<double>> ways;
+  for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, most_inverses); ++k)
+    modes.mode(context.robot, k, ways.emplace_back(context.work.inputs.size()));
+  ChainWork work{.stop = context.work.stop};
+  std::vector<std::pair<double, Json>> found;
+  for (const std::vector<double>& way : ways) {
+    if (work.stop.stop_requested()) break;
+    FoundChains<Space> one;
+    static_cast<void>(command(context.robot, way, context.work));
+    one.report = rest_near(robot, pose, arcs_of(context, pose, context.work.coordinates), true, one.state);
+    if (one.report.ok()) one.report = hold_pose(robot, load.wrench, one.state, work, load.options);
+    if (!is_solved(one.report)) continue;
+    one.stability = check_stability(robot, one.state, work);
+    one.potential = potential(robot, one.state);
+    found.emplace_back(
+        one.potential,
+        solution_json({{"inputs", to_json(inputs_of(context, robot, one.state))}}, robot, one));
+  }
+  std::ranges::stable_sort(found, {},
+                           [](const auto& one) { return std::isfinite(one.first) ? one.first : 0; });
+  if (modes.count > most_inverses)
+    context.answer["message"] =
+        fmt::format("{:.0f} branches exist; the first {:.0f} were tried", modes.count, most_inverses);
+  Json solutions = Json::array();
+  for (auto& [energy, one] : found) solutions.push_back(std::move(one));
+  put_solutions(context, std::move(solutions));
+}
+
+#define SINEW_OF(Space)                                                                      \
+  template void put_all_equilibria(Context&, const ChainRobot<Space>&, const HeldInputs&,    \
+                                   std::span<const double>, const Load<Space>&);             \
+  template void put_all_inverses(Context&, ChainRobot<Space>, const AnyPose&, const Branch&, \
+                                 const Load<Space>&);
+SINEW_OF(Planar)
+SINEW_OF(Spatial)
+#undef SINEW_OF
+
+}  // namespace sinew::inline v0::chains

@@ -1,0 +1,54 @@
+/// @file loads.hpp
+/// What questions about loads may say, whatever bears them, and what is answered of many equilibria.
+#pragma once
+#include "query/context.hpp"
+#include "sinew/leg/space.hpp"
+
+namespace sinew::inline v0 {
+
+/// What is asked of an equilibrium beside it.
+struct Wanted {
+  bool stiffness = false, stability = false, margins = false, sensitivity = false;
+};
+Wanted read_want(Context& context);
+
+/// Forces, then moments.
+template <class Space>
+Vec<double, Space::dof> read_wrench(const Reader& list) {
+  constexpr std::size_t dof = Space::dof;
+  Vec<double, Space::dof> wrench = Vec<double, Space::dof>::Zero();
+  const auto items = list.items(dof);
+  for (std::size_t k = 0; k < std::min(items.size(), dof); ++k)
+    wrench[static_cast<Eigen::Index>(k)] =
+        items[k].quantity(k < Space::dimension ? Dimension::force : Dimension::moment);
+  return wrench;
+}
+
+/// A load that grows.
+template <class Space>
+struct Until {
+  Vec<double, Space::dof> direction;
+  double limit = 0;
+};
+template <class Space>
+std::optional<Until<Space>> read_until(Context& context) {
+  auto asked = context.query.optional("until");
+  if (!asked) return {};
+  const Reader wrench = asked->required("wrench", "the load that is added");
+  Until<Space> until{read_wrench<Space>(wrench)};
+  if (context.errors.empty() && until.direction.isZero(0))
+    wrench.fail("out_of_range", "is the load that is added; not all of its numbers may be zero");
+  until.limit =
+      asked->required("limit", "how many times the wrench is added at most").number(Range::positive());
+  asked->close();
+  return until;
+}
+
+/// One number for all, or one each.
+std::vector<double> read_forces(const Reader& given, std::size_t count, const Range& range, bool one_for_all);
+
+bool read_all(Context& context);
+/// `solutions` that were found by many starts, without proof.
+void put_solutions(Context& context, Json solutions);
+
+}  // namespace sinew::inline v0
