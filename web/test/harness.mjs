@@ -13,6 +13,11 @@ mkdirSync(folder, {recursive: true});
 /** All that may be combined is, and what is measured is measured for long. */
 export const isThorough = process.env.SINEW_TEST_THOROUGH === '1';
 
+// Node keeps a connection for its next request. On a busy machine it sends that one just as the server closes the connection, idle for 5 s,
+// and unlike a browser it does not try again. So every request has a connection of its own.
+const onKeptConnection = globalThis.fetch;
+globalThis.fetch = (url, options = {}) => onKeptConnection(url, {...options, headers: {...options.headers, Connection: 'close'}});
+
 const patience = 120e3;  // ms; on a busy machine even a page takes half a minute to load, and only what never comes is wrong
 
 export async function serve(...options) {

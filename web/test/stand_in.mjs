@@ -66,7 +66,7 @@ export async function standIn(url, robot, text, info = {}, port = 0) {
 
   function pass(incoming, response) {
     const {host, port} = new URL(url), headers = {...incoming.headers, host, ...(incoming.headers.origin && {origin: new URL(url).origin})};
-    const onward = request({host: '127.0.0.1', port, path: incoming.url, method: incoming.method, headers}, (answer) => {
+    const onward = request({host: '127.0.0.1', port, path: incoming.url, method: incoming.method, headers, agent: false}, (answer) => {
       response.writeHead(answer.statusCode, answer.headers);
       answer.pipe(response);
     });
@@ -83,8 +83,7 @@ export async function standIn(url, robot, text, info = {}, port = 0) {
   const server = createServer((incoming, response) => {
     const {pathname} = new URL(incoming.url, url), [, path] = /^\/api\/device\/?(.*)$/.exec(pathname) ?? [];
     if (path !== undefined) return device(path, incoming, response);
-    const get = () => fetch(new URL(pathname, url));
-    if (pathname === '/api/robots') return void get().catch(get).then((answer) => answer.json()).then((json) => reply(response, 200, {...json, opened: {name: robot, text}}));
+    if (pathname === '/api/robots') return void fetch(new URL(pathname, url)).then((answer) => answer.json()).then((json) => reply(response, 200, {...json, opened: {name: robot, text}}));
     pass(incoming, response);
   });
   await new Promise((done) => server.listen(port, '127.0.0.1', done));
