@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <random>
 
-#include "kinematics/chains/leg_moves.hpp"
+#include "kinematics/chains/leg_factors.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
@@ -153,15 +153,17 @@ TEST(ChainForces, AreSlopesOfTheEnergyAndTheirLinearisationsOfThem) {  // @verif
 
 /// What a leg's unknowns move by, and what it adds to the platform's equation, against the equations in full.
 template <class Space>
-void expect_moves(const ChainLeg<Space>& leg, const LegSystem<Space>& system, const ChainHold& hold,
-                  bool is_even, Free free, const ChainLegState& state) {
+void expect_moves(const ChainLeg<Space>& leg, const LegSystem<Space>& system, bool is_even, bool is_fed,
+                  const ChainLegState& state) {
   constexpr int dof = Space::dof;
   Dense all = dense(system);
   const Eigen::Index n = system.joints;
   Eigen::MatrixXd by = all.B;  // what is free
-  if (free == Free::tensions) {
+  if (is_fed) {                // by a length that is held, or a tension
     by = Eigen::MatrixXd::Zero(all.r.size(), 1);
-    for (Eigen::Index j = 0; j < n; ++j) by(j, 0) = system.tendon[static_cast<std::size_t>(j)];
+    if (system.holds_length) by(all.r.size() - 1, 0) = -1;
+    for (Eigen::Index j = 0; j < n && !system.holds_length; ++j)
+      by(j, 0) = system.tendon[static_cast<std::size_t>(j)];
   }
   Eigen::MatrixXd shape = Eigen::MatrixXd::Identity(all.r.size(), all.r.size());  // unknowns by fewer of them
   if (is_even) {
@@ -173,23 +175,25 @@ void expect_moves(const ChainLeg<Space>& leg, const LegSystem<Space>& system, co
   const Eigen::VectorXd constant = shape * lu.solve(-shape.transpose() * all.r);
   const Eigen::MatrixXd moves = shape * lu.solve(-shape.transpose() * by);
 
-  std::vector<std::array<double, 8>> memory(LegMoves<Space>::rows);
-  LegMoves<Space> found(leg.chain, is_even, free, memory.data());
-  found.eliminate(system);
+  LegFactors<Space> found;
+  found.factor(leg.chain, system, is_even);
   const double scale = constant.head(n).cwiseAbs().maxCoeff() + moves.topRows(n).cwiseAbs().maxCoeff();
   const double condition = lu.maxPivot() / std::abs(lu.matrixLU().diagonal().cwiseAbs().minCoeff());
   if (!(condition < 1e12)) return;  // of two links in line any turn is as good
   // Eigenvalues below zero: one for each of its constraints, and those of what is unstable
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(shape.transpose() * all.A * shape);
   const Eigen::Index unstable = (spectrum.eigenvalues().array() < 0).count() - (all.r.size() - n);
-  EXPECT_EQ(found.is_odd(), unstable % 2 == 1) << unstable;
+  EXPECT_EQ(found.unstable(), unstable);
   const double tolerance = 1e-13 * std::max(1e2, condition);
   for (Eigen::Index side = -1; side < by.cols(); ++side) {
     Eigen::VectorXd y = Eigen::VectorXd::Zero(by.cols());
     if (side >= 0) y[side] = 1;
     const Eigen::VectorXd expected = constant + moves * y;
     ChainLegState moved = state;
-    found.move({y.data(), static_cast<std::size_t>(y.size())}, hold, moved);
+    Vec<double, dof> twist = Vec<double, dof>::Zero();
+    if (!is_fed) twist = y;
+    found.plan(leg.chain, twist, is_fed ? y[0] : 0);
+    found.move(leg.chain, moved, system.fed);
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto joint = static_cast<std::size_t>(j);
       ASSERT_NEAR(moved.angles[joint] - state.angles[joint], expected[j], tolerance * scale)
@@ -200,11 +204,14 @@ void expect_moves(const ChainLeg<Space>& leg, const LegSystem<Space>& system, co
   }
   Mat<double, dof, dof> S = Mat<double, dof, dof>::Zero();
   Vec<double, dof> g = Vec<double, dof>::Zero();
-  found.add_to(system, S, g);
-  if (free == Free::tensions) S.col(0) = found.pull(system);
+  g = system.force * system.closure.c_x + found.push(system, found.own);
+  if (is_fed) S.col(0) = found.push(system, found.feed);
+  for (std::size_t k = 0; k < dof && !is_fed; ++k)
+    S.col(static_cast<Eigen::Index>(k)) = found.push(system, found.platform + k);
+  if (!is_fed) S += system.force * system.closure.c_xx;
   Eigen::MatrixXd expected_S = Eigen::MatrixXd::Zero(dof, dof);
   expected_S.leftCols(by.cols()) = all.B.transpose() * moves;
-  if (free == Free::platform) expected_S += system.force * Eigen::MatrixXd(system.closure.c_xx);
+  if (!is_fed) expected_S += system.force * Eigen::MatrixXd(system.closure.c_xx);
   const Eigen::VectorXd expected_g =
       system.force * Eigen::VectorXd(system.closure.c_x) + all.B.transpose() * constant;
   EXPECT_LT((S - expected_S).norm(), tolerance * (1e-12 + expected_S.norm() + moves.norm() * all.B.norm()));
@@ -234,16 +241,15 @@ void expect_moves_of(const char* name) {
             const ChainHold hold{length_of, 0.19, {}};
             LegSystem<Space> system;
             form(leg, platform, state, hold, system);
-            expect_moves(leg, system, hold, false, Free::platform, state);
-            if (length_of >= 0) continue;
-            expect_moves(leg, system, hold, true, Free::platform, state);
-            expect_moves(leg, system, hold, false, Free::tensions, state);
+            expect_moves(leg, system, false, false, state);
+            expect_moves(leg, system, false, true, state);
+            if (length_of < 0) expect_moves(leg, system, true, false, state);
           }
         }
   }
 }
 
-TEST(ChainLegMoves, AreThoseOfTheEquationsInFull) {
+TEST(ChainLegFactors, AreThoseOfTheEquationsInFull) {
   expect_moves_of<Planar>("3-rfr");
   expect_moves_of<Planar>("3-frr");
   expect_moves_of<Spatial>("6-ufs");
@@ -251,7 +257,7 @@ TEST(ChainLegMoves, AreThoseOfTheEquationsInFull) {
 
 /// Where springs and force leave some motion of the links no stiffness at all, the closure still holds the
 /// leg.
-TEST(ChainLegMoves, PassThroughTheForceAtWhichAChainBuckles) {
+TEST(ChainLegFactors, PassThroughTheForceAtWhichAChainBuckles) {
   const auto robot = chains_of<Planar>("3-rfr", ChainModel::weighted);
   ChainLeg<Planar> leg = robot.legs[0];
   for (const int links : {3, 6, 32}) {
@@ -280,7 +286,7 @@ TEST(ChainLegMoves, PassThroughTheForceAtWhichAChainBuckles) {
     }
     for (const double force : {low, high, low + 1e-9, low - 1e-6}) {
       least(force);
-      expect_moves(leg, system, hold, false, Free::platform, state);
+      expect_moves(leg, system, false, false, state);
     }
   }
 }

@@ -3,6 +3,7 @@
 /// a wrench, subject to the closures. Theory: docs/theory/chain_equilibrium.md
 #pragma once
 #include <limits>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -119,12 +120,7 @@ struct ChainOptions {
 /// Memory of a solver, one per thread. Sized on first use with a robot; then nothing allocates.
 struct ChainWork {
   StopToken stop = {};  ///< solves that use it end with `stopped` once it is requested
-  using Rows = std::vector<std::array<double, 8>>;
-  Rows moves = {};                               ///< how each leg's unknowns move with what is free
-  Rows pulls = {};                               ///< of each leg's tension, on the platform
-  std::vector<double> step = {}, near = {};      ///< of what is free; tensions that others should be near
-  std::vector<ChainLegState> legs = {};          ///< iterates
-  std::vector<ChainHold> first = {}, hold = {};  ///< of the path, and on it
+  std::shared_ptr<void> planar = {}, spatial = {};  ///< the solvers' own; a copy of it is for the same thread
 };
 
 /// The equilibrium under this wrench with the motors holding that, on a straight path of both from the one in

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kinematics/chains/path.hpp"
+#include "sinew/math/linalg.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
@@ -43,51 +45,85 @@ Report wrong_sizes() {
   return report;
 }
 
-/// A path to a wrench, and to what is held where the platform is free.
+/// What the tensions of the inner tendons do to the platform at rest, a column a leg.
 template <class Space>
-Report follow(Solver<Space>& solver, const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
-              const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work) {
-  work.first.resize(hold.size());
-  for (std::size_t i = 0; i < hold.size(); ++i) work.first[i] = present(state.legs[i], hold[i]);
-  work.hold.resize(hold.size());
-  const Vec<double, Space::dof> first = state.wrench;
-  const auto put = [&](double part) -> Vec<double, Space::dof> {
-    for (std::size_t i = 0; i < hold.size(); ++i) work.hold[i] = between(work.first[i], hold[i], part);
-    return first + part * (wrench - first);
-  };
-  const ParameterPath end = follow_path(solver, state, work, put);
-  const double done = end.progress;
-  if (done < 1) put(done);
-  state.hold.assign(work.hold.begin(), work.hold.end());
-  measure_tendons(robot, state);
-  if (done < 1) solver.reduce(state.pose, state.legs, state.hold, state.wrench);  // what is left there
-  Report report;
-  report.residual = solver.residual();
-  report.iterations = solver.iterations();
-  if (done < 1) {
-    report.status = end.ran_out ? Status::iteration_limit : Status::stalled;
-    if (!note_stop(work.stop, report)) say_how_far(report, done);
+auto pulls_of(const ChainGroup<Space>& group) {
+  Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor, Space::dof, max_rows> pulls(
+      Space::dof, group.limbs());
+  for (int i = 0; i < group.limbs(); ++i) pulls.col(i) = group.input_wrench_jacobian(i);
+  return pulls;
+}
+
+/// Newton's step of those tensions, to the ones nearest to `near`. Infinite where there is none.
+template <class Space>
+double plan_tensions(ChainGroup<Space>& group, std::span<const double> near) {
+  const auto pulls = pulls_of(group);
+  Vec<double, Space::dof> wanted = group.wrench_residual();
+  std::array<double, max_rows> fed{};
+  const std::span<double> steps(fed.data(), near.size());
+  const MatrixView A(pulls.data(), pulls.rows(), pulls.cols());
+  if (pulls.cols() == Space::dof) {
+    if (!solve(A, MatrixView(wanted.data(), Space::dof, 1), steps))
+      return std::numeric_limits<double>::infinity();
   } else {
-    name_slack(state, report);
+    for (int i = 0; i < group.limbs(); ++i)
+      wanted += pulls.col(i) * (group.effort(i) - near[static_cast<std::size_t>(i)]);
+    least_norm(A, {wanted.data(), static_cast<std::size_t>(Space::dof)}, steps);
+    for (int i = 0; i < group.limbs(); ++i)
+      steps[static_cast<std::size_t>(i)] -= group.effort(i) - near[static_cast<std::size_t>(i)];
   }
-  // from a singular start a step may lead anywhere
-  if (solver.iterations() > 0) check_regularity(solver, solver.begun(), report);
-  if (done == 1) check_regularity(solver, solver.reached(), report);
+  return group.plan(Vec<double, Space::dof>::Zero(), steps);
+}
+
+/// Follows a path to a wrench into `state`, where `find_step` plans Newton's steps, and tells how far it
+/// came.
+/// @param how_regular says what keeps the platform where it is; asked where it begins and where it ends
+template <class Space, class Put, class FindStep, class Regular>
+Report follow(ChainMemory<Space>& memory, StopToken stop, const ChainOptions& options,
+              ChainState<Space>& state, Put&& put, FindStep&& find_step, Regular&& how_regular) {
+  auto& group = memory.group;
+  Report report;
+  double begun = 1;
+  bool has_begun = false;
+  const ChainSteps steps{[&] { return group.error(); },
+                         [&] {
+                           if (!std::exchange(has_begun, true)) begun = how_regular();
+                           return find_step();
+                         }};
+  const ParameterPath end = follow_path(memory, stop, options.max_iterations, put, steps);
+  report.iterations = end.iterations;
+  report.residual = group.error() * group.radius();
+  if (!end.arrived) {
+    report.status = end.ran_out ? Status::iteration_limit : Status::stalled;
+    if (!note_stop(stop, report)) say_how_far(report, end.progress);
+  }
+  group.measure();
+  state = group.state();
+  if (end.arrived) name_slack(state, report);
+  check_regularity(begun, report);  // from a singular start a step may lead anywhere
+  if (end.arrived) check_regularity(how_regular(), report);
   return report;
 }
 
-/// Tensions and shapes that hold the pose without a wrench, from nearly so.
+/// Tensions and shapes that hold the pose without a wrench, from nearly so: no leg pulls or pushes.
 template <class Space>
 Report settle(const ChainRobot<Space>& robot, ChainState<Space>& state) {
   ChainWork work;
-  Solver<Space> solver(robot, work, {}, Free::tensions);
+  auto& group = memory_of(work, robot, state).group;
+  std::vector<double> fed(robot.legs.size());
+  const auto find_step = [&] {
+    for (std::size_t i = 0; i < fed.size(); ++i) fed[i] = group.relief(static_cast<int>(i));
+    return group.plan(Vec<double, Space::dof>::Zero(), fed);
+  };
   Report report;
-  if (!solver.solve(state.pose, state.legs, state.hold, state.wrench)) {
+  int iterations = 0;
+  if (!correct(group, iterations, ChainSteps{[&] { return group.error(); }, find_step})) {
     report.status = Status::unreachable;
     report.message.append("no tensions hold the chains at this pose");
   }
-  report.residual = solver.residual();
-  measure_tendons(robot, state);
+  report.residual = group.error() * group.radius();
+  group.measure();
+  state = group.state();
   return report;
 }
 
@@ -153,10 +189,18 @@ template <class Space>
 Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
                    const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
                    const ChainOptions& options) {
-  if (hold.size() != robot.legs.size() || state.legs.size() != robot.legs.size()) return wrong_sizes();
-  Solver<Space> solver(robot, work, options);
-  const Report report = check_hold(robot, hold);
-  return report.ok() || options.evenly_bent ? follow(solver, robot, hold, wrench, state, work) : report;
+  if (hold.size() != robot.legs.size() || !fits(robot, state)) return wrong_sizes();
+  if (const Report checked = check_hold(robot, hold); !checked.ok() && !options.evenly_bent) return checked;
+  auto& memory = memory_of(work, robot, state, options);
+  auto& group = memory.group;
+  const auto put = [&](double part) {
+    for (std::size_t i = 0; i < hold.size(); ++i)
+      group.hold_leg(i, between(present(state.legs[i], hold[i]), hold[i], part));
+    group.set_wrench(state.wrench + part * (wrench - state.wrench));
+  };
+  return follow(
+      memory, work.stop, options, state, put, [&] { return group.plan(group.step(true)); },
+      [&] { return regularity(group); });
 }
 
 template <class Space>
@@ -169,15 +213,23 @@ Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& 
         "fewer legs than the platform has freedoms hold no pose under load; give the robot more legs");
     return report;
   }
-  if (!fits(robot, state)) return wrong_sizes();
-  work.near.clear();
+  if (!fits(robot, state) || robot.legs.size() > static_cast<std::size_t>(max_rows)) return wrong_sizes();
+  const std::vector<ChainHold> held = std::exchange(state.hold, std::vector<ChainHold>(robot.legs.size()));
+  std::array<double, max_rows> near;
   for (std::size_t i = 0; i < robot.legs.size(); ++i)
-    work.near.push_back(state.legs[i].tension[inner_tendon(state.legs[i], robot.legs[i].chain)]);
-  Solver<Space> solver(robot, work, options, Free::tensions);
-  const std::vector<ChainHold> held = state.hold;
-  const std::vector<ChainHold> hold(held.size());  // whatever tensions come out
-  const Report report = follow(solver, robot, hold, wrench, state, work);
-  for (std::size_t i = 0; i < hold.size(); ++i) state.hold[i] = present(state.legs[i], held[i]);
+    near[i] = state.legs[i].tension[inner_tendon(state.legs[i], robot.legs[i].chain)];
+  auto& memory = memory_of(work, robot, state, options);
+  auto& group = memory.group;
+  const Vec<double, Space::dof> first = state.wrench;
+  const Report report = follow(
+      memory, work.stop, options, state,
+      [&](double part) { group.set_wrench(first + part * (wrench - first)); },
+      [&] { return plan_tensions(group, std::span(near).first(held.size())); },
+      [&] {
+        const auto pulls = pulls_of(group);
+        return regularity<Space>(MatrixView(pulls.data(), pulls.rows(), pulls.cols()), group.radius(), 1);
+      });
+  for (std::size_t i = 0; i < held.size(); ++i) state.hold[i] = present(state.legs[i], held[i]);
   return report;
 }
 
@@ -186,17 +238,18 @@ Mat<double, Space::dof, Space::dof> stiffness(const ChainRobot<Space>& robot, co
                                               ChainWork& work) {
   if (!fits(robot, state))
     return Mat<double, Space::dof, Space::dof>::Constant(std::numeric_limits<double>::quiet_NaN());
-  Solver<Space> solver(robot, work, {});
-  return solver.reduce(state.pose, state.legs, state.hold, state.wrench).S;
+  return linearised(work, robot, state).stiffness();
 }
 
 template <class Space>
 Mat<double, Space::dof, Space::dof> compliance(const ChainRobot<Space>& robot, const ChainState<Space>& state,
                                                ChainWork& work) {
-  const auto S = stiffness(robot, state, work);
-  Mat<double, Space::dof, Space::dof> C;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Mat<double, Space::dof, Space::dof> C = Mat<double, Space::dof, Space::dof>::Constant(none);
+  if (!fits(robot, state)) return C;
+  const auto& factors = linearised(work, robot, state).factors();
   for (int k = 0; k < Space::dof; ++k)
-    C.col(k) = Solver<Space>::solution(S, Vec<double, Space::dof>::Unit(k));
+    factors.solve(Vec<double, Space::dof>::Unit(k).eval().data(), C.col(k).data());
   return C;
 }
 

@@ -17,6 +17,9 @@ inline double worse(double a, double b) {
   return std::isfinite(b) ? std::max(a, std::abs(b)) : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// A tendon that pushes by less counts as loose [N].
+inline constexpr double slack_tolerance = 1e-9;
+
 /// `legs[2]`, then what is wrong there.
 inline void say_leg(Report& report, Status status, std::size_t leg, std::string_view what) {
   report.status = status;
@@ -109,6 +112,26 @@ inline std::size_t inner_tendon(const ChainLegState& state, const PseudoRigid& c
   return chain.turn(state.of(chain)) < 0 ? 0 : 1;
 }
 
+/// The tendon whose length is held, or else the inner one.
+template <class Space>
+std::size_t fed_tendon(const ChainLeg<Space>& leg, const ChainLegState& state, const ChainHold& hold) {
+  return hold.length_of >= 0 ? static_cast<std::size_t>(hold.length_of) : inner_tendon(state, leg.chain);
+}
+
+template <class Space>
+void measure_tendons(const ChainLeg<Space>& leg, ChainLegState& state) {
+  for (const int side : {1, -1})
+    state.tendon_length[side > 0 ? 0 : 1] =
+        leg.chain.tendon_length(state.of(leg.chain), leg.tendon_offset, side);
+}
+
+/// Whether a length that is held leaves a leg's joints nothing: one equation for the length, one for the
+/// closure, which of evenly bent free ends are the same where there are but two joints.
+template <class Space>
+bool is_rigid(const ChainLeg<Space>& leg, const ChainHold& hold) {
+  return hold.length_of >= 0 && leg.chain.joints() <= (leg.has_strut() ? 1 : 2);
+}
+
 /// A leg's equations, and their derivatives by its angles, its force f and, of a length that is held, its
 /// tension.
 template <class Space>
@@ -116,9 +139,12 @@ struct LegSystem {
   using Joints = std::array<double, max_chain_joints>;
   int joints = 0;
   bool holds_length = false;
+  /// Whether the platform can move against it: neither rigid, nor a straight chain on a chord.
+  bool yields = true;
+  std::size_t fed = 0;  ///< the tendon whose length is held, or else the inner one
   Joints balance;       ///< of the joints' moments: springs, tendons and the force [N m]
   Joints stiffness;     ///< of springs and tendons alone; what the force adds is f ∂²c/∂q²
-  Joints tendon;        ///< of the length that is held by the angles, or else of the inner tendon's
+  Joints tendon;        ///< of that tendon's length by the angles
   double length_error;  ///< of what is held [m]
   double force;         ///< f
   ChainClosure<Space> closure;
@@ -133,9 +159,8 @@ void form(const ChainLeg<Space>& leg, const typename Space::template Frame<doubl
   system.holds_length = hold.length_of >= 0;
   system.force = state.force;
   close_chain(leg, platform, state.of(chain), system.closure);
-  const auto tendon =
-      system.holds_length ? static_cast<std::size_t>(hold.length_of) : inner_tendon(state, chain);
-  double length = chain.length;
+  system.fed = fed_tendon(leg, state, hold);
+  double length = chain.length, slope = 0;
   for (int joint = 0; joint < system.joints; ++joint) {
     const auto j = static_cast<std::size_t>(joint);
     const std::array bend{chain.tendon_bend(joint, state.angles[j], leg.tendon_offset, 1),
@@ -144,10 +169,12 @@ void form(const ChainLeg<Space>& leg, const typename Space::template Frame<doubl
         leg.spring(joint) + state.tension[0] * bend[0].curvature + state.tension[1] * bend[1].curvature;
     system.balance[j] = leg.spring(joint) * state.angles[j] + state.tension[0] * bend[0].rate +
                         state.tension[1] * bend[1].rate + state.force * system.closure.c_q[j];
-    system.tendon[j] = bend[tendon].rate;
-    length += bend[tendon].change;
+    system.tendon[j] = bend[system.fed].rate;
+    length += bend[system.fed].change;
+    slope = std::max(slope, std::abs(system.closure.c_q[j]));
   }
   system.length_error = system.holds_length ? length - hold.length : 0;
+  system.yields = slope > 1e-9 * chain.length && !is_rigid(leg, hold);
 }
 
 }  // namespace sinew::inline v0

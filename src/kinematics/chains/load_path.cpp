@@ -21,7 +21,7 @@ template <class Space>
 class ChainProblem {
  public:
   static constexpr int unknowns = Space::dof;
-  using State = ChainState<Space>;
+  using State = LimbState;
   struct Place {
     State state;
     double lambda = 0;
@@ -29,26 +29,25 @@ class ChainProblem {
   };
   using Motion = Vec<double, unknowns>;
 
-  /// @param state is moved; @param load is added to its wrench, λ times
-  ChainProblem(const ChainRobot<Space>& robot, Solver<Space>& solver, State& state, const Motion& load)
-      : solver_(solver),
-        state_(state),
-        first_(state.wrench),
+  /// @param load is added to the group's wrench, λ times
+  ChainProblem(ChainGroup<Space>& group, const Motion& load)
+      : group_(group),
+        first_(group.wrench()),
         load_(load) {
-    for (const auto& leg : robot.legs) unit_ += leg.bending_stiffness / std::pow(leg.chain.length, 3);
+    for (int k = 0; k < group.limbs(); ++k) unit_ += group.stiffness(k) / std::pow(group.length(k), 3);
   }
 
-  void save(State& to) const { to = state_; }
-  void restore(const State& from) { state_ = from; }
-  double evaluate() {
-    reduced_ = solver_.reduce(state_.pose, state_.legs, state_.hold, state_.wrench);
-    return solver_.residual();
+  void save(State& to) const { group_.save(to); }
+  void restore(const State& from) { group_.restore(from); }
+  double evaluate() { return group_.evaluate(); }
+  bool linearise() {
+    group_.linearise();
+    return group_.stiffness().allFinite();
   }
-  bool linearise() { return reduced_.S.allFinite(); }
   bool refine() { return false; }
-  double tolerance() const { return 1e-11 * size(); }
-  double rounding() const { return 1e-14 * size(); }
-  double size() const { return solver_.size(); }
+  double tolerance() const { return chain_tolerance; }
+  double rounding() const { return chain_rounding; }
+  double size() const { return group_.radius(); }
   double unit() const { return unit_; }  ///< Σ EI/ℓ³
   double longest_scale() const { return std::max(size(), per_length(load_).norm() / unit_); }
 
@@ -56,19 +55,17 @@ class ChainProblem {
     std::array<double, static_cast<std::size_t>(unknowns * (unknowns + 1))> rows;
     Eigen::Map<Eigen::Matrix<double, unknowns, unknowns + 1, Eigen::RowMajor>> to(rows.data());
     for (int k = 0; k < unknowns; ++k)
-      to.col(k) = per_length(reduced_.S.col(k)) / (k < Space::dimension ? 1 : size());
+      to.col(k) = per_length(group_.stiffness().col(k)) / (k < Space::dimension ? 1 : size());
     to.col(unknowns) = per_length(load_) / -scale;
     return rows;
   }
-  Motion missing() const { return per_length(-reduced_.g); }
+  Motion missing() const { return per_length(group_.wrench_residual()); }
   void move(const Motion& step, double lambda, double change) {
-    const Motion motion = per_length(step);
-    solver_.move(state_.legs, state_.hold, {motion.data(), unknowns});
-    state_.pose = Space::moved(state_.pose, motion);
+    group_.move(per_length(step));
     put(lambda + change);
   }
-  void put(double lambda) { state_.wrench = first_ + lambda * load_; }
-  /// By the inertia of a Schur complement, but for what an even number of one leg's own directions would add.
+  void put(double lambda) { group_.set_wrench(first_ + lambda * load_); }
+  /// By the inertia of a Schur complement.
   CurveSigns signs() const {
     const auto rows = equations(1);
     Eigen::Matrix<double, unknowns, unknowns, Eigen::RowMajor> S;
@@ -77,20 +74,16 @@ class ChainProblem {
     std::array<double, static_cast<std::size_t>(unknowns)> values;
     symmetric_eigenvalues(MatrixView(S.data(), unknowns, unknowns), values);
     CurveSigns signs;
-    signs.own = signs.unstable = solver_.odd_legs();
+    for (int k = 0; k < group_.limbs(); ++k) signs.own += group_.unstable_with_tip_held(k)[0];
+    signs.unstable = signs.own;
     for (const double value : values) signs.unstable += value < 0;
     return signs;
   }
   int giving_way(const CurveSigns& signs) const { return signs.unstable; }
   bool is_symmetric() const {
-    return Space::dimension == 2 || state_.wrench.template tail<unknowns - Space::dimension>().isZero(0);
+    return Space::dimension == 2 || group_.wrench().template tail<unknowns - Space::dimension>().isZero(0);
   }
-  /// To where a tendon would push.
-  double margin() const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const ChainLegState& leg : state_.legs) least = std::min({least, leg.tension[0], leg.tension[1]});
-    return least + slack_tolerance;
-  }
+  double margin() const { return group_.margin(); }
 
  private:
   /// Moments as forces, turns as lengths back to turns.
@@ -99,10 +92,8 @@ class ChainProblem {
     return of;
   }
 
-  Solver<Space>& solver_;
-  State& state_;
+  ChainGroup<Space>& group_;
   Motion first_, load_;
-  typename Solver<Space>::Reduced reduced_{Mat<double, unknowns, unknowns>::Zero(), Motion::Zero()};
   double unit_ = 0;
 };
 
@@ -125,8 +116,10 @@ ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Spac
   }
   path.report = check_hold(robot, state.hold);
   if (!path.report.ok()) return path;
-  Solver<Space> solver(robot, work, options);
-  check_regularity(solver, solver.reduce(state.pose, state.legs, state.hold, state.wrench), path.report);
+  auto& group = memory_of(work, robot, state, options).group;
+  group.evaluate();
+  group.linearise();
+  check_regularity(regularity(group), path.report);
   if (!path.report.ok()) return path;
   if (!(limit > 0) || direction.isZero(0)) {  // nothing grows
     path.load = std::max(limit, 0.0);
@@ -137,8 +130,8 @@ ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Spac
   const double largest = direction.cwiseAbs().maxCoeff(), unit = bending / largest;
   using Problem = ChainProblem<Space>;
   const Vec<double, Space::dof> load = direction / largest * bending;
-  typename Problem::Place places[4] = {{state}, {state}, {state}, {state}};
-  Tracer<Problem> tracer({robot, solver, state, load}, 0, places[0], places[1]);
+  typename Problem::Place places[4];
+  Tracer<Problem> tracer({group, load}, 0, places[0], places[1]);
   const Growth grown = GrowingLoad<Problem>(tracer, places[2], places[3]).run(limit / unit, work.stop, [&] {
     return tracer.iterations() < options.max_iterations;
   });
@@ -147,9 +140,9 @@ ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Spac
                           End::slack, End::fold, End::iterations,  End::iterations};
   path.end = ends[static_cast<int>(grown.end)];
   path.load = grown.end == GrowthEnd::limit ? limit : grown.parameter * unit;
-  measure_tendons(robot, state);
-  solver.reduce(state.pose, state.legs, state.hold, state.wrench);
-  path.report.residual = solver.residual();
+  group.measure();
+  state = group.state();
+  path.report.residual = group.evaluate() * group.radius();
   path.report.iterations = tracer.iterations();
   if (!note_stop(work.stop, path.report) && grown.end == GrowthEnd::ran_out) {
     path.report.status = Status::iteration_limit;

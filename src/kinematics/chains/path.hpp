@@ -1,44 +1,117 @@
 /// @file path.hpp
 /// Paths of equilibria on chains: how they are followed, and what keeps one from beginning.
 #pragma once
-#include "kinematics/chains/solver.hpp"
+#include <numbers>
+
+#include "kinematics/chains/chain_group.hpp"
 #include "solve/continuation.hpp"
 
 namespace sinew::inline v0 {
 
+/// What a solver keeps in the work of whoever asks.
+template <class Space>
+struct ChainMemory {
+  ChainGroup<Space> group;
+  LimbState spare;
+};
+
+/// The group of a work, at this state. Allocates the first time.
+template <class Space>
+ChainMemory<Space>& memory_of(ChainWork& work, const ChainRobot<Space>& robot, const ChainState<Space>& state,
+                              const ChainOptions& options = {}) {
+  std::shared_ptr<void>& kept = Space::dimension == 2 ? work.planar : work.spatial;
+  if (!kept) kept = std::make_shared<ChainMemory<Space>>();
+  auto& memory = *static_cast<ChainMemory<Space>*>(kept.get());
+  memory.group.set_robot(robot, options.evenly_bent);
+  memory.group.set_state(state);
+  return memory;
+}
+
+/// ... evaluated and linearised there.
+template <class Space>
+ChainGroup<Space>& linearised(ChainWork& work, const ChainRobot<Space>& robot,
+                              const ChainState<Space>& state) {
+  ChainGroup<Space>& group = memory_of(work, robot, state).group;
+  group.evaluate();
+  group.linearise();
+  return group;
+}
+
+/// What counts as solved, on ChainGroup::evaluate and on the size of a step, and below which a step can only
+/// lose to rounding.
+inline constexpr double chain_tolerance = 1e-11, chain_rounding = 1e-14;
+/// Who turned a joint by more since the last equilibrium [rad] would be on another branch.
+inline constexpr double chain_reach = 0.5;
+
+/// What a path on chains solves: an `error` of where the group is, and Newton's step that `find_step` plans
+/// from there and whose size it tells.
+template <class Error, class FindStep>
+struct ChainSteps {
+  Error error;
+  FindStep find_step;
+};
+
+/// From where the group is, as long as each step is half as long as the one before. Errors alone tell less:
+/// one short step along a stiff chord makes them grow, and the next one takes that back. They must be small
+/// at last: against a straight chord, which does not yield, no step is long.
+template <class Space, class Steps>
+bool correct(ChainGroup<Space>& group, int& iterations, const Steps& steps) {
+  group.restart();
+  double size, left = 0;
+  const auto evaluate = [&] {
+    group.evaluate();
+    group.linearise();
+    left = steps.error();
+    const double ahead = steps.find_step();
+    return left < 1e-13 && ahead < 1e-9 ? 0 : ahead;
+  };
+  const auto step = [&] {
+    group.move_as_planned();
+    return group.turned() < chain_reach;
+  };
+  return contract(evaluate, step, chain_tolerance, chain_rounding, iterations, size) &&
+         left < chain_tolerance;
+}
+
 /// From an equilibrium on, as long as Newton's method follows; `put` sets what is held, or measured, at a
-/// part of the way and answers the wrench there.
-template <class Space, class Put>
-ParameterPath follow_path(Solver<Space>& solver, ChainState<Space>& state, ChainWork& work, Put&& put) {
+/// part of the way. The group is then at the last equilibrium, evaluated and linearised there.
+template <class Space, class Put, class Steps>
+ParameterPath follow_path(ChainMemory<Space>& memory, StopToken stop, int max_iterations, Put&& put,
+                          const Steps& steps) {
+  auto& group = memory.group;
   ParameterPath end;
-  follow_parameter(end, {{1, 1e-6, work.stop}, 0, solver.max_iterations()}, [&](double next, double taken) {
-    const Vec<double, Space::dof> load = put(next);
-    auto pose = state.pose;
-    work.legs = state.legs;
-    const bool is_solved = solver.solve(pose, work.legs, work.hold, load);
-    end.iterations = solver.iterations();
-    if (!is_solved) return ParameterStep{ParameterStep::failed, taken / 4};
-    state.pose = pose;
-    std::swap(state.legs, work.legs);
-    state.wrench = load;
-    return ParameterStep{ParameterStep::reached, 2 * taken};
+  follow_parameter(end, {{1, 1e-6, stop}, 0, max_iterations}, [&](double next, double taken) {
+    group.save(memory.spare);
+    put(next);
+    if (correct(group, end.iterations, steps)) return ParameterStep{ParameterStep::reached, 2 * taken};
+    group.restore(memory.spare);
+    return ParameterStep{ParameterStep::failed, taken / 4};
   });
+  if (!end.arrived) {
+    group.evaluate();
+    group.linearise();
+  }
   return end;
 }
 
-void measure_tendons(const auto& leg, ChainLegState& state) {
-  for (const int side : {1, -1})
-    state.tendon_length[side > 0 ? 0 : 1] =
-        leg.chain.tendon_length(state.of(leg.chain), leg.tendon_offset, side);
-}
-
+/// Smallest over largest singular value, rows of moments divided by a length and columns of turns by another:
+/// 0 where nothing says how the platform moves.
 template <class Space>
-void measure_tendons(const ChainRobot<Space>& robot, ChainState<Space>& state) {
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) measure_tendons(robot.legs[i], state.legs[i]);
+double regularity(const MatrixView& matrix, double row_length, double column_length) {
+  constexpr int turns = Space::dof - Space::dimension;
+  Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor, Space::dof, max_rows> scaled = matrix;
+  scaled.template bottomRows<turns>() /= row_length;
+  scaled.template rightCols<turns>() /= column_length;
+  if (!scaled.allFinite()) return 0;
+  std::array<double, static_cast<std::size_t>(Space::dof)> sigma;
+  singular_values(MatrixView(scaled.data(), scaled.rows(), scaled.cols()), sigma);
+  return sigma.back() / sigma.front();
 }
-
-/// A tendon that pushes by less counts as loose [N].
-inline constexpr double slack_tolerance = 1e-9;
+/// Of the platform's stiffness.
+template <class Space>
+double regularity(const ChainGroup<Space>& group) {
+  return regularity<Space>(group.stiffness(), group.radius(), group.radius());
+}
 
 template <class Space>
 void name_slack(const ChainState<Space>& state, Report& report) {
@@ -47,13 +120,6 @@ void name_slack(const ChainState<Space>& state, Report& report) {
       if (state.legs[i].tension[k] < -slack_tolerance)
         return say_leg(report, Status::slack, i,
                        k == 0 ? ": tendon 1 would have to push" : ": tendon 2 would have to push");
-}
-
-/// Whether a length that is held leaves a leg's joints nothing: one equation for the length, one for the
-/// closure, which of evenly bent free ends are the same where there are but two joints.
-template <class Space>
-bool is_rigid(const ChainLeg<Space>& leg, const ChainHold& hold) {
-  return hold.length_of >= 0 && leg.chain.joints() <= (leg.has_strut() ? 1 : 2);
 }
 
 /// The largest change of a tendon's length that no joint needs half a turn for [m].
@@ -87,10 +153,8 @@ Report check_hold(const ChainRobot<Space>& robot, std::span<const ChainHold> hol
 }
 
 /// `singular` where the platform is not held at all.
-template <class Space>
-void check_regularity(const Solver<Space>& solver, const typename Solver<Space>::Reduced& reduced,
-                      Report& report) {
-  if (solver.regularity(reduced) > 1e-10) return;
+inline void check_regularity(double regularity, Report& report) {
+  if (regularity > 1e-10) return;
   report.status = Status::singular;
   report.message = {};
   report.message.append("the platform can move with everything held: a type II singularity, see velocity");

@@ -1,8 +1,8 @@
 /// Velocity equations of robots on chains, and what the paper's linear statics make of them.
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
-#include "kinematics/chains/elimination.hpp"
 #include "kinematics/chains/leg_system.hpp"
 #include "sinew/math/linalg.hpp"
 
@@ -41,23 +41,14 @@ namespace {
 template <class Lines>
 auto compliance_along(const Lines& lines, std::span<const double> soft) {
   constexpr int dof = Lines::ColsAtCompileTime;
-  using Square = Eigen::Matrix<double, dof, dof, Eigen::RowMajor>;
-  Square S = Square::Zero(), inverse = Square::Identity();
-  const bool is_square = lines.rows() == dof;
-  if (lines.rows() < dof) return Mat<double, dof, dof>(inverse * std::numeric_limits<double>::quiet_NaN());
-  for (Eigen::Index i = 0; i < lines.rows(); ++i)
-    if (is_square)
-      S.row(i) = lines.row(i);
-    else
-      S += lines.row(i).transpose() * lines.row(i) / soft[static_cast<std::size_t>(i)];
-  eliminate(S.data(), dof, dof, inverse.data(), dof);
-  if (!is_square) return Mat<double, dof, dof>(inverse);
-  Mat<double, dof, dof> C = Mat<double, dof, dof>::Zero();
-  for (int i = 0; i < dof; ++i)
-    for (int k = 0; k < dof; ++k)
-      for (int l = 0; l < dof; ++l)
-        C(k, l) += soft[static_cast<std::size_t>(i)] * inverse(k, i) * inverse(l, i);
-  return C;
+  using Square = Mat<double, dof, dof>;
+  if (lines.rows() < dof) return Square(Square::Constant(std::numeric_limits<double>::quiet_NaN()));
+  const Eigen::Map<const Eigen::VectorXd> softness(soft.data(), lines.rows());
+  if (lines.rows() == dof) {
+    const Square inverse = Square(lines).inverse();
+    return Square(inverse * softness.asDiagonal() * inverse.transpose());
+  }
+  return Square(Square(lines.transpose() * softness.cwiseInverse().asDiagonal() * lines).inverse());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinematics/chains/path.hpp"
 #include "solve/stopped.hpp"
@@ -33,15 +34,49 @@ Report check_measured(const ChainRobot<Space>& robot, std::span<const MeasuredTe
   return check_hold(robot, std::span<const ChainHold>(state.hold));
 }
 
-/// ∂wrench/∂tensions = S R⁻¹, S the platform's stiffness and R what its motion does to the tensions.
+/// The platform's pose by tensions of lengths that are held.
 template <class Space>
-Mat<double, Space::dof, Space::dof> by_tensions(const Mat<double, Space::dof, Space::dof>& S,
-                                                const Mat<double, Space::dof, Space::dof>& R) {
-  Mat<double, Space::dof, Space::dof> rows;
-  for (int k = 0; k < Space::dof; ++k)
-    rows.row(k) = Solver<Space>::solution(R.transpose(), S.row(k).transpose()).transpose();
-  return rows;
-}
+class Sensor {
+ public:
+  static constexpr int dof = Space::dof;
+  using Rows = Eigen::Matrix<double, dof, dof, Eigen::RowMajor>;
+
+  Sensor(ChainGroup<Space>& group, std::span<const MeasuredTension> wanted) : group_(group), wanted_(wanted) {
+    for (int k = 0; k < group.limbs(); ++k) unit_ += group.stiffness(k) / (group.length(k) * group.length(k));
+  }
+
+  /// Of the legs' own equations, and of tensions over Σ EI/ℓ².
+  double error() const {
+    double error = group_.limb_error();
+    for (const MeasuredTension& one : wanted_)
+      error = worse(error, (group_.effort(one.leg) - one.tension) / unit_);
+    return error;
+  }
+  /// ∂tensions/∂pose, after `linearise`.
+  Rows rows() const {
+    Rows rows;
+    for (int k = 0; k < dof; ++k) rows.row(k) = group_.effort_jacobian(leg(k)).transpose();
+    return rows;
+  }
+  /// Newton's step. Infinite where there is none.
+  double plan() {
+    const Rows matrix = rows();
+    Vec<double, dof> wanted, twist;
+    for (int k = 0; k < dof; ++k)
+      wanted[k] = wanted_[static_cast<std::size_t>(k)].tension - group_.closing_effort(leg(k));
+    if (!solve(MatrixView(matrix.data(), dof, dof), MatrixView(wanted.data(), dof, 1),
+               std::span(twist.data(), static_cast<std::size_t>(dof))))
+      return std::numeric_limits<double>::infinity();
+    return group_.plan(twist);
+  }
+
+ private:
+  int leg(int k) const { return wanted_[static_cast<std::size_t>(k)].leg; }
+
+  ChainGroup<Space>& group_;
+  std::span<const MeasuredTension> wanted_;
+  double unit_ = 0;
+};
 
 void say_not_reached(const ParameterPath& end, const ChainWork& work, Report& report) {
   report.status = end.ran_out ? Status::iteration_limit : Status::stalled;
@@ -56,7 +91,6 @@ void say_not_reached(const ParameterPath& end, const ChainWork& work, Report& re
 template <class Space>
 SensedLoad<Space> sense_wrench(const ChainRobot<Space>& robot, std::span<const MeasuredTension> measured,
                                ChainState<Space>& state, ChainWork& work, const ChainOptions& options) {
-  using Motion = Vec<double, Space::dof>;
   SensedLoad<Space> sensed{check_measured(robot, measured, state),
                            Mat<double, Space::dof, Space::dof>::Zero()};
   Report& report = sensed.report;
@@ -66,27 +100,31 @@ SensedLoad<Space> sense_wrench(const ChainRobot<Space>& robot, std::span<const M
     const auto leg = static_cast<std::size_t>(one.leg);
     one.tension = state.legs[leg].tension[static_cast<std::size_t>(state.hold[leg].length_of)];
   }
-  work.hold.assign(state.hold.begin(), state.hold.end());
-  Solver<Space> solver(robot, work, options);
-  solver.measure(now);
-  const ParameterPath end = follow_path(solver, state, work, [&](double part) {
+  state.wrench.setZero();
+  auto& memory = memory_of(work, robot, state, options);
+  auto& group = memory.group;
+  Sensor<Space> sensor(group, now);
+  const auto put = [&](double part) {
     for (std::size_t k = 0; k < now.size(); ++k)
       now[k].tension = std::lerp(first[k].tension, measured[k].tension, part);
-    return Motion::Zero().eval();
-  });
-  measure_tendons(robot, state);
-  const auto reached = solver.reduce(state.pose, state.legs, state.hold, Motion::Zero());
-  state.wrench = solver.balance();
-  report.residual = solver.residual();
-  report.iterations = solver.iterations();
+  };
+  const ParameterPath end =
+      follow_path(memory, work.stop, options.max_iterations, put,
+                  ChainSteps{[&] { return sensor.error(); }, [&] { return sensor.plan(); }});
+  report.residual = sensor.error() * group.radius();
+  report.iterations = end.iterations;
+  group.measure();
+  state = group.state();
+  state.wrench = -group.wrench_residual();
   if (end.progress < 1) {
     say_not_reached(end, work, report);
-  } else if (!(solver.regularity(reached) > 1e-10)) {
+  } else if (!(regularity<Space>(MatrixView(sensor.rows().data(), Space::dof, Space::dof), 1,
+                                 group.radius()) > 1e-10)) {
     report.status = Status::singular;
     report.message.append("here the tensions do not tell the wrench: some motion changes none of them");
   } else {
     name_slack(state, report);
-    sensed.sensitivity = by_tensions<Space>(stiffness(robot, state, work), reached.S);
+    sensed.sensitivity = group.stiffness() * sensor.rows().inverse();
   }
   return sensed;
 }

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kinematics/chains/solver.hpp"
+#include "kinematics/chains/path.hpp"
 #include "sinew/kinematics/chain_analysis.hpp"
 
 namespace sinew::inline v0 {
@@ -70,17 +70,18 @@ Eigen::Matrix<double, Space::dof, Eigen::Dynamic> input_sensitivity(const ChainR
   constexpr int dof = Space::dof;
   using Motion = Vec<double, dof>;
   if (!fits(robot, state)) return {};
-  const Mat<double, dof, dof> S = stiffness(robot, state, work);
+  const SmallLu<dof>& factors = linearised(work, robot, state).factors();
   const auto platform = Space::frame(state.pose);
   std::vector<Motion> columns;
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     LegSystem<Space> system;
-    LegMoves<Space> moves(robot.legs[i].chain, false, Free::platform, work.moves.data());
+    LegFactors<Space> moves;
     form(robot.legs[i], platform, state.legs[i], state.hold[i], system);
     InputChange<Space> change(robot.legs[i], state.legs[i], system);
     const auto add = [&](const Motion& direct) {
-      moves.eliminate(system);
-      columns.push_back(Solver<Space>::solution(S, -(direct + moves.shift(system))));
+      moves.factor(robot.legs[i].chain, system, false);
+      const Motion wanted = -(direct + moves.push(system, moves.own));
+      factors.solve(wanted.data(), columns.emplace_back().data());
     };
     if (robot.has_base_motors) add(change.of_motor(platform));
     if (system.holds_length) add(change.of_length());

@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "kinematics/chains/solver.hpp"
+#include "kinematics/chains/path.hpp"
 #include "sinew/kinematics/chain_analysis.hpp"
 
 namespace sinew::inline v0 {
@@ -101,14 +101,11 @@ ChainStability<Space> check_stability(const ChainRobot<Space>& robot, const Chai
   stability.smallest_eigenvalue = least(values);
   stability.unstable_directions = count_negative(values);
   if (stability.unstable_directions == 0) return stability;  // nor are they in any part
-  for (std::size_t i = 0; i < all.legs.size(); ++i) {
-    const auto& [angle, angles, row, rows] = all.legs[i];
-    if (count_negative(on_null_space(all.H.block(angle, angle, angles, angles),
-                                     all.C.block(row, angle, rows, angles))) > 0)
-      stability.unstable_legs.push_back(static_cast<int>(i));
-  }
+  const ChainGroup<Space>& group = linearised(work, robot, state);
+  for (int i = 0; i < group.limbs(); ++i)
+    if (group.unstable_with_tip_held(i)[0] > 0) stability.unstable_legs.push_back(i);
   const Vec<double, dof> scale = scale_of(robot);
-  const MatrixXd S = scale.asDiagonal() * stiffness(robot, state, work) * scale.asDiagonal();
+  const MatrixXd S = scale.asDiagonal() * group.stiffness() * scale.asDiagonal();
   if (!S.allFinite()) return stability;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> own(0.5 * (S + S.transpose()));
   for (int k = 0; k < count_negative(own.eigenvalues()); ++k)
@@ -120,8 +117,7 @@ template <class Space>
 ChainMargins margins(const ChainRobot<Space>& robot, const ChainState<Space>& state, ChainWork& work) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (!fits(robot, state)) return {none, none};
-  Solver<Space> solver(robot, work, {});
-  ChainMargins found{solver.regularity(solver.reduce(state.pose, state.legs, state.hold, state.wrench)), 0};
+  ChainMargins found{regularity(linearised(work, robot, state)), 0};
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     const auto& leg = robot.legs[i];
     if (!(leg.diameter > 0)) found.strain = none;
