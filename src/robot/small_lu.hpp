@@ -1,12 +1,15 @@
-/// @file lu6.hpp
+/// @file small_lu.hpp
 /// The factors of a platform's stiffness.
 #pragma once
 #include <array>
 
 namespace sinew::inline v0 {
 
-/// LU factors of a 6×6 matrix whose moments are divided by a length first, with partial pivoting.
-class Lu6 {
+/// LU factors, with partial pivoting, of an N×N matrix that takes twists to wrenches, its moments divided by
+/// a length first.
+/// @tparam N 3 in the plane, where the last row is a moment, or 6, where the last three are
+template <int N>
+class SmallLu {
  public:
   /// False where a pivot is 0 or not a number.
   bool factor(const double* matrix, double length);
@@ -15,8 +18,9 @@ class Lu6 {
   bool has_negative_determinant() const;
 
  private:
-  std::array<double, 36> lu_;
-  std::array<int, 6> order_{};
+  static constexpr std::size_t size = N, forces = N == 3 ? 2 : 3;
+  std::array<double, size * size> lu_;
+  std::array<int, size> order_{};
   double per_length_ = 1, smallest_ = 0;
 };
 

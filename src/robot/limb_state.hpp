@@ -1,0 +1,66 @@
+/// @file limb_state.hpp
+/// A state of limbs to return to: bytes that only the group that wrote them reads.
+#pragma once
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace sinew::inline v0 {
+
+/// A copy onto another state of the same robot does not allocate.
+class LimbState {
+ public:
+  /// Begins anew; memory stays. @param most bytes of any state of these limbs: room for all
+  void clear(std::size_t most = 0) {
+    bytes_.clear();
+    bytes_.reserve(most);
+  }
+  template <class T>
+  void put(std::span<const T> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto* from = reinterpret_cast<const std::byte*>(values.data());
+    bytes_.insert(bytes_.end(), from, from + values.size_bytes());
+  }
+  template <class T>
+  void put(const T& value) {
+    put(std::span<const T>(&value, 1));
+  }
+
+  /// What was put last of all.
+  template <class T>
+  void get_last(std::span<T> values) const {
+    std::memcpy(values.data(), bytes_.data() + bytes_.size() - values.size_bytes(), values.size_bytes());
+  }
+
+  /// Reads what was put, in that order.
+  class Reader {
+   public:
+    explicit Reader(const LimbState& from) : next_(from.bytes_.data()) {}
+    template <class T>
+    void get(std::span<T> values) {
+      static_assert(std::is_trivially_copyable_v<T>);
+      std::memcpy(values.data(), next_, values.size_bytes());
+      next_ += values.size_bytes();
+    }
+    template <class T>
+    void get(T& value) {
+      get(std::span<T>(&value, 1));
+    }
+    template <class T>
+    T next() {
+      T value;
+      get(value);
+      return value;
+    }
+
+   private:
+    const std::byte* next_;
+  };
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace sinew::inline v0
