@@ -6,7 +6,6 @@
 
 #include "base/at.hpp"
 #include "kinematics/rods/batch.hpp"
-#include "kinematics/rods/energy.hpp"
 #include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/inverse.hpp"
 #include "kinematics/rods/question.hpp"
@@ -166,7 +165,7 @@ RodAnalysis analysis_of(const Robot& robot, RodGroup& system) {
     std::ranges::copy(twist, analysis.unstable.back().begin());
   }
   analysis.unstable_directions = unstable_directions(system);
-  analysis.rods = readings_of(system);
+  analysis.rods = system.readings();
   for (int k = 0; k < system.limbs(); ++k) analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
   for_each_rod(robot, [&, k = std::size_t{0}](const RodLeg& leg, const LegPlace&, int) mutable {
     const RodReading& rod = analysis.rods[k++];
@@ -177,7 +176,7 @@ RodAnalysis analysis_of(const Robot& robot, RodGroup& system) {
   analysis.position_index = largest_singular_value(&analysis.sensitivity[0], system.inputs());
   analysis.rotation_index = largest_singular_value(&analysis.sensitivity[3 * inputs], system.inputs());
   analysis.energy = system.energy();
-  analysis.potential = potential_of(system);
+  analysis.potential = system.potential();
   analysis.smallest_pivot = factors.smallest_pivot();
   return analysis;
 }
@@ -262,9 +261,9 @@ FoundEquilibrium found_equilibrium(const Report& report, const RodGroup& system,
   const Equilibrium answer = answer_of(report, system, work, false);
   return {.pose = answer.pose,
           .inputs = {answer.inputs.begin(), answer.inputs.end()},
-          .rods = readings_of(system),
+          .rods = system.readings(),
           .residual = report.residual,
-          .potential = potential_of(system),
+          .potential = system.potential(),
           .unstable_directions = unstable_directions(system)};
 }
 

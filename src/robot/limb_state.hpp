@@ -14,14 +14,16 @@ class LimbState {
  public:
   /// Begins anew; memory stays. @param most bytes of any state of these limbs: room for all
   void clear(std::size_t most = 0) {
-    bytes_.clear();
-    bytes_.reserve(most);
+    if (bytes_.size() < most) bytes_.resize(most);
+    size_ = 0;
   }
   template <class T>
   void put(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
-    const auto* from = reinterpret_cast<const std::byte*>(values.data());
-    bytes_.insert(bytes_.end(), from, from + values.size_bytes());
+    const std::size_t begin = size_;
+    size_ += values.size_bytes();
+    if (size_ > bytes_.size()) bytes_.resize(size_);
+    std::memcpy(bytes_.data() + begin, values.data(), values.size_bytes());
   }
   template <class T>
   void put(const T& value) {
@@ -31,7 +33,7 @@ class LimbState {
   /// What was put last of all.
   template <class T>
   void get_last(std::span<T> values) const {
-    std::memcpy(values.data(), bytes_.data() + bytes_.size() - values.size_bytes(), values.size_bytes());
+    std::memcpy(values.data(), bytes_.data() + size_ - values.size_bytes(), values.size_bytes());
   }
 
   /// Reads what was put, in that order.
@@ -61,6 +63,7 @@ class LimbState {
 
  private:
   std::vector<std::byte> bytes_;
+  std::size_t size_ = 0;  ///< of what was put
 };
 
 }  // namespace sinew::inline v0

@@ -1,15 +1,28 @@
 #include "robot/rod_group.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "solve/contraction.hpp"
 
 namespace sinew::inline v0 {
 
+std::vector<RodReading> RodGroup::readings() const {
+  std::vector<RodReading> rods;
+  for (int k = 0; k < limbs(); ++k) rods.push_back(rod(k));
+  return rods;
+}
+
 double RodGroup::energy() const {
   double energy = 0;
   for (int k = 0; k < limbs(); ++k) energy += rod(k).energy;
   return energy;
+}
+
+double RodGroup::potential() const {
+  const Wrench load = wrench();
+  if (load.tail<3>() != Vec3<double>::Zero()) return std::numeric_limits<double>::quiet_NaN();
+  return energy() + weight_energy() - dot(Vec3<double>(load.head<3>()), platform_.p);
 }
 
 bool RodGroup::correct_rods(int& iterations, double& residual, double tolerance) {

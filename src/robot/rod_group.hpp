@@ -63,7 +63,10 @@ class RodGroup : public LimbGroup<Spatial> {
   virtual Vec3<double> base(int rod) const = 0;
   virtual Vec3<double> platform_point(int rod) const = 0;
   virtual RodReading rod(int index) const = 0;
+  std::vector<RodReading> readings() const;  ///< allocates
   double energy() const final;
+  /// With that of weight and load; NaN under a moment, which keeps its axes and so has no potential.
+  double potential() const;
   /// Polyline, `samples` ≥ 2 points in base axes [m]. Allocates.
   virtual std::vector<Vec3<double>> centreline(int index, int samples) const = 0;
   /// Where a rod's coordinates begin among the robot's.

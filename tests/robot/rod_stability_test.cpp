@@ -220,7 +220,7 @@ TEST(PoseLanes, CountUnstableDirectionsAsOneByOne) {
       poses.quaternion[0][lane] = pose.R.w;
       for (int c = 0; c < 6; ++c) poses.wrench[c][lane] = system.wrench()[c];
     }
-    rod_kernels::advance(rods, {.moves = false, .anew = true, .renews = true, .judges = true}, poses);
+    rod_kernels::advance(rods, {.moves = false, .from_scratch = true, .renews = true, .judges = true}, poses);
     for (std::size_t lane = 0; lane < rod_lanes; ++lane) {
       EXPECT_EQ(poses.unstable[lane], counts[lane]) << trial;
       ++seen[std::size_t(std::min(counts[lane], 7))];

@@ -93,7 +93,7 @@ double RodBatch::worst() const {
 /// long as they gain as much as newer ones would.
 void RodBatch::walk() {
   constexpr int rows_carried = 16;  // each rounds a few times by 2e-16
-  rod_kernels::advance(rods_, {.moves = false, .anew = ++walked_ % rows_carried == 0}, poses_);
+  rod_kernels::advance(rods_, {.moves = false, .from_scratch = ++walked_ % rows_carried == 0}, poses_);
   double error = worst();
   int renewals = 0;
   for (int k = 0; k < 10 && !(error <= rod_tolerance); ++k) {
@@ -153,7 +153,7 @@ void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrenc
       statuses[row(lane)] = status;
     }
     if (is_renewed) {  // factors of the lanes that were solved alone
-      rod_kernels::advance(rods_, {.moves = false, .anew = true, .renews = true}, poses_);
+      rod_kernels::advance(rods_, {.moves = false, .from_scratch = true, .renews = true}, poses_);
     }
   }
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/at.hpp"
-#include "kinematics/rods/energy.hpp"
 #include "kinematics/rods/trace.hpp"
 #include "kinematics/rods/verdict.hpp"
 #include "robot/pose.hpp"
@@ -158,7 +157,7 @@ class RodProblem {
     for (int k = 0; k < system_.feeds(); ++k) point.inputs[at(system_.input_of(k))] = system_.held(k);
     point.unstable_directions = unstable;
     point.residual = residual;
-    point.potential = potential_of(system_);
+    point.potential = system_.potential();
     return point;
   }
   bool is_same(const CurvePoint& one, const CurvePoint& other) const {
