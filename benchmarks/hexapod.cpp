@@ -12,6 +12,7 @@
 
 #include "instruction_sets.hpp"
 #include "report.hpp"
+#include "robot/mechanism.hpp"
 #include "robot/tangent_system.hpp"
 #include "shooting_hexapod.hpp"
 #include "sinew/io/robot_file.hpp"
@@ -230,7 +231,7 @@ void print_costs() {
   for (const int rods : {1, 6, 8, 12, 24}) {
     std::vector<RodLeg> legs;
     for (int k = 0; k < rods; ++k) legs.push_back(six.legs[static_cast<std::size_t>(k % 6)]);
-    TangentSystem system(ParallelRobot<RodLeg>(legs, six.home, six.platform_radius));
+    Mechanism<TangentSystem> system(ParallelRobot<RodLeg>(legs, six.home, six.platform_radius));
     system.set_platform(SE3<double>::from(six.home));
     system.draw_rods();
     for (;; system.refine()) {

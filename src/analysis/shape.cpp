@@ -60,8 +60,7 @@ void add_leg(ShapeOf<D>& shape, const LegT& leg, const Frame& platform, const ty
 }
 
 /// Rods as their coordinates shape them, between the base and the platform, and closing legs among them.
-template <class System>
-AnyShape loaded_shape(const Robot& robot, System& system, const SpatialPose& pose, Numbers coordinates,
+AnyShape loaded_shape(const Robot& robot, RodGroup& system, const SpatialPose& pose, Numbers coordinates,
                       int samples) {
   SpatialShape shape;
   const SE3<double> platform = SE3<double>::from(pose);
@@ -104,12 +103,7 @@ AnyShape any_shape(const Robot& robot, const AnyPose& pose, Numbers coordinates,
         return shape;
       },
       [&] {
-        RodWorks rods(robot);
-        return std::visit(
-            [&](auto& kind) {
-              return loaded_shape(robot, kind.system, std::get<SpatialPose>(pose), coordinates, samples);
-            },
-            rods.kind);
+        return loaded_shape(robot, *rod_group(robot), std::get<SpatialPose>(pose), coordinates, samples);
       });
 }
 

@@ -6,7 +6,6 @@
 
 #include "base/at.hpp"
 #include "kinematics/rods/batch.hpp"
-#include "kinematics/rods/energy.hpp"
 #include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/inverse.hpp"
 #include "kinematics/rods/question.hpp"
@@ -31,14 +30,13 @@ Equilibrium refused() {
 }
 
 /// The state of the system into the workspace, and what is seen of it.
-template <class System>
-Equilibrium answer_of(const Report& report, const System& system, Workspace& work, bool with_coordinates) {
+Equilibrium answer_of(const Report& report, const RodGroup& system, Workspace& work, bool with_coordinates) {
   Equilibrium answer;
   answer.report = report;
   answer.pose = spatial_pose(system.platform());
-  for (int k = 0; k < system.feeds(); ++k) work.inputs[at(system.input_of(k))] = system.length(k);
+  for (int k = 0; k < system.feeds(); ++k) work.inputs[at(system.input_of(k))] = system.held(k);
   if (with_coordinates) system.get_closing(work.coordinates);
-  for (int k = 0; k < system.rods(); ++k) {
+  for (int k = 0; k < system.limbs(); ++k) {
     if (with_coordinates)
       system.get_rod(k,
                      std::span(work.coordinates).subspan(at(system.coordinate_of(k)), RodLeg::coordinates));
@@ -60,39 +58,41 @@ template <class Solve>
 Equilibrium solved(const Robot& robot, const EquilibriumOptions& options, Workspace& work, Solve&& solve) {
   if (!bears_load(robot)) return refused();
   if (const Report fits = check_workspace(robot, work); !fits.ok()) return refused(fits);
-  return with_rods(work, [&](auto& rods) {
-    const Report report = solve(rods, home_of(robot), question_of(robot, options, rods));
-    return answer_of(report, rods.system, work, options.judge);
-  });
+  RodWork& rods = rods_of(work);
+  const Report report = solve(rods, home_of(robot), question_of(robot, options, rods));
+  return answer_of(report, *rods.system, work, options.judge);
 }
 
 }  // namespace
 
 Equilibrium equilibrium(const Robot& robot, Numbers inputs, const EquilibriumOptions& options,
                         Workspace& work) {
-  return solved(robot, options, work, [&](auto& rods, const SE3<double>& home, const RodQuestion& question) {
-    return solve_rods(rods, home, inputs, question);
-  });
+  return solved(robot, options, work,
+                [&](RodWork& rods, const SE3<double>& home, const RodQuestion& question) {
+                  return solve_rods(rods, home, inputs, question);
+                });
 }
 
 Equilibrium inverse_equilibrium(const Robot& robot, const IndependentPose& wanted,
                                 const EquilibriumOptions& options, Workspace& work) {
-  return solved(robot, options, work, [&](auto& rods, const SE3<double>& home, const RodQuestion& question) {
-    return solve_rods_at(rods, home, {wanted.z, wanted.e1, wanted.e2}, question);
-  });
+  return solved(robot, options, work,
+                [&](RodWork& rods, const SE3<double>& home, const RodQuestion& question) {
+                  return solve_rods_at(rods, home, {wanted.z, wanted.e1, wanted.e2}, question);
+                });
 }
 
 Equilibrium inverse_equilibrium(const Robot& robot, const SpatialPose& wanted,
                                 const EquilibriumOptions& options, Workspace& work) {
-  return solved(robot, options, work, [&](auto& rods, const SE3<double>& home, const RodQuestion& question) {
-    return hold_rods(rods, home, SE3<double>::from(wanted), question);
-  });
+  return solved(robot, options, work,
+                [&](RodWork& rods, const SE3<double>& home, const RodQuestion& question) {
+                  return hold_rods(rods, home, SE3<double>::from(wanted), question);
+                });
 }
 
 bool has_equilibrium_batch(const Robot& robot) {
   if (!bears_load(robot)) return false;
   const Workspace work(robot);
-  return std::holds_alternative<RodWork>(work.rods->kind);
+  return work.rods->system->elastica() != nullptr;
 }
 
 void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wrench,
@@ -103,11 +103,10 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
   if (!bears_load(robot) || !check_workspace(robot, work).ok() || statuses.size() != poses.size() ||
       rows.size() != poses.size() * inputs)
     return;
-  if (auto* plane = std::get_if<RodWork>(&work.rods->kind)) {
-    plane->stop = work.stop;
+  if (RodWork& rods = rods_of(work); rods.system->elastica()) {
     std::vector<SE3<double>> found(poses.size());
-    const SpatialWrench whole = question_of(robot, {.wrench = wrench}, *plane).wrench;
-    RodBatch(*plane, home_of(robot)).solve(rows, whole, judge, found, statuses);
+    const SpatialWrench whole = question_of(robot, {.wrench = wrench}, rods).wrench;
+    RodBatch(rods, home_of(robot)).solve(rows, whole, judge, found, statuses);
     std::transform(found.begin(), found.end(), poses.begin(), spatial_pose);
     return;
   }
@@ -134,20 +133,19 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
 
 namespace {
 
-template <class System>
-RodAnalysis analysis_of(const Robot& robot, System& system) {
+RodAnalysis analysis_of(const Robot& robot, RodGroup& system) {
   RodAnalysis analysis;
   system.evaluate();
   system.linearise();
   const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness = system.platform_stiffness();
   std::copy_n(stiffness.data(), 36, analysis.stiffness.begin());
   for (int k = 0; k < system.closing_legs(); ++k) analysis.closing_forces.push_back(system.closing_force(k));
-  const Lu6 factors = system.factors();
+  const SmallLu<6>& factors = system.factors();
   const auto inputs = at(system.inputs());
   analysis.sensitivity.resize(6 * inputs);
   analysis.feed.resize(6 * inputs);
   for (std::size_t k = 0; k < inputs; ++k) {
-    const SpatialWrench moving = -system.feed_wrench(static_cast<int>(k));
+    const SpatialWrench moving = -system.input_wrench_jacobian(static_cast<int>(k));
     const SpatialWrench feed = -system.platform_feed(static_cast<int>(k));
     std::array<double, 6> twist;
     factors.solve(moving.data(), twist.data());
@@ -167,8 +165,8 @@ RodAnalysis analysis_of(const Robot& robot, System& system) {
     std::ranges::copy(twist, analysis.unstable.back().begin());
   }
   analysis.unstable_directions = unstable_directions(system);
-  analysis.rods = readings_of(system);
-  for (int k = 0; k < system.rods(); ++k) analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
+  analysis.rods = system.readings();
+  for (int k = 0; k < system.limbs(); ++k) analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
   for_each_rod(robot, [&, k = std::size_t{0}](const RodLeg& leg, const LegPlace&, int) mutable {
     const RodReading& rod = analysis.rods[k++];
     const double strain =
@@ -177,8 +175,8 @@ RodAnalysis analysis_of(const Robot& robot, System& system) {
   });
   analysis.position_index = largest_singular_value(&analysis.sensitivity[0], system.inputs());
   analysis.rotation_index = largest_singular_value(&analysis.sensitivity[3 * inputs], system.inputs());
-  analysis.energy = energy_of(system);
-  analysis.potential = potential_of(system);
+  analysis.energy = system.energy();
+  analysis.potential = system.potential();
   analysis.smallest_pivot = factors.smallest_pivot();
   return analysis;
 }
@@ -187,7 +185,7 @@ RodAnalysis analysis_of(const Robot& robot, System& system) {
 
 RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work) {
   if (!bears_load(robot) || !check_workspace(robot, work).ok()) return {};
-  return with_rods(work, [&](auto& rods) { return analysis_of(robot, rods.system); });
+  return analysis_of(robot, *rods_of(work).system);
 }
 
 std::string_view to_string(LoadEnd end) noexcept {
@@ -220,21 +218,20 @@ LoadPath follow_load(const Robot& robot, const SpatialWrench& direction, double 
   if (!bears_load(robot) || !check_workspace(robot, work).ok() || !direction.allFinite() ||
       direction == SpatialWrench::Zero() || !(limit > 0))
     return path;
-  return with_rods(work, [&](auto& rods) {
-    if (!rods.is_solved) return path;
-    auto& system = rods.system;
-    system.evaluate();
-    system.linearise();
-    const RodLoad load = load_rods(rods, direction, limit);
-    path.load = load.parameter;
-    path.end = load.end;
-    path.definite_until = load.definite_until;
-    path.pose = spatial_pose(system.platform());
-    path.residual = system.evaluate();
-    system.linearise();
-    path.unstable_directions = unstable_directions(system);
-    return path;
-  });
+  RodWork& rods = rods_of(work);
+  if (!rods.is_solved) return path;
+  RodGroup& system = *rods.system;
+  system.evaluate();
+  system.linearise();
+  const RodLoad load = load_rods(rods, direction, limit);
+  path.load = load.parameter;
+  path.end = load.end;
+  path.definite_until = load.definite_until;
+  path.pose = spatial_pose(system.platform());
+  path.residual = system.evaluate();
+  system.linearise();
+  path.unstable_directions = unstable_directions(system);
+  return path;
 }
 
 namespace {
@@ -260,14 +257,13 @@ double by_energy(const FoundEquilibrium& one) {
 }
 
 /// What the system holds, with the inputs that the workspace then has.
-template <class System>
-FoundEquilibrium found_equilibrium(const Report& report, const System& system, Workspace& work) {
+FoundEquilibrium found_equilibrium(const Report& report, const RodGroup& system, Workspace& work) {
   const Equilibrium answer = answer_of(report, system, work, false);
   return {.pose = answer.pose,
           .inputs = {answer.inputs.begin(), answer.inputs.end()},
-          .rods = readings_of(system),
+          .rods = system.readings(),
           .residual = report.residual,
-          .potential = potential_of(system),
+          .potential = system.potential(),
           .unstable_directions = unstable_directions(system)};
 }
 
@@ -281,19 +277,19 @@ std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
   if (!bears_load(robot) || !check_workspace(robot, work).ok()) return found;
   const SE3<double> home = home_of(robot);
   const double size = home.p.norm();
-  with_rods(work, [&]<class System>(RodWorkOf<System>& rods) {
-    const int starts = System::is_slow ? 16 : 160;  // of the slow ones each takes a tenth of a second
-    RodQuestion question = question_of(robot, options, rods);
-    question.resume = false;
-    question.start.reset();
-    for (int k = -1; k < starts && !rods.stop.stop_requested(); ++k) {
-      if (k >= 0) question.start = scattered(home, size, k);
-      question.may_stray = k >= 0;  // more are found so
-      const Report report = solve_rods(rods, home, inputs, question);
-      if (is_solution(report) && is_new(found, rods.system.platform(), size))
-        found.push_back(found_equilibrium(report, rods.system, work));
-    }
-  });
+  RodWork& rods = rods_of(work);
+  const int starts =
+      rods.system->traits().is_slow ? 16 : 160;  // of the slow ones each takes a tenth of a second
+  RodQuestion question = question_of(robot, options, rods);
+  question.resume = false;
+  question.start.reset();
+  for (int k = -1; k < starts && !rods.stop.stop_requested(); ++k) {
+    if (k >= 0) question.start = scattered(home, size, k);
+    question.may_stray = k >= 0;  // more are found so
+    const Report report = solve_rods(rods, home, inputs, question);
+    if (is_solution(report) && is_new(found, rods.system->platform(), size))
+      found.push_back(found_equilibrium(report, *rods.system, work));
+  }
   std::ranges::sort(found, {}, by_energy);
   return found;
 }
@@ -310,22 +306,21 @@ std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const Spati
                                 [&](double a, double b) { return std::abs(a - b) < 1e-7 * size; });
     });
   };
-  with_rods(work, [&]<class System>(RodWorkOf<System>& rods) {
-    const int ways = System::is_slow ? 4 : 60;
-    RodQuestion question = question_of(robot, options, rods);
-    for (int k = -1; k < ways && !rods.stop.stop_requested(); ++k) {
-      question.resume = false;
-      if (k >= 0) {  // by a pose between
-        const Report between = hold_rods(rods, home, scattered(home, size, k), question);
-        if (!is_solution(between)) continue;
-        question.resume = true;
-      }
-      const Report report = hold_rods(rods, home, target, question);
-      if (!is_solution(report)) continue;
-      FoundEquilibrium one = found_equilibrium(report, rods.system, work);
-      if (!is_known(one)) found.push_back(std::move(one));
+  RodWork& rods = rods_of(work);
+  const int ways = rods.system->traits().is_slow ? 4 : 60;
+  RodQuestion question = question_of(robot, options, rods);
+  for (int k = -1; k < ways && !rods.stop.stop_requested(); ++k) {
+    question.resume = false;
+    if (k >= 0) {  // by a pose between
+      const Report between = hold_rods(rods, home, scattered(home, size, k), question);
+      if (!is_solution(between)) continue;
+      question.resume = true;
     }
-  });
+    const Report report = hold_rods(rods, home, target, question);
+    if (!is_solution(report)) continue;
+    FoundEquilibrium one = found_equilibrium(report, *rods.system, work);
+    if (!is_known(one)) found.push_back(std::move(one));
+  }
   std::ranges::sort(found, {}, by_energy);
   return found;
 }

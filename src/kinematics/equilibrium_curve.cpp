@@ -66,22 +66,21 @@ std::string_view to_string(CurveEnd end) noexcept {
 std::vector<EquilibriumCurve> equilibrium_curves(const Robot& robot, const CurveOptions& how,
                                                  Workspace& work) {
   if (!bears_load(robot) || !check_workspace(robot, work).ok() || !is_answerable(robot, how)) return {};
-  return with_rods(work, [&](auto& rods) -> std::vector<EquilibriumCurve> {
-    if (!rods.is_solved) return {};
-    auto& system = rods.system;
-    if (!how.inputs.empty())
-      for (int k = 0; k < system.feeds(); ++k)
-        if (!system.in_domain(k, how.inputs[static_cast<std::size_t>(system.input_of(k))])) return {};
-    RodWay way{present(system), present(system), how.pose.has_value(), system.platform(), system.platform()};
-    if (!how.inputs.empty()) way.target = target_of(system, how.inputs, system.wrench());
-    way.target.wrench += how.added_wrench;
-    if (how.pose) way.to = SE3<double>::from(*how.pose);
-    const bool moves =
-        (way.to.p - way.from.p).norm() > 0 || way.to.R.compose(way.from.R.inverse()).log().norm() > 0;
-    if (!moves && way.target.lengths == way.begin.lengths && how.added_wrench.isZero(0)) return {};
-    rods.is_solved = rods.knows_feeding = false;
-    return trace_rods(rods, way, how);
-  });
+  RodWork& rods = rods_of(work);
+  if (!rods.is_solved) return {};
+  RodGroup& system = *rods.system;
+  if (!how.inputs.empty())
+    for (int k = 0; k < system.feeds(); ++k)
+      if (!system.in_domain(k, how.inputs[static_cast<std::size_t>(system.input_of(k))])) return {};
+  RodWay way{present(system), present(system), how.pose.has_value(), system.platform(), system.platform()};
+  if (!how.inputs.empty()) way.target = target_of(system, how.inputs, system.wrench());
+  way.target.wrench += how.added_wrench;
+  if (how.pose) way.to = SE3<double>::from(*how.pose);
+  const bool moves =
+      (way.to.p - way.from.p).norm() > 0 || way.to.R.compose(way.from.R.inverse()).log().norm() > 0;
+  if (!moves && way.target.lengths == way.begin.lengths && how.added_wrench.isZero(0)) return {};
+  rods.is_solved = rods.knows_feeding = false;
+  return trace_rods(rods, way, how);
 }
 
 }  // namespace sinew::inline v0

@@ -41,20 +41,20 @@ SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Num
   const Equilibrium begun = equilibrium(robot, inputs, unloaded, work);
   sensed.report = begun.report;
   if (!begun.is_solved()) return sensed;
-  with_rods(work, [&](auto& rods) {
-    RodSensing sensing;
-    std::ranges::copy(axial, sensing.axial.begin());
-    sensing.max_iterations = options.max_iterations.value_or(sensing.max_iterations);
-    const SpatialWrench weight = rods.system.wrench();
-    sensed.report = sense_rods(rods, sensing);
-    if (sensed.report.ok()) sensed.report = settle(rods.system, sensed.report, rods.system.best_truncation);
-    rods.is_solved = sensed.report.ok() || sensed.report.status == Status::unstable;
-    if (!rods.is_solved) return;
-    sensed.pose = spatial_pose(rods.system.platform());
-    sensed.wrench = rods.system.wrench() - weight;
-    sensed.sensitivity = sensing.rows;
-    sensed.covariance = covariance_of(sensing.rows, deviations);
-  });
+  RodWork& rods = rods_of(work);
+  RodSensing sensing;
+  std::ranges::copy(axial, sensing.axial.begin());
+  sensing.max_iterations = options.max_iterations.value_or(sensing.max_iterations);
+  const SpatialWrench weight = rods.system->wrench();
+  sensed.report = sense_rods(rods, sensing);
+  if (sensed.report.ok())
+    sensed.report = settle(*rods.system, sensed.report, rods.system->traits().best_truncation);
+  rods.is_solved = sensed.report.ok() || sensed.report.status == Status::unstable;
+  if (!rods.is_solved) return sensed;
+  sensed.pose = spatial_pose(rods.system->platform());
+  sensed.wrench = rods.system->wrench() - weight;
+  sensed.sensitivity = sensing.rows;
+  sensed.covariance = covariance_of(sensing.rows, deviations);
   return sensed;
 }
 

@@ -27,24 +27,22 @@ Report wrong_count(std::size_t found, std::size_t needed) {
 
 /// Balance of the platform on rods: J its stiffness, K what feeding them does to the wrench, s what is
 /// missing.
-template <class System>
-Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, RodWorkOf<System>& rods,
-                      Workspace& work) {
-  System& system = rods.system;
+Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, Workspace& work) {
+  RodGroup& system = *work.rods->system;
   system.set_platform(SE3<double>::from(pose));
   system.set_rods(coordinates);
-  rods.is_solved = false;
+  work.rods->is_solved = false;
   system.evaluate();
   system.linearise();
   const int inputs = system.inputs();
   std::copy_n(system.stiffness().data(), 36, work.J.begin());
-  const Vec<double, 6> missing = system.missing();
+  const Vec<double, 6> missing = system.wrench_residual();
   std::copy(missing.begin(), missing.end(), work.s.begin());
   for (int j = 0; j < inputs; ++j) {
-    const Vec<double, 6> feed = system.feed_wrench(j);
+    const Vec<double, 6> feed = system.input_wrench_jacobian(j);
     for (int i = 0; i < 6; ++i) work.K[at(i * inputs + j)] = -feed[i];
   }
-  return {MatrixView(work.J.data(), 6, 6), MatrixView(work.K.data(), 6, inputs), work.s, system.rod_error(),
+  return {MatrixView(work.J.data(), 6, 6), MatrixView(work.K.data(), 6, inputs), work.s, system.limb_error(),
           0};
 }
 
@@ -55,7 +53,7 @@ Reduced assemble(const Robot& robot, const AnyPose& pose, Numbers coordinates, W
     return {MatrixView(nullptr, 0, dof(robot)), MatrixView(nullptr, 0, input_count(robot)), {}, infinity, 0};
   if (bears_load(robot)) {
     const SpatialPose& place = std::get<SpatialPose>(pose);
-    return with_rods(work, [&](auto& rods) { return assemble_rods(place, coordinates, rods, work); });
+    return assemble_rods(place, coordinates, work);
   }
   return with_legs(robot, [&]<class Any>(const ParallelRobot<Any>& legs) {
     using Space = typename Any::Space;
@@ -177,7 +175,7 @@ Workspace::Workspace(const Robot& any) : robot(any.shared()) {
   const auto rows_ = static_cast<std::size_t>(row_count(any));
   const auto inputs_ = static_cast<std::size_t>(input_count(any));
   const auto dof_ = static_cast<std::size_t>(sinew::dof(any));
-  if (bears_load(any)) rods = std::make_unique<RodWorks>(any);
+  if (bears_load(any)) rods = std::make_unique<RodWork>(rod_group(any));
   coordinates.resize(static_cast<std::size_t>(coordinate_count(any)));
   inputs.resize(inputs_);
   J.resize(rows_ * dof_);

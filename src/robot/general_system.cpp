@@ -162,34 +162,35 @@ GeneralSystem::GeneralSystem(const ParallelRobot<RodLeg>& robot) : HeavyRodGroup
   }
 }
 
-GeneralSystem::Snapshot GeneralSystem::snapshot() const {
-  Snapshot to;
-  to.rods.resize(all_.size());
-  save(to);
-  return to;
+const LimbTraits& GeneralSystem::traits() const {
+  static constexpr LimbTraits traits{
+      // lengths are good to 1e-9 of themselves with the quick truncation
+      .is_slow = true,
+      .best_truncation = 1e-15,
+      .quick_truncation = 1e-9,
+      .has_no_rest =
+          "no equilibrium was found of each rod by itself, held at home: a wide strip or a "
+          "strongly bent rod may have none near an arc"};
+  return traits;
 }
 
-void GeneralSystem::save(Snapshot& to) const {
-  std::copy(all_.begin(), all_.end(), to.rods.begin());
-  to.elements = elements_;
-  to.platform = platform_;
-  to.wrench = wrench_;
+void GeneralSystem::save(LimbState& to) const {
+  std::array<double, rod_numbers> numbers;
+  save_common(to, elements_, all_.size() * sizeof(numbers));
+  for (int k = 0; k < limbs(); ++k) {
+    get_rod(k, numbers);
+    to.put(numbers);
+  }
 }
 
-void GeneralSystem::restore(const Snapshot& from) {
-  for (std::size_t k = 0; k < all_.size(); ++k) static_cast<GeneralRodState&>(all_[k]) = from.rods[k];
-  elements_ = from.elements;
-  platform_ = from.platform;
-  wrench_ = from.wrench;
+void GeneralSystem::restore(const LimbState& from) {
+  LimbState::Reader reader(from);
+  elements_ = restore_common(reader);
+  for (GeneralRod& rod : all_) set_rod(rod, reader.next<std::array<double, rod_numbers>>());
 }
 
-void GeneralSystem::set_inputs(std::span<const double> inputs) {
-  for (int k = 0; k < rods(); ++k) at(k).length = inputs[v0::at(input_of(k))];
-}
-
-void GeneralSystem::set_gravity(const Vec3<double>& gravity) {
-  gravity_ = gravity;
-  for (int k = 0; k < rods(); ++k) at(k).rod.load = weight_of(k);
+void GeneralSystem::set_inputs(Numbers inputs) {
+  for (int k = 0; k < limbs(); ++k) at(k).length = inputs[v0::at(input_of(k))];
 }
 
 double GeneralSystem::weight_energy() const {
@@ -201,7 +202,7 @@ double GeneralSystem::weight_energy() const {
 /// Order 8: half the steps leave 256 times the error.
 bool GeneralSystem::can_coarsen(double wanted) const { return is_fine() && 1000 * truncation() < wanted; }
 
-double GeneralSystem::evaluate(bool) {
+double GeneralSystem::evaluate(bool /*from_scratch*/) {
   sum_.setZero();
   rod_error_ = 0;
   double stiffest[2] = {0, 0}, nothing = 0;
@@ -224,7 +225,7 @@ double GeneralSystem::evaluate(bool) {
     stiffest[1] = std::max(stiffest[1], moment);
   }
   rod_error_ += nothing;
-  const Wrench open = missing();
+  const Wrench open = GeneralSystem::wrench_residual();
   const double balance = std::max(open.head<3>().lpNorm<Eigen::Infinity>() / stiffest[0],
                                   open.tail<3>().lpNorm<Eigen::Infinity>() / stiffest[1]);
   return std::max(rod_error_, balance) + nothing + open.sum() * 0;
@@ -252,7 +253,7 @@ bool GeneralSystem::linearise() {
 
 GeneralSystem::Twist GeneralSystem::step(bool fresh) {
   if (!fresh) sum_closed();
-  const Wrench wanted = missing();
+  const Wrench wanted = GeneralSystem::wrench_residual();
   Twist twist;
   lu_.solve(wanted.data(), twist.data());
   return twist;
@@ -266,30 +267,30 @@ void GeneralSystem::move_rod(GeneralRod& rod, const Vector6& by, double fed) {
   rod.length += fed;
 }
 
-void GeneralSystem::move(const Twist& twist, std::span<const double> fed) {
+void GeneralSystem::move(const Twist& twist, Numbers fed) {
   move_platform(twist);
-  for (int k = 0; k < rods(); ++k) {
+  for (int k = 0; k < limbs(); ++k) {
     GeneralRod& rod = at(k);
     const double more = fed.empty() ? 0 : fed[v0::at(input_of(k))];
     move_rod(rod, rod.fix + rod.by_twist * twist + rod.by_length * more, more);
   }
 }
 
-GeneralSystem::Wrench GeneralSystem::feed_wrench(int input) const {
+GeneralSystem::Wrench GeneralSystem::input_wrench_jacobian(int input) const {
   Wrench sum = Wrench::Zero();
-  for (int k = 0; k < rods(); ++k)
+  for (int k = 0; k < limbs(); ++k)
     if (input_of(k) == input) sum += on_platform(at(k), at(k).feed);
   return sum;
 }
 
-double GeneralSystem::axial_force(int rod) const { return dot(at(rod).from.tangent(), at(rod).force); }
+double GeneralSystem::effort(int rod) const { return dot(at(rod).from.tangent(), at(rod).force); }
 
-double GeneralSystem::closing_axial_force(int rod) const {
+double GeneralSystem::closing_effort(int rod) const {
   const GeneralRod& one = at(rod);
-  return axial_force(rod) + dot(one.from.tangent(), Vec3<double>(one.fix.head<3>())) * one.force_unit;
+  return effort(rod) + dot(one.from.tangent(), Vec3<double>(one.fix.head<3>())) * one.force_unit;
 }
 
-GeneralSystem::Twist GeneralSystem::axial_row(int rod) const {
+GeneralSystem::Twist GeneralSystem::effort_jacobian(int rod) const {
   const GeneralRod& one = at(rod);
   return one.by_twist.topRows<3>().transpose() * one.from.tangent() * one.force_unit;
 }
@@ -366,16 +367,16 @@ void GeneralSystem::get_rod(int index, std::span<double> coordinates) const {
   std::fill(to, coordinates.end(), 0.0);
 }
 
-void GeneralSystem::set_rods(std::span<const double> coordinates) {
+void GeneralSystem::set_rod(GeneralRod& rod, Numbers numbers) {
+  rod.force = {numbers[0], numbers[1], numbers[2]};
+  rod.moment = {numbers[3], numbers[4], numbers[5]};
+  rod.spin = numbers[6];
+  rod.length = numbers[7];
+}
+
+void GeneralSystem::set_rods(Numbers coordinates) {
   elements_ = most_elements;
-  for (int k = 0; k < rods(); ++k) {
-    const auto from = coordinates.subspan(v0::at(coordinate_of(k)));
-    GeneralRod& rod = at(k);
-    rod.force = {from[0], from[1], from[2]};
-    rod.moment = {from[3], from[4], from[5]};
-    rod.spin = from[6];
-    rod.length = from[7];
-  }
+  for (int k = 0; k < limbs(); ++k) set_rod(at(k), coordinates.subspan(v0::at(coordinate_of(k))));
 }
 
 bool GeneralSystem::draw_rods() {
@@ -399,7 +400,7 @@ bool GeneralSystem::draw_rods() {
     }
     // one that turns further than its steps resolve at rest, too
     if (!(rod.length * rod.rod.precurvature.norm() < most_elements)) return false;
-    const HeldRod held = hold(rod.rod, rod.frame, rod.length, rod.ends, tip, {.tolerance = 1e-9});
+    const HeldRod held = v0::hold(rod.rod, rod.frame, rod.length, rod.ends, tip, {.tolerance = 1e-9});
     if (!held.report.ok()) return false;
     rod.force = held.base.n;
     rod.moment = held.base.m;

@@ -1,8 +1,8 @@
 /// @file general_system.hpp
 /// Rods that bear torque between a base and a platform as one system of equations: held against spin at both
 /// ends, of a section that is not round, or bent when free. Each is shot from its base, and its six unknowns
-/// are eliminated in the same step. TangentSystem is the fast special case without torque and has the same
-/// face. Theory: docs/theory/spatial_rod.md
+/// are eliminated in the same step. TangentSystem is the fast special case without torque. Theory:
+/// docs/theory/spatial_rod.md
 #pragma once
 #include <array>
 #include <cmath>
@@ -11,25 +11,24 @@
 
 #include "robot/rod_group.hpp"
 #include "sinew/link/held_rod.hpp"
-#include "sinew/robot/rod_reading.hpp"
 
 namespace sinew::inline v0 {
 
 /// The rod as one that can bear torque. Where its material has no shear modulus nothing may depend on it.
 SpatialRod spatial_rod(const Rod& rod);
 
-/// What Newton's method moves, and what a path is resumed from: base axes.
-struct GeneralRodState {
+/// One rod with all numbers of its Newton step. Its unknowns are dimensionless: force in EI/L², moment in
+/// EI/L about the section's axes at spin 0, where the last is the spin instead if that is free and matters.
+struct GeneralRod {
+  using Matrix = Mat<double, 6, 6>;
+
+  /// @name What Newton's method moves, and what a path is resumed from: base axes
+  /// @{
   Vec3<double> force = Vec3<double>::Zero();   ///< internal, at the base [N]
   Vec3<double> moment = Vec3<double>::Zero();  ///< [N m]
   double spin = 0;                             ///< of the section in its guide [rad]
   double length = 1;                           ///< L, unstretched [m]
-};
-
-/// One rod with all numbers of its Newton step. Its unknowns are dimensionless: force in EI/L², moment in
-/// EI/L about the section's axes at spin 0, where the last is the spin instead if that is free and matters.
-struct GeneralRod : GeneralRodState {
-  using Matrix = Mat<double, 6, 6>;
+  /// @}
 
   /// @name What it is
   /// @{
@@ -55,7 +54,7 @@ struct GeneralRod : GeneralRodState {
   /// @{
   double force_unit = 0, moment_unit = 0;
   bool is_regular = false;   ///< the gap determines the unknowns; else the rest are no numbers
-  Lu6 factors;               ///< of the gap by the unknowns
+  SmallLu<6> factors;        ///< of the gap by the unknowns
   Matrix by_twist;           ///< the unknowns by the platform's twist, the gap held
   Vec<double, 6> by_length;  ///< ... by the length
   Matrix handed;             ///< force and moment on the tip by the unknowns; of a ball no moment
@@ -67,74 +66,60 @@ struct GeneralRod : GeneralRodState {
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
 class GeneralSystem : public HeavyRodGroup {
  public:
-  static constexpr bool is_slow = true;
-  static constexpr std::string_view has_no_rest =
-      "no equilibrium was found of each rod by itself, held at home: a wide strip or a strongly bent rod may "
-      "have none near an arc";
   explicit GeneralSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
 
-  /// A state to return to.
-  struct Snapshot {
-    std::vector<GeneralRodState> rods;
-    int elements = 0;
-    SE3<double> platform;
-    Wrench wrench = Wrench::Zero();
-  };
-  Snapshot snapshot() const;  ///< allocates: take it once and `save` into it
-  void save(Snapshot& to) const;
-  void restore(const Snapshot& from);
+  const LimbTraits& traits() const override;
+  void save(LimbState& to) const override;
+  void restore(const LimbState& from) override;
 
   /// @name What is held
   /// @{
-  Vec3<double> base(int rod) const { return at(rod).frame.p; }
-  Vec3<double> platform_point(int rod) const { return at(rod).platform_point; }
-  double stiffness(int rod) const { return at(rod).stiffness; }  ///< EI [N m²]
-  double length(int rod) const { return at(rod).length; }
-  void set_length(int rod, double length) { at(rod).length = length; }
-  void set_inputs(std::span<const double> inputs);  ///< the lengths of all rods [m]
-  Wrench wrench() const { return wrench_; }         ///< of the world, base axes
-  void set_wrench(const Wrench& wrench) { wrench_ = wrench; }
-  void set_gravity(const Vec3<double>& gravity);
-  double weight_energy() const;  ///< of all rods, after `evaluate` [J]; 0 with the rods in their bases
+  Vec3<double> base(int rod) const override { return at(rod).frame.p; }
+  Vec3<double> platform_point(int rod) const override { return at(rod).platform_point; }
+  double stiffness(int rod) const override { return at(rod).stiffness; }  ///< the mean of both ways
+  double length(int rod) const override { return at(rod).length; }
+  void hold(int rod, double length) override { at(rod).length = length; }
+  void set_inputs(Numbers inputs) override;
+  Wrench wrench() const final { return wrench_; }
+  void set_wrench(const Wrench& wrench) final { wrench_ = wrench; }
+  double weight_energy() const override;
   int elements() const { return elements_; }  ///< even steps of the integration along each rod
-  bool is_fine() const { return elements_ > coarse_elements; }
-  bool is_finest() const { return elements_ >= most_elements; }
-  void refine() { elements_ = is_finest() ? elements_ : 2 * elements_; }
-  void coarsen() { elements_ = is_fine() ? elements_ / 2 : elements_; }
-  bool can_coarsen(double truncation) const;  ///< and stay below this estimate of the error
+  bool is_fine() const override { return elements_ > coarse_elements; }
+  bool is_finest() const override { return elements_ >= most_elements; }
+  void refine() override { elements_ = is_finest() ? elements_ : 2 * elements_; }
+  void coarsen() override { elements_ = is_fine() ? elements_ / 2 : elements_; }
+  bool can_coarsen(double truncation) const override;
   /// @}
 
-  /// @name Newton's method, as RodSystem has it
+  /// @name Newton's method
   /// @{
-  double evaluate(bool anew = true);
-  double rod_error() const { return rod_error_; }
-  bool linearise();
-  Twist step(bool fresh);
-  Wrench missing() const { return wrench_ - sum_; }
-  void move(const Twist& twist, std::span<const double> fed = {});
-  Lu6 factors() const { return lu_; }
-  MatrixView stiffness() const { return {stiffness_.data(), 6, 6}; }
-  Wrench feed_wrench(int input) const;
+  double evaluate(bool from_scratch = true) override;
+  double limb_error() const override { return rod_error_; }
+  bool linearise() override;
+  Twist step(bool fresh) override;
+  Wrench wrench_residual() const override { return wrench_ - sum_; }
+  void move(const Twist& twist, Numbers fed = {}) override;
+  MatrixView stiffness() const override { return {stiffness_.data(), 6, 6}; }
+  Wrench input_wrench_jacobian(int input) const override;
+  bool rest_at(const SE3<double>& platform) override;
   /// @}
 
   /// @name Single rods, after `evaluate`
   /// @{
   /// Curvatures of a section: about its x and y, twist about its tangent; the largest is that of bending,
   /// beyond the rod's own at rest.
-  RodReading rod(int index) const;
-  double axial_force(int rod) const;  ///< at its guide, pull > 0 [N]
-  double closing_axial_force(int rod) const;
-  Twist axial_row(int rod) const;
-  /// Unstable directions with the tip held; after `linearise`. The second number is 0.
-  std::array<int, 2> unstable_with_tip_held(int index) const;
+  RodReading rod(int index) const override;
+  double effort(int rod) const override;
+  double closing_effort(int rod) const override;
+  Twist effort_jacobian(int rod) const override;
+  /// The second number is 0.
+  std::array<int, 2> unstable_with_tip_held(int index) const override;
   /// Estimated error of the integration, of the length and in rad: the worst rod's.
-  double truncation() const;
-  /// Polyline, `samples` ≥ 2 points in base axes [m]. Allocates.
-  std::vector<Vec3<double>> centreline(int index, int samples) const;
-  /// State as the coordinates of the leg (see RodLeg) ...
-  void get_rod(int index, std::span<double> coordinates) const;
-  /// ... and that of all rods back, with the finest steps.
-  void set_rods(std::span<const double> coordinates);
+  double truncation() const override;
+  std::vector<Vec3<double>> centreline(int index, int samples) const override;
+  void get_rod(int index, std::span<double> coordinates) const override;
+  /// With the finest steps.
+  void set_rods(Numbers coordinates) override;
   /// @}
 
   /// @name To lay rods to a pose
@@ -149,14 +134,14 @@ class GeneralSystem : public HeavyRodGroup {
   /// @}
 
   static constexpr int coarse_elements = 8, most_elements = 128;
-  /// Estimated error from which an answer that is not resumed takes more steps.
-  static constexpr double best_truncation = 1e-15;
-  /// ... and one that is to be quick: lengths to 1e-9 of themselves.
-  static constexpr double quick_truncation = 1e-9;
 
  private:
   GeneralRod& at(int rod) { return all_[static_cast<std::size_t>(rod)]; }
   const GeneralRod& at(int rod) const { return all_[static_cast<std::size_t>(rod)]; }
+  void weigh(int rod, const Vec3<double>& weight) override { at(rod).rod.load = weight; }
+  /// State as numbers: force, moment, spin, length.
+  static constexpr std::size_t rod_numbers = 8;
+  static void set_rod(GeneralRod& rod, Numbers numbers);
   void sum_closed();
   static void move_rod(GeneralRod& rod, const Vec<double, 6>& by, double fed);
 

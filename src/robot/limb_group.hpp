@@ -56,6 +56,10 @@ class LimbGroup {
   virtual double length(int limb) const = 0;     ///< of its backbone [m]: what its shape is measured by
   virtual double stiffness(int limb) const = 0;  ///< EI [N m²]
   virtual double radius() const = 0;             ///< makes moments comparable with forces [m]
+  /// Whether legs close beside the limbs ...
+  virtual bool closes() const { return false; }
+  /// ... and the motions they forbid, less those their own inputs drive.
+  virtual int undriven() const { return 0; }
   /// @}
 
   /// @name What is held: one of the two quantities of each feed, length or tension; the other is its effort
@@ -116,6 +120,8 @@ class LimbGroup {
   virtual const SmallLu<dof>& factors() const = 0;            ///< of the stiffness
   virtual MatrixView stiffness() const = 0;                   ///< ∂(wrench needed)/∂(pose), inputs held
   virtual Wrench input_wrench_jacobian(int input) const = 0;  ///< ∂(wrench needed)/∂(input), platform held
+  /// What of a load the limbs bear: closing legs may take some.
+  virtual Wrench project_wrench(const Wrench& wrench) const { return wrench; }
   /// @}
 
   /// @name Of a state that was linearised

@@ -12,17 +12,28 @@ namespace sinew::inline v0 {
 /// A copy onto another state of the same robot does not allocate.
 class LimbState {
  public:
-  /// Begins anew; memory stays.
-  void clear() { bytes_.clear(); }
+  /// Begins anew; memory stays. @param most bytes of any state of these limbs: room for all
+  void clear(std::size_t most = 0) {
+    if (bytes_.size() < most) bytes_.resize(most);
+    size_ = 0;
+  }
   template <class T>
   void put(std::span<const T> values) {
     static_assert(is_plain<T>);
-    const auto* from = reinterpret_cast<const std::byte*>(values.data());
-    bytes_.insert(bytes_.end(), from, from + values.size_bytes());
+    const std::size_t begin = size_;
+    size_ += values.size_bytes();
+    if (size_ > bytes_.size()) bytes_.resize(size_);
+    std::memcpy(bytes_.data() + begin, values.data(), values.size_bytes());
   }
   template <class T>
   void put(const T& value) {
     put(std::span<const T>(&value, 1));
+  }
+
+  /// What was put last of all.
+  template <class T>
+  void get_last(std::span<T> values) const {
+    std::memcpy(values.data(), bytes_.data() + size_ - values.size_bytes(), values.size_bytes());
   }
 
   /// Reads what was put, in that order.
@@ -39,6 +50,12 @@ class LimbState {
     void get(T& value) {
       get(std::span<T>(&value, 1));
     }
+    template <class T>
+    T next() {
+      T value;
+      get(value);
+      return value;
+    }
 
    private:
     const std::byte* next_;
@@ -50,6 +67,7 @@ class LimbState {
   static constexpr bool is_plain = std::is_trivially_destructible_v<T>;
 
   std::vector<std::byte> bytes_;
+  std::size_t size_ = 0;  ///< of what was put
 };
 
 }  // namespace sinew::inline v0

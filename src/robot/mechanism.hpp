@@ -10,14 +10,14 @@
 #include "base/at.hpp"
 #include "robot/kinematic_group.hpp"
 #include "robot/rod_group.hpp"
+#include "solve/contraction.hpp"
 
 namespace sinew::inline v0 {
 
-/// The face of `Rods`, to which it adds the closing legs; without any it is that of the rods. No function
-/// here allocates unless it says so.
+/// Without closing legs it does what `Rods` does.
 /// @tparam Rods a group of rods: RodSystem, TangentSystem or GeneralSystem
 template <class Rods>
-class Mechanism : public Rods {
+class Mechanism final : public Rods {
  public:
   using Wrench = Vec<double, 6>;
   using Twist = Vec<double, 6>;
@@ -25,89 +25,85 @@ class Mechanism : public Rods {
   explicit Mechanism(const SpatialRobot& robot)  ///< allocates
       : Rods(legs_of<RodLeg>(robot)),
         robot_(robot),
-        inputs_(at(robot.total.input), 0.0),
+        values_(at(robot.total.input), 0.0),
         coordinates_(closes() ? at(robot.total.coordinate) : 0, 0.0),
         K_(at(robot.total.row * robot.total.input), 0.0),
         rank_(std::min(group().rows(), 6)) {
     robot_.for_each_leg([&]<class L>(const L&, const LegPlace& place, int i) {
       if constexpr (BearsLoad<L>) return leg_of_.push_back(i);
       ++closing_legs_;
-      for (int k = 0; k < L::inputs; ++k) driven_by_.push_back(place.input + k);
+      for (int k = 0; k < L::inputs; ++k) this->input_of_.push_back(place.input + k);
     });
   }
 
-  /// Whether legs close beside the rods.
-  bool closes() const { return group().rows() > 0; }
+  bool closes() const override { return group().rows() > 0; }
+  int undriven() const override { return std::max(rank_ - (Rods::feeds() - Rods::limbs()), 0); }
+  int leg_of(int rod) const override { return leg_of_[at(rod)]; }
 
-  struct Snapshot : Rods::Snapshot {
-    std::vector<double> inputs;
-  };
-  Snapshot snapshot() const {
-    Snapshot to{Rods::snapshot(), inputs_};
-    return to;
-  }
-  void save(Snapshot& to) const {
+  void save(LimbState& to) const override {
     Rods::save(to);
-    std::ranges::copy(inputs_, to.inputs.begin());
+    to.put(std::span<const double>(values_));
   }
-  void restore(const Snapshot& from) {
+  void restore(const LimbState& from) override {
     Rods::restore(from);
-    std::ranges::copy(from.inputs, inputs_.begin());
+    from.get_last(std::span<double>(values_));
   }
 
-  int leg_of(int rod) const { return leg_of_[at(rod)]; }
-  /// Motions that the closing legs forbid, less those their own inputs drive.
-  int undriven() const { return std::max(rank_ - drives(), 0); }
-  /// @name What inputs feed: the rods, then what the closing legs are driven by
+  /// @name What is held: lengths of the rods, then what the closing legs are driven by
   /// @{
-  int feeds() const { return Rods::rods() + drives(); }
-  int input_of(int feed) const { return is_rod(feed) ? Rods::input_of(feed) : driven_by_[at(own(feed))]; }
-  double length(int feed) const { return is_rod(feed) ? Rods::length(feed) : inputs_[at(input_of(feed))]; }
-  void set_length(int feed, double value) {
+  double held(int feed) const override { return is_rod(feed) ? Rods::length(feed) : value_of(feed); }
+  void hold(int feed, double value) override {
     if (is_rod(feed))
-      Rods::set_length(feed, value);
+      Rods::hold(feed, value);
     else
-      inputs_[at(input_of(feed))] = value;
+      values_[at(Rods::input_of(feed))] = value;
   }
-  bool in_domain(int feed, double value) const {
-    return is_rod(feed) ? Rods::in_domain(feed, value) : group().in_domain(input_of(feed), value);
+  bool in_domain(int feed, double value) const override {
+    return is_rod(feed) ? Rods::in_domain(feed, value) : group().in_domain(Rods::input_of(feed), value);
   }
-  void set_inputs(std::span<const double> inputs) {
+  void set_inputs(Numbers inputs) override {
     Rods::set_inputs(inputs);
-    std::ranges::copy(inputs, inputs_.begin());
+    std::ranges::copy(inputs, values_.begin());
   }
-  /// Inputs of the closing legs that close them where the platform is; false where one cannot.
-  bool close() { return group().close_at(Rods::platform(), inputs_); }
   /// @}
 
   /// @name Newton's method
   /// @{
-  double evaluate(bool anew = true) {
-    const double own = Rods::evaluate(anew);
+  bool rest_at(const SE3<double>& platform) override {
+    return (!closes() || group().close_at(platform, values_)) && Rods::rest_at(platform);
+  }
+  bool solve_warm(Report& report) override {
+    const auto advance = [&](bool fresh) {
+      move(step(fresh));
+      return true;
+    };
+    return contract_with_kept_factors([&] { return evaluate(false); }, [&] { return linearise(); }, advance,
+                                      rod_tolerance, evaluate(false), report.iterations, report.residual);
+  }
+  double evaluate(bool from_scratch = true) override {
+    const double own = Rods::evaluate(from_scratch);
     if (!closes()) return own;
-    group().to_coordinates(inputs_, coordinates_);
+    group().to_coordinates(values_, coordinates_);
     group().evaluate(Rods::platform(), coordinates_, {J_, K_, s_});
     scale_rows();
     if (!lines_.allFinite()) return std::numeric_limits<double>::quiet_NaN();
     project();
-    const Wrench left = free_ * scaled(Rods::missing());
+    const Wrench left = free_ * scaled(Rods::wrench_residual());
     double force = 0, length = 0;
-    for (int k = 0; k < Rods::rods(); ++k) {
+    for (int k = 0; k < Rods::limbs(); ++k) {
       force = std::max(force, Rods::stiffness(k) / (Rods::length(k) * Rods::length(k)));
       length = std::max(length, Rods::length(k));
     }
     const double gap = gap_.template lpNorm<Eigen::Infinity>() / length;
-    const double error = std::max({Rods::rod_error(), gap, left.template lpNorm<Eigen::Infinity>() / force});
+    const double error = std::max({Rods::limb_error(), gap, left.template lpNorm<Eigen::Infinity>() / force});
     return std::isnan(gap + left.sum()) ? std::numeric_limits<double>::quiet_NaN() : error;
   }
-  /// Of rods and closing legs: that of the platform is not among them.
-  double rod_error() const { return Rods::rod_error(); }
 
-  bool linearise() {
+  bool linearise() override {
     const bool is_held = Rods::linearise();
     if (!closes()) return is_held;  // else the rods alone need not hold the platform
     // the closing legs push with what is missing, along their rows
-    const Wrench missing = scaled(Rods::missing());
+    const Wrench missing = scaled(Rods::wrench_residual());
     force_ = -(inverse_.transpose() * missing).cwiseProduct(scale_);
     Mat<double, 6, 6> turned;
     const Numbers multipliers(force_.data(), at(group().rows()));
@@ -127,54 +123,55 @@ class Mechanism : public Rods {
   }
 
   /// With the gaps of the closing legs closed by motions square to the free ones.
-  Wrench missing() const {
-    if (!closes()) return Rods::missing();
+  Wrench wrench_residual() const override {
+    if (!closes()) return Rods::wrench_residual();
     const Wrench closes = -(inverse_ * gap_);
-    const Wrench missing = scaled(Rods::missing());
+    const Wrench missing = scaled(Rods::wrench_residual());
     return unscaled(Wrench(free_ * (missing - inner_ * closes) + held_ * closes));
   }
-  Twist step(bool fresh) {
+  Twist step(bool fresh) override {
     if (!closes()) return Rods::step(fresh);
     if (!fresh) Rods::step(false);
-    const Wrench wanted = missing();
+    const Wrench wanted = wrench_residual();
     Twist twist;
     lu_.solve(wanted.data(), twist.data());
     return twist;
   }
-  void move(const Twist& twist, std::span<const double> fed = {}) {
+  void move(const Twist& twist, Numbers fed = {}) override {
     Rods::move(twist, fed);
     if (closes() && !fed.empty())
-      for (std::size_t k = 0; k < inputs_.size(); ++k) inputs_[k] += fed[k];
+      for (std::size_t k = 0; k < values_.size(); ++k) values_[k] += fed[k];
   }
-  Lu6 factors() const { return closes() ? lu_ : Rods::factors(); }
-  MatrixView stiffness() const { return closes() ? MatrixView(stiffness_.data(), 6, 6) : Rods::stiffness(); }
-  double stiffness(int rod) const { return Rods::stiffness(rod); }
-  Wrench feed_wrench(int input) const {
-    if (!closes()) return Rods::feed_wrench(input);
+  const SmallLu<6>& factors() const override { return closes() ? lu_ : Rods::factors(); }
+  using Rods::stiffness;
+  MatrixView stiffness() const override {
+    return closes() ? MatrixView(stiffness_.data(), 6, 6) : Rods::stiffness();
+  }
+  Wrench input_wrench_jacobian(int input) const override {
+    if (!closes()) return Rods::input_wrench_jacobian(input);
     return platform_feed(input) + unscaled(Wrench(held_ * by_input_.col(input)));
   }
   /// @}
 
   /// @name On the motions that the closing legs leave free
   /// @{
-  Mat<double, 6, 6> platform_stiffness() const {
+  Mat<double, 6, 6> platform_stiffness() const override {
     if (!closes()) return Rods::stiffness();
     return unscaled(Mat<double, 6, 6>(free_ * inner_ * free_));
   }
-  Wrench platform_feed(int input) const {
-    if (!closes()) return Rods::feed_wrench(input);
-    const Wrench own = scaled(Wrench(Rods::feed_wrench(input) - force_by_input_.col(input)));
+  Wrench platform_feed(int input) const override {
+    if (!closes()) return Rods::input_wrench_jacobian(input);
+    const Wrench own = scaled(Wrench(Rods::input_wrench_jacobian(input) - force_by_input_.col(input)));
     const Wrench moved = by_input_.col(input);  // against this the closing legs move the platform
     return unscaled(Wrench(free_ * (own - inner_ * moved)));
   }
-  /// What of a load they leave to the rods.
-  Wrench felt(const Wrench& wrench) const {
+  Wrench project_wrench(const Wrench& wrench) const override {
     if (!closes()) return wrench;
     return unscaled(Wrench(free_ * scaled(wrench)));
   }
-  /// What of a twist they allow.
-  Twist free_motion(Twist twist) const {
-    if (!closes()) return twist;
+  Twist free_motion(const Twist& whole) const override {
+    if (!closes()) return whole;
+    Twist twist = whole;
     twist.template tail<3>() *= Rods::radius();
     twist = free_ * twist;
     twist.template tail<3>() /= Rods::radius();
@@ -182,9 +179,8 @@ class Mechanism : public Rods {
   }
   /// @}
 
-  int closing_legs() const { return closing_legs_; }
-  /// Of the platform on a closing leg, at its platform point, base axes [N]; after `linearise`.
-  Vec3<double> closing_force(int leg) const {
+  int closing_legs() const override { return closing_legs_; }
+  Vec3<double> closing_force(int leg) const override {
     Vec3<double> force = Vec3<double>::Zero();
     robot_.for_each_closing_leg([&]<class L>(const L&, const LegPlace& place, int) {
       if (leg-- != 0) return;
@@ -195,16 +191,17 @@ class Mechanism : public Rods {
     });
     return force;
   }
-  void get_closing(std::span<double> coordinates) const { group().to_coordinates(inputs_, coordinates); }
-  void set_rods(std::span<const double> coordinates) {
+  void get_closing(std::span<double> coordinates) const override {
+    group().to_coordinates(values_, coordinates);
+  }
+  void set_rods(Numbers coordinates) override {
     Rods::set_rods(coordinates);
-    group().to_inputs(coordinates, inputs_);
+    group().to_inputs(coordinates, values_);
   }
 
  private:
-  bool is_rod(int feed) const { return feed < Rods::rods(); }
-  int own(int feed) const { return feed - Rods::rods(); }
-  int drives() const { return static_cast<int>(driven_by_.size()); }
+  bool is_rod(int feed) const { return feed < Rods::limbs(); }
+  double value_of(int feed) const { return values_[at(Rods::input_of(feed))]; }
   KinematicGroup<AnySpatialLeg> group() const { return KinematicGroup<AnySpatialLeg>(robot_); }
 
   /// @name Rows as the group wrote them
@@ -278,10 +275,9 @@ class Mechanism : public Rods {
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::DontAlign, max_rows, 6>;
   using RowVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign, max_rows, 1>;
   SpatialRobot robot_;
-  std::vector<int> leg_of_;     ///< of each rod
-  std::vector<int> driven_by_;  ///< inputs of the closing legs, one after the other
+  std::vector<int> leg_of_;  ///< of each rod
   int closing_legs_ = 0;
-  std::vector<double> inputs_, coordinates_;  ///< of the robot; those of its rods are not used
+  std::vector<double> values_, coordinates_;  ///< inputs of the robot; those of its rods are not used
   std::array<double, 6 * max_rows> J_{};
   std::array<double, max_rows> s_{};
   std::vector<double> K_;
@@ -295,7 +291,7 @@ class Mechanism : public Rods {
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::DontAlign, 6, max_rows> by_input_, force_by_input_;
   std::array<double, 36> stiffness_{};
   int rank_;  ///< of the closing legs' rows
-  Lu6 lu_;
+  SmallLu<6> lu_;
 };
 
 }  // namespace sinew::inline v0

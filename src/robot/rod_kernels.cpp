@@ -177,9 +177,9 @@ HWY_INLINE void bent_anew(Rods& rods, int i) {
 
 /// Gaps of the rods' own equations and of their tips; the largest of each lane, with any NaN kept.
 template <class Rods>
-HWY_INLINE Pack measure(Rods& rods, int i, bool anew) {
+HWY_INLINE Pack measure(Rods& rods, int i, bool from_scratch) {
   constexpr int N = Rods::nodes;
-  if (anew) {
+  if (from_scratch) {
     bend(rods, i);
     bent_anew(rods, i);
   }
@@ -223,21 +223,21 @@ struct Errors {
     sum = sum + error;
   }
   template <class Rods>
-  HWY_INLINE void add(Rods& rods, int i, bool anew) {
-    add(measure(rods, i, anew));
+  HWY_INLINE void add(Rods& rods, int i, bool from_scratch) {
+    add(measure(rods, i, from_scratch));
     per_force = hn::Min(per_force, load(rods.load + i));
     per_moment = hn::Min(per_moment, load(rods.length + i) * load(rods.flexibility + i));
   }
 };
 
 template <class Rods>
-void evaluate(std::span<Rods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
+void evaluate(std::span<Rods> groups, const RodPlatform& platform, bool from_scratch, RodSums& sums) {
   Wrench wrench;
   Errors errors;
   for (Rods& rods : groups)
     for (int i = 0; i < rod_lanes; i += static_cast<int>(hn::Lanes(tag))) {
       place(rods, i, SameFrame{platform});
-      errors.add(rods, i, anew);
+      errors.add(rods, i, from_scratch);
       wrench.add(load3(rods.arm, i), force(rods, i), load(rods.active + i));
     }
   wrench.total(sums.wrench, errors.sum * all(0));
@@ -760,7 +760,7 @@ void AdvancePoses(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& p
                  {load(twist[3] + i), load(twist[4] + i), load(twist[5] + i)}, nullptr);
       }
       place(rod, i, frames[p]);
-      sum.errors.add(rod, i, step.anew);
+      sum.errors.add(rod, i, step.from_scratch);
       sum.wrench.add(load3(rod.arm, i), force(rod, i), all(1));
       if (step.renews) {
         factor(rod, i);
@@ -785,11 +785,12 @@ void AdvancePoses(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& p
 }
 /// @}
 
-void EvaluateCoarse(std::span<CoarseRods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
-  evaluate(groups, platform, anew, sums);
+void EvaluateCoarse(std::span<CoarseRods> groups, const RodPlatform& platform, bool from_scratch,
+                    RodSums& sums) {
+  evaluate(groups, platform, from_scratch, sums);
 }
-void EvaluateFine(std::span<FineRods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
-  evaluate(groups, platform, anew, sums);
+void EvaluateFine(std::span<FineRods> groups, const RodPlatform& platform, bool from_scratch, RodSums& sums) {
+  evaluate(groups, platform, from_scratch, sums);
 }
 bool LineariseCoarse(std::span<CoarseRods> groups, RodPlatform& platform, RodSums& sums) {
   return linearise(groups, platform, sums);
@@ -833,11 +834,11 @@ HWY_EXPORT(TruncationFine);
 HWY_EXPORT(AdvancePoses);
 HWY_EXPORT(InstructionSet);
 
-void evaluate(std::span<CoarseRods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
-  HWY_DYNAMIC_DISPATCH(EvaluateCoarse)(groups, platform, anew, sums);
+void evaluate(std::span<CoarseRods> groups, const RodPlatform& platform, bool from_scratch, RodSums& sums) {
+  HWY_DYNAMIC_DISPATCH(EvaluateCoarse)(groups, platform, from_scratch, sums);
 }
-void evaluate(std::span<FineRods> groups, const RodPlatform& platform, bool anew, RodSums& sums) {
-  HWY_DYNAMIC_DISPATCH(EvaluateFine)(groups, platform, anew, sums);
+void evaluate(std::span<FineRods> groups, const RodPlatform& platform, bool from_scratch, RodSums& sums) {
+  HWY_DYNAMIC_DISPATCH(EvaluateFine)(groups, platform, from_scratch, sums);
 }
 bool linearise(std::span<CoarseRods> groups, RodPlatform& platform, RodSums& sums) {
   return HWY_DYNAMIC_DISPATCH(LineariseCoarse)(groups, platform, sums);

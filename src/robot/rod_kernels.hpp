@@ -45,17 +45,18 @@ struct alignas(64) PoseLanes {
 
 /// What is done to eight poses in one sweep over their rods.
 struct PoseStep {
-  bool moves = true;    ///< else they are evaluated where they are
-  bool anew = false;    ///< see RodSystem::evaluate
-  bool renews = false;  ///< factors
-  bool judges = false;  ///< counts unstable directions by them
+  bool moves = true;          ///< else they are evaluated where they are
+  bool from_scratch = false;  ///< see RodSystem::evaluate
+  bool renews = false;        ///< factors
+  bool judges = false;        ///< counts unstable directions by them
 };
 
 namespace rod_kernels {
 
-/// Gaps, forces: `wrench` and the errors. Not `anew` it takes sines and Bθ as the last step left them.
-void evaluate(std::span<CoarseRods> groups, const RodPlatform& platform, bool anew, RodSums& sums);
-void evaluate(std::span<FineRods> groups, const RodPlatform& platform, bool anew, RodSums& sums);
+/// Gaps, forces: `wrench` and the errors. Not `from_scratch` it takes sines and Bθ as the last step left
+/// them.
+void evaluate(std::span<CoarseRods> groups, const RodPlatform& platform, bool from_scratch, RodSums& sums);
+void evaluate(std::span<FineRods> groups, const RodPlatform& platform, bool from_scratch, RodSums& sums);
 
 /// Factors at the point last evaluated: `stiffness`, and `wrench` of the forces that close the gaps. False
 /// where the stiffness is too near to singular for its `inverse` to be of use.

@@ -10,103 +10,72 @@
 
 #include "robot/rod_group.hpp"
 #include "robot/rod_kernels.hpp"
-#include "sinew/robot/rod_reading.hpp"
 
 namespace sinew::inline v0 {
 
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
 class RodSystem : public RodGroup {
  public:
-  /// Whether a step costs some hundred times as much as one of the others: fewer are tried then.
-  static constexpr bool is_slow = false;
-  /// What is said where rods cannot be laid to their home.
-  static constexpr std::string_view has_no_rest =
-      "the rods cannot be laid to home: a tip lies on the line of its guide, so that where it bends is not "
-      "determined, or behind it, or the rods' weight is too much for them";
   explicit RodSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
 
-  /// Estimated error from which an answer that is not resumed takes the fine nodes: stiff robots turn it into
-  /// forces.
-  static constexpr double best_truncation = 1e-17;
-  /// ... and one that is to be quick: poses were then within 2e-13 m of exact ones.
-  static constexpr double quick_truncation = 1e-10;
-
-  /// A state to return to.
-  struct Snapshot {
-    std::vector<PlaneRodState<coarse_nodes>> coarse;
-    std::vector<PlaneRodState<fine_nodes>> fine;
-    bool is_fine = false;
-    SE3<double> platform;
-    Wrench wrench = Wrench::Zero();
-  };
-  Snapshot snapshot() const;  ///< allocates: take it once and `save` into it
-  void save(Snapshot& to) const;
-  void restore(const Snapshot& from);
+  const LimbTraits& traits() const override;
+  void save(LimbState& to) const override;
+  void restore(const LimbState& from) override;
+  RodSystem* elastica() final { return this; }
 
   /// @name What is held
   /// @{
-  Vec3<double> base(int rod) const;
-  Vec3<double> platform_point(int rod) const;
-  double stiffness(int rod) const;  ///< EI [N m²]
-  double length(int rod) const;
-  void set_length(int rod, double length);
-  void set_inputs(std::span<const double> inputs);                          ///< the lengths of all rods [m]
-  Wrench wrench() const { return Eigen::Map<const Wrench>(held_.wrench); }  ///< of the world, base axes
-  void set_wrench(const Wrench& wrench) { Eigen::Map<Wrench>(held_.wrench) = wrench; }
-  bool is_fine() const { return is_fine_; }
-  bool is_finest() const { return is_fine_; }
-  void refine();                                       ///< to the fine nodes, the same shapes
-  void coarsen();                                      ///< to the coarse nodes, the shapes interpolated
-  bool can_coarsen(double) const { return is_fine_; }  ///< whether it is worth a try
+  Vec3<double> base(int rod) const override;
+  Vec3<double> platform_point(int rod) const override;
+  double stiffness(int rod) const override;
+  double length(int rod) const override;
+  void hold(int rod, double length) override;
+  void set_inputs(Numbers inputs) override;
+  Wrench wrench() const final { return Eigen::Map<const Wrench>(held_.wrench); }
+  void set_wrench(const Wrench& wrench) final { Eigen::Map<Wrench>(held_.wrench) = wrench; }
+  bool is_fine() const override { return is_fine_; }
+  bool is_finest() const override { return is_fine_; }
+  void refine() override;                                       ///< to the fine nodes, the same shapes
+  void coarsen() override;                                      ///< to the coarse nodes, interpolated
+  bool can_coarsen(double) const override { return is_fine_; }  ///< whether it is worth a try
   /// @}
 
   /// @name Newton's method
   /// @{
 
   /// Largest of closure error over length, of force error over EI/L² and moment error over EI/L, and of the
-  /// rods' own equations. NaN where anything is.
-  /// Where nothing but lengths, wrench and steps changed since the last time, not `anew` is quicker and
-  /// rounds once more a step; after some dozens of steps it is anew all the same.
-  double evaluate(bool anew = true);
-  double rod_error() const {
-    return sums_.rod_error;
-  }  ///< of the last evaluation: the rods' own and their tips'
-  /// Factors at the point last evaluated. False where the platform's stiffness is singular.
-  bool linearise();
-  /// Newton's step from the last evaluation with the last factors; `fresh` right after `linearise`.
-  Twist step(bool fresh);
-  /// After `linearise` or `step`: what is missing to balance once the rods' gaps are closed.
-  Wrench missing() const;
-  /// A step of the platform, and lengths fed by each input; the rods follow to first order.
-  void move(const Twist& twist, std::span<const double> fed = {});
-  Lu6 factors() const;                                              ///< of the stiffness
-  MatrixView stiffness() const { return {sums_.stiffness, 6, 6}; }  ///< ∂(F, M)/∂(p, φ) at fixed lengths
-  /// ∂(F, M)/∂length of one input at a resting platform [N/m, N].
-  Wrench feed_wrench(int input) const;
+  /// rods' own equations. Not `from_scratch` rounds once more a step; after some dozens of steps it is from
+  /// scratch all the same.
+  double evaluate(bool from_scratch = true) override;
+  double limb_error() const override { return sums_.rod_error; }
+  bool linearise() override;
+  Twist step(bool fresh) override;
+  Wrench wrench_residual() const override;
+  void move(const Twist& twist, Numbers fed = {}) override;
+  const SmallLu<6>& factors() const override;
+  MatrixView stiffness() const override { return {sums_.stiffness, 6, 6}; }
+  Wrench input_wrench_jacobian(int input) const override;
+  bool rest_at(const SE3<double>& platform) override;
   /// @}
 
   /// @name Single rods, after `evaluate`
   /// @{
 
-  RodReading rod(int index) const;
-  double axial_force(int rod) const;  ///< at its guide, pull > 0 [N]
-  /// The same once the rod's gaps are closed at a resting platform, and its change by the platform's twist at
-  /// fixed lengths; after `linearise`.
-  double closing_axial_force(int rod) const;
-  Twist axial_row(int rod) const;
-  /// Unstable directions with the tip held, in the rod's plane and out of it; after `linearise`.
-  std::array<int, 2> unstable_with_tip_held(int index) const;
-  /// Estimated error of the shapes' polynomials at the tips, over the length: the worst rod's.
-  double truncation() const;
-  /// Polyline, `samples` ≥ 2 points in base axes [m]. Allocates.
-  std::vector<Vec3<double>> centreline(int index, int samples) const;
+  RodReading rod(int index) const override;
+  double effort(int rod) const override;
+  double closing_effort(int rod) const override;
+  Twist effort_jacobian(int rod) const override;
+  /// In the rod's plane and out of it.
+  std::array<int, 2> unstable_with_tip_held(int index) const override;
+  double truncation() const override;
+  std::vector<Vec3<double>> centreline(int index, int samples) const override;
 
-  /// State as the coordinates of the leg (see RodLeg), on the side the tip lies ...
-  void get_rod(int index, std::span<double> coordinates) const;
+  /// On the side the tip lies ...
+  void get_rod(int index, std::span<double> coordinates) const override;
   /// ... the same back, with the lateral direction it bends to; refines first ...
   void set_rod(int index, std::span<const double> coordinates, const Vec3<double>& lateral);
   /// ... and that of all rods, each towards its tip.
-  void set_rods(std::span<const double> coordinates);
+  void set_rods(Numbers coordinates) override;
 
   /// Where the platform holds the tip: lateral and axial distance, lateral direction, and EI. Needs no
   /// evaluation.
@@ -147,10 +116,11 @@ class RodSystem : public RodGroup {
   std::vector<FineRods> fine_;
   std::vector<RodFeed> fed_;
   bool is_fine_ = false;
-  int carried_ = 0;  ///< steps since the last evaluation anew
+  int carried_ = 0;  ///< steps since the last evaluation from scratch
   RodPlatform held_{};
   RodSums sums_{};
   bool has_inverse_ = false;  ///< in `held_`; else there are factors
+  mutable SmallLu<6> lu_;
 };
 
 }  // namespace sinew::inline v0

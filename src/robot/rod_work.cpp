@@ -2,25 +2,25 @@
 
 #include <algorithm>
 
+#include "robot/general_system.hpp"
+#include "robot/mechanism.hpp"
+#include "robot/rod_system.hpp"
+#include "robot/tangent_system.hpp"
+
 namespace sinew::inline v0 {
 
-namespace {
-
-using Kind = decltype(RodWorks::kind);
-
-Kind make_work(const Robot& robot) {
+std::unique_ptr<RodGroup> rod_group(const Robot& robot) {
   const SpatialRobot& legs = *robot.spatial();
   const std::vector<RodLeg> rods = legs_of<RodLeg>(legs).legs;
-  const Vec3<double>& gravity = robot.weight().gravity;
   if (rods.size() == legs.legs.size() && std::ranges::all_of(rods, &RodLeg::is_elastica))
-    return Kind(std::in_place_type<RodWork>, legs);
+    return std::make_unique<Mechanism<RodSystem>>(legs);
+  std::unique_ptr<RodGroup> heavy;
   if (std::ranges::all_of(rods, &RodLeg::is_torque_free))
-    return Kind(std::in_place_type<TangentWork>, legs, gravity);
-  return Kind(std::in_place_type<GeneralWork>, legs, gravity);
+    heavy = std::make_unique<Mechanism<TangentSystem>>(legs);
+  else
+    heavy = std::make_unique<Mechanism<GeneralSystem>>(legs);
+  heavy->set_gravity(robot.weight().gravity);
+  return heavy;
 }
-
-}  // namespace
-
-RodWorks::RodWorks(const Robot& robot) : kind(make_work(robot)) {}
 
 }  // namespace sinew::inline v0

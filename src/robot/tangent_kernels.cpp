@@ -148,9 +148,9 @@ HWY_INLINE Pack3 moment_of(const TangentRods& rods, int i, int tip, Pack first, 
   return plus(scaled(b, first), a, hn::Neg(second));
 }
 
-HWY_INLINE Pack measure(TangentRods& rods, int i, int elements, const RodPlatform& at, bool anew) {
+HWY_INLINE Pack measure(TangentRods& rods, int i, int elements, const RodPlatform& at, bool from_scratch) {
   const int tip = elements * degree;
-  if (anew)
+  if (from_scratch)
     for (int node = 1; node <= tip; ++node) frame_node(rods, node, i);
   const Pack3 wanted = place_tip(rods, i, tip, at);
   bend(rods, i, elements);
@@ -193,12 +193,12 @@ HWY_INLINE void add_tip(Wrench& wrench, const Pack3& arm, const Pack3& n, const 
   wrench.moment = plus(wrench.moment, m, active);
 }
 
-void Evaluate(std::span<TangentRods> groups, int elements, const RodPlatform& platform, bool anew,
+void Evaluate(std::span<TangentRods> groups, int elements, const RodPlatform& platform, bool from_scratch,
               RodSums& sums) {
   Wrench wrench;
   Pack worst = all(0), nothing = all(0), per_force = all(1e300), per_moment = all(1e300);
   each_pack(groups, [&](TangentRods& rods, int i) {
-    const Pack error = measure(rods, i, elements, platform, anew);
+    const Pack error = measure(rods, i, elements, platform, from_scratch);
     worst = hn::Max(worst, error);
     nothing = nothing + error * all(0);
     const Pack length = load(rods.length + i), soft = length * load(rods.flexibility + i);
@@ -670,9 +670,9 @@ HWY_EXPORT(Close);
 HWY_EXPORT(Apply);
 HWY_EXPORT(Truncation);
 
-void evaluate(std::span<TangentRods> groups, int elements, const RodPlatform& platform, bool anew,
+void evaluate(std::span<TangentRods> groups, int elements, const RodPlatform& platform, bool from_scratch,
               RodSums& sums) {
-  HWY_DYNAMIC_DISPATCH(Evaluate)(groups, elements, platform, anew, sums);
+  HWY_DYNAMIC_DISPATCH(Evaluate)(groups, elements, platform, from_scratch, sums);
 }
 void linearise(std::span<TangentRods> groups, int elements, RodSums& sums) {
   HWY_DYNAMIC_DISPATCH(Linearise)(groups, elements, sums);

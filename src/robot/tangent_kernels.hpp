@@ -9,8 +9,8 @@
 
 namespace sinew::inline v0::tangent_kernels {
 
-/// Gaps, forces and moments at the tips: `wrench`, errors. `anew` after states were set, not stepped.
-void evaluate(std::span<TangentRods> groups, int elements, const RodPlatform& platform, bool anew,
+/// Gaps, forces and moments at the tips: `wrench`, errors. `from_scratch` after states were set, not stepped.
+void evaluate(std::span<TangentRods> groups, int elements, const RodPlatform& platform, bool from_scratch,
               RodSums& sums);
 
 /// Factors at the point last evaluated: `stiffness`, and `wrench` of the forces that close the gaps.

@@ -78,33 +78,30 @@ void TangentSystem::fill_idle_lanes() {
     for (RodLane& lane : tangent) fill(lane);
 }
 
-TangentSystem::Snapshot TangentSystem::snapshot() const {
-  Snapshot to;
-  to.rods.resize(groups_.size());
-  save(to);
-  return to;
+const LimbTraits& TangentSystem::traits() const {
+  // forces are good to 1e-12 of themselves with the best truncation, lengths to 1e-9 with the quick one
+  static constexpr LimbTraits traits{
+      .best_truncation = 1e-15, .quick_truncation = 1e-9, .has_no_rest = no_rest_of_tangents};
+  return traits;
 }
 
-void TangentSystem::save(Snapshot& to) const {
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    copy_tangents(groups_[g].tangent, elements_ * degree + 1, to.rods[g].tangent);
-    std::copy_n(groups_[g].length, rod_lanes, to.rods[g].length);
-    std::copy_n(&groups_[g].force[0][0], 3 * rod_lanes, &to.rods[g].force[0][0]);
+void TangentSystem::save(LimbState& to) const {
+  save_common(to, elements_, groups_.size() * sizeof(TangentState));
+  for (const TangentRods& rods : groups_) {
+    to.put(std::span(rods.tangent).first(at(elements_ * degree + 1)));
+    to.put(rods.length);
+    to.put(rods.force);
   }
-  to.elements = elements_;
-  to.platform = platform_;
-  to.wrench = wrench();
 }
 
-void TangentSystem::restore(const Snapshot& from) {
-  elements_ = from.elements;
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    copy_tangents(from.rods[g].tangent, elements_ * degree + 1, groups_[g].tangent);
-    std::copy_n(from.rods[g].length, rod_lanes, groups_[g].length);
-    std::copy_n(&from.rods[g].force[0][0], 3 * rod_lanes, &groups_[g].force[0][0]);
+void TangentSystem::restore(const LimbState& from) {
+  LimbState::Reader reader(from);
+  elements_ = restore_common(reader);
+  for (TangentRods& rods : groups_) {
+    reader.get(std::span(rods.tangent).first(at(elements_ * degree + 1)));
+    reader.get(rods.length);
+    reader.get(rods.force);
   }
-  platform_ = from.platform;
-  set_wrench(from.wrench);
 }
 
 Vec3<double> TangentSystem::base(int rod) const {
@@ -123,21 +120,20 @@ double TangentSystem::length(int rod) const {
   return with_rod(rod, [](const auto& rods, int i) { return rods.length[i]; });
 }
 
-void TangentSystem::set_length(int rod, double length) {
+void TangentSystem::hold(int rod, double length) {
   groups_[at(rod / rod_lanes)].length[rod % rod_lanes] = length;
   if (rod % rod_lanes == 0) fill_idle_lanes();
 }
 
-void TangentSystem::set_inputs(std::span<const double> inputs) {
+void TangentSystem::set_inputs(Numbers inputs) {
   for (int k = 0; k < static_cast<int>(groups_.size()) * rod_lanes; ++k) {
     const int rod = k < rods_ ? k : k / rod_lanes * rod_lanes;  // idle lanes: the first of their group
     groups_[at(k / rod_lanes)].length[k % rod_lanes] = inputs[at(input_of(rod))];
   }
 }
 
-void TangentSystem::set_gravity(const Vec3<double>& gravity) {
-  gravity_ = gravity;
-  for (int k = 0; k < rods_; ++k) put(weight_of(k), groups_[at(k / rod_lanes)].weight, k % rod_lanes);
+void TangentSystem::weigh(int rod, const Vec3<double>& weight) {
+  put(weight, groups_[at(rod / rod_lanes)].weight, rod % rod_lanes);
   fill_idle_lanes();
 }
 
@@ -172,7 +168,7 @@ void TangentSystem::get_rod(int index, std::span<double> coordinates) const {
   });
 }
 
-void TangentSystem::set_rods(std::span<const double> coordinates) {
+void TangentSystem::set_rods(Numbers coordinates) {
   elements_ = coordinate_elements;
   std::span<const double>::iterator from;
   const auto next = [&] {
@@ -211,12 +207,12 @@ void TangentSystem::coarsen() {
 /// much.
 bool TangentSystem::can_coarsen(double wanted) const { return is_fine() && 1000 * truncation() < wanted; }
 
-double TangentSystem::evaluate(bool anew) {
+double TangentSystem::evaluate(bool from_scratch) {
   const Mat<double, 3, 3> R = platform_.R.matrix();
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) held_.rotation[3 * r + c] = R(r, c);
   for (int k = 0; k < 3; ++k) held_.position[k] = platform_.p[k];
-  tangent_kernels::evaluate(groups_, elements_, held_, anew, sums_);
+  tangent_kernels::evaluate(groups_, elements_, held_, from_scratch, sums_);
   return sums_.error;
 }
 
@@ -225,21 +221,19 @@ bool TangentSystem::linearise() {
   return lu_.factor(sums_.stiffness, radius_);
 }
 
-Lu6 TangentSystem::factors() const { return lu_; }
-
-TangentSystem::Wrench TangentSystem::missing() const {
+TangentSystem::Wrench TangentSystem::wrench_residual() const {
   return wrench() - Eigen::Map<const Wrench>(sums_.wrench);
 }
 
 TangentSystem::Twist TangentSystem::step(bool fresh) {
   if (!fresh) tangent_kernels::close(groups_, elements_, sums_);
-  const Wrench wanted = missing();
+  const Wrench wanted = TangentSystem::wrench_residual();
   Twist twist;
   lu_.solve(wanted.data(), twist.data());
   return twist;
 }
 
-void TangentSystem::move(const Twist& twist, std::span<const double> fed) {
+void TangentSystem::move(const Twist& twist, Numbers fed) {
   if (!fed.empty())
     for (int k = 0; k < static_cast<int>(fed_.size()) * rod_lanes; ++k) {
       const int rod = k < rods_ ? k : k / rod_lanes * rod_lanes;  // idle lanes: the first of their group
@@ -249,7 +243,7 @@ void TangentSystem::move(const Twist& twist, std::span<const double> fed) {
   tangent_kernels::apply(groups_, elements_, twist.data(), fed.empty() ? nullptr : fed_.data());
 }
 
-TangentSystem::Wrench TangentSystem::feed_wrench(int input) const {
+TangentSystem::Wrench TangentSystem::input_wrench_jacobian(int input) const {
   Wrench sum = Wrench::Zero();
   for (int k = 0; k < rods_; ++k)
     if (input_of(k) == input)
@@ -326,18 +320,18 @@ double TangentSystem::weight_energy() const {
   return energy;
 }
 
-double TangentSystem::axial_force(int rod) const {
+double TangentSystem::effort(int rod) const {
   return with_rod(rod, [](const TangentRods& rods, int i) {
     const Vec3<double> force = vector_of(rods.force, i) + vector_of(rods.weight, i) * rods.length[i];
     return dot(vector_of(rods.tangent[0], i), force);
   });
 }
-double TangentSystem::closing_axial_force(int rod) const {
-  return axial_force(rod) + with_rod(rod, [](const TangentRods& rods, int i) {
+double TangentSystem::closing_effort(int rod) const {
+  return effort(rod) + with_rod(rod, [](const TangentRods& rods, int i) {
            return dot(vector_of(rods.tangent[0], i), vector_of(rods.fix, i));
          });
 }
-TangentSystem::Twist TangentSystem::axial_row(int rod) const {
+TangentSystem::Twist TangentSystem::effort_jacobian(int rod) const {
   return with_rod(rod, [](const TangentRods& rods, int i) {
     constexpr int symmetric[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
     const Vec3<double> t = vector_of(rods.tangent[0], i);

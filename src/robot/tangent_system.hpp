@@ -1,14 +1,15 @@
 /// @file tangent_system.hpp
 /// Rods in space between a base and a platform as one system of equations: what Newton's method needs of a
-/// robot whose rods are clamped at the platform, heavy, or stretch. RodSystem is its fast special case and
-/// has the same face. Theory: docs/theory/tangent_rod.md
+/// robot whose rods are clamped at the platform, heavy, or stretch. RodSystem is its fast special case.
+/// Theory: docs/theory/tangent_rod.md
 #pragma once
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
 
-#include "robot/rod_system.hpp"
+#include "robot/rod_group.hpp"
+#include "robot/rod_kernels.hpp"
 #include "robot/tangent_lanes.hpp"
 
 namespace sinew::inline v0 {
@@ -16,70 +17,57 @@ namespace sinew::inline v0 {
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
 class TangentSystem : public HeavyRodGroup {
  public:
-  static constexpr bool is_slow = false;
-  static constexpr std::string_view has_no_rest = RodSystem::has_no_rest;
   explicit TangentSystem(const ParallelRobot<RodLeg>& robot);  ///< allocates
 
-  /// A state to return to.
-  struct Snapshot {
-    std::vector<TangentState> rods;
-    int elements = 0;
-    SE3<double> platform;
-    Wrench wrench = Wrench::Zero();
-  };
-  Snapshot snapshot() const;  ///< allocates: take it once and `save` into it
-  void save(Snapshot& to) const;
-  void restore(const Snapshot& from);
+  const LimbTraits& traits() const override;
+  void save(LimbState& to) const override;
+  void restore(const LimbState& from) override;
 
   /// @name What is held
   /// @{
-  Vec3<double> base(int rod) const;
-  Vec3<double> platform_point(int rod) const;
-  double stiffness(int rod) const;  ///< EI [N m²]
-  double length(int rod) const;
-  void set_length(int rod, double length);
-  void set_inputs(std::span<const double> inputs);                          ///< the lengths of all rods [m]
-  Wrench wrench() const { return Eigen::Map<const Wrench>(held_.wrench); }  ///< of the world, base axes
-  void set_wrench(const Wrench& wrench) { Eigen::Map<Wrench>(held_.wrench) = wrench; }
-  void set_gravity(const Vec3<double>& gravity);
-  double weight_energy() const;  ///< of all rods, after `evaluate` [J]; 0 with the rods in their bases
+  Vec3<double> base(int rod) const override;
+  Vec3<double> platform_point(int rod) const override;
+  double stiffness(int rod) const override;
+  double length(int rod) const override;
+  void hold(int rod, double length) override;
+  void set_inputs(Numbers inputs) override;
+  Wrench wrench() const final { return Eigen::Map<const Wrench>(held_.wrench); }
+  void set_wrench(const Wrench& wrench) final { Eigen::Map<Wrench>(held_.wrench) = wrench; }
+  double weight_energy() const override;
   int elements() const { return elements_; }
-  bool is_fine() const { return elements_ > coarse_elements; }
-  bool is_finest() const { return elements_ >= max_elements; }
-  void refine();                              ///< to more elements, the same shapes
-  void coarsen();                             ///< to fewer elements, the shapes interpolated
-  bool can_coarsen(double truncation) const;  ///< and stay below this estimate of the error
+  bool is_fine() const override { return elements_ > coarse_elements; }
+  bool is_finest() const override { return elements_ >= max_elements; }
+  void refine() override;   ///< to more elements, the same shapes
+  void coarsen() override;  ///< to fewer elements, the shapes interpolated
+  bool can_coarsen(double truncation) const override;
   /// @}
 
-  /// @name Newton's method, as RodSystem has it
+  /// @name Newton's method
   /// @{
-  double evaluate(bool anew = true);
-  double rod_error() const { return sums_.rod_error; }
-  bool linearise();
-  Twist step(bool fresh);
-  Wrench missing() const;
-  void move(const Twist& twist, std::span<const double> fed = {});
-  Lu6 factors() const;
-  MatrixView stiffness() const { return {sums_.stiffness, 6, 6}; }
-  Wrench feed_wrench(int input) const;
+  double evaluate(bool from_scratch = true) override;
+  double limb_error() const override { return sums_.rod_error; }
+  bool linearise() override;
+  Twist step(bool fresh) override;
+  Wrench wrench_residual() const override;
+  void move(const Twist& twist, Numbers fed = {}) override;
+  MatrixView stiffness() const override { return {sums_.stiffness, 6, 6}; }
+  Wrench input_wrench_jacobian(int input) const override;
+  bool rest_at(const SE3<double>& platform) override;
   /// @}
 
   /// @name Single rods, after `evaluate`
   /// @{
-  RodReading rod(int index) const;
-  double axial_force(int rod) const;  ///< at its guide, pull > 0 [N]
-  double closing_axial_force(int rod) const;
-  Twist axial_row(int rod) const;
-  /// Unstable directions with the tip held; after `linearise`. The second number is 0.
-  std::array<int, 2> unstable_with_tip_held(int index) const;
-  /// Estimated error of the shapes' polynomials at the tips, over the length: the worst rod's.
-  double truncation() const;
-  /// Polyline, `samples` ≥ 2 points in base axes [m]. Allocates.
-  std::vector<Vec3<double>> centreline(int index, int samples) const;
-  /// State as the coordinates of the leg (see RodLeg) ...
-  void get_rod(int index, std::span<double> coordinates) const;
-  /// ... and that of all rods back, on the elements those are of.
-  void set_rods(std::span<const double> coordinates);
+  RodReading rod(int index) const override;
+  double effort(int rod) const override;
+  double closing_effort(int rod) const override;
+  Twist effort_jacobian(int rod) const override;
+  /// The second number is 0.
+  std::array<int, 2> unstable_with_tip_held(int index) const override;
+  double truncation() const override;
+  std::vector<Vec3<double>> centreline(int index, int samples) const override;
+  void get_rod(int index, std::span<double> coordinates) const override;
+  /// On the elements that coordinates are of.
+  void set_rods(Numbers coordinates) override;
   /// @}
 
   /// @name To lay rods to a pose
@@ -94,11 +82,6 @@ class TangentSystem : public HeavyRodGroup {
   /// @}
 
   static constexpr int coarse_elements = 2, coordinate_elements = (rod_tangents - 1) / TangentState::degree;
-  /// Estimated error from which an answer that is not resumed takes more elements: forces are then good to
-  /// 1e-12 of themselves.
-  static constexpr double best_truncation = 1e-15;
-  /// ... and one that is to be quick: lengths to 1e-9 of themselves.
-  static constexpr double quick_truncation = 1e-9;
 
  private:
   template <class Use>
@@ -106,6 +89,7 @@ class TangentSystem : public HeavyRodGroup {
     return use(groups_[static_cast<std::size_t>(rod / rod_lanes)], rod % rod_lanes);
   }
   void fill_idle_lanes();
+  void weigh(int rod, const Vec3<double>& weight) override;
   Vec3<double> lever(const TangentRods& rods, int lane) const;
   void change_elements(int elements);
   Vec3<double> tangent_at(const RodLane (*tangents)[3], int lane, double along) const;

@@ -117,8 +117,8 @@ TEST(Hexapod, ResumedStepsAgreeWithTheWayFromHome) {
 TEST(Hexapod, HoldsElasticasAsWell) {
   RodRandom random(8);
   const RodRobot tripod = tripod_robot(g2), robot(tripod.legs, tripod.home, tripod.platform_radius);
-  RodWork plane(robot);
-  TangentWork spatial(robot);
+  RodWork plane = work_of<RodSystem>(robot);
+  RodWork spatial = work_of<TangentSystem>(robot);
   const SE3<double> wanted = random.near(home(robot), 0.01, 0.03);
   RodQuestion question;
   question.wrench = random.wrench(0.5, 0.02);
@@ -126,8 +126,8 @@ TEST(Hexapod, HoldsElasticasAsWell) {
   const Report b = hold_rods(spatial, home(robot), wanted, question);
   ASSERT_TRUE((a.ok() || a.status == Status::unstable) && a.status == b.status) << a.message.view();
   for (int k = 0; k < 6; ++k) {
-    EXPECT_NEAR(plane.system.length(k), spatial.system.length(k), 1e-12);
-    EXPECT_LT((plane.system.rod(k).force - spatial.system.rod(k).force).norm(), 1e-10);
+    EXPECT_NEAR(plane.system->length(k), spatial.system->length(k), 1e-12);
+    EXPECT_LT((plane.system->rod(k).force - spatial.system->rod(k).force).norm(), 1e-10);
   }
 }
 

@@ -10,8 +10,8 @@ namespace rod_path_test {
 
 /// A tripod at rest at home, linearised, and memory.
 struct Path {
-  explicit Path(const RodRobot& robot) : system(robot), spare(system.snapshot()) {}
-  explicit Path(const RodTripod& t) : Path(tripod_robot(t)) { EXPECT_TRUE(rest_at(system, level(t.height))); }
+  explicit Path(const RodRobot& robot) : system(robot), spare(system.state()) {}
+  explicit Path(const RodTripod& t) : Path(tripod_robot(t)) { EXPECT_TRUE(system.rest_at(level(t.height))); }
 
   RodPathEnd to(const RodTarget& target, const RodPathOptions& options = {}) {
     return follow(system, target, options, spare);
@@ -25,7 +25,7 @@ struct Path {
   }
 
   RodSystem system;
-  RodSystem::Snapshot spare;
+  LimbState spare;
 };
 
 TEST(RodRest, NothingPushesAlongTheGuides) {
@@ -34,7 +34,7 @@ TEST(RodRest, NothingPushesAlongTheGuides) {
     for (int trial = 0; trial < 20; ++trial) {
       const RodRobot robot = random.robot(rods, 0.3);
       RodSystem system(robot);
-      ASSERT_TRUE(rest_at(system, random.near(home(robot), 0.05, 0.3)));
+      ASSERT_TRUE(system.rest_at(random.near(home(robot), 0.05, 0.3)));
       EXPECT_LT(system.evaluate(), 1e-12);
       double worst = 0;
       for (int k = 0; k < rods; ++k) worsen(worst, std::abs(system.rod(k).axial_force));
@@ -60,7 +60,7 @@ TEST(RodRest, IsHonestWhereARodHasNoPlaneOrNoWayForward) {
   const judge::Tripod t = g2.data();
   const auto rests = [&](const judge::Tripod& robot, const SE3<double>& pose) {
     RodSystem system(tripod_robot(robot, pose));
-    return rest_at(system, pose);
+    return system.rest_at(pose);
   };
   EXPECT_TRUE(rests(t, level(0.4)));
   judge::Tripod above = t;
@@ -83,7 +83,7 @@ TEST(RodRest, BendsAsFarAsTheTipLies) {  // from nearly straight to nearly acros
     const judge::Tripod t = g2.data();
     const RodRobot robot = tripod_robot(t, level(height));
     RodSystem system(robot);
-    ASSERT_TRUE(rest_at(system, level(height))) << height;
+    ASSERT_TRUE(system.rest_at(level(height))) << height;
     EXPECT_LT(system.evaluate(), 1e-12) << height;
     system.refine();
     ASSERT_TRUE(close_rods(system)) << height;
@@ -167,9 +167,9 @@ TEST(RodPath,
      FindsWhereTheSymmetricStateBuckles) {  // notes: G2 between -110 and -112 N, G1 between -190 and -200
   for (const auto& [t, low, high] : {std::tuple{g2, 110.0, 112.0}, std::tuple{g1, 190.0, 200.0}}) {
     SCOPED_TRACE(t.name);
-    RodWork work(tripod_robot(t));
-    RodSystem& system = work.system;
-    ASSERT_TRUE(rest_at(system, level(t.height)));
+    RodWork work = work_of<RodSystem>(tripod_robot(t));
+    RodGroup& system = *work.system;
+    ASSERT_TRUE(system.rest_at(level(t.height)));
     RodTarget target = present(system);
     for (std::size_t k = 0; k < 6; ++k) target.lengths[k] = t.length;
     target.wrench.setZero();

@@ -16,7 +16,7 @@ struct Set {
       : json(judge::reference(name)),
         data(judge::tripod(json)),
         robot(tripod_robot(data, level(json["h_home"].get<double>()))),
-        work(robot) {}
+        work(work_of<RodSystem>(robot)) {}
 
   Report solve(const Json& c, RodQuestion question = {}) {
     for (int k = 0; k < 6; ++k)
@@ -26,13 +26,14 @@ struct Set {
   }
 
   double pose_error(const Json& c) const {
-    const SO3<double> q = work.system.platform().R.canonical();
-    return std::max(judge::error(work.system.platform().p, c["p"]),
+    const SO3<double> q = work.system->platform().R.canonical();
+    return std::max(judge::error(work.system->platform().p, c["p"]),
                     judge::error(Eigen::Vector4d(q.w, q.v[0], q.v[1], q.v[2]), c["e"]));
   }
   double force_error(const Json& c) const {
     double worst = 0;
-    for (int k = 0; k < 6; ++k) worsen(worst, judge::error(work.system.rod(k).force, c["n"][std::size_t(k)]));
+    for (int k = 0; k < 6; ++k)
+      worsen(worst, judge::error(work.system->rod(k).force, c["n"][std::size_t(k)]));
     return worst;
   }
 
@@ -74,7 +75,7 @@ TEST(RodReference, AllCases) {  // @verifies 3PFS (25)-(30)
       EXPECT_EQ(c["unstable_directions"].get<int>(), 0);
       EXPECT_LT(set.pose_error(c), 1e-13);
       EXPECT_LT(set.force_error(c), 1e-10);
-      RodSystem& system = set.work.system;
+      RodGroup& system = *set.work.system;
       double energy = 0;
       for (int k = 0; k < 6; ++k) {
         const auto i = std::size_t(k);
@@ -87,7 +88,7 @@ TEST(RodReference, AllCases) {  // @verifies 3PFS (25)-(30)
       EXPECT_NEAR(energy, c["energy"].get<double>(), 3e-12);
       Eigen::Matrix<double, 6, 3> by_input;
       for (int input = 0; input < 3; ++input) {
-        const Wrench6 feed = -system.feed_wrench(input);
+        const Wrench6 feed = -system.input_wrench_jacobian(input);
         system.factors().solve(feed.data(), by_input.col(input).data());
       }
       for (int i = 0; i < 6; ++i) EXPECT_LT(judge::error(by_input.row(i), c["J_L"][std::size_t(i)]), 1e-11);
@@ -116,11 +117,11 @@ TEST(RodReference, AllMultipleEquilibriaFromAStartBeside) {
     const Report report = set.solve(c, {.start = start});
     const int directions = c["unstable_directions"].get<int>();
     ASSERT_EQ(report.status, directions == 0 ? Status::converged : Status::unstable) << to_string(report);
-    EXPECT_EQ(unstable_directions(set.work.system), directions);
+    EXPECT_EQ(unstable_directions(*set.work.system), directions);
     EXPECT_LT(set.pose_error(c), 1e-12);
     EXPECT_LT(set.force_error(c), 1e-9);
-    double potential = -dot(set.work.system.wrench().head<3>(), set.work.system.platform().p);
-    for (int k = 0; k < 6; ++k) potential += set.work.system.rod(k).energy;
+    double potential = -dot(set.work.system->wrench().head<3>(), set.work.system->platform().p);
+    for (int k = 0; k < 6; ++k) potential += set.work.system->rod(k).energy;
     EXPECT_NEAR(potential, number(c["potential"]), 1e-12 * potential);
     unstable += directions > 0;
   }

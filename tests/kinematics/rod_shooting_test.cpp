@@ -9,7 +9,7 @@ namespace sinew::test {
 namespace rod_shooting_test {
 
 /// The unknowns (32) of the equilibrium a system holds.
-judge::Vector37<double> unknowns(const RodSystem& system) {
+judge::Vector37<double> unknowns(const RodGroup& system) {
   judge::Vector37<double> v;
   for (int k = 0; k < 6; ++k) {
     const RodReading rod = system.rod(k);
@@ -26,13 +26,13 @@ TEST(RodShooting, ThePapersNewtonStaysWhereItIsStarted) {  // @verifies 3PFS (24
   for (const RodTripod& t : {g1, g2}) {
     const judge::Tripod data = t.data();
     const RodRobot robot = tripod_robot(t);
-    RodWork work(robot);
+    RodWork work = work_of<RodSystem>(robot);
     RodRandom random(1);
     for (int trial = 0; trial < 4; ++trial) {
       const Vec3<double> L = Vec3<double>::Constant(t.length) + random.vector(0.06);
       const Wrench6 w = random.wrench(5, 0.3);
       ASSERT_TRUE(solve_rods(work, home(robot), std::span<const double>(L.data(), 3), {.wrench = w}).ok());
-      RodSystem& system = work.system;
+      RodGroup& system = *work.system;
       const judge::PerRod<double> lengths{L[0], L[0], L[1], L[1], L[2], L[2]};
       const judge::Wrench wrench{w.head<3>(), w.tail<3>()};
       const judge::Vector37<double> start = unknowns(system);
@@ -47,7 +47,7 @@ TEST(RodShooting, ThePapersNewtonStaysWhereItIsStarted) {  // @verifies 3PFS (24
       const Eigen::MatrixXd stiffness = system.stiffness();
       Eigen::Matrix<double, 6, 3> feed, by_wrench;
       for (int input = 0; input < 3; ++input) {
-        feed.col(input) = system.feed_wrench(input);
+        feed.col(input) = system.input_wrench_jacobian(input);
         // δw = K δx + (feed) δL, at fixed load
         by_wrench.col(input) =
             -around.stiffness.lazyProduct(around.length.col(2 * input) + around.length.col(2 * input + 1));

@@ -79,9 +79,8 @@ RodRobot upright_of(const Kind& kind, RodRandom& random) {
 template <class System>
 bool begin(System& system, const RodRobot& robot, RodRandom& random) {
   system.set_gravity(gravity);
-  if (!rest_at(system, random.near(home(robot), 0.03, 0.15))) return false;
-  for (int k = 0; k < system.rods(); ++k)
-    system.set_length(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
+  if (!system.rest_at(random.near(home(robot), 0.03, 0.15))) return false;
+  for (int k = 0; k < system.limbs(); ++k) system.hold(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
   return close_rods(system) && balance(system);
 }
 
@@ -106,8 +105,8 @@ TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
       finest(tangents);
       if (!close_rods(tangents) || !balance(tangents)) continue;
       rods.set_gravity(gravity);
-      ASSERT_TRUE(rest_at(rods, tangents.platform())) << kind.name;
-      for (int k = 0; k < 6; ++k) rods.set_length(k, tangents.length(k));
+      ASSERT_TRUE(rods.rest_at(tangents.platform())) << kind.name;
+      for (int k = 0; k < 6; ++k) rods.hold(k, tangents.length(k));
       finest(rods);
       ASSERT_TRUE(close_rods(rods) && balance(rods)) << kind.name;
       if (unstable_directions(tangents) != 0 || unstable_directions(rods) != 0) continue;  // other shapes
@@ -121,8 +120,8 @@ TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
       near(a, b, 1e-9, "stiffness");
       EXPECT_NEAR(rods.weight_energy(), tangents.weight_energy(), 1e-10);
       for (int k = 0; k < 6; ++k) {
-        near(rods.feed_wrench(k), tangents.feed_wrench(k), 1e-9, "feed");
-        near(rods.axial_row(k), tangents.axial_row(k), 1e-8, "axial row");
+        near(rods.input_wrench_jacobian(k), tangents.input_wrench_jacobian(k), 1e-9, "feed");
+        near(rods.effort_jacobian(k), tangents.effort_jacobian(k), 1e-8, "axial row");
         const RodReading p = rods.rod(k), q = tangents.rod(k);
         near(p.force, q.force, 1e-9, "force");
         near(p.force_0, q.force_0, 1e-9, "force at the base");
@@ -133,7 +132,7 @@ TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
         EXPECT_NEAR(p.tip_angle, q.tip_angle, 1e-9);
         EXPECT_NEAR(p.lateral_force, q.lateral_force, 1e-8);
         EXPECT_NEAR(p.axial_force, q.axial_force, 1e-8);
-        EXPECT_NEAR(rods.axial_force(k), tangents.axial_force(k), 1e-8);
+        EXPECT_NEAR(rods.effort(k), tangents.effort(k), 1e-8);
         EXPECT_NEAR(p.largest_curvature, q.largest_curvature, 1e-2 * q.largest_curvature);
       }
     }
@@ -147,12 +146,12 @@ TEST(GeneralSystem, ComesToRestWhereTheFieldOfTangentsDoes) {
     int tried = 0;
     for (int sample = 0; sample < samples(2); ++sample) {
       const RodRobot robot = robot_of(kind, random);
-      TangentWork tangents(robot, gravity);
-      GeneralWork rods(robot, gravity);
-      if (!rest_at(tangents.system, home(robot))) continue;
+      RodWork tangents = work_of<TangentSystem>(robot, gravity);
+      RodWork rods = work_of<GeneralSystem>(robot, gravity);
+      if (!tangents.system->rest_at(home(robot))) continue;
       std::array<double, 6> inputs;
       for (std::size_t k = 0; k < 6; ++k)
-        inputs[k] = tangents.system.length(int(k)) + random.uniform(0, 5e-3);
+        inputs[k] = tangents.system->length(int(k)) + random.uniform(0, 5e-3);
       RodQuestion question;
       question.wrench = random.wrench(0.1, 0.01);
       const Report a = solve_rods(tangents, home(robot), inputs, question);
@@ -160,10 +159,10 @@ TEST(GeneralSystem, ComesToRestWhereTheFieldOfTangentsDoes) {
       if (!a.ok()) continue;
       ++tried;
       ASSERT_TRUE(b.ok()) << kind.name << ": " << b.message.view();
-      const SE3<double>&p = tangents.system.platform(), &q = rods.system.platform();
+      const SE3<double>&p = tangents.system->platform(), &q = rods.system->platform();
       EXPECT_LT((p.p - q.p).norm(), 1e-10) << kind.name;
       EXPECT_LT((p.R.matrix() - q.R.matrix()).norm(), 1e-9) << kind.name;
-      EXPECT_EQ(unstable_directions(tangents.system), unstable_directions(rods.system)) << kind.name;
+      EXPECT_EQ(unstable_directions(*tangents.system), unstable_directions(*rods.system)) << kind.name;
     }
     EXPECT_GE(tried, samples(1)) << kind.name;
   }
@@ -179,16 +178,16 @@ TEST(GeneralSystem, StiffnessAndFeedAreTheDerivativesOfTheWrench) {
       GeneralSystem system(robot);
       if (!begin(system, robot, random)) continue;
       ++tried;
-      const GeneralSystem::Snapshot from = system.snapshot();
+      const LimbState from = system.state();
       const Mat<double, 6, 6> stiffness = system.stiffness();
       Mat<double, 6, 6> feed, rows;
-      for (int c = 0; c < 6; ++c) feed.col(c) = system.feed_wrench(c);
-      for (int c = 0; c < 6; ++c) rows.row(c) = system.axial_row(c);
+      for (int c = 0; c < 6; ++c) feed.col(c) = system.input_wrench_jacobian(c);
+      for (int c = 0; c < 6; ++c) rows.row(c) = system.effort_jacobian(c);
       Mat<double, 6, 6> by_twist, by_length, axial;
       for (int c = 0; c < 6; ++c) {
         const auto forces = [&] {
           Vec<double, 6> pulls;
-          for (int k = 0; k < 6; ++k) pulls[k] = system.axial_force(k);
+          for (int k = 0; k < 6; ++k) pulls[k] = system.effort(k);
           return pulls;
         };
         using Both = Eigen::Matrix<double, 12, 1>;
@@ -224,11 +223,11 @@ TEST(GeneralSystem, ForcesDoTheWorkOfTheEnergy) {
     const RodRobot robot = robot_of(kind, random);
     GeneralSystem system(robot);
     ASSERT_TRUE(begin(system, robot, random)) << kind.name;
-    const GeneralSystem::Snapshot from = system.snapshot();
+    const LimbState from = system.state();
     const Wrench6 held = system.wrench();
     const auto energy = [&] {
       double sum = system.weight_energy();
-      for (int k = 0; k < system.rods(); ++k) sum += system.rod(k).energy;
+      for (int k = 0; k < system.limbs(); ++k) sum += system.rod(k).energy;
       return sum;
     };
     for (int c = 0; c < 6; ++c) {
@@ -251,9 +250,9 @@ TEST(GeneralSystem, RodsIntegratedAnewBalanceThePlatform) {
     int tried = 0;
     for (int sample = 0; sample < samples(3); ++sample) {
       const RodRobot robot = upright_of(kind, random);
-      GeneralWork work(robot, gravity);
-      GeneralSystem& system = work.system;
-      if (!rest_at(system, home(robot))) continue;
+      RodWork work = work_of<GeneralSystem>(robot, gravity);
+      RodGroup& system = *work.system;
+      if (!system.rest_at(home(robot))) continue;
       std::array<double, 6> inputs;
       for (std::size_t k = 0; k < 6; ++k) inputs[k] = system.length(int(k)) + random.uniform(0, 5e-3);
       RodQuestion question;
@@ -351,7 +350,7 @@ TEST(GeneralSystem, EveryRodIsOneHeldByItself) {
       stiffness.bottomRightCorner<3, 3>() +=
           arm * reading.force.transpose() - dot(arm, reading.force) * Mat<double, 3, 3>::Identity();
       Wrench6 feed = carry.transpose() * held.feed;
-      EXPECT_LT((feed - system.feed_wrench(k)).norm(), 1e-8 * feed.norm()) << kind.name;
+      EXPECT_LT((feed - system.input_wrench_jacobian(k)).norm(), 1e-8 * feed.norm()) << kind.name;
     }
     const Mat<double, 6, 6> whole = system.stiffness();
     EXPECT_LT((whole - stiffness).norm(), 1e-8 * whole.norm()) << kind.name;
@@ -371,8 +370,8 @@ TEST(GeneralSystem, HeldSpinStiffensTheTurnAboutTheAxis) {
   for (RodLeg& leg : held.legs) leg.is_spin_held = true;
   const SE3<double> turned{home(robot).p, SO3<double>::exp({0, 0, 0.4})};
   GeneralSystem spinning(robot), resisting(held);
-  ASSERT_TRUE(rest_at(spinning, turned) && rest_at(resisting, turned));
-  for (int k = 0; k < 6; ++k) resisting.set_length(k, spinning.length(k));
+  ASSERT_TRUE(spinning.rest_at(turned) && resisting.rest_at(turned));
+  for (int k = 0; k < 6; ++k) resisting.hold(k, spinning.length(k));
   ASSERT_TRUE(close_rods(spinning) && balance(spinning));
   ASSERT_TRUE(close_rods(resisting) && balance(resisting));
   const double torsion = spatial_rod(held.legs[0].link).torsion_stiffness / spinning.length(0);
@@ -446,14 +445,14 @@ TEST(GeneralSystem, HoldsThePosesThatItsLengthsLeadTo) {
     int tried = 0;
     for (int sample = 0; sample < samples(3); ++sample) {
       const RodRobot robot = upright_of(kind, random);
-      GeneralWork work(robot, gravity);
+      RodWork work = work_of<GeneralSystem>(robot, gravity);
       RodQuestion question;
       question.wrench = random.wrench(0.05, 0.005);
       const SE3<double> wanted = random.near(home(robot), 0.01, 0.05);
       const Report held = hold_rods(work, home(robot), wanted, question);
       if (!held.ok()) continue;
       std::array<double, 6> inputs;
-      for (std::size_t k = 0; k < 6; ++k) inputs[k] = work.system.length(int(k));
+      for (std::size_t k = 0; k < 6; ++k) inputs[k] = work.system->length(int(k));
       question.resume = true;
       for (const double more : {2e-3, 0.0}) {  // away and back
         std::array<double, 6> there = inputs;
@@ -462,8 +461,8 @@ TEST(GeneralSystem, HoldsThePosesThatItsLengthsLeadTo) {
         ASSERT_TRUE(back.ok() || back.status == Status::unstable) << kind.name << back.message.view();
       }
       ++tried;
-      EXPECT_LT((work.system.platform().p - wanted.p).norm(), 1e-9) << kind.name;
-      EXPECT_LT((work.system.platform().R.matrix() - wanted.R.matrix()).norm(), 1e-8) << kind.name;
+      EXPECT_LT((work.system->platform().p - wanted.p).norm(), 1e-9) << kind.name;
+      EXPECT_LT((work.system->platform().R.matrix() - wanted.R.matrix()).norm(), 1e-8) << kind.name;
     }
     EXPECT_GE(tried, samples(1)) << kind.name;
   }

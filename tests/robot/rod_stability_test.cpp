@@ -33,7 +33,7 @@ struct SingleRod {
     if (state.tip[0] < 0)  // its coordinates are those of the side the tip lies on
       for (std::size_t j = 0; j <= fine_nodes; ++j) x[j] = -x[j];
     system.set_rod(0, x, lateral);
-    return system.evaluate(), system.rod_error();
+    return system.evaluate(), system.limb_error();
   }
 };
 
@@ -125,7 +125,7 @@ std::vector<double> numbers_of_a_step() {
       for (const double far : {0.0, 1.0}) {  // shapes within 2.5 rad and beyond: two ways to a sine
         const RodRobot robot = random.robot(rods, 0.2);
         RodSystem system(robot);
-        EXPECT_TRUE(rest_at(system, random.near(home(robot), 0.02, 0.1)));
+        EXPECT_TRUE(system.rest_at(random.near(home(robot), 0.02, 0.1)));
         if (is_fine) system.refine();
         system.set_platform(random.near(system.platform(), 1e-3, 1e-2));
         system.set_wrench(random.wrench(5, 1));
@@ -140,7 +140,7 @@ std::vector<double> numbers_of_a_step() {
         numbers.push_back(system.evaluate());
         system.linearise();
         numbers.insert(numbers.end(), system.stiffness().data(), system.stiffness().data() + 36);
-        const Wrench6 missing = system.missing(), feed = system.feed_wrench(rods - 1);
+        const Wrench6 missing = system.wrench_residual(), feed = system.input_wrench_jacobian(rods - 1);
         numbers.insert(numbers.end(), missing.data(), missing.data() + 6);
         numbers.insert(numbers.end(), feed.data(), feed.data() + 6);
         const std::vector<double> fed(std::size_t(rods), 1e-4);
@@ -220,7 +220,7 @@ TEST(PoseLanes, CountUnstableDirectionsAsOneByOne) {
       poses.quaternion[0][lane] = pose.R.w;
       for (int c = 0; c < 6; ++c) poses.wrench[c][lane] = system.wrench()[c];
     }
-    rod_kernels::advance(rods, {.moves = false, .anew = true, .renews = true, .judges = true}, poses);
+    rod_kernels::advance(rods, {.moves = false, .from_scratch = true, .renews = true, .judges = true}, poses);
     for (std::size_t lane = 0; lane < rod_lanes; ++lane) {
       EXPECT_EQ(poses.unstable[lane], counts[lane]) << trial;
       ++seen[std::size_t(std::min(counts[lane], 7))];

@@ -31,7 +31,7 @@ TEST(RodSystem, EachRodIsAnElastica) {  // @verifies 3PFS (24)
     ASSERT_TRUE(balance(system));
     EXPECT_LT(system.evaluate(), 1e-12);
     EXPECT_LT(off_elastica(robot, system), 2e-12);
-    for (int k = 0; k < system.rods(); ++k) {
+    for (int k = 0; k < system.limbs(); ++k) {
       const RodLeg& leg = robot.legs[std::size_t(k)];
       const RodReading rod = system.rod(k);
       EXPECT_LT((rod.tip - system.platform().point(leg.platform_point)).norm(), 1e-15);
@@ -47,7 +47,7 @@ TEST(RodSystem, LargestCurvatureIsThatOfTheExactShape) {
   for (std::size_t i = 0; i < s.size(); ++i) s[i] = double(i) / double(s.size() - 1);
   std::vector<ElasticaSection> sections(s.size());
   each_robot({6}, 2, [&](const RodRobot& robot, RodSystem& system) {
-    for (int k = 0; k < system.rods(); ++k) {
+    for (int k = 0; k < system.limbs(); ++k) {
       const RodReading rod = system.rod(k);
       elastica_sections(local_force(planar_state(rod, robot.legs[std::size_t(k)])), s, sections);
       std::size_t best = 0;
@@ -73,7 +73,7 @@ TEST(RodSystem, CentrelineRunsAlongTheElastica) {
   each_robot({3}, 3, [&](const RodRobot& robot, RodSystem& system) {
     system.refine();
     ASSERT_TRUE(close_rods(system));
-    for (int k = 0; k < system.rods(); ++k) {
+    for (int k = 0; k < system.limbs(); ++k) {
       const RodLeg& leg = robot.legs[std::size_t(k)];
       const RodReading rod = system.rod(k);
       elastica_sections(local_force(planar_state(rod, leg)), s, sections);
@@ -93,7 +93,7 @@ TEST(RodSystem, CentrelineRunsAlongTheElastica) {
 
 TEST(RodSystem, StiffnessIsTheSlopeOfTheForces) {  // rods found anew at every displaced pose
   each_robot({3, 6, 9}, 4, [](const RodRobot&, RodSystem& system) {
-    const RodSystem::Snapshot at = system.snapshot();
+    const LimbState at = system.state();
     const Eigen::MatrixXd stiffness = system.stiffness();
     const auto forces = [&](const Vec<double, 6>& x) {
       return Eigen::VectorXd(wrench_beside(system, at, x));
@@ -106,9 +106,10 @@ TEST(RodSystem, StiffnessIsTheSlopeOfTheForces) {  // rods found anew at every d
 TEST(RodSystem, FeedWrenchIsTheSlopeByAnInput) {
   RodRandom random(5);
   const auto check = [](RodSystem& system) {
-    const RodSystem::Snapshot at = system.snapshot();
+    const LimbState at = system.state();
     Eigen::MatrixXd feed(6, system.inputs());
-    for (int input = 0; input < system.inputs(); ++input) feed.col(input) = system.feed_wrench(input);
+    for (int input = 0; input < system.inputs(); ++input)
+      feed.col(input) = system.input_wrench_jacobian(input);
     const auto forces = [&](const Eigen::VectorXd& x) {
       return Eigen::VectorXd(
           wrench_beside(system, at, Vec<double, 6>::Zero(), {x.data(), std::size_t(x.size())}));
@@ -128,10 +129,10 @@ TEST(RodSystem, EnergyFallsByWhatTheForcesDo) {
   each_robot({6, 12}, 6, [](const RodRobot& robot, RodSystem& system) {
     system.refine();
     ASSERT_TRUE(close_rods(system) && balance(system));
-    const RodSystem::Snapshot at = system.snapshot();
+    const LimbState at = system.state();
     const Wrench6 wrench = system.wrench();
-    Eigen::RowVectorXd by_length(system.rods());
-    for (int k = 0; k < system.rods(); ++k) {
+    Eigen::RowVectorXd by_length(system.limbs());
+    for (int k = 0; k < system.limbs(); ++k) {
       const RodReading rod = system.rod(k);
       // −½EIκ² − n·t, the same all along the rod
       by_length[k] = -(rod.energy + dot(rod.force, rod.tip - robot.legs[std::size_t(k)].base.p)) / rod.length;
@@ -139,7 +140,7 @@ TEST(RodSystem, EnergyFallsByWhatTheForcesDo) {
     const auto energy = [&](const Vec<double, 6>& x, std::span<const double> fed) {
       wrench_beside(system, at, x, fed);
       Eigen::VectorXd sum = Eigen::VectorXd::Zero(1);
-      for (int k = 0; k < system.rods(); ++k) sum[0] += system.rod(k).energy;
+      for (int k = 0; k < system.limbs(); ++k) sum[0] += system.rod(k).energy;
       return sum;
     };
     const Vec<double, 6> still = Vec<double, 6>::Zero();
@@ -182,10 +183,10 @@ TEST(RodSystem, EvaluatesTheSameFromWhatAStepLeft) {
       for (int k = 0; k < 4; ++k) {
         system.move(system.step(k == 0));
         const double carried = system.evaluate(false);
-        const Wrench6 missing = system.missing();
+        const Wrench6 missing = system.wrench_residual();
         const double anew = system.evaluate(true);
         EXPECT_NEAR(carried, anew, 2e-12);
-        EXPECT_LT((system.missing() - missing).norm(), 1e-12);
+        EXPECT_LT((system.wrench_residual() - missing).norm(), 1e-12);
         system.evaluate(false);  // what the next step begins from
       }
     }
@@ -196,27 +197,30 @@ TEST(RodSystem, EvaluatesTheSameFromWhatAStepLeft) {
 /// load that change between.
 TEST(RodSystem, CarriesOnWhatLengthsLoadAndManyStepsChange) {
   RodRandom random(12);
-  each_robot({3, 9}, 12, [&](const RodRobot&, RodSystem& system) {
+  each_robot({3, 9}, 12, [&](const RodRobot& robot, RodSystem& system) {
     for (const bool is_fine : {false, true}) {
       if (is_fine) system.refine();
       system.evaluate();
       ASSERT_TRUE(system.linearise());
-      const RodSystem::Snapshot start = system.snapshot();
+      const LimbState start = system.state();
       for (int k = 0; k < 150; ++k) {
         const double size = k % 7 == 0 ? 0.1 : 1e-3;
         if (k % 2 == 0) {
           system.set_wrench(random.wrench(1, 0.1));
-          for (int rod = 0; rod < system.rods(); ++rod)
-            system.set_length(rod, system.length(rod) * (1 + 1e-4 * (rod % 3 - 1)));
+          for (int rod = 0; rod < system.limbs(); ++rod)
+            system.hold(rod, system.length(rod) * (1 + 1e-4 * (rod % 3 - 1)));
         }
         RodSystem::Twist twist = random.wrench(size * system.length(0), size);
         system.evaluate(false);
         system.step(false);
         system.move(twist);
-        RodSystem other = system;
+        RodSystem other(robot);
+        other.restore(system.state());
         const double carried = system.evaluate(false), anew = other.evaluate(true);
         EXPECT_NEAR(carried, anew, 1e-11 * (1 + anew)) << k;
-        EXPECT_LT((system.missing() - other.missing()).norm(), 1e-10 * (1 + other.missing().norm())) << k;
+        EXPECT_LT((system.wrench_residual() - other.wrench_residual()).norm(),
+                  1e-10 * (1 + other.wrench_residual().norm()))
+            << k;
         if (k % 10 == 9) {  // back to where rods are not far from their equilibrium
           system.restore(start);
           system.evaluate();
@@ -234,35 +238,41 @@ TEST(RodSystem, NoNumberThatIsNotOneIsEverSmall) {
       if (is_fine) system.refine();
       ASSERT_TRUE(close_rods(system));
       ASSERT_TRUE(balance(system));
-      const RodSystem::Snapshot good = system.snapshot();
+      const LimbState good = system.state();
+      const Wrench6 load = system.wrench();
       const auto spoilt = [&](auto&& spoil) {
         system.restore(good);
         spoil();
         return std::isnan(system.evaluate());
       };
-      for (int k = 0; k < system.rods(); ++k) {
-        EXPECT_TRUE(spoilt([&] { system.set_length(k, nan); })) << k;
-        RodSystem::Snapshot bad = good;
-        const auto g = std::size_t(k / rod_lanes);
-        const int i = k % rod_lanes;
+      for (int k = 0; k < system.limbs(); ++k) {
+        EXPECT_TRUE(spoilt([&] { system.hold(k, nan); })) << k;
         for (const std::size_t part : {0u, 4u, 10u, 11u, 12u}) {
-          bad = good;
-          const auto put = [&](auto& state) {
-            RodLane* lanes[] = {&state.theta[part % 10], &state.force_d, &state.force_w};
-            (*lanes[part < 10 ? 0 : (part == 10 ? 1 : 2)])[i] = nan;
+          const auto spoil = [&] {
+            CoarseRods lanes;
+            system.copy_rod(k, lanes, 0);
+            RodLane* parts[] = {&lanes.theta[part % 10], &lanes.force_d, &lanes.force_w};
+            (*parts[part < 10 ? 0 : (part == 10 ? 1 : 2)])[0] = nan;
+            system.take_rod(k, lanes, 0);
           };
-          is_fine ? put(bad.fine[g]) : put(bad.coarse[g]);
-          EXPECT_TRUE(spoilt([&] { system.restore(bad); })) << k << " part " << part;
+          const auto spoil_fine = [&] {
+            std::array<double, RodLeg::coordinates> x;
+            system.get_rod(k, x);
+            x[part < 10 ? part : fine_nodes + (part == 10 ? 0 : 1)] = nan;
+            system.set_rod(k, x, system.aim(k).lateral);
+          };
+          EXPECT_TRUE(is_fine ? spoilt(spoil_fine) : spoilt(spoil)) << k << " part " << part;
         }
       }
-      SE3<double> pose = good.platform;
+      const SE3<double> there = system.platform();
+      SE3<double> pose = there;
       pose.p[1] = nan;
       EXPECT_TRUE(spoilt([&] { system.set_platform(pose); }));
-      pose = good.platform;
+      pose = there;
       pose.R.v[2] = nan;
       EXPECT_TRUE(spoilt([&] { system.set_platform(pose); }));
       for (int c = 0; c < 6; ++c) {
-        Wrench6 wrench = good.wrench;
+        Wrench6 wrench = load;
         wrench[c] = nan;
         EXPECT_TRUE(spoilt([&] { system.set_wrench(wrench); }));
       }
@@ -277,7 +287,7 @@ TEST(RodSystem, SavesAndRestoresExactly) {
   each_robot({9}, 10, [&](const RodRobot&, RodSystem& system) {
     for (const bool is_fine : {false, true}) {
       if (is_fine) system.refine();
-      const RodSystem::Snapshot saved = system.snapshot();
+      const LimbState saved = system.state();
       const double error = system.evaluate();
       const RodReading rod = system.rod(4);
       system.linearise();
@@ -299,7 +309,7 @@ TEST(RodSystem, SavesAndRestoresExactly) {
 
 TEST(RodSystem, RefinesAndCoarsensTheSameShapes) {
   each_robot({6, 9}, 11, [](const RodRobot&, RodSystem& system) {
-    const auto points = [&] { return system.centreline(system.rods() - 1, 21); };
+    const auto points = [&] { return system.centreline(system.limbs() - 1, 21); };
     const auto before = points();
     const RodReading rod = system.rod(0);
     system.refine();
@@ -318,7 +328,7 @@ TEST(RodSystem, RefinesAndCoarsensTheSameShapes) {
 
 TEST(RodSystem, HandsOutRodsAsCoordinatesAndTakesThemBack) {
   each_robot({9}, 12, [](const RodRobot& robot, RodSystem& system) {
-    const RodSystem::Snapshot at = system.snapshot();
+    const LimbState at = system.state();
     for (const bool is_fine : {false, true}) {
       system.restore(at);
       if (is_fine) system.refine();
@@ -327,14 +337,14 @@ TEST(RodSystem, HandsOutRodsAsCoordinatesAndTakesThemBack) {
       RodSystem other(robot);
       other.set_platform(system.platform());
       other.set_wrench(system.wrench());
-      for (int k = 0; k < system.rods(); ++k) {
+      for (int k = 0; k < system.limbs(); ++k) {
         std::array<double, RodLeg::coordinates> x;
         system.get_rod(k, x);
         EXPECT_EQ(x[rod_nodes + 2], system.length(k));
         other.set_rod(k, x, system.aim(k).lateral);
       }
       EXPECT_LT(other.evaluate(), is_fine ? 1e-12 : 1e-4);
-      for (int k = 0; k < system.rods(); ++k)
+      for (int k = 0; k < system.limbs(); ++k)
         EXPECT_LT((other.rod(k).force - system.rod(k).force).norm(), 1e-13);
     }
   });
@@ -350,15 +360,15 @@ TEST(RodSystem, RodsDoNotMindTheirLanes) {  // idle lanes, several groups: the s
     RodSystem a(robot), b(turned);
     const SE3<double> pose = random.near(home(robot), 0.02, 0.1);
     if (rods > 1) {
-      ASSERT_TRUE(rest_at(a, pose) && rest_at(b, pose));
+      ASSERT_TRUE(a.rest_at(pose) && b.rest_at(pose));
     } else {
-      rest_at(a, pose);  // one rod does not hold a platform
-      rest_at(b, pose);
+      a.rest_at(pose);  // one rod does not hold a platform
+      b.rest_at(pose);
     }
     for (int k = 0; k < rods; ++k) {
       const double fed = random.uniform(0, 1e-3);
-      a.set_length(k, a.length(k) + fed);
-      b.set_length(rods - 1 - k, b.length(rods - 1 - k) + fed);
+      a.hold(k, a.length(k) + fed);
+      b.hold(rods - 1 - k, b.length(rods - 1 - k) + fed);
     }
     ASSERT_TRUE(close_rods(a) && close_rods(b));
     balance(a);
@@ -367,7 +377,8 @@ TEST(RodSystem, RodsDoNotMindTheirLanes) {  // idle lanes, several groups: the s
       const RodReading one = a.rod(k), same = b.rod(rods - 1 - k);
       EXPECT_LT((one.force - same.force).norm(), 1e-12 * (1 + one.force.norm()));
       EXPECT_NEAR(one.energy, same.energy, 1e-13);
-      EXPECT_LT((a.feed_wrench(k) - b.feed_wrench(rods - 1 - k)).norm(), 1e-10 * a.feed_wrench(k).norm());
+      EXPECT_LT((a.input_wrench_jacobian(k) - b.input_wrench_jacobian(rods - 1 - k)).norm(),
+                1e-10 * a.input_wrench_jacobian(k).norm());
     }
     EXPECT_LT((a.wrench() - b.wrench()).norm(), 1e-12 * (1 + a.wrench().norm()));
     EXPECT_LT((a.stiffness() - b.stiffness()).norm(), 1e-11 * a.stiffness().norm());
@@ -377,7 +388,7 @@ TEST(RodSystem, RodsDoNotMindTheirLanes) {  // idle lanes, several groups: the s
 TEST(RodSystem, PutsTheSumOfItsRodsOnThePlatform) {
   each_robot({3, 8, 9, 24}, 14, [](const RodRobot& robot, RodSystem& system) {
     Wrench6 sum = Wrench6::Zero();
-    for (int k = 0; k < system.rods(); ++k) {
+    for (int k = 0; k < system.limbs(); ++k) {
       const Vec3<double> force = system.rod(k).force;
       const Vec3<double> arm = system.platform().rotate(robot.legs[std::size_t(k)].platform_point);
       sum.head<3>() += force;

@@ -42,9 +42,8 @@ RodRobot robot_of(const Kind& kind, RodRandom& random, int rods = 6) {
 /// A system at rest at a random pose, lengths changed a little: nothing about it is special.
 bool begin(TangentSystem& system, const RodRobot& robot, RodRandom& random) {
   system.set_gravity(gravity);
-  if (!rest_at(system, random.near(home(robot), 0.03, 0.15))) return false;
-  for (int k = 0; k < system.rods(); ++k)
-    system.set_length(k, system.length(k) * (1 + random.uniform(0, 3e-3)));
+  if (!system.rest_at(random.near(home(robot), 0.03, 0.15))) return false;
+  for (int k = 0; k < system.limbs(); ++k) system.hold(k, system.length(k) * (1 + random.uniform(0, 3e-3)));
   return close_rods(system) && balance(system);
 }
 
@@ -131,10 +130,10 @@ TEST(TangentSystem, StiffnessAndFeedAreTheDerivativesOfTheWrench) {
       TangentSystem system(robot);
       if (!begin(system, robot, random)) continue;
       ++tried;
-      const TangentSystem::Snapshot from = system.snapshot();
+      const LimbState from = system.state();
       const Mat<double, 6, 6> stiffness = system.stiffness();
       Mat<double, 6, 6> feed;
-      for (int c = 0; c < 6; ++c) feed.col(c) = system.feed_wrench(c);
+      for (int c = 0; c < 6; ++c) feed.col(c) = system.input_wrench_jacobian(c);
       Mat<double, 6, 6> by_twist, by_length;
       for (int c = 0; c < 6; ++c) {
         const auto beside = [&](double h) {
@@ -176,8 +175,8 @@ TEST(TangentSystem, BallJointsAndNoWeightMakeElasticas) {
 TEST(TangentSystem, SolvesTheTripodsAsThePlaneRodsDo) {
   for (const RodTripod& t : {g1, g2}) {
     const RodRobot robot = tripod_robot(t);
-    RodWork plane(robot);
-    TangentWork spatial(robot);
+    RodWork plane = work_of<RodSystem>(robot);
+    RodWork spatial = work_of<TangentSystem>(robot);
     RodRandom random(9);
     for (int sample = 0; sample < 20; ++sample) {
       std::array<double, 3> inputs;
@@ -187,13 +186,13 @@ TEST(TangentSystem, SolvesTheTripodsAsThePlaneRodsDo) {
       const Report a = solve_rods(plane, home(robot), inputs, question);
       const Report b = solve_rods(spatial, home(robot), inputs, question);
       ASSERT_TRUE(a.ok() && b.ok()) << a.message.view() << b.message.view();
-      EXPECT_LT((plane.system.platform().p - spatial.system.platform().p).norm(), 1e-12);
-      EXPECT_LT((plane.system.platform().R.matrix() - spatial.system.platform().R.matrix()).norm(), 1e-11);
-      const Mat<double, 6, 6> difference = plane.system.stiffness() - spatial.system.stiffness();
-      EXPECT_LT(difference.norm(), 1e-8 * plane.system.stiffness().norm());
-      EXPECT_EQ(unstable_directions(plane.system), unstable_directions(spatial.system));
+      EXPECT_LT((plane.system->platform().p - spatial.system->platform().p).norm(), 1e-12);
+      EXPECT_LT((plane.system->platform().R.matrix() - spatial.system->platform().R.matrix()).norm(), 1e-11);
+      const Mat<double, 6, 6> difference = plane.system->stiffness() - spatial.system->stiffness();
+      EXPECT_LT(difference.norm(), 1e-8 * plane.system->stiffness().norm());
+      EXPECT_EQ(unstable_directions(*plane.system), unstable_directions(*spatial.system));
       for (int k = 0; k < 6; ++k) {
-        const RodReading p = plane.system.rod(k), s = spatial.system.rod(k);
+        const RodReading p = plane.system->rod(k), s = spatial.system->rod(k);
         EXPECT_LT((p.force - s.force).norm(), 1e-8);
         EXPECT_LT((p.curvature_0 - s.curvature_0).norm(), 1e-8);
         EXPECT_NEAR(p.energy, s.energy, 1e-11);
@@ -211,11 +210,11 @@ TEST(TangentSystem, ForcesDoTheWorkOfTheEnergy) {
     const RodRobot robot = robot_of(kind, random);
     TangentSystem system(robot);
     ASSERT_TRUE(begin(system, robot, random)) << kind.name;
-    const TangentSystem::Snapshot from = system.snapshot();
+    const LimbState from = system.state();
     const Wrench6 held = system.wrench();
     const auto energy = [&] {
       double sum = system.weight_energy();
-      for (int k = 0; k < system.rods(); ++k) sum += system.rod(k).energy;
+      for (int k = 0; k < system.limbs(); ++k) sum += system.rod(k).energy;
       return sum;
     };
     for (int c = 0; c < 6; ++c) {
@@ -238,7 +237,7 @@ TEST(TangentSystem, BasesAndPlatformCarryTheWeight) {
     ASSERT_TRUE(begin(system, robot, random)) << kind.name;
     while (!system.is_finest()) system.refine();
     ASSERT_TRUE(close_rods(system));
-    for (int k = 0; k < system.rods(); ++k) {
+    for (int k = 0; k < system.limbs(); ++k) {
       const RodReading rod = system.rod(k);
       const RodLeg& leg = robot.legs[std::size_t(k)];
       const Vec3<double> weight = gravity * leg.link.mass_per_length() * rod.length;
@@ -271,7 +270,7 @@ TEST(TangentSystem, ColumnsBuckleAtTheirCriticalLoads) {
     const double critical = (clamped ? 39.4784176 : 20.1907286) * 0.3 / (0.4 * 0.4);
     for (const double part : {0.2, 0.99, 1.01}) {
       const double load = part * critical;
-      system.set_length(0, 0.4 / (1 - load * (leg.link.stretch_compliance() + leg.link.shear_compliance())));
+      system.hold(0, 0.4 / (1 - load * (leg.link.stretch_compliance() + leg.link.shear_compliance())));
       ASSERT_TRUE(close_rods(system));
       system.linearise();
       EXPECT_NEAR(system.rod(0).axial_force, -load, 1e-3 * load);

@@ -7,6 +7,11 @@
 #include <vector>
 
 #include "kinematics/rods/path.hpp"
+#include "robot/general_system.hpp"
+#include "robot/mechanism.hpp"
+#include "robot/rod_system.hpp"
+#include "robot/rod_work.hpp"
+#include "robot/tangent_system.hpp"
 #include "sinew/link/elastica.hpp"
 #include "tripod_3pfs.hpp"
 
@@ -42,6 +47,14 @@ inline RodLeg rod_leg(const Vec3<double>& base, const Vec3<double>& platform_poi
   leg.link.youngs_modulus = stiffness / leg.link.bending_stiffness();
   leg.platform_point = platform_point;
   return leg;
+}
+
+/// @tparam System of those above
+template <class System>
+RodWork work_of(const RodRobot& robot, const Vec3<double>& gravity = Vec3<double>::Zero()) {
+  auto system = std::make_unique<System>(robot);
+  system->set_gravity(gravity);
+  return RodWork(std::move(system));
 }
 
 inline SpatialPose pose_of(const SE3<double>& frame) {
@@ -127,13 +140,13 @@ template <class System>
 bool close_rods(System& system) {
   for (int k = 0; k < 12; ++k) {
     system.evaluate();
-    if (!(system.rod_error() < 1e3)) return false;
-    if (system.rod_error() < 1e-14) break;
+    if (!(system.limb_error() < 1e3)) return false;
+    if (system.limb_error() < 1e-14) break;
     system.linearise();
     system.move(System::Twist::Zero());
   }
   system.evaluate();
-  return system.rod_error() <= 1e-11;
+  return system.limb_error() <= 1e-11;
 }
 
 /// Evaluated and linearised under the wrench that holds this state.
@@ -141,7 +154,7 @@ template <class System>
 bool balance(System& system) {
   system.set_wrench(Wrench6::Zero());
   system.evaluate();
-  system.set_wrench(-system.missing());
+  system.set_wrench(-system.wrench_residual());
   system.evaluate();
   return system.linearise();
 }
@@ -149,18 +162,18 @@ bool balance(System& system) {
 /// Rods at a pose with lengths of no special kind: laid there to rest, then fed so that what they are longer
 /// than their chord becomes half to three times as much. In balance, linearised.
 inline bool lay(RodSystem& system, const SE3<double>& pose, RodRandom& random) {
-  if (!rest_at(system, pose)) return false;
+  if (!system.rest_at(pose)) return false;
   const RodTarget from = present(system);
   RodTarget to = from;
-  for (int k = 0; k < system.rods(); ++k) {
+  for (int k = 0; k < system.limbs(); ++k) {
     const double chord = system.rod(k).chord;
     to.lengths[std::size_t(k)] = chord + random.uniform(0.5, 3) * (system.length(k) - chord);
   }
-  RodSystem::Snapshot last = system.snapshot();
+  LimbState last = system.state();
   for (double part = 0, stride = 0.1; part < 1;) {
     const double next = std::min(1.0, part + stride);
-    for (std::size_t k = 0; k < std::size_t(system.rods()); ++k)
-      system.set_length(int(k), from.lengths[k] + next * (to.lengths[k] - from.lengths[k]));
+    for (std::size_t k = 0; k < std::size_t(system.limbs()); ++k)
+      system.hold(int(k), from.lengths[k] + next * (to.lengths[k] - from.lengths[k]));
     if (close_rods(system)) {
       part = next;
       system.save(last);
@@ -175,13 +188,14 @@ inline bool lay(RodSystem& system, const SE3<double>& pose, RodRandom& random) {
 
 /// What the world must exert on the platform at a pose displaced by (δp, δφ), the rods following.
 template <class System>
-Wrench6 wrench_beside(System& system, const typename System::Snapshot& from, const Vec<double, 6>& by,
+Wrench6 wrench_beside(System& system, const LimbState& from, const Vec<double, 6>& by,
                       std::span<const double> fed = {}) {
   system.restore(from);
   const SO3<double> turn = SO3<double>::exp(Vec3<double>(by.tail<3>()));
-  system.set_platform({from.platform.p + by.head<3>(), turn.compose(from.platform.R)});
-  for (int k = 0; k < system.rods() && !fed.empty(); ++k)
-    system.set_length(k, system.length(k) + fed[std::size_t(system.input_of(k))]);
+  const SE3<double> there = system.platform();
+  system.set_platform({there.p + by.head<3>(), turn.compose(there.R)});
+  for (int k = 0; k < system.limbs() && !fed.empty(); ++k)
+    system.hold(k, system.length(k) + fed[std::size_t(system.input_of(k))]);
   if (!close_rods(system)) return Wrench6::Constant(std::nan(""));
   balance(system);
   return system.wrench();
@@ -192,7 +206,7 @@ Wrench6 wrench_beside(System& system, const typename System::Snapshot& from, con
 /// @{
 
 /// The equilibrium of a tripod, whose rods are integrated anew from its forces.
-inline judge::Mismatch reintegrated(const judge::Tripod& t, const RodSystem& system) {
+inline judge::Mismatch reintegrated(const judge::Tripod& t, const RodGroup& system) {
   judge::PerRod<double> lengths;
   judge::PerRod<judge::Vector3d> forces;
   for (int k = 0; k < 6; ++k) {
@@ -256,9 +270,9 @@ inline double off_elastica(const ElasticaState<double>& rod) {
 }
 
 /// The same of the worst rod of a robot.
-inline double off_elastica(const RodRobot& robot, const RodSystem& system) {
+inline double off_elastica(const RodRobot& robot, const RodGroup& system) {
   double worst = 0;
-  for (int k = 0; k < system.rods(); ++k)
+  for (int k = 0; k < system.limbs(); ++k)
     worsen(worst, off_elastica(planar_state(system.rod(k), robot.legs[std::size_t(k)])));
   return worst;
 }

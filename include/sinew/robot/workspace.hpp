@@ -11,7 +11,7 @@
 
 namespace sinew::inline v0 {
 
-struct RodWorks;
+struct RodWork;
 
 struct Workspace {
   /// Most solutions of one leg that are kept; an arc within a full turn either way has fewer.
@@ -33,7 +33,7 @@ struct Workspace {
   std::vector<int> solution_count;     ///< a leg; 1 for a leg whose inputs are another's
   std::vector<int> type_1;             ///< legs
   std::vector<LegState> legs;
-  std::unique_ptr<RodWorks> rods;  ///< of a robot that bears load; else null
+  std::unique_ptr<RodWork> rods;  ///< of a robot that bears load; else null
 };
 
 }  // namespace sinew::inline v0

@@ -7,26 +7,23 @@
 #include "kinematics/rods/verdict.hpp"
 
 namespace sinew::inline v0 {
-namespace {}  // namespace
-
 RodBatch::RodBatch(RodWork& work, const SE3<double>& home)
     : work_(&work),
+      system_(work.system->elastica()),
       home_(home),
-      rods_(at(work.system.rods())),
+      rods_(at(system_->limbs())),
       before_(rods_.size()) {
-  for (int k = 0; k < work.system.rods(); ++k)
-    for (int lane = 0; lane < rod_lanes; ++lane) work.system.copy_rod(k, rods_[at(k)], lane);
+  for (int k = 0; k < system_->limbs(); ++k)
+    for (int lane = 0; lane < rod_lanes; ++lane) system_->copy_rod(k, rods_[at(k)], lane);
 }
 
 void RodBatch::set_lengths(int lane, Numbers inputs) {
-  for (int k = 0; k < work_->system.rods(); ++k)
-    rods_[at(k)].length[lane] = inputs[at(work_->system.input_of(k))];
+  for (int k = 0; k < system_->limbs(); ++k) rods_[at(k)].length[lane] = inputs[at(system_->input_of(k))];
 }
 
 void RodBatch::to_lane(int lane) {
-  const RodSystem& system = work_->system;
-  for (int k = 0; k < system.rods(); ++k) system.copy_rod(k, rods_[at(k)], lane);
-  const SE3<double>& pose = system.platform();
+  for (int k = 0; k < system_->limbs(); ++k) system_->copy_rod(k, rods_[at(k)], lane);
+  const SE3<double>& pose = system_->platform();
   for (int c = 0; c < 3; ++c) {
     poses_.position[c][lane] = pose.p[c];
     poses_.quaternion[c + 1][lane] = pose.R.v[c];
@@ -35,12 +32,11 @@ void RodBatch::to_lane(int lane) {
 }
 
 void RodBatch::from_lane(int lane) {
-  RodSystem& system = work_->system;
-  for (int k = 0; k < system.rods(); ++k) system.take_rod(k, before_[at(k)], lane);
+  for (int k = 0; k < system_->limbs(); ++k) system_->take_rod(k, before_[at(k)], lane);
   const auto& p = poses_before_.position;
   const auto& q = poses_before_.quaternion;
-  system.set_platform({Vec3<double>(p[0][lane], p[1][lane], p[2][lane]),
-                       {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}});
+  system_->set_platform({Vec3<double>(p[0][lane], p[1][lane], p[2][lane]),
+                         {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}});
 }
 
 RodQuestion RodBatch::question_of(int lane, bool judges) const {
@@ -52,7 +48,7 @@ RodQuestion RodBatch::question_of(int lane, bool judges) const {
 
 /// What the system holds, its rods on the elements of the lanes.
 void RodBatch::take_system(int lane) {
-  if (work_->system.is_fine()) work_->system.coarsen();
+  if (system_->is_fine()) system_->coarsen();
   to_lane(lane);
 }
 
@@ -65,13 +61,12 @@ bool RodBatch::settles_from_home(int lane, Numbers inputs) {
 
 /// One pose alone: from where the lane was, else from home.
 bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Status& status) {
-  RodSystem& system = work_->system;
   RodQuestion question = question_of(lane, judges);
   if (knows_[at(lane)]) {
     from_lane(lane);
-    system.set_wrench(question.wrench);
-    system.evaluate();
-    work_->is_solved = system.linearise();
+    system_->set_wrench(question.wrench);
+    system_->evaluate();
+    work_->is_solved = system_->linearise();
     question.resume = true;
   }
   Report report = solve_rods(*work_, home_, inputs, question);
@@ -98,7 +93,7 @@ double RodBatch::worst() const {
 /// long as they gain as much as newer ones would.
 void RodBatch::walk() {
   constexpr int rows_carried = 16;  // each rounds a few times by 2e-16
-  rod_kernels::advance(rods_, {.moves = false, .anew = ++walked_ % rows_carried == 0}, poses_);
+  rod_kernels::advance(rods_, {.moves = false, .from_scratch = ++walked_ % rows_carried == 0}, poses_);
   double error = worst();
   int renewals = 0;
   for (int k = 0; k < 10 && !(error <= rod_tolerance); ++k) {
@@ -112,9 +107,9 @@ void RodBatch::walk() {
   }
 }
 
-void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wrench, bool judges,
+void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
                      std::span<SE3<double>> poses, std::span<Status> statuses) {
-  const std::size_t inputs = at(work_->system.inputs()), count = poses.size();
+  const std::size_t inputs = at(system_->inputs()), count = poses.size();
   if (count == 0) return;
   const std::size_t stretch = (count + rod_lanes - 1) / rod_lanes;
   for (int k = 0; k < 6; ++k) std::fill_n(poses_.wrench[k], rod_lanes, wrench[k]);
@@ -140,7 +135,7 @@ void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wren
     for (int lane = 0; lane < rod_lanes; ++lane) {
       Status status = judges && poses_.unstable[lane] > 0 ? Status::unstable : Status::converged;
       if (!knows_[at(lane)] || !(poses_.error[lane] <= rod_tolerance) ||
-          !(truncation[lane] <= RodSystem::quick_truncation)) {
+          !(truncation[lane] <= system_->traits().quick_truncation)) {
         is_renewed = true;
         if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), judges, status)) {
           statuses[row(lane)] = status;
@@ -158,7 +153,7 @@ void RodBatch::solve(std::span<const double> rows, const RodSystem::Wrench& wren
       statuses[row(lane)] = status;
     }
     if (is_renewed) {  // factors of the lanes that were solved alone
-      rod_kernels::advance(rods_, {.moves = false, .anew = true, .renews = true}, poses_);
+      rod_kernels::advance(rods_, {.moves = false, .from_scratch = true, .renews = true}, poses_);
     }
   }
 }

@@ -3,6 +3,7 @@
 /// each lane walks along its own, and a pose that does not come at once is solved alone.
 #pragma once
 #include "kinematics/rods/solve.hpp"
+#include "robot/rod_system.hpp"
 
 namespace sinew::inline v0 {
 
@@ -14,7 +15,7 @@ class RodBatch {
   /// @param rows inputs of every pose, one after the other; @param poses, statuses one a row
   /// @param judges whether it is asked if they hold by themselves
   /// Poses as those of a quick resumed answer.
-  void solve(std::span<const double> rows, const RodSystem::Wrench& wrench, bool judges,
+  void solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
              std::span<SE3<double>> poses, std::span<Status> statuses);
 
  private:
@@ -29,6 +30,7 @@ class RodBatch {
   void walk();
 
   RodWork* work_;
+  RodSystem* system_;
   SE3<double> home_;
   std::vector<CoarseRods> rods_;
   std::vector<CoarseRods::State> before_;

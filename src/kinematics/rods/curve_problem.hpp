@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/at.hpp"
-#include "kinematics/rods/energy.hpp"
 #include "kinematics/rods/trace.hpp"
 #include "kinematics/rods/verdict.hpp"
 #include "robot/pose.hpp"
@@ -15,17 +14,16 @@
 
 namespace sinew::inline v0 {
 
-template <class System>
 class RodProblem {
  public:
   static constexpr int unknowns = 6;
-  using Place = RodPlace<System>;
-  using State = typename System::Snapshot;
+  using Place = RodPlace;
+  using State = RodPlace::State;
   using Curve = EquilibriumCurve;
   using Twist = Vec<double, 6>;
 
-  RodProblem(System& system, const RodWay& way) : system_(system), way_(way) {
-    for (int k = 0; k < system_.rods(); ++k) {
+  RodProblem(RodGroup& system, const RodWay& way) : system_(system), way_(way) {
+    for (int k = 0; k < system_.limbs(); ++k) {
       const double length = system_.length(k);
       size_ = std::max(size_, length);
       unit_ += system_.stiffness(k) / (length * length * length);
@@ -34,9 +32,12 @@ class RodProblem {
 
   /// @name A curve's
   /// @{
-  Place place() const { return {system_.snapshot()}; }
-  void save(State& to) const { system_.save(to); }
-  void restore(const State& from) { system_.restore(from); }
+  Place place() const { return {{system_.state(), system_.platform()}}; }
+  void save(State& to) const {
+    system_.save(to.limbs);
+    to.platform = system_.platform();
+  }
+  void restore(const State& from) { system_.restore(from.limbs); }
   double evaluate() { return system_.evaluate(); }
   bool linearise() { return system_.linearise(); }
   bool refine() {
@@ -56,7 +57,7 @@ class RodProblem {
     for (int k = 0; k < system_.feeds(); ++k) fed = std::max(fed, std::abs(rate(k)));
     const Twist load = way_.target.wrench - way_.begin.wrench;
     const double pressed =
-        size_ * std::hypot(load.template head<3>().norm(), load.template tail<3>().norm() / system_.radius());
+        size_ * std::hypot(load.head<3>().norm(), load.tail<3>().norm() / system_.radius());
     return std::max(size_, fed + pressed / (unit_ * size_));
   }
 
@@ -69,16 +70,16 @@ class RodProblem {
       for (int r = 0; r < 6; ++r) rows[at(7 * r + column)] = wrench[r] / (r < 3 ? per : per * radius);
     };
     const auto stiffness = system_.stiffness();
-    Twist by_parameter = system_.felt(way_.begin.wrench - way_.target.wrench);
+    Twist by_parameter = system_.project_wrench(way_.begin.wrench - way_.target.wrench);
     if (way_.holds_pose) {
-      for (int k = 0; k < 6; ++k) put_column(k, system_.feed_wrench(k), 1);
+      for (int k = 0; k < 6; ++k) put_column(k, system_.input_wrench_jacobian(k), 1);
       by_parameter += stiffness * between(way_.from, way_.to);
     } else {
       for (int k = 0; k < 6; ++k) put_column(k, stiffness.col(k), k < 3 ? 1 : radius);
       for (int input = 0; input < system_.inputs(); ++input)
         for (int rod = 0; rod < system_.feeds(); ++rod)
           if (system_.input_of(rod) == input) {
-            by_parameter += rate(rod) * system_.feed_wrench(input);
+            by_parameter += rate(rod) * system_.input_wrench_jacobian(input);
             break;
           }
     }
@@ -86,7 +87,7 @@ class RodProblem {
     return rows;
   }
   Twist missing() const {
-    Twist missing = system_.missing();
+    Twist missing = system_.wrench_residual();
     for (int r = 3; r < 6; ++r) missing[r] /= system_.radius();
     return missing;
   }
@@ -112,7 +113,7 @@ class RodProblem {
     if (way_.holds_pose)
       system_.set_platform(way_.pose(lambda));
     else
-      for (int k = 0; k < system_.feeds(); ++k) system_.set_length(k, now.lengths[at(k)]);
+      for (int k = 0; k < system_.feeds(); ++k) system_.hold(k, now.lengths[at(k)]);
   }
 
   CurveSigns signs() const {
@@ -139,8 +140,8 @@ class RodProblem {
     for (int k = 0; k < 6; ++k) count += solved.eigenvalues()[k].real() < 0;
     return count;
   }
-  bool is_symmetric() const { return system_.wrench().template tail<3>() == Vec3<double>::Zero(); }
-  double margin() const { return 1; }
+  bool is_symmetric() const { return system_.wrench().tail<3>() == Vec3<double>::Zero(); }
+  double margin() const { return system_.margin(); }
   /// @}
 
   /// @name A written curve's
@@ -153,10 +154,10 @@ class RodProblem {
     point.event = static_cast<CurveEvent>(mark);
     point.pose = spatial_pose(system_.platform());
     point.inputs.resize(at(system_.inputs()));
-    for (int k = 0; k < system_.feeds(); ++k) point.inputs[at(system_.input_of(k))] = system_.length(k);
+    for (int k = 0; k < system_.feeds(); ++k) point.inputs[at(system_.input_of(k))] = system_.held(k);
     point.unstable_directions = unstable;
     point.residual = residual;
-    point.potential = potential_of(system_);
+    point.potential = system_.potential();
     return point;
   }
   bool is_same(const CurvePoint& one, const CurvePoint& other) const {
@@ -172,7 +173,7 @@ class RodProblem {
     return way.normalized();
   }
   bool is_far(double longest_rod = 10) const {
-    for (int k = 0; k < system_.rods(); ++k)
+    for (int k = 0; k < system_.limbs(); ++k)
       if (system_.length(k) > longest_rod * size_) return true;
     return false;
   }
@@ -193,7 +194,7 @@ class RodProblem {
   /// dL/dλ of a rod.
   double rate(int rod) const { return way_.target.lengths[at(rod)] - way_.begin.lengths[at(rod)]; }
 
-  System& system_;
+  RodGroup& system_;
   const RodWay& way_;
   double size_ = 0, unit_ = 0;
 };

@@ -18,17 +18,16 @@ namespace {
 using Twist = Vec<double, 6>;
 
 /// Newton's method on the lengths while the platform is put where it is wanted.
-template <class System>
 class Holder {
  public:
-  explicit Holder(RodWorkOf<System>& work) : work_(work), system_(work.system) {}
+  explicit Holder(RodWork& work) : work_(work), system_(*work.system) {}
 
   /// Factors at the point last evaluated.
   bool renew() {
     system_.linearise();  // the platform's own stiffness may be singular here
     double matrix[36];
     for (int input = 0; input < 6; ++input) {
-      const Twist feed = system_.feed_wrench(input);
+      const Twist feed = system_.input_wrench_jacobian(input);
       for (int r = 0; r < 6; ++r) matrix[6 * r + input] = feed[r];
     }
     return work_.knows_feeding = work_.feeding.factor(matrix, system_.radius());
@@ -38,10 +37,10 @@ class Holder {
   bool step(const SE3<double>& pose, bool fresh) {
     const Twist given = between(system_.platform(), pose);
     if (!fresh) system_.step(false);
-    const Twist wanted = system_.missing() - system_.stiffness() * given;
+    const Twist wanted = system_.wrench_residual() - system_.stiffness() * given;
     double fed[6];
     work_.feeding.solve(wanted.data(), fed);
-    for (int k = 0; k < system_.rods(); ++k)
+    for (int k = 0; k < system_.limbs(); ++k)
       if (!(system_.length(k) + fed[system_.input_of(k)] > 0)) return false;
     system_.move(given, fed);
     system_.set_platform(pose);
@@ -63,28 +62,26 @@ class Holder {
   }
 
  private:
-  RodWorkOf<System>& work_;
-  System& system_;
+  RodWork& work_;
+  RodGroup& system_;
 };
 
 /// Corrections must stay small beside the prediction: else it may have found another branch.
-template <class System>
-bool is_near(const System& system, const RodTarget& before, const RodTarget& predicted) {
+bool is_near(const RodGroup& system, const RodTarget& before, const RodTarget& predicted) {
   double change = 0, correction = 0;
   for (int k = 0; k < system.feeds(); ++k) {
     const double length = predicted.lengths[at(k)];
     change = std::max(change, std::abs(length - before.lengths[at(k)]));
-    correction = std::max(correction, std::abs(system.length(k) - length));
+    correction = std::max(correction, std::abs(system.held(k) - length));
   }
   return correction < 0.5 * change + 0.01 * system.length(0);
 }
 
 /// Follows the path as far as it goes. The system is then there, solved to `loose`.
-template <class System>
-RodPathEnd follow_poses(RodWorkOf<System>& work, const RodWay& way, int max_iterations) {
+RodPathEnd follow_poses(RodWork& work, const RodWay& way, int max_iterations) {
   constexpr double loose = 1e-5, loose_truncation = 1e-9, shortest = 1e-6;
-  System& system = work.system;
-  Holder<System> holder(work);
+  RodGroup& system = *work.system;
+  Holder holder(work);
   RodPathEnd end;
   follow_parameter(end, {{0.25, shortest, work.stop}, 0, max_iterations}, [&](double next, double taken) {
     system.save(work.spare);
@@ -112,8 +109,8 @@ RodPathEnd follow_poses(RodWorkOf<System>& work, const RodWay& way, int max_iter
 }
 
 /// Why the lengths do not follow the platform further: the system is where they still do.
-template <class System>
-Report explain_hold(const System& system, const RodPathEnd& end, const RodFold& fold, std::string_view from) {
+Report explain_hold(const RodGroup& system, const RodPathEnd& end, const RodFold& fold,
+                    std::string_view from) {
   if (end.ran_out || end.stopped) return explain(system, end, fold, false);
   Report report = failed(fold.is_found ? Status::singular : Status::stalled);
   if (!fold.is_found && system.truncation() > worst_truncation) report.status = Status::left_domain;
@@ -137,8 +134,7 @@ Report explain_hold(const System& system, const RodPathEnd& end, const RodFold& 
   return report;
 }
 
-template <class System>
-Report check(const System& system, const SE3<double>& wanted, const RodQuestion& question) {
+Report check(const RodGroup& system, const SE3<double>& wanted, const RodQuestion& question) {
   Report report;
   if (system.inputs() != 6 || system.feeds() != 6) {
     report = failed(Status::left_domain);
@@ -162,10 +158,8 @@ Report check(const System& system, const SE3<double>& wanted, const RodQuestion&
 }
 
 /// From where the system is along these poses, one after the other.
-template <class System>
-RodPathEnd approach(RodWorkOf<System>& work, std::span<const SE3<double>> poses,
-                    const RodQuestion& question) {
-  System& system = work.system;
+RodPathEnd approach(RodWork& work, std::span<const SE3<double>> poses, const RodQuestion& question) {
+  RodGroup& system = *work.system;
   work.knows_feeding = false;
   RodPathEnd end;
   int iterations = 0;
@@ -181,9 +175,8 @@ RodPathEnd approach(RodWorkOf<System>& work, std::span<const SE3<double>> poses,
 
 /// Where the straight way from home ends, others may lead to another branch that holds the pose. If so, and
 /// the system is there, true; the message of `report`, which says where it ends, then says by which way.
-template <class System>
-bool detour(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>& wanted,
-            const RodQuestion& question, Report& report) {
+bool detour(RodWork& work, const SE3<double>& home, const SE3<double>& wanted, const RodQuestion& question,
+            Report& report) {
   constexpr double lower = 7.0 / 8;  // short rods are the stiffer ones
   const SE3<double> level{wanted.p, home.R}, turned{home.p, wanted.R};
   SE3<double> low = level, low_turned = wanted;
@@ -208,13 +201,12 @@ bool detour(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>&
 }
 
 /// Another branch that holds the pose, by another way or through the fold. Says so.
-template <class System>
-bool reach_otherwise(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>& wanted,
+bool reach_otherwise(RodWork& work, const SE3<double>& home, const SE3<double>& wanted,
                      const RodQuestion& question, const RodWay& way, const RodPathEnd& end, Report& report) {
-  if constexpr (System::is_slow) return false;  // each way would take seconds
-  auto stopped = work.system.snapshot();
+  if (work.system->traits().is_slow) return false;  // each way would take seconds
+  const LimbState stopped = work.system->state();
   if (detour(work, home, wanted, question, report)) return true;
-  work.system.restore(stopped);
+  work.system->restore(stopped);
   const bool has_fold = report.status == Status::singular;
   if (has_fold && pass_fold(work, way, end.progress)) {
     report.status = Status::converged;
@@ -227,10 +219,9 @@ bool reach_otherwise(RodWorkOf<System>& work, const SE3<double>& home, const SE3
 }
 
 /// The last digits, on elements that resolve the shapes.
-template <class System>
-Report finish(RodWorkOf<System>& work, const SE3<double>& wanted, Report report, double truncation) {
-  System& system = work.system;
-  Holder<System> holder(work);
+Report finish(RodWork& work, const SE3<double>& wanted, Report report, double truncation) {
+  RodGroup& system = *work.system;
+  Holder holder(work);
   const auto correct = [&] {
     return holder.correct(wanted, report.iterations, report.residual, rod_tolerance);
   };
@@ -249,27 +240,27 @@ Report finish(RodWorkOf<System>& work, const SE3<double>& wanted, Report report,
 
 }  // namespace
 
-template <class System>
-Report hold_rods(RodWorkOf<System>& work, const SE3<double>& home, const SE3<double>& wanted,
+Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& wanted,
                  const RodQuestion& question) {
-  System& system = work.system;
+  RodGroup& system = *work.system;
   if (const Report checked = check(system, wanted, question); !checked.ok()) return checked;
   Report report;
   if (note_stop(work.stop, report)) return report;
   if (question.resume && work.is_solved) {
     system.save(work.before);
     system.set_wrench(question.wrench);
-    Holder<System> holder(work);
+    Holder holder(work);
     bool is_near = true;
-    const bool is_lighter = system.can_coarsen(System::quick_truncation);
+    const bool is_lighter = system.can_coarsen(system.traits().quick_truncation);
     if (is_lighter) system.coarsen();
     if (is_lighter || !work.knows_feeding) {
       system.evaluate();
       is_near = holder.renew();
     }
     if (is_near && holder.follow(wanted, report, question.judge ? rod_tolerance : rod_quick_tolerance)) {
-      if (question.judge || (system.truncation() > System::quick_truncation && !system.is_finest()))
-        report = finish(work, wanted, report, question.judge ? coarse_truncation : System::quick_truncation);
+      if (question.judge || (system.truncation() > system.traits().quick_truncation && !system.is_finest()))
+        report = finish(work, wanted, report,
+                        question.judge ? coarse_truncation : system.traits().quick_truncation);
       work.is_solved = report.ok() || report.status == Status::unstable;
       return report;
     }
@@ -300,14 +291,9 @@ Report hold_rods(RodWorkOf<System>& work, const SE3<double>& home, const SE3<dou
       }
     }
   }
-  report = finish(work, wanted, report, System::best_truncation);
+  report = finish(work, wanted, report, system.traits().best_truncation);
   work.is_solved = report.ok() || report.status == Status::unstable;
   return report;
 }
-
-#define SINEW_FOR(System) \
-  template Report hold_rods(RodWorkOf<System>&, const SE3<double>&, const SE3<double>&, const RodQuestion&);
-SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
-#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -28,22 +28,20 @@ std::optional<SE3<double>> with(const SE3<double>& pose, const RodCoordinates& w
 }
 
 /// The first rod that shares this rod's input.
-template <class System>
-int first_of_input(const System& system, int rod) {
+int first_of_input(const RodGroup& system, int rod) {
   int first = 0;
   while (system.input_of(first) != system.input_of(rod)) ++first;
   return first;
 }
 
 /// Newton's method on x, y, e₃ and the three lengths while z, e₁, e₂ are held.
-template <class System>
 class Inverse {
  public:
-  Inverse(System& system, int& iterations) : system_(system), iterations_(iterations) {}
+  Inverse(RodGroup& system, int& iterations) : system_(system), iterations_(iterations) {}
 
   /// From a state near by. False where it does not contract.
   bool correct(const RodCoordinates& wanted, double& residual) {
-    return contract([&] { return system_.evaluate(); }, [&] { return step(wanted, System::Twist::Zero()); },
+    return contract([&] { return system_.evaluate(); }, [&] { return step(wanted, RodGroup::Twist::Zero()); },
                     rod_tolerance, rod_rounding, iterations_, residual);
   }
 
@@ -62,12 +60,12 @@ class Inverse {
       matrix[6 * r + 2] = stiffness(r, 3) * turn[0] + stiffness(r, 4) * turn[1] + stiffness(r, 5) * turn[2];
     }
     for (int input = 0; input < 3; ++input) {
-      const Vec<double, 6> feed = system_.feed_wrench(input);
+      const Vec<double, 6> feed = system_.input_wrench_jacobian(input);
       for (int r = 0; r < 6; ++r) matrix[6 * r + 3 + input] = feed[r];
     }
-    Lu6 factors;
+    SmallLu<6> factors;
     if (!factors.factor(matrix, system_.radius())) return false;
-    Vec<double, 6> wanted_wrench = system_.missing();
+    Vec<double, 6> wanted_wrench = system_.wrench_residual();
     for (int r = 0; r < 6; ++r)
       for (int c = 0; c < 6; ++c) wanted_wrench[r] -= stiffness(r, c) * given[c];
     double x[6];
@@ -78,7 +76,7 @@ class Inverse {
     twist.tail<3>() += x[2] * turn;
     if (!twist.allFinite()) return false;
     system_.move(twist, std::span<const double>(x + 3, 3));
-    for (int k = 0; k < system_.rods(); ++k)
+    for (int k = 0; k < system_.limbs(); ++k)
       if (!(system_.length(k) > 0)) return false;
     const auto held = with(system_.platform(), wanted);
     if (!held) return false;
@@ -87,16 +85,15 @@ class Inverse {
   }
 
  private:
-  System& system_;
+  RodGroup& system_;
   int& iterations_;
 };
 
 }  // namespace
 
-template <class System>
-Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const RodCoordinates& wanted,
+Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinates& wanted,
                      const RodQuestion& question) {
-  System& system = work.system;
+  RodGroup& system = *work.system;
   work.knows_feeding = false;
   Report report;
   if (system.inputs() != 3) {
@@ -118,7 +115,7 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
   const RodCoordinates begin = coordinates_of(system.platform());
   RodPathEnd end;
   end.residual = 0;
-  Inverse<System> inverse(system, end.iterations);
+  Inverse inverse(system, end.iterations);
   follow_parameter(end, {{0.5, 1e-7, work.stop}, 0, question.max_iterations}, [&](double next, double taken) {
     system.save(work.spare);
     const RodCoordinates now{begin.z + next * (wanted.z - begin.z), begin.e1 + next * (wanted.e1 - begin.e1),
@@ -126,8 +123,7 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
     system.set_wrench(from.wrench + next * (question.wrench - from.wrench));
     for (int k = 0; k < system.feeds(); ++k) {
       const int first = first_of_input(system, k);
-      system.set_length(k,
-                        system.length(first) + (1 - next) * (from.lengths[at(k)] - from.lengths[at(first)]));
+      system.hold(k, system.held(first) + (1 - next) * (from.lengths[at(k)] - from.lengths[at(first)]));
     }
     const auto ahead = with(system.platform(), now);
     bool is_reached = false;
@@ -146,22 +142,16 @@ Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const Rod
   system.evaluate();
   system.linearise();
   work.is_solved = end.arrived;
-  while (work.is_solved && system.truncation() > System::best_truncation && !system.is_finest()) {
+  while (work.is_solved && system.truncation() > system.traits().best_truncation && !system.is_finest()) {
     system.refine();
     work.is_solved = inverse.correct(wanted, end.residual);
   }
   if (!work.is_solved) return explain(system, end, {}, false);
   report.iterations = end.iterations;
   report.residual = end.residual;
-  report = settle(system, report, System::best_truncation);
+  report = settle(system, report, system.traits().best_truncation);
   work.is_solved = report.ok() || report.status == Status::unstable;
   return report;
 }
-
-#define SINEW_FOR(System)                                                                      \
-  template Report solve_rods_at(RodWorkOf<System>&, const SE3<double>&, const RodCoordinates&, \
-                                const RodQuestion&);
-SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
-#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -11,8 +11,7 @@ struct RodCoordinates {
 };
 
 /// Brings the system to rest at these coordinates; lengths and the other coordinates follow.
-template <class System>
-Report solve_rods_at(RodWorkOf<System>& work, const SE3<double>& home, const RodCoordinates& wanted,
+Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinates& wanted,
                      const RodQuestion& question);
 
 }  // namespace sinew::inline v0

@@ -13,18 +13,17 @@ namespace {
 constexpr int count = 6;
 
 /// The platform's pose by the axial forces, at fixed lengths.
-template <class System>
 class Sensor {
  public:
-  explicit Sensor(System& system) : system_(system) {}
+  explicit Sensor(RodGroup& system) : system_(system) {}
 
   /// Largest of the rods' own errors and of what is missing in force, over EI/L².
   double error(const std::array<double, 6>& wanted) {
     system_.evaluate();
-    double worst = system_.rod_error();
+    double worst = system_.limb_error();
     for (int k = 0; k < count; ++k) {
       const double length = system_.length(k), unit = system_.stiffness(k) / (length * length);
-      const double missing = std::abs(system_.axial_force(k) - wanted[at(k)]) / unit;
+      const double missing = std::abs(system_.effort(k) - wanted[at(k)]) / unit;
       worst = std::max(worst, missing) + missing * 0;
     }
     return worst;
@@ -35,7 +34,7 @@ class Sensor {
     system_.linearise();  // the platform's own stiffness is not asked for
     std::array<double, 36> rows;
     for (int k = 0; k < count; ++k) {
-      const Vec<double, 6> row = system_.axial_row(k);
+      const Vec<double, 6> row = system_.effort_jacobian(k);
       for (int c = 0; c < 6; ++c) rows[at(6 * k + c)] = row[c] / (c < 3 ? 1 : system_.radius());
     }
     return rows;
@@ -45,7 +44,7 @@ class Sensor {
   bool step(const std::array<double, 6>& wanted) {
     const std::array<double, 36> matrix = rows();
     std::array<double, 6> missing, moved;
-    for (int k = 0; k < count; ++k) missing[at(k)] = wanted[at(k)] - system_.closing_axial_force(k);
+    for (int k = 0; k < count; ++k) missing[at(k)] = wanted[at(k)] - system_.closing_effort(k);
     if (!solve(MatrixView(matrix.data(), 6, 6), MatrixView(missing.data(), 6, 1), moved)) return false;
     Vec<double, 6> twist;
     for (int c = 0; c < 6; ++c) twist[c] = moved[at(c)] / (c < 3 ? 1 : system_.radius());
@@ -57,13 +56,12 @@ class Sensor {
   }
 
  private:
-  System& system_;
+  RodGroup& system_;
 };
 
 /// ∂wrench/∂axial = ∂wrench/∂twist (∂axial/∂twist)⁻¹. False where the forces do not fix the pose.
-template <class System>
-bool differentiate(System& system, RodSensing& sensing) {
-  Sensor<System> sensor(system);
+bool differentiate(RodGroup& system, RodSensing& sensing) {
+  Sensor sensor(system);
   const std::array<double, 36> rows = sensor.rows();
   std::array<double, 36> inverse, identity{};
   for (std::size_t k = 0; k < 6; ++k) identity[7 * k] = 1;
@@ -80,15 +78,14 @@ bool differentiate(System& system, RodSensing& sensing) {
 
 }  // namespace
 
-template <class System>
-Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
-  System& system = work.system;
+Report sense_rods(RodWork& work, RodSensing& sensing) {
+  RodGroup& system = *work.system;
   work.knows_feeding = false;
   Report report;
-  Sensor<System> sensor(system);
+  Sensor sensor(system);
   std::array<double, 6> from, wanted;
   sensor.error(sensing.axial);
-  for (int k = 0; k < count; ++k) from[at(k)] = system.axial_force(k);
+  for (int k = 0; k < count; ++k) from[at(k)] = system.effort(k);
   ParameterPath end;
   follow_parameter(end, {{1, 1e-4, work.stop}, 0, sensing.max_iterations}, [&](double next, double taken) {
     for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k] = std::lerp(from[k], sensing.axial[k], next);
@@ -110,7 +107,7 @@ Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
                                 "(pull > 0) and lengths");
     return report;
   }
-  while (!system.is_finest() && system.truncation() > System::best_truncation) {
+  while (!system.is_finest() && system.truncation() > system.traits().best_truncation) {
     system.refine();
     if (contract([&] { return sensor.error(sensing.axial); }, [&] { return sensor.step(sensing.axial); },
                  rod_tolerance, rod_rounding, report.iterations, report.residual))
@@ -125,14 +122,10 @@ Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing) {
         "here the rods' axial forces do not tell the wrench: some motion changes none of them");
     return report;
   }
-  system.set_wrench(system.wrench() - system.missing());
+  system.set_wrench(system.wrench() - system.wrench_residual());
   system.evaluate();
   system.linearise();
   return report;
 }
-
-#define SINEW_FOR(System) template Report sense_rods(RodWorkOf<System>&, RodSensing&);
-SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
-#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

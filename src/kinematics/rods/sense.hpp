@@ -14,7 +14,6 @@ struct RodSensing {
 
 /// From a solved state near by: moves the platform, at fixed lengths, to where the rods pull as `sensing`
 /// says. The wrench that is left over is what acts there. Fills `rows`.
-template <class System>
-Report sense_rods(RodWorkOf<System>& work, RodSensing& sensing);
+Report sense_rods(RodWork& work, RodSensing& sensing);
 
 }  // namespace sinew::inline v0

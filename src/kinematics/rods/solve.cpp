@@ -12,8 +12,7 @@
 namespace sinew::inline v0 {
 namespace {
 
-template <class System>
-Report check_inputs(const System& system, Numbers inputs) {
+Report check_inputs(const RodGroup& system, Numbers inputs) {
   Report report = failed(Status::left_domain);
   if (inputs.size() != at(system.inputs())) {
     report.message.append("the robot has ");
@@ -28,18 +27,17 @@ Report check_inputs(const System& system, Numbers inputs) {
     if (system.in_domain(k, inputs[at(input)])) continue;
     report.message.append("inputs[");
     append_number(report.message, input);
-    report.message.append(k < system.rods() ? "] is not a length a rod can have; it must be positive"
-                                            : "] is beyond what its leg can do");
+    report.message.append(k < system.limbs() ? "] is not a length a rod can have; it must be positive"
+                                             : "] is beyond what its leg can do");
     return report;
   }
   return {};
 }
 
 /// Two guides farther apart than their rods and the platform between them reach: no pose exists.
-template <class System>
-Report check_reach(const System& system, Numbers inputs) {
+Report check_reach(const RodGroup& system, Numbers inputs) {
   Report report;
-  for (int j = 1; j < system.rods(); ++j)
+  for (int j = 1; j < system.limbs(); ++j)
     for (int k = 0; k < j; ++k) {
       const double apart = (system.base(j) - system.base(k)).norm();
       const double between = (system.platform_point(j) - system.platform_point(k)).norm();
@@ -59,22 +57,9 @@ Report check_reach(const System& system, Numbers inputs) {
   return report;
 }
 
-/// Newton's method from the state before. False, with the state lost, where it does not contract.
-template <class System>
-bool solve_warm(System& system, Report& report) {
-  const auto step = [&](bool fresh) {
-    system.move(system.step(fresh));
-    return true;
-  };
-  return contract_with_kept_factors([&] { return system.evaluate(false); },
-                                    [&] { return system.linearise(); }, step, rod_tolerance,
-                                    system.evaluate(false), report.iterations, report.residual);
-}
-
 /// Back to the coarse nodes where they resolve the shapes. `before` holds the state.
-template <class System>
-void lighten(RodWorkOf<System>& work, double truncation) {
-  System& system = work.system;
+void lighten(RodWork& work, double truncation) {
+  RodGroup& system = *work.system;
   system.coarsen();
   system.evaluate();
   if (system.truncation() > truncation) {
@@ -84,8 +69,7 @@ void lighten(RodWorkOf<System>& work, double truncation) {
   system.linearise();
 }
 
-template <class System>
-Report begin(RodWorkOf<System>& work, const SE3<double>& home, Numbers inputs, const RodQuestion& question) {
+Report begin(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& question) {
   if (question.resume && work.is_solved) return {};
   if (!question.start) return go_home(work, home);
   if (lay_rods(work, *question.start, inputs) || work.is_solved) return {};
@@ -98,9 +82,8 @@ Report begin(RodWorkOf<System>& work, const SE3<double>& home, Numbers inputs, c
 
 /// To the target, by its parameter, and where that ends by arc length: only what the curve itself does is a
 /// fold.
-template <class System>
-Report go(RodWorkOf<System>& work, const RodTarget& target, const RodPathOptions& options, bool is_load) {
-  System& system = work.system;
+Report go(RodWork& work, const RodTarget& target, const RodPathOptions& options, bool is_load) {
+  RodGroup& system = *work.system;
   const RodTarget begin = present(system);
   RodPathEnd end = follow(system, target, options, work.spare);
   RodFold fold;
@@ -117,13 +100,12 @@ Report go(RodWorkOf<System>& work, const RodTarget& target, const RodPathOptions
 }
 
 /// First the lengths, then the load; where the unloaded lengths fail, both together.
-template <class System>
-Report travel(RodWorkOf<System>& work, Numbers inputs, const RodQuestion& question) {
-  System& system = work.system;
+Report travel(RodWork& work, Numbers inputs, const RodQuestion& question) {
+  RodGroup& system = *work.system;
   system.save(work.before);
   const RodPathOptions options{
       .max_iterations = question.max_iterations, .stop = work.stop, .may_stray = question.may_stray};
-  const bool is_loaded = question.wrench != System::Wrench::Zero();
+  const bool is_loaded = question.wrench != RodGroup::Wrench::Zero();
   // from a pose that was asked for, and on a way that is resumed, lengths and load go together
   const bool at_once = question.start || question.resume || !is_loaded;
   RodTarget target = target_of(system, inputs, question.wrench);
@@ -144,9 +126,8 @@ Report travel(RodWorkOf<System>& work, Numbers inputs, const RodQuestion& questi
 
 /// Newton's method from a start at once: whoever gives a pose wants what is near it. False, with the state as
 /// it was, where it does not contract or leads away.
-template <class System>
-bool jump(RodWorkOf<System>& work, Numbers inputs, const RodQuestion& question, Report& report) {
-  System& system = work.system;
+bool jump(RodWork& work, Numbers inputs, const RodQuestion& question, Report& report) {
+  RodGroup& system = *work.system;
   system.save(work.before);
   const SE3<double> start = system.platform();
   system.set_inputs(inputs);
@@ -172,28 +153,26 @@ bool jump(RodWorkOf<System>& work, Numbers inputs, const RodQuestion& question, 
 
 }  // namespace
 
-template <class System>
-Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inputs,
-                  const RodQuestion& asked) {
+Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& asked) {
   work.knows_feeding = false;
   RodQuestion question = asked;
   question.resume = asked.resume && work.is_solved;  // else it begins like any other
-  if (const Report checked = check_inputs(work.system, inputs); !checked.ok()) return checked;
+  if (const Report checked = check_inputs(*work.system, inputs); !checked.ok()) return checked;
   if (!question.wrench.allFinite()) {
     Report report = failed(Status::left_domain);
     report.message.append("the wrench is not a number");
     return report;
   }
-  System& system = work.system;
+  RodGroup& system = *work.system;
   if (Report stopped; note_stop(work.stop, stopped)) return stopped;
   if (question.resume) {
     system.save(work.before);
-    const double truncation = question.judge ? coarse_truncation : System::quick_truncation;
+    const double truncation = question.judge ? coarse_truncation : system.traits().quick_truncation;
     if (system.can_coarsen(truncation)) lighten(work, truncation);
     system.set_inputs(inputs);
     system.set_wrench(question.wrench);
     Report report;
-    if (solve_warm(system, report)) {
+    if (system.solve_warm(report)) {
       if (question.judge)
         report = settle(system, report, truncation);
       else
@@ -214,14 +193,9 @@ Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inpu
   if (!question.start || !jump(work, inputs, question, report)) report = travel(work, inputs, question);
   work.is_solved = report.ok();
   if (!work.is_solved) return report;
-  const Report settled = settle(system, report, System::best_truncation);
+  const Report settled = settle(system, report, system.traits().best_truncation);
   work.is_solved = settled.ok() || settled.status == Status::unstable;
   return settled;
 }
-
-#define SINEW_FOR(System) \
-  template Report solve_rods(RodWorkOf<System>&, const SE3<double>&, Numbers, const RodQuestion&);
-SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
-#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

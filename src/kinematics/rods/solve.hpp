@@ -20,8 +20,6 @@ struct RodQuestion {
 };
 
 /// Brings the system to rest at these inputs.
-template <class System>
-Report solve_rods(RodWorkOf<System>& work, const SE3<double>& home, Numbers inputs,
-                  const RodQuestion& question);
+Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& question);
 
 }  // namespace sinew::inline v0

@@ -8,16 +8,13 @@
 namespace sinew::inline v0 {
 
 /// Lengths of all rods from the inputs.
-template <class System>
-RodTarget target_of(const System& system, Numbers inputs, const Vec<double, 6>& wrench);
+RodTarget target_of(const RodGroup& system, Numbers inputs, const Vec<double, 6>& wrench);
 
 /// To the home state, in equilibrium under some wrench.
-template <class System>
-Report go_home(RodWorkOf<System>& work, const SE3<double>& home);
+Report go_home(RodWork& work, const SE3<double>& home);
 
 /// Lays the rods to a pose at these lengths and finds the wrench that holds them so; false where a rod cannot
 /// be laid, the state is then at rest with lengths of its own. See rest_at for what it needs.
-template <class System>
-bool lay_rods(RodWorkOf<System>& work, const SE3<double>& pose, Numbers inputs);
+bool lay_rods(RodWork& work, const SE3<double>& pose, Numbers inputs);
 
 }  // namespace sinew::inline v0

@@ -9,9 +9,8 @@ namespace sinew::inline v0 {
 namespace {
 
 /// In the first two places of the memory.
-template <class System>
-Tracer<RodProblem<System>> tracer_of(RodWorkOf<System>& work, const RodWay& way, double parameter) {
-  return {RodProblem<System>(work.system, way), parameter, work.places[0], work.places[1]};
+Tracer<RodProblem> tracer_of(RodWork& work, const RodWay& way, double parameter) {
+  return {RodProblem(*work.system, way), parameter, work.places[0], work.places[1]};
 }
 
 }  // namespace
@@ -30,20 +29,18 @@ SE3<double> RodWay::pose(double parameter) const {
   return {from.p + parameter * way.head<3>(), SO3<double>::exp(parameter * way.tail<3>()).compose(from.R)};
 }
 
-template <class System>
-std::vector<EquilibriumCurve> trace_rods(RodWorkOf<System>& work, const RodWay& way,
-                                         const CurveOptions& how) {
+std::vector<EquilibriumCurve> trace_rods(RodWork& work, const RodWay& way, const CurveOptions& how) {
   auto tracer = tracer_of(work, way, 0);
   const CurveRange range{how.lowest, how.highest, how.max_points, how.is_backward, how.follows_branches};
-  return CurveWriter<RodProblem<System>>(tracer, range, work.stop).run();
+  return CurveWriter<RodProblem>(tracer, range, work.stop).run();
 }
 
 namespace {
 
 /// Steps along the curve until `is_done(stride)` after one of them; false where none succeeds. Over a long
 /// step signs may not change: it may have led to a curve that passes near by.
-template <class System, class IsDone>
-bool walk_on(RodWorkOf<System>& work, Tracer<RodProblem<System>>& tracer, int most, IsDone&& is_done) {
+template <class IsDone>
+bool walk_on(RodWork& work, Tracer<RodProblem>& tracer, int most, IsDone&& is_done) {
   const double size = tracer.size();
   bool is_odd = tracer.signs().is_odd;
   int taken = 0;
@@ -62,8 +59,7 @@ bool walk_on(RodWorkOf<System>& work, Tracer<RodProblem<System>>& tracer, int mo
 
 }  // namespace
 
-template <class System>
-RodFold find_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) {
+RodFold find_fold(RodWork& work, const RodWay& way, double parameter) {
   auto tracer = tracer_of(work, way, parameter);
   auto &start = work.places[2], &begun = work.places[3];
   tracer.save(start);
@@ -82,17 +78,16 @@ RodFold find_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) 
     }
     fold.is_found = turns;
     fold.parameter = tracer.lambda();
-    fold.platform = work.system.platform();
+    fold.platform = work.system->platform();
     return true;
   };
-  walk_on(work, tracer, System::is_slow ? 40 : 200, is_beyond);
+  walk_on(work, tracer, work.system->traits().is_slow ? 40 : 200, is_beyond);
   fold.residual = tracer.residual();
   if (!fold.arrived) tracer.restore(start);
   return fold;
 }
 
-template <class System>
-bool pass_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) {
+bool pass_fold(RodWork& work, const RodWay& way, double parameter) {
   constexpr double longest_rod = 3;
   auto tracer = tracer_of(work, way, parameter);
   auto& start = work.places[2];
@@ -108,36 +103,28 @@ bool pass_fold(RodWorkOf<System>& work, const RodWay& way, double parameter) {
   return arrives;
 }
 
-template <class System>
-RodLoad load_rods(RodWorkOf<System>& work, const Vec<double, 6>& direction, double limit) {
-  System& system = work.system;
+RodLoad load_rods(RodWork& work, const Vec<double, 6>& direction, double limit) {
+  RodGroup& system = *work.system;
   double unit = 0;  // what bends the rods, roughly
-  for (int k = 0; k < system.rods(); ++k) unit += system.stiffness(k) / (system.length(k) * system.length(k));
+  for (int k = 0; k < system.limbs(); ++k)
+    unit += system.stiffness(k) / (system.length(k) * system.length(k));
   const double largest = direction.cwiseAbs().maxCoeff(), factor = unit / largest;
   const Vec<double, 6> whole = direction / largest * unit;
   RodWay way{present(system), present(system), false, {}, {}};
   way.target.wrench += whole;
   auto tracer = tracer_of(work, way, 0);
-  constexpr int most = System::is_slow ? 400 : 4000;
+  const int most = system.traits().is_slow ? 400 : 4000;
   int steps = 0;
-  const Growth grown = GrowingLoad<RodProblem<System>>(tracer, work.places[2], work.places[3])
+  const Growth grown = GrowingLoad<RodProblem>(tracer, work.places[2], work.places[3])
                            .run(limit * largest / unit, work.stop, [&] { return steps++ < most; });
   constexpr LoadEnd ends[] = {LoadEnd::limit, LoadEnd::fold,    LoadEnd::bifurcation, LoadEnd::stability,
                               LoadEnd::limit, LoadEnd::stalled, LoadEnd::iterations,  LoadEnd::stopped};
   RodLoad load;
-  load.end = grown.end == GrowthEnd::lost ? tracer.problem().template why_stuck<LoadEnd>()
+  load.end = grown.end == GrowthEnd::lost ? tracer.problem().why_stuck<LoadEnd>()
                                           : ends[static_cast<int>(grown.end)];
   load.parameter = load.end == LoadEnd::limit ? limit : grown.parameter * factor;
   if (grown.definite_until >= 0) load.definite_until = grown.definite_until * factor;
   return load;
 }
-
-#define SINEW_FOR(System)                                                                                    \
-  template std::vector<EquilibriumCurve> trace_rods(RodWorkOf<System>&, const RodWay&, const CurveOptions&); \
-  template RodFold find_fold(RodWorkOf<System>&, const RodWay&, double);                                     \
-  template bool pass_fold(RodWorkOf<System>&, const RodWay&, double);                                        \
-  template RodLoad load_rods(RodWorkOf<System>&, const Vec<double, 6>&, double);
-SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
-#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -21,8 +21,7 @@ struct RodWay {
 
 /// From the system's state, in equilibrium and linearised at λ = 0. Afterwards the system is at the last
 /// point.
-template <class System>
-std::vector<EquilibriumCurve> trace_rods(RodWorkOf<System>& work, const RodWay& way, const CurveOptions& how);
+std::vector<EquilibriumCurve> trace_rods(RodWork& work, const RodWay& way, const CurveOptions& how);
 
 /// Where the parameter turns back.
 struct RodFold {
@@ -34,13 +33,11 @@ struct RodFold {
 
 /// From a state at `parameter` on by arc length, to where λ turns back or is 1. The system stays where it was
 /// unless it arrived.
-template <class System>
-RodFold find_fold(RodWorkOf<System>& work, const RodWay& way, double parameter);
+RodFold find_fold(RodWork& work, const RodWay& way, double parameter);
 
 /// From there on, through the fold, to λ = 1 on another branch, if the curve leads there before long. If not,
 /// the system stays where it was.
-template <class System>
-bool pass_fold(RodWorkOf<System>& work, const RodWay& way, double parameter);
+bool pass_fold(RodWork& work, const RodWay& way, double parameter);
 
 /// How far a load grew.
 struct RodLoad {
@@ -53,7 +50,6 @@ struct RodLoad {
 /// Adds a growing multiple of `direction` to the wrench of the state the system is in, to `limit`, or to
 /// where the equilibrium gives way; by arc length, so that the load is exact to rounding there. The system is
 /// then at the last equilibrium before.
-template <class System>
-RodLoad load_rods(RodWorkOf<System>& work, const Vec<double, 6>& direction, double limit);
+RodLoad load_rods(RodWork& work, const Vec<double, 6>& direction, double limit);
 
 }  // namespace sinew::inline v0

@@ -13,10 +13,9 @@ struct Straightest {
   int rod = 0;
   double slack = 1, tension = 0;  ///< 1 − chord/length; axial force in EI/L²
 };
-template <class System>
-Straightest straightest(const System& system) {
+Straightest straightest(const RodGroup& system) {
   Straightest found;
-  for (int k = 0; k < system.rods(); ++k) {
+  for (int k = 0; k < system.limbs(); ++k) {
     const RodReading rod = system.rod(k);
     const double slack = 1 - rod.chord / rod.length;
     if (slack >= found.slack) continue;
@@ -30,10 +29,7 @@ constexpr double most_tension = 60;
 
 }  // namespace
 
-template <class System>
-bool is_pulled_straight(const System& system) {
-  return straightest(system).tension > most_tension;
-}
+bool is_pulled_straight(const RodGroup& system) { return straightest(system).tension > most_tension; }
 
 Report failed(Status status) {
   Report report;
@@ -46,8 +42,7 @@ void say(Report& report, std::string_view text) {
   report.message.append(text);
 }
 
-template <class System>
-Report explain(const System& system, const RodPathEnd& end, const RodFold& fold, bool is_load) {
+Report explain(const RodGroup& system, const RodPathEnd& end, const RodFold& fold, bool is_load) {
   Report report = failed(Status::singular);
   report.iterations = end.iterations;
   report.residual = end.residual;
@@ -100,8 +95,7 @@ Report explain(const System& system, const RodPathEnd& end, const RodFold& fold,
   return report;
 }
 
-template <class System>
-bool resolve(System& system, Report& report, double truncation) {
+bool resolve(RodGroup& system, Report& report, double truncation) {
   while (!system.is_finest() && system.truncation() > truncation) {
     system.refine();
     if (!correct(system, report.iterations, report.residual)) {
@@ -118,8 +112,7 @@ bool resolve(System& system, Report& report, double truncation) {
   return true;
 }
 
-template <class System>
-Report settle(System& system, Report report, double truncation) {
+Report settle(RodGroup& system, Report report, double truncation) {
   if (!resolve(system, report, truncation)) return report;
   system.linearise();
   const int unstable = unstable_directions(system);
@@ -131,13 +124,5 @@ Report settle(System& system, Report report, double truncation) {
                                       : " directions in which the robot does not hold by itself");
   return report;
 }
-
-#define SINEW_FOR(System)                                                          \
-  template Report explain(const System&, const RodPathEnd&, const RodFold&, bool); \
-  template bool resolve(System&, Report&, double);                                 \
-  template Report settle(System&, Report, double);                                 \
-  template bool is_pulled_straight(const System&);
-SINEW_FOR_EACH_ROD_SYSTEM(SINEW_FOR)
-#undef SINEW_FOR
 
 }  // namespace sinew::inline v0

@@ -15,20 +15,16 @@ Report failed(Status status);
 void say(Report& report, std::string_view text);
 
 /// Whether a rod is about to be pulled straight.
-template <class System>
-bool is_pulled_straight(const System& system);
+bool is_pulled_straight(const RodGroup& system);
 
 /// Why a path ended early; the system is at its last equilibrium. Says "fold" only of one that was found.
-template <class System>
-Report explain(const System& system, const RodPathEnd& end, const RodFold& fold, bool is_load);
+Report explain(const RodGroup& system, const RodPathEnd& end, const RodFold& fold, bool is_load);
 
 /// The shapes of a solved state to this estimate of their error, by the fine nodes where it takes them. False
 /// where those do not do it.
-template <class System>
-bool resolve(System& system, Report& report, double truncation);
+bool resolve(RodGroup& system, Report& report, double truncation);
 
 /// What holds of a solved state: shapes resolved, platform's stiffness known there, stability.
-template <class System>
-Report settle(System& system, Report report, double truncation);
+Report settle(RodGroup& system, Report report, double truncation);
 
 }  // namespace sinew::inline v0
