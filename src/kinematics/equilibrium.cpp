@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "base/at.hpp"
+#include "kinematics/load_problem.hpp"
 #include "kinematics/rods/batch.hpp"
 #include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/inverse.hpp"
 #include "kinematics/rods/question.hpp"
 #include "kinematics/rods/trace.hpp"
+#include "kinematics/rods/verdict.hpp"
 #include "kinematics/spread.hpp"
 #include "robot/arguments.hpp"
 
@@ -223,10 +225,14 @@ LoadPath follow_load(const Robot& robot, const SpatialWrench& direction, double 
   RodGroup& system = *rods.system;
   system.evaluate();
   system.linearise();
-  const RodLoad load = load_rods(rods, direction, limit);
-  path.load = load.parameter;
-  path.end = load.end;
-  path.definite_until = load.definite_until;
+  const int most = system.traits().is_slow ? 400 : 4000;
+  const GrownLoad grown = grow_load<Spatial>(system, rods.places, direction, limit, rods.stop,
+                                             [&](int steps, int) { return steps < most; });
+  constexpr LoadEnd ends[] = {LoadEnd::limit, LoadEnd::fold,    LoadEnd::bifurcation, LoadEnd::stability,
+                              LoadEnd::limit, LoadEnd::stalled, LoadEnd::iterations,  LoadEnd::stopped};
+  path.end = grown.end == GrowthEnd::lost ? why_stuck<LoadEnd>(system) : ends[static_cast<int>(grown.end)];
+  path.load = grown.load;
+  path.definite_until = grown.definite_until;
   path.pose = spatial_pose(system.platform());
   path.residual = system.evaluate();
   system.linearise();

@@ -17,10 +17,15 @@
 
 namespace sinew::inline v0 {
 
+/// Estimated error of a shape at its tip, over the length, from which a path and a resumed answer refine it.
+inline constexpr double coarse_truncation = 1e-12;
+
 /// What differs from one kind of limbs to another in how it is best solved.
 struct LimbTraits {
   /// Whether a step costs some hundred times as much as one of the others: fewer are tried then.
   bool is_slow = false;
+  /// On LimbGroup::evaluate: what counts as solved, and below which a step along a curve can only lose.
+  double tolerance = 1e-12, rounding = 1e-12;
   /// Estimated error of the shapes from which an answer that is not resumed refines them ...
   double best_truncation = 0;
   /// ... and one that is to be quick.
@@ -140,5 +145,27 @@ class LimbGroup {
   virtual Twist effort_jacobian(int feed) const = 0;
   /// @}
 };
+
+/// One state on a curve of equilibria, to come back to.
+template <class Space>
+struct LimbPlace {
+  struct State {
+    LimbState limbs;
+    typename LimbGroup<Space>::Frame platform;
+  };
+  State state;
+  double lambda = 0;                                                          ///< parameter of the curve
+  Vec<double, Space::dof + 1> tangent = Vec<double, Space::dof + 1>::Zero();  ///< unit, see Tracer
+};
+
+/// Memory of whoever follows a curve by its arc length.
+template <class Space>
+using LimbPlaces = std::array<LimbPlace<Space>, 4>;
+/// ... so large that states of this group do not allocate.
+template <class Space>
+LimbPlaces<Space> places_of(const LimbGroup<Space>& group) {
+  const LimbPlace<Space> place{{group.state(), group.platform()}};
+  return {place, place, place, place};
+}
 
 }  // namespace sinew::inline v0

@@ -20,9 +20,6 @@ inline constexpr std::string_view no_rest_of_tangents =
 
 /// On `evaluate`: what counts as solved, and below which Newton's method can only lose to rounding.
 inline constexpr double rod_tolerance = 1e-12, rod_rounding = 2e-13;
-/// Estimated error of a shape at its tip, over the length, from which a path and a resumed answer take the
-/// fine nodes.
-inline constexpr double coarse_truncation = 1e-12;
 
 /// A feed is a rod, whose length is held, or an input of a leg that closes beside them.
 class RodGroup : public LimbGroup<Spatial> {

@@ -39,7 +39,7 @@ void ChainGroup<Space>::measure() {
 
 template <class Space>
 const LimbTraits& ChainGroup<Space>::traits() const {
-  static constexpr LimbTraits traits{};
+  static constexpr LimbTraits traits{.tolerance = 1e-11, .rounding = 1e-14};
   return traits;
 }
 

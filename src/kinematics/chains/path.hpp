@@ -13,6 +13,7 @@ template <class Space>
 struct ChainMemory {
   ChainGroup<Space> group;
   LimbState spare;
+  LimbPlaces<Space> places;
 };
 
 /// The group of a work, at this state. Allocates the first time.
@@ -37,9 +38,6 @@ ChainGroup<Space>& linearised(ChainWork& work, const ChainRobot<Space>& robot,
   return group;
 }
 
-/// What counts as solved, on ChainGroup::evaluate and on the size of a step, and below which a step can only
-/// lose to rounding.
-inline constexpr double chain_tolerance = 1e-11, chain_rounding = 1e-14;
 /// Who turned a joint by more since the last equilibrium [rad] would be on another branch.
 inline constexpr double chain_reach = 0.5;
 
@@ -69,8 +67,9 @@ bool correct(ChainGroup<Space>& group, int& iterations, const Steps& steps) {
     group.move_as_planned();
     return group.turned() < chain_reach;
   };
-  return contract(evaluate, step, chain_tolerance, chain_rounding, iterations, size) &&
-         left < chain_tolerance;
+  const LimbTraits& traits = group.traits();
+  return contract(evaluate, step, traits.tolerance, traits.rounding, iterations, size) &&
+         left < traits.tolerance;
 }
 
 /// From an equilibrium on, as long as Newton's method follows; `put` sets what is held, or measured, at a

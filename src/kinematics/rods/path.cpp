@@ -38,22 +38,6 @@ RodTarget present(const RodGroup& system) {
   return target;
 }
 
-int unstable_directions(const RodGroup& system) { return signs_of(system).unstable; }
-
-RodSigns signs_of(const RodGroup& system) {
-  RodSigns signs;
-  for (int k = 0; k < system.limbs(); ++k) {
-    const auto [in_plane, aside] = system.unstable_with_tip_held(k);
-    signs.own += in_plane + aside;
-  }
-  signs.is_odd = system.factors().has_negative_determinant() != (signs.own % 2 == 1);
-  signs.unstable = signs.own;
-  std::array<double, 6> values;
-  symmetric_eigenvalues(system.stiffness(), values);
-  for (const double value : values) signs.unstable += value < 0;
-  return signs;
-}
-
 namespace {
 
 /// One path being followed.
@@ -87,7 +71,7 @@ class Follower {
       return {ParameterStep::failed, taken * (fits > 1e-6 ? std::min(fits, 0.25) : 1e-6)};  // NaN too
     }
     const double verifiable = crossing * system_.length(0) / predicted_ * taken;
-    const RodSigns now = options_.may_stray ? signs_ : signs_of(system_);
+    const LimbSigns now = options_.may_stray ? signs_ : signs_of(system_);
     const bool changes = now != signs_;
     if (changes && predicted_ > crossing * system_.length(0)) {
       retreat();
@@ -138,7 +122,7 @@ class Follower {
   const RodPathOptions& options_;
   LimbState& spare_;
   RodPathEnd end_;
-  RodSigns signs_;
+  LimbSigns signs_;
   bool quick_ = false;
   double predicted_ = 0;  ///< length of the last predictor [m]
 };

@@ -4,6 +4,7 @@
 #pragma once
 #include <limits>
 
+#include "robot/limb_signs.hpp"
 #include "robot/rod_group.hpp"
 #include "sinew/solve/report.hpp"
 #include "solve/continuation.hpp"
@@ -47,20 +48,5 @@ RodPathEnd follow(RodGroup& system, const RodTarget& target, const RodPathOption
 
 /// What the system is now, as a target.
 RodTarget present(const RodGroup& system);
-
-/// What does not change on a smooth piece of a curve of equilibria, at fixed inputs and load.
-struct RodSigns {
-  int unstable = 0;     ///< directions of the whole robot
-  int own = 0;          ///< ... of its rods, tips held; as `unstable` has them
-  bool is_odd = false;  ///< the sign of the determinant of the whole, rods and platform
-  bool operator==(const RodSigns& other) const {
-    return unstable == other.unstable && is_odd == other.is_odd;
-  }
-};
-RodSigns signs_of(const RodGroup& system);
-
-/// Unstable directions of the whole robot: the second variation with every rod free to move. After
-/// `linearise`.
-int unstable_directions(const RodGroup& system);
 
 }  // namespace sinew::inline v0

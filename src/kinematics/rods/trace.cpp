@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "kinematics/rods/curve_problem.hpp"
-#include "solve/growing_load.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -101,30 +100,6 @@ bool pass_fold(RodWork& work, const RodWay& way, double parameter) {
   });
   if (!arrives) tracer.restore(start);
   return arrives;
-}
-
-RodLoad load_rods(RodWork& work, const Vec<double, 6>& direction, double limit) {
-  RodGroup& system = *work.system;
-  double unit = 0;  // what bends the rods, roughly
-  for (int k = 0; k < system.limbs(); ++k)
-    unit += system.stiffness(k) / (system.length(k) * system.length(k));
-  const double largest = direction.cwiseAbs().maxCoeff(), factor = unit / largest;
-  const Vec<double, 6> whole = direction / largest * unit;
-  RodWay way{present(system), present(system), false, {}, {}};
-  way.target.wrench += whole;
-  auto tracer = tracer_of(work, way, 0);
-  const int most = system.traits().is_slow ? 400 : 4000;
-  int steps = 0;
-  const Growth grown = GrowingLoad<RodProblem>(tracer, work.places[2], work.places[3])
-                           .run(limit * largest / unit, work.stop, [&] { return steps++ < most; });
-  constexpr LoadEnd ends[] = {LoadEnd::limit, LoadEnd::fold,    LoadEnd::bifurcation, LoadEnd::stability,
-                              LoadEnd::limit, LoadEnd::stalled, LoadEnd::iterations,  LoadEnd::stopped};
-  RodLoad load;
-  load.end = grown.end == GrowthEnd::lost ? tracer.problem().why_stuck<LoadEnd>()
-                                          : ends[static_cast<int>(grown.end)];
-  load.parameter = load.end == LoadEnd::limit ? limit : grown.parameter * factor;
-  if (grown.definite_until >= 0) load.definite_until = grown.definite_until * factor;
-  return load;
 }
 
 }  // namespace sinew::inline v0

@@ -39,17 +39,4 @@ RodFold find_fold(RodWork& work, const RodWay& way, double parameter);
 /// the system stays where it was.
 bool pass_fold(RodWork& work, const RodWay& way, double parameter);
 
-/// How far a load grew.
-struct RodLoad {
-  double parameter = 0;  ///< times the direction
-  LoadEnd end = LoadEnd::limit;
-  double definite_until =
-      -1;  ///< where the stiffness's symmetric part lost definiteness before; else below 0
-};
-
-/// Adds a growing multiple of `direction` to the wrench of the state the system is in, to `limit`, or to
-/// where the equilibrium gives way; by arc length, so that the load is exact to rounding there. The system is
-/// then at the last equilibrium before.
-RodLoad load_rods(RodWork& work, const Vec<double, 6>& direction, double limit);
-
 }  // namespace sinew::inline v0

@@ -17,6 +17,13 @@ void say(Report& report, std::string_view text);
 /// Whether a rod is about to be pulled straight.
 bool is_pulled_straight(const RodGroup& system);
 
+/// Why no step along a curve succeeds. @tparam End CurveEnd or LoadEnd
+template <class End>
+End why_stuck(const RodGroup& system) {
+  if (system.is_finest() && system.truncation() > coarse_truncation) return End::sharp;
+  return is_pulled_straight(system) ? End::straight : End::stalled;
+}
+
 /// Why a path ended early; the system is at its last equilibrium. Says "fold" only of one that was found.
 Report explain(const RodGroup& system, const RodPathEnd& end, const RodFold& fold, bool is_load);
 

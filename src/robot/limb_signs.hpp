@@ -1,0 +1,42 @@
+/// @file limb_signs.hpp
+/// How many directions of a loaded robot are unstable. Theory: docs/theory/limb_group.md
+#pragma once
+#include <algorithm>
+
+#include "robot/limb_group.hpp"
+
+namespace sinew::inline v0 {
+
+/// What does not change on a smooth piece of a curve of equilibria, at fixed inputs and load.
+struct LimbSigns {
+  int unstable = 0;     ///< directions of the whole robot
+  int own = 0;          ///< ... of its limbs, tips held; as `unstable` has them
+  bool is_odd = false;  ///< the sign of the determinant of the whole, limbs and platform
+  bool operator==(const LimbSigns& other) const {
+    return unstable == other.unstable && is_odd == other.is_odd;
+  }
+};
+/// After `linearise`.
+template <class Space>
+LimbSigns signs_of(const LimbGroup<Space>& group) {
+  LimbSigns signs;
+  for (int k = 0; k < group.limbs(); ++k) {
+    const auto [in_plane, aside] = group.unstable_with_tip_held(k);
+    signs.own += in_plane + aside;
+  }
+  signs.is_odd = group.factors().has_negative_determinant() != (signs.own % 2 == 1);
+  std::array<double, static_cast<std::size_t>(Space::dof)> values;
+  symmetric_eigenvalues(group.stiffness(), values);
+  signs.unstable =
+      signs.own + static_cast<int>(std::ranges::count_if(values, [](double x) { return x < 0; }));
+  return signs;
+}
+
+/// Unstable directions of the whole robot: the second variation with every limb free to move. After
+/// `linearise`.
+template <class Space>
+int unstable_directions(const LimbGroup<Space>& group) {
+  return signs_of(group).unstable;
+}
+
+}  // namespace sinew::inline v0
