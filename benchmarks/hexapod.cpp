@@ -12,6 +12,7 @@
 
 #include "instruction_sets.hpp"
 #include "report.hpp"
+#include "robot/mechanism.hpp"
 #include "robot/tangent_system.hpp"
 #include "shooting_hexapod.hpp"
 #include "sinew/io/robot_file.hpp"
