@@ -48,7 +48,7 @@ class RodGroup : public LimbGroup<Spatial> {
   double held(int feed) const override { return length(feed); }
   virtual bool in_domain(int, double length) const { return length > 0 && std::isfinite(length); }
   virtual void set_inputs(Numbers inputs) = 0;
-  /// Of the rods, beside their own load [m/s²]. True where this changes their equilibrium.
+  /// What the rods weigh by, beside their own load [m/s²]. True where that changes their equilibrium.
   virtual bool set_gravity(const Vec3<double>&) { return false; }
   /// Of the rods' weight and own load, after `evaluate` [J]; 0 with the rods in their bases.
   virtual double weight_energy() const { return 0; }

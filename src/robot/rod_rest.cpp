@@ -1,11 +1,13 @@
 /// @file rod_rest.cpp
 /// Rods at rest at a pose, from nothing: where every search for an equilibrium begins.
+#include <algorithm>
+#include <cmath>
+
 #include "base/at.hpp"
 #include "link/galerkin.hpp"
 #include "robot/general_system.hpp"
 #include "robot/rod_system.hpp"
 #include "robot/tangent_system.hpp"
-#include "solve/contraction.hpp"
 
 namespace sinew::inline v0 {
 namespace {
