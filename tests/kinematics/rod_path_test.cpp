@@ -1,4 +1,5 @@
 /// Following an equilibrium of rods: where it begins, where it goes, where it ends.
+#include "kinematics/load_problem.hpp"
 #include "kinematics/rods/trace.hpp"
 
 #include <gtest/gtest.h>
@@ -176,10 +177,11 @@ TEST(RodPath,
     ASSERT_TRUE(follow(system, target, {}, work.spare).arrived);
     Wrench6 down = Wrench6::Zero();
     down[2] = -1;
-    const RodLoad load = load_rods(work, down, 300);
-    EXPECT_EQ(load.end, LoadEnd::bifurcation);
-    EXPECT_GT(load.parameter, low);
-    EXPECT_LT(load.parameter, high);
+    const GrownLoad grown =
+        grow_load<Spatial>(system, work.places, down, 300, {}, [](int, int) { return true; });
+    EXPECT_EQ(grown.end, GrowthEnd::bifurcation);
+    EXPECT_GT(grown.load, low);
+    EXPECT_LT(grown.load, high);
     EXPECT_EQ(unstable_directions(system), 0);              // the last stable state
     EXPECT_LT(system.platform().p.head<2>().norm(), 1e-7);  // rounding, over what stiffness is left
     EXPECT_LT(system.factors().smallest_pivot(), 1e-3);
