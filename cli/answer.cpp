@@ -16,9 +16,14 @@ namespace {
 
 /// The option of a field of queries, without dashes; empty where there is none.
 std::string option_of(std::string_view field) {
-  constexpr std::pair<std::string_view, std::string_view> others[] = {
-      {"until.limit", "limit"},   {"until.wrench", "until"}, {"to.inputs", "to-inputs"},
-      {"to.wrench", "to-wrench"}, {"to.pose", "to"},         {"branches", "all"}};
+  constexpr std::pair<std::string_view, std::string_view> others[] = {{"until.limit", "limit"},
+                                                                      {"until.wrench", "until"},
+                                                                      {"to.inputs", "to-inputs"},
+                                                                      {"to.tensions", "to-tensions"},
+                                                                      {"to.lengths", "to-lengths"},
+                                                                      {"to.wrench", "to-wrench"},
+                                                                      {"to.pose", "to"},
+                                                                      {"branches", "all"}};
   for (const auto& [path, option] : others)
     if (field == path) return std::string(option);
   std::string name(field);

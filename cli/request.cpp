@@ -116,7 +116,7 @@ class Request {
   void quantity(std::string_view option, Dimension dimension);
   void vector(std::string_view option, Dimension dimension);
   void list(std::string_view option, std::string_view key, Dimension dimension);
-  void per_leg(std::string_view option, Dimension dimension);
+  void per_leg(std::string_view option, std::string_view key, Dimension dimension);
   void signs(std::string_view key);
   void curvature();
   void word(std::string_view option, std::string_view key);
@@ -307,6 +307,8 @@ void Request::target(const OpenRobot& robot) {
   std::vector<Member> outer;
   std::swap(outer, members_);
   inputs("to-inputs", robot, "inputs");
+  per_leg("to-tensions", "tensions", Dimension::force);
+  per_leg("to-lengths", "lengths", Dimension::length);
   if (arguments_.has("to-wrench")) member("wrench", wrench("to-wrench", robot));
   pose("to", robot, "pose");
   std::swap(outer, members_);
@@ -380,7 +382,7 @@ void Request::list(std::string_view option, std::string_view key, Dimension dime
 }
 
 /// Two values for each leg, legs apart by semicolons; `-` where no length is held.
-void Request::per_leg(std::string_view option, Dimension dimension) {
+void Request::per_leg(std::string_view option, std::string_view key, Dimension dimension) {
   const std::string* given = arguments_.text(option);
   if (!given) return;
   std::string list;
@@ -397,7 +399,7 @@ void Request::per_leg(std::string_view option, Dimension dimension) {
     more = end != std::string_view::npos;
     if (more) rest.remove_prefix(end + 1);
   }
-  member(option, "[" + list + "]");
+  member(key, "[" + list + "]");
 }
 
 void Request::vector(std::string_view option, Dimension dimension) {
@@ -559,8 +561,8 @@ Expected<Document> request(std::string_view query, const Arguments& arguments, c
   if (arguments.has("backward")) request.member("backward", "true");
   request.pose("set-at", robot);
   if (query == "statics" && arguments.has("pose")) request.member("inverse", "true");
-  request.per_leg("tensions", Dimension::force);
-  request.per_leg("lengths", Dimension::length);
+  request.per_leg("tensions", "tensions", Dimension::force);
+  request.per_leg("lengths", "lengths", Dimension::length);
   request.word("hold", "hold");
   request.word("law", "law");
   request.quantity("posture-threshold", Dimension::angle);

@@ -35,6 +35,8 @@ constexpr std::array options{
     Option{"from", "\"X, Y, PHI\"", "first pose of a path, written like --pose"},
     Option{"to", "\"X, Y, PHI\"|LANGUAGE", "last pose of a path; of export the language: c-header, verilog"},
     Option{"to-inputs", "\"A, B, ...\"", "of branches the inputs where the curve leads"},
+    Option{"to-tensions", "\"A, B; ...\"", "of branches on chains the tensions where the curve leads"},
+    Option{"to-lengths", "\"A, -; ...\"", "of branches on chains the tendon lengths where the curve leads"},
     Option{"to-wrench", "\"FX, FY, FZ, MX, MY, MZ\"", "of branches the wrench where the curve leads"},
     Option{"range", "\"LOW, HIGH\"",
            "of branches how far: 0 is the beginning, 1 what is led to; default \"0, 1\""},
@@ -58,7 +60,8 @@ constexpr std::array options{
            "M); of rods and of pseudo-rigid chains"},
     Option{"gravity", "\"X, Y, Z\"", "of rods and platforms that have a mass [m/s2]; default the file's"},
     Option{"set-at", "\"X, Y, PHI\"",
-           "of statics the pose at which the tendons are set without load, the outer ones loose"},
+           "of statics, and of branches on chains, the pose at which the tendons are set without load, the "
+           "outer ones loose"},
     Option{"hold", "NAME", "what stays after --set-at or with --pose: tension (default) or length"},
     Option{"tensions", "\"A, B; ...\"", "of statics, of both tendons of each leg"},
     Option{"lengths", "\"A, -; ...\"", "of statics, the tendon of each leg whose length is held; - is loose"},
@@ -289,25 +292,29 @@ const std::array table{
         "Where the path\ncannot be followed to its end the poses reached are shown, and the exit code is 3.",
         "sinew track 3-rfr --from \"0, 0, 0\" --to \"10 mm, 5 mm, 20 deg\" --samples 11",
         run_track},
-    Verb{"branches",
-         "ROBOT",
-         "the curve of equilibria of a robot on rods along inputs, a load or a pose, through folds",
-         {"inputs",    "pose",           "independent", "wrench", "gravity",  "start",
-          "to-inputs", "to-wrench",      "to",          "range",  "backward", "samples",
-          "all",       "max-iterations", "output",      "width",  "font",     "force",
-          "set",       "json",           "quiet",       "help"},
-         {"to-inputs", "to-wrench", "to"},
-         "The curve begins at the inputs, pose or independent coordinates given, and is followed by its arc\n"
-         "length: where the load or the inputs cannot go further, a fold, it turns back, on another branch.\n"
-         "Bifurcations are found as well; with --all the curves that leave them are followed. Shown are the\n"
-         "special points and all equilibria met with the inputs and the load led to, stable or not. -o\n"
-         "FILE.csv has all points, an .svg, .png or .pdf the diagram. Where a pose is led to, the inputs\n"
-         "that hold it are followed: sinew branches hexapod --pose \"0, 0, 400 mm, 0, 0, 0\" --to \"50 mm,\n"
-         "77 mm, 490 mm, 20 deg, -12 deg, -11 deg\". Exit code 3 where the curve does not come to 1.",
-         "sinew branches 3pfs-g2 --independent \"0.4 m, 0.05, 0\" --to-wrench \"0, 0, -100 N, 0, 0, 0\" "
-         "--range "
-         "\"0, 2\"",
-         run_branches},
+    Verb{
+        "branches",
+        "ROBOT",
+        "the curve of equilibria of a loaded robot along inputs, a load or a pose, through folds",
+        {"inputs",      "pose",       "independent",    "set-at", "hold",    "tensions", "lengths",
+         "bending",     "elbow",      "curvature",      "wrench", "gravity", "start",    "to-inputs",
+         "to-tensions", "to-lengths", "to-wrench",      "to",     "range",   "backward", "samples",
+         "all",         "law",        "max-iterations", "model",  "output",  "width",    "font",
+         "force",       "set",        "json",           "quiet",  "help"},
+        {"to-inputs", "to-tensions", "to-lengths", "to-wrench", "to"},
+        "The curve begins at the inputs, pose or independent coordinates given, and is followed by its arc\n"
+        "length: where the load or the inputs cannot go further, a fold, it turns back, on another branch.\n"
+        "Bifurcations are found as well; with --all the curves that leave them are followed. Shown are the\n"
+        "special points and all equilibria met with the inputs and the load led to, stable or not. -o\n"
+        "FILE.csv has all points, an .svg, .png or .pdf the diagram. Where a pose is led to, the inputs\n"
+        "that hold it are followed: sinew branches hexapod --pose \"0, 0, 400 mm, 0, 0, 0\" --to \"50 mm,\n"
+        "77 mm, 490 mm, 20 deg, -12 deg, -11 deg\". On pseudo-rigid chains it begins where tendons are set:\n"
+        "sinew branches 3-rfr --model prb --set-at \"10 mm, 0, 20 deg\" --to-wrench \"0, 0, 10 mN m\".\n"
+        "Exit code 3 where the curve does not come to 1.",
+        "sinew branches 3pfs-g2 --independent \"0.4 m, 0.05, 0\" --to-wrench \"0, 0, -100 N, 0, 0, 0\" "
+        "--range "
+        "\"0, 2\"",
+        run_branches},
     Verb{
         "map",
         "ROBOT",

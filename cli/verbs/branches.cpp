@@ -31,8 +31,8 @@ std::size_t event_of(const Node& row) {
 bool is_stable(const Node& row) { return number(row, "unstable_directions") == 0; }
 
 /// One row a special point, first and last points of curves.
-std::string show_events(const Answer& answer) {
-  const auto columns = pose_columns(true);
+std::string show_events(const Answer& answer, bool is_spatial) {
+  const auto columns = pose_columns(is_spatial);
   std::vector<std::string> header{"curve", "parameter", "event"};
   for (const Input& column : columns) header.push_back(heading(column.name, column.unit));
   header.emplace_back("unstable_directions");
@@ -68,7 +68,7 @@ Table table_of(const Answer& answer, const OpenRobot& robot) {
     table.columns.push_back({std::move(name), std::move(unit), {}});
   };
   for (const char* name : {"curve", "parameter", "event", "unstable_directions"}) column(name, "");
-  for (const Input& one : pose_columns(true)) column(one.name, one.unit);
+  for (const Input& one : pose_columns(robot.is_spatial)) column(one.name, one.unit);
   for (const Input& one : robot.inputs) column(one.name, one.unit);
   column("potential", "J");
   column("residual", "");
@@ -188,7 +188,8 @@ class Diagram {
 };
 
 Figure picture(const Answer& answer, const OpenRobot& robot, bool is_led_by_pose) {
-  const Diagram diagram(answer, is_led_by_pose ? robot.inputs : pose_columns(true), is_led_by_pose);
+  const Diagram diagram(answer, is_led_by_pose ? robot.inputs : pose_columns(robot.is_spatial),
+                        is_led_by_pose);
   const auto [first, second] = diagram.farthest();
   Figure figure;
   figure.title = "Equilibria of " + answer.text("robot");
@@ -204,10 +205,12 @@ Figure picture(const Answer& answer, const OpenRobot& robot, bool is_led_by_pose
 int run_branches(const Arguments& arguments) {
   auto robot = open_with_platform(arguments);
   if (!robot) return refuse_question(arguments, robot.error());
-  if (!robot->is_on_rods)
+  const std::string* model = arguments.text("model");
+  if (!robot->is_on_rods && !(model && *model == "prb"))
     return refuse_question(arguments,
                            {{"not_available", "",
-                             fmt::format("{} has no legs that bear load: it has no equilibria to follow",
+                             fmt::format("{} has no legs that bear load: it has no equilibria to follow; of "
+                                         "tendon-driven links give --model prb",
                                          robot->description.text("robot"))}});
   const std::string* file = arguments.text("output");
   const bool is_table = file && file->ends_with(".csv");
@@ -218,7 +221,7 @@ int run_branches(const Arguments& arguments) {
   if (!answer) return refuse_question(arguments, answer.error());
   const bool has_curves =
       answer->find("curves") && answer->find("equilibria");  // not where it was stopped before
-  std::string shown = has_curves ? show_events(*answer) : "";
+  std::string shown = has_curves ? show_events(*answer, robot->is_spatial) : "";
   if (has_curves && is_table) {
     const auto written = write_csv(table_of(*answer, *robot), *file);
     if (!written) return refuse_question(arguments, written.error());

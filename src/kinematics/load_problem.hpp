@@ -11,6 +11,16 @@
 
 namespace sinew::inline v0 {
 
+/// From pose to pose as one twist.
+inline Vec<double, 6> between(const SE3<double>& from, const SE3<double>& to) {
+  Vec<double, 6> twist;
+  twist << to.p - from.p, to.R.compose(from.R.inverse()).log();
+  return twist;
+}
+inline Vec<double, 3> between(const SE2<double>& from, const SE2<double>& to) {
+  return {to.p[0] - from.p[0], to.p[1] - from.p[1], wrap_angle(to.angle() - from.angle())};
+}
+
 /// Unknowns are the platform's motion; the parameter λ is how much of a load is added. Turns count by the
 /// group's radius, moments over it.
 template <class SpaceT>
@@ -70,6 +80,16 @@ class LoadProblem {
   CurveSigns signs() const {
     const LimbSigns signs = signs_of(group_);
     return {.unstable = signs.unstable, .own = signs.own};
+  }
+  /// @}
+
+  /// @name A written curve's
+  /// @{
+  Place place() const { return {{group_.state(), group_.platform()}}; }
+  Twist way_from(const State& state) const {
+    Twist way = between(state.platform, group_.platform());
+    way.template tail<unknowns - forces>() *= group_.radius();
+    return way.normalized();
   }
   /// @}
 

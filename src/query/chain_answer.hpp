@@ -31,6 +31,8 @@ Load<Space> read_load(Context& context) {
 
 /// Lengths [[l₁ or null, l₂ or null], ...]; a tendon without a length is loose.
 std::vector<ChainHold> read_lengths(const Reader& list, std::size_t legs);
+/// Tensions [[T₁, T₂], ...].
+std::vector<ChainHold> read_tensions(const Reader& list, std::size_t legs);
 
 template <class Space>
 Json chain_legs_json(const ChainRobot<Space>& robot, const ChainState<Space>& state) {

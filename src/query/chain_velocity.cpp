@@ -1,10 +1,11 @@
 /// Handlers of velocity and track on pseudo-rigid chains.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "query/chains.hpp"
+#include "query/chain_curves.hpp"
 #include "sinew/analysis/chain_velocity.hpp"
 #include "sinew/kinematics/chain_motion.hpp"
 #include "solve/stopped.hpp"
@@ -102,9 +103,17 @@ Json row_json(const ChainRobot<Space>& robot, const AnyPose& pose, std::span<con
   return row;
 }
 
+/// Whether what a track leads to is a load, or what tendons hold: no pose.
+bool leads_elsewhere(const Reader& to) {
+  return to.is(Node::Kind::map) && std::ranges::any_of(to.node()->members, [](const Member& member) {
+           return member.key == "wrench" || member.key == "tensions" || member.key == "lengths";
+         });
+}
+
 template <class Space>
 void answer_track_of(Context& context, ChainRobot<Space>& robot) {
   Reader& query = context.query;
+  if (const auto to = query.optional("to"); to && leads_elsewhere(*to)) return answer_curves(context, robot);
   const std::vector<AnyPose> poses = read_path(context);
   const Joints joints(context, robot, read_branch(context));
   ChainMotionOptions options;

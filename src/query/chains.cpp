@@ -78,13 +78,6 @@ std::vector<ChainHold> read_lengths(const Reader& list, std::size_t legs) {
   return hold;
 }
 
-}  // namespace chains
-
-namespace {
-
-using namespace chains;
-
-/// Tensions [[T₁, T₂], ...].
 std::vector<ChainHold> read_tensions(const Reader& list, std::size_t legs) {
   std::vector<ChainHold> hold(legs);
   const auto items = list.items(legs);
@@ -92,6 +85,12 @@ std::vector<ChainHold> read_tensions(const Reader& list, std::size_t legs) {
     hold[i].tension = items[i].array<2>(Dimension::force, Range::not_negative());
   return hold;
 }
+
+}  // namespace chains
+
+namespace {
+
+using namespace chains;
 
 /// To the load, and on until it grows no more.
 template <class Space>

@@ -1,6 +1,8 @@
 /// Questions about robots on pseudo-rigid chains, through the protocol.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sinew_query.hpp"
 
 namespace sinew::test {
@@ -283,6 +285,48 @@ TEST(ChainAnswers, OfFourPlanarLegsFollowAPath) {
   ASSERT_EQ(track["status"], "converged") << track;
   EXPECT_EQ(track["rows"].size(), 5U);
   EXPECT_LT(track["residual"].get<double>(), 1e-12);
+}
+
+TEST(ChainAnswers, FollowCurvesThroughFolds) {
+  const Json moment{0, 0, 0.02};
+  const auto answers =
+      ask("3-rfr", {{{"query", "statics"}, {"set_at", here}, {"until", {{"wrench", moment}, {"limit", 1}}}},
+                    prb({{"query", "track"}, {"set_at", here}, {"to", {{"wrench", moment}}}}),
+                    prb({{"query", "track"},
+                         {"lengths", {{0.19, nullptr}, {0.19, nullptr}, {0.19, nullptr}}},
+                         {"wrench", wrench},
+                         {"to", {{"lengths", {{0.188, nullptr}, {0.19, nullptr}, {0.187, nullptr}}}}}}),
+                    {{"query", "statics"},
+                     {"lengths", {{0.188, nullptr}, {0.19, nullptr}, {0.187, nullptr}}},
+                     {"wrench", wrench}}});
+  const Json& rows = answers[1]["curves"][0]["rows"];
+  const auto fold =
+      std::ranges::find_if(rows, [](const Json& row) { return row.value("event", "") == "fold"; });
+  ASSERT_NE(fold, rows.end()) << answers[1];
+  EXPECT_EQ(answers[0]["why"], "fold");
+  EXPECT_NEAR((*fold)["parameter"].get<double>(), answers[0]["load"].get<double>(), 1e-8);
+  EXPECT_EQ(answers[1]["status"], "singular");
+  EXPECT_EQ(rows.back()["unstable_directions"], 1);
+  ASSERT_EQ(answers[2]["status"], "converged") << answers[2];
+  EXPECT_LT(apart(answers[2]["equilibria"][0]["pose"], answers[3]["pose"]), 1e-9);
+  EXPECT_NEAR(answers[2]["equilibria"][0]["inputs"][0].get<double>(), 0.188, 1e-12);
+}
+
+TEST(ChainAnswers, RefuseCurvesThatAreNone) {
+  const Json to{{"wrench", {0, 0, 0.01}}}, lengths{{0.19, nullptr}, {0.19, nullptr}, {0.19, nullptr}};
+  const auto code = [&](Json query) {
+    query["query"] = "track";
+    return ask("3-rfr", {prb(std::move(query))})[0]["error"].value("code", "");
+  };
+  EXPECT_EQ(code({{"to", to}}), "missing_key");
+  EXPECT_EQ(code({{"set_at", here}, {"lengths", lengths}, {"to", to}}), "ambiguous");
+  EXPECT_EQ(code({{"lengths", lengths}, {"hold", "length"}, {"to", to}}), "no_effect");
+  EXPECT_EQ(code({{"set_at", here}, {"start", here}, {"to", to}}), "no_effect");
+  EXPECT_EQ(code({{"set_at", here}, {"poses", Json::array({here})}, {"to", to}}), "ambiguous");
+  EXPECT_EQ(code({{"set_at", here}, {"to", {{"wrench", {0, 0, 0}}}}}), "no_effect");
+  EXPECT_EQ(code({{"set_at", here}, {"to", {{"lengths", lengths}}}}), "no_effect");  // tensions are held
+  EXPECT_EQ(code({{"set_at", here}, {"to", to}, {"backward", true}}), "no_effect");
+  EXPECT_EQ(code({{"set_at", here}, {"to", {{"wrench", {0, 0, 0.01}}, {"load", 1}}}}), "unknown_key");
 }
 
 }  // namespace chain_answers_test

@@ -204,6 +204,25 @@ auto ChainGroup<Space>::effort_jacobian(int feed) const -> Twist {
 }
 
 template <class Space>
+auto ChainGroup<Space>::hold_wrench_jacobian(std::size_t leg, const ChainHold& rate) const -> Wrench {
+  const ChainLeg<Space>& own = robot_->legs[leg];
+  LegSystem<Space> change = systems_[leg];  // a unit change as the leg's only imbalance
+  change.closure.c = 0;
+  change.length_error = change.holds_length ? -rate.length : 0;
+  for (int j = 0; j < change.joints; ++j) {
+    double& balance = change.balance[at(j)] = 0;
+    for (int k = 0; k < 2; ++k)
+      if (!change.holds_length || static_cast<int>(change.fed) != k)
+        balance +=
+            rate.tension[at(k)] *
+            own.chain.tendon_bend(j, state_.legs[leg].angles[at(j)], own.tendon_offset, k == 0 ? 1 : -1).rate;
+  }
+  LegFactors<Space> factors;
+  factors.factor(own.chain, change, is_evenly_bent_);
+  return factors.push(change, factors.own);
+}
+
+template <class Space>
 double ChainGroup<Space>::relief(int leg) const {
   const LegFactors<Space>& factors = factors_[at(leg)];
   return -(systems_[at(leg)].force + factors.force_by(factors.own)) / factors.force_by(factors.feed);

@@ -66,6 +66,9 @@ class ChainGroup final : public LimbGroup<Space> {
   double closing_effort(int feed) const override;
   Twist effort_jacobian(int feed) const override;
 
+  const LegSystem<Space>& system(std::size_t leg) const { return systems_[leg]; }
+  /// ∂(wrench needed)/∂ of all that a leg holds, along `rate`; the platform held.
+  Wrench hold_wrench_jacobian(std::size_t leg, const ChainHold& rate) const;
   /// The change of a leg's feed that leaves the platform without the leg's force.
   double relief(int leg) const;
   /// A step that is only planned: its size, of the platform over the longest chain, turns in rad; and that

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kinematics/chains/leg_system.hpp"
+#include "kinematics/load_problem.hpp"
 #include "kinematics/spread.hpp"
 
 namespace sinew::inline v0 {
@@ -81,8 +82,7 @@ class Search {
 
   bool is_known(const ChainState<Space>& state) const {
     return std::ranges::any_of(found_, [&](const FoundChains<Space>& other) {
-      Wrench apart = twist_between(other.state.pose, state.pose);
-      if constexpr (Space::dimension == 2) apart[2] = wrap_angle(apart[2]);
+      const Wrench apart = between(Space::frame(other.state.pose), Space::frame(state.pose));
       double most = std::max(apart.template head<Space::dimension>().norm() / size_,
                              apart.template tail<Space::dof - Space::dimension>().norm());
       for (std::size_t i = 0; i < robot_.legs.size(); ++i)

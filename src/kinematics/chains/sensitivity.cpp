@@ -8,58 +8,23 @@
 namespace sinew::inline v0 {
 namespace {
 
-/// A unit change of one input of a leg as its imbalance, to first order; what it does to the platform by
-/// itself is answered.
-template <class Space>
-class InputChange {
- public:
-  static constexpr int dof = Space::dof;
-  using Motion = Vec<double, dof>;
-
-  InputChange(const ChainLeg<Space>& leg, const ChainLegState& state, LegSystem<Space>& system)
-      : leg_(leg),
-        state_(state),
-        system_(system) {}
-
-  Motion of_length() {
-    clear();
-    system_.length_error = -1;
-    return Motion::Zero();
-  }
-  Motion of_tension(int tendon) {
-    clear();
-    for (int j = 0; j < system_.joints; ++j) {
-      const auto joint = static_cast<std::size_t>(j);
-      system_.balance[joint] =
-          leg_.chain.tendon_bend(j, state_.angles[joint], leg_.tendon_offset, tendon == 0 ? 1 : -1).rate;
-    }
-    return Motion::Zero();
-  }
-  /// The base turns as if the platform turned back about it, axes and all.
-  Motion of_motor(const typename Space::template Frame<double>& platform) {
-    if constexpr (Space::dimension == 2) {
-      clear();
-      const auto& closure = system_.closure;
-      const Vec2<double> from = platform.p - leg_.base.p;
-      const Motion turn(-from.y(), from.x(), 1);
-      system_.closure.c = -dot(closure.c_x, turn);
-      for (std::size_t j = 0; j < static_cast<std::size_t>(system_.joints); ++j)
-        system_.balance[j] = -system_.force * closure.across[j] * dot(closure.turn, turn);
-      return -system_.force * (closure.c_xx * turn + Motion(closure.c_x[1], -closure.c_x[0], 0));
-    }
-    return Motion::Zero();
-  }
-
- private:
-  void clear() {
-    system_.balance.fill(0);
-    system_.closure.c = system_.length_error = 0;
-  }
-
-  const ChainLeg<Space>& leg_;
-  const ChainLegState& state_;
-  LegSystem<Space>& system_;
-};
+/// What a motor at a base does to the wrench that is needed: the base turns as if the platform turned back
+/// about it, axes and all.
+Vec<double, 3> motor_wrench_jacobian(const ChainLeg<Planar>& leg, const SE2<double>& platform,
+                                     LegSystem<Planar> system) {
+  const auto& closure = system.closure;
+  const Vec2<double> from = platform.p - leg.base.p;
+  const Vec<double, 3> turn(-from.y(), from.x(), 1);
+  const Vec<double, 3> direct =
+      -system.force * (closure.c_xx * turn + Vec<double, 3>(closure.c_x[1], -closure.c_x[0], 0));
+  for (std::size_t j = 0; j < static_cast<std::size_t>(system.joints); ++j)
+    system.balance[j] = -system.force * closure.across[j] * dot(closure.turn, turn);
+  system.length_error = 0;
+  system.closure.c = -dot(closure.c_x, turn);
+  LegFactors<Planar> factors;
+  factors.factor(leg.chain, system, false);
+  return direct + factors.push(system, factors.own);
+}
 
 }  // namespace
 
@@ -67,27 +32,25 @@ template <class Space>
 Eigen::Matrix<double, Space::dof, Eigen::Dynamic> input_sensitivity(const ChainRobot<Space>& robot,
                                                                     const ChainState<Space>& state,
                                                                     ChainWork& work) {
-  constexpr int dof = Space::dof;
-  using Motion = Vec<double, dof>;
+  using Motion = Vec<double, Space::dof>;
   if (!fits(robot, state)) return {};
-  const SmallLu<dof>& factors = linearised(work, robot, state).factors();
-  const auto platform = Space::frame(state.pose);
+  const ChainGroup<Space>& group = linearised(work, robot, state);
   std::vector<Motion> columns;
+  const auto add = [&](const Motion& needed) {
+    const Motion wanted = -needed;
+    group.factors().solve(wanted.data(), columns.emplace_back().data());
+  };
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    LegSystem<Space> system;
-    LegFactors<Space> moves;
-    form(robot.legs[i], platform, state.legs[i], state.hold[i], system);
-    InputChange<Space> change(robot.legs[i], state.legs[i], system);
-    const auto add = [&](const Motion& direct) {
-      moves.factor(robot.legs[i].chain, system, false);
-      const Motion wanted = -(direct + moves.push(system, moves.own));
-      factors.solve(wanted.data(), columns.emplace_back().data());
-    };
-    if (robot.has_base_motors) add(change.of_motor(platform));
-    if (system.holds_length) add(change.of_length());
-    for (int k = 0; k < 2 && !system.holds_length; ++k) add(change.of_tension(k));
+    if constexpr (Space::dimension == 2)
+      if (robot.has_base_motors) add(motor_wrench_jacobian(robot.legs[i], group.platform(), group.system(i)));
+    if (state.hold[i].length_of >= 0)
+      add(group.hold_wrench_jacobian(i, {.length = 1}));
+    else
+      for (const std::array<double, 2>& tension : {std::array{1.0, 0.0}, std::array{0.0, 1.0}})
+        add(group.hold_wrench_jacobian(i, {.tension = tension}));
   }
-  Eigen::Matrix<double, dof, Eigen::Dynamic> all(dof, static_cast<Eigen::Index>(columns.size()));
+  Eigen::Matrix<double, Space::dof, Eigen::Dynamic> all(Space::dof,
+                                                        static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
   return all;
 }

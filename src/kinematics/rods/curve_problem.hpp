@@ -24,7 +24,6 @@ class RodProblem : public LoadProblem<Spatial> {
 
   /// @name A curve's
   /// @{
-  Place place() const { return {{system_.state(), system_.platform()}}; }
   /// A pose that is held is known to rounding, which stiff rods turn into forces.
   double tolerance() const { return way_.holds_pose ? rod_quick_tolerance : rod_tolerance; }
   double rounding() const { return tolerance(); }
@@ -95,12 +94,6 @@ class RodProblem : public LoadProblem<Spatial> {
     for (std::size_t k = 0; k < one.inputs.size(); ++k)
       apart = std::max(apart, std::abs(one.inputs[k] - other.inputs[k]));
     return apart < 1e-8 * size_;
-  }
-  Twist way_from(const State& state) const {
-    const SE3<double>&from = state.platform, &here = system_.platform();
-    Twist way;
-    way << here.p - from.p, system_.radius() * here.R.compose(from.R.inverse()).log();
-    return way.normalized();
   }
   bool is_far(double longest_rod = 10) const {
     for (int k = 0; k < system_.limbs(); ++k)

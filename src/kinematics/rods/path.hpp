@@ -4,7 +4,7 @@
 #pragma once
 #include <limits>
 
-#include "robot/limb_signs.hpp"
+#include "kinematics/load_problem.hpp"
 #include "robot/rod_group.hpp"
 #include "sinew/solve/report.hpp"
 #include "solve/continuation.hpp"
@@ -16,13 +16,6 @@ struct RodTarget {
   std::array<double, max_rods> lengths{};
   Vec<double, 6> wrench = Vec<double, 6>::Zero();
 };
-
-/// From pose to pose as one twist.
-inline Vec<double, 6> between(const SE3<double>& from, const SE3<double>& to) {
-  Vec<double, 6> twist;
-  twist << to.p - from.p, to.R.compose(from.R.inverse()).log();
-  return twist;
-}
 
 /// What counts as solved of a pose held by lengths, in an answer that is to be quick.
 inline constexpr double rod_quick_tolerance = 1e-10;

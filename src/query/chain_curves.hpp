@@ -1,0 +1,11 @@
+/// @file chain_curves.hpp
+/// `track` of robots on chains along loads and what tendons hold.
+#pragma once
+#include "query/chains.hpp"
+
+namespace sinew::inline v0::chains {
+
+template <class Space>
+void answer_curves(Context& context, ChainRobot<Space>& robot);
+
+}  // namespace sinew::inline v0::chains

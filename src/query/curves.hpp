@@ -1,0 +1,96 @@
+/// @file curves.hpp
+/// Curves of equilibria as they are asked for and answered, of rods and of chains.
+#pragma once
+#include <algorithm>
+
+#include "query/context.hpp"
+#include "sinew/kinematics/equilibrium_curve.hpp"
+
+namespace sinew::inline v0 {
+
+/// `range`, `samples`, `backward` and `branches` into the options of a curve.
+template <class Options>
+void read_extent(Context& context, Options& how) {
+  constexpr int most_points = 20000;
+  if (const auto range = context.query.optional("range")) {
+    const auto ends = range->items(2);
+    if (ends.size() == 2) {
+      how.lowest = ends[0].number({.high = 0});
+      how.highest = ends[1].number({.low = 0});
+    }
+  }
+  if (const auto samples = context.query.optional("samples"))
+    how.max_points = samples->integer(Range::between(2, most_points));
+  if (const auto backward = context.query.optional("backward")) {
+    how.is_backward = backward->boolean();
+    if (how.is_backward && how.lowest == 0)
+      backward->fail("no_effect", "the curve would leave its range at once; give range, from below 0");
+  }
+  if (const auto branches = context.query.optional("branches")) how.follows_branches = branches->boolean();
+}
+
+/// Why the first curve, which ends so, does not come to its target; @param fold where it folds, if it does.
+std::string curve_in_words(CurveEnd end, const double* fold);
+/// Notes it where a curve was stopped.
+void note_stopped_curve(Context& context);
+
+template <class Point>
+void put_stability(Json& row, const Point& point) {
+  row["stable"] = point.unstable_directions == 0;
+  row["unstable_directions"] = point.unstable_directions;
+}
+
+/// @param where_of(point) pose and inputs of a point, as they are answered
+template <class Curve, class WhereOf>
+Json curve_json(const Curve& curve, WhereOf&& where_of) {
+  Json answer;
+  if (curve.from_curve >= 0) answer["from"] = {{"curve", curve.from_curve}, {"row", curve.from_point}};
+  answer["why"] = to_string(curve.end);
+  Json rows = Json::array();
+  for (const auto& point : curve.points) {
+    Json row{{"parameter", point.parameter}};
+    row.update(where_of(point));
+    put_stability(row, point);
+    row["residual"] = point.residual;
+    put_number(row, "potential", point.potential);
+    if (point.event != CurveEvent::none) row["event"] = to_string(point.event);
+    rows.push_back(std::move(row));
+  }
+  answer["rows"] = std::move(rows);
+  return answer;
+}
+
+/// All curves, and every equilibrium on them at the target.
+template <class Curve, class WhereOf>
+void put_curves(Context& context, const std::vector<Curve>& curves, WhereOf&& where_of) {
+  Json &answer = context.answer, equilibria = Json::array(), list = Json::array();
+  bool arrives = false, is_stopped = false;
+  double worst = 0;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    is_stopped = is_stopped || curves[c].end == CurveEnd::stopped;
+    for (std::size_t k = 0; k < curves[c].points.size(); ++k) {
+      const auto& point = curves[c].points[k];
+      worst = std::max(worst, point.residual);
+      if (point.event != CurveEvent::target) continue;
+      arrives = arrives || c == 0;
+      Json one{{"curve", c}, {"row", k}};
+      one.update(where_of(point));
+      put_stability(one, point);
+      equilibria.push_back(std::move(one));
+    }
+    list.push_back(curve_json(curves[c], where_of));
+  }
+  answer["status"] = to_string(arrives ? Status::converged : Status::singular);
+  answer.erase("message");
+  const auto& first = curves.front();
+  using Point = typename decltype(Curve::points)::value_type;
+  const auto fold = std::ranges::find(first.points, CurveEvent::fold, &Point::event);
+  if (!arrives)
+    answer["message"] = curve_in_words(first.end, fold == first.points.end() ? nullptr : &fold->parameter);
+  if (is_stopped) note_stopped_curve(context);
+  answer["residual"] = worst;
+  answer["equilibria"] = std::move(equilibria);
+  answer["curves"] = std::move(list);
+}
+
+}  // namespace sinew::inline v0
