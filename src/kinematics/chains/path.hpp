@@ -48,6 +48,8 @@ struct ChainSteps {
   Error error;
   FindStep find_step;
 };
+template <class Error, class FindStep>
+ChainSteps(Error, FindStep) -> ChainSteps<Error, FindStep>;
 
 /// From where the group is, as long as each step is half as long as the one before. Errors alone tell less:
 /// one short step along a stiff chord makes them grow, and the next one takes that back. They must be small
