@@ -51,8 +51,7 @@ class SymmetricFactors {
       }
     }
     for (std::size_t j = size_; j-- > 0;)
-      for (std::size_t i = j + 1 + (j + 1 < size_ && blocks_[j] == 2); i < size_; ++i)
-        y[j] -= m_[i][j] * y[i];
+      for (std::size_t i = j + 1 + (blocks_[j] == 2); i < size_; ++i) y[j] -= m_[i][j] * y[i];
     for (std::size_t k = 0; k < size_; ++k) x[order_[k]] = y[k];
   }
 

@@ -50,6 +50,9 @@ CurveQuery<Space> read_curve(Context& context, std::size_t legs) {
   const auto wrench = to.optional("wrench");
   if (wrench) asked.how.added_wrench = read_wrench<Space>(*wrench) - asked.wrench;
   asked.how.hold = read_hold(to, legs);
+  for (const char* key : {"inputs", "pose", "x", "y", "phi", "position", "quaternion"})
+    if (const auto given = to.optional(key))
+      given->fail("not_available", "on chains a curve leads to a wrench, tensions or lengths; remove this");
   if (to.is(Node::Kind::map)) {
     if (!wrench && asked.how.hold.empty())
       to.fail("missing_key", "give wrench, tensions or lengths: what changes along the curve");

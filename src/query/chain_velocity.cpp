@@ -103,17 +103,20 @@ Json row_json(const ChainRobot<Space>& robot, const AnyPose& pose, std::span<con
   return row;
 }
 
-/// Whether what a track leads to is a load, or what tendons hold: no pose.
-bool leads_elsewhere(const Reader& to) {
-  return to.is(Node::Kind::map) && std::ranges::any_of(to.node()->members, [](const Member& member) {
-           return member.key == "wrench" || member.key == "tensions" || member.key == "lengths";
-         });
+/// Whether a track leads to a load, or to what tendons hold, and to no pose.
+bool is_curve(Reader& query) {
+  const auto says = [](Reader& map, std::initializer_list<const char*> keys) {
+    return std::ranges::any_of(keys, [&](const char* key) { return map.has(key); });
+  };
+  auto to = query.optional("to");
+  return says(query, {"set_at", "tensions", "lengths"}) ||
+         (to && to->is(Node::Kind::map) && says(*to, {"wrench", "tensions", "lengths", "inputs"}));
 }
 
 template <class Space>
 void answer_track_of(Context& context, ChainRobot<Space>& robot) {
   Reader& query = context.query;
-  if (const auto to = query.optional("to"); to && leads_elsewhere(*to)) return answer_curves(context, robot);
+  if (is_curve(query)) return answer_curves(context, robot);
   const std::vector<AnyPose> poses = read_path(context);
   const Joints joints(context, robot, read_branch(context));
   ChainMotionOptions options;

@@ -24,7 +24,12 @@ bool SmallLu<N>::factor(const double* matrix, double length) {
     order_[k] = static_cast<int>(best);
     if (best != k) std::swap_ranges(&lu_[size * k], &lu_[size * k] + size, &lu_[size * best]);
     const double pivot = lu_[(size + 1) * k];
-    if (!(std::abs(pivot) > 0)) return false;
+    if (!(std::abs(pivot) > 0)) {  // what is solved by it then is no number
+      lu_.fill(std::numeric_limits<double>::quiet_NaN());
+      order_.fill(static_cast<int>(k));
+      smallest_ = 0;
+      return false;
+    }
     largest = std::max(largest, std::abs(pivot));
     smallest_ = std::min(smallest_, std::abs(pivot));
     lu_[(size + 1) * k] = 1 / pivot;

@@ -29,7 +29,7 @@ class Tracer {
         lambda_(parameter),
         before_(before),
         origin_(origin) {
-    problem_.evaluate();
+    residual_ = problem_.evaluate();
     problem_.linearise();
     find_scale();
     find_tangent(Step::Unit(N));
@@ -45,7 +45,7 @@ class Tracer {
     problem_.restore(from.state);
     lambda_ = from.lambda;
     tangent_ = from.tangent;
-    problem_.evaluate();
+    residual_ = problem_.evaluate();
     problem_.linearise();
   }
 

@@ -400,6 +400,28 @@ TEST(ChainEquilibrium, EvenlyBentChainsStoreMore) {
   }
 }
 
+/// Where closures leave the joints of a leg nothing, tensions and forces alone take up the load.
+TEST(ChainEquilibrium, PosesAreHeldByLegsWhoseJointsCannotTurn) {
+  const Vec<double, 3> wrench(0.002, -0.001, 1e-6);
+  for (const auto& [name, links] : {std::pair("3-rfr", 2), std::pair("3-frr", 1)}) {
+    auto robot = std::get<ChainRobot<Planar>>(*chain_robot(*load(name), ChainModel::weighted));
+    for (auto& leg : robot.legs) leg.chain.links = links;
+    ChainState<Planar> state;
+    const PlanarPose pose{0.01, 0, 0.1};
+    ASSERT_TRUE(rest(robot, pose, towards_plus, false, state).ok()) << name;
+    ChainWork work;
+    const Report report = hold_pose(robot, wrench, state, work);
+    ASSERT_TRUE(report.ok() || report.status == Status::slack) << name << ": " << to_string(report);
+    Vec<double, 3> borne = Vec<double, 3>::Zero();
+    const auto rates = chain_rates(robot, state.pose, std::span<const ChainLegState>(state.legs));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec<double, 3> row = rates.J.row(static_cast<Eigen::Index>(i)).transpose();
+      borne += state.legs[i].force * row / row.head<2>().norm();
+    }
+    EXPECT_LT((borne - wrench).norm(), 1e-11) << name;
+  }
+}
+
 TEST(ChainEquilibrium, TensionsThatHoldAPoseAreTheirs) {
   const auto robot = three_rfr(ChainModel::even);
   for (const Json& c : reference_file("data/tdpcr/statics.json")["inverse_statics_M0"]) {

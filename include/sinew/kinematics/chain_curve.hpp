@@ -39,8 +39,9 @@ struct ChainCurve {
 };
 
 /// Curves through an equilibrium; the first is the one it was asked for. Tendons that would have to push are
-/// told of by their tensions, not stopped at. Empty where the state is not of this robot, where what is asked
-/// for is not finite, holds other things than the state, or is what it begins with. Allocates.
+/// told of by their tensions, not stopped at. Empty where the state is not of this robot, or a straight chain
+/// does not yield, where what is asked for is not finite, has no points or a range without 0, holds other
+/// tendons than the state or lengths that no joints allow, or is what it begins with. Allocates.
 template <class Space>
 SINEW_API std::vector<ChainCurve<Space>> chain_curves(const ChainRobot<Space>& robot,
                                                       const ChainState<Space>& state,

@@ -32,6 +32,7 @@ class ChainProblem : public LoadProblem<Space> {
         chains_(group),
         from_(group.state().hold) {
     for (std::size_t i = 0; i < how.hold.size(); ++i) rates_.push_back(difference(from_[i], how.hold[i]));
+    fed_.resize(rates_.size());
   }
 
   Rows equations(double scale) const {
@@ -49,11 +50,10 @@ class ChainProblem : public LoadProblem<Space> {
     return Base::longest_scale() + fed / this->unit_;
   }
   void move(const Twist& step, double lambda, double change) {
-    std::array<double, max_rows> fed{};
-    for (std::size_t i = 0; i < rates_.size() && i < fed.size(); ++i)
-      fed[i] =
+    for (std::size_t i = 0; i < rates_.size(); ++i)
+      fed_[i] =
           change * (rates_[i].length_of >= 0 ? rates_[i].length : rates_[i].tension[chains_.system(i).fed]);
-    chains_.move(this->comparable(step), std::span<const double>(fed).first(robot_.legs.size()));
+    chains_.move(this->comparable(step), fed_);
     put(lambda + change);
   }
   void put(double lambda) {
@@ -90,13 +90,14 @@ class ChainProblem : public LoadProblem<Space> {
  private:
   const ChainRobot<Space>& robot_;
   ChainGroup<Space>& chains_;
+  std::vector<double> fed_;              ///< by a step; none where nothing held changes
   std::vector<ChainHold> from_, rates_;  ///< held at λ = 0, and its change; none where that stays
 };
 
 template <class Space>
 bool is_answerable(const ChainRobot<Space>& robot, const ChainState<Space>& state,
                    const ChainCurveOptions<Space>& how) {
-  if (!fits(robot, state) || robot.legs.size() > static_cast<std::size_t>(max_rows)) return false;
+  if (!fits(robot, state)) return false;
   if (!how.added_wrench.allFinite() || !(how.lowest <= 0) || !(how.highest >= 0) || how.max_points <= 0)
     return false;
   if (how.hold.empty()) return !how.added_wrench.isZero(0);

@@ -189,8 +189,9 @@ template <class Space>
 Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
                    const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
                    const ChainOptions& options) {
-  if (hold.size() != robot.legs.size() || !fits(robot, state)) return wrong_sizes();
+  if (hold.size() != robot.legs.size() || state.legs.size() != robot.legs.size()) return wrong_sizes();
   if (const Report checked = check_hold(robot, hold); !checked.ok() && !options.evenly_bent) return checked;
+  state.hold.resize(robot.legs.size());
   auto& memory = memory_of(work, robot, state, options);
   auto& group = memory.group;
   const auto put = [&](double part) {

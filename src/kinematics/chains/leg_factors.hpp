@@ -10,9 +10,12 @@
 /// tridiagonal: T = L D Lᵀ with blocks of one link or of two, where a pivot is small, up to the last one or
 /// two, which join the others. Theory: docs/theory/chain_equilibrium.md
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "kinematics/chains/leg_system.hpp"
 #include "math/symmetric_factors.hpp"

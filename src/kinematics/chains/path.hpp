@@ -1,6 +1,8 @@
 /// @file path.hpp
 /// Paths of equilibria on chains: how they are followed, and what keeps one from beginning.
 #pragma once
+#include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "kinematics/chains/chain_group.hpp"
@@ -53,23 +55,25 @@ ChainSteps(Error, FindStep) -> ChainSteps<Error, FindStep>;
 
 /// From where the group is, as long as each step is half as long as the one before. Errors alone tell less:
 /// one short step along a stiff chord makes them grow, and the next one takes that back. They must be small
-/// at last: against a straight chord, which does not yield, no step is long.
+/// at last: where closures leave joints nothing, forces change without a step.
 template <class Space, class Steps>
 bool correct(ChainGroup<Space>& group, int& iterations, const Steps& steps) {
+  const LimbTraits& traits = group.traits();
   group.restart();
-  double size, left = 0;
+  double size, left = 0, ahead = 0;
   const auto evaluate = [&] {
     group.evaluate();
     group.linearise();
     left = steps.error();
-    const double ahead = steps.find_step();
-    return left < 1e-13 && ahead < 1e-9 ? 0 : ahead;
+    ahead = steps.find_step();
+    if (left < 1e-13 && ahead < 1e-9) return 0.0;
+    return ahead > traits.tolerance ? ahead : std::max(ahead, left);
   };
   const auto step = [&] {
+    if (!std::isfinite(ahead)) return false;
     group.move_as_planned();
     return group.turned() < chain_reach;
   };
-  const LimbTraits& traits = group.traits();
   return contract(evaluate, step, traits.tolerance, traits.rounding, iterations, size) &&
          left < traits.tolerance;
 }
@@ -81,7 +85,7 @@ ParameterPath follow_path(ChainMemory<Space>& memory, StopToken stop, int max_it
                           const Steps& steps) {
   auto& group = memory.group;
   ParameterPath end;
-  follow_parameter(end, {{1, 1e-6, stop}, 0, max_iterations}, [&](double next, double taken) {
+  follow_parameter(end, {{1, 1e-9, stop}, 0, max_iterations}, [&](double next, double taken) {
     group.save(memory.spare);
     put(next);
     if (correct(group, end.iterations, steps)) return ParameterStep{ParameterStep::reached, 2 * taken};

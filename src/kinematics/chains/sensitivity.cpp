@@ -1,7 +1,4 @@
 /// What inputs do to an equilibrium of chains.
-#include <cmath>
-#include <limits>
-
 #include "kinematics/chains/path.hpp"
 #include "sinew/kinematics/chain_analysis.hpp"
 
