@@ -26,8 +26,7 @@ Report wrong_count(std::size_t found, std::size_t needed) {
 }
 
 /// Balance of the platform on rods: J its stiffness, K what feeding them does to the wrench, s what is
-/// missing. A function of its own: what it keeps on the stack would cost the legs that close a tenth of their
-/// time.
+/// missing. Never inlined: what it keeps on the stack would slow J and K of legs that close.
 [[gnu::noinline]] Reduced assemble_rods(const SpatialPose& pose, Numbers coordinates, Workspace& work) {
   RodGroup& system = *work.rods->system;
   system.set_platform(SE3<double>::from(pose));
