@@ -17,13 +17,13 @@ namespace {
 using std::numbers::pi;
 using Unknowns = Eigen::VectorXd;
 
-ChainRobot<Planar> three_rfr() {
-  return std::get<ChainRobot<Planar>>(*chain_robot(*load("3-rfr"), ChainModel::weighted));
+ChainLegs<Planar> three_rfr() {
+  return chains_of<Planar>(*load("3-rfr")->as(Model::prb, ChainModel::weighted));
 }
 
 /// The robot under a load that wanders by some 2 % a step, its tendon lengths held.
 struct Walk {
-  ChainRobot<Planar> robot = three_rfr();
+  ChainLegs<Planar> robot = three_rfr();
   ChainWork work;
   ChainState<Planar> state;
   std::vector<ChainHold> hold;
@@ -54,7 +54,7 @@ struct Walk {
 
 /// Everything at once: pose, angles, chord forces, tensions; Newton on differences.
 struct Dense {
-  const ChainRobot<Planar>& robot;
+  const ChainLegs<Planar>& robot;
   const std::vector<ChainHold>& hold;
   Vec<double, 3> wrench;
   bool holds_lengths;
@@ -111,7 +111,7 @@ struct Dense {
   }
 };
 
-Unknowns unknowns_of(const ChainState<Planar>& state, const ChainRobot<Planar>& robot, bool holds_lengths) {
+Unknowns unknowns_of(const ChainState<Planar>& state, const ChainLegs<Planar>& robot, bool holds_lengths) {
   std::vector<double> z{state.pose.x, state.pose.y, state.pose.phi};
   for (std::size_t i = 0; i < state.legs.size(); ++i) {
     const auto angles = state.legs[i].of(robot.legs[i].chain);
@@ -163,7 +163,7 @@ void compare_inverse() {
 
 void compare_rates() {
   struct Case {
-    ChainRobot<Planar> robot = three_rfr();
+    ChainLegs<Planar> robot = three_rfr();
     ChainState<Planar> state;
     ChainRates<Planar> rates;
     double gap = 0;
@@ -212,8 +212,7 @@ void compare_rates() {
 
 void compare_six_legs() {
   struct Case {
-    ChainRobot<Spatial> robot =
-        std::get<ChainRobot<Spatial>>(*chain_robot(*load("6-ufs"), ChainModel::weighted));
+    ChainLegs<Spatial> robot = chains_of<Spatial>(*load("6-ufs")->as(Model::prb, ChainModel::weighted));
     ChainState<Spatial> state;
     ChainWork work;
     std::vector<ChainHold> hold;

@@ -164,14 +164,14 @@ Operation warm_hexapod() {
 template <class Space>
 Operation chain_statics(const char* name, const typename Space::Pose& pose, int links, bool holds_lengths) {
   struct Case {
-    ChainRobot<Space> robot;
+    ChainLegs<Space> robot;
     ChainWork work;
     ChainState<Space> state;
     std::vector<ChainHold> hold;
     int step = 0;
   };
   auto one = std::make_shared<Case>();
-  one->robot = std::get<ChainRobot<Space>>(*chain_robot(*load(name), ChainModel::weighted));
+  one->robot = chains_of<Space>(*load(name)->as(Model::prb, ChainModel::weighted));
   for (auto& leg : one->robot.legs) leg.chain.links = links;
   const std::vector<double> towards_plus(one->robot.legs.size(), 1.0);
   if (!rest(one->robot, pose, towards_plus, holds_lengths, one->state).ok()) std::abort();

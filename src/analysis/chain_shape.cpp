@@ -36,7 +36,7 @@ std::array<PolylineOf<Space::dimension>, 2> tendons_of(
 }  // namespace
 
 template <class Space>
-ShapeOf<Space::dimension> chain_shape(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
+ShapeOf<Space::dimension> chain_shape(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
                                       std::span<const ChainLegState> legs) {
   ShapeOf<Space::dimension> shape;
   if (legs.size() != robot.legs.size()) return shape;
@@ -55,9 +55,9 @@ ShapeOf<Space::dimension> chain_shape(const ChainRobot<Space>& robot, const type
   return shape;
 }
 
-template SINEW_API ShapeOf<2> chain_shape(const ChainRobot<Planar>&, const PlanarPose&,
+template SINEW_API ShapeOf<2> chain_shape(const ChainLegs<Planar>&, const PlanarPose&,
                                           std::span<const ChainLegState>);
-template SINEW_API ShapeOf<3> chain_shape(const ChainRobot<Spatial>&, const SpatialPose&,
+template SINEW_API ShapeOf<3> chain_shape(const ChainLegs<Spatial>&, const SpatialPose&,
                                           std::span<const ChainLegState>);
 
 }  // namespace sinew::inline v0

@@ -32,7 +32,7 @@ MatrixView view(const Rows<Columns>& rows) {
 
 /// Rows of unit lines, moments over the platform's radius; type I legs.
 template <class Space>
-Rows<Space::dof> unit_lines(const ChainRobot<Space>& robot, ChainVelocity<Space>& velocity,
+Rows<Space::dof> unit_lines(const ChainLegs<Space>& robot, ChainVelocity<Space>& velocity,
                             std::array<double, max_rows>& distance) {
   const auto& rates = velocity.rates;
   Rows<Space::dof> lines = rates.J;
@@ -74,7 +74,7 @@ bool invert(const Rows<Space::dof>& lines, std::span<const double> distance, dou
 }  // namespace
 
 template <class Space>
-ChainVelocity<Space> chain_velocity(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
+ChainVelocity<Space> chain_velocity(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
                                     std::span<const ChainLegState> legs) {
   constexpr int dof = Space::dof;
   ChainVelocity<Space> velocity{};
@@ -129,9 +129,9 @@ std::vector<double> least_norm_rates(const ChainVelocity<Space>& velocity,
 
 template SINEW_API std::vector<double> least_norm_rates(const ChainVelocity<Planar>&, const Vec<double, 3>&);
 template SINEW_API std::vector<double> least_norm_rates(const ChainVelocity<Spatial>&, const Vec<double, 6>&);
-template SINEW_API ChainVelocity<Planar> chain_velocity(const ChainRobot<Planar>&, const PlanarPose&,
+template SINEW_API ChainVelocity<Planar> chain_velocity(const ChainLegs<Planar>&, const PlanarPose&,
                                                         std::span<const ChainLegState>);
-template SINEW_API ChainVelocity<Spatial> chain_velocity(const ChainRobot<Spatial>&, const SpatialPose&,
+template SINEW_API ChainVelocity<Spatial> chain_velocity(const ChainLegs<Spatial>&, const SpatialPose&,
                                                          std::span<const ChainLegState>);
 
 }  // namespace sinew::inline v0

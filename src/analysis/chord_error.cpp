@@ -15,8 +15,6 @@
 namespace sinew::inline v0 {
 namespace {
 
-using kernel::Model;
-
 // ---------------------------------------------------------------- the series
 
 /// cₖ of x/sin x = Σ cₖ x²ᵏ, from the product of the two series; 32 of them leave 2⁻⁶⁴ at x = π/2.
@@ -174,14 +172,14 @@ struct LinearPose {
 
 LinearPose linear_pose(const SerialRobot& robot, const std::vector<Bend>& meant, SerialWorkspace& work) {
   const Vec<double, 3> there = tip(meant, work);
-  tendon_changes(meant, Model::linear, work);
+  tendon_changes(meant, kernel::Model::linear, work);
   std::vector<double> changes = work.changes;
   LinearPose out{};
-  out.has_arcs = bends_of_changes(robot, changes, Model::exact, work).status != Status::unreachable;
+  out.has_arcs = bends_of_changes(robot, changes, kernel::Model::exact, work).status != Status::unreachable;
   out.commanded = (tip(work.bends, work) - there).norm();
-  tendon_changes(meant, Model::exact, work);
+  tendon_changes(meant, kernel::Model::exact, work);
   changes = work.changes;
-  bends_of_changes(robot, changes, Model::linear, work);
+  bends_of_changes(robot, changes, kernel::Model::linear, work);
   out.read_back = (tip(work.bends, work) - there).norm();
   return out;
 }
@@ -248,7 +246,7 @@ double linear_freedom(const Section& section, const Bend& bend) {
   const bool twin = section.is_twin();
   const double wide = 0.49 * std::numbers::pi * (twin ? 1 : 2 * section.segments);
   DiagramQuestion question{map, {at, changes}, {twin ? Envelope::Kind::square : Envelope::Kind::disc, wide}};
-  question.model = Model::exact;
+  question.model = kernel::Model::exact;
   question.deviation = 1e-6;
   const SectionDiagram diagram = section_diagram(question);
   if (!diagram.report.ok()) return std::numeric_limits<double>::quiet_NaN();

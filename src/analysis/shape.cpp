@@ -88,7 +88,7 @@ AnyShape loaded_shape(const Robot& robot, RodGroup& system, const SpatialPose& p
 
 AnyShape any_shape(const Robot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
   const bool fits = std::holds_alternative<PlanarPose>(pose) == is_planar(robot) &&
-                    robot.is_within_limits() && samples >= 2 &&
+                    robot.is_within_limits() && robot.model() != Model::prb && samples >= 2 &&
                     coordinates.size() == static_cast<std::size_t>(coordinate_count(robot));
   if (!fits) return is_planar(robot) ? AnyShape(PlanarShape{}) : AnyShape(SpatialShape{});
   return with_closing_legs(

@@ -12,8 +12,6 @@
 namespace sinew::inline v0 {
 namespace {
 
-using kernel::Model;
-
 /// A joint and a tendon at this distance from the backbone, towards the bend.
 struct Gap {
   double length, offset;
@@ -42,8 +40,8 @@ struct Gap {
     return 0.5 * (low + high);
   }
 
-  TendonTravel travel(double limit, Model model) const {
-    if (model == Model::linear) {
+  TendonTravel travel(double limit, kernel::Model model) const {
+    if (model == kernel::Model::linear) {
       const double most = std::abs(linear(limit));
       return {-most, most};
     }
@@ -62,7 +60,7 @@ double joint_limit(const Section& section) {
 }
 
 /// What a section of that length asks of a tendon that passes it at that angle.
-TendonTravel bending_travel(const Section& section, double angle, Model model) {
+TendonTravel bending_travel(const Section& section, double angle, kernel::Model model) {
   const double r = section.tendon_radius, limit = joint_limit(section);
   // A neutral backbone bends any way, and a tendon is moved most by bends in its own plane.
   if (!section.is_twin()) return section.segments * Gap{section.joint, r}.travel(limit, model);
@@ -72,7 +70,7 @@ TendonTravel bending_travel(const Section& section, double angle, Model model) {
 }
 
 /// The same with all its lengths: for each bend it is linear in the extension.
-TendonTravel section_travel(const Section& section, double angle, Model model) {
+TendonTravel section_travel(const Section& section, double angle, kernel::Model model) {
   const double least = section.least_extension, most = section.most_extension;
   const TendonTravel shorter = bending_travel(section.extended(least), angle, model),
                      longer = bending_travel(section.extended(most), angle, model);
@@ -84,7 +82,7 @@ TendonTravel section_travel(const Section& section, double angle, Model model) {
 
 double bend_per_length(const Section& section) { return 1 / section.tendon_radius; }
 
-std::vector<TendonTravel> tendon_travel(const SerialRobot& robot, Model model) {
+std::vector<TendonTravel> tendon_travel(const SerialRobot& robot, kernel::Model model) {
   std::vector<TendonTravel> all;
   for (std::size_t m = 0; m < robot.sections.size(); ++m) {
     const Section& own = robot.sections[m];

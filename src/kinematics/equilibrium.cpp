@@ -58,7 +58,7 @@ double largest_singular_value(const double* rows, int columns) {
 /// Calls `solve(rods, home, question)` and answers with what it found.
 template <class Solve>
 Equilibrium solved(const Robot& robot, const EquilibriumOptions& options, Workspace& work, Solve&& solve) {
-  if (!bears_load(robot)) return refused();
+  if (!has_rods(robot)) return refused();
   if (const Report fits = check_workspace(robot, work); !fits.ok()) return refused(fits);
   RodWork& rods = rods_of(work);
   const Report report = solve(rods, home_of(robot), question_of(robot, options, rods));
@@ -92,7 +92,7 @@ Equilibrium inverse_equilibrium(const Robot& robot, const SpatialPose& wanted,
 }
 
 bool has_equilibrium_batch(const Robot& robot) {
-  if (!bears_load(robot)) return false;
+  if (!has_rods(robot)) return false;
   const Workspace work(robot);
   return work.rods->system->elastica() != nullptr;
 }
@@ -102,7 +102,7 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
                        bool judge) {
   std::fill(statuses.begin(), statuses.end(), Status::left_domain);
   const std::size_t inputs = at(input_count(robot));
-  if (!bears_load(robot) || !check_workspace(robot, work).ok() || statuses.size() != poses.size() ||
+  if (!has_rods(robot) || !check_workspace(robot, work).ok() || statuses.size() != poses.size() ||
       rows.size() != poses.size() * inputs)
     return;
   if (RodWork& rods = rods_of(work); rods.system->elastica()) {
@@ -186,7 +186,7 @@ RodAnalysis analysis_of(const Robot& robot, RodGroup& system) {
 }  // namespace
 
 RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work) {
-  if (!bears_load(robot) || !check_workspace(robot, work).ok()) return {};
+  if (!has_rods(robot) || !check_workspace(robot, work).ok()) return {};
   return analysis_of(robot, *rods_of(work).system);
 }
 
@@ -217,7 +217,7 @@ std::string_view to_string(LoadEnd end) noexcept {
 LoadPath follow_load(const Robot& robot, const SpatialWrench& direction, double limit, Workspace& work) {
   LoadPath path;
   path.end = LoadEnd::stalled;
-  if (!bears_load(robot) || !check_workspace(robot, work).ok() || !direction.allFinite() ||
+  if (!has_rods(robot) || !check_workspace(robot, work).ok() || !direction.allFinite() ||
       direction == SpatialWrench::Zero() || !(limit > 0))
     return path;
   RodWork& rods = rods_of(work);
@@ -280,7 +280,7 @@ bool is_solution(const Report& report) { return report.ok() || report.status == 
 std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
                                          const EquilibriumOptions& options, Workspace& work) {
   std::vector<FoundEquilibrium> found;
-  if (!bears_load(robot) || !check_workspace(robot, work).ok()) return found;
+  if (!has_rods(robot) || !check_workspace(robot, work).ok()) return found;
   const SE3<double> home = home_of(robot);
   const double size = home.p.norm();
   RodWork& rods = rods_of(work);
@@ -303,7 +303,7 @@ std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
 std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const SpatialPose& wanted,
                                                  const EquilibriumOptions& options, Workspace& work) {
   std::vector<FoundEquilibrium> found;
-  if (!bears_load(robot) || !check_workspace(robot, work).ok()) return found;
+  if (!has_rods(robot) || !check_workspace(robot, work).ok()) return found;
   const SE3<double> home = home_of(robot), target = SE3<double>::from(wanted);
   const double size = home.p.norm();
   const auto is_known = [&](const FoundEquilibrium& one) {

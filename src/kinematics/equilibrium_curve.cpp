@@ -65,7 +65,7 @@ std::string_view to_string(CurveEnd end) noexcept {
 
 std::vector<EquilibriumCurve> equilibrium_curves(const Robot& robot, const CurveOptions& how,
                                                  Workspace& work) {
-  if (!bears_load(robot) || !check_workspace(robot, work).ok() || !is_answerable(robot, how)) return {};
+  if (!has_rods(robot) || !check_workspace(robot, work).ok() || !is_answerable(robot, how)) return {};
   RodWork& rods = rods_of(work);
   if (!rods.is_solved) return {};
   RodGroup& system = *rods.system;

@@ -29,7 +29,7 @@ SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Num
                           const EquilibriumOptions& options, Workspace& work) {
   SensedWrench sensed{};
   const auto is_number = [](double x) { return std::isfinite(x); };
-  if (!bears_load(robot) || robot.rod_count() != 6 || leg_count(robot) != 6 || axial.size() != 6 ||
+  if (!has_rods(robot) || robot.rod_count() != 6 || leg_count(robot) != 6 || axial.size() != 6 ||
       deviations.size() != 6 || !std::ranges::all_of(axial, is_number) ||
       !std::ranges::all_of(deviations, is_number)) {
     sensed.report = failed(Status::left_domain);

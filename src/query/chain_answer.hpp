@@ -35,7 +35,7 @@ std::vector<ChainHold> read_lengths(const Reader& list, std::size_t legs);
 std::vector<ChainHold> read_tensions(const Reader& list, std::size_t legs);
 
 template <class Space>
-Json chain_legs_json(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+Json chain_legs_json(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
   const auto platform = Space::frame(state.pose);
   Json legs = Json::array(), angles = angles_json<Space>(robot, state.legs);
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
@@ -61,7 +61,7 @@ void put_matrix(Json& answer, const char* key, const Mat<double, Space::dof, Spa
 
 /// The paper's linear model and constant curvature, beside the answer.
 template <class Space>
-void put_simpler_models(Context& context, const ChainRobot<Space>& robot, const ChainState<Space>& unloaded,
+void put_simpler_models(Context& context, const ChainLegs<Space>& robot, const ChainState<Space>& unloaded,
                         const ChainState<Space>& loaded, const Load<Space>& load, ChainWork& work) {
   Json& answer = context.answer;
   const Vec<double, Space::dof> change = linear_compliance(robot, unloaded) * loaded.wrench,
@@ -100,62 +100,8 @@ void put_simpler_models(Context& context, const ChainRobot<Space>& robot, const 
   answer["cc_pose"] = to_json(AnyPose(Space::tidy(even.pose)));
 }
 
-/// Directions of the first links where θ of each motor is 0, at lengths of tendon 1, as arcs have them. None
-/// without motors.
 template <class Space>
-std::vector<double> first_links(Context& context, const ChainRobot<Space>& robot, const AnyPose& pose,
-                                std::span<const double> lengths) {
-  std::vector<double> inputs, directions;
-  if (!robot.has_base_motors) return directions;
-  for (const double length : lengths) inputs.insert(inputs.end(), {0, length});
-  static_cast<void>(command(context.robot, inputs, context.work));  // of arcs beyond their domain, too
-  const Arcs arcs = arcs_of(context, pose, context.work.coordinates);
-  for (std::size_t i = 0; i < lengths.size(); ++i)
-    directions.push_back(first_link(arcs.base_tangent[i], arcs.curvature[i], robot.legs[i].chain));
-  return directions;
-}
-
-/// In the order of the robot's inputs.
-template <class Space>
-std::vector<double> inputs_of(Context& context, const ChainRobot<Space>& robot,
-                              const ChainState<Space>& state) {
-  std::vector<double> lengths, inputs;
-  for (const ChainLegState& leg : state.legs) lengths.push_back(leg.tendon_length[0]);
-  const std::vector<double> at_zero = first_links(context, robot, state.pose, lengths);
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
-    if constexpr (Space::dimension == 2)
-      if (robot.has_base_motors)
-        inputs.push_back(wrap_angle(robot.legs[i].base.angle() + std::numbers::pi / 2 - at_zero[i]));
-    inputs.push_back(lengths[i]);
-  }
-  return inputs;
-}
-
-/// What inputs do, in the robot's order where lengths are held: those of tendon 1, and θ that puts a first
-/// link farther with its tendon.
-template <class Space>
-void put_sensitivity(Context& context, const ChainRobot<Space>& robot, const ChainState<Space>& state,
-                     ChainWork& work) {
-  Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor> rows =
-      input_sensitivity(robot, state, work);
-  std::vector<double> shorter;
-  for (const auto& leg : robot.legs) shorter.push_back(0.9 * leg.chain.length);
-  const std::vector<double> turned = first_links(context, robot, state.pose, shorter);
-  Eigen::Index column = 0;
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    const int held = state.hold[i].length_of;
-    column += robot.has_base_motors ? 1 : 0;
-    if (held == 1) rows.col(column) *= -1;
-    if (held >= 0 && robot.has_base_motors)  // first links are affine in the length
-      rows.col(column) += rows.col(column - 1) * turned[i] / (shorter[i] - robot.legs[i].chain.length);
-    column += held >= 0 ? 1 : 2;
-  }
-  if (rows.allFinite())
-    context.answer["sensitivity"] = to_json(MatrixView(rows.data(), Space::dof, rows.cols()));
-}
-
-template <class Space>
-void put_wanted(Context& context, const ChainRobot<Space>& robot, const ChainState<Space>& state,
+void put_wanted(Context& context, const ChainLegs<Space>& robot, const ChainState<Space>& state,
                 const ChainStability<Space>& stability, const Wanted& wanted, ChainWork& work) {
   Json& answer = context.answer;
   if (wanted.stability) {
@@ -170,12 +116,14 @@ void put_wanted(Context& context, const ChainRobot<Space>& robot, const ChainSta
     put_number(answer["margins"], "fold", found.fold);
     put_number(answer["margins"], "strain", found.strain);
   }
-  if (wanted.sensitivity) put_sensitivity(context, robot, state, work);
+  if (wanted.sensitivity)
+    if (const auto rows = sensitivity_to_inputs(twin_of(context), robot, state, work); rows.allFinite())
+      answer["sensitivity"] = to_json(MatrixView(rows.data(), Space::dof, rows.cols()));
 }
 
 /// @param unloaded what simpler models start from, if it is known
 template <class Space>
-void put_equilibrium(Context& context, const ChainRobot<Space>& robot, const ChainState<Space>& state,
+void put_equilibrium(Context& context, const ChainLegs<Space>& robot, const ChainState<Space>& state,
                      Report report, const ChainState<Space>* unloaded, const Load<Space>& load,
                      ChainWork& work) {
   Json& answer = context.answer;

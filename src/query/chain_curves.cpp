@@ -64,14 +64,16 @@ CurveQuery<Space> read_curve(Context& context, std::size_t legs) {
 
 /// The equilibrium where the curve begins.
 template <class Space>
-Report begin(Context& context, ChainRobot<Space>& robot, const CurveQuery<Space>& asked,
+Report begin(Context& context, ChainLegs<Space>& robot, const CurveQuery<Space>& asked,
              ChainState<Space>& state, ChainWork& work) {
   ChainOptions options;
   if (context.max_iterations) options.max_iterations = *context.max_iterations;
-  const Report report = asked.hold.empty()
-                            ? rest_at(context, robot, asked.at, asked.branch, asked.holds_lengths, state)
-                            : unloaded(robot, asked.at, arcs_at(context, asked.at, asked.branch), asked.hold,
-                                       state, work, options);
+  const Report report =
+      asked.hold.empty()
+          ? rest_at(context, robot, asked.at, asked.branch, asked.holds_lengths, state)
+          : unloaded(robot,
+                     {asked.at, arcs_at(twin_of(context), asked.at, asked.branch.options()), asked.hold},
+                     state, work, options);
   if (!is_solved(report)) return report;
   return equilibrium(robot, std::vector(state.hold), asked.wrench, state, work, options);
 }
@@ -79,11 +81,11 @@ Report begin(Context& context, ChainRobot<Space>& robot, const CurveQuery<Space>
 }  // namespace
 
 template <class Space>
-void answer_curves(Context& context, ChainRobot<Space>& robot) {
+void answer_curves(Context& context, ChainLegs<Space>& robot) {
   const CurveQuery<Space> asked = read_curve<Space>(context, robot.legs.size());
   if (!context.ready()) return;
   ChainState<Space> state;
-  ChainWork work{.stop = context.work.stop};
+  ChainWork& work = work_of(context);
   const Report report = begin(context, robot, asked, state, work);
   context.report(report);
   if (!is_solved(report)) return;
@@ -97,12 +99,12 @@ void answer_curves(Context& context, ChainRobot<Space>& robot) {
     Json tensions = Json::array();
     for (const ChainLegState& leg : point.state.legs) tensions.push_back(leg.tension);
     return Json{{"pose", to_json(AnyPose(Space::tidy(point.state.pose)))},
-                {"inputs", to_json(inputs_of(context, robot, point.state))},
+                {"inputs", to_json(inputs_of(twin_of(context), robot, point.state))},
                 {"tensions", std::move(tensions)}};
   });
 }
 
-template void answer_curves(Context&, ChainRobot<Planar>&);
-template void answer_curves(Context&, ChainRobot<Spatial>&);
+template void answer_curves(Context&, ChainLegs<Planar>&);
+template void answer_curves(Context&, ChainLegs<Spatial>&);
 
 }  // namespace sinew::inline v0::chains

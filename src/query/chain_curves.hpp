@@ -6,6 +6,6 @@
 namespace sinew::inline v0::chains {
 
 template <class Space>
-void answer_curves(Context& context, ChainRobot<Space>& robot);
+void answer_curves(Context& context, ChainLegs<Space>& robot);
 
 }  // namespace sinew::inline v0::chains

@@ -60,16 +60,16 @@ SensingQuery read_sensing(Context& context, std::size_t legs, std::size_t freedo
 
 /// What is held, and where the search for it begins.
 template <class Space>
-HeldInputs held_of(Context& context, const ChainRobot<Space>& robot, const SensingQuery& asked) {
+HeldInputs held_of(Context& context, const ChainLegs<Space>& robot, const SensingQuery& asked) {
   if (!asked.inputs.empty()) return hold_inputs(context, robot, asked.inputs, asked.start);
   const AnyPose start = asked.start.value_or(home(context.robot));
-  return {start, arcs_at(context, start, asked.branch), asked.hold};
+  return {start, arcs_at(twin_of(context), start, asked.branch.options()), asked.hold};
 }
 
 }  // namespace
 
 template <class Space>
-void answer_sensing(Context& context, ChainRobot<Space>& robot) {
+void answer_sensing(Context& context, ChainLegs<Space>& robot) {
   constexpr auto freedoms = static_cast<std::size_t>(Space::dof);
   const SensingQuery asked = read_sensing(context, robot.legs.size(), freedoms);
   Load<Space> load;
@@ -77,9 +77,9 @@ void answer_sensing(Context& context, ChainRobot<Space>& robot) {
   if (context.max_iterations) load.options.max_iterations = *context.max_iterations;
   if (!context.ready()) return;
   ChainState<Space> state;
-  ChainWork work{.stop = context.work.stop};
+  ChainWork& work = work_of(context);
   const HeldInputs held = held_of(context, robot, asked);
-  SensedLoad<Space> sensed{unloaded(robot, held.pose, held.arcs, held.hold, state, work, load.options), {}};
+  SensedLoad<Space> sensed{unloaded(robot, held, state, work, load.options), {}};
   if (is_solved(sensed.report)) sensed = sense_wrench(robot, asked.measured, state, work, load.options);
   put_equilibrium<Space>(context, robot, state, sensed.report, nullptr, load, work);
   if (!is_solved(sensed.report)) return;
@@ -90,7 +90,7 @@ void answer_sensing(Context& context, ChainRobot<Space>& robot) {
   put_matrix<Space>(context.answer, "covariance", scaled * scaled.transpose());
 }
 
-template void answer_sensing(Context&, ChainRobot<Planar>&);
-template void answer_sensing(Context&, ChainRobot<Spatial>&);
+template void answer_sensing(Context&, ChainLegs<Planar>&);
+template void answer_sensing(Context&, ChainLegs<Spatial>&);
 
 }  // namespace sinew::inline v0::chains

@@ -17,7 +17,7 @@ struct Asked {
 };
 
 template <class Space>
-Asked<Space> read_asked(Context& context, ChainRobot<Space>& robot) {
+Asked<Space> read_asked(Context& context, ChainLegs<Space>& robot) {
   Reader& query = context.query;
   Configuration at = read_configuration(context);
   Joints<Space> joints(context, robot, at.branch);
@@ -38,21 +38,21 @@ Asked<Space> read_asked(Context& context, ChainRobot<Space>& robot) {
 
 /// Rests under the wrench as `forward` has it from inputs, as `inverse` from a pose.
 template <class Space>
-Report rest_under(Context& context, ChainRobot<Space>& robot, const Asked<Space>& asked,
+Report rest_under(Context& context, ChainLegs<Space>& robot, const Asked<Space>& asked,
                   ChainState<Space>& state) {
-  ChainWork work{.stop = context.work.stop};
+  ChainWork& work = work_of(context);
   const Wrench<Space> wrench = asked.wrench.value_or(Wrench<Space>::Zero());
   if (!asked.at.inputs) {
     const Report report = rest_at(context, robot, *asked.at.pose, asked.at.branch, true, state);
     return report.ok() ? hold_pose(robot, wrench, state, work, asked.options) : report;
   }
   const HeldInputs held = hold_inputs(context, robot, *asked.at.inputs, asked.at.start);
-  const Report report = unloaded(robot, held.pose, held.arcs, held.hold, state, work, asked.options);
+  const Report report = unloaded(robot, held, state, work, asked.options);
   return is_solved(report) ? equilibrium(robot, held.hold, wrench, state, work, asked.options) : report;
 }
 
 template <class Space>
-void answer_shape_of(Context& context, ChainRobot<Space>& robot) {
+void answer_shape_of(Context& context, ChainLegs<Space>& robot) {
   const Asked<Space> asked = read_asked(context, robot);
   if (!context.ready()) return;
   ChainState<Space> state;
@@ -66,8 +66,7 @@ void answer_shape_of(Context& context, ChainRobot<Space>& robot) {
     report = rest_under(context, robot, asked, state);
   }
   const bool is_found = is_solved(report);
-  ChainWork work;
-  if (is_found && !asked.joints.are_given()) judge(robot, state, work, report);
+  if (is_found && !asked.joints.are_given()) judge(robot, state, work_of(context), report);
   context.report(report);
   context.remember({});
   if (!is_found) return;
@@ -81,8 +80,7 @@ void answer_shape_of(Context& context, ChainRobot<Space>& robot) {
 }  // namespace
 
 void answer_chains_shape(Context& context) {
-  auto robot = read_robot(context, read_law(context));
-  if (robot) std::visit([&](auto& chains) { answer_shape_of(context, chains); }, *robot);
+  on_chains(context, [&](auto& robot) { answer_shape_of(context, robot); });
 }
 
 }  // namespace sinew::inline v0

@@ -14,7 +14,7 @@ namespace {
 constexpr double most_inverses = 256;
 
 template <class Space>
-Json solution_json(Json begun, const ChainRobot<Space>& robot, const FoundChains<Space>& one) {
+Json solution_json(Json begun, const ChainLegs<Space>& robot, const FoundChains<Space>& one) {
   begun["residual"] = one.report.residual;
   begun["stable"] = one.stability.is_stable();
   begun["unstable_directions"] = one.stability.unstable_directions;
@@ -27,13 +27,14 @@ Json solution_json(Json begun, const ChainRobot<Space>& robot, const FoundChains
 }  // namespace
 
 template <class Space>
-void put_all_equilibria(Context& context, const ChainRobot<Space>& robot, const HeldInputs& held,
+void put_all_equilibria(Context& context, const ChainLegs<Space>& robot, const HeldInputs& held,
                         std::span<const double> inputs, const Load<Space>& load) {
   using Pose = typename Space::Pose;
   std::vector<ChainStart<Space>> starts{{std::get<Pose>(held.pose), held.arcs.curvature}};
-  const AssemblyModes modes = assembly_modes(context.robot, inputs, context.work);
+  const ArcTwin twin = twin_of(context);
+  const AssemblyModes modes = assembly_modes(twin.robot, inputs, twin.work);
   for (const AnyPose& pose : modes.poses) starts.push_back({std::get<Pose>(pose), held.arcs.curvature});
-  ChainWork work{.stop = context.work.stop};
+  ChainWork& work = work_of(context);
   Json solutions = Json::array();
   const std::span<const ChainStart<Space>> all(starts);
   for (const auto& one : chain_equilibria(robot, all, held.hold, load.wrench, work, load.options))
@@ -42,26 +43,26 @@ void put_all_equilibria(Context& context, const ChainRobot<Space>& robot, const 
 }
 
 template <class Space>
-void put_all_inverses(Context& context, ChainRobot<Space> robot, const AnyPose& pose, const Branch& branch,
+void put_all_inverses(Context& context, ChainLegs<Space> robot, const AnyPose& pose, const Branch& branch,
                       const Load<Space>& load) {
-  const WorkingModes modes = working_modes(context.robot, pose, branch.options(), context.work);
+  ArcTwin twin = twin_of(context);
+  const WorkingModes modes = working_modes(twin.robot, pose, branch.options(), twin.work);
   std::vector<std::vector<double>> ways;
   for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, most_inverses); ++k)
-    modes.mode(context.robot, k, ways.emplace_back(context.work.inputs.size()));
-  ChainWork work{.stop = context.work.stop};
+    modes.mode(twin.robot, k, ways.emplace_back(twin.work.inputs.size()));
+  ChainWork& work = work_of(context);
   std::vector<std::pair<double, Json>> found;
   for (const std::vector<double>& way : ways) {
     if (work.stop.stop_requested()) break;
     FoundChains<Space> one;
-    static_cast<void>(command(context.robot, way, context.work));
-    one.report = rest_near(robot, pose, arcs_of(context, pose, context.work.coordinates), true, one.state);
+    static_cast<void>(command(twin.robot, way, twin.work));
+    one.report = rest_near(robot, pose, arcs_of(twin, pose, twin.work.coordinates), true, one.state);
     if (one.report.ok()) one.report = hold_pose(robot, load.wrench, one.state, work, load.options);
     if (!is_solved(one.report)) continue;
     one.stability = check_stability(robot, one.state, work);
     one.potential = potential(robot, one.state);
-    found.emplace_back(
-        one.potential,
-        solution_json({{"inputs", to_json(inputs_of(context, robot, one.state))}}, robot, one));
+    found.emplace_back(one.potential,
+                       solution_json({{"inputs", to_json(inputs_of(twin, robot, one.state))}}, robot, one));
   }
   std::ranges::stable_sort(found, {},
                            [](const auto& one) { return std::isfinite(one.first) ? one.first : 0; });
@@ -73,10 +74,10 @@ void put_all_inverses(Context& context, ChainRobot<Space> robot, const AnyPose& 
   put_solutions(context, std::move(solutions));
 }
 
-#define SINEW_OF(Space)                                                                      \
-  template void put_all_equilibria(Context&, const ChainRobot<Space>&, const HeldInputs&,    \
-                                   std::span<const double>, const Load<Space>&);             \
-  template void put_all_inverses(Context&, ChainRobot<Space>, const AnyPose&, const Branch&, \
+#define SINEW_OF(Space)                                                                     \
+  template void put_all_equilibria(Context&, const ChainLegs<Space>&, const HeldInputs&,    \
+                                   std::span<const double>, const Load<Space>&);            \
+  template void put_all_inverses(Context&, ChainLegs<Space>, const AnyPose&, const Branch&, \
                                  const Load<Space>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)

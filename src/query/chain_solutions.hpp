@@ -7,12 +7,12 @@ namespace sinew::inline v0::chains {
 
 /// Every equilibrium that is found of what these inputs hold.
 template <class Space>
-void put_all_equilibria(Context& context, const ChainRobot<Space>& robot, const HeldInputs& held,
+void put_all_equilibria(Context& context, const ChainLegs<Space>& robot, const HeldInputs& held,
                         std::span<const double> inputs, const Load<Space>& load);
 
 /// Every working mode of the arcs at a pose, as chains that hold it.
 template <class Space>
-void put_all_inverses(Context& context, ChainRobot<Space> robot, const AnyPose& pose, const Branch& branch,
+void put_all_inverses(Context& context, ChainLegs<Space> robot, const AnyPose& pose, const Branch& branch,
                       const Load<Space>& load);
 
 }  // namespace sinew::inline v0::chains

@@ -43,7 +43,7 @@ Json U_json(const ChainVelocity<Space>& velocity) {
 }
 
 template <class Space>
-void put_velocity(Context& context, const ChainRobot<Space>& robot, const ChainVelocity<Space>& velocity,
+void put_velocity(Context& context, const ChainLegs<Space>& robot, const ChainVelocity<Space>& velocity,
                   const std::vector<ChainLegState>& legs, std::span<const double> twist) {
   Json& answer = context.answer;
   context.report(velocity.report);
@@ -72,7 +72,7 @@ void put_velocity(Context& context, const ChainRobot<Space>& robot, const ChainV
 }
 
 template <class Space>
-void answer_velocity_of(Context& context, ChainRobot<Space>& robot) {
+void answer_velocity_of(Context& context, ChainLegs<Space>& robot) {
   Reader& query = context.query;
   const AnyPose pose = read_pose(context, query.required("pose", "pose of the platform"));
   const Joints joints(context, robot, read_branch(context));
@@ -91,7 +91,7 @@ void answer_velocity_of(Context& context, ChainRobot<Space>& robot) {
 }
 
 template <class Space>
-Json row_json(const ChainRobot<Space>& robot, const AnyPose& pose, std::span<const ChainLegState> legs) {
+Json row_json(const ChainLegs<Space>& robot, const AnyPose& pose, std::span<const ChainLegState> legs) {
   const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
   Json row{{"pose", to_json(pose)},
            {"angles", angles_json(robot, legs)},
@@ -114,7 +114,7 @@ bool is_curve(Reader& query) {
 }
 
 template <class Space>
-void answer_track_of(Context& context, ChainRobot<Space>& robot) {
+void answer_track_of(Context& context, ChainLegs<Space>& robot) {
   Reader& query = context.query;
   if (is_curve(query)) return answer_curves(context, robot);
   const std::vector<AnyPose> poses = read_path(context);
@@ -150,13 +150,11 @@ void answer_track_of(Context& context, ChainRobot<Space>& robot) {
 }  // namespace
 
 void answer_chains_track(Context& context) {
-  auto robot = read_robot(context, read_law(context));
-  if (robot) std::visit([&](auto& chains) { answer_track_of(context, chains); }, *robot);
+  on_chains(context, [&](auto& robot) { answer_track_of(context, robot); });
 }
 
 void answer_chains_velocity(Context& context) {
-  auto robot = read_robot(context, read_law(context));
-  if (robot) std::visit([&](auto& chains) { answer_velocity_of(context, chains); }, *robot);
+  on_chains(context, [&](auto& robot) { answer_velocity_of(context, robot); });
 }
 
 }  // namespace sinew::inline v0

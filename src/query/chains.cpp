@@ -3,53 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "query/chain_sensing.hpp"
 #include "query/chain_solutions.hpp"
 #include "query/rods.hpp"
-#include "sinew/kinematics/forward.hpp"
 
 namespace sinew::inline v0 {
 namespace chains {
-
-ChainModel read_law(Context& context) {
-  const auto law = context.query.optional("law");
-  if (!law) return ChainModel::weighted;
-  return law->choice_of<ChainModel>(
-      {{"M0w", ChainModel::weighted}, {"M0", ChainModel::even}, {"M1", ChainModel::discs}});
-}
-
-std::optional<AnyChainRobot> read_robot(Context& context, ChainModel law) {
-  auto robot = chain_robot(context.robot, law);
-  if (robot) return std::move(*robot);
-  context.errors.insert(context.errors.end(), robot.error().begin(), robot.error().end());
-  return {};
-}
-
-Arcs arcs_at(Context& context, const AnyPose& pose, const Branch& branch) {
-  const Inverse solved = inverse(context.robot, pose, branch.options(), context.work);
-  if (!solved.ok()) return {solved.report, {}, {}};
-  return arcs_of(context, pose, {solved.coordinates.begin(), solved.coordinates.end()});
-}
-
-Arcs arcs_of(Context& context, const AnyPose& pose, std::vector<double> coordinates) {
-  Arcs arcs;
-  for (const LegState& leg : leg_states(context.robot, pose, coordinates, context.work)) {
-    arcs.curvature.push_back(leg.curvature);
-    arcs.base_tangent.push_back(std::atan2(leg.base_tangent.y(), leg.base_tangent.x()));
-  }
-  return arcs;
-}
-
-void aim_bases(ChainRobot<Planar>& robot, const Arcs& arcs) {
-  if (!robot.has_base_motors) return;
-  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
-    ChainLeg<Planar>& leg = robot.legs[i];
-    const double direction = first_link(arcs.base_tangent[i], arcs.curvature[i], leg.chain);
-    leg.base = SE2<double>::from(leg.base.p.x(), leg.base.p.y(), direction - std::numbers::pi / 2);
-  }
-}
 
 void refuse_open_legs(Context& context, double closure_error) {
   if (closure_error <= 1e-9) return;
@@ -94,9 +53,9 @@ using namespace chains;
 
 /// To the load, and on until it grows no more.
 template <class Space>
-void load_and_answer(Context& context, const ChainRobot<Space>& robot, ChainState<Space>& state,
+void load_and_answer(Context& context, const ChainLegs<Space>& robot, ChainState<Space>& state,
                      const ChainState<Space>& unloaded, const Load<Space>& load) {
-  ChainWork work{.stop = context.work.stop};
+  ChainWork& work = work_of(context);
   const std::vector<ChainHold> hold = state.hold;
   Report report = equilibrium(robot, hold, load.wrench, state, work, load.options);
   if (report.ok() && load.until) {
@@ -111,11 +70,10 @@ void load_and_answer(Context& context, const ChainRobot<Space>& robot, ChainStat
 
 /// Where the search for an equilibrium with given tensions or lengths begins.
 template <class Space>
-void answer_held(Context& context, ChainRobot<Space>& robot, const AnyPose& start, const Arcs& arcs,
-                 const std::vector<ChainHold>& hold, const Load<Space>& load) {
+void answer_held(Context& context, ChainLegs<Space>& robot, const HeldInputs& held, const Load<Space>& load) {
   ChainState<Space> state;
-  ChainWork work{.stop = context.work.stop};
-  const Report report = unloaded(robot, start, arcs, hold, state, work, load.options);
+  ChainWork& work = work_of(context);
+  const Report report = unloaded(robot, held, state, work, load.options);
   if (!is_solved(report)) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
   const ChainState<Space> before = state;
   load_and_answer(context, robot, state, before, load);
@@ -127,7 +85,7 @@ void refuse_threshold(Context& context) {
 }
 
 template <class Space>
-void answer_statics_of(Context& context, ChainRobot<Space>& robot) {
+void answer_statics_of(Context& context, ChainLegs<Space>& robot) {
   Reader& query = context.query;
   if (query.has("measured_tensions")) return answer_sensing(context, robot);
   const std::size_t legs = robot.legs.size();
@@ -162,11 +120,14 @@ void answer_statics_of(Context& context, ChainRobot<Space>& robot) {
   for (auto* given : {&set_at, &pose, &start})
     if (*given) at = read_pose(context, std::move(**given));
   if (!context.ready()) return;
-  if (!hold.empty()) return answer_held(context, robot, at, arcs_at(context, at, branch), hold, load);
+  if (!hold.empty()) {
+    const HeldInputs held{at, arcs_at(twin_of(context), at, branch.options()), hold};
+    return answer_held(context, robot, held, load);
+  }
 
   ChainState<Space> state;
   const Report report = rest_at(context, robot, at, branch, holds_lengths, state);
-  ChainWork work{.stop = context.work.stop};
+  ChainWork& work = work_of(context);
   if (!report.ok()) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
   const ChainState<Space> unloaded = state;
   if (!inverse_asked) return load_and_answer(context, robot, state, unloaded, load);
@@ -175,7 +136,7 @@ void answer_statics_of(Context& context, ChainRobot<Space>& robot) {
 }
 
 template <class Space>
-void answer_forward_of(Context& context, ChainRobot<Space>& robot) {
+void answer_forward_of(Context& context, ChainLegs<Space>& robot) {
   const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
   const Load<Space> load = read_load<Space>(context);
   const std::optional<AnyPose> start = read_start(context);
@@ -186,12 +147,12 @@ void answer_forward_of(Context& context, ChainRobot<Space>& robot) {
   const HeldInputs held = hold_inputs(context, robot, inputs, start);
   context.remember({});  // until the chains are found
   if (!held.arcs.report.ok()) return context.report(held.arcs.report);
-  answer_held(context, robot, held.pose, held.arcs, held.hold, load);
+  answer_held(context, robot, held, load);
   if (wants_all) put_all_equilibria(context, robot, held, inputs, load);
 }
 
 template <class Space>
-void answer_inverse_of(Context& context, ChainRobot<Space>& robot) {
+void answer_inverse_of(Context& context, ChainLegs<Space>& robot) {
   auto pose = context.query.required("pose", "pose of the platform");
   const AnyPose at = read_pose(context, std::move(pose));
   const Branch branch = read_branch(context);
@@ -203,32 +164,26 @@ void answer_inverse_of(Context& context, ChainRobot<Space>& robot) {
   if (!context.ready()) return;
   ChainState<Space> state;
   Report report = rest_at(context, robot, at, branch, true, state);
-  ChainWork work{.stop = context.work.stop};
+  ChainWork& work = work_of(context);
   if (report.ok()) report = hold_pose(robot, load.wrench, state, work, load.options);
   put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
-  if (is_solved(report)) context.answer["inputs"] = to_json(inputs_of(context, robot, state));
+  if (is_solved(report)) context.answer["inputs"] = to_json(inputs_of(twin_of(context), robot, state));
   if (wants_all) put_all_inverses(context, robot, at, branch, load);
-}
-
-template <class Handler>
-void on_chains(Context& context, ChainModel law, Handler&& handler) {
-  auto robot = read_robot(context, law);
-  if (robot) std::visit(handler, *robot);
 }
 
 }  // namespace
 
 void answer_statics(Context& context) {
-  if (bears_load(context.robot)) return answer_rods_statics(context);
-  on_chains(context, read_law(context), [&](auto& robot) { answer_statics_of(context, robot); });
+  if (has_rods(context.robot)) return answer_rods_statics(context);
+  on_chains(context, [&](auto& robot) { answer_statics_of(context, robot); });
 }
 
 void answer_chains_forward(Context& context) {
-  on_chains(context, ChainModel::weighted, [&](auto& robot) { answer_forward_of(context, robot); });
+  on_chains(context, [&](auto& robot) { answer_forward_of(context, robot); });
 }
 
 void answer_chains_inverse(Context& context) {
-  on_chains(context, ChainModel::weighted, [&](auto& robot) { answer_inverse_of(context, robot); });
+  on_chains(context, [&](auto& robot) { answer_inverse_of(context, robot); });
 }
 
 }  // namespace sinew::inline v0

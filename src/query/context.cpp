@@ -109,16 +109,6 @@ std::vector<double> read_inputs(Context& context, const Reader& inputs) {
   return values;
 }
 
-std::string_view model_of(const Robot& robot) {
-  return bears_load(robot) ? "rod" : has_arc(robot) ? "cc" : "rigid";
-}
-
-bool has_chain_model(const Robot& robot) { return model_of(robot) == "cc"; }
-
-std::string_view meaning_of(std::string_view model) {
-  return model == "cc" ? " (constant curvature)" : model == "rod" ? " (elastic rods)" : " (rigid links)";
-}
-
 Configuration read_configuration(Context& context) {
   Configuration configuration;
   configuration.branch = read_branch(context);

@@ -98,12 +98,6 @@ struct Solved {
   std::vector<double> coordinates;
 };
 
-/// The model a robot is taken for where a query says nothing: `cc`, `rigid` or `rod`.
-std::string_view model_of(const Robot& robot);
-/// Whether its links may be taken as pseudo-rigid chains instead: `prb`.
-bool has_chain_model(const Robot& robot);
-std::string_view meaning_of(std::string_view model);  ///< ` (constant curvature)`
-
 Configuration read_configuration(Context& context);
 /// Solves what is missing. An error (with `context.errors` filled) where pose and inputs contradict each
 /// other.

@@ -1,7 +1,6 @@
 /// Handler of `describe`: what a robot has.
 #include "query/context.hpp"
 #include "sinew/io/quantity.hpp"
-#include "sinew/kinematics/chain.hpp"
 #include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
@@ -126,7 +125,7 @@ void answer_describe(Context& context) {
   answer["pose"] = pose_json(is_planar);
   answer["home"] = to_json(home(context.robot));
   answer["platform"] = {{"radius", platform_radius(context.robot)}};
-  if (bears_load(context.robot)) {
+  if (has_rods(context.robot)) {
     answer["platform"]["mass"] = context.robot.weight().platform_mass;
     answer["gravity"] = to_json(context.robot.weight().gravity);
   }
@@ -134,10 +133,11 @@ void answer_describe(Context& context) {
                         {"constraints", row_count(context.robot)},
                         {"actuators", input_count(context.robot)}};
   answer["legs"] = legs;
-  Json models = Json::array({model_of(context.robot)});
-  if (chain_robot(context.robot)) models.push_back("prb");
+  const bool has_arcs = context.robot.model() == Model::cc || context.robot.model() == Model::prb;
+  Json models = Json::array({to_string(has_arcs ? Model::cc : context.robot.model())});
+  if (has_arcs && context.robot.as(Model::prb)) models.push_back("prb");
   answer["models"] = std::move(models);
-  answer["model"] = model_of(context.robot);
+  answer["model"] = to_string(context.robot.model());
   answer["geometry"] = context.robot.geometry_inferred() ? "inferred" : "given";
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "query/chains.hpp"
 #include "query/context.hpp"
 #include "query/rods.hpp"
 #include "sinew/analysis/shape.hpp"
@@ -20,7 +21,7 @@ void refuse_if_asked(Context& context, std::string_view key, std::string_view wh
 }
 
 std::string_view no_load(const Context& context) {
-  return has_chain_model(context.robot)
+  return context.robot.model() == Model::cc
              ? "constant curvature bears no load; add model: prb, or ask statics, or leave it out"
              : "this robot's legs bear no load; leave it out";
 }
@@ -123,7 +124,8 @@ void put_shape(Json& answer, const AnyShape& picture) {
 }
 
 void answer_forward(Context& context) {
-  if (bears_load(context.robot)) return answer_rods_forward(context);
+  if (has_rods(context.robot)) return answer_rods_forward(context);
+  if (context.robot.model() == Model::prb) return answer_chains_forward(context);
   const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
   ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
   options.start = read_start(context);
@@ -155,7 +157,8 @@ void answer_forward(Context& context) {
 }
 
 void answer_inverse(Context& context) {
-  if (bears_load(context.robot)) return answer_rods_inverse(context);
+  if (has_rods(context.robot)) return answer_rods_inverse(context);
+  if (context.robot.model() == Model::prb) return answer_chains_inverse(context);
   const AskedPose asked = read_asked_pose(context);
   if (!asked.pose && !context.query.has("independent"))
     context.query.required("pose", "pose of the platform");
@@ -185,7 +188,8 @@ void answer_inverse(Context& context) {
 }
 
 void answer_velocity(Context& context) {
-  if (bears_load(context.robot)) return answer_rods_velocity(context);
+  if (has_rods(context.robot)) return answer_rods_velocity(context);
+  if (context.robot.model() == Model::prb) return answer_chains_velocity(context);
   const Configuration given = read_configuration(context);
   std::vector<double> twist;
   if (const auto asked = context.query.optional("twist"))
@@ -217,7 +221,8 @@ void answer_velocity(Context& context) {
 }
 
 void answer_shape(Context& context) {
-  if (bears_load(context.robot)) return answer_rods_shape(context);
+  if (has_rods(context.robot)) return answer_rods_shape(context);
+  if (context.robot.model() == Model::prb) return answer_chains_shape(context);
   const Configuration given = read_configuration(context);
   const auto samples = context.query.optional("samples");
   const int count = samples ? samples->integer(Range::between(2, 2000)) : 33;

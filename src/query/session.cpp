@@ -24,18 +24,17 @@ struct Kind {
   std::string_view name;
   void (*handler)(Context&);
   void (*serial_handler)(SerialContext&);
-  void (*chain_handler)(Context&);  ///< of links taken as pseudo-rigid chains
 };
 
 constexpr std::array kinds{
-    Kind{"forward", answer_forward, answer_serial_forward, answer_chains_forward},
-    Kind{"inverse", answer_inverse, answer_serial_inverse, answer_chains_inverse},
-    Kind{"velocity", answer_velocity, answer_serial_velocity, answer_chains_velocity},
-    Kind{"shape", answer_shape, answer_serial_shape, answer_chains_shape},
-    Kind{"describe", answer_describe, answer_serial_describe, nullptr},
-    Kind{"statics", answer_statics, nullptr, answer_statics},
-    Kind{"track", answer_track, nullptr, answer_chains_track},
-    Kind{"diagram", nullptr, answer_serial_diagram, nullptr},
+    Kind{"forward", answer_forward, answer_serial_forward},
+    Kind{"inverse", answer_inverse, answer_serial_inverse},
+    Kind{"velocity", answer_velocity, answer_serial_velocity},
+    Kind{"shape", answer_shape, answer_serial_shape},
+    Kind{"describe", answer_describe, answer_serial_describe},
+    Kind{"statics", answer_statics, nullptr},
+    Kind{"track", answer_track, nullptr},
+    Kind{"diagram", nullptr, answer_serial_diagram},
 };
 
 const Kind& read_kind(Reader& query, bool is_serial) {
@@ -62,23 +61,35 @@ Json read_id(Reader& query) {
   return id->text();
 }
 
-/// Whether the robot's links are to be taken as chains.
-bool reads_chains(Reader& query, const Robot& robot, const Kind& kind) {
-  const auto model = query.optional("model");
-  if (!model) return false;
-  const std::string_view own = model_of(robot);
-  const std::string word = model->choice({"cc", "prb", "rod", "rigid"});
-  if (word == "prb" && has_chain_model(robot)) {
-    if (kind.chain_handler) return true;
-    model->refuse("not_available", std::string(kind.name) + " has no pseudo-rigid chains in this version");
-  } else if (word != own) {
-    model->refuse("not_available", "this robot's model is " + std::string(own) +
-                                       std::string(meaning_of(own)) +
-                                       (has_chain_model(robot) ? ", or prb (pseudo-rigid chains)" : ""));
-  } else if (kind.handler == answer_statics) {
-    model->refuse("not_available", "a load needs links that yield: give prb, or leave model out");
+std::string_view meaning_of(Model model) {
+  constexpr std::string_view meanings[] = {"cc (constant curvature), or prb (pseudo-rigid chains)",
+                                           "prb (pseudo-rigid chains)", "rod (elastic rods)",
+                                           "rigid (rigid links)"};
+  return meanings[static_cast<std::size_t>(model)];
+}
+
+/// How a query wants the robot's links to be taken. `statics` is of links that yield.
+struct ModelQuery {
+  Model model;
+  ChainModel discretisation = ChainModel::weighted;
+};
+ModelQuery read_model(Reader& query, const std::optional<Reader>& word, const Robot& robot,
+                      const Kind& kind) {
+  const bool needs_load = kind.handler == answer_statics && !bears_load(robot);
+  ModelQuery asked{needs_load ? Model::prb : robot.model()};
+  if (word) {
+    asked.model = word->choice_of<Model>(
+        {{"cc", Model::cc}, {"prb", Model::prb}, {"rod", Model::rod}, {"rigid", Model::rigid}});
+    if (asked.model != robot.model() && !(asked.model == Model::prb && robot.model() == Model::cc))
+      word->refuse("not_available", fmt::format("this robot's model is {}", meaning_of(robot.model())));
+    else if (needs_load && asked.model != Model::prb)
+      word->refuse("not_available", "a load needs links that yield: give prb, or leave model out");
   }
-  return false;
+  if (asked.model != Model::prb) return asked;
+  if (const auto law = query.optional("law"))
+    asked.discretisation = law->choice_of<ChainModel>(
+        {{"M0w", ChainModel::weighted}, {"M0", ChainModel::even}, {"M1", ChainModel::discs}});
+  return asked;
 }
 
 bool has_key(const Document& robot, std::string_view key) {
@@ -131,12 +142,28 @@ struct Platform {
   Workspace work;
   RobotScale scale;
   std::vector<InputOfLeg> inputs;
+  std::array<std::unique_ptr<Platform>, 3>
+      on_chains;  ///< the same by the model prb, by discretisation, once asked
   explicit Platform(const Robot& any)
       : robot(any),
         work(robot),
         scale(scale_of(robot)),
         inputs(inputs_of(robot)) {}
   const std::string& name() const { return robot.name(); }
+
+  /// By the model that is asked for; null, with errors noted, where it has none.
+  Platform* by(const ModelQuery& asked, Errors& errors) {
+    if (asked.model != Model::prb || robot.model() == Model::prb) return this;
+    auto& own = on_chains[static_cast<std::size_t>(asked.discretisation)];
+    if (own) return own.get();
+    const auto chains = robot.as(Model::prb, asked.discretisation);
+    if (!chains) {
+      errors.insert(errors.end(), chains.error().begin(), chains.error().end());
+      return nullptr;
+    }
+    own = std::make_unique<Platform>(*chains);
+    return own.get();
+  }
 };
 struct Chain {
   SerialRobot robot;
@@ -257,11 +284,13 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
   const bool is_chain = std::holds_alternative<Chain>(state_->opened);
   const Kind& kind = read_kind(query, is_chain);
   if (!errors.empty()) return error_answer(id, errors);
-  const auto* own = std::get_if<Platform>(&state_->opened);
-  const bool on_chains = own && reads_chains(query, own->robot, kind);
+  const auto model = is_chain ? std::nullopt : query.optional("model");
   Opened* const other = state_->altered(query, errors);
   if (!errors.empty()) return error_answer(id, errors);
   Opened& opened = other ? *other : state_->opened;
+  auto* platform = std::get_if<Platform>(&opened);
+  if (platform) platform = platform->by(read_model(query, model, platform->robot, kind), errors);
+  if (!errors.empty()) return error_answer(id, errors);
 
   Json answer = Json::object();
   if (!id.is_null()) answer["id"] = id;
@@ -271,7 +300,7 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
   if (const auto limit = query.optional("max_iterations"))
     question.max_iterations = limit->integer(Range::between(0, 100000));
   const bool wants_tilt = read_tilt(query, opened);
-  std::visit([&](auto& any) { any.work.stop = state_->stop; }, opened);
+  (platform ? platform->work.stop : std::get<Chain>(opened).work.stop) = state_->stop;
   if (auto* chain = std::get_if<Chain>(&opened)) {
     for (const char* load : {"wrench", "gravity", "until"})
       if (const auto asked = document.root.find(load) ? query.optional(load) : std::nullopt)
@@ -281,9 +310,8 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
     SerialContext context{question, chain->robot, chain->work};
     kind.serial_handler(context);
   } else {
-    auto& platform = std::get<Platform>(opened);
-    Context context{question, platform.robot, platform.work};
-    (on_chains ? kind.chain_handler : kind.handler)(context);
+    Context context{question, platform->robot, platform->work};
+    kind.handler(context);
   }
   if (!errors.empty()) return error_answer(id, errors);
   if (wants_tilt) add_tilt(answer);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "query/chains.hpp"
 #include "query/context.hpp"
 #include "query/rods.hpp"
 #include "sinew/io/quantity.hpp"
@@ -113,7 +114,8 @@ void put_end(Context& context, const Track& track, std::size_t rows, std::size_t
 }  // namespace
 
 void answer_track(Context& context) {
-  if (bears_load(context.robot)) return answer_rods_track(context);
+  if (has_rods(context.robot)) return answer_rods_track(context);
+  if (context.robot.model() == Model::prb) return answer_chains_track(context);
   const std::vector<AnyPose> poses = read_path(context);
   const Branch branch = read_branch(context);
   TrackOptions options{.branch = branch.options(), .objective = read_objective(context.query)};

@@ -49,7 +49,7 @@ Report wrong_count(std::size_t found, std::size_t needed) {
 }  // namespace
 
 Reduced assemble(const Robot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work) {
-  if (!check_arguments(robot, pose, coordinates, work).ok())
+  if (!check_arguments(robot, pose, coordinates, work).ok() || robot.model() == Model::prb)
     return {MatrixView(nullptr, 0, dof(robot)), MatrixView(nullptr, 0, input_count(robot)), {}, infinity, 0};
   if (bears_load(robot)) {
     const SpatialPose& place = std::get<SpatialPose>(pose);
@@ -98,7 +98,7 @@ Report command(const Robot& robot, Numbers inputs, Workspace& work) {
 
 std::span<const LegState> leg_states(const Robot& robot, const AnyPose& pose, Numbers coordinates,
                                      Workspace& work) {
-  if (!check_arguments(robot, pose, coordinates, work).ok()) return {};
+  if (!check_arguments(robot, pose, coordinates, work).ok() || robot.model() == Model::prb) return {};
   with_legs(robot, [&]<class LegT>(const ParallelRobot<LegT>& r) {
     using Space = typename LegT::Space;
     const auto platform = Space::frame(in_space<Space>(pose));
@@ -141,7 +141,7 @@ bool any_leg(const Robot& robot, const Is& is) {
 int input_count(const Robot& robot) { return total(robot).input; }
 bool has_ties(const Robot& robot) { return total(robot).is_tied; }
 int coordinate_count(const Robot& robot) { return total(robot).coordinate; }
-int row_count(const Robot& robot) { return bears_load(robot) ? Spatial::dof : total(robot).row; }
+int row_count(const Robot& robot) { return has_rods(robot) ? Spatial::dof : total(robot).row; }
 int plane_count(const Robot& robot) { return total(robot).plane; }
 
 bool has_redundant_leg(const Robot& robot) {
@@ -175,7 +175,8 @@ Workspace::Workspace(const Robot& any) : robot(any.shared()) {
   const auto rows_ = static_cast<std::size_t>(row_count(any));
   const auto inputs_ = static_cast<std::size_t>(input_count(any));
   const auto dof_ = static_cast<std::size_t>(sinew::dof(any));
-  if (bears_load(any)) rods = std::make_unique<RodWork>(rod_group(any));
+  if (has_rods(any)) rods = std::make_unique<RodWork>(rod_group(any));
+  if (any.model() == Model::prb) arcs = std::make_unique<Workspace>(*any.as(Model::cc));
   coordinates.resize(static_cast<std::size_t>(coordinate_count(any)));
   inputs.resize(inputs_);
   J.resize(rows_ * dof_);

@@ -1,18 +1,26 @@
 #include "sinew/robot/robot.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "robot/make_chains.hpp"
 #include "sinew/base/limits.hpp"
-#include "sinew/robot/parallel.hpp"
+#include "sinew/robot/assembly.hpp"
 
 namespace sinew::inline v0 {
 
 struct Robot::Data {
   std::string name;
-  std::variant<PlanarRobot, SpatialRobot> legs;
+  AnyLegs legs;
   Weight weight;
   bool geometry_inferred;
+  /// By the model prb: chains in place of the arcs, and the robot on these.
+  std::optional<AnyChains> chains = {};
+  ChainModel discretisation = {};
+  std::shared_ptr<const Data> arcs = {};
 };
 
 Robot::Robot(std::shared_ptr<const Data> data)
@@ -20,6 +28,7 @@ Robot::Robot(std::shared_ptr<const Data> data)
       planar_(std::get_if<PlanarRobot>(&data_->legs)),
       spatial_(std::get_if<SpatialRobot>(&data_->legs)),
       rods_(spatial_ ? spatial_->rods : 0) {
+  model_ = data_->chains ? Model::prb : rods_ > 0 ? Model::rod : has_arc(*this) ? Model::cc : Model::rigid;
   is_within_limits_ = with_legs(*this, [](const auto& legs) {
     return std::max(legs.total.row, legs.total.input) <= max_rows && legs.rods <= max_rods;
   });
@@ -42,6 +51,39 @@ Robot Robot::under(const Weight& weight) const {
   Data data = *data_;
   data.weight = weight;
   return Robot(std::make_shared<const Data>(std::move(data)));
+}
+
+std::string_view to_string(Model model) noexcept {
+  constexpr std::string_view names[] = {"cc", "prb", "rod", "rigid"};
+  return names[static_cast<std::size_t>(model)];
+}
+
+Expected<Robot> Robot::as(Model wanted, ChainModel discretisation) const {
+  if (wanted == model_ && (wanted != Model::prb || discretisation == data_->discretisation)) return *this;
+  const std::shared_ptr<const Data>& own = data_->arcs ? data_->arcs : data_;
+  if (data_->arcs && wanted == Model::cc) return Robot(own);
+  if (wanted != Model::prb)
+    return failure(
+        "not_available", "model",
+        fmt::format("the model of this robot is {}{}; its links have no model {}.",
+                    to_string(Robot(own).model()), has_arc(*this) ? ", or prb" : "", to_string(wanted)));
+  if (rods_ > 0)
+    return failure("not_available", "legs",
+                   "the legs are rods, which have a model of their own: leave model out.");
+  auto chains = make_chains(own->legs, discretisation);
+  if (!chains) return tl::unexpected(std::move(chains.error()));
+  Data data = *own;
+  data.chains = std::move(*chains);
+  data.discretisation = discretisation;
+  data.arcs = own;
+  return Robot(std::make_shared<const Data>(std::move(data)));
+}
+
+const ChainLegs<Planar>* Robot::planar_chains() const {
+  return data_->chains ? std::get_if<ChainLegs<Planar>>(&*data_->chains) : nullptr;
+}
+const ChainLegs<Spatial>* Robot::spatial_chains() const {
+  return data_->chains ? std::get_if<ChainLegs<Spatial>>(&*data_->chains) : nullptr;
 }
 
 bool has_weight(const Robot& robot) {

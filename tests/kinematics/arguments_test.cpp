@@ -164,35 +164,32 @@ TEST(Arguments, SpansOfAnotherLengthAreAnswered) {
 
 TEST(Arguments, ChainsOfAnotherRobotAreAnswered) {
   for (const char* name : {"3-rfr", "3-frr", "3-rfrr", "6-ufs"}) {
-    const auto any = chain_robot(load(name).value()).value();
-    std::visit(
-        [&]<class Robot>(const Robot& chains) {
-          using Space = typename Robot::Space;
-          Robot robot = chains;
-          ChainState<Space> state;
-          ChainWork work;
-          const typename Space::Pose pose{};
-          const Vec<double, Space::dof> wrench = Vec<double, Space::dof>::Zero();
-          for (const std::size_t legs : {std::size_t{0}, robot.legs.size() - 1, robot.legs.size() + 1}) {
-            state.legs.resize(legs);
-            state.hold.resize(legs);
-            const std::vector<double> curvature(legs, 2.0);
-            EXPECT_EQ(equilibrium(robot, state.hold, wrench, state, work).status, Status::bad_input);
-            EXPECT_EQ(follow_load(robot, wrench, 1, state, work).report.status, Status::bad_input);
-            EXPECT_FALSE(hold_pose(robot, wrench, state, work).ok());
-            EXPECT_EQ(follow_least_norm(robot, pose, pose, state.legs).status, Status::bad_input);
-            EXPECT_TRUE(std::isnan(least_curvature(robot, state)));
-            EXPECT_TRUE(std::isnan(potential(robot, state)));
-            EXPECT_TRUE(std::isnan(evenness_gap(robot, state, wrench)));
-            EXPECT_TRUE(std::isnan(stiffness(robot, state, work)(0, 0)));
-            EXPECT_TRUE(std::isnan(compliance(robot, state, work)(0, 0)));
-            EXPECT_TRUE(std::isnan(linear_compliance(robot, state)(0, 0)));
-            EXPECT_TRUE(std::isnan(chain_rates(robot, pose, state.legs).closure_error));
-            ChainState<Space> at_rest;
-            EXPECT_EQ(rest(robot, pose, curvature, false, at_rest).status, Status::bad_input);
-          }
-        },
-        any);
+    with_chains(load(name)->as(Model::prb).value(), [&]<class Chains>(const Chains& chains) {
+      using Space = typename Chains::Space;
+      Chains robot = chains;
+      ChainState<Space> state;
+      ChainWork work;
+      const typename Space::Pose pose{};
+      const Vec<double, Space::dof> wrench = Vec<double, Space::dof>::Zero();
+      for (const std::size_t legs : {std::size_t{0}, robot.legs.size() - 1, robot.legs.size() + 1}) {
+        state.legs.resize(legs);
+        state.hold.resize(legs);
+        const std::vector<double> curvature(legs, 2.0);
+        EXPECT_EQ(equilibrium(robot, state.hold, wrench, state, work).status, Status::bad_input);
+        EXPECT_EQ(follow_load(robot, wrench, 1, state, work).report.status, Status::bad_input);
+        EXPECT_FALSE(hold_pose(robot, wrench, state, work).ok());
+        EXPECT_EQ(follow_least_norm(robot, pose, pose, state.legs).status, Status::bad_input);
+        EXPECT_TRUE(std::isnan(least_curvature(robot, state)));
+        EXPECT_TRUE(std::isnan(potential(robot, state)));
+        EXPECT_TRUE(std::isnan(evenness_gap(robot, state, wrench)));
+        EXPECT_TRUE(std::isnan(stiffness(robot, state, work)(0, 0)));
+        EXPECT_TRUE(std::isnan(compliance(robot, state, work)(0, 0)));
+        EXPECT_TRUE(std::isnan(linear_compliance(robot, state)(0, 0)));
+        EXPECT_TRUE(std::isnan(chain_rates(robot, pose, state.legs).closure_error));
+        ChainState<Space> at_rest;
+        EXPECT_EQ(rest(robot, pose, curvature, false, at_rest).status, Status::bad_input);
+      }
+    });
   }
 }
 

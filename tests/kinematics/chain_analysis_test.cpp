@@ -16,7 +16,7 @@ namespace chain_analysis_test {
 
 template <class Space>
 struct Case {
-  ChainRobot<Space> robot;
+  ChainLegs<Space> robot;
   ChainState<Space> state;
 };
 
@@ -35,7 +35,7 @@ Case<Space> rest_of(const char* name, ChainModel model, const typename Space::Po
     options.bending = bending;
   const Inverse arcs = inverse(any, pose, options, memory);
   EXPECT_TRUE(arcs.ok()) << name;
-  Case<Space> one{std::get<ChainRobot<Space>>(*chain_robot(any, model)), {}};
+  Case<Space> one{chains_of<Space>(*any.as(Model::prb, model)), {}};
   const std::vector<double> coordinates(arcs.coordinates.begin(), arcs.coordinates.end());
   std::vector<double> curvature;
   for (std::size_t i = 0; i < one.robot.legs.size(); ++i) {

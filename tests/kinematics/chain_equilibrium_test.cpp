@@ -26,9 +26,9 @@ PlanarPose planar_pose(const Json& pose) { return {pose[0], pose[1], pose[2]}; }
 
 double stiffness() { return reference_file("data/tdpcr/statics.json")["about"]["EI"]; }
 
-ChainRobot<Planar> three_rfr(ChainModel model, int links = 6) {
+ChainLegs<Planar> three_rfr(ChainModel model, int links = 6) {
   const Json& robot = reference_file("data/tdpcr/poses.json")["3-RFR"];
-  ChainRobot<Planar> result;
+  ChainLegs<Planar> result;
   for (std::size_t i = 0; i < 3; ++i)
     result.legs.push_back({.base = SE2<double>::from(robot["a"][i][0], robot["a"][i][1], 0),
                            .chain = {.length = robot["l"], .links = links, .model = model},
@@ -38,9 +38,9 @@ ChainRobot<Planar> three_rfr(ChainModel model, int links = 6) {
   return result;
 }
 
-ChainRobot<Planar> three_frr(ChainModel model) {
+ChainLegs<Planar> three_frr(ChainModel model) {
   const Json& robot = reference_file("data/tdpcr/poses.json")["3-FRR"];
-  ChainRobot<Planar> result;
+  ChainLegs<Planar> result;
   for (std::size_t i = 0; i < 3; ++i) {
     const double tangent = robot["tangent_angle"][i];
     result.legs.push_back(
@@ -54,9 +54,9 @@ ChainRobot<Planar> three_frr(ChainModel model) {
   return result;
 }
 
-ChainRobot<Spatial> six_ufs() {
+ChainLegs<Spatial> six_ufs() {
   const Json& robot = reference_file("data/tdpcr/poses.json")["6-UFS"];
-  ChainRobot<Spatial> result;
+  ChainLegs<Spatial> result;
   for (std::size_t i = 0; i < 6; ++i)
     result.legs.push_back({.base = {vector<3>(robot["a"][i]), {}},
                            .chain = {.length = robot["l"], .links = 5, .model = ChainModel::even},
@@ -68,7 +68,7 @@ ChainRobot<Spatial> six_ufs() {
 
 const std::array<double, 3> towards_plus{1, 1, 1};
 
-ChainState<Planar> base_state(const ChainRobot<Planar>& robot, bool holds_lengths = false) {
+ChainState<Planar> base_state(const ChainLegs<Planar>& robot, bool holds_lengths = false) {
   const Json& about = reference_file("data/tdpcr/statics.json")["about"];
   std::vector<double> curvature;
   for (std::size_t i = 0; i < 3; ++i)
@@ -304,7 +304,7 @@ TEST(ChainEquilibrium, AFoldIsFoundWhateverTheLimit) {
   }
 }
 
-ChainState<Planar> at_rest(const ChainRobot<Planar>& robot, const PlanarPose& pose) {
+ChainState<Planar> at_rest(const ChainLegs<Planar>& robot, const PlanarPose& pose) {
   ChainState<Planar> state;
   const Report report = rest(robot, pose, towards_plus, false, state);
   EXPECT_TRUE(report.ok()) << to_string(report);
@@ -316,11 +316,10 @@ ChainState<Planar> at_rest(const ChainRobot<Planar>& robot, const PlanarPose& po
 TEST(ChainEquilibrium, NothingIsSteppedOver) {
   const auto chains = [](const char* name) {
     const std::string file = std::string(source_folder) + "/robots/" + name;
-    return std::get<ChainRobot<Planar>>(
-        *chain_robot(*read_robot(*read_robot_file(file)), ChainModel::weighted));
+    return chains_of<Planar>(*read_robot(*read_robot_file(file))->as(Model::prb, ChainModel::weighted));
   };
   struct Case {
-    ChainRobot<Planar> robot;
+    ChainLegs<Planar> robot;
     Vec<double, 3> direction;
     double load;
     ChainLoadEnd end;
@@ -404,7 +403,7 @@ TEST(ChainEquilibrium, EvenlyBentChainsStoreMore) {
 TEST(ChainEquilibrium, PosesAreHeldByLegsWhoseJointsCannotTurn) {
   const Vec<double, 3> wrench(0.002, -0.001, 1e-6);
   for (const auto& [name, links] : {std::pair("3-rfr", 2), std::pair("3-frr", 1)}) {
-    auto robot = std::get<ChainRobot<Planar>>(*chain_robot(*load(name), ChainModel::weighted));
+    auto robot = chains_of<Planar>(*load(name)->as(Model::prb, ChainModel::weighted));
     for (auto& leg : robot.legs) leg.chain.links = links;
     ChainState<Planar> state;
     const PlanarPose pose{0.01, 0, 0.1};
@@ -458,10 +457,10 @@ TEST(ChainEquilibrium, LinearModelIsTheirs) {  // @verifies TDPCR (44), (45), (4
 /// A robot of a file with the angles of a reference pose; directions of first links where they are inputs.
 template <class Space>
 void expect_rates(const char* name, const Json& pose, const typename Space::Pose& at) {
-  auto chains = chain_robot(*read_robot(*read_robot_file(std::string(source_folder) + "/robots/" + name)),
-                            ChainModel::even);
+  const auto chains = read_robot(*read_robot_file(std::string(source_folder) + "/robots/" + name))
+                          ->as(Model::prb, ChainModel::even);
   ASSERT_TRUE(chains.has_value()) << to_string(chains.error());
-  auto& robot = std::get<ChainRobot<Space>>(*chains);
+  auto robot = chains_of<Space>(*chains);
   std::vector<ChainLegState> legs(robot.legs.size());
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const std::vector<double> theta = pose["theta"][i];

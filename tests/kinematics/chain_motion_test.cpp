@@ -14,23 +14,23 @@ namespace sinew::test {
 namespace chain_motion_test {
 
 template <class Space>
-ChainRobot<Space> chains_of(const char* file, ChainModel model = ChainModel::even) {
-  auto chains =
-      chain_robot(*read_robot(*read_robot_file(std::string(source_folder) + "/robots/" + file)), model);
+ChainLegs<Space> made_of(const char* file, ChainModel model = ChainModel::even) {
+  const auto chains =
+      read_robot(*read_robot_file(std::string(source_folder) + "/robots/" + file))->as(Model::prb, model);
   EXPECT_TRUE(chains.has_value()) << to_string(chains.error());
-  return std::get<ChainRobot<Space>>(*chains);
+  return chains_of<Space>(*chains);
 }
 
 PlanarPose pose_of(int k) { return {0.03 * k / 59, 0, std::numbers::pi / 3 * k / 59}; }
 
-std::vector<ChainLegState> at_start(const ChainRobot<Planar>& robot) {
+std::vector<ChainLegState> at_start(const ChainLegs<Planar>& robot) {
   ChainState<Planar> state;
   const std::array<double, 3> towards_plus{1, 1, 1};
   EXPECT_TRUE(rest(robot, pose_of(0), towards_plus, false, state).ok());
   return state.legs;
 }
 
-double gap(const ChainRobot<Planar>& robot, std::span<const ChainLegState> a,
+double gap(const ChainLegs<Planar>& robot, std::span<const ChainLegState> a,
            std::span<const ChainLegState> b) {
   double gap = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -41,7 +41,7 @@ double gap(const ChainRobot<Planar>& robot, std::span<const ChainLegState> a,
 
 TEST(ChainMotion, AlongTheExampleIsTheirs) {
   const nlohmann::json& reference = reference_file("data/tdpcr/example51.json");
-  auto robot = chains_of<Planar>("3-rfr.yaml");
+  auto robot = made_of<Planar>("3-rfr.yaml");
   auto legs = at_start(robot);
   int k = 0;
   const auto go_to = [&](int next) {
@@ -67,7 +67,7 @@ TEST(ChainMotion, LeastNormShapesAreNoEquilibria) {  // @verifies TDPCR (54)
   const nlohmann::json& statics = reference_file("data/tdpcr/statics.json");
   const nlohmann::json& lengths =
       reference_file("data/tdpcr/statics2.json")["tendon_lengths_min_norm_vs_static"];
-  auto robot = chains_of<Planar>("3-rfr.yaml");
+  auto robot = made_of<Planar>("3-rfr.yaml");
   const std::array<double, 3> towards_plus{1, 1, 1};
   for (const nlohmann::json& row : lengths) {
     auto legs = at_start(robot);
@@ -76,7 +76,7 @@ TEST(ChainMotion, LeastNormShapesAreNoEquilibria) {  // @verifies TDPCR (54)
     ChainState<Planar> even, weighted;
     ASSERT_TRUE(rest(robot, pose_of(k), towards_plus, false, even).ok());
     ASSERT_TRUE(
-        rest(chains_of<Planar>("3-rfr.yaml", ChainModel::weighted), pose_of(k), towards_plus, false, weighted)
+        rest(made_of<Planar>("3-rfr.yaml", ChainModel::weighted), pose_of(k), towards_plus, false, weighted)
             .ok());
     for (std::size_t i = 0; i < 3; ++i) {
       const PseudoRigid& chain = robot.legs[i].chain;
@@ -104,7 +104,7 @@ TEST(ChainMotion, LeastNormShapesAreNoEquilibria) {  // @verifies TDPCR (54)
 }
 
 TEST(ChainMotion, DependsOnTheChordsAlone) {
-  auto robot = chains_of<Planar>("3-rfr.yaml");
+  auto robot = made_of<Planar>("3-rfr.yaml");
   auto straight = at_start(robot), around = straight;
   ASSERT_TRUE(follow_least_norm(robot, pose_of(0), pose_of(50), straight).ok());
   const PlanarPose away{-0.01, 0.01, -0.1};
@@ -116,7 +116,7 @@ TEST(ChainMotion, DependsOnTheChordsAlone) {
 }
 
 TEST(ChainMotion, RungeKuttaOfThePaperDriftsALittle) {
-  auto robot = chains_of<Planar>("3-rfr.yaml");
+  auto robot = made_of<Planar>("3-rfr.yaml");
   auto exact = at_start(robot), theirs = exact;
   double drift = 0;
   for (int k = 0; k < 59; ++k) {
@@ -130,7 +130,7 @@ TEST(ChainMotion, RungeKuttaOfThePaperDriftsALittle) {
   EXPECT_LT(gap(robot, exact, theirs), 1e-8);
 }
 
-double energy(const ChainRobot<Planar>& robot, std::span<const ChainLegState> legs) {
+double energy(const ChainLegs<Planar>& robot, std::span<const ChainLegState> legs) {
   double sum = 0;
   for (std::size_t i = 0; i < legs.size(); ++i)
     for (int j = 0; j < robot.legs[i].chain.joints(); ++j)
@@ -138,7 +138,7 @@ double energy(const ChainRobot<Planar>& robot, std::span<const ChainLegState> le
   return sum;
 }
 
-double largest_angle(const ChainRobot<Planar>& robot, std::span<const ChainLegState> legs) {
+double largest_angle(const ChainLegs<Planar>& robot, std::span<const ChainLegState> legs) {
   double most = 0;
   for (std::size_t i = 0; i < legs.size(); ++i)
     for (std::size_t j = 0; j < static_cast<std::size_t>(robot.legs[i].chain.joints()); ++j)
@@ -147,7 +147,7 @@ double largest_angle(const ChainRobot<Planar>& robot, std::span<const ChainLegSt
 }
 
 TEST(ChainMotion, ObjectivesUseTheFreedomLeft) {
-  auto robot = chains_of<Planar>("3-rfr.yaml");
+  auto robot = made_of<Planar>("3-rfr.yaml");
   const auto follow = [&](Objective objective) {
     auto legs = at_start(robot);
     for (int k = 0; k < 50; ++k) {
@@ -176,7 +176,7 @@ TEST(ChainMotion, ObjectivesUseTheFreedomLeft) {
 
 TEST(ChainMotion, MotorsAtTheBaseMoveToo) {
   const nlohmann::json& c = reference_file("data/tdpcr/poses.json")["3-RFRR"]["poses"][0];
-  auto robot = chains_of<Planar>("3-rfrr.yaml");
+  auto robot = made_of<Planar>("3-rfrr.yaml");
   std::vector<ChainLegState> legs(3);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::vector<double> theta = c["theta"][i];
@@ -197,7 +197,7 @@ TEST(ChainMotion, MotorsAtTheBaseMoveToo) {
 }
 
 TEST(ChainMotion, OfSixLegsInSpaceStaysClosed) {
-  auto robot = chains_of<Spatial>("6-ufs.yaml");
+  auto robot = made_of<Spatial>("6-ufs.yaml");
   SpatialPose from, to;
   from.position = {0, 0, 0.18};
   to = spatial_pose(SE3<double>{{0.01, -0.005, 0.17}, SO3<double>::exp(Vec3<double>(0.05, 0.1, -0.08))});
@@ -210,7 +210,7 @@ TEST(ChainMotion, OfSixLegsInSpaceStaysClosed) {
 }
 
 TEST(ChainMotion, SaysWhereAChainCannotFollow) {
-  auto robot = chains_of<Planar>("3-rfr.yaml");
+  auto robot = made_of<Planar>("3-rfr.yaml");
   std::vector<ChainLegState> straight(3);
   EXPECT_EQ(follow_least_norm(robot, pose_of(0), pose_of(1), straight).status, Status::singular);
   auto legs = at_start(robot);

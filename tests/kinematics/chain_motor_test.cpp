@@ -11,7 +11,7 @@ namespace sinew::test {
 namespace chain_motor_test {
 
 struct Case {
-  ChainRobot<Planar> robot;
+  ChainLegs<Planar> robot;
   ChainState<Planar> state;
 };
 
@@ -23,7 +23,7 @@ Case at_rest(ChainModel model, bool holds_lengths) {
   const std::vector<double> curvature{3, -4, 5};
   const Inverse arcs = inverse(any, pose, {.curvature = curvature}, memory);
   EXPECT_TRUE(arcs.ok());
-  Case one{std::get<ChainRobot<Planar>>(*chain_robot(any, model)), {}};
+  Case one{chains_of<Planar>(*any.as(Model::prb, model)), {}};
   for (std::size_t i = 0; i < 3; ++i) {
     auto& leg = one.robot.legs[i];
     leg.base = SE2<double>::from(

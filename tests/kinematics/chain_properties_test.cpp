@@ -16,8 +16,8 @@ namespace chain_properties_test {
 Robot robot_of(const char* name) { return *load(name); }
 
 template <class Space>
-ChainRobot<Space> chains_of(const char* name, ChainModel model) {
-  return std::get<ChainRobot<Space>>(*chain_robot(robot_of(name), model));
+ChainLegs<Space> made_of(const char* name, ChainModel model) {
+  return chains_of<Space>(*robot_of(name).as(Model::prb, model));
 }
 
 /// Springs, tendons and the closure's multiplier: what a leg adds to the Lagrangian.
@@ -131,7 +131,7 @@ void expect_slopes_of(const char* name) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> part(-1, 1);
   for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs}) {
-    const auto robot = chains_of<Space>(name, model);
+    const auto robot = made_of<Space>(name, model);
     for (const double size : {0.0, 1e-9, 1e-3, 0.4, 1.2})  // straight, nearly so, bent, folded
       for (int repeat = 0; repeat < 6; ++repeat) {
         ChainLegState state;
@@ -224,7 +224,7 @@ void expect_moves_of(const char* name) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> part(-1, 1);
   for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs}) {
-    const auto robot = chains_of<Space>(name, model);
+    const auto robot = made_of<Space>(name, model);
     for (const int links : {2, 3, 6, 32})
       for (const double size : {1e-3, 0.1, 0.8})
         for (int repeat = 0; repeat < 8; ++repeat) {
@@ -258,7 +258,7 @@ TEST(ChainLegFactors, AreThoseOfTheEquationsInFull) {
 /// Where springs and force leave some motion of the links no stiffness at all, the closure still holds the
 /// leg.
 TEST(ChainLegFactors, PassThroughTheForceAtWhichAChainBuckles) {
-  const auto robot = chains_of<Planar>("3-rfr", ChainModel::weighted);
+  const auto robot = made_of<Planar>("3-rfr", ChainModel::weighted);
   ChainLeg<Planar> leg = robot.legs[0];
   for (const int links : {3, 6, 32}) {
     leg.chain.links = links;
@@ -297,7 +297,7 @@ TEST(ChainForces, DoNoWorkAlongMotionsThatStayClosed) {
   std::uniform_real_distribution<double> part(-1, 1);
   for (const char* name : {"3-rfr", "3-frr"})
     for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs}) {
-      const auto robot = chains_of<Planar>(name, model);
+      const auto robot = made_of<Planar>(name, model);
       const bool is_frr = robot.legs[0].has_strut();
       const PlanarPose pose = is_frr ? PlanarPose{0, 0, 0.1} : PlanarPose{0.01, 0, 0.3};
       Robot any = robot_of(name);
@@ -355,7 +355,7 @@ void expect_order(const char* name, const typename Space::Pose& pose, ChainModel
       lengths(arcs.inputs.begin(), arcs.inputs.end());
   std::vector<double> errors;
   for (const int links : {8, 16, 32}) {
-    auto robot = chains_of<Space>(name, model);
+    auto robot = made_of<Space>(name, model);
     for (auto& leg : robot.legs) leg.chain.links = links;
     ChainState<Space> state;
     ASSERT_TRUE(rest(robot, pose, curvature, false, state).ok());

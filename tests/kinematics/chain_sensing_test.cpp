@@ -13,7 +13,7 @@ namespace chain_sensing_test {
 
 template <class Space>
 struct Case {
-  ChainRobot<Space> robot;
+  ChainLegs<Space> robot;
   ChainState<Space> unloaded;  ///< lengths held
 };
 

@@ -11,7 +11,7 @@ namespace sinew::test {
 
 template <class Space>
 struct ChainsAt {
-  ChainRobot<Space> robot;
+  ChainLegs<Space> robot;
   typename Space::Pose pose;
   std::vector<double> curvature;  ///< of the arcs there
 };
@@ -23,7 +23,7 @@ ChainsAt<Space> chains_at(const char* name, ChainModel model, const typename Spa
   Workspace memory(any);
   const Inverse arcs = inverse(any, pose, {}, memory);
   EXPECT_TRUE(arcs.ok());
-  return {std::get<ChainRobot<Space>>(*chain_robot(any, model)),
+  return {chains_of<Space>(*any.as(Model::prb, model)),
           pose,
           {arcs.coordinates.begin(), arcs.coordinates.begin() + Space::dof}};
 }

@@ -1,71 +1,16 @@
 /// @file chain.hpp
-/// Robots whose links are pseudo-rigid chains: what they are made of, and their equilibria under tendons and
-/// a wrench, subject to the closures. Theory: docs/theory/chain_equilibrium.md
+/// Equilibria of robots whose links are pseudo-rigid chains, under tendons and a wrench, subject to the
+/// closures. Theory: docs/theory/chain_equilibrium.md
 #pragma once
 #include <limits>
-#include <memory>
-#include <variant>
 #include <vector>
 
-#include "sinew/base/error.hpp"
 #include "sinew/base/limits.hpp"
-#include "sinew/base/stop.hpp"
-#include "sinew/leg/space.hpp"
-#include "sinew/link/pseudo_rigid.hpp"
-#include "sinew/robot/robot.hpp"
+#include "sinew/robot/chains.hpp"
+#include "sinew/robot/workspace.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v0 {
-
-/// A leg whose link is a chain. Without a strut it turns freely at both ends and keeps its chord; with one
-/// (in the plane) its base is held, +y of the base frame being the base tangent of a clamped chain and the
-/// first link of a pinned one, and the strut leads from its tip to the platform.
-template <class SpaceT>
-struct ChainLeg {
-  using Space = SpaceT;
-  typename Space::template Frame<double> base;
-  PseudoRigid chain;
-  double bending_stiffness = 0;  ///< EI [N m²], > 0
-  double tendon_offset = 0;      ///< d [m], > 0
-  double strut = 0;              ///< its length [m]; 0: there is none
-  Vec<double, Space::dimension> platform_point = Vec<double, Space::dimension>::Zero();
-  double diameter = 0;  ///< of the round backbone [m]; 0: not known
-
-  bool has_strut() const { return strut > 0; }
-  /// Stiffness of a joint [N m/rad].
-  double spring(int joint) const { return bending_stiffness / chain.link_length() * chain.spring(joint); }
-};
-
-template <class SpaceT>
-struct ChainRobot {
-  using Space = SpaceT;
-  std::vector<ChainLeg<SpaceT>> legs;
-  double platform_radius = 0;  ///< homogenises moments [m], > 0
-  /// Base motors turn the first links: the directions of the base frames are inputs.
-  bool has_base_motors = false;
-};
-using AnyChainRobot = std::variant<ChainRobot<Planar>, ChainRobot<Spatial>>;
-
-/// The robot with its arcs replaced by chains of as many joints as its file gives (n of a spatial leg counts
-/// both axes of its universal joint, [TDPCR] section 4.1). An error names what a leg lacks: `joints`,
-/// `material` or `diameter`, or that there are no chains of its kind.
-SINEW_API Expected<AnyChainRobot> chain_robot(const Robot& robot, ChainModel model = ChainModel::weighted);
-
-/// The chain's own frame, x beside its first link and y along it: held by the base where there is a strut,
-/// else turned so that the tip lies towards the platform point.
-template <class Space>
-typename Space::template Frame<double> chain_frame(const ChainLeg<Space>& leg, std::span<const double> angles,
-                                                   const typename Space::template Frame<double>& platform) {
-  if (leg.has_strut()) return leg.base;
-  const auto r = (platform.point(leg.platform_point) - leg.base.p).eval();
-  return Space::aimed(leg.base, r, leg.chain.tip(angles).position);
-}
-
-/// Base point, joints and tip of a chain, base axes, where it leads to the platform. Allocates.
-template <class Space>
-SINEW_API std::vector<Vec<double, Space::dimension>> chain_points(
-    const ChainLeg<Space>& leg, std::span<const double> angles,
-    const typename Space::template Frame<double>& platform);
 
 /// What the motors of a leg hold: tensions, or the length of one tendon.
 struct ChainHold {
@@ -98,7 +43,7 @@ struct ChainState {
 /// Whether the state is one of this robot's, as far as its sizes tell. Functions answer one that is not with
 /// `bad_input`, or with numbers that are not.
 template <class Space>
-bool fits(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+bool fits(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
   return state.legs.size() == robot.legs.size() && state.hold.size() == robot.legs.size();
 }
 
@@ -108,19 +53,13 @@ bool fits(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
 /// @param curvature of each leg [1/m], near it: of a leg without a strut its sign is enough
 /// @return `unreachable` where a leg has no such shape near it
 template <class Space>
-SINEW_API Report rest(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
+SINEW_API Report rest(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
                       std::span<const double> curvature, bool holds_lengths, ChainState<Space>& state);
 
 struct ChainOptions {
   int max_iterations = 2000;  ///< Newton steps of the whole path
   /// Every chain bends evenly, as a constant-curvature link: one freedom a leg.
   bool evenly_bent = false;
-};
-
-/// Memory of a solver, one per thread. Sized on first use with a robot; then nothing allocates.
-struct ChainWork {
-  StopToken stop = {};  ///< solves that use it end with `stopped` once it is requested
-  std::shared_ptr<void> planar = {}, spatial = {};  ///< the solvers' own; a copy of it is for the same thread
 };
 
 /// The equilibrium under this wrench with the motors holding that, on a straight path of both from the one in
@@ -134,7 +73,7 @@ struct ChainWork {
 /// that asks joints for half a turn. `slack` (all fields are
 /// valid) where a tendon would have to push.
 template <class Space>
-SINEW_API Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
+SINEW_API Report equilibrium(const ChainLegs<Space>& robot, std::span<const ChainHold> hold,
                              const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
                              const ChainOptions& options = {});
 
@@ -143,7 +82,7 @@ SINEW_API Report equilibrium(const ChainRobot<Space>& robot, std::span<const Cha
 /// than freedoms the tensions are those nearest to the ones in `state`, in least squares. `unreachable` where
 /// legs are fewer, `stalled` where the path to the wrench is lost.
 template <class Space>
-SINEW_API Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& wrench,
+SINEW_API Report hold_pose(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& wrench,
                            ChainState<Space>& state, ChainWork& work, const ChainOptions& options = {});
 
 /// What the motor at a base exerts on the first link, counter-clockwise [N m]: the energy's derivative by the
@@ -171,7 +110,7 @@ struct ChainLoadPath {
 /// Adds `direction` times a growing factor to the wrench until it is `limit`, or something else ends it, by
 /// arc length: that load is exact to rounding. `state` is the last equilibrium before. Allocates.
 template <class Space>
-SINEW_API ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& direction,
+SINEW_API ChainLoadPath follow_load(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& direction,
                                     double limit, ChainState<Space>& state, ChainWork& work,
                                     const ChainOptions& options = {});
 
@@ -179,21 +118,21 @@ SINEW_API ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<do
 /// are held, leave free: > 0 where the equilibrium holds by itself, infinite where they leave nothing.
 /// Allocates.
 template <class Space>
-SINEW_API double least_curvature(const ChainRobot<Space>& robot, const ChainState<Space>& state);
+SINEW_API double least_curvature(const ChainLegs<Space>& robot, const ChainState<Space>& state);
 
 /// ∂(wrench)/∂(pose) and ∂(pose)/∂(wrench) with everything held: twist order. Under a moment in space not
 /// symmetric.
 template <class Space>
-SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainRobot<Space>& robot,
+SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainLegs<Space>& robot,
                                                         const ChainState<Space>& state, ChainWork& work);
 template <class Space>
-SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainRobot<Space>& robot,
+SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>& robot,
                                                          const ChainState<Space>& state, ChainWork& work);
 
 /// Springs, tendons that are held at tensions, and the wrench [J]: Σ ½ k θ² + Σ T l − W·x. Rotations in space
 /// bear no potential of a moment: NaN where there is one.
 template <class Space>
-SINEW_API double potential(const ChainRobot<Space>& robot, const ChainState<Space>& state);
+SINEW_API double potential(const ChainLegs<Space>& robot, const ChainState<Space>& state);
 
 /// Rows of the velocity equations of chains, J·t = K·θ̇ as [TDPCR] has them: row i of J is ρ or the strut's
 /// length times the leg's line, row i of K has columns of leg i alone.
@@ -210,21 +149,21 @@ struct ChainRates {
 };
 /// @implements TDPCR (34), (36)-(38), (60)-(62)
 template <class Space>
-SINEW_API ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
+SINEW_API ChainRates<Space> chain_rates(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
                                         std::span<const ChainLegState> legs);
 
 /// The paper's linear model of a load: ∂(pose)/∂(wrench) = U k⁻¹ Uᵀ with U = J⁻¹ K of the unloaded robot, of
 /// more legs than freedoms the inverse of the sum of their stiffnesses. It leaves out the geometric
 /// stiffness; where lengths are held, motions that keep them. @implements TDPCR (44), (45), (46)
 template <class Space>
-SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& robot,
+SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>& robot,
                                                                 const ChainState<Space>& state);
 
 /// How much more energy the unloaded robot's chains would store under this wrench if they bent evenly [J], to
 /// first order in the chord forces: what constant curvature misses. Of springs alone: low under M1, whose
 /// tendons soften them. Theory: docs/theory/chain_equilibrium.md
 template <class Space>
-SINEW_API double evenness_gap(const ChainRobot<Space>& robot, const ChainState<Space>& unloaded,
+SINEW_API double evenness_gap(const ChainLegs<Space>& robot, const ChainState<Space>& unloaded,
                               const Vec<double, Space::dof>& wrench);
 
 /// Force and moment at a link's tip that joint torques tell of, in base axes, by least squares of τ = J_pᵀ

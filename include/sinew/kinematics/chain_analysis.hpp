@@ -18,21 +18,21 @@ struct ChainStability {
 };
 /// Twists have length 1, turns times the longest chain. Allocates.
 template <class Space>
-SINEW_API ChainStability<Space> check_stability(const ChainRobot<Space>& robot,
-                                                const ChainState<Space>& state, ChainWork& work);
+SINEW_API ChainStability<Space> check_stability(const ChainLegs<Space>& robot, const ChainState<Space>& state,
+                                                ChainWork& work);
 
 struct ChainMargins {
   double fold;    ///< smallest singular value of the platform's stiffness over the largest: 0 at a fold
   double strain;  ///< largest of bending, of any backbone: κ d/2; NaN where no diameter is known
 };
 template <class Space>
-SINEW_API ChainMargins margins(const ChainRobot<Space>& robot, const ChainState<Space>& state,
+SINEW_API ChainMargins margins(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                                ChainWork& work);
 
 /// ∂(pose)/∂(inputs) at fixed wrench, twist order. Inputs are what the state holds, leg by leg: the angle of
 /// the base motor where there is one, then the length of a tendon, or the tensions of both. Allocates.
 template <class Space>
-SINEW_API Eigen::Matrix<double, Space::dof, Eigen::Dynamic> input_sensitivity(const ChainRobot<Space>& robot,
+SINEW_API Eigen::Matrix<double, Space::dof, Eigen::Dynamic> input_sensitivity(const ChainLegs<Space>& robot,
                                                                               const ChainState<Space>& state,
                                                                               ChainWork& work);
 

@@ -25,7 +25,7 @@ struct FoundChains {
 /// be all. Every start is let go without load, which is then added, and with it. Ends early when it is
 /// stopped. Allocates.
 template <class Space>
-SINEW_API std::vector<FoundChains<Space>> chain_equilibria(const ChainRobot<Space>& robot,
+SINEW_API std::vector<FoundChains<Space>> chain_equilibria(const ChainLegs<Space>& robot,
                                                            std::span<const ChainStart<Space>> starts,
                                                            std::span<const ChainHold> hold,
                                                            const Vec<double, Space::dof>& wrench,

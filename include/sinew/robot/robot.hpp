@@ -1,12 +1,14 @@
 /// @file robot.hpp
 /// A robot: what files load to and what every question is put to. What its legs are made of is in
-/// robot/parallel.hpp; who only asks needs none of it.
+/// robot/parallel.hpp and robot/chains.hpp; who only asks needs none of it.
 #pragma once
 #include <memory>
 #include <string>
 #include <variant>
 
+#include "sinew/base/error.hpp"
 #include "sinew/base/export.hpp"
+#include "sinew/link/pseudo_rigid.hpp"
 #include "sinew/math/se2.hpp"
 #include "sinew/math/se3.hpp"
 
@@ -16,6 +18,10 @@ template <class LegT>
 struct ParallelRobot;
 struct PlanarRobot;
 struct SpatialRobot;
+template <class Space>
+struct ChainLegs;
+struct Planar;
+struct Spatial;
 
 /// A pose of the robot's space.
 using AnyPose = std::variant<PlanarPose, SpatialPose>;
@@ -25,6 +31,15 @@ struct Weight {
   Vec3<double> gravity = Vec3<double>::Zero();  ///< [m/s²], base axes
   double platform_mass = 0;                     ///< at the platform's reference point [kg]
 };
+
+/// What a robot's links are taken for.
+enum class Model {
+  cc,   ///< of constant curvature
+  prb,  ///< pseudo-rigid bodies: chains of rigid links with springs between them, in place of the arcs of cc
+  rod,  ///< elastic rods
+  rigid,  ///< without elastic links
+};
+SINEW_API std::string_view to_string(Model model) noexcept;  ///< `cc`, `prb`, `rod`, `rigid`
 
 /// Constant once built and shared between threads; a copy is the same robot. All memory that changes is in a
 /// Workspace.
@@ -45,9 +60,19 @@ class Robot {
   SINEW_API const Weight& weight() const;
   SINEW_API bool geometry_inferred() const;
 
+  Model model() const { return model_; }
+  /// The same robot by another model, which is again a robot: every question that the model can answer may be
+  /// put to it. Its file's model and, where its links are arcs, prb. An error names what a leg lacks for
+  /// that: `joints`, `material`, `diameter`, or that its links have no such model.
+  SINEW_API Expected<Robot> as(Model model, ChainModel discretisation = ChainModel::weighted) const;
+
   /// Its legs; null of a robot of the other space.
   const PlanarRobot* planar() const { return planar_; }
   const SpatialRobot* spatial() const { return spatial_; }
+
+  /// Its legs by the model prb; null of a robot of the other space or by another model.
+  SINEW_API const ChainLegs<Planar>* planar_chains() const;
+  SINEW_API const ChainLegs<Spatial>* spatial_chains() const;
 
   /// The robot with another weight: one of its own.
   SINEW_API Robot under(const Weight& weight) const;
@@ -69,12 +94,16 @@ class Robot {
   std::shared_ptr<const Data> data_;
   const PlanarRobot* planar_ = nullptr;
   const SpatialRobot* spatial_ = nullptr;
+  Model model_ = Model::rigid;
   int rods_ = 0;
   bool is_within_limits_ = true;
 };
 
+inline bool has_rods(const Robot& robot) { return robot.rod_count() > 0; }
 /// Whether legs of this robot bear load: it then has equilibria (kinematics/equilibrium.hpp).
-inline bool bears_load(const Robot& robot) { return robot.rod_count() > 0; }
+inline bool bears_load(const Robot& robot) {
+  return robot.model() == Model::rod || robot.model() == Model::prb;
+}
 SINEW_API bool has_weight(const Robot& robot);  ///< gravity does something to it
 
 }  // namespace sinew::inline v0

@@ -13,6 +13,12 @@ namespace sinew::inline v0 {
 
 struct RodWork;
 
+/// Memory of solvers for chains, one per thread. Sized on first use with a robot; then nothing allocates.
+struct ChainWork {
+  StopToken stop = {};  ///< solves that use it end with `stopped` once it is requested
+  std::shared_ptr<void> planar = {}, spatial = {};  ///< the solvers' own; a copy of it is for the same thread
+};
+
 struct Workspace {
   /// Most solutions of one leg that are kept; an arc within a full turn either way has fewer.
   static constexpr int max_solutions = 8;
@@ -33,7 +39,11 @@ struct Workspace {
   std::vector<int> solution_count;     ///< a leg; 1 for a leg whose inputs are another's
   std::vector<int> type_1;             ///< legs
   std::vector<LegState> legs;
-  std::unique_ptr<RodWork> rods;  ///< of a robot that bears load; else null
+  std::unique_ptr<RodWork> rods;  ///< of a robot on rods; else null
+  ChainWork chains;               ///< of a robot by the model prb
+  /// Of a robot by the model prb: that of the same on arcs, near which searches for its chains begin; else
+  /// null.
+  std::unique_ptr<Workspace> arcs;
 };
 
 }  // namespace sinew::inline v0

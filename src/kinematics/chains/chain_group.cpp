@@ -7,7 +7,7 @@
 namespace sinew::inline v0 {
 
 template <class Space>
-void ChainGroup<Space>::set_robot(const ChainRobot<Space>& robot, bool is_evenly_bent) {
+void ChainGroup<Space>::set_robot(const ChainLegs<Space>& robot, bool is_evenly_bent) {
   robot_ = &robot;
   is_evenly_bent_ = is_evenly_bent;
   size_ = unit_ = 0;

@@ -19,7 +19,7 @@ class ChainGroup final : public LimbGroup<Space> {
   using State = ChainState<Space>;
 
   /// Of this robot from now on, which has to last as long. Allocates for more legs than before.
-  void set_robot(const ChainRobot<Space>& robot, bool is_evenly_bent);
+  void set_robot(const ChainLegs<Space>& robot, bool is_evenly_bent);
   const State& state() const { return state_; }
   void set_state(const State& state);  ///< of that robot
   /// Tensions that are held are those of the tendons from now on.
@@ -84,7 +84,7 @@ class ChainGroup final : public LimbGroup<Space> {
   const ChainLeg<Space>& leg(int limb) const { return robot_->legs[at(limb)]; }
   double error_of(const ChainLeg<Space>& leg, const LegSystem<Space>& system) const;
 
-  const ChainRobot<Space>* robot_ = nullptr;
+  const ChainLegs<Space>* robot_ = nullptr;
   bool is_evenly_bent_ = false;
   State state_;
   Frame platform_;

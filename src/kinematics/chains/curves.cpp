@@ -26,7 +26,7 @@ class ChainProblem : public LoadProblem<Space> {
   using typename Base::Rows, typename Base::Twist;
   using Curve = ChainCurve<Space>;
 
-  ChainProblem(const ChainRobot<Space>& robot, ChainGroup<Space>& group, const ChainCurveOptions<Space>& how)
+  ChainProblem(const ChainLegs<Space>& robot, ChainGroup<Space>& group, const ChainCurveOptions<Space>& how)
       : Base(group, how.added_wrench),
         robot_(robot),
         chains_(group),
@@ -88,14 +88,14 @@ class ChainProblem : public LoadProblem<Space> {
   }
 
  private:
-  const ChainRobot<Space>& robot_;
+  const ChainLegs<Space>& robot_;
   ChainGroup<Space>& chains_;
   std::vector<double> fed_;              ///< by a step; none where nothing held changes
   std::vector<ChainHold> from_, rates_;  ///< held at λ = 0, and its change; none where that stays
 };
 
 template <class Space>
-bool is_answerable(const ChainRobot<Space>& robot, const ChainState<Space>& state,
+bool is_answerable(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                    const ChainCurveOptions<Space>& how) {
   if (!fits(robot, state)) return false;
   if (!how.added_wrench.allFinite() || !(how.lowest <= 0) || !(how.highest >= 0) || how.max_points <= 0)
@@ -114,7 +114,7 @@ bool is_answerable(const ChainRobot<Space>& robot, const ChainState<Space>& stat
 }  // namespace
 
 template <class Space>
-std::vector<ChainCurve<Space>> chain_curves(const ChainRobot<Space>& robot, const ChainState<Space>& state,
+std::vector<ChainCurve<Space>> chain_curves(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                                             const ChainCurveOptions<Space>& how, ChainWork& work) {
   if (!is_answerable(robot, state, how) || !check_hold(robot, std::span(state.hold)).ok()) return {};
   auto& memory = memory_of(work, robot, state);
@@ -129,7 +129,7 @@ std::vector<ChainCurve<Space>> chain_curves(const ChainRobot<Space>& robot, cons
 
 #define SINEW_OF(Space)                                           \
   template SINEW_API std::vector<ChainCurve<Space>> chain_curves( \
-      const ChainRobot<Space>&, const ChainState<Space>&, const ChainCurveOptions<Space>&, ChainWork&);
+      const ChainLegs<Space>&, const ChainState<Space>&, const ChainCurveOptions<Space>&, ChainWork&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

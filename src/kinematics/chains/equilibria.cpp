@@ -33,7 +33,7 @@ class Search {
  public:
   using Wrench = Vec<double, Space::dof>;
 
-  Search(const ChainRobot<Space>& robot, std::span<const ChainHold> hold, const Wrench& wrench,
+  Search(const ChainLegs<Space>& robot, std::span<const ChainHold> hold, const Wrench& wrench,
          ChainWork& work, const ChainOptions& options)
       : robot_(robot),
         hold_(hold),
@@ -92,7 +92,7 @@ class Search {
     });
   }
 
-  const ChainRobot<Space>& robot_;
+  const ChainLegs<Space>& robot_;
   std::span<const ChainHold> hold_;
   Wrench wrench_;
   ChainWork& work_;
@@ -104,7 +104,7 @@ class Search {
 }  // namespace
 
 template <class Space>
-std::vector<FoundChains<Space>> chain_equilibria(const ChainRobot<Space>& robot,
+std::vector<FoundChains<Space>> chain_equilibria(const ChainLegs<Space>& robot,
                                                  std::span<const ChainStart<Space>> starts,
                                                  std::span<const ChainHold> hold,
                                                  const Vec<double, Space::dof>& wrench, ChainWork& work,
@@ -118,9 +118,9 @@ std::vector<FoundChains<Space>> chain_equilibria(const ChainRobot<Space>& robot,
   return search.found();
 }
 
-#define SINEW_OF(Space)                                                                         \
-  template SINEW_API std::vector<FoundChains<Space>> chain_equilibria(                          \
-      const ChainRobot<Space>&, std::span<const ChainStart<Space>>, std::span<const ChainHold>, \
+#define SINEW_OF(Space)                                                                        \
+  template SINEW_API std::vector<FoundChains<Space>> chain_equilibria(                         \
+      const ChainLegs<Space>&, std::span<const ChainStart<Space>>, std::span<const ChainHold>, \
       const Vec<double, Space::dof>&, ChainWork&, const ChainOptions&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)

@@ -107,7 +107,7 @@ Report follow(ChainMemory<Space>& memory, StopToken stop, const ChainOptions& op
 
 /// Tensions and shapes that hold the pose without a wrench, from nearly so: no leg pulls or pushes.
 template <class Space>
-Report settle(const ChainRobot<Space>& robot, ChainState<Space>& state) {
+Report settle(const ChainLegs<Space>& robot, ChainState<Space>& state) {
   ChainWork work;
   auto& group = memory_of(work, robot, state).group;
   std::vector<double> fed(robot.legs.size());
@@ -130,7 +130,7 @@ Report settle(const ChainRobot<Space>& robot, ChainState<Space>& state) {
 }  // namespace
 
 template <class Space>
-Report rest(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
+Report rest(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
             std::span<const double> curvature, bool holds_lengths, ChainState<Space>& state) {
   if (curvature.size() != robot.legs.size()) return wrong_sizes();
   state.pose = pose;
@@ -186,7 +186,7 @@ Report rest(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
 }
 
 template <class Space>
-Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> hold,
+Report equilibrium(const ChainLegs<Space>& robot, std::span<const ChainHold> hold,
                    const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
                    const ChainOptions& options) {
   if (hold.size() != robot.legs.size() || state.legs.size() != robot.legs.size()) return wrong_sizes();
@@ -205,7 +205,7 @@ Report equilibrium(const ChainRobot<Space>& robot, std::span<const ChainHold> ho
 }
 
 template <class Space>
-Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& wrench,
+Report hold_pose(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& wrench,
                  ChainState<Space>& state, ChainWork& work, const ChainOptions& options) {
   if (robot.legs.size() < static_cast<std::size_t>(Space::dof)) {
     Report report;
@@ -235,7 +235,7 @@ Report hold_pose(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& 
 }
 
 template <class Space>
-Mat<double, Space::dof, Space::dof> stiffness(const ChainRobot<Space>& robot, const ChainState<Space>& state,
+Mat<double, Space::dof, Space::dof> stiffness(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                                               ChainWork& work) {
   if (!fits(robot, state))
     return Mat<double, Space::dof, Space::dof>::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -243,7 +243,7 @@ Mat<double, Space::dof, Space::dof> stiffness(const ChainRobot<Space>& robot, co
 }
 
 template <class Space>
-Mat<double, Space::dof, Space::dof> compliance(const ChainRobot<Space>& robot, const ChainState<Space>& state,
+Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                                                ChainWork& work) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   Mat<double, Space::dof, Space::dof> C = Mat<double, Space::dof, Space::dof>::Constant(none);
@@ -254,17 +254,17 @@ Mat<double, Space::dof, Space::dof> compliance(const ChainRobot<Space>& robot, c
   return C;
 }
 
-#define SINEW_OF(Space)                                                                                   \
-  template SINEW_API Report rest(const ChainRobot<Space>&, const Space::Pose&, std::span<const double>,   \
-                                 bool, ChainState<Space>&);                                               \
-  template SINEW_API Report equilibrium(const ChainRobot<Space>&, std::span<const ChainHold>,             \
-                                        const Vec<double, Space::dof>&, ChainState<Space>&, ChainWork&,   \
-                                        const ChainOptions&);                                             \
-  template SINEW_API Report hold_pose(const ChainRobot<Space>&, const Vec<double, Space::dof>&,           \
-                                      ChainState<Space>&, ChainWork&, const ChainOptions&);               \
-  template SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainRobot<Space>&,              \
-                                                                   const ChainState<Space>&, ChainWork&); \
-  template SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainRobot<Space>&,             \
+#define SINEW_OF(Space)                                                                                      \
+  template SINEW_API Report rest(const ChainLegs<Space>&, const Space::Pose&, std::span<const double>, bool, \
+                                 ChainState<Space>&);                                                        \
+  template SINEW_API Report equilibrium(const ChainLegs<Space>&, std::span<const ChainHold>,                 \
+                                        const Vec<double, Space::dof>&, ChainState<Space>&, ChainWork&,      \
+                                        const ChainOptions&);                                                \
+  template SINEW_API Report hold_pose(const ChainLegs<Space>&, const Vec<double, Space::dof>&,               \
+                                      ChainState<Space>&, ChainWork&, const ChainOptions&);                  \
+  template SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainLegs<Space>&,                  \
+                                                                   const ChainState<Space>&, ChainWork&);    \
+  template SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>&,                 \
                                                                     const ChainState<Space>&, ChainWork&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)

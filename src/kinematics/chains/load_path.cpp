@@ -14,7 +14,7 @@ std::string_view to_string(ChainLoadEnd end) noexcept {
 }
 
 template <class Space>
-ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Space::dof>& direction,
+ChainLoadPath follow_load(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& direction,
                           double limit, ChainState<Space>& state, ChainWork& work,
                           const ChainOptions& options) {
   ChainLoadPath path;
@@ -59,8 +59,8 @@ ChainLoadPath follow_load(const ChainRobot<Space>& robot, const Vec<double, Spac
   return path;
 }
 
-#define SINEW_OF(Space)                                                                                  \
-  template SINEW_API ChainLoadPath follow_load(const ChainRobot<Space>&, const Vec<double, Space::dof>&, \
+#define SINEW_OF(Space)                                                                                 \
+  template SINEW_API ChainLoadPath follow_load(const ChainLegs<Space>&, const Vec<double, Space::dof>&, \
                                                double, ChainState<Space>&, ChainWork&, const ChainOptions&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)

@@ -151,7 +151,7 @@ double put_right(LegMotion<Space>& motion, Angles& angles) {
 }  // namespace
 
 template <class Space>
-Report follow_least_norm(ChainRobot<Space>& robot, const typename Space::Pose& from,
+Report follow_least_norm(ChainLegs<Space>& robot, const typename Space::Pose& from,
                          const typename Space::Pose& to, std::span<ChainLegState> legs,
                          const ChainMotionOptions& options) {
   Report report;
@@ -199,8 +199,8 @@ Report follow_least_norm(ChainRobot<Space>& robot, const typename Space::Pose& f
   return report;
 }
 
-#define SINEW_OF(Space)                                                                                   \
-  template SINEW_API Report follow_least_norm(ChainRobot<Space>&, const Space::Pose&, const Space::Pose&, \
+#define SINEW_OF(Space)                                                                                  \
+  template SINEW_API Report follow_least_norm(ChainLegs<Space>&, const Space::Pose&, const Space::Pose&, \
                                               std::span<ChainLegState>, const ChainMotionOptions&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)

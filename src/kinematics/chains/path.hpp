@@ -20,7 +20,7 @@ struct ChainMemory {
 
 /// The group of a work, at this state. Allocates the first time.
 template <class Space>
-ChainMemory<Space>& memory_of(ChainWork& work, const ChainRobot<Space>& robot, const ChainState<Space>& state,
+ChainMemory<Space>& memory_of(ChainWork& work, const ChainLegs<Space>& robot, const ChainState<Space>& state,
                               const ChainOptions& options = {}) {
   std::shared_ptr<void>& kept = Space::dimension == 2 ? work.planar : work.spatial;
   if (!kept) kept = std::make_shared<ChainMemory<Space>>();
@@ -32,7 +32,7 @@ ChainMemory<Space>& memory_of(ChainWork& work, const ChainRobot<Space>& robot, c
 
 /// ... evaluated and linearised there.
 template <class Space>
-ChainGroup<Space>& linearised(ChainWork& work, const ChainRobot<Space>& robot,
+ChainGroup<Space>& linearised(ChainWork& work, const ChainLegs<Space>& robot,
                               const ChainState<Space>& state) {
   ChainGroup<Space>& group = memory_of(work, robot, state).group;
   group.evaluate();
@@ -138,7 +138,7 @@ double most_change(const ChainLeg<Space>& leg) {
 
 /// Why no path can lead to that; ok where one may.
 template <class Space>
-Report check_hold(const ChainRobot<Space>& robot, std::span<const ChainHold> hold) {
+Report check_hold(const ChainLegs<Space>& robot, std::span<const ChainHold> hold) {
   Report report;
   for (std::size_t i = 0; i < hold.size() && report.ok(); ++i) {
     const ChainLeg<Space>& leg = robot.legs[i];

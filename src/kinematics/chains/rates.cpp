@@ -9,7 +9,7 @@
 namespace sinew::inline v0 {
 
 template <class Space>
-ChainRates<Space> chain_rates(const ChainRobot<Space>& robot, const typename Space::Pose& pose,
+ChainRates<Space> chain_rates(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
                               std::span<const ChainLegState> legs) {
   ChainRates<Space> rates;
   if (legs.size() != robot.legs.size() || legs.size() > static_cast<std::size_t>(max_rows)) {
@@ -54,7 +54,7 @@ auto compliance_along(const Lines& lines, std::span<const double> soft) {
 }  // namespace
 
 template <class Space>
-Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& robot,
+Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>& robot,
                                                       const ChainState<Space>& state) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const ChainRates<Space> rates = chain_rates(robot, state.pose, state.legs);
@@ -83,7 +83,7 @@ Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>& r
 }
 
 template <class Space>
-double evenness_gap(const ChainRobot<Space>& robot, const ChainState<Space>& unloaded,
+double evenness_gap(const ChainLegs<Space>& robot, const ChainState<Space>& unloaded,
                     const Vec<double, Space::dof>& wrench) {
   if (!fits(robot, unloaded) || robot.legs.size() > static_cast<std::size_t>(max_rows))
     return std::numeric_limits<double>::quiet_NaN();
@@ -158,13 +158,13 @@ Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>& leg, std::span<const d
 }
 
 #define SINEW_OF(Space)                                                                                  \
-  template SINEW_API ChainRates<Space> chain_rates(const ChainRobot<Space>&, const Space::Pose&,         \
+  template SINEW_API ChainRates<Space> chain_rates(const ChainLegs<Space>&, const Space::Pose&,          \
                                                    std::span<const ChainLegState>);                      \
-  template SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainRobot<Space>&,     \
+  template SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>&,      \
                                                                            const ChainState<Space>&);    \
   template SINEW_API Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>&, std::span<const double>, \
                                                         const Space::Frame<double>&);                    \
-  template SINEW_API double evenness_gap(const ChainRobot<Space>&, const ChainState<Space>&,             \
+  template SINEW_API double evenness_gap(const ChainLegs<Space>&, const ChainState<Space>&,              \
                                          const Vec<double, Space::dof>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)

@@ -12,7 +12,7 @@ namespace sinew::inline v0 {
 namespace {
 
 template <class Space>
-Report check_measured(const ChainRobot<Space>& robot, std::span<const MeasuredTension> measured,
+Report check_measured(const ChainLegs<Space>& robot, std::span<const MeasuredTension> measured,
                       const ChainState<Space>& state) {
   Report report;
   const auto refuse = [&](std::string_view why) {
@@ -89,7 +89,7 @@ void say_not_reached(const ParameterPath& end, const ChainWork& work, Report& re
 }  // namespace
 
 template <class Space>
-SensedLoad<Space> sense_wrench(const ChainRobot<Space>& robot, std::span<const MeasuredTension> measured,
+SensedLoad<Space> sense_wrench(const ChainLegs<Space>& robot, std::span<const MeasuredTension> measured,
                                ChainState<Space>& state, ChainWork& work, const ChainOptions& options) {
   SensedLoad<Space> sensed{check_measured(robot, measured, state),
                            Mat<double, Space::dof, Space::dof>::Zero()};
@@ -130,7 +130,7 @@ SensedLoad<Space> sense_wrench(const ChainRobot<Space>& robot, std::span<const M
 }
 
 #define SINEW_OF(Space)                                                                                   \
-  template SINEW_API SensedLoad<Space> sense_wrench(const ChainRobot<Space>&,                             \
+  template SINEW_API SensedLoad<Space> sense_wrench(const ChainLegs<Space>&,                              \
                                                     std::span<const MeasuredTension>, ChainState<Space>&, \
                                                     ChainWork&, const ChainOptions&);
 SINEW_OF(Planar)

@@ -26,7 +26,7 @@ Vec<double, 3> motor_wrench_jacobian(const ChainLeg<Planar>& leg, const SE2<doub
 }  // namespace
 
 template <class Space>
-Eigen::Matrix<double, Space::dof, Eigen::Dynamic> input_sensitivity(const ChainRobot<Space>& robot,
+Eigen::Matrix<double, Space::dof, Eigen::Dynamic> input_sensitivity(const ChainLegs<Space>& robot,
                                                                     const ChainState<Space>& state,
                                                                     ChainWork& work) {
   using Motion = Vec<double, Space::dof>;
@@ -52,10 +52,10 @@ Eigen::Matrix<double, Space::dof, Eigen::Dynamic> input_sensitivity(const ChainR
   return all;
 }
 
-template SINEW_API Eigen::Matrix<double, 3, Eigen::Dynamic> input_sensitivity(const ChainRobot<Planar>&,
+template SINEW_API Eigen::Matrix<double, 3, Eigen::Dynamic> input_sensitivity(const ChainLegs<Planar>&,
                                                                               const ChainState<Planar>&,
                                                                               ChainWork&);
-template SINEW_API Eigen::Matrix<double, 6, Eigen::Dynamic> input_sensitivity(const ChainRobot<Spatial>&,
+template SINEW_API Eigen::Matrix<double, 6, Eigen::Dynamic> input_sensitivity(const ChainLegs<Spatial>&,
                                                                               const ChainState<Spatial>&,
                                                                               ChainWork&);
 

@@ -31,7 +31,7 @@ struct Variation {
 };
 
 template <class Space>
-Variation variation(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+Variation variation(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
   constexpr int dof = Space::dof;
   Variation all;
   Eigen::Index size = dof, rows = 0;
@@ -73,7 +73,7 @@ double least(const Eigen::VectorXd& values) {
 
 /// Turns as lengths on the longest chain.
 template <class Space>
-Vec<double, Space::dof> scale_of(const ChainRobot<Space>& robot) {
+Vec<double, Space::dof> scale_of(const ChainLegs<Space>& robot) {
   double size = 0;
   for (const auto& leg : robot.legs) size = std::max(size, leg.chain.length);
   Vec<double, Space::dof> scale = Vec<double, Space::dof>::Ones();
@@ -84,14 +84,14 @@ Vec<double, Space::dof> scale_of(const ChainRobot<Space>& robot) {
 }  // namespace
 
 template <class Space>
-double least_curvature(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+double least_curvature(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
   if (!fits(robot, state)) return std::numeric_limits<double>::quiet_NaN();
   const Variation all = variation(robot, state);
   return least(on_null_space(all.H, all.C));
 }
 
 template <class Space>
-ChainStability<Space> check_stability(const ChainRobot<Space>& robot, const ChainState<Space>& state,
+ChainStability<Space> check_stability(const ChainLegs<Space>& robot, const ChainState<Space>& state,
                                       ChainWork& work) {
   constexpr int dof = Space::dof;
   ChainStability<Space> stability{std::numeric_limits<double>::quiet_NaN(), 0, {}, {}};
@@ -114,7 +114,7 @@ ChainStability<Space> check_stability(const ChainRobot<Space>& robot, const Chai
 }
 
 template <class Space>
-ChainMargins margins(const ChainRobot<Space>& robot, const ChainState<Space>& state, ChainWork& work) {
+ChainMargins margins(const ChainLegs<Space>& robot, const ChainState<Space>& state, ChainWork& work) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (!fits(robot, state)) return {none, none};
   ChainMargins found{regularity(linearised(work, robot, state)), 0};
@@ -143,7 +143,7 @@ double work_of(const Vec<double, 6>& wrench, const SpatialPose& pose) {
 }  // namespace
 
 template <class Space>
-double potential(const ChainRobot<Space>& robot, const ChainState<Space>& state) {
+double potential(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
   if (!fits(robot, state)) return std::numeric_limits<double>::quiet_NaN();
   double sum = -work_of(state.wrench, state.pose);
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
@@ -160,12 +160,12 @@ double potential(const ChainRobot<Space>& robot, const ChainState<Space>& state)
   return sum;
 }
 
-#define SINEW_OF(Space)                                                                                    \
-  template SINEW_API double least_curvature(const ChainRobot<Space>&, const ChainState<Space>&);           \
-  template SINEW_API ChainStability<Space> check_stability(const ChainRobot<Space>&,                       \
-                                                           const ChainState<Space>&, ChainWork&);          \
-  template SINEW_API ChainMargins margins(const ChainRobot<Space>&, const ChainState<Space>&, ChainWork&); \
-  template SINEW_API double potential(const ChainRobot<Space>&, const ChainState<Space>&);
+#define SINEW_OF(Space)                                                                                   \
+  template SINEW_API double least_curvature(const ChainLegs<Space>&, const ChainState<Space>&);           \
+  template SINEW_API ChainStability<Space> check_stability(const ChainLegs<Space>&,                       \
+                                                           const ChainState<Space>&, ChainWork&);         \
+  template SINEW_API ChainMargins margins(const ChainLegs<Space>&, const ChainState<Space>&, ChainWork&); \
+  template SINEW_API double potential(const ChainLegs<Space>&, const ChainState<Space>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF

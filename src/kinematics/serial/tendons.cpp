@@ -9,12 +9,11 @@
 namespace sinew::inline v0 {
 namespace {
 
-using kernel::Model;
 using Pull = kernel::Pull<double>;
 
 kernel::Bend<double> kernel_bend(const Bend& bend) { return {bend.x(), bend.y()}; }
 
-Pull pull_of(const SerialWorkspace& work, std::size_t m, const Bend& bend, Model model) {
+Pull pull_of(const SerialWorkspace& work, std::size_t m, const Bend& bend, kernel::Model model) {
   return kernel::pull(model, work.maps[m], kernel_bend(bend), work.extensions[m]);
 }
 
@@ -94,7 +93,7 @@ void extend(const SerialRobot& robot, std::span<const double> extensions, Serial
   for (std::size_t m = 0; m < extensions.size(); ++m) extend(robot.sections[m], m, extensions[m], work);
 }
 
-void tendon_changes(std::span<const Bend> bends, Model model, SerialWorkspace& work) {
+void tendon_changes(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work) {
   if (!work.fits(bends)) return void(std::ranges::fill(work.changes, not_a_number));
   Pull sum{};
   auto direction = work.directions.begin();
@@ -105,7 +104,8 @@ void tendon_changes(std::span<const Bend> bends, Model model, SerialWorkspace& w
   }
 }
 
-kernel::Pull<double> pull_of_all(std::span<const Bend> bends, Model model, const SerialWorkspace& work) {
+kernel::Pull<double> pull_of_all(std::span<const Bend> bends, kernel::Model model,
+                                 const SerialWorkspace& work) {
   if (!work.fits(bends)) return {not_a_number, not_a_number, not_a_number};
   Pull sum{};
   for (std::size_t m = 0; m < work.maps.size(); ++m) sum = sum + pull_of(work, m, bends[m], model);
@@ -164,7 +164,8 @@ Report check_limits(const SerialRobot& robot, std::span<const Bend> bends,
   return report;
 }
 
-Report bends_of_changes(const SerialRobot& robot, Numbers changes, Model model, SerialWorkspace& work) {
+Report bends_of_changes(const SerialRobot& robot, Numbers changes, kernel::Model model,
+                        SerialWorkspace& work) {
   if (!work.fits(robot) || changes.size() != work.changes.size()) {
     Report report;
     report.status = Status::bad_input;
@@ -185,7 +186,7 @@ Report bends_of_changes(const SerialRobot& robot, Numbers changes, Model model, 
     const auto bend = kernel::bend(model, work.maps[m], x, y);
     work.bends[m] = {bend.x, bend.y};
     asked = sum;
-    const bool bends_so = model == Model::linear || has_arcs(robot.sections[m], work.maps[m], x, y);
+    const bool bends_so = model == kernel::Model::linear || has_arcs(robot.sections[m], work.maps[m], x, y);
     if (const Section& section = robot.sections[m]; section.is_extensible() && bends_so) {
       const double wanted = kernel::extension(model, work.maps[m], bend, sum.common - needed.common);
       extend(section, m, std::clamp(wanted, section.least_extension, section.most_extension), work);
@@ -215,10 +216,11 @@ struct PullRate {
 };
 
 /// With h the half angle a joint has of a bend b and s = sinc: ∂s/∂b = −sinc_slope(h)·(h/b)²·b.
-PullRate pull_rate(const kernel::Section<double>& section, double length, const Bend& bend, Model model) {
+PullRate pull_rate(const kernel::Section<double>& section, double length, const Bend& bend,
+                   kernel::Model model) {
   const double g = section.gain;
   PullRate rate{Mat<double, 2, 2>(Mat<double, 2, 2>::Identity() * g), Vec2<double>::Zero()};
-  if (model == Model::linear) return rate;
+  if (model == kernel::Model::linear) return rate;
   const Vec2<double> half = section.half * bend;
   if (section.backbone == kernel::Backbone::neutral) {
     const double angle = half.norm();
@@ -236,7 +238,7 @@ PullRate pull_rate(const kernel::Section<double>& section, double length, const 
 
 }  // namespace
 
-void tendon_rates(std::span<const Bend> bends, Model model, SerialWorkspace& work) {
+void tendon_rates(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work) {
   if (!work.fits(bends)) return void(std::ranges::fill(work.K, not_a_number));
   std::fill(work.K.begin(), work.K.end(), 0.0);
   const std::size_t columns = 2 * work.maps.size();

@@ -11,13 +11,13 @@ tl::unexpected<Errors> failed(std::string_view where, const Report& report) {
 
 }  // namespace
 
-Expected<ChainRobot<Planar>> chains(const Robot& robot) {
-  auto any = chain_robot(robot, ChainModel::even);
-  if (!any) return tl::unexpected(std::move(any.error()));
-  return std::get<ChainRobot<Planar>>(*any);
+Expected<ChainLegs<Planar>> chains(const Robot& robot) {
+  auto on_chains = robot.as(Model::prb, ChainModel::even);
+  if (!on_chains) return tl::unexpected(std::move(on_chains.error()));
+  return chains_of<Planar>(*on_chains);
 }
 
-Expected<std::vector<ChainLegState>> evenly_bent(const ChainRobot<Planar>& robot, const PlanarPose& pose) {
+Expected<std::vector<ChainLegState>> evenly_bent(const ChainLegs<Planar>& robot, const PlanarPose& pose) {
   ChainState<Planar> state;
   const std::vector<double> towards_plus(robot.legs.size(), 1);
   const Report report = rest(robot, pose, towards_plus, false, state);
@@ -25,7 +25,7 @@ Expected<std::vector<ChainLegState>> evenly_bent(const ChainRobot<Planar>& robot
   return std::move(state.legs);
 }
 
-Expected<std::vector<ChainSample>> trajectory(ChainRobot<Planar> robot, int rk4_steps) {
+Expected<std::vector<ChainSample>> trajectory(ChainLegs<Planar> robot, int rk4_steps) {
   constexpr int last = 59;
   std::vector<ChainSample> samples;
   auto legs = evenly_bent(robot, pose(0));
@@ -42,7 +42,7 @@ Expected<std::vector<ChainSample>> trajectory(ChainRobot<Planar> robot, int rk4_
   return samples;
 }
 
-Expected<ChainSample> sample(ChainRobot<Planar> robot, double eta) {
+Expected<ChainSample> sample(ChainLegs<Planar> robot, double eta) {
   auto legs = evenly_bent(robot, pose(0));
   if (!legs) return tl::unexpected(std::move(legs.error()));
   const Report report = follow_least_norm(robot, pose(0), pose(eta), *legs);

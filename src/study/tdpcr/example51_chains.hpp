@@ -17,16 +17,16 @@ struct ChainSample {
   ChainVelocity<Planar> velocity;
 };
 
-Expected<ChainRobot<Planar>> chains(const Robot& robot);
+Expected<ChainLegs<Planar>> chains(const Robot& robot);
 
 /// Bent evenly towards positive curvature.
-Expected<std::vector<ChainLegState>> evenly_bent(const ChainRobot<Planar>& robot, const PlanarPose& pose);
+Expected<std::vector<ChainLegState>> evenly_bent(const ChainLegs<Planar>& robot, const PlanarPose& pose);
 
 /// η = k/59 for k = 0 … 59. @param rk4_steps between poses; 0: the flow itself
-Expected<std::vector<ChainSample>> trajectory(ChainRobot<Planar> robot, int rk4_steps);
+Expected<std::vector<ChainSample>> trajectory(ChainLegs<Planar> robot, int rk4_steps);
 
 /// At η < 1, by the flow from the first pose.
-Expected<ChainSample> sample(ChainRobot<Planar> robot, double eta);
+Expected<ChainSample> sample(ChainLegs<Planar> robot, double eta);
 
 /// Limits of index·(π/3 − φ) for the drive |gᵢ| of the last pose's joints in place of tendons.
 Rates rates(const Sample& last, const ChainSample& chains);

@@ -93,7 +93,7 @@ Finding closure(const Chains& exact, const Chains& runge_kutta) {
 
 /// The claim of section 5.1, and what it hangs on.
 void add_artefact(std::vector<Finding>& findings, const std::vector<Sample>& arcs, const Chains& chains,
-                  const ChainRobot<Planar>& robot) {
+                  const ChainLegs<Planar>& robot) {
   const auto cc = [&](std::size_t k) { return arcs[k].indices.rotation; };
   const auto prb = [&](std::size_t k) { return chains[k].velocity.indices.rotation; };
   findings.push_back(
@@ -134,7 +134,7 @@ void add_artefact(std::vector<Finding>& findings, const std::vector<Sample>& arc
 }
 
 /// What (54), put right, reads from shapes of least norm: without a wrench no chord bears a force.
-Finding chord_forces(const Chains& chains, const ChainRobot<Planar>& robot) {
+Finding chord_forces(const Chains& chains, const ChainLegs<Planar>& robot) {
   double low = 0, high = -std::numeric_limits<double>::infinity();
   const ChainSample& s = chains[last];
   for (std::size_t i = 0; i < 3; ++i) {

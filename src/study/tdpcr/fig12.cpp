@@ -19,7 +19,7 @@ using drawing::Point;
 using example51::ChainSample;
 using std::numbers::pi;
 
-std::vector<Polyline> chains_of(const ChainRobot<Planar>& robot, const ChainSample& sample) {
+std::vector<Polyline> chains_of(const ChainLegs<Planar>& robot, const ChainSample& sample) {
   std::vector<Polyline> chains;
   for (std::size_t i = 0; i < robot.legs.size(); ++i)
     chains.push_back(

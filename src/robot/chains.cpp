@@ -1,10 +1,12 @@
-/// Robots of a file with chains for links.
+/// Chains in place of a robot's arcs.
+#include "sinew/robot/chains.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "sinew/kinematics/chain.hpp"
+#include "robot/make_chains.hpp"
 #include "sinew/robot/catalog.hpp"
 #include "sinew/robot/parallel.hpp"
 
@@ -58,9 +60,9 @@ ChainLeg<Space> chain_leg(const LegT& leg, ChainModel model) {
 }
 
 template <class LegT>
-Expected<AnyChainRobot> chain_robot_of(const ParallelRobot<LegT>& robot, ChainModel model) {
+Expected<AnyChains> make_chains_of(const ParallelRobot<LegT>& robot, ChainModel model) {
   using Space = typename LegT::Space;
-  ChainRobot<Space> chains;
+  ChainLegs<Space> chains;
   chains.platform_radius = robot.platform_radius;
   Errors errors;
   std::size_t motors = 0;
@@ -90,18 +92,13 @@ Expected<AnyChainRobot> chain_robot_of(const ParallelRobot<LegT>& robot, ChainMo
                       "some legs have a motor at the base and some have none; model prb needs all or none."});
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   chains.has_base_motors = motors > 0;
-  return AnyChainRobot(std::move(chains));
+  return AnyChains(std::move(chains));
 }
 
 }  // namespace
 
-Expected<AnyChainRobot> chain_robot(const Robot& robot, ChainModel model) {
-  return with_closing_legs(
-      robot, [&](const auto& r) { return chain_robot_of(r, model); },
-      []() -> Expected<AnyChainRobot> {
-        return failure("not_available", "legs",
-                       "the legs are rods, which have a model of their own: leave model out.");
-      });
+Expected<AnyChains> make_chains(const AnyLegs& legs, ChainModel discretisation) {
+  return std::visit([&](const auto& own) { return make_chains_of(own, discretisation); }, legs);
 }
 
 template <class Space>

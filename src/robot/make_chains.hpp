@@ -1,0 +1,17 @@
+/// @file make_chains.hpp
+/// From legs on arcs to legs on pseudo-rigid chains.
+#pragma once
+#include "sinew/base/error.hpp"
+#include "sinew/robot/chains.hpp"
+#include "sinew/robot/parallel.hpp"
+
+namespace sinew::inline v0 {
+
+using AnyLegs = std::variant<PlanarRobot, SpatialRobot>;
+using AnyChains = std::variant<ChainLegs<Planar>, ChainLegs<Spatial>>;
+
+/// An error names what a leg lacks: `joints`, `material` or `diameter`, or that there are no chains of its
+/// kind.
+Expected<AnyChains> make_chains(const AnyLegs& legs, ChainModel discretisation);
+
+}  // namespace sinew::inline v0
