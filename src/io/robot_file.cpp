@@ -546,9 +546,7 @@ void check_head(Reader& robot) {
   const Reader version = robot.required("sinew", "version of the file format: 1");
   const int number = version.integer();
   if (version.node() && number != 1) version.refuse("unknown_version", "this sinew reads version 1");
-  if (const auto kind = robot.optional("kind"))
-    if (kind->choice({"parallel", "serial"}) == "serial")
-      kind->refuse("not_available", "this reads parallel robots; load_serial reads this one");
+  if (const auto kind = robot.optional("kind")) kind->choice({"parallel", "serial"});
 }
 
 /// Every leg written out in full: architecture expanded, defaults merged in. What no robot can have is
@@ -587,6 +585,8 @@ Expected<void> check_size(const Document& document) {
 }
 
 Expected<Robot> read_robot(const Document& document) {
+  if (is_serial(document))
+    return read_serial_robot(document).map([](SerialRobot robot) { return Robot(std::move(robot)); });
   if (auto fits = check_size(document); !fits) return tl::unexpected(fits.error());
   const Expected<Document> longer = expanded(document);
   if (!longer) return tl::unexpected(longer.error());

@@ -1,5 +1,6 @@
 /// Handler of `describe`: what a robot has.
 #include "query/context.hpp"
+#include "query/serial.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/robot/parallel.hpp"
 
@@ -108,6 +109,7 @@ Json pose_json(bool is_planar) {
 }  // namespace
 
 void answer_describe(Context& context) {
+  if (context.robot.serial()) return answer_serial_describe(SerialContext(context));
   if (!context.ready()) return;
   Json inputs = Json::array(), legs = Json::array();
   with_legs(context.robot, [&](const auto& robot) {

@@ -6,6 +6,7 @@
 #include "query/chains.hpp"
 #include "query/context.hpp"
 #include "query/rods.hpp"
+#include "query/serial.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/kinematics/assembly_modes.hpp"
 #include "sinew/kinematics/forward.hpp"
@@ -124,6 +125,7 @@ void put_shape(Json& answer, const AnyShape& picture) {
 }
 
 void answer_forward(Context& context) {
+  if (context.robot.serial()) return answer_serial_forward(SerialContext(context));
   if (has_rods(context.robot)) return answer_rods_forward(context);
   if (context.robot.model() == Model::prb) return answer_chains_forward(context);
   const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
@@ -157,6 +159,7 @@ void answer_forward(Context& context) {
 }
 
 void answer_inverse(Context& context) {
+  if (context.robot.serial()) return answer_serial_inverse(SerialContext(context));
   if (has_rods(context.robot)) return answer_rods_inverse(context);
   if (context.robot.model() == Model::prb) return answer_chains_inverse(context);
   const AskedPose asked = read_asked_pose(context);
@@ -188,6 +191,7 @@ void answer_inverse(Context& context) {
 }
 
 void answer_velocity(Context& context) {
+  if (context.robot.serial()) return answer_serial_velocity(SerialContext(context));
   if (has_rods(context.robot)) return answer_rods_velocity(context);
   if (context.robot.model() == Model::prb) return answer_chains_velocity(context);
   const Configuration given = read_configuration(context);
@@ -221,6 +225,7 @@ void answer_velocity(Context& context) {
 }
 
 void answer_shape(Context& context) {
+  if (context.robot.serial()) return answer_serial_shape(SerialContext(context));
   if (has_rods(context.robot)) return answer_rods_shape(context);
   if (context.robot.model() == Model::prb) return answer_chains_shape(context);
   const Configuration given = read_configuration(context);

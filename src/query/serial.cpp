@@ -295,7 +295,7 @@ void refuse_many_points(SerialContext& context, int samples) {
 
 }  // namespace
 
-void answer_serial_forward(SerialContext& context) {
+void answer_serial_forward(SerialContext context) {
   const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
   Shaped shape = read_shape(context);
   const std::vector<double> more = read_pay_out(context, shape);
@@ -307,7 +307,7 @@ void answer_serial_forward(SerialContext& context) {
   if (shape.changes) context.answer["slack"] = by_section(context.robot, shape.slack);
 }
 
-void answer_serial_velocity(SerialContext& context) {
+void answer_serial_velocity(SerialContext context) {
   const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
   Shaped shape = read_shape(context);
   std::vector<double> twist;
@@ -342,7 +342,7 @@ void answer_serial_velocity(SerialContext& context) {
   if (!rates.is_null()) context.answer["rates"] = std::move(rates);
 }
 
-void answer_serial_shape(SerialContext& context) {
+void answer_serial_shape(SerialContext context) {
   const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
   Shaped given = read_shape(context);
   const auto samples = context.query.optional("samples");
@@ -377,7 +377,7 @@ void answer_serial_shape(SerialContext& context) {
   context.answer["frames"] = std::move(frames);
 }
 
-void answer_serial_describe(SerialContext& context) {
+void answer_serial_describe(SerialContext context) {
   if (!context.ready()) return;
   Json sections = Json::array(), coordinates = Json::array(), inputs = Json::array();
   for (std::size_t m = 0; m < context.robot.sections.size(); ++m) {

@@ -13,6 +13,12 @@ namespace sinew::inline v0 {
 struct SerialContext : Question {
   const SerialRobot& robot;
   SerialWorkspace& work;
+  explicit SerialContext(Context& context)
+      : Question(context),
+        robot(*context.robot.serial()),
+        work(*context.work.serial) {
+    work.stop = context.work.stop;
+  }
 };
 
 /// Bend of a section from what the protocol calls its configuration.
@@ -47,11 +53,11 @@ Json changes_json(SerialContext& context, std::span<const Bend> bends, kernel::M
 void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
                        std::span<const double> more = {}, std::span<const double> given = {});
 
-void answer_serial_forward(SerialContext& context);
-void answer_serial_inverse(SerialContext& context);
-void answer_serial_velocity(SerialContext& context);
-void answer_serial_shape(SerialContext& context);
-void answer_serial_describe(SerialContext& context);
-void answer_serial_diagram(SerialContext& context);
+void answer_serial_forward(SerialContext context);
+void answer_serial_inverse(SerialContext context);
+void answer_serial_velocity(SerialContext context);
+void answer_serial_shape(SerialContext context);
+void answer_serial_describe(SerialContext context);
+void answer_diagram(Context& context);  ///< of a serial robot
 
 }  // namespace sinew::inline v0

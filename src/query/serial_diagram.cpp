@@ -163,7 +163,8 @@ void put_outline(SerialContext& context, const Asked& asked, const TendonsTo& co
 
 }  // namespace
 
-void answer_serial_diagram(SerialContext& context) {
+void answer_diagram(Context& of_robot) {
+  SerialContext context(of_robot);
   const Reader which = context.query.required("section", "0-based");
   const auto m =
       static_cast<std::size_t>(which.integer(Range::between(0, context.robot.section_count() - 1)));

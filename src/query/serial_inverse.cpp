@@ -90,7 +90,7 @@ void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& 
 
 }  // namespace
 
-void answer_serial_inverse(SerialContext& context) {
+void answer_serial_inverse(SerialContext context) {
   const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
   const TipTarget target = read_target(context);
   SerialConfiguration start;

@@ -13,28 +13,26 @@
 #include "sinew/io/parse.hpp"
 #include "sinew/io/quantity.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/io/serial_file.hpp"
 #include "sinew/robot/parallel.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
-/// A handler is null where the protocol knows the query, but this version does not answer it.
 struct Kind {
   std::string_view name;
   void (*handler)(Context&);
-  void (*serial_handler)(SerialContext&);
+  bool is_of_platforms = true, is_of_serial = true;  ///< whether this version answers it of such robots
 };
 
 constexpr std::array kinds{
-    Kind{"forward", answer_forward, answer_serial_forward},
-    Kind{"inverse", answer_inverse, answer_serial_inverse},
-    Kind{"velocity", answer_velocity, answer_serial_velocity},
-    Kind{"shape", answer_shape, answer_serial_shape},
-    Kind{"describe", answer_describe, answer_serial_describe},
-    Kind{"statics", answer_statics, nullptr},
-    Kind{"track", answer_track, nullptr},
-    Kind{"diagram", nullptr, answer_serial_diagram},
+    Kind{"forward", answer_forward},
+    Kind{"inverse", answer_inverse},
+    Kind{"velocity", answer_velocity},
+    Kind{"shape", answer_shape},
+    Kind{"describe", answer_describe},
+    Kind{.name = "statics", .handler = answer_statics, .is_of_serial = false},
+    Kind{.name = "track", .handler = answer_track, .is_of_serial = false},
+    Kind{.name = "diagram", .handler = answer_diagram, .is_of_platforms = false},
 };
 
 const Kind& read_kind(Reader& query, bool is_serial) {
@@ -43,7 +41,7 @@ const Kind& read_kind(Reader& query, bool is_serial) {
   const Reader word = query.required(
       "query", "what is asked: forward, inverse, velocity, statics, track, diagram, shape or describe");
   const Kind& kind = kinds[word.choice_index(names)];
-  if (is_serial ? !kind.serial_handler : !kind.handler)
+  if (!(is_serial ? kind.is_of_serial : kind.is_of_platforms))
     word.fail("not_available", std::string(kind.name) + " is not available " +
                                    (is_serial ? "of serial robots " : "") + "in this version");
   return kind;
@@ -137,22 +135,21 @@ Node node_of(Json&& json) {
 }
 
 /// A robot, and the memory for questions to it.
-struct Platform {
+struct Opened {
   Robot robot;
   Workspace work;
   RobotScale scale;
   std::vector<InputOfLeg> inputs;
-  std::array<std::unique_ptr<Platform>, 3>
+  std::array<std::unique_ptr<Opened>, 3>
       on_chains;  ///< the same by the model prb, by discretisation, once asked
-  explicit Platform(const Robot& any)
+  explicit Opened(const Robot& any)
       : robot(any),
         work(robot),
         scale(scale_of(robot)),
         inputs(inputs_of(robot)) {}
-  const std::string& name() const { return robot.name(); }
 
   /// By the model that is asked for; null, with errors noted, where it has none.
-  Platform* by(const ModelQuery& asked, Errors& errors) {
+  Opened* by(const ModelQuery& asked, Errors& errors) {
     if (asked.model != Model::prb || robot.model() == Model::prb) return this;
     auto& own = on_chains[static_cast<std::size_t>(asked.discretisation)];
     if (own) return own.get();
@@ -161,29 +158,12 @@ struct Platform {
       errors.insert(errors.end(), chains.error().begin(), chains.error().end());
       return nullptr;
     }
-    own = std::make_unique<Platform>(*chains);
+    own = std::make_unique<Opened>(*chains);
     return own.get();
   }
 };
-struct Chain {
-  SerialRobot robot;
-  SerialWorkspace work;
-  RobotScale scale;
-  std::vector<InputOfLeg> inputs;  ///< none
-  explicit Chain(SerialRobot serial) : robot(std::move(serial)), work(robot), scale(scale_of(robot)) {}
-  const std::string& name() const { return robot.name; }
-};
-using Opened = std::variant<Platform, Chain>;
-
 Expected<Opened> open_robot(const Document& document) {
-  if (is_serial(document)) {
-    auto robot = read_serial_robot(document);
-    if (!robot) return tl::unexpected(robot.error());
-    return Opened(std::in_place_type<Chain>, std::move(*robot));
-  }
-  auto robot = read_robot(document);
-  if (!robot) return tl::unexpected(robot.error());
-  return Opened(std::in_place_type<Platform>, std::move(*robot));
+  return read_robot(document).map([](const Robot& robot) { return Opened(robot); });
 }
 
 }  // namespace
@@ -219,8 +199,7 @@ void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
       found = true;
     }
   };
-  if (const auto* platform = std::get_if<Platform>(&opened))
-    opened.emplace<Platform>(with_changed_legs(Robot(platform->robot), choose));
+  if (!opened.robot.serial()) opened = Opened(with_changed_legs(opened.robot, choose));
   if (!found) asked.fail("no_effect", "has no effect: no leg of this robot has an input theta; remove it");
 }
 
@@ -228,10 +207,18 @@ void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
 bool read_tilt(Reader& query, const Opened& opened) {
   const auto asked = query.optional("tilt");
   const bool is_wanted = asked && asked->boolean();
-  const auto* platform = std::get_if<Platform>(&opened);
-  if (is_wanted && platform && std::holds_alternative<PlanarPose>(home(platform->robot)))
+  if (is_wanted && opened.robot.planar())
     asked->fail("no_effect", "has no effect: in the plane phi says how the platform is turned; remove it");
   return is_wanted;
+}
+
+void refuse_loads(Reader& query, const Node& root) {
+  for (const char* load : {"wrench", "gravity", "until"})
+    if (const auto asked = root.find(load) ? query.optional(load) : std::nullopt)
+      asked->fail(
+          "not_available",
+          "a serial robot bears no load in this version: it takes the shape that its tendons give; leave it "
+          "out");
 }
 
 /// Whether two nodes say the same, wherever they stand.
@@ -281,49 +268,36 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
   Errors errors;
   Reader query(document, errors);
   const Json id = read_id(query);
-  const bool is_chain = std::holds_alternative<Chain>(state_->opened);
-  const Kind& kind = read_kind(query, is_chain);
+  const bool is_serial = state_->opened.robot.serial() != nullptr;
+  const Kind& kind = read_kind(query, is_serial);
   if (!errors.empty()) return error_answer(id, errors);
-  const auto model = is_chain ? std::nullopt : query.optional("model");
-  Opened* const other = state_->altered(query, errors);
+  const auto model = is_serial ? std::nullopt : query.optional("model");  // of serial robots that of tendons
+  Opened* opened = state_->altered(query, errors);
   if (!errors.empty()) return error_answer(id, errors);
-  Opened& opened = other ? *other : state_->opened;
-  auto* platform = std::get_if<Platform>(&opened);
-  if (platform) platform = platform->by(read_model(query, model, platform->robot, kind), errors);
+  if (!opened) opened = &state_->opened;
+  if (!is_serial) opened = opened->by(read_model(query, model, opened->robot, kind), errors);
   if (!errors.empty()) return error_answer(id, errors);
 
   Json answer = Json::object();
   if (!id.is_null()) answer["id"] = id;
   answer["query"] = kind.name;
-  answer["robot"] = std::visit([](const auto& any) -> const std::string& { return any.name(); }, opened);
+  answer["robot"] = opened->robot.name();
   Question question{query, errors, answer, {}, last, continues};
   if (const auto limit = query.optional("max_iterations"))
     question.max_iterations = limit->integer(Range::between(0, 100000));
-  const bool wants_tilt = read_tilt(query, opened);
-  (platform ? platform->work.stop : std::get<Chain>(opened).work.stop) = state_->stop;
-  if (auto* chain = std::get_if<Chain>(&opened)) {
-    for (const char* load : {"wrench", "gravity", "until"})
-      if (const auto asked = document.root.find(load) ? query.optional(load) : std::nullopt)
-        asked->fail("not_available",
-                    "a serial robot bears no load in this version: it takes the shape that its tendons give; "
-                    "leave it out");
-    SerialContext context{question, chain->robot, chain->work};
-    kind.serial_handler(context);
-  } else {
-    Context context{question, platform->robot, platform->work};
-    kind.handler(context);
-  }
+  const bool wants_tilt = read_tilt(query, *opened);
+  opened->work.stop = state_->stop;
+  if (is_serial) refuse_loads(query, document.root);
+  Context context{question, opened->robot, opened->work};
+  kind.handler(context);
   if (!errors.empty()) return error_answer(id, errors);
   if (wants_tilt) add_tilt(answer);
-  if (is_chain && answer.value("status", "") == "slack" && !has_key(state_->document, "tolerance"))
+  if (is_serial && answer.value("status", "") == "slack" && !has_key(state_->document, "tolerance"))
     answer["message"] =
         fmt::format("{}; the file gives no tolerance of its tendons: {} counts", answer.value("message", ""),
-                    human(std::get<Chain>(opened).robot.tolerance, Dimension::length));
-  const std::string hint = std::visit(  // by the robot as its file has it
-      [&](const auto& own_robot) {
-        return unit_hint(document.root, answer, own_robot.scale, state_->document.root, own_robot.inputs);
-      },
-      state_->opened);
+                    human(opened->robot.serial()->tolerance, Dimension::length));
+  const Opened& own = state_->opened;  // the robot as its file has it
+  const std::string hint = unit_hint(document.root, answer, own.scale, state_->document.root, own.inputs);
   if (!hint.empty()) {
     std::string said = answer.value("message", "");
     while (said.ends_with('.')) said.pop_back();

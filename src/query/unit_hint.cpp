@@ -222,6 +222,7 @@ std::string far_answer(const Json& answer, const RobotScale& scale) {
 }  // namespace
 
 RobotScale scale_of(const Robot& robot) {
+  if (robot.serial()) return {.length = robot.serial()->longest()};
   RobotScale scale;
   const double height = std::visit(
       []<class Pose>(const Pose& pose) {
@@ -246,13 +247,6 @@ RobotScale scale_of(const Robot& robot) {
   });
   if (scale.length > 0) scale.force = stiffness / (scale.length * scale.length);
   return scale;
-}
-
-RobotScale scale_of(const SerialRobot& robot) {
-  double length = robot.length();
-  for (const Section& section : robot.sections)
-    if (section.is_extensible()) length += section.most_extension;
-  return {.length = length};
 }
 
 std::string unit_hint(const Node& query, const Json& answer, const RobotScale& scale, const Node& robot,

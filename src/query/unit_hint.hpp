@@ -16,7 +16,6 @@ struct RobotScale {
   double force = 0;   ///< that bends its links by about their length [N]
 };
 RobotScale scale_of(const Robot& robot);
-RobotScale scale_of(const SerialRobot& robot);
 
 /// About a number of the query that is far outside, or else of the answer: one sentence, without a full stop.
 /// Empty where all are within. `pose.x = 10 is 10 m, 23 times the size of the robot (440 mm); did you mean

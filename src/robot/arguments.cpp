@@ -36,8 +36,16 @@ Report wrong_coordinates(std::size_t found, int needed) {
 bool is_planar(const Robot& robot) { return robot.planar() != nullptr; }
 
 Report check_workspace(const Robot& robot, const Workspace& work) {
-  if (robot.is_within_limits() && work.robot && work.robot.get() == robot.identity()) return {};
+  const bool fits = robot.is_within_limits() && work.robot && work.robot.get() == robot.identity();
+  if (fits && !robot.serial()) return {};
   Report report = bad_input();
+  if (fits) {
+    report.status = Status::unsupported;
+    report.message.append(
+        "a serial robot has no legs and no platform: its questions are put to robot.serial(), see "
+        "kinematics/serial.hpp");
+    return report;
+  }
   if (!robot.is_within_limits()) {
     report.message.append("the robot has more constraints or actuators than this build carries, ");
     append_number(report.message, max_rows);

@@ -8,6 +8,7 @@
 #include "robot/kinematic_group.hpp"
 #include "robot/pose.hpp"
 #include "robot/rod_work.hpp"
+#include "sinew/robot/serial_workspace.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -176,6 +177,7 @@ Workspace::Workspace(const Robot& any) : robot(any.shared()) {
   const auto inputs_ = static_cast<std::size_t>(input_count(any));
   const auto dof_ = static_cast<std::size_t>(sinew::dof(any));
   if (has_rods(any)) rods = std::make_unique<RodWork>(rod_group(any));
+  if (any.serial()) serial = std::make_unique<SerialWorkspace>(*any.serial());
   if (any.model() == Model::prb) arcs = std::make_unique<Workspace>(*any.as(Model::cc));
   coordinates.resize(static_cast<std::size_t>(coordinate_count(any)));
   inputs.resize(inputs_);

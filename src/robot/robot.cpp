@@ -9,6 +9,7 @@
 #include "robot/make_chains.hpp"
 #include "sinew/base/limits.hpp"
 #include "sinew/robot/assembly.hpp"
+#include "sinew/robot/serial.hpp"
 
 namespace sinew::inline v0 {
 
@@ -17,6 +18,7 @@ struct Robot::Data {
   AnyLegs legs;
   Weight weight;
   bool geometry_inferred;
+  std::optional<SerialRobot> sections = {};
   /// By the model prb: chains in place of the arcs, and the robot on these.
   std::optional<AnyChains> chains = {};
   ChainModel discretisation = {};
@@ -27,8 +29,12 @@ Robot::Robot(std::shared_ptr<const Data> data)
     : data_(std::move(data)),
       planar_(std::get_if<PlanarRobot>(&data_->legs)),
       spatial_(std::get_if<SpatialRobot>(&data_->legs)),
+      serial_(data_->sections ? &*data_->sections : nullptr),
       rods_(spatial_ ? spatial_->rods : 0) {
-  model_ = data_->chains ? Model::prb : rods_ > 0 ? Model::rod : has_arc(*this) ? Model::cc : Model::rigid;
+  model_ = data_->chains               ? Model::prb
+           : rods_ > 0                 ? Model::rod
+           : serial_ || has_arc(*this) ? Model::cc
+                                       : Model::rigid;
   is_within_limits_ = with_legs(*this, [](const auto& legs) {
     return std::max(legs.total.row, legs.total.input) <= max_rows && legs.rods <= max_rods;
   });
@@ -42,6 +48,13 @@ Robot::Robot(std::string name, PlanarRobot legs, bool geometry_inferred)
 Robot::Robot(std::string name, SpatialRobot legs, const Weight& weight, bool geometry_inferred)
     : Robot(std::make_shared<const Data>(Data{std::move(name), std::move(legs), weight, geometry_inferred})) {
 }
+
+Robot::Robot(SerialRobot sections)
+    : Robot([&] {
+        Data data{sections.name, SpatialRobot(), Weight{}, sections.geometry_inferred};
+        data.sections = std::move(sections);
+        return std::make_shared<const Data>(std::move(data));
+      }()) {}
 
 const std::string& Robot::name() const { return data_->name; }
 const Weight& Robot::weight() const { return data_->weight; }

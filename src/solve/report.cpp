@@ -26,6 +26,8 @@ std::string_view to_string(Status status) noexcept {
       return "stopped";
     case Status::bad_input:
       return "bad_input";
+    case Status::unsupported:
+      return "unsupported";
   }
   return "unknown";
 }

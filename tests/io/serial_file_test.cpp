@@ -121,7 +121,11 @@ TEST(SerialFile, LengthsThatVary) {
 }
 
 TEST(SerialFile, ParallelAndSerialRobotsAreNotMistaken) {
-  EXPECT_NE(load("nottingham-tpcj").error().front().message.find("load_serial"), std::string::npos);
+  const Robot tpcj = load("nottingham-tpcj").value();
+  ASSERT_NE(tpcj.serial(), nullptr);
+  EXPECT_EQ(tpcj.serial()->sections.size(), 5u);
+  EXPECT_EQ(tpcj.name(), load_serial("nottingham-tpcj")->name);
+  EXPECT_EQ(load("3-rfr")->serial(), nullptr);
   EXPECT_NE(load_serial("3-rfr").error().front().message.find("no serial robot"), std::string::npos);
 }
 

@@ -1,6 +1,6 @@
 /// @file robot.hpp
-/// A robot: what files load to and what every question is put to. What its legs are made of is in
-/// robot/parallel.hpp and robot/chains.hpp; who only asks needs none of it.
+/// A robot: what files load to and what every question is put to. What it is made of is in
+/// robot/parallel.hpp, robot/chains.hpp and robot/serial.hpp; who only asks needs none of it.
 #pragma once
 #include <memory>
 #include <string>
@@ -18,6 +18,7 @@ template <class LegT>
 struct ParallelRobot;
 struct PlanarRobot;
 struct SpatialRobot;
+struct SerialRobot;
 template <class Space>
 struct ChainLegs;
 struct Planar;
@@ -50,6 +51,7 @@ class Robot {
   SINEW_API Robot(std::string name, PlanarRobot legs, bool geometry_inferred = false);
   SINEW_API Robot(std::string name, SpatialRobot legs, const Weight& weight = {},
                   bool geometry_inferred = false);
+  SINEW_API explicit Robot(SerialRobot sections);
   /// Of legs all alike; needs robot/parallel.hpp.
   template <class LegT>
   Robot(std::string name, const ParallelRobot<LegT>& legs);
@@ -65,6 +67,9 @@ class Robot {
   /// put to it. Its file's model and, where its links are arcs, prb. An error names what a leg lacks for
   /// that: `joints`, `material`, `diameter`, or that its links have no such model.
   SINEW_API Expected<Robot> as(Model model, ChainModel discretisation = ChainModel::weighted) const;
+
+  /// Its sections, of a serial robot, which has no legs and no platform; else null.
+  const SerialRobot* serial() const { return serial_; }
 
   /// Its legs; null of a robot of the other space.
   const PlanarRobot* planar() const { return planar_; }
@@ -94,6 +99,7 @@ class Robot {
   std::shared_ptr<const Data> data_;
   const PlanarRobot* planar_ = nullptr;
   const SpatialRobot* spatial_ = nullptr;
+  const SerialRobot* serial_ = nullptr;
   Model model_ = Model::rigid;
   int rods_ = 0;
   bool is_within_limits_ = true;

@@ -12,6 +12,7 @@
 namespace sinew::inline v0 {
 
 struct RodWork;
+struct SerialWorkspace;
 
 /// Memory of solvers for chains, one per thread. Sized on first use with a robot; then nothing allocates.
 struct ChainWork {
@@ -39,8 +40,9 @@ struct Workspace {
   std::vector<int> solution_count;     ///< a leg; 1 for a leg whose inputs are another's
   std::vector<int> type_1;             ///< legs
   std::vector<LegState> legs;
-  std::unique_ptr<RodWork> rods;  ///< of a robot on rods; else null
-  ChainWork chains;               ///< of a robot by the model prb
+  std::unique_ptr<RodWork> rods;            ///< of a robot on rods; else null
+  std::unique_ptr<SerialWorkspace> serial;  ///< of a serial robot; else null
+  ChainWork chains;                         ///< of a robot by the model prb
   /// Of a robot by the model prb: that of the same on arcs, near which searches for its chains begin; else
   /// null.
   std::unique_ptr<Workspace> arcs;

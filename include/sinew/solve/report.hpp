@@ -23,6 +23,7 @@ enum class Status {
   stopped = 8,  ///< the caller asked it to stop (StopToken); the best iterate so far is returned
   bad_input =
       9,  ///< the arguments do not fit the robot, e.g. a planar pose and a spatial robot; nothing was solved
+  unsupported = 10,  ///< this question is not for this kind of robot, or not for this model of its links
 };
 
 SINEW_API std::string_view to_string(Status status) noexcept;

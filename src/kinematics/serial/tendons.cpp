@@ -66,27 +66,6 @@ bool has_arcs(const Section& section, const kernel::Section<double>& map, double
 
 }  // namespace
 
-SerialWorkspace::SerialWorkspace(const SerialRobot& any)
-    : robot(any.identity),
-      bends(any.sections.size(), Bend::Zero()),
-      changes(static_cast<std::size_t>(any.tendon_count())),
-      slack(changes.size()),
-      ends(bends.size()),
-      J(12 * bends.size()),
-      K(changes.size() * 2 * bends.size()),
-      extensions(bends.size()),
-      bend_rates(2 * bends.size()),
-      extension_rates(bends.size()),
-      tendon_rates(changes.size()),
-      lengthwise(bends.size()),
-      sections(any.sections) {
-  for (const Section& section : any.sections) {
-    maps.push_back(section.map());
-    tendons.push_back(section.tendons);
-    for (int i = 0; i < section.tendons; ++i) directions.push_back(section.direction(i));
-  }
-}
-
 void extend(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work) {
   if (!work.fits(robot) || !work.fits(extensions))
     return void(std::ranges::fill(work.extensions, not_a_number));
