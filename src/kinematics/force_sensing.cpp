@@ -7,6 +7,7 @@
 #include "kinematics/rods/question.hpp"
 #include "kinematics/rods/sense.hpp"
 #include "kinematics/rods/verdict.hpp"
+#include "robot/arguments.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -52,6 +53,10 @@ SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Num
       !std::ranges::all_of(deviations, is_number)) {
     sensed.report = failed(Status::left_domain);
     sensed.report.message.append("a wrench has six parts: six rods are needed, with a force of each");
+    return sensed;
+  }
+  if (const Report fits = check_workspace(robot, work); !fits.ok()) {
+    sensed.report = fits;
     return sensed;
   }
   RodWork& rods = rods_of(work);
