@@ -61,6 +61,16 @@ std::string json_pose(std::span<const double> values) {
                      json_list(quaternion));
 }
 
+/// Whether three inputs hold z, e1 and e2 of the platform, and the rest of its pose follows.
+bool is_held_by_three(const OpenRobot& robot) { return robot.is_on_rods && robot.inputs.size() == 3; }
+
+/// These of a spatial pose.
+std::string json_independent(std::span<const double> pose) {
+  const auto turn = SO3<double>::exp(Vec3<double>(pose[3], pose[4], pose[5])).canonical();
+  return fmt::format(R"({{"z": {}, "e1": {}, "e2": {}}})", si_text(pose[2]), si_text(turn.v[0]),
+                     si_text(turn.v[1]));
+}
+
 /// `set_at` of the option `set-at`.
 std::string member_name(std::string_view option) {
   std::string name(option);
@@ -104,7 +114,8 @@ class Request {
   }
 
   void pose(std::string_view option, const OpenRobot& robot, std::string_view key = {});
-  void independent();
+  void independent(std::string_view option = "independent", std::string_view key = "independent");
+  void path_end(std::string_view option, const OpenRobot& robot);
   void poses(const OpenRobot& robot);
   void inputs(std::string_view option, const OpenRobot& robot, std::string_view key = {});
   void twist(const OpenRobot& robot);
@@ -187,7 +198,8 @@ void Request::poses(const OpenRobot& robot) {
     for (const Column* column : columns) row.push_back(column->values[k]);
     if (!std::ranges::all_of(row, [](double value) { return std::isfinite(value); }))
       return fail("not_a_number", "poses", fmt::format("{}: pose {} has an empty cell.", *file, k + 1));
-    list.push_back(parse_json(json_pose(row), "poses").value().root);
+    list.push_back(
+        parse_json(is_held_by_three(robot) ? json_independent(row) : json_pose(row), "poses").value().root);
   }
   member("poses", list_of(std::move(list)));
 }
@@ -220,8 +232,16 @@ void Request::pose(std::string_view option, const OpenRobot& robot, std::string_
   member(key.empty() ? member_name(option) : std::string(key), json_pose(numbers));
 }
 
-void Request::independent() {
-  const std::string* given = arguments_.text("independent");
+/// Where a path begins or ends: a pose, of rods with three inputs what those hold.
+void Request::path_end(std::string_view option, const OpenRobot& robot) {
+  if (is_held_by_three(robot))
+    independent(option, option);
+  else
+    pose(option, robot);
+}
+
+void Request::independent(std::string_view option, std::string_view key) {
+  const std::string* given = arguments_.text(option);
   if (!given) return;
   auto parts = split(*given);
   const std::size_t count = parts.size();
@@ -231,13 +251,15 @@ void Request::independent() {
     parts.pop_back();
   }
   if (parts.size() != 3)
-    return fail("wrong_length", "independent",
-                fmt::format("{}; it has three, a height and two components of the quaternion, and after them "
-                            "half_turn for that mode: --independent \"0.54 m, 0.1, 0.05\".",
-                            counted(*given, count)));
-  const auto values_of = values("independent", parts, lengths_then(1, Dimension::number, 2));
-  member("independent", fmt::format(R"({{"z": {}, "e1": {}, "e2": {}{}}})", si_text(values_of[0]),
-                                    si_text(values_of[1]), si_text(values_of[2]), mode));
+    return fail(
+        "wrong_length", option,
+        fmt::format(
+            "{}; it has three, a height and two components of the quaternion{}: --{} \"0.54 m, 0.1, 0.05\".",
+            counted(*given, count), option == "independent" ? ", and after them half_turn for that mode" : "",
+            option));
+  const auto values_of = values(option, parts, lengths_then(1, Dimension::number, 2));
+  member(key, fmt::format(R"({{"z": {}, "e1": {}, "e2": {}{}}})", si_text(values_of[0]),
+                          si_text(values_of[1]), si_text(values_of[2]), mode));
 }
 
 void Request::inputs(std::string_view option, const OpenRobot& robot, std::string_view key) {
@@ -262,6 +284,8 @@ void Request::twist(const OpenRobot& robot) {
   if (!given) return;
   const auto parts = split(*given);
   const std::size_t half = robot.is_spatial ? 3 : 2, count = robot.is_spatial ? 6 : 3;
+  if (is_held_by_three(robot) && parts.size() == 3)  // vz, wx, wy
+    return member("twist", json_list(values("twist", parts, lengths_then(1, Dimension::angle, 2), "/s")));
   if (parts.size() != count)
     return fail("wrong_length", "twist",
                 fmt::format("{}; {}.", counted(*given, parts.size()),
@@ -552,11 +576,11 @@ Expected<Document> request(std::string_view query, const Arguments& arguments, c
   Request request(query, arguments);
   const bool is_curve = arguments.verb == "branches";
   request.pose("pose", robot);
-  request.pose("from", robot);
+  request.path_end("from", robot);
   if (is_curve)
     request.target(robot);
   else
-    request.pose("to", robot);
+    request.path_end("to", robot);
   request.range();
   if (arguments.has("backward")) request.member("backward", "true");
   request.pose("set-at", robot);

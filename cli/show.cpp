@@ -195,14 +195,15 @@ std::string show_path(const Node& rows, const OpenRobot& robot) {
   const Node* first = rows.items.front().find("angles");
   const auto moved = first ? angle_columns(*first, robot) : robot.inputs;
   add_headings(header, moved);
-  header.emplace_back("condition");
+  const bool is_equilibrium = rows.items.front().find("unstable_directions") != nullptr;
+  header.emplace_back(is_equilibrium ? "unstable_directions" : "condition");
   TextTable table(std::move(header));
   for (std::size_t k = 0; k < rows.items.size(); ++k) {
     const Node& from = rows.items[k];
     std::vector<std::string> row{fmt::format("{}", k + 1)};
     add_cells(row, pose_values(*from.find("pose")), columns);
     add_cells(row, first ? angle_values(*from.find("angles")) : numbers(from.find("inputs")), moved);
-    const Node* condition = at(from, "indices.condition");
+    const Node* condition = at(from, is_equilibrium ? "unstable_directions" : "indices.condition");
     row.push_back(condition ? six_digits(condition->number) : "-");
     table.add(std::move(row));
   }
@@ -216,7 +217,7 @@ std::string show_report(const Answer& answer) {
   std::string text = to_string(report);
   if (!answer.number("residual")) text = "converged";  // in closed form
   if (is_on_rods(answer) || (answer.find("wrench_sensitivity") && !is_on_chains(answer)) ||
-      answer.find("curves")) {
+      answer.find("curves") || answer.find("rows[0].unstable_directions")) {
     text.resize(text.size() - 2);                    // a residual of rods is relative, and has no unit
     if (!answer.find("curves")) text += ", stable";  // else the answer is not a converged one
   }

@@ -135,6 +135,17 @@ std::string show_equilibria(const Answer& answer, const OpenRobot& robot) {
                              : fmt::format("at least {} solution{}\n", solutions.size(), is_one ? "" : "s"));
 }
 
+/// A twist, as it goes with a pose.
+std::string show_motion(const std::vector<double>& twist) {
+  TextTable table({"twist", "value"});
+  constexpr const char* rows[] = {"vx", "vy", "vz", "wx", "wy", "wz"};
+  for (std::size_t k = 0; k < twist.size(); ++k) {
+    const Shown unit = shown(k < 3 ? "m" : "rad");
+    table.add({fmt::format("{}[{}/s]", rows[k], unit.unit), cell(twist[k], k < 3 ? "m" : "rad")});
+  }
+  return table.text();
+}
+
 std::string show_rod_velocity(const Answer& answer, const OpenRobot& robot) {
   const auto si = [](std::size_t, std::size_t) { return 1.0; };
   std::vector<std::string> K{"K"};
@@ -148,7 +159,11 @@ std::string show_rod_velocity(const Answer& answer, const OpenRobot& robot) {
   table.add({"position[mm/mm]", six_digits(answer.number("indices.position").value_or(0))});
   table.add({"rotation[deg/mm]", six_digits(answer.number("indices.rotation").value_or(0) *
                                             shown("rad").factor / shown("m").factor)});
-  return text + table.text() +
+  std::string motion;
+  if (const Node* rates = answer.find("rates"))
+    motion += '\n' + show_inputs("rate", numbers(rates), robot, "/s");
+  if (const Node* twist = answer.find("twist")) motion += '\n' + show_motion(numbers(twist));
+  return text + table.text() + motion +
          (answer.text("type_2.singular") == "true"
               ? "\ntype II: singular, the platform moves with the inputs held\n"
               : "\ntype II: none, the stiffness is regular\n");

@@ -32,7 +32,8 @@ constexpr std::array options{
     Option{"section", "N", "which section, from 0"},
     Option{"tolerance", "LENGTH", "of a tendon before it counts as slack or too short; default the file's"},
     Option{"envelope", "NAME", "bends a section is allowed: square, disc or actuator; default its limit"},
-    Option{"from", "\"X, Y, PHI\"", "first pose of a path, written like --pose"},
+    Option{"from", "\"X, Y, PHI\"",
+           "first pose of a path, written like --pose, of rods with three inputs like --independent"},
     Option{"to", "\"X, Y, PHI\"|LANGUAGE", "last pose of a path; of export the language: c-header, verilog"},
     Option{"to-inputs", "\"A, B, ...\"", "of branches the inputs where the curve leads"},
     Option{"to-tensions", "\"A, B; ...\"", "of branches on chains the tensions where the curve leads"},
@@ -54,7 +55,9 @@ constexpr std::array options{
     Option{"curvature", "\"A, B, ...\"", "a curvature for each leg; the nearest solution is taken"},
     Option{"theta-is", "NAME", "what an input theta is the angle of: tangent (default) or chord"},
     Option{"twist", "\"VX, VY, W\"",
-           "velocity and turning rate of the platform, in space three each; answers the rates of the inputs"},
+           "velocity and turning rate of the platform, in space three each, of rods with three inputs VZ, "
+           "WX, WY "
+           "alone, too; answers the rates of the inputs"},
     Option{"wrench", "\"FX, FY, FZ, MX, MY, MZ\"",
            "force and moment on the platform, about its reference point, in base axes (in the plane FX, FY, "
            "M); of rods and of pseudo-rigid chains"},
@@ -283,13 +286,17 @@ const std::array table{
         "track",
         "ROBOT",
         "inputs along a path of the platform",
-        {"from", "to", "samples", "poses", "objective", "bending", "elbow", "curvature", "start", "theta-is",
-         "law", "rk4-steps", "output", "model", "set", "json", "quiet", "help"},
+        {"from",           "to",     "samples",  "poses",  "objective", "bending", "elbow",
+         "curvature",      "start",  "theta-is", "wrench", "gravity",   "law",     "rk4-steps",
+         "max-iterations", "output", "model",    "set",    "json",      "quiet",   "help"},
         {"from", "poses"},
         "The path is straight, or that of a .csv file with the columns x[m], y[m], phi[rad] (in space x[m], "
         "y[m], "
         "z[m],\nrx[rad], ry[rad], rz[rad]), as --output writes them. The legs keep the branch they begin on. "
-        "Where the path\ncannot be followed to its end the poses reached are shown, and the exit code is 3.",
+        "Where the path\ncannot be followed to its end the poses reached are shown, and the exit code is 3. "
+        "On rods each pose is held from the one\nbefore, in equilibrium under --wrench: sinew track 3pfs-g2 "
+        "--from "
+        "\"0.39 m, 0, 0\" --to \"0.4 m, 0.1, 0\".",
         "sinew track 3-rfr --from \"0, 0, 0\" --to \"10 mm, 5 mm, 20 deg\" --samples 11",
         run_track},
     Verb{

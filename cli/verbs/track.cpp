@@ -20,9 +20,14 @@ std::vector<Input> columns_of(const Answer& answer, const OpenRobot& robot) {
   add(angles ? angle_columns(*angles, robot) : robot.inputs);
   const auto& legs = robot.description.find("legs")->items;
   for (std::size_t i = 0; !angles && i < legs.size(); ++i)
-    if (const Node* type = at(legs[i], "link.type"); !type || type->text != "rail")  // a strut does not bend
+    if (const Node* type = at(legs[i], "link.type");
+        !robot.is_on_rods &&
+        (!type || type->text != "rail"))  // a strut does not bend; a rod not by one number
       add({{fmt::format("legs[{}].curvature", i), "1/m"}});
-  add({{"condition", ""}, {"condition_homogenised", ""}, {"closure_error", "m"}});
+  if (answer.find("rows[0].unstable_directions"))
+    add({{"position_index", ""}, {"rotation_index", "1/m"}, {"residual", ""}, {"unstable_directions", ""}});
+  else
+    add({{"condition", ""}, {"condition_homogenised", ""}, {"closure_error", "m"}});
   return columns;
 }
 
@@ -45,10 +50,16 @@ Table table_of(const Answer& answer, const OpenRobot& robot) {
       add(numbers(rows[k].find("inputs")));
       add(numbers(rows[k].find("curvature")));
     }
-    for (const char* path : {"indices.condition", "indices.condition_homogenised", "closure_error"}) {
-      const Node* value = at(rows[k], path);
-      row.push_back(value ? value->number : not_a_number);
-    }
+    const auto put = [&](std::initializer_list<const char*> paths) {
+      for (const char* path : paths) {
+        const Node* value = at(rows[k], path);
+        row.push_back(value ? value->number : not_a_number);
+      }
+    };
+    if (robot.is_on_rods)
+      put({"indices.position", "indices.rotation", "residual", "unstable_directions"});
+    else
+      put({"indices.condition", "indices.condition_homogenised", "closure_error"});
     table.add_row(row);
   }
   return table;

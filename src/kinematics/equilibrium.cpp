@@ -135,7 +135,8 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
 
 namespace {
 
-RodAnalysis analysis_of(const Robot& robot, RodGroup& system) {
+RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
+  RodGroup& system = *work.system;
   RodAnalysis analysis;
   system.evaluate();
   system.linearise();
@@ -166,9 +167,11 @@ RodAnalysis analysis_of(const Robot& robot, RodGroup& system) {
     if (system.closes()) twist = system.free_motion(twist).normalized();
     std::ranges::copy(twist, analysis.unstable.back().begin());
   }
-  analysis.unstable_directions = unstable_directions(system);
   analysis.rods = system.readings();
-  for (int k = 0; k < system.limbs(); ++k) analysis.unstable_rods.push_back(system.unstable_with_tip_held(k));
+  count_unstable_rods(work);
+  analysis.unstable_rods = work.unstable_rods;
+  analysis.unstable_directions = static_cast<int>(analysis.unstable.size());
+  for (const auto& [in_plane, aside] : work.unstable_rods) analysis.unstable_directions += in_plane + aside;
   for_each_rod(robot, [&, k = std::size_t{0}](const RodLeg& leg, const LegPlace&, int) mutable {
     const RodReading& rod = analysis.rods[k++];
     const double strain =
@@ -187,7 +190,8 @@ RodAnalysis analysis_of(const Robot& robot, RodGroup& system) {
 
 RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work) {
   if (!has_rods(robot) || !check_workspace(robot, work).ok()) return {};
-  return analysis_of(robot, *rods_of(work).system);
+  work.rods->stop = work.stop;
+  return analysis_of(robot, *work.rods);
 }
 
 std::string_view to_string(LoadEnd end) noexcept {
@@ -236,7 +240,7 @@ LoadPath follow_load(const Robot& robot, const SpatialWrench& direction, double 
   path.pose = spatial_pose(system.platform());
   path.residual = system.evaluate();
   system.linearise();
-  path.unstable_directions = unstable_directions(system);
+  path.unstable_directions = count_unstable_rods(rods).unstable;
   return path;
 }
 
@@ -263,14 +267,15 @@ double by_energy(const FoundEquilibrium& one) {
 }
 
 /// What the system holds, with the inputs that the workspace then has.
-FoundEquilibrium found_equilibrium(const Report& report, const RodGroup& system, Workspace& work) {
+FoundEquilibrium found_equilibrium(const Report& report, RodWork& rods, Workspace& work) {
+  const RodGroup& system = *rods.system;
   const Equilibrium answer = answer_of(report, system, work, false);
   return {.pose = answer.pose,
           .inputs = {answer.inputs.begin(), answer.inputs.end()},
           .rods = system.readings(),
           .residual = report.residual,
           .potential = system.potential(),
-          .unstable_directions = unstable_directions(system)};
+          .unstable_directions = count_unstable_rods(rods).unstable};
 }
 
 bool is_solution(const Report& report) { return report.ok() || report.status == Status::unstable; }
@@ -294,7 +299,7 @@ std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
     question.may_stray = k >= 0;  // more are found so
     const Report report = solve_rods(rods, home, inputs, question);
     if (is_solution(report) && is_new(found, rods.system->platform(), size))
-      found.push_back(found_equilibrium(report, *rods.system, work));
+      found.push_back(found_equilibrium(report, rods, work));
   }
   std::ranges::sort(found, {}, by_energy);
   return found;
@@ -324,7 +329,7 @@ std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const Spati
     }
     const Report report = hold_rods(rods, home, target, question);
     if (!is_solution(report)) continue;
-    FoundEquilibrium one = found_equilibrium(report, *rods.system, work);
+    FoundEquilibrium one = found_equilibrium(report, rods, work);
     if (!is_known(one)) found.push_back(std::move(one));
   }
   std::ranges::sort(found, {}, by_energy);

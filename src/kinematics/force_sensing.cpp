@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "kinematics/rods/question.hpp"
 #include "kinematics/rods/sense.hpp"
 #include "kinematics/rods/verdict.hpp"
+#include "robot/arguments.hpp"
 
 namespace sinew::inline v0 {
 namespace {
@@ -23,6 +25,23 @@ std::array<double, 36> covariance_of(const std::array<double, 36>& rows, Numbers
   return covariance;
 }
 
+/// From the state the rods are in, at other inputs at once: as neighbour of the last answer. False, with the
+/// state as it was, where that does not lead there.
+bool resume_sensing(RodWork& rods, Numbers inputs, RodSensing& sensing, Report& report) {
+  RodGroup& system = *rods.system;
+  if (!rods.is_solved || inputs.size() != at(system.inputs())) return false;
+  for (int k = 0; k < system.feeds(); ++k)
+    if (!system.in_domain(k, inputs[at(system.input_of(k))])) return false;
+  system.save(rods.before);
+  system.set_inputs(inputs);
+  report = sense_rods(rods, sensing);
+  if (report.ok()) return true;
+  system.restore(rods.before);
+  system.evaluate();
+  rods.is_solved = system.linearise();
+  return false;
+}
+
 }  // namespace
 
 SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Numbers deviations,
@@ -36,19 +55,29 @@ SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Num
     sensed.report.message.append("a wrench has six parts: six rods are needed, with a force of each");
     return sensed;
   }
+  if (const Report fits = check_workspace(robot, work); !fits.ok()) {
+    sensed.report = fits;
+    return sensed;
+  }
+  RodWork& rods = rods_of(work);
   EquilibriumOptions unloaded = options;
   unloaded.wrench.setZero();
-  const Equilibrium begun = equilibrium(robot, inputs, unloaded, work);
-  sensed.report = begun.report;
-  if (!begun.is_solved()) return sensed;
-  RodWork& rods = rods_of(work);
+  const SpatialWrench weight = question_of(robot, unloaded, rods).wrench;
   RodSensing sensing;
   std::ranges::copy(axial, sensing.axial.begin());
   sensing.max_iterations = options.max_iterations.value_or(sensing.max_iterations);
-  const SpatialWrench weight = rods.system->wrench();
-  sensed.report = sense_rods(rods, sensing);
-  if (sensed.report.ok())
-    sensed.report = settle(*rods.system, sensed.report, rods.system->traits().best_truncation);
+  sensing.truncation = coarse_truncation;
+  if (options.resume && resume_sensing(rods, inputs, sensing, sensed.report)) {
+    sensed.report = settle(rods, sensed.report, sensing.truncation);
+  } else {
+    unloaded.resume = false;
+    const Equilibrium begun = equilibrium(robot, inputs, unloaded, work);
+    sensed.report = begun.report;
+    if (!begun.is_solved()) return sensed;
+    sensing.truncation = rods.system->traits().best_truncation;
+    sensed.report = sense_rods(rods, sensing);
+    if (sensed.report.ok()) sensed.report = settle(rods, sensed.report, sensing.truncation);
+  }
   rods.is_solved = sensed.report.ok() || sensed.report.status == Status::unstable;
   if (!rods.is_solved) return sensed;
   sensed.pose = spatial_pose(rods.system->platform());

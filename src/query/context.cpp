@@ -26,8 +26,8 @@ std::optional<AnyPose> read_start(Context& context) {
   else if (!context.last || context.continues == Continues::always)
     start->refuse("not_available", "in a study path says where searches begin; leave it out");
   else if (*context.last && (*context.last)->index() == home(context.robot).index())  // or set has changed it
-    return *context.last;
-  return {};
+    context.starts_at_last = true;
+  return context.starts_at_last ? *context.last : std::nullopt;
 }
 
 AskedPose read_asked_pose(Context& context) {

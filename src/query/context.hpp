@@ -30,7 +30,8 @@ struct Question {
   /// On a path of questions always: the workspace then still holds that answer. In a session where `start`
   /// says so.
   Continues continues = Continues::where_asked;
-  bool names_start = false;  ///< `start` was read
+  bool names_start = false;     ///< `start` was read
+  bool starts_at_last = false;  ///< ... and there is a last pose
 
   /// True when all fields are read, none is left over and none was wrong.
   bool ready() {
@@ -41,9 +42,11 @@ struct Question {
   std::optional<AnyPose> path_start() const {
     return last && continues == Continues::always ? *last : std::nullopt;
   }
-  /// Keeps the pose that was found; none where the search failed.
-  void remember(const std::optional<AnyPose>& found) {
-    if (last && (names_start || continues == Continues::always)) *last = found;
+  /// Keeps the pose that was found; none where the search failed. Whether it is `last` from now on.
+  bool remember(const std::optional<AnyPose>& found) {
+    if (!last || !(names_start || continues == Continues::always)) return false;
+    *last = found;
+    return found.has_value();
   }
   void report(const Report& report) {
     answer["status"] = to_string(report.status);
@@ -127,9 +130,11 @@ std::optional<Along> read_along(Context& context);
 void put_type_2_distance(Context& context, const Along& along, const Configuration& given,
                          const AnyPose& pose);
 
+inline constexpr int default_path_samples = 60, most_path_samples = 100000;
 /// Poses of a path: a list, or samples of a straight line.
 std::vector<AnyPose> read_path(Context& context);
 Objective read_objective(Reader& query);
+std::string in_words(const AnyPose& pose);
 
 void put_shape(Json& answer, const AnyShape& picture);
 

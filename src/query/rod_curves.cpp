@@ -54,13 +54,7 @@ void note_stopped_curve(Context& context) {
 }
 
 void answer_rods_track(Context& context) {
-  for (const char* key : {"from", "poses"})
-    if (const auto given = context.query.optional(key)) {
-      given->fail("not_available",
-                  "a robot on rods is followed by what changes: give inputs, pose or independent, where the "
-                  "curve begins, and to: {inputs, or pose, and wrench}; the verb is sinew branches");
-      return;
-    }
+  if (context.query.has("from") || context.query.has("poses")) return answer_rods_path(context);
   CurveQuery asked = read_curve(context);
   if (!context.ready()) return;
   const Equilibrium begin = solve(context, asked.begin);

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "query/rods.hpp"
-#include "sinew/io/read_pose.hpp"
 #include "sinew/kinematics/force_sensing.hpp"
 
 namespace sinew::inline v0 {
@@ -29,8 +28,7 @@ SensingQuery read_sensing(Context& context) {
   asked.deviations =
       deviation ? read_forces(*deviation, rods, Range::not_negative(), true) : std::vector<double>(rods, 0.0);
   asked.options.gravity = read_gravity_of(context);
-  if (auto start = context.query.optional("start"))
-    asked.options.start = read_spatial_pose(std::move(*start));
+  asked.options.start = read_spatial_start(context);
   if (context.max_iterations) asked.options.max_iterations = *context.max_iterations;
   return asked;
 }
@@ -42,10 +40,14 @@ Json rows_json(const std::array<double, 36>& numbers) { return to_json(MatrixVie
 void answer_rods_statics(Context& context) {
   const SensingQuery asked = read_sensing(context);
   if (!context.ready()) return;
+  EquilibriumOptions options = asked.options;
+  options.resume = holds_last(context);
   const SensedWrench sensed =
-      sense_wrench(context.robot, asked.inputs, asked.axial, asked.deviations, asked.options, context.work);
+      sense_wrench(context.robot, asked.inputs, asked.axial, asked.deviations, options, context.work);
   context.report(sensed.report);
-  if (!sensed.report.ok() && sensed.report.status != Status::unstable) return;
+  const bool is_solved = sensed.report.ok() || sensed.report.status == Status::unstable;
+  remember_held(context, is_solved ? std::optional(sensed.pose) : std::nullopt);
+  if (!is_solved) return;
   Json& answer = context.answer;
   answer["iterations"] = sensed.report.iterations;
   answer["residual"] = sensed.report.residual;

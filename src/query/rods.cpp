@@ -4,9 +4,10 @@
 
 #include <cmath>
 
+#include "robot/rod_work.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/io/read_pose.hpp"
-#include "sinew/kinematics/equilibrium.hpp"
+#include "sinew/kinematics/rod_rates.hpp"
 #include "sinew/robot/parallel.hpp"
 #include "solve/stopped.hpp"
 
@@ -22,15 +23,30 @@ std::optional<Vec3<double>> read_gravity_of(Context& context) {
   return read_gravity(*gravity);
 }
 
-namespace {
-
-EquilibriumOptions read_options(Context& context) {
+EquilibriumOptions read_equilibrium_options(Context& context) {
   EquilibriumOptions options;
   if (const auto wrench = context.query.optional("wrench")) options.wrench = read_wrench<Spatial>(*wrench);
   options.gravity = read_gravity_of(context);
   if (context.max_iterations) options.max_iterations = *context.max_iterations;
   return options;
 }
+
+IndependentPose read_independent(const Context& context, Reader& asked) {
+  IndependentPose pose;
+  pose.z = asked.required("z", "height of the platform").quantity(Dimension::length, Range::place());
+  pose.e1 = asked.required("e1", "a component of its quaternion").number(Range::between(-1, 1));
+  pose.e2 = asked.required("e2", "a component of its quaternion").number(Range::between(-1, 1));
+  if (const auto mode = asked.optional("mode"))
+    mode->refuse("no_effect", "rods have no such modes, hinges have; leave it out");
+  if (asked.is(Node::Kind::map)) asked.close();
+  if (input_count(context.robot) != 3)
+    asked.fail("not_available",
+               fmt::format("z, e1 and e2 are held by three rod lengths, this robot has {}; ask with {}inputs",
+                           input_count(context.robot), input_count(context.robot) == 6 ? "pose, or " : ""));
+  return pose;
+}
+
+namespace {
 
 Json rods_json(std::span<const RodReading> rods) {
   Json legs = Json::array();
@@ -91,22 +107,6 @@ void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analy
   if (wanted.sensitivity) answer["sensitivity"] = rows_json(analysis.sensitivity, context.work.inputs.size());
 }
 
-/// The platform of three lengths, by z, e₁ and e₂.
-IndependentPose read_independent(const Context& context, Reader& asked) {
-  IndependentPose pose;
-  pose.z = asked.required("z", "height of the platform").quantity(Dimension::length, Range::place());
-  pose.e1 = asked.required("e1", "a component of its quaternion").number(Range::between(-1, 1));
-  pose.e2 = asked.required("e2", "a component of its quaternion").number(Range::between(-1, 1));
-  if (const auto mode = asked.optional("mode"))
-    mode->refuse("no_effect", "rods have no such modes, hinges have; leave it out");
-  if (asked.is(Node::Kind::map)) asked.close();
-  if (input_count(context.robot) != 3)
-    asked.fail("not_available",
-               fmt::format("z, e1 and e2 are held by three rod lengths, this robot has {}; ask with {}inputs",
-                           input_count(context.robot), input_count(context.robot) == 6 ? "pose, or " : ""));
-  return pose;
-}
-
 constexpr int pose_inputs = 6;  ///< so many lengths hold a pose
 
 /// Questions of other robots that have no meaning here, each with its way out.
@@ -123,13 +123,6 @@ void refuse_what_rods_lack(Context& context) {
   read_branch(context);  // refuses bending, curvature and elbow
 }
 
-/// Robots on rods are spatial.
-std::optional<SpatialPose> read_spatial_start(Context& context) {
-  const std::optional<AnyPose> start = read_start(context);
-  if (!start) return {};
-  return std::get<SpatialPose>(*start);
-}
-
 /// A pose that six lengths hold.
 std::optional<SpatialPose> read_held_pose(const Context& context) {
   auto pose = context.query.optional("pose");
@@ -139,10 +132,28 @@ std::optional<SpatialPose> read_held_pose(const Context& context) {
 
 }  // namespace
 
+std::optional<SpatialPose> read_spatial_start(Context& context) {
+  const std::optional<AnyPose> start = read_start(context);
+  if (!start) return {};
+  return std::get<SpatialPose>(*start);
+}
+
+bool holds_last(const Context& context) {
+  const RodWork& rods = *context.work.rods;
+  if (!context.starts_at_last || !rods.is_solved || !rods.holds_last) return false;
+  const SpatialPose here = spatial_pose(rods.system->platform()),
+                    &last = std::get<SpatialPose>(**context.last);
+  return here.position == last.position && here.quaternion == last.quaternion;
+}
+
+void remember_held(Context& context, const std::optional<SpatialPose>& found) {
+  context.work.rods->holds_last = context.remember(found ? std::optional<AnyPose>(*found) : std::nullopt);
+}
+
 RodQuery read_configuration_of_rods(Context& context) {
   RodQuery asked;
   refuse_what_rods_lack(context);
-  asked.options = read_options(context);
+  asked.options = read_equilibrium_options(context);
   asked.options.start = read_spatial_start(context);
   const auto inputs = context.query.optional("inputs");
   auto independent = context.query.optional("independent");
@@ -168,12 +179,19 @@ RodQuery read_configuration_of_rods(Context& context) {
 
 Equilibrium solve(Context& context, const RodQuery& asked) {
   EquilibriumOptions options = asked.options;
-  options.resume = options.resume || (context.path_start() && !options.start);
-  const Equilibrium found =
-      asked.pose          ? inverse_equilibrium(context.robot, *asked.pose, options, context.work)
-      : asked.independent ? inverse_equilibrium(context.robot, *asked.independent, options, context.work)
-                          : equilibrium(context.robot, asked.inputs, options, context.work);
-  context.remember(found.is_solved() ? std::optional<AnyPose>(found.pose) : std::nullopt);
+  const auto put = [&] {
+    return asked.pose          ? inverse_equilibrium(context.robot, *asked.pose, options, context.work)
+           : asked.independent ? inverse_equilibrium(context.robot, *asked.independent, options, context.work)
+                               : equilibrium(context.robot, asked.inputs, options, context.work);
+  };
+  const bool goes_on = holds_last(context);
+  options.resume = options.resume || goes_on || (context.path_start() && !options.start);
+  Equilibrium found = put();
+  if (goes_on && options.start && !found.is_solved() && found.report.status != Status::stopped) {
+    options.resume = false;  // laid to that pose the rods may be on another curve
+    found = put();
+  }
+  remember_held(context, found.is_solved() ? std::optional(found.pose) : std::nullopt);
   return found;
 }
 
@@ -235,7 +253,7 @@ void answer_rods_forward(Context& context) {
   asked.inputs = read_inputs(context, context.query.required("inputs", inputs_rule));
   if (const auto trace = context.query.optional("trace"))
     trace->fail("not_available", "the iterates of rods are not recorded; leave it out");
-  asked.options = read_options(context);
+  asked.options = read_equilibrium_options(context);
   asked.options.start = read_spatial_start(context);
   const Wanted wanted = read_want(context);
   const auto until = read_until<Spatial>(context);
@@ -255,7 +273,7 @@ void answer_rods_forward(Context& context) {
     context.answer["why"] = to_string(path.end);
     if (path.definite_until >= 0) context.answer["definite_until"] = path.definite_until;
     found.pose = path.pose;
-    context.remember(path.pose);
+    remember_held(context, path.pose);
     found.report.residual = path.residual;
     if (path.end == LoadEnd::stopped) note_stop(context.work.stop, found.report);
     if (path.end == LoadEnd::limit && path.unstable_directions > 0) {
@@ -265,6 +283,46 @@ void answer_rods_forward(Context& context) {
   }
   put_equilibrium(context, found, wanted);
   if (want_all) put_all(context, asked.inputs, asked.options);
+}
+
+RodStart read_start_of_inverse(Context& context) {
+  RodStart start;
+  auto given = context.query.optional("start");
+  if (!given) return start;
+  const bool is_pose = input_count(context.robot) == pose_inputs;
+  if (given->is(Node::Kind::list)) {
+    context.names_start = true;
+    start.inputs = read_inputs(context, *given);
+  } else if (given->is(Node::Kind::map) && !is_pose) {
+    context.names_start = true;
+    start.independent = read_independent(context, *given);
+  } else if (given->is(Node::Kind::map) || given->is(Node::Kind::string)) {
+    start.pose = read_spatial_start(context);
+  } else {
+    given->refuse("wrong_type",
+                  is_pose ? "give six lengths, a pose, or last" : "give the lengths, {z, e1, e2}, or last");
+  }
+  if (start.pose && !is_pose) {
+    const SpatialPose pose = *start.pose;
+    start.pose.reset();
+    start.independent = {pose.position[2], pose.quaternion[1], pose.quaternion[2]};
+  }
+  return start;
+}
+
+bool begin_at(Context& context, const RodStart& start, const EquilibriumOptions& options, Report& report) {
+  if (holds_last(context)) return true;
+  Equilibrium begun;
+  if (!start.inputs.empty())
+    begun = equilibrium(context.robot, start.inputs, options, context.work);
+  else if (start.pose)
+    begun = inverse_equilibrium(context.robot, *start.pose, options, context.work);
+  else if (start.independent)
+    begun = inverse_equilibrium(context.robot, *start.independent, options, context.work);
+  else
+    return false;
+  report = begun.report;
+  return begun.is_solved();
 }
 
 void answer_rods_inverse(Context& context) {
@@ -277,28 +335,21 @@ void answer_rods_inverse(Context& context) {
     auto independent = context.query.required("independent", "{z, e1, e2}: what three rod lengths hold");
     asked.independent = read_independent(context, independent);
   }
-  asked.options = read_options(context);
+  asked.options = read_equilibrium_options(context);
   const Wanted wanted = read_want(context);
-  std::vector<double> start;
-  if (const auto given = context.query.optional("start")) {
-    if (input_count(context.robot) == pose_inputs)
-      start = read_inputs(context, *given);
-    else
-      given->fail("not_available", "the search for the lengths of rods begins at home; leave it out");
-  }
+  const RodStart start = read_start_of_inverse(context);
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
   if (want_all && input_count(context.robot) != pose_inputs)
     all->fail("not_available", "of several solutions only the one nearest home is found; leave it out");
   if (!context.ready()) return;
-  if (!start.empty()) {  // the way to the pose begins where these lengths hold the platform
-    const Equilibrium begun = equilibrium(context.robot, start, asked.options, context.work);
-    if (!begun.is_solved()) {
-      context.report(begun.report);
-      context.answer["message"] = "from start: " + std::string(begun.report.message.view());
-      return;
-    }
-    asked.options.resume = true;
+  Report begun;
+  asked.options.resume = begin_at(context, start, asked.options, begun);
+  if (!begun.ok() && begun.status != Status::unstable) {
+    context.report(begun);
+    context.answer["message"] = "from start: " + std::string(begun.message.view());
+    remember_held(context, {});
+    return;
   }
   put_equilibrium(context, solve(context, asked), wanted);
   if (want_all)
@@ -307,12 +358,47 @@ void answer_rods_inverse(Context& context) {
     context.answer["complete"] = false;  // other lengths may hold it too
 }
 
+namespace {
+
+/// A twist that is wanted, or rates of the inputs.
+struct AskedMotion {
+  std::vector<double> twist, rates;
+};
+
+AskedMotion read_motion(Context& context) {
+  AskedMotion asked;
+  const auto inputs = static_cast<std::size_t>(input_count(context.robot));
+  const auto twist = context.query.optional("twist"), rates = context.query.optional("rates");
+  if (twist) {
+    const bool is_short = inputs == 3 && twist->is(Node::Kind::list) && twist->node()->items.size() == 3;
+    asked.twist = twist->quantities(Dimension::number, {}, is_short ? 3 : 6);
+  }
+  if (rates) asked.rates = rates->quantities(Dimension::number, {}, inputs);
+  if (twist && rates) rates->fail("ambiguous", "twist and rates both say how the robot moves; keep one");
+  return asked;
+}
+
+/// The one of the other; of a short twist also the whole of it.
+void put_motion(Context& context, const AskedMotion& asked, const RodAnalysis& analysis) {
+  std::vector<double> rates = asked.rates;
+  if (!asked.twist.empty()) {
+    rates.resize(static_cast<std::size_t>(input_count(context.robot)));
+    const Report found = rod_rates(analysis, asked.twist, rates);
+    if (!found.ok()) return context.report(found);
+    context.answer["rates"] = to_json(rates);
+  }
+  if (rates.empty() || asked.twist.size() == 6) return;
+  std::array<double, 6> twist;
+  const Report found = rod_twist(analysis, rates, twist);
+  if (!found.ok()) return context.report(found);
+  context.answer["twist"] = to_json(std::span<const double>(twist));
+}
+
+}  // namespace
+
 void answer_rods_velocity(Context& context) {
   const RodQuery asked = read_configuration_of_rods(context);
-  if (const auto twist = context.query.optional("twist"))
-    twist->fail(
-        "not_available",
-        "rates that a twist needs are not answered for rods in this version; U tells what each rate does");
+  const AskedMotion motion = read_motion(context);
   for (const char* key : {"along", "limit"})
     if (const auto given = context.query.optional(key))
       given->fail("not_available", "robots of rods have no search for type II; leave it out");
@@ -331,6 +417,7 @@ void answer_rods_velocity(Context& context) {
   answer["indices"] = {{"position", analysis.position_index}, {"rotation", analysis.rotation_index}};
   answer["type_2"] = {{"singular", analysis.is_singular()}};
   answer["residual"] = found.report.residual;
+  put_motion(context, motion, analysis);
   answer["legs"] = legs_of(context, found, analysis);
 }
 

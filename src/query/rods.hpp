@@ -19,11 +19,36 @@ struct RodQuery {
 RodQuery read_configuration_of_rods(Context& context);
 Equilibrium solve(Context& context, const RodQuery& asked);
 
+/// Robots on rods are spatial.
+std::optional<SpatialPose> read_spatial_start(Context& context);
+/// Whether the rods still are in the equilibrium that a question named by `"start": "last"`: it then goes on
+/// from there, and the pose they would have to be laid to is not asked.
+bool holds_last(const Context& context);
+/// As Question's, of an equilibrium that the workspace holds.
+void remember_held(Context& context, const std::optional<SpatialPose>& found);
+
 void answer_rods_forward(Context& context);
 void answer_rods_inverse(Context& context);
 void answer_rods_velocity(Context& context);
 void answer_rods_shape(Context& context);
 void answer_rods_statics(Context& context);
 void answer_rods_track(Context& context);
+/// `track` along poses, or along coordinates that three inputs hold: `poses`, or `from` and `to`.
+void answer_rods_path(Context& context);
+
+/// `{z, e1, e2}` of robots with three inputs.
+IndependentPose read_independent(const Context& context, Reader& asked);
+/// What rods are asked by but where they are: wrench, gravity, most iterations.
+EquilibriumOptions read_equilibrium_options(Context& context);
+
+/// Where a search for lengths begins, by `start`: lengths, a pose, three coordinates, or `last`.
+struct RodStart {
+  std::vector<double> inputs;
+  std::optional<SpatialPose> pose;
+  std::optional<IndependentPose> independent;
+};
+RodStart read_start_of_inverse(Context& context);
+/// Puts the rods there; whether they then are somewhere to go on from. Else the report says why not.
+bool begin_at(Context& context, const RodStart& start, const EquilibriumOptions& options, Report& report);
 
 }  // namespace sinew::inline v0

@@ -14,8 +14,6 @@
 namespace sinew::inline v0 {
 namespace {
 
-constexpr int most_samples = 100000;
-
 /// From, to and how many: angles of the plane as the numbers say, rotations the shortest way; in between put
 /// back into the planes that hinges may hold the platform in.
 std::vector<AnyPose> straight_path(const Robot& robot, const AnyPose& from, const AnyPose& to, int samples) {
@@ -53,7 +51,7 @@ std::vector<AnyPose> read_path(Context& context) {
   const AnyPose from = read_pose(context, query.required("from", "first pose of the path, or poses: a list"));
   const AnyPose to = read_pose(context, query.required("to", "last pose of the path"));
   const auto samples = query.optional("samples");
-  const int count = samples ? samples->integer(Range::between(2, most_samples)) : 60;
+  const int count = samples ? samples->integer(Range::between(2, most_path_samples)) : default_path_samples;
   return context.errors.empty() ? straight_path(context.robot, from, to, std::max(count, 2))
                                 : std::vector<AnyPose>{};
 }
@@ -65,6 +63,17 @@ Objective read_objective(Reader& query) {
                                           {"singularity", Objective::singularity},
                                           {"smooth", Objective::smooth},
                                           {"none", Objective::none}});
+}
+
+std::string in_words(const AnyPose& pose) {
+  if (const auto* planar = std::get_if<PlanarPose>(&pose))
+    return fmt::format("x = {}, y = {}, phi = {}", human(planar->x, Dimension::length),
+                       human(planar->y, Dimension::length), human(planar->phi, Dimension::angle));
+  const auto& spatial = std::get<SpatialPose>(pose);
+  const Vec3<double>& p = spatial.position;
+  const Vec3<double> turn = SE3<double>::from(spatial).R.log() * (180 / std::numbers::pi);
+  return fmt::format("position ({:.6g}, {:.6g}, {:.6g}) mm, rotation vector ({:.4g}, {:.4g}, {:.4g}) deg",
+                     1e3 * p[0], 1e3 * p[1], 1e3 * p[2], turn[0], turn[1], turn[2]);
 }
 
 namespace {
@@ -82,17 +91,6 @@ Json row_json(Context& context, const Track& track) {
   if (!at.type_1.empty()) row["type_1"] = std::vector<int>(at.type_1.begin(), at.type_1.end());
   if (at.type_2.singular) row["singular"] = true;
   return row;
-}
-
-std::string in_words(const AnyPose& pose) {
-  if (const auto* planar = std::get_if<PlanarPose>(&pose))
-    return fmt::format("x = {}, y = {}, phi = {}", human(planar->x, Dimension::length),
-                       human(planar->y, Dimension::length), human(planar->phi, Dimension::angle));
-  const auto& spatial = std::get<SpatialPose>(pose);
-  const Vec3<double>& p = spatial.position;
-  const Vec3<double> turn = SE3<double>::from(spatial).R.log() * (180 / std::numbers::pi);
-  return fmt::format("position ({:.6g}, {:.6g}, {:.6g}) mm, rotation vector ({:.4g}, {:.4g}, {:.4g}) deg",
-                     1e3 * p[0], 1e3 * p[1], 1e3 * p[2], turn[0], turn[1], turn[2]);
 }
 
 /// Where along the path it ended, and why.

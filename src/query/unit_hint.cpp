@@ -167,7 +167,11 @@ void Search::query(const Node& query) {
                key == "tensions") {  // a tendon has a short arm: it pulls more than it bends
       each(key, node, [&](const std::string& at, const Node& one) { force(at, one, Dimension::force, 100); });
     } else if (key == "twist" && node.kind == Kind::list) {
-      const std::size_t shifts = node.items.size() == 3 ? 2 : 3;
+      const bool is_on_rods =
+          std::ranges::any_of(inputs_, [](const InputOfLeg& input) { return input.kind.name == "length"; });
+      const std::size_t shifts = node.items.size() != 3 ? 3
+                                 : is_on_rods           ? 1
+                                                        : 2;  // of three inputs vz, wx, wy
       for (std::size_t k = 0; k < std::min(shifts, node.items.size()); ++k)
         length(joined(key, k), node.items[k], far_length);  // a second
     }

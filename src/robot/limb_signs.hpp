@@ -16,12 +16,12 @@ struct LimbSigns {
     return unstable == other.unstable && is_odd == other.is_odd;
   }
 };
-/// After `linearise`.
-template <class Space>
-LimbSigns signs_of(const LimbGroup<Space>& group) {
+/// After `linearise`. @param own_of(limb) its unstable directions, tip held
+template <class Space, class OwnOf>
+LimbSigns signs_of(const LimbGroup<Space>& group, OwnOf&& own_of) {
   LimbSigns signs;
   for (int k = 0; k < group.limbs(); ++k) {
-    const auto [in_plane, aside] = group.unstable_with_tip_held(k);
+    const auto [in_plane, aside] = own_of(k);
     signs.own += in_plane + aside;
   }
   signs.is_odd = group.factors().has_negative_determinant() != (signs.own % 2 == 1);
@@ -30,6 +30,10 @@ LimbSigns signs_of(const LimbGroup<Space>& group) {
   signs.unstable =
       signs.own + static_cast<int>(std::ranges::count_if(values, [](double x) { return x < 0; }));
   return signs;
+}
+template <class Space>
+LimbSigns signs_of(const LimbGroup<Space>& group) {
+  return signs_of(group, [&](int limb) { return group.unstable_with_tip_held(limb); });
 }
 
 /// Unstable directions of the whole robot: the second variation with every limb free to move. After

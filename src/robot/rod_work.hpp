@@ -1,7 +1,9 @@
 /// @file rod_work.hpp
 /// What a workspace keeps for a robot of rods.
 #pragma once
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "robot/rod_group.hpp"
 #include "sinew/robot/workspace.hpp"
@@ -23,11 +25,17 @@ struct RodWork {
   bool is_solved = false;   ///< `system` is in equilibrium and linearised there
   SmallLu<6> feeding;       ///< factors of what the inputs do to the wrench, of the last pose that was held
   bool knows_feeding = false;
+  /// Of each rod, its tip held: counted once for an answer, since rods that bear torque take long to count.
+  std::vector<std::array<int, 2>> unstable_rods =
+      std::vector<std::array<int, 2>>(static_cast<std::size_t>(system->limbs()));
+  bool knows_stability = false;  ///< `unstable_rods` are those of the state `system` is in
+  bool holds_last = false;       ///< `system` is in the equilibrium that a session calls `last`
 };
 
-/// Those of a workspace, which stop as it does.
+/// Those of a workspace, which stop as it does, for a question that may move them.
 inline RodWork& rods_of(Workspace& work) {
   work.rods->stop = work.stop;
+  work.rods->knows_stability = work.rods->holds_last = false;
   return *work.rods;
 }
 

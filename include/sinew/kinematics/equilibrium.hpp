@@ -20,7 +20,7 @@ struct EquilibriumOptions {
   /// Where the search begins: the rods are laid to this pose, then let go. Default: the robot's home.
   std::optional<SpatialPose> start = {};
   /// Begin from the equilibrium the workspace holds, as a controller does whose inputs change a little. What
-  /// is found then depends on what was solved before.
+  /// is found then depends on what was solved before. Where it holds none the search begins at `start`.
   bool resume = false;
   /// Newton steps of the whole path; default 4000, of rods that bear torque 400.
   std::optional<int> max_iterations = {};

@@ -235,7 +235,7 @@ Report finish(RodWork& work, const SE3<double>& wanted, Report report, double tr
     say(report, "the pose is reached, but not to the last digits; the rods bend too sharply");
     return report;
   }
-  return settle(system, report, truncation);
+  return settle(work, report, truncation);
 }
 
 }  // namespace
@@ -243,6 +243,7 @@ Report finish(RodWork& work, const SE3<double>& wanted, Report report, double tr
 Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& wanted,
                  const RodQuestion& question) {
   RodGroup& system = *work.system;
+  work.knows_stability = false;
   if (const Report checked = check(system, wanted, question); !checked.ok()) return checked;
   Report report;
   if (note_stop(work.stop, report)) return report;

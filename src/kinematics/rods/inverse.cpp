@@ -94,7 +94,7 @@ class Inverse {
 Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinates& wanted,
                      const RodQuestion& question) {
   RodGroup& system = *work.system;
-  work.knows_feeding = false;
+  work.knows_feeding = work.knows_stability = false;
   Report report;
   if (system.inputs() != 3) {
     report = failed(Status::left_domain);
@@ -149,7 +149,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
   if (!work.is_solved) return explain(system, end, {}, false);
   report.iterations = end.iterations;
   report.residual = end.residual;
-  report = settle(system, report, system.traits().best_truncation);
+  report = settle(work, report, system.traits().best_truncation);
   work.is_solved = report.ok() || report.status == Status::unstable;
   return report;
 }

@@ -107,7 +107,7 @@ Report sense_rods(RodWork& work, RodSensing& sensing) {
                                 "(pull > 0) and lengths");
     return report;
   }
-  while (!system.is_finest() && system.truncation() > system.traits().best_truncation) {
+  while (!system.is_finest() && system.truncation() > sensing.truncation) {
     system.refine();
     if (contract([&] { return sensor.error(sensing.axial); }, [&] { return sensor.step(sensing.axial); },
                  rod_tolerance, rod_rounding, report.iterations, report.residual))

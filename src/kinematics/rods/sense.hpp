@@ -10,6 +10,7 @@ struct RodSensing {
   std::array<double, 6> axial{};  ///< of each rod at its guide, pull > 0 [N]
   std::array<double, 36> rows{};  ///< ∂wrench/∂axial, rows first
   int max_iterations = 4000;      ///< Newton steps
+  double truncation = 0;          ///< to which shapes are resolved
 };
 
 /// From a solved state near by: moves the platform, at fixed lengths, to where the rods pull as `sensing`

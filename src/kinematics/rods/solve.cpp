@@ -154,7 +154,7 @@ bool jump(RodWork& work, Numbers inputs, const RodQuestion& question, Report& re
 }  // namespace
 
 Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& asked) {
-  work.knows_feeding = false;
+  work.knows_feeding = work.knows_stability = false;
   RodQuestion question = asked;
   question.resume = asked.resume && work.is_solved;  // else it begins like any other
   if (const Report checked = check_inputs(*work.system, inputs); !checked.ok()) return checked;
@@ -174,7 +174,7 @@ Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const 
     Report report;
     if (system.solve_warm(report)) {
       if (question.judge)
-        report = settle(system, report, truncation);
+        report = settle(work, report, truncation);
       else
         resolve(system, report, truncation);
       work.is_solved = report.ok() || report.status == Status::unstable;
@@ -193,7 +193,7 @@ Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const 
   if (!question.start || !jump(work, inputs, question, report)) report = travel(work, inputs, question);
   work.is_solved = report.ok();
   if (!work.is_solved) return report;
-  const Report settled = settle(system, report, system.traits().best_truncation);
+  const Report settled = settle(work, report, system.traits().best_truncation);
   work.is_solved = settled.ok() || settled.status == Status::unstable;
   return settled;
 }

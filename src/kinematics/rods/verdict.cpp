@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v0 {
@@ -112,10 +113,23 @@ bool resolve(RodGroup& system, Report& report, double truncation) {
   return true;
 }
 
-Report settle(RodGroup& system, Report report, double truncation) {
+LimbSigns count_unstable_rods(RodWork& work) {
+  const RodGroup& system = *work.system;
+  const auto count = [&](int rod) {
+    auto& known = work.unstable_rods[at(rod)];
+    return work.knows_stability ? known : known = system.unstable_with_tip_held(rod);
+  };
+  const LimbSigns signs = signs_of(system, count);
+  work.knows_stability = true;
+  return signs;
+}
+
+Report settle(RodWork& work, Report report, double truncation) {
+  RodGroup& system = *work.system;
+  work.knows_stability = false;
   if (!resolve(system, report, truncation)) return report;
   system.linearise();
-  const int unstable = unstable_directions(system);
+  const int unstable = count_unstable_rods(work).unstable;
   if (unstable == 0) return report;
   report.status = Status::unstable;
   say(report, "");

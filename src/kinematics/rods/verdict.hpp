@@ -31,7 +31,11 @@ Report explain(const RodGroup& system, const RodPathEnd& end, const RodFold& fol
 /// where those do not do it.
 bool resolve(RodGroup& system, Report& report, double truncation);
 
-/// What holds of a solved state: shapes resolved, platform's stiffness known there, stability.
-Report settle(RodGroup& system, Report report, double truncation);
+/// Signs of a state that was linearised; each rod is asked once while the work knows that the state stays.
+LimbSigns count_unstable_rods(RodWork& work);
+
+/// What holds of a solved state: shapes resolved, platform's stiffness known there, stability, which the work
+/// then knows.
+Report settle(RodWork& work, Report report, double truncation);
 
 }  // namespace sinew::inline v0
