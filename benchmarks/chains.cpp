@@ -18,7 +18,7 @@ using std::numbers::pi;
 using Unknowns = Eigen::VectorXd;
 
 ChainLegs<Planar> three_rfr() {
-  return chains_of<Planar>(*load("3-rfr")->as(Model::prb, ChainModel::weighted));
+  return chains_of<Planar>(*load("3-rfr")->as(Model::prb, PrbDiscretisation::weighted));
 }
 
 /// The robot under a load that wanders by some 2 % a step, its tendon lengths held.
@@ -26,7 +26,7 @@ struct Walk {
   ChainLegs<Planar> robot = three_rfr();
   ChainWork work;
   ChainState<Planar> state;
-  std::vector<ChainHold> hold;
+  std::vector<TendonConstraint> hold;
   std::vector<Vec<double, 3>> wrenches;
   std::size_t step = 0;
   int iterations = 0, solves = 0, failures = 0;
@@ -34,7 +34,7 @@ struct Walk {
 
   explicit Walk(bool holds_lengths) {
     const std::array<double, 3> towards_plus{1, 1, 1};
-    if (!rest(robot, PlanarPose{0.01, 0, 0.35}, towards_plus, holds_lengths, state).ok()) std::abort();
+    if (!unloaded_equilibrium(robot, PlanarPose{0.01, 0, 0.35}, towards_plus, holds_lengths, state).ok()) std::abort();
     hold = state.hold;
     for (int i = 0; i < 256; ++i) {
       const double t = 2 * pi * i / 256;
@@ -55,7 +55,7 @@ struct Walk {
 /// Everything at once: pose, angles, chord forces, tensions; Newton on differences.
 struct Dense {
   const ChainLegs<Planar>& robot;
-  const std::vector<ChainHold>& hold;
+  const std::vector<TendonConstraint>& hold;
   Vec<double, 3> wrench;
   bool holds_lengths;
 
@@ -150,7 +150,7 @@ void compare_inverse() {
   auto z = std::make_shared<Unknowns>(unknowns_of(theirs->state, theirs->robot, true));
   auto residual = std::make_shared<double>(0);
   const auto run = [ours, state, residual] {
-    const Report report = hold_pose(ours->robot, ours->next(), *state, ours->work);
+    const Report report = inverse_statics(ours->robot, ours->next(), *state, ours->work);
     *residual = std::max(*residual, report.residual);
   };
   for (int k = 0; k < 512; ++k) run();
@@ -170,7 +170,7 @@ void compare_rates() {
   };
   auto one = std::make_shared<Case>();
   const std::array<double, 3> towards_plus{1, 1, 1};
-  if (!rest(one->robot, PlanarPose{0.01, 0, 0.35}, towards_plus, false, one->state).ok()) std::abort();
+  if (!unloaded_equilibrium(one->robot, PlanarPose{0.01, 0, 0.35}, towards_plus, false, one->state).ok()) std::abort();
   const auto differences = [one] {
     std::array<std::array<double, 5>, 3> K;
     for (std::size_t i = 0; i < 3; ++i)
@@ -212,10 +212,10 @@ void compare_rates() {
 
 void compare_six_legs() {
   struct Case {
-    ChainLegs<Spatial> robot = chains_of<Spatial>(*load("6-ufs")->as(Model::prb, ChainModel::weighted));
+    ChainLegs<Spatial> robot = chains_of<Spatial>(*load("6-ufs")->as(Model::prb, PrbDiscretisation::weighted));
     ChainState<Spatial> state;
     ChainWork work;
-    std::vector<ChainHold> hold;
+    std::vector<TendonConstraint> hold;
     int step = 0;
     double residual = 0;
     void solve() {
@@ -229,7 +229,7 @@ void compare_six_legs() {
   SpatialPose home;
   home.position = {0, 0, 0.18};
   const std::array<double, 6> towards_plus{1, 1, 1, 1, 1, 1};
-  if (!rest(one->robot, home, towards_plus, true, one->state).ok()) std::abort();
+  if (!unloaded_equilibrium(one->robot, home, towards_plus, true, one->state).ok()) std::abort();
   one->hold = one->state.hold;
   for (int k = 0; k < 512; ++k) one->solve();
   auto theirs = std::make_shared<Walk>(true);

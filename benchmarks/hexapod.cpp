@@ -60,11 +60,11 @@ struct Walk {
   }
   Equilibrium inverse() {
     at = (at + 1) % poses.size();
-    return inverse_equilibrium(robot, poses[at], {.resume = true, .judge = false}, work);
+    return inverse_equilibrium(robot, poses[at], {.warm_start = true, .check_stability = false}, work);
   }
   Equilibrium forward() {
     at = (at + 1) % poses.size();
-    return equilibrium(robot, lengths[at], {.resume = true, .judge = false}, work);
+    return equilibrium(robot, lengths[at], {.warm_start = true, .check_stability = false}, work);
   }
 };
 
@@ -130,7 +130,7 @@ void compare_forward(const char* name, double stride, const InstructionSet& isa)
   inverse_equilibrium(walk->robot, walk->poses[0], {}, walk->work);
   for (const SpatialPose& pose : walk->poses) {
     const Equilibrium held =
-        inverse_equilibrium(walk->robot, pose, {.resume = true, .judge = false}, walk->work);
+        inverse_equilibrium(walk->robot, pose, {.warm_start = true, .check_stability = false}, walk->work);
     walk->lengths.emplace_back(held.inputs.begin(), held.inputs.end());
   }
   equilibrium(walk->robot, walk->lengths[0], {.start = walk->poses[0]}, walk->work);

@@ -126,7 +126,7 @@ Operation warm_tripod() {
   return [one] {
     one->at = (one->at + 1) % one->poses.size();
     return equilibrium(one->robot, std::span(one->lengths).subspan(3 * one->at, 3),
-                       {.resume = true, .judge = false}, one->work)
+                       {.warm_start = true, .check_stability = false}, one->work)
         .report.residual;
   };
 }
@@ -154,7 +154,7 @@ Operation warm_hexapod() {
       const double t = turn(++step);
       SpatialPose pose;
       pose.position = {0.04 * std::cos(t), 0.04 * std::sin(t), 0.45 + 0.02 * std::sin(2 * t)};
-      return inverse_equilibrium(robot, pose, {.resume = step > 1, .judge = false}, work).report.residual;
+      return inverse_equilibrium(robot, pose, {.warm_start = step > 1, .check_stability = false}, work).report.residual;
     }
   };
   return [one = std::make_shared<Case>()] { return one->next(); };
@@ -167,14 +167,14 @@ Operation chain_statics(const char* name, const typename Space::Pose& pose, int 
     ChainLegs<Space> robot;
     ChainWork work;
     ChainState<Space> state;
-    std::vector<ChainHold> hold;
+    std::vector<TendonConstraint> hold;
     int step = 0;
   };
   auto one = std::make_shared<Case>();
-  one->robot = chains_of<Space>(*load(name)->as(Model::prb, ChainModel::weighted));
+  one->robot = chains_of<Space>(*load(name)->as(Model::prb, PrbDiscretisation::weighted));
   for (auto& leg : one->robot.legs) leg.chain.links = links;
   const std::vector<double> towards_plus(one->robot.legs.size(), 1.0);
-  if (!rest(one->robot, pose, towards_plus, holds_lengths, one->state).ok()) std::abort();
+  if (!unloaded_equilibrium(one->robot, pose, towards_plus, holds_lengths, one->state).ok()) std::abort();
   one->hold = one->state.hold;
   return [one] {
     const double t = turn(++one->step);

@@ -14,11 +14,11 @@
 namespace sinew::bench {
 namespace {
 
-using Legs = std::array<Reach<2>, 3>;
+using Legs = std::array<PlatformConstraint<2>, 3>;
 
 double closure_error(const Legs& legs, const PlanarPose& pose) {
   double worst = 0;
-  for (const Reach<2>& leg : legs)
+  for (const PlatformConstraint<2>& leg : legs)
     worst = std::max(worst, std::abs((SE2<double>::from(pose).point(leg.platform_point) - leg.anchor).norm() -
                                      leg.distance));
   return worst;

@@ -12,7 +12,7 @@
 namespace sinew::bench {
 namespace {
 
-using Legs = std::vector<Reach<3>>;
+using Legs = std::vector<PlatformConstraint<3>>;
 
 /// Base and platform on circles, points in pairs; legs for a pose, at home (turned by 0) or away from it.
 Legs hexagons(double turned) {
@@ -35,7 +35,7 @@ Legs general() {
   const auto number = [&] { return static_cast<double>(random()) / 2147483647.5 - 1; };
   const SE3<double> pose{{0.1, 0.2, 1.5}, SO3<double>::exp(Vec3<double>(0.4, -0.3, 0.5))};
   Legs legs(6);
-  for (Reach<3>& leg : legs) {
+  for (PlatformConstraint<3>& leg : legs) {
     for (int i = 0; i < 3; ++i) leg.anchor[i] = number();
     for (int i = 0; i < 3; ++i) leg.platform_point[i] = 0.6 * number();
     leg.distance = (pose.point(leg.platform_point) - leg.anchor).norm();

@@ -66,7 +66,7 @@ struct Walk {
   }
   Equilibrium next() {
     at = (at + 1) % lengths.size();
-    return equilibrium(robot, lengths[at], {.resume = true, .judge = false}, work);
+    return equilibrium(robot, lengths[at], {.warm_start = true, .check_stability = false}, work);
   }
 };
 

@@ -17,7 +17,7 @@ std::array<std::string_view, 2> coordinates(const OpenRobot& robot, std::size_t 
                  : std::array<std::string_view, 2>{"theta", "phi"};
 }
 
-std::size_t most_tendons(const Node& changes) {
+std::size_t max_tendons(const Node& changes) {
   std::size_t most = 0;
   for (const Node& section : changes.items) most = std::max(most, section.items.size());
   return most;
@@ -51,7 +51,7 @@ std::string show_sections(const Answer& answer, const OpenRobot& robot) {
   const auto columns = coordinate_columns(robot);
   std::vector<std::string> header{"section"};
   header.insert(header.end(), columns.begin(), columns.end());
-  const std::size_t tendons = most_tendons(*answer.find("changes"));
+  const std::size_t tendons = max_tendons(*answer.find("changes"));
   for (std::size_t i = 0; i < tendons; ++i) header.push_back(heading(fmt::format("change_{}", i), "m"));
   TextTable table(std::move(header));
   for (std::size_t m = 0; m < bends.size(); ++m) {

@@ -17,7 +17,7 @@ int main() {
   if (!sinew::equilibrium(robot, lengths, {}, work).report.ok()) return 3;
 
   // In the loop: from the equilibrium of the tick before. A handful of Newton steps, bounded.
-  const sinew::EquilibriumOptions warm{.resume = true, .max_iterations = 20, .judge = false};
+  const sinew::EquilibriumOptions warm{.warm_start = true, .max_iterations = 20, .check_stability = false};
   int failures = 0;
   Clock::duration slowest{};
   sinew::SpatialPose pose;

@@ -5,9 +5,9 @@
 namespace sinew::server {
 
 bool Rate::allows(const std::string& address, std::size_t queries, Clock::time_point now) {
-  constexpr std::size_t most_addresses = 1000;
+  constexpr std::size_t max_addresses = 1000;
   const std::lock_guard lock(mutex_);
-  if (buckets_.size() > most_addresses) buckets_.clear();
+  if (buckets_.size() > max_addresses) buckets_.clear();
   Bucket& bucket = buckets_.try_emplace(address, Bucket{a_second_, now}).first->second;
   const double passed = std::chrono::duration<double>(now - bucket.at).count();
   bucket = {std::min(a_second_, bucket.left + passed * a_second_), now};

@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_listed = 500;
+constexpr std::size_t max_listed = 500;
 constexpr auto patience = std::chrono::seconds(2);  // of reading files that are new to the list
-constexpr std::size_t most_picture = std::size_t{16} << 20U;
+constexpr std::size_t max_picture = std::size_t{16} << 20U;
 constexpr std::string_view first_line = "# sinew recording, version ";
 /// In the order of severity.
 constexpr std::string_view words[] = {"EXACT",       "PARTLY SLACK", "SLACK",
@@ -210,7 +210,7 @@ Reply Recordings::list() {
   }
   std::ranges::sort(names, std::greater<>());  // they begin with their date
   const std::size_t found = names.size();
-  names.resize(std::min(names.size(), most_listed));
+  names.resize(std::min(names.size(), max_listed));
   const auto until = std::chrono::steady_clock::now() + patience;
   Json rows = Json::array();
   const std::lock_guard lock(mutex_);
@@ -229,7 +229,7 @@ Reply Recordings::list() {
     if (is_whole) known_[name] = {size, time, *summary};
     rows.push_back(row_of(name, size, *summary, is_whole));
   }
-  if (known_.size() > 2 * most_listed) known_.clear();
+  if (known_.size() > 2 * max_listed) known_.clear();
   const Json json{{"recordings", rows}, {"left_out", found - names.size()}};
   return {200, json.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
@@ -271,7 +271,7 @@ Reply Recordings::picture(std::string_view name, std::string_view number) const 
   if (is_name(name) && number.size() == 3 && std::ranges::all_of(number, is_digit))
     for (const auto& [ending, type] : {std::pair{"jpg", "image/jpeg"}, std::pair{"png", "image/png"}}) {
       Lines file(folder_ / fmt::format("{}-{}.{}", name, number, ending));
-      if (!file.is_open() || file.size() > most_picture) continue;
+      if (!file.is_open() || file.size() > max_picture) continue;
       std::string bytes;
       for (std::string_view part; !(part = file.next()).empty();) bytes += part;
       return {200, std::move(bytes), type};

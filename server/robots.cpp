@@ -61,7 +61,7 @@ Expected<std::string> Robots::open(const std::string& text) {
   if (has_come) return handle;
   entries_.push_front({handle, text.size(), std::move(robot)});
   bytes_ += text.size();
-  while (entries_.size() > 1 && (entries_.size() > most_ || bytes_ > most_bytes_)) {
+  while (entries_.size() > 1 && (entries_.size() > most_ || bytes_ > max_bytes_)) {
     bytes_ -= entries_.back().bytes;
     entries_.pop_back();
   }

@@ -39,8 +39,8 @@ std::string answer_of(Session& session, std::string_view query);
 /// For any number of threads.
 class Robots {
  public:
-  /// @param most_bytes of the texts of all that are kept; the last one is in any case
-  Robots(std::size_t most, std::size_t most_bytes) : most_(most), most_bytes_(most_bytes) {}
+  /// @param max_bytes of the texts of all that are kept; the last one is in any case
+  Robots(std::size_t most, std::size_t max_bytes) : most_(most), max_bytes_(max_bytes) {}
 
   /// The handle of a robot file's text, or all its errors; their places are `robot:LINE:COLUMN`.
   Expected<std::string> open(const std::string& text);
@@ -54,7 +54,7 @@ class Robots {
     std::shared_ptr<OpenRobot> robot;
   };
 
-  std::size_t most_, most_bytes_;
+  std::size_t most_, max_bytes_;
   std::mutex mutex_;
   std::list<Entry> entries_;  // the last used first
   std::size_t bytes_ = 0;     // of their texts

@@ -16,8 +16,8 @@
 namespace sinew::cli {
 namespace {
 
-constexpr std::size_t most_curves = 100;
-constexpr std::size_t most_vector_points = 200'000;  // beyond that an .svg or .pdf does not open in a minute
+constexpr std::size_t max_curves = 100;
+constexpr std::size_t max_vector_points = 200'000;  // beyond that an .svg or .pdf does not open in a minute
 
 using Words = std::vector<std::string>;
 
@@ -36,11 +36,11 @@ std::vector<const Column*> columns_to_draw(const Table& table, const Column* x, 
   if (!list) {
     for (const Column& other : table.columns)
       if (&other != x) result.push_back(&other);
-    if (result.size() > most_curves)
+    if (result.size() > max_curves)
       errors.push_back(
           {"too_many_columns", "--y",
            fmt::format("there are {} columns to draw, and {} at most are told apart; name some: --y {}.",
-                       result.size(), most_curves, in_quotes(result.front()->name))});
+                       result.size(), max_curves, in_quotes(result.front()->name))});
     return result;
   }
   for (std::string_view rest = *list;;) {
@@ -135,11 +135,11 @@ const Column* first_that_varies(const Table& table) {
 }
 
 Errors refuse_count(std::size_t points, const Arguments& arguments) {
-  if (points <= most_vector_points || arguments.text("output")->ends_with(".png")) return {};
+  if (points <= max_vector_points || arguments.text("output")->ends_with(".png")) return {};
   return {{"too_many_points", "--output",
            fmt::format("{} points; an .svg or .pdf has {} at most, else nothing opens it. Write a .png, or "
                        "fewer rows.",
-                       points, most_vector_points)}};
+                       points, max_vector_points)}};
 }
 
 /// Whether some row has a number in both; an axis without any has no ends.

@@ -178,9 +178,9 @@ const Column* column(const Table& table, std::string_view name, std::string_view
   std::vector<std::string_view> names;
   for (const Column& known : table.columns) names.push_back(known.name);
   const std::string_view hint = closest(name, names);
-  constexpr std::size_t most_names = 40;
-  const std::string_view more = names.size() > most_names ? ", ..." : "";
-  if (names.size() > most_names) names.resize(most_names);
+  constexpr std::size_t max_names = 40;
+  const std::string_view more = names.size() > max_names ? ", ..." : "";
+  if (names.size() > max_names) names.resize(max_names);
   errors.push_back({"unknown_column", fmt::format("--{}", option),
                     fmt::format("no column {}{} Columns: {}{}.", in_quotes(name),
                                 hint.empty() ? "." : fmt::format("; did you mean {}?", in_quotes(hint)),

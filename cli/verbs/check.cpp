@@ -246,7 +246,7 @@ void suspect_rod_at_home(const Node& leg, const Node& state, std::size_t i, PerL
 }
 
 /// What Nitinol recovers from; steel yields long before.
-constexpr double most_strain = 0.08;
+constexpr double max_strain = 0.08;
 
 void warn_of_rods(const Checked& checked) {
   const Answer& home = checked.home;
@@ -254,11 +254,11 @@ void warn_of_rods(const Checked& checked) {
   if (!home.find("legs"))
     return message("warning: no lengths hold the platform at home: " + home.text("message"));
   if (!home.converged()) message("warning: home is " + home.text("status") + ": " + home.text("message"));
-  if (const double strain = number(home.root(), "margins.strain"); strain > most_strain)
+  if (const double strain = number(home.root(), "margins.strain"); strain > max_strain)
     message(fmt::format(
         "warning: at home the rods bend to a strain of {:.3g} %; few materials recover from more than "
         "{:.3g} %",
-        100 * strain, 100 * most_strain));
+        100 * strain, 100 * max_strain));
 }
 
 void suspect_at_home(const Node& leg, const Node& state, std::size_t i, PerLeg& warnings) {

@@ -21,7 +21,7 @@
 namespace sinew::cli {
 namespace {
 
-constexpr double most_poses = 1e7;
+constexpr double max_poses = 1e7;
 constexpr std::array<std::string_view, 7> axis_names{"x", "y", "z", "phi", "rx", "ry", "rz"};
 
 /// The robot itself, and the branch its legs are on.
@@ -89,10 +89,10 @@ MapAxis read_axis(std::string_view name, std::string_view text, Dimension dimens
     return {};
   }
   const double from = value(0, dimension), to = value(1, dimension), count = value(2, Dimension::count);
-  if (errors.empty() && (count < 2 || count > most_poses))
+  if (errors.empty() && (count < 2 || count > max_poses))
     errors.push_back({"out_of_range", where,
                       fmt::format("the third number says how many values, from 2 to {:.0f}; it is {}.",
-                                  most_poses, si_text(count))});
+                                  max_poses, si_text(count))});
   return {.from = from, .to = to, .count = errors.empty() ? static_cast<int>(count) : 1};
 }
 
@@ -114,9 +114,9 @@ Expected<PoseGrid> read_grid(const Arguments& arguments, const Robot& robot, con
       errors.push_back({"unknown_axis", fmt::format("--{}", name),
                         fmt::format("is no axis of this robot, which is {}; its axes: --{}.",
                                     grid.is_spatial ? "spatial" : "planar", fmt::join(known, ", --"))});
-  if (errors.empty() && poses > most_poses)
+  if (errors.empty() && poses > max_poses)
     errors.push_back({"too_large", "",
-                      fmt::format("{:.3g} poses; {:.0g} at most: give fewer values.", poses, most_poses)});
+                      fmt::format("{:.3g} poses; {:.0g} at most: give fewer values.", poses, max_poses)});
   return errors.empty() ? Expected<PoseGrid>(grid) : tl::unexpected(errors);
 }
 

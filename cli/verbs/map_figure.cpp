@@ -13,7 +13,7 @@
 namespace sinew::cli {
 namespace {
 
-constexpr int most_panels = 9;
+constexpr int max_panels = 9;
 
 std::vector<std::size_t> varying(const PoseGrid& grid) {
   std::vector<std::size_t> result;
@@ -129,11 +129,11 @@ std::string remark(const Slice& slice) {
   return reachable == 0 ? "not reachable" : singular == reachable ? "type II throughout" : "";
 }
 
-Axis axis_of(const Input& axis, const std::vector<double>& values, double most_tics) {
+Axis axis_of(const Input& axis, const std::vector<double>& values, double max_tics) {
   const double span = std::abs(values.back() - values.front());
   return {.label = quantity_name(axis.name, true),
           .unit = std::string(shown(axis.unit).unit),
-          .step = round_step(span, most_tics)};
+          .step = round_step(span, max_tics)};
 }
 
 /// So wide that with equal axes little of the page would be left to it.
@@ -141,7 +141,7 @@ bool is_wide(const HeatMap& map) {
   return std::abs(map.x.back() - map.x.front()) > 1.1 * std::abs(map.y.back() - map.y.front());
 }
 
-Panel panel(const Slice& slice, const std::vector<Input>& axes, double most_tics, double highest) {
+Panel panel(const Slice& slice, const std::vector<Input>& axes, double max_tics, double highest) {
   const Input &x = axes[slice.x], &y = axes[slice.y];
   HeatMap heat{.x = places(slice.map.grid.axes[slice.x], x.unit),
                .y = places(slice.map.grid.axes[slice.y], y.unit),
@@ -153,8 +153,8 @@ Panel panel(const Slice& slice, const std::vector<Input>& axes, double most_tics
     for (std::size_t i = 0; i < slice.columns(); ++i)
       heat.values.push_back(slice.at(i, j).inverse_condition_homogenised);
   Panel result{.title = remark(slice),
-               .x = axis_of(x, heat.x, most_tics),
-               .y = axis_of(y, heat.y, most_tics),
+               .x = axis_of(x, heat.x, max_tics),
+               .y = axis_of(y, heat.y, max_tics),
                .series = {},
                .legend = Legend::none,
                .equal_aspect = x.unit == y.unit && !is_wide(heat),
@@ -177,10 +177,10 @@ Errors refuse_to_draw(const PoseGrid& grid, const std::vector<Input>& axes) {
                          free.empty()       ? "there is none"
                          : free.size() == 1 ? "there is one"
                                             : fmt::format("there are {}", free.size()))}};
-  if (free.size() == 3 && grid.axes[free[2]].count > most_panels)
+  if (free.size() == 3 && grid.axes[free[2]].count > max_panels)
     return {{"too_many_panels", fmt::format("--{}", axes[free[2]].name),
              fmt::format("has {} values and a figure {} panels at most; give fewer, or write -o map.csv.",
-                         grid.axes[free[2]].count, most_panels)}};
+                         grid.axes[free[2]].count, max_panels)}};
   return {};
 }
 

@@ -18,7 +18,7 @@
 namespace sinew::cli {
 namespace {
 
-constexpr int most_threads = 1024;
+constexpr int max_threads = 1024;
 
 /// The studies that come with sinew.
 int list_studies() {
@@ -170,7 +170,7 @@ int run_sweep(const Arguments& arguments) {
                                            : std::filesystem::path(arguments.operand()).stem().concat(".h5");
   options.resume = arguments.has("resume");
   options.replaces_results = arguments.has("force");
-  options.threads = whole_option(arguments, "threads", 1, most_threads, 0, errors);
+  options.threads = whole_option(arguments, "threads", 1, max_threads, 0, errors);
   options.compression = whole_option(arguments, "compress", 0, 9, 0, errors);
   options.command = command_of(arguments);
   const std::string isa = arguments.has("isa") ? *arguments.text("isa") : "native";

@@ -10,9 +10,9 @@
 namespace sinew::firmware {
 namespace {
 
-constexpr int most_iterations = 60;
+constexpr int max_iterations = 60;
 constexpr double small_step = 1e-9;  ///< [rad] that ends an iteration
-constexpr int most_passes = 8;
+constexpr int max_passes = 8;
 constexpr double small_friction = 1e-5;  ///< [N] that it may still change by
 constexpr double rounding = 1e-14;       ///< [J] of an energy
 
@@ -182,8 +182,8 @@ bool ArmStatics::settle() {
   iterations_ = 0;
   bool has_changed = true;
   // Each pass has the friction of the one before, which is off by a few hundredths of what it was off before.
-  for (int pass = 0; pass < most_passes && has_changed; ++pass) {
-    for (int i = 0; i < most_iterations && step(); ++i) ++iterations_;
+  for (int pass = 0; pass < max_passes && has_changed; ++pass) {
+    for (int i = 0; i < max_iterations && step(); ++i) ++iterations_;
     has_changed = update_friction();
   }
   slide();

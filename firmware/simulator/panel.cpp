@@ -24,11 +24,11 @@ class Pace {
   using Clock = std::chrono::steady_clock;
 
   void wait_until(double simulated) {
-    constexpr std::chrono::milliseconds most_behind(50);
+    constexpr std::chrono::milliseconds max_behind(50);
     const auto then =
         start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(simulated));
     const auto behind = Clock::now() - then;
-    if (behind > most_behind) start_ += behind - most_behind;
+    if (behind > max_behind) start_ += behind - max_behind;
     std::this_thread::sleep_until(then);
   }
 

@@ -14,7 +14,7 @@ SimulatedArm::SimulatedArm(const SerialRobot& robot, const ArmDrives& drives, co
   for (std::size_t i = 0; i < tendon_count(); ++i) {
     // By hand: the library's distributions differ from machine to machine.
     const double share = static_cast<double>(random() % 65536) / 65536;
-    motors_[i].slack = drives.least_slack + share * (drives.most_slack - drives.least_slack);
+    motors_[i].slack = drives.min_slack + share * (drives.max_slack - drives.min_slack);
     pull(i);
   }
 }

@@ -75,8 +75,8 @@ Read<DrivePlan> read_steps(const Json& body) {
   if (!steps.is_array())
     return wrong("missing_key", "steps",
                  R"(give "steps", a list; to drop the plan neither "steps" nor "name")");
-  if (steps.size() > most_steps)
-    return wrong("too_large", "steps", fmt::format("{} steps; at most {}", steps.size(), most_steps));
+  if (steps.size() > max_steps)
+    return wrong("too_large", "steps", fmt::format("{} steps; at most {}", steps.size(), max_steps));
   auto name = read_name(body);
   if (!name) return tl::unexpected(name.error());
   DrivePlan plan{std::move(*name), {}, {}};

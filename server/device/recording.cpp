@@ -10,7 +10,7 @@
 namespace sinew::server::device {
 namespace {
 
-constexpr int most_pictures = 999;
+constexpr int max_pictures = 999;
 
 /// Without what would end a line.
 std::string one_line(std::string_view text) {
@@ -75,7 +75,7 @@ void Recording::row(double now, std::string_view rest) { count_ += append(now, r
 void Recording::event(double now, std::string_view rest) { append(now, rest); }
 
 std::string Recording::picture(std::string bytes, std::string_view extension) {
-  if (pictures_ >= most_pictures) return {};
+  if (pictures_ >= max_pictures) return {};
   const std::string file = fmt::format("{}-{:03}.{}", name_, pictures_ + 1, extension);
   if (!writer_.write_whole(folder_ / file, std::move(bytes))) return {};
   ++pictures_;

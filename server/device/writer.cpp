@@ -143,7 +143,7 @@ bool FileWriter::put(Job job) {
     thread_ = std::thread([state = state_] { state->run(); });
   }
   const std::lock_guard lock(state_->mutex);
-  const bool is_full = state_->jobs.size() >= most_jobs || state_->bytes + job.bytes.size() > most_bytes;
+  const bool is_full = state_->jobs.size() >= max_jobs || state_->bytes + job.bytes.size() > max_bytes;
   if (is_full && job.kind != Job::Kind::close) return false;
   state_->bytes += job.bytes.size();
   state_->jobs.push_back(std::move(job));

@@ -12,8 +12,8 @@ namespace sinew::server::device {
 
 class FileWriter {
  public:
-  static constexpr std::size_t most_jobs = 128;                      ///< lines, that wait
-  static constexpr std::size_t most_bytes = std::size_t{24} << 20U;  ///< of them and of pictures
+  static constexpr std::size_t max_jobs = 128;                      ///< lines, that wait
+  static constexpr std::size_t max_bytes = std::size_t{24} << 20U;  ///< of them and of pictures
 
   FileWriter() = default;
   /// What waits is written first, if that takes less than a second; a disk that hangs is left alone.

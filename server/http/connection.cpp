@@ -80,14 +80,14 @@ tl::expected<void, Reply> Connection::next() {
   if (!turn(buffer_.empty() ? Doing::waiting : Doing::reading)) return over;
   for (std::size_t seen = 0;;) {
     const std::size_t end = buffer_.find("\r\n\r\n", seen);
-    if (end != std::string::npos && end + 4 <= most_head) return begin(end + 4);
-    if (buffer_.size() >= most_head)
+    if (end != std::string::npos && end + 4 <= max_head) return begin(end + 4);
+    if (buffer_.size() >= max_head)
       return tl::unexpected(
-          refused(431, "too_large", "header", fmt::format("give at most {} bytes", most_head)));
+          refused(431, "too_large", "header", fmt::format("give at most {} bytes", max_head)));
     seen = buffer_.size() - std::min<std::size_t>(buffer_.size(), 3);
     std::array<char, 4096> bytes;
     const bool is_idle = buffer_.empty();
-    const ssize_t got = receive(bytes.data(), std::min(bytes.size(), most_head - buffer_.size()),
+    const ssize_t got = receive(bytes.data(), std::min(bytes.size(), max_head - buffer_.size()),
                                 is_idle ? std::min(deadline_, begun + idle) : deadline_);
     if (got == 0 || (got < 0 && is_idle)) return over;
     if (got < 0)

@@ -12,7 +12,7 @@
 namespace sinew::server {
 
 /// [bytes] of a request line and all header lines.
-inline constexpr std::size_t most_head = std::size_t{16} << 10U;
+inline constexpr std::size_t max_head = std::size_t{16} << 10U;
 
 struct Head {
   std::size_t body = 0;  ///< [bytes] that follow

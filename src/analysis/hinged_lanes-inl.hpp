@@ -39,9 +39,9 @@ class Constrained {
   }
 
   HWY_INLINE Turn3 solve() {
-    constexpr int most_steps = 8;
+    constexpr int max_steps = 8;
     Mask is_open = is_fit_;
-    for (int step = 0; step < most_steps && !hn::AllFalse(tag, is_open); ++step) is_open = move(is_open);
+    for (int step = 0; step < max_steps && !hn::AllFalse(tag, is_open); ++step) is_open = move(is_open);
     Turn3 pose = here();
     pose.is_fit = hn::AndNot(is_open, is_fit_);
     return pose;

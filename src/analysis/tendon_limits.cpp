@@ -71,7 +71,7 @@ TendonTravel bending_travel(const Section& section, double angle, kernel::Model 
 
 /// The same with all its lengths: for each bend it is linear in the extension.
 TendonTravel section_travel(const Section& section, double angle, kernel::Model model) {
-  const double least = section.least_extension, most = section.most_extension;
+  const double least = section.min_extension, most = section.max_extension;
   const TendonTravel shorter = bending_travel(section.extended(least), angle, model),
                      longer = bending_travel(section.extended(most), angle, model);
   return {std::min(shorter.least + least, longer.least + most),
@@ -125,7 +125,7 @@ double tendon_length(const SerialRobot& robot, int section, double outside) {
   double length = outside;
   for (int k = 0; k <= section; ++k) {
     const Section& passed = robot.sections[static_cast<std::size_t>(k)];
-    length += passed.length() + passed.most_extension;
+    length += passed.length() + passed.max_extension;
   }
   return length;
 }

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double step_size = 0.02;  // of a step [rad, or platform radii]
 constexpr double stencil = 0.2;     // spacing of the points of a derivative, in steps
-constexpr int most_steps = 20000;   // four hundred platform radii, or sixty turns
-constexpr double least_dip = 1e-9;  // of the volume beside a smallest one; less is rounding
+constexpr int max_steps = 20000;   // four hundred platform radii, or sixty turns
+constexpr double min_dip = 1e-9;  // of the volume beside a smallest one; less is rounding
 
 /// A straight motion of the platform, by its distance s; put back into the planes that hinges may hold it in.
 struct Line {
@@ -33,14 +33,14 @@ struct Line {
     if (!spatial || plane_count(robot) == 0) return true;
     const SpatialPose moved = Spatial::moved(*spatial, Vec<double, 6>(step * direction));
     const double radius = platform_radius(robot);
-    return gap(std::get<SpatialPose>(settled(robot, moved)), moved, radius) <
+    return gap(std::get<SpatialPose>(project_to_constraints(robot, moved)), moved, radius) <
            0.5 * gap(moved, *spatial, radius);
   }
 
   AnyPose at(double s) const {
     if (const auto* planar = std::get_if<PlanarPose>(&start))
       return Planar::moved(*planar, Vec<double, 3>(s * direction.head<3>()));
-    return settled(robot, Spatial::moved(std::get<SpatialPose>(start), Vec<double, 6>(s * direction)));
+    return project_to_constraints(robot, Spatial::moved(std::get<SpatialPose>(start), Vec<double, 6>(s * direction)));
   }
 };
 
@@ -158,7 +158,7 @@ std::optional<TypeTwoDistance> Walk::in_step(const Place& before, const Place& h
   if (std::signbit(here.volume) != std::signbit(next.volume))
     found = crossing(here, next.s);
   else if (before.s < here.s && size <= std::abs(before.volume) && size < std::abs(next.volume) &&
-           (1 + least_dip) * size < std::max(std::abs(before.volume), std::abs(next.volume)))
+           (1 + min_dip) * size < std::max(std::abs(before.volume), std::abs(next.volume)))
     found = touching(before, here, next);
   return found || next.s < limit_ ? found : found_at(here, next.s);
 }
@@ -173,7 +173,7 @@ TypeTwoDistance Walk::run(const InverseOptions& branch) {
   for (int steps = 0; !answer.found && report.ok() && here.s < limit_; ++steps) {
     Place next = moved(here, std::min(here.s + line_.step, limit_));
     report = report_;
-    if (steps == most_steps) {
+    if (steps == max_steps) {
       report.status = Status::iteration_limit;
       report.message = std::string_view("there is none this far; to look farther, begin from here");
     }

@@ -218,8 +218,8 @@ bool is_regular(const HeatMap& map) { return is_regular(map.x) && is_regular(map
 
 /// More rectangles than a viewer draws at once.
 bool is_image(const HeatMap& map) {
-  constexpr std::size_t most_rectangles = 20000;
-  return map.x.size() * map.y.size() > most_rectangles && map.x.size() > 1 && map.y.size() > 1 &&
+  constexpr std::size_t max_rectangles = 20000;
+  return map.x.size() * map.y.size() > max_rectangles && map.x.size() > 1 && map.y.size() > 1 &&
          is_regular(map);
 }
 

@@ -104,8 +104,8 @@ void read_extension(Reader& section, Section& result) {
     items[0].fail("longer_than_section",
                   fmt::format("the backbone is {} long: it cannot get shorter than that",
                               human(result.arc_length(), Dimension::length)));
-  result.least_extension = least;
-  result.most_extension = most;
+  result.min_extension = least;
+  result.max_extension = most;
 }
 
 Section read_section(Reader& section) {

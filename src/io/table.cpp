@@ -17,10 +17,10 @@
 namespace sinew::inline v0 {
 namespace {
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 30U;
-constexpr std::size_t most_columns = 100'000;
-constexpr std::size_t most_over = 1000;  // cells of a row beyond its columns, which are only counted
-constexpr std::size_t most_errors = 20;  // of one file: after that it is not this kind of file
+constexpr std::uintmax_t max_bytes = std::uintmax_t{4} << 30U;
+constexpr std::size_t max_columns = 100'000;
+constexpr std::size_t max_over = 1000;  // cells of a row beyond its columns, which are only counted
+constexpr std::size_t max_errors = 20;  // of one file: after that it is not this kind of file
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // of spreadsheets
 
@@ -48,7 +48,7 @@ class CsvReader {
   Expected<Table> table() {
     if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
     std::string_view line;
-    while (errors_.size() < most_errors && next(line)) take(line);
+    while (errors_.size() < max_errors && next(line)) take(line);
     if (errors_.empty() && table_.columns.empty())
       error("no_heading",
             "there is no line with column names; the first line that is not a comment must hold them");
@@ -81,10 +81,10 @@ class CsvReader {
   }
 
   void take_heading(std::string_view line) {
-    const std::vector<std::string> names = cells(line, most_columns + 1);
-    if (names.size() > most_columns)
+    const std::vector<std::string> names = cells(line, max_columns + 1);
+    if (names.size() > max_columns)
       return error("too_many_columns",
-                   fmt::format("there are more than {} columns; give fewer", most_columns));
+                   fmt::format("there are more than {} columns; give fewer", max_columns));
     std::unordered_set<std::string> known;
     for (const std::string& cell : names) {
       Column column = Column::named(cell);
@@ -96,12 +96,12 @@ class CsvReader {
   }
 
   void take_row(std::string_view line) {
-    const std::vector<std::string> row = cells(line, table_.columns.size() + most_over);
+    const std::vector<std::string> row = cells(line, table_.columns.size() + max_over);
     if (row.size() != table_.columns.size()) {
       error("wrong_cell_count",
             fmt::format("{}{} cells, but the heading has {}; leave a cell empty where there is no "
                         "value",
-                        row.size() == table_.columns.size() + most_over ? "at least " : "", row.size(),
+                        row.size() == table_.columns.size() + max_over ? "at least " : "", row.size(),
                         table_.columns.size()));
       return;
     }
@@ -156,7 +156,7 @@ class CsvReader {
   }
 
   void error(std::string_view code, std::string message) {
-    if (errors_.size() >= most_errors) return;
+    if (errors_.size() >= max_errors) return;
     errors_.push_back({std::string(code), fmt::format("{}:{}", source_, line_), std::move(message)});
   }
 
@@ -231,7 +231,7 @@ Expected<void> write_csv(const Table& table, const std::filesystem::path& path) 
 }
 
 Expected<Table> read_csv(const std::filesystem::path& path) {
-  const auto text = read_bytes(path, most_bytes);
+  const auto text = read_bytes(path, max_bytes);
   return text ? parse_csv(*text, path.string()) : tl::unexpected(text.error());
 }
 

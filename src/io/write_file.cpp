@@ -81,10 +81,10 @@ std::string unwritable(int reason) {
 }
 
 Expected<fs::path> without_links(const fs::path& path) {
-  constexpr int most_links = 40;  // as Linux has it
+  constexpr int max_links = 40;  // as Linux has it
   fs::path result = path;
   std::error_code code;
-  for (int k = 0; k < most_links; ++k) {
+  for (int k = 0; k < max_links; ++k) {
     if (open_file(result) || !fs::is_symlink(fs::symlink_status(result, code))) return result;
     const fs::path to = fs::read_symlink(result, code);
     if (code) break;

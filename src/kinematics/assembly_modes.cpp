@@ -30,12 +30,12 @@ void put(AssemblyModes& modes, const SpatialModes& found) {
   modes.is_complete = found.is_complete();
 }
 
-void put_modes(AssemblyModes& modes, std::span<const Reach<2>> reaches, StopToken) {
+void put_modes(AssemblyModes& modes, std::span<const PlatformConstraint<2>> reaches, StopToken) {
   put(modes, planar_modes(reaches));
 }
-void put_modes(AssemblyModes& modes, std::span<const Reach<3>> reaches, StopToken stop) {
+void put_modes(AssemblyModes& modes, std::span<const PlatformConstraint<3>> reaches, StopToken stop) {
   const bool has_plane =
-      std::ranges::any_of(reaches, [](const Reach<3>& reach) { return reach.has_plane(); });
+      std::ranges::any_of(reaches, [](const PlatformConstraint<3>& reach) { return reach.has_plane(); });
   if (has_plane && !are_hinged(reaches)) {
     modes.report.status = Status::left_domain;
     modes.report.message.append(
@@ -52,7 +52,7 @@ void put_modes(AssemblyModes& modes, std::span<const Reach<3>> reaches, StopToke
 }  // namespace
 
 AssemblyModes assembly_modes(const Robot& robot, Numbers inputs, Workspace& work) {
-  AssemblyModes modes{.report = command(robot, inputs, work),
+  AssemblyModes modes{.report = coordinates_from_inputs(robot, inputs, work),
                       .poses = {},
                       .residual = {},
                       .is_double = {},

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "sinew/leg/reach.hpp"
+#include "sinew/leg/platform_constraint.hpp"
 #include "sinew/leg/space.hpp"
 #include "sinew/solve/newton.hpp"
 
@@ -18,8 +18,8 @@ class Closing {
   static constexpr int unknowns = Space::dof;
   static constexpr int D = Space::dimension;
 
-  explicit Closing(std::span<const Reach<D>> reaches) : reaches_(reaches) {
-    for (const Reach<D>& leg : reaches) {
+  explicit Closing(std::span<const PlatformConstraint<D>> reaches) : reaches_(reaches) {
+    for (const PlatformConstraint<D>& leg : reaches) {
       size_ = std::max(size_, leg.anchor.norm() + leg.platform_point.norm() + 2 * leg.distance);
       rows_ += leg.rows();
     }
@@ -30,10 +30,10 @@ class Closing {
     system.jacobian.resize(rows_, unknowns);
     system.error = 0;
     Eigen::Index row = 0;
-    for (const Reach<D>& leg : reaches_) {
+    for (const PlatformConstraint<D>& leg : reaches_) {
       const Vec<double, D> b = platform.rotate(leg.platform_point);
       const Vec<double, D> n = platform.p + b - leg.anchor;
-      system.error = std::max(system.error, leg.misfit(n));
+      system.error = std::max(system.error, leg.closure_error(n));
       leg.with_rows(n, [&](const auto& held) {
         for (Eigen::Index k = 0; k < held.g.size(); ++k, ++row) {
           const double unit = k > 0 && leg.has_plane() ? size_ : 1;  // of the size of the others
@@ -49,8 +49,8 @@ class Closing {
   /// Largest distance by which a leg fails to close [m].
   double error(const Point& platform) const {
     double worst = 0;
-    for (const Reach<D>& leg : reaches_)
-      worst = std::max(worst, leg.misfit(platform.point(leg.platform_point) - leg.anchor));
+    for (const PlatformConstraint<D>& leg : reaches_)
+      worst = std::max(worst, leg.closure_error(platform.point(leg.platform_point) - leg.anchor));
     return worst;
   }
 
@@ -70,7 +70,7 @@ class Closing {
   Eigen::Index rows() const { return rows_; }
 
  private:
-  std::span<const Reach<D>> reaches_;
+  std::span<const PlatformConstraint<D>> reaches_;
   Eigen::Index rows_ = 0;
   double size_ = 0;
 };

@@ -159,7 +159,7 @@ ConstrainedPose constrained_pose(const Robot& robot, const Independent& independ
   return answer;
 }
 
-AnyPose settled(const Robot& robot, const AnyPose& pose) {
+AnyPose project_to_constraints(const Robot& robot, const AnyPose& pose) {
   if (plane_count(robot) == 0 || !std::holds_alternative<SpatialPose>(pose)) return pose;
   const Planes planes = planes_of(robot);
   SE3<double> platform = SE3<double>::from(in_space<Spatial>(pose));

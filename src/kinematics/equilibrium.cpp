@@ -62,7 +62,7 @@ Equilibrium solved(const Robot& robot, const EquilibriumOptions& options, Worksp
   if (const Report fits = check_workspace(robot, work); !fits.ok()) return refused(fits);
   RodWork& rods = rods_of(work);
   const Report report = solve(rods, home_of(robot), question_of(robot, options, rods));
-  return answer_of(report, *rods.system, work, options.judge);
+  return answer_of(report, *rods.system, work, options.check_stability);
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ bool has_equilibrium_batch(const Robot& robot) {
 
 void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wrench,
                        std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
-                       bool judge) {
+                       bool check_stability) {
   std::fill(statuses.begin(), statuses.end(), Status::left_domain);
   const std::size_t inputs = at(input_count(robot));
   if (!has_rods(robot) || !check_workspace(robot, work).ok() || statuses.size() != poses.size() ||
@@ -117,11 +117,11 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
       std::fill(statuses.begin() + static_cast<std::ptrdiff_t>(k), statuses.end(), Status::stopped);
       return;
     }
-    EquilibriumOptions options{.wrench = wrench, .resume = true, .judge = judge};
+    EquilibriumOptions options{.wrench = wrench, .warm_start = true, .check_stability = judge};
     const Numbers row = rows.subspan(k * inputs, inputs);
     Equilibrium found = equilibrium(robot, row, options, work);
     if (judge && found.report.status == Status::unstable) {
-      options.resume = false;
+      options.warm_start = false;
       const SpatialPose from = found.pose;
       found = equilibrium(robot, row, options, work);
       options.start = from;
@@ -173,7 +173,7 @@ RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
   analysis.unstable_directions = static_cast<int>(analysis.unstable.size());
   for (const auto& [in_plane, aside] : work.unstable_rods) analysis.unstable_directions += in_plane + aside;
   for_each_rod(robot, [&, k = std::size_t{0}](const RodLeg& leg, const LegPlace&, int) mutable {
-    const RodReading& rod = analysis.rods[k++];
+    const RodResult& rod = analysis.rods[k++];
     const double strain =
         leg.link.is_round() ? rod.largest_curvature * leg.link.diameter / 2 : rod.largest_strain;
     analysis.largest_strain = std::max(analysis.largest_strain, strain);
@@ -292,7 +292,7 @@ std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
   const int starts =
       rods.system->traits().is_slow ? 16 : 160;  // of the slow ones each takes a tenth of a second
   RodQuestion question = question_of(robot, options, rods);
-  question.resume = false;
+  question.warm_start = false;
   question.start.reset();
   for (int k = -1; k < starts && !rods.stop.stop_requested(); ++k) {
     if (k >= 0) question.start = scattered(home, size, k);
@@ -321,11 +321,11 @@ std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const Spati
   const int ways = rods.system->traits().is_slow ? 4 : 60;
   RodQuestion question = question_of(robot, options, rods);
   for (int k = -1; k < ways && !rods.stop.stop_requested(); ++k) {
-    question.resume = false;
+    question.warm_start = false;
     if (k >= 0) {  // by a pose between
       const Report between = hold_rods(rods, home, scattered(home, size, k), question);
       if (!is_solution(between)) continue;
-      question.resume = true;
+      question.warm_start = true;
     }
     const Report report = hold_rods(rods, home, target, question);
     if (!is_solution(report)) continue;

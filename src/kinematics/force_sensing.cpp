@@ -67,10 +67,10 @@ SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Num
   std::ranges::copy(axial, sensing.axial.begin());
   sensing.max_iterations = options.max_iterations.value_or(sensing.max_iterations);
   sensing.truncation = coarse_truncation;
-  if (options.resume && resume_sensing(rods, inputs, sensing, sensed.report)) {
+  if (options.warm_start && resume_sensing(rods, inputs, sensing, sensed.report)) {
     sensed.report = settle(rods, sensed.report, sensing.truncation);
   } else {
-    unloaded.resume = false;
+    unloaded.warm_start = false;
     const Equilibrium begun = equilibrium(robot, inputs, unloaded, work);
     sensed.report = begun.report;
     if (!begun.is_solved()) return sensed;

@@ -43,11 +43,11 @@ void warn_of_freedom(Report& report, Eigen::Index rows, int dof) {
 }
 
 /// Newton's method from `platform`; of three hinged legs in their angles, half as many unknowns.
-Report solve(const Closing<Planar>& closing, std::span<const Reach<2>>, const NewtonOptions& options,
+Report solve(const Closing<Planar>& closing, std::span<const PlatformConstraint<2>>, const NewtonOptions& options,
              SE2<double>& platform) {
   return newton(closing, platform, options);
 }
-Report solve(const Closing<Spatial>& closing, std::span<const Reach<3>> reaches, const NewtonOptions& options,
+Report solve(const Closing<Spatial>& closing, std::span<const PlatformConstraint<3>> reaches, const NewtonOptions& options,
              SE3<double>& platform) {
   // a start that is no number is Newton's to refuse
   if (!ThreeCircles::fit(reaches) || !Spatial::is_finite(platform)) return newton(closing, platform, options);
@@ -88,13 +88,13 @@ void take_nearest(const Modes& modes, const Pose& start, double radius, Pose& po
   report.residual = modes.residual[best];
 }
 
-void ask_all_modes(std::span<const Reach<2>> reaches, const PlanarPose& start, double radius,
+void ask_all_modes(std::span<const PlatformConstraint<2>> reaches, const PlanarPose& start, double radius,
                    PlanarPose& pose, Report& report) {
   if (report.status != Status::stalled && report.status != Status::iteration_limit) return;
   take_nearest(planar_modes(reaches), start, radius, pose, report);
 }
 // Of other legs in space assembly_modes can, but takes memory and its time.
-void ask_all_modes(std::span<const Reach<3>> reaches, const SpatialPose& start, double radius,
+void ask_all_modes(std::span<const PlatformConstraint<3>> reaches, const SpatialPose& start, double radius,
                    SpatialPose& pose, Report& report) {
   if (report.status != Status::stalled && report.status != Status::iteration_limit) return;
   if (are_hinged(reaches)) take_nearest(hinged_modes(reaches), start, radius, pose, report);
@@ -141,7 +141,7 @@ Forward forward(const Robot& robot, Numbers inputs, const ForwardOptions& option
   if (const Report fits = check_arguments(robot, start, work, "start"); !fits.ok())
     return {fits, home(robot), {}};
   if (bears_load(robot)) return forward_loaded(robot, inputs, options, work);
-  const Report commanded = command(robot, inputs, work);
+  const Report commanded = coordinates_from_inputs(robot, inputs, work);
   if (!commanded.ok()) return {commanded, start, work.coordinates};
   return with_legs(robot, [&](const auto& legs) { return forward_robot(legs, robot, options, work); });
 }

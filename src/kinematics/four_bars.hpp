@@ -3,17 +3,17 @@
 #pragma once
 #include <span>
 
-#include "sinew/leg/reach.hpp"
+#include "sinew/leg/platform_constraint.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v0 {
 
 /// True, with the reason and `unreachable`, where two legs prove that no pose exists.
 template <int D>
-bool are_torn(std::span<const Reach<D>> legs, Report& report) {
+bool are_torn(std::span<const PlatformConstraint<D>> legs, Report& report) {
   for (std::size_t j = 1; j < legs.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
-      const Reach<D>&a = legs[i], &b = legs[j];
+      const PlatformConstraint<D>&a = legs[i], &b = legs[j];
       const double base = (b.anchor - a.anchor).norm(), bar = (b.platform_point - a.platform_point).norm();
       const double longest = std::max({base, bar, a.distance, b.distance});
       const double excess = 2 * longest - (base + bar + a.distance + b.distance);

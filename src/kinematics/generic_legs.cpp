@@ -48,7 +48,7 @@ const GenericLegs& generic_legs() {
     const Sections far = random_sections(random);
     // There and back by two ways is a loop about some of the points where solutions merge; it comes back to
     // another solution than it left.
-    for (int loop = 0; loop < 60 && legs.solutions.size() < most_modes; ++loop) {
+    for (int loop = 0; loop < 60 && legs.solutions.size() < max_modes; ++loop) {
       const Complex there = random.phase(), back = random.phase();
       const auto away = carried(legs.solutions, legs.sections, there * far);
       for (const Study& x : carried(away, back * far, legs.sections)) {

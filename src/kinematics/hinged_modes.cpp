@@ -18,7 +18,7 @@ constexpr int samples = 720;  // of the first angle; ten times as many where a r
 /// Roots of the polynomial this near to a real one count as real [rad]: where a pair of complex ones is near,
 /// the smaller one tells.
 constexpr std::array margins{1e-3, 1e-5};
-constexpr double least_strength = 1e-12;  ///< of a polynomial that is not 0 everywhere
+constexpr double min_strength = 1e-12;  ///< of a polynomial that is not 0 everywhere
 
 /// The two angles at which A + B cos t + C sin t vanishes; where it has none, twice the one at which it comes
 /// nearest.
@@ -32,7 +32,7 @@ std::array<Vec2<double>, 2> zeros(const Vec3<double>& form) {
 }
 
 /// Whether the sides hold the angles of a pose hardly: two modes are nearer there than about 1e-5.
-bool is_merged(std::span<const Reach<3>> legs, double size, const SE3<double>& pose) {
+bool is_merged(std::span<const PlatformConstraint<3>> legs, double size, const SE3<double>& pose) {
   Linearised<3> sides;
   ThreeCircles(legs, size, pose).linearise(ThreeCircles::start(), sides);
   double volume = 1;
@@ -45,7 +45,7 @@ bool is_merged(std::span<const Reach<3>> legs, double size, const SE3<double>& p
 /// is followed along these four branches.
 class Search {
  public:
-  Search(std::span<const Reach<3>> legs, HingedModes& modes)
+  Search(std::span<const PlatformConstraint<3>> legs, HingedModes& modes)
       : legs_(legs),
         closing_(legs),
         circles_(legs, closing_.size(), SE3<double>::identity()),
@@ -59,7 +59,7 @@ class Search {
         best = strength;
         first_ = i;
       }
-    if (!(best > least_strength)) return false;
+    if (!(best > min_strength)) return false;
     follow(samples);
     if (!is_complete()) follow(10 * samples);
     modes_.is_complete = is_complete();
@@ -84,7 +84,7 @@ class Search {
     if (known % 2 != 0) return false;
     for (std::size_t i = 0; i < 3; ++i) {
       const CirclePolynomial F(circles_, (first_ + i) % 3);
-      if (F.strength() > least_strength && std::ranges::any_of(margins, [&](double margin) {
+      if (F.strength() > min_strength && std::ranges::any_of(margins, [&](double margin) {
             const std::optional<int> count = F.count_real(margin);
             return count && *count <= known;
           }))
@@ -152,7 +152,7 @@ class Search {
     return std::max((a.p - b.p).norm() / circles_.size(), turned.norm());
   }
 
-  std::span<const Reach<3>> legs_;
+  std::span<const PlatformConstraint<3>> legs_;
   Closing<Spatial> closing_;
   ThreeCircles circles_;
   HingedModes& modes_;
@@ -162,7 +162,7 @@ class Search {
 };
 
 /// Order, residuals, and where modes merge.
-void tell(std::span<const Reach<3>> legs, HingedModes& modes) {
+void tell(std::span<const PlatformConstraint<3>> legs, HingedModes& modes) {
   const auto poses = std::span(modes.poses).first(static_cast<std::size_t>(modes.count));
   const Closing<Spatial> closing(legs);
   sort_poses(poses, closing.size());
@@ -176,9 +176,9 @@ void tell(std::span<const Reach<3>> legs, HingedModes& modes) {
   }
 }
 
-bool are_in_domain(std::span<const Reach<3>> legs) {
+bool are_in_domain(std::span<const PlatformConstraint<3>> legs) {
   if (!ThreeCircles::fit(legs)) return false;
-  return std::ranges::all_of(legs, [](const Reach<3>& leg) {
+  return std::ranges::all_of(legs, [](const PlatformConstraint<3>& leg) {
     const double extent = leg.anchor.lpNorm<1>() + leg.platform_point.lpNorm<1>() + leg.distance;
     return std::isfinite(extent) && extent < 1e30 && leg.normal.allFinite();
   });
@@ -186,9 +186,9 @@ bool are_in_domain(std::span<const Reach<3>> legs) {
 
 }  // namespace
 
-bool are_hinged(std::span<const Reach<3>> legs) { return ThreeCircles::fit(legs); }
+bool are_hinged(std::span<const PlatformConstraint<3>> legs) { return ThreeCircles::fit(legs); }
 
-HingedModes hinged_modes(std::span<const Reach<3>> legs) {
+HingedModes hinged_modes(std::span<const PlatformConstraint<3>> legs) {
   HingedModes modes;
   const auto end_with = [&](Status status, std::string_view why) {
     modes.report.status = status;

@@ -60,7 +60,7 @@ class Problem {
         work_(work) {}
 
   /// Largest distance by which a leg fails to close with the wanted solutions [m].
-  double closure_error() const { return misfit_; }
+  double closure_error() const { return closure_error_; }
 
   bool is_finite() const { return Space::is_finite(platform_); }
 
@@ -100,8 +100,8 @@ class Problem {
   }
 
   template <class LegT>
-  Wish wish_of(const LegT& leg, const LegPlace& place, std::size_t i) const {
-    Wish wish;
+  SolutionPreference wish_of(const LegT& leg, const LegPlace& place, std::size_t i) const {
+    SolutionPreference wish;
     if (!options_.bending.empty()) wish.bending = options_.bending[i];
     if (!options_.elbow.empty()) wish.elbow = options_.elbow[i];
     if (HasArc<typename LegT::Link> && !options_.curvature.empty())
@@ -112,7 +112,7 @@ class Problem {
   }
   /// Elbow +1 where none is asked for; a start tells on which side of a rail the carriage is.
   template <class LegT>
-  Wish default_elbow(const LegT&, Wish wish) const {
+  SolutionPreference default_elbow(const LegT&, SolutionPreference wish) const {
     const bool is_told = wish.elbow != 0 || (!LegT::is_redundant && is_from_start());
     if (LegT::has_elbow && !is_told) wish.elbow = 1;
     return wish;
@@ -123,11 +123,11 @@ class Problem {
   }
 
   /// Largest closure error of the legs that the owner's inputs move, over their size.
-  double misfit(const LegPlace& owner, std::span<const double> inputs) const {
+  double closure_error(const LegPlace& owner, std::span<const double> inputs) const {
     double worst = 0;
     each_sharing(owner, [&]<class L>(const L& leg, const LegPlace&, std::size_t) {
       const auto q = leg.coordinates_of(inputs);
-      const double error = L::misfit(leg.template blocks<double>(platform_, leg.template tip<double>(q)));
+      const double error = L::closure_error(leg.template blocks<double>(platform_, leg.template tip<double>(q)));
       worst = std::max(worst, leg.in_domain(q) ? error / leg.size() : infinity);
     });
     return worst;
@@ -164,7 +164,7 @@ class Problem {
       for (int k = 0; k < count; ++k) {
         const auto a = tidy_inputs(leg, roots[index(k)]);
         const std::span<const double> inputs(a.data(), L::inputs);
-        if (!legs_.has_ties() || misfit(place, inputs) <= common_tolerance)
+        if (!legs_.has_ties() || closure_error(place, inputs) <= common_tolerance)
           add(place, i, inputs, legs_.has_ties() ? owner.size() : 0);
       }
     });
@@ -179,7 +179,7 @@ class Problem {
   double cost(const LegPlace& owner, std::span<const double> inputs) const {
     double worst = 0;
     each_sharing(owner, [&]<class LegT>(const LegT& leg, const LegPlace& place, std::size_t i) {
-      const Wish wish = default_elbow(leg, wish_of(leg, place, i));
+      const SolutionPreference wish = default_elbow(leg, wish_of(leg, place, i));
       const auto q = leg.coordinates_of(inputs);
       const double branch = leg.link.branch(q);
       const bool is_bent_against = HasArc<typename LegT::Link> && branch * wish.bending < 0;
@@ -209,7 +209,7 @@ class Problem {
     }
     each_sharing(place, [&](const auto& leg, const LegPlace& at, std::size_t) {
       keep(leg, at, leg.coordinates_of(chosen));
-      misfit_ = std::max(misfit_, leg.misfit(platform_, leg.coordinates_of(chosen)));
+      closure_error_ = std::max(closure_error_, leg.closure_error(platform_, leg.coordinates_of(chosen)));
     });
     return {};
   }
@@ -221,16 +221,16 @@ class Problem {
       auto q = start_of(leg, place);
       if (leg.in_domain(q) && project(leg, platform_, 1e-15 * leg.size(), q).ok) {
         keep(leg, place, q);
-        misfit_ = std::max(misfit_, leg.misfit(platform_, q));
+        closure_error_ = std::max(closure_error_, leg.closure_error(platform_, q));
         return {};
       }
     }
-    const Wish wish = default_elbow(leg, wish_of(leg, place, i));
+    const SolutionPreference wish = default_elbow(leg, wish_of(leg, place, i));
     const auto found = leg.nearest_solution(platform_, wish);
     keep(leg, place, found.q);
-    misfit_ = found.misfit <= misfit_ ? misfit_ : found.misfit;  // NaN is the worst
+    closure_error_ = found.closure_error <= closure_error_ ? closure_error_ : found.closure_error;  // NaN is the worst
     if (found.count > 0) return {};
-    const Wish anything{.near = wish.near};
+    const SolutionPreference anything{.near = wish.near};
     if (!HasArc<typename LegT::Link> || wish.bending == 0 ||
         leg.nearest_solution(platform_, anything).count <= 0)
       return without_solution(leg, platform_, i, found.count);
@@ -266,7 +266,7 @@ class Problem {
   Frame platform_;
   const InverseOptions& options_;
   Workspace& work_;
-  double misfit_ = 0;
+  double closure_error_ = 0;
 };
 
 Report check(const Robot& robot, const InverseOptions& options) {

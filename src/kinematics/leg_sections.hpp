@@ -7,13 +7,13 @@
 #include <random>
 #include <vector>
 
-#include "sinew/leg/reach.hpp"
+#include "sinew/leg/platform_constraint.hpp"
 #include "sinew/math/so3.hpp"
 #include "sinew/solve/homotopy.hpp"
 
 namespace sinew::inline v0::detail {
 
-inline constexpr int leg_coordinates = 17, most_modes = 40;
+inline constexpr int leg_coordinates = 17, max_modes = 40;
 using Study = Vec<Complex, 8>;  ///< (e, g)
 using Sections = Mat<Complex, 6, leg_coordinates>;
 using LegCoordinates = Vec<Complex, leg_coordinates>;
@@ -32,7 +32,7 @@ inline LegCoordinates leg_coordinates_of(const Study& x) {
 
 /// The leg's equation divided by nothing: e·e (|p + R b − a|² − D²) = g·g + 2 g·(e b − a e) + e·A e with the
 /// quaternion products as matrices.
-inline Vec<double, leg_coordinates> leg_equation(const Reach<3>& leg) {
+inline Vec<double, leg_coordinates> leg_equation(const PlatformConstraint<3>& leg) {
   const Vec3<double>&a = leg.anchor, &b = leg.platform_point;
   Mat<double, 4, 4> from_left, from_right;  // a e and e b
   from_left << 0, -a.transpose(), a, skew<double>(a);

@@ -71,7 +71,7 @@ class LoadProblem {
     put_column(rows, unknowns, group_.project_wrench(-load_), scale);
     return rows;
   }
-  Wrench missing() const { return comparable(group_.wrench_residual()); }
+  Wrench residual() const { return comparable(group_.wrench_residual()); }
   void move(const Twist& step, double lambda, double change) {
     group_.move(comparable(step));
     put(lambda + change);

@@ -24,11 +24,11 @@ bool refuse_leg(Report& report, std::size_t leg, std::string_view why) {
   return refuse(report, Status::left_domain, why);
 }
 
-bool is_in_domain(std::span<const Reach<3>> legs, Report& report) {
+bool is_in_domain(std::span<const PlatformConstraint<3>> legs, Report& report) {
   if (legs.size() > static_cast<std::size_t>(max_rows))
     return refuse(report, Status::left_domain, "more legs than a robot may have (24)");
   for (std::size_t i = 0; i < legs.size(); ++i) {
-    const Reach<3>& leg = legs[i];
+    const PlatformConstraint<3>& leg = legs[i];
     const double extent = leg.anchor.lpNorm<1>() + leg.platform_point.lpNorm<1>() + leg.distance;
     if (!(std::isfinite(extent) && extent < 1e150))
       return refuse_leg(report, i, " is not finite, or too large to be squared");
@@ -70,7 +70,7 @@ bool six_sections(NormalLegs& normal, Report& report) {
 }
 
 /// Moves and scales the legs to their own middle and size; false where points lie on a line.
-bool normalise(std::span<const Reach<3>> legs, NormalLegs& normal, Report& report) {
+bool normalise(std::span<const PlatformConstraint<3>> legs, NormalLegs& normal, Report& report) {
   const auto count = static_cast<Eigen::Index>(legs.size());
   Points anchors(3, count), ends(3, count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -80,7 +80,7 @@ bool normalise(std::span<const Reach<3>> legs, NormalLegs& normal, Report& repor
   anchors = middled(anchors, normal.base_middle);
   ends = middled(ends, normal.platform_middle);
   normal.size = std::max(anchors.cwiseAbs().maxCoeff(), ends.cwiseAbs().maxCoeff());
-  for (const Reach<3>& leg : legs) normal.size = std::max(normal.size, leg.distance);
+  for (const PlatformConstraint<3>& leg : legs) normal.size = std::max(normal.size, leg.distance);
   for (Eigen::Index i = 0; i < count; ++i)
     normal.legs.push_back({anchors.col(i) / normal.size,
                            legs[static_cast<std::size_t>(i)].distance / normal.size,
@@ -96,7 +96,7 @@ bool normalise(std::span<const Reach<3>> legs, NormalLegs& normal, Report& repor
 
 }  // namespace
 
-std::optional<NormalLegs> normal_legs(std::span<const Reach<3>> legs, Report& report) {
+std::optional<NormalLegs> normal_legs(std::span<const PlatformConstraint<3>> legs, Report& report) {
   if (!is_in_domain(legs, report)) return std::nullopt;
   if (legs.size() < 6) {
     refuse(report, Status::singular, "fewer than six legs: the platform's poses are a continuum");

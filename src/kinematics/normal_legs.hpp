@@ -12,7 +12,7 @@
 namespace sinew::inline v0::detail {
 
 struct NormalLegs {
-  std::vector<Reach<3>> legs;
+  std::vector<PlatformConstraint<3>> legs;
   Vec3<double> base_middle, platform_middle;
   double size = 0;    ///< of the robot [m]
   Sections sections;  ///< equations of the six most independent legs, orthonormal
@@ -26,6 +26,6 @@ struct NormalLegs {
 };
 
 /// Report says why not where there is no well-posed problem.
-std::optional<NormalLegs> normal_legs(std::span<const Reach<3>> legs, Report& report);
+std::optional<NormalLegs> normal_legs(std::span<const PlatformConstraint<3>> legs, Report& report);
 
 }  // namespace sinew::inline v0::detail

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "sinew/leg/reach.hpp"
+#include "sinew/leg/platform_constraint.hpp"
 #include "sinew/math/se2.hpp"
 
 namespace sinew::inline v0 {
@@ -14,10 +14,10 @@ namespace sinew::inline v0 {
 /// closes where |s + R bᵢ − aᵢ| is its distance.
 class ScaledLegs {
  public:
-  explicit ScaledLegs(std::span<const Reach<2>> legs) : legs_(legs) {
+  explicit ScaledLegs(std::span<const PlatformConstraint<2>> legs) : legs_(legs) {
     for (std::size_t i = 1; i < legs.size(); ++i)
       if (legs[i].distance < legs[first_].distance) first_ = i;
-    for (const Reach<2>& leg : legs) size_ = std::max({size_, leg.distance, extent(leg)});
+    for (const PlatformConstraint<2>& leg : legs) size_ = std::max({size_, leg.distance, extent(leg)});
     for (std::size_t i = 0; i < legs.size(); ++i) constraints_ += is_pinned(i) ? 2U : 1U;
   }
 
@@ -27,7 +27,7 @@ class ScaledLegs {
   double size() const { return size_; }
   bool is_pinned(std::size_t i) const { return legs_[i].distance <= 1e-14 * size_; }
 
-  Reach<2> operator[](std::size_t i) const {
+  PlatformConstraint<2> operator[](std::size_t i) const {
     return {(legs_[i].anchor - legs_[first_].anchor) / size_, legs_[i].distance / size_,
             (legs_[i].platform_point - legs_[first_].platform_point) / size_};
   }
@@ -36,24 +36,24 @@ class ScaledLegs {
   double error(const SE2<double>& pose) const {
     double worst = 0;
     for (std::size_t i = 0; i < count(); ++i) {
-      const Reach<2> leg = (*this)[i];
-      worst = std::max(worst, leg.misfit(pose.point(leg.platform_point) - leg.anchor));
+      const PlatformConstraint<2> leg = (*this)[i];
+      worst = std::max(worst, leg.closure_error(pose.point(leg.platform_point) - leg.anchor));
     }
     return worst;
   }
 
   PlanarPose in_metres(const SE2<double>& pose) const {
-    const Reach<2>& first = legs_[first_];
+    const PlatformConstraint<2>& first = legs_[first_];
     return planar_pose({first.anchor + size_ * pose.p - pose.rotate(first.platform_point), pose.c, pose.s});
   }
 
  private:
-  double extent(const Reach<2>& leg) const {
+  double extent(const PlatformConstraint<2>& leg) const {
     return std::max((leg.anchor - legs_[first_].anchor).cwiseAbs().maxCoeff(),
                     (leg.platform_point - legs_[first_].platform_point).cwiseAbs().maxCoeff());
   }
 
-  std::span<const Reach<2>> legs_;
+  std::span<const PlatformConstraint<2>> legs_;
   std::size_t first_ = 0, constraints_ = 0;
   double size_ = 0;
 };
@@ -72,7 +72,7 @@ struct NormalEquations {
 inline NormalEquations normal_equations(const ScaledLegs& legs, const SE2<double>& pose) {
   NormalEquations normal;
   for (std::size_t i = 0; i < legs.count(); ++i) {
-    const Reach<2> leg = legs[i];
+    const PlatformConstraint<2> leg = legs[i];
     const Vec2<double> arm = pose.rotate(leg.platform_point), gap = pose.p + arm - leg.anchor;
     if (legs.is_pinned(i)) {
       normal.add({1, 0, -arm.y()}, gap.x());

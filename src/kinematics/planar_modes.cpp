@@ -44,7 +44,7 @@ class Found {
   bool overfull() const { return overfull_; }
   bool empty() const { return count_ == 0; }
 
-  void write(PlanarModes& modes, std::span<const Reach<2>> legs) const;
+  void write(PlanarModes& modes, std::span<const PlatformConstraint<2>> legs) const;
 
  private:
   Motion& at(int i) { return poses_[static_cast<std::size_t>(i)]; }
@@ -97,11 +97,11 @@ class Found {
   bool overfull_ = false;
 };
 
-double closure_error(std::span<const Reach<2>> legs, const PlanarPose& pose) {
+double closure_error(std::span<const PlatformConstraint<2>> legs, const PlanarPose& pose) {
   const auto platform = Motion::from(pose);
   double worst = 0;
-  for (const Reach<2>& leg : legs)
-    worst = std::max(worst, leg.misfit(platform.point(leg.platform_point) - leg.anchor));
+  for (const PlatformConstraint<2>& leg : legs)
+    worst = std::max(worst, leg.closure_error(platform.point(leg.platform_point) - leg.anchor));
   return worst;
 }
 
@@ -110,7 +110,7 @@ bool comes_before(const PlanarPose& a, const PlanarPose& b) {
   return key(a) < key(b);
 }
 
-void Found::write(PlanarModes& modes, std::span<const Reach<2>> legs) const {
+void Found::write(PlanarModes& modes, std::span<const PlatformConstraint<2>> legs) const {
   for (int n = 0; n < count_; ++n) {
     const Motion& motion = poses_[static_cast<std::size_t>(n)];
     const PlanarPose pose = legs_.in_metres(motion);
@@ -139,7 +139,7 @@ bool turn_about_pin(const ScaledLegs& legs, Found& found) {
     found.add(Motion::identity());
     return false;
   }
-  const Reach<2> leg = legs[j];
+  const PlatformConstraint<2> leg = legs[j];
   const double a = leg.anchor.norm(), b = leg.platform_point.norm(), d = leg.distance;
   const double aligned = angle_of(cross(leg.platform_point, leg.anchor), dot(leg.platform_point, leg.anchor));
   // sin² and cos² of half the turn from there, written so that nothing cancels.
@@ -152,7 +152,7 @@ bool turn_about_pin(const ScaledLegs& legs, Found& found) {
 }
 
 /// How the search ended, and in words.
-void judge(std::span<const Reach<2>> given, const ScaledLegs& legs, const Found& found, bool binds,
+void judge(std::span<const PlatformConstraint<2>> given, const ScaledLegs& legs, const Found& found, bool binds,
            Report& report) {
   if (!found.overfull() && binds && !found.empty()) return;
   const bool torn = found.empty() && are_torn(given, report);
@@ -189,9 +189,9 @@ bool choose(const ScaledLegs& legs, Sextic& sextic) {
   return best > 1e-14;
 }
 
-bool is_in_domain(std::span<const Reach<2>> legs) {
+bool is_in_domain(std::span<const PlatformConstraint<2>> legs) {
   const auto fits = [](double x) { return std::abs(x) < 1e150; };  // false for NaN
-  return std::all_of(legs.begin(), legs.end(), [&](const Reach<2>& leg) {
+  return std::all_of(legs.begin(), legs.end(), [&](const PlatformConstraint<2>& leg) {
     return fits(leg.anchor.x()) && fits(leg.anchor.y()) && fits(leg.distance) && leg.distance >= 0 &&
            fits(leg.platform_point.x()) && fits(leg.platform_point.y());
   });
@@ -199,7 +199,7 @@ bool is_in_domain(std::span<const Reach<2>> legs) {
 
 }  // namespace
 
-PlanarModes planar_modes(std::span<const Reach<2>> legs) {
+PlanarModes planar_modes(std::span<const PlatformConstraint<2>> legs) {
   PlanarModes modes;
   if (!is_in_domain(legs)) {
     modes.report.status = Status::left_domain;

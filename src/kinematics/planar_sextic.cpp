@@ -30,7 +30,7 @@ const std::array<V, compass_points> compass = {
 
 }  // namespace
 
-Sextic::Sextic(double length, const Reach<2>& second, const Reach<2>& third)
+Sextic::Sextic(double length, const PlatformConstraint<2>& second, const PlatformConstraint<2>& third)
     : length_(length),
       leg_{second, third} {
   double largest = -1, terms = 0;

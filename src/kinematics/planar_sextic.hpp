@@ -4,7 +4,7 @@
 #pragma once
 #include <array>
 
-#include "sinew/leg/reach.hpp"
+#include "sinew/leg/platform_constraint.hpp"
 #include "sinew/math/polynomial.hpp"
 #include "sinew/math/se2.hpp"
 
@@ -15,7 +15,7 @@ namespace sinew::inline v0 {
 class Sextic {
  public:
   Sextic() = default;
-  Sextic(double length, const Reach<2>& second, const Reach<2>& third);
+  Sextic(double length, const PlatformConstraint<2>& second, const PlatformConstraint<2>& third);
 
   /// Largest |F(φ)| against the terms it is the difference of: 0 where every φ is a root.
   double strength() const { return strength_; }
@@ -72,7 +72,7 @@ class Sextic {
   SE2<double> closed(SE2<double> pose) const;
 
   double length_ = 0;
-  std::array<Reach<2>, 2> leg_{};
+  std::array<PlatformConstraint<2>, 2> leg_{};
   double strength_ = 0;
   double origin_c_ = 1, origin_s_ = 0;  ///< φ of T = 0; T = ∞ is opposite, where |F| is largest
 };

@@ -14,16 +14,16 @@ namespace sinew::inline v0 {
 template <int D>
 class Reaches {
  public:
-  void add(const Reach<D>& reach) { new (place(count_++)) Reach<D>(reach); }
-  std::span<const Reach<D>> view() const {
-    return {std::launder(reinterpret_cast<const Reach<D>*>(bytes_.data())), count_};
+  void add(const PlatformConstraint<D>& reach) { new (place(count_++)) PlatformConstraint<D>(reach); }
+  std::span<const PlatformConstraint<D>> view() const {
+    return {std::launder(reinterpret_cast<const PlatformConstraint<D>*>(bytes_.data())), count_};
   }
 
  private:
-  static_assert(std::is_trivially_destructible_v<Reach<D>>);
-  void* place(std::size_t i) { return bytes_.data() + i * sizeof(Reach<D>); }
+  static_assert(std::is_trivially_destructible_v<PlatformConstraint<D>>);
+  void* place(std::size_t i) { return bytes_.data() + i * sizeof(PlatformConstraint<D>); }
 
-  alignas(Reach<D>) std::array<std::byte, max_rows * sizeof(Reach<D>)> bytes_;
+  alignas(PlatformConstraint<D>) std::array<std::byte, max_rows * sizeof(PlatformConstraint<D>)> bytes_;
   std::size_t count_ = 0;
 };
 

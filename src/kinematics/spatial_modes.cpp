@@ -20,7 +20,7 @@ Complex square(const Vec<Complex, 4>& e) { return (e.array() * e.array()).sum();
 /// Where one set of 40 paths ended.
 struct Ends {
   std::vector<Study> finite;
-  int infinite = 0, singular = 0, lost = most_modes;
+  int infinite = 0, singular = 0, lost = max_modes;
 
   bool knows(const Study& x, double tolerance) const {
     return std::ranges::any_of(finite, [&](const Study& y) { return same_ray(x, y, tolerance); });
@@ -72,7 +72,7 @@ class Poses {
   explicit Poses(const NormalLegs& normal) : normal_(normal), closing_(normal.legs) {}
 
   const std::vector<SE3<double>>& all() const { return all_; }
-  bool are_too_many() const { return all_.size() > most_modes; }
+  bool are_too_many() const { return all_.size() > max_modes; }
 
   /// Takes the pose that Newton finds from here, if any and new.
   void add(SE3<double> pose) {
@@ -155,7 +155,7 @@ class Poses {
 };
 
 /// Puts the poses into the answer, in the given legs' units.
-void tell(const Poses& poses, const NormalLegs& normal, std::span<const Reach<3>> legs, SpatialModes& modes) {
+void tell(const Poses& poses, const NormalLegs& normal, std::span<const PlatformConstraint<3>> legs, SpatialModes& modes) {
   for (const SE3<double>& pose : poses.all()) modes.poses.push_back(spatial_pose(normal.given(pose)));
   sort_poses(modes.poses, normal.size);
   const Closing<Spatial> closing(legs);
@@ -183,7 +183,7 @@ void explain(const Poses& poses, SpatialModes& modes) {
 
 }  // namespace
 
-SpatialModes spatial_modes(std::span<const Reach<3>> legs, const SpatialModesOptions& options) {
+SpatialModes spatial_modes(std::span<const PlatformConstraint<3>> legs, const SpatialModesOptions& options) {
   SpatialModes modes;
   const std::optional<NormalLegs> normal = normal_legs(legs, modes.report);
   if (Report torn;

@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "sinew/leg/reach.hpp"
+#include "sinew/leg/platform_constraint.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/solve/newton.hpp"
 
@@ -22,16 +22,16 @@ class ThreeCircles {
   static constexpr int unknowns = 3;
 
   /// Whether the legs are three with a plane each.
-  static bool fit(std::span<const Reach<3>> legs) {
-    const auto is_circle = [](const Reach<3>& leg) { return leg.distance > 0 && leg.has_plane(); };
+  static bool fit(std::span<const PlatformConstraint<3>> legs) {
+    const auto is_circle = [](const PlatformConstraint<3>& leg) { return leg.distance > 0 && leg.has_plane(); };
     return legs.size() == 3 && is_circle(legs[0]) && is_circle(legs[1]) && is_circle(legs[2]);
   }
 
   /// @param size of the robot [m]: a length to compare errors with
   /// @param towards where the angles count from: each towards the platform point there
-  ThreeCircles(std::span<const Reach<3>> legs, double size, const SE3<double>& towards) : size_(size) {
+  ThreeCircles(std::span<const PlatformConstraint<3>> legs, double size, const SE3<double>& towards) : size_(size) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Reach<3>& leg = legs[i];
+      const PlatformConstraint<3>& leg = legs[i];
       const Vec3<double>& u = leg.normal;
       const Vec3<double> w = towards.point(leg.platform_point) - leg.anchor;
       Vec3<double> side = w - dot(u, w) * u;

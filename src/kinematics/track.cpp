@@ -26,7 +26,7 @@ namespace {
 /// Newton's steps may shrink no slower: then the branch found is the one begun on.
 constexpr double contraction_limit = 0.25;
 constexpr double shortest_part = 1e-7;  // of the way between two poses
-constexpr int most_steps = 20000;       // between two poses
+constexpr int max_steps = 20000;       // between two poses
 constexpr int null_steps = 4;           // at a pose
 
 /// Projector onto the motions that leave a leg closed, in scaled coordinates.
@@ -264,9 +264,9 @@ Report Track::advance(const AnyPose& next) {
   std::vector<double> tried;
   Report report;
   ParameterPath end;
-  follow_parameter(end, {{1, 0, work_->stop}, 0, most_steps}, [&](double to, double part) {
+  follow_parameter(end, {{1, 0, work_->stop}, 0, max_steps}, [&](double to, double part) {
     ++end.iterations;
-    const AnyPose pose = to == 1 ? next : settled(*robot_, between(from, next, to));
+    const AnyPose pose = to == 1 ? next : project_to_constraints(*robot_, between(from, next, to));
     const int stuck = step(pose, part, tried, report);
     if (stuck >= 0 || !report.ok()) return ParameterStep{ParameterStep::failed, report.ok() ? part / 2 : 0};
     coordinates_ = tried;

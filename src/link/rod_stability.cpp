@@ -3,14 +3,14 @@
 #include <numbers>
 
 #include "link/rod_tangents.hpp"
-#include "sinew/link/held_rod.hpp"
+#include "sinew/link/rod_bvp.hpp"
 #include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v0 {
 namespace {
 
 using Matrix6 = Mat<double, 6, 6>;
-constexpr int most_pieces = 256;
+constexpr int max_pieces = 256;
 constexpr double free_turn = 1e-5;  // EI/L: what resists less turns freely
 
 /// Units in which all that bends is of order 1.
@@ -81,7 +81,7 @@ int pieces_for(const SpatialRod& rod, double length, const RodState<double>& bas
                           moment[2] / rod.torsion_stiffness);
   const double force = base.n.norm() + length * rod.load.norm();
   const double turn = length * ((bend + rod.precurvature).norm() + std::sqrt(force / softest));
-  return turn < 0.5 * most_pieces ? std::max(8, static_cast<int>(std::ceil(2 * turn))) : 0;
+  return turn < 0.5 * max_pieces ? std::max(8, static_cast<int>(std::ceil(2 * turn))) : 0;
 }
 
 /// The pieces put together from the base on: what the part so far resists to a motion of its end, and the

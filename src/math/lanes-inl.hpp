@@ -111,8 +111,8 @@ HWY_INLINE bool sweep_pairs(Rows&... rows) {
 /// determine them.
 template <std::size_t R, std::size_t D, class... Rows>
 HWY_INLINE void orthogonalise(Rows&... rows) {
-  constexpr int most_sweeps = 16;  // six are rarely needed
-  for (int sweep = 0; sweep < most_sweeps; ++sweep)
+  constexpr int max_sweeps = 16;  // six are rarely needed
+  for (int sweep = 0; sweep < max_sweeps; ++sweep)
     if (!sweep_pairs<R, D>(rows...)) return;
 }
 

@@ -164,7 +164,7 @@ class Examiner {
 /// Whether robots at all postures between two are clear: each point moves by at most its bound away from
 /// where it is in the middle, so a robot thicker by that is clear there, or both halves are.
 bool is_clear_between(Examiner& examiner, const std::vector<double>& from, const std::vector<double>& to,
-                      double least_motion, const Deadline& deadline, std::size_t& poses) {
+                      double min_motion, const Deadline& deadline, std::size_t& poses) {
   if (deadline.is_over()) return false;
   Body& body = examiner.body();
   std::vector<double> middle(from.size());
@@ -178,9 +178,9 @@ bool is_clear_between(Examiner& examiner, const std::vector<double>& from, const
   }
   ++poses;
   if (!examiner.touches(more)) return true;
-  if (most < least_motion) return false;
-  return is_clear_between(examiner, from, middle, least_motion, deadline, poses) &&
-         is_clear_between(examiner, middle, to, least_motion, deadline, poses);
+  if (most < min_motion) return false;
+  return is_clear_between(examiner, from, middle, min_motion, deadline, poses) &&
+         is_clear_between(examiner, middle, to, min_motion, deadline, poses);
 }
 
 /// Of a tendon that passes the sections up to `m`: its tolerance, and what tension stretches it by where all
@@ -305,7 +305,7 @@ InsertionCheck check_insertion(const InsertionScene& scene, std::span<const Inse
       }
     }
     if (k + 1 < steps.size() &&
-        !is_clear_between(examiner, here, posture_of(steps[k + 1]), options.least_motion, deadline, poses[k]))
+        !is_clear_between(examiner, here, posture_of(steps[k + 1]), options.min_motion, deadline, poses[k]))
       step.verdict = InsertionVerdict::touches;
   });
   check.is_stopped = deadline.is_over();

@@ -20,7 +20,7 @@ double descend(std::vector<double>& x, std::span<const double> lower, std::span<
   double damping = options.damping;
   std::vector<double> trial(x.size());
   Eigen::LDLT<Eigen::MatrixXd> solver(size);
-  for (int step = 0; step < options.most_steps && !options.deadline.is_over(); ++step) {
+  for (int step = 0; step < options.max_steps && !options.deadline.is_over(); ++step) {
     bool is_better = false;
     for (int attempt = 0; attempt < 12 && !is_better; ++attempt) {
       Eigen::MatrixXd H = at.hessian.selfadjointView<Eigen::Lower>();
@@ -44,7 +44,7 @@ double descend(std::vector<double>& x, std::span<const double> lower, std::span<
     const double before = at.cost;
     x = trial;
     evaluate(x, at, true);
-    if (before - at.cost < options.least_gain * before) break;
+    if (before - at.cost < options.min_gain * before) break;
   }
   return at.cost;
 }

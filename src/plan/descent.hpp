@@ -41,8 +41,8 @@ struct Quadratic {
 };
 
 struct DescentOptions {
-  int most_steps = 40;
-  double least_gain = 1e-6;  ///< it ends where a step lowers the cost by a smaller share
+  int max_steps = 40;
+  double min_gain = 1e-6;  ///< it ends where a step lowers the cost by a smaller share
   double damping = 1e-3;     ///< at first, of the diagonal
   Deadline deadline;
 };

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double least_deviation = 0.02e-3;  // of curved primitives from their triangles [m]
+constexpr double min_deviation = 0.02e-3;  // of curved primitives from their triangles [m]
 
 Vec3<double> vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
@@ -156,13 +156,13 @@ class SceneReader {
       ++shapes, mesh = box_mesh(vector_of(size->array<3>(Dimension::length, Range::size())));
     if (const auto radius = obstacle.optional("sphere")) {
       const double r = radius->quantity(Dimension::length, Range::size());
-      ++shapes, mesh = sphere_mesh(r, std::max(least_deviation, 1e-3 * r));
+      ++shapes, mesh = sphere_mesh(r, std::max(min_deviation, 1e-3 * r));
     }
     if (auto cylinder = obstacle.optional("cylinder")) {
       const double r = cylinder->required("radius").quantity(Dimension::length, Range::size());
       const double length = cylinder->required("length").quantity(Dimension::length, Range::size());
       cylinder->close();
-      ++shapes, mesh = cylinder_mesh(r, length, std::max(least_deviation, 1e-3 * r));
+      ++shapes, mesh = cylinder_mesh(r, length, std::max(min_deviation, 1e-3 * r));
     }
     if (shapes != 1 && obstacle.is(Node::Kind::map))
       obstacle.fail("wrong_shape", "write one of mesh, box, sphere, cylinder");

@@ -8,7 +8,7 @@ namespace {
 // Scales of the terms: what each of them may be off before it costs as much as the others [m, rad].
 constexpr double contact_scale = 0.05e-3, target_scale = 0.05e-3, direction_scale = 5e-3;
 
-double least_radius(const SerialRobot& robot) {
+double min_radius(const SerialRobot& robot) {
   double least = 1e9;
   for (const Section& section : robot.sections) least = std::min(least, section.outer_radius());
   return least;
@@ -27,7 +27,7 @@ Vec3<double> Guide::at(double arc) const {
 }
 
 Search::Search(const InsertionScene& scene, const Obstacles& obstacles, double spacing)
-    : body(scene, spacing * least_radius(scene.robot)),
+    : body(scene, spacing * min_radius(scene.robot)),
       scene_(&scene),
       obstacles_(&obstacles) {
   lower.push_back(0), upper.push_back(scene.stage_limit);
@@ -110,12 +110,12 @@ bool Search::is_at_target() const {
   return off <= scene_->target.direction_tolerance;
 }
 
-Posture Search::descended(Posture x, const std::function<void(Quadratic&)>& more, int most_steps,
+Posture Search::descended(Posture x, const std::function<void(Quadratic&)>& more, int max_steps,
                           bool holds_stage) {
   std::vector<double> low = lower, high = upper;
   if (holds_stage) low[0] = high[0] = x[0];
   DescentOptions options;
-  options.most_steps = most_steps;
+  options.max_steps = max_steps;
   options.deadline = deadline;
   descend(
       x, low, high,

@@ -46,7 +46,7 @@ class Search {
   bool is_at_target() const;
   const InsertionScene& scene() const { return *scene_; }
 
-  Posture descended(Posture x, const std::function<void(Quadratic&)>& more, int most_steps, bool holds_stage);
+  Posture descended(Posture x, const std::function<void(Quadratic&)>& more, int max_steps, bool holds_stage);
 
  private:
   const InsertionScene* scene_;

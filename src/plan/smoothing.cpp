@@ -98,11 +98,11 @@ class WayCost {
 
 }  // namespace
 
-void smooth(std::vector<Posture>& way, std::vector<Search>& searches, double goal, int most_rounds) {
+void smooth(std::vector<Posture>& way, std::vector<Search>& searches, double goal, int max_rounds) {
   for (Search& search : searches) search.goal = goal;
   WayCost now(way.size(), searches), other(way.size(), searches);
   double cost = now.evaluate(way, true), damping = 1e-4;
-  for (int round = 0; round < most_rounds && !searches.front().deadline.is_over(); ++round) {
+  for (int round = 0; round < max_rounds && !searches.front().deadline.is_over(); ++round) {
     bool is_better = false;
     for (int attempt = 0; attempt < 8 && !is_better; ++attempt) {
       const auto move = now.step(way, searches.front(), damping);

@@ -9,6 +9,6 @@ namespace sinew::inline v0 {
 /// the stages held. Every step is a block: its Hessian is block tridiagonal and is solved as such.
 /// @param way from outside to the target; improved in place
 /// @param goal clearance that contact asks for [m]
-void smooth(std::vector<Posture>& way, std::vector<Search>& searches, double goal, int most_rounds);
+void smooth(std::vector<Posture>& way, std::vector<Search>& searches, double goal, int max_rounds);
 
 }  // namespace sinew::inline v0

@@ -7,7 +7,7 @@
 
 namespace sinew::inline v0 {
 
-std::vector<InsertionStep> interpolated(std::span<const InsertionStep> steps, double most_stage) {
+std::vector<InsertionStep> interpolated(std::span<const InsertionStep> steps, double max_stage) {
   if (steps.size() < 2) return {steps.begin(), steps.end()};
   const std::size_t sections = steps.front().bends.size();
   std::vector<double> stages, bends;
@@ -19,7 +19,7 @@ std::vector<InsertionStep> interpolated(std::span<const InsertionStep> steps, do
   std::vector<InsertionStep> dense;
   for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
     const double h = stages[k + 1] - stages[k];
-    const int count = std::max(1, static_cast<int>(std::ceil(h / most_stage - 1e-9)));
+    const int count = std::max(1, static_cast<int>(std::ceil(h / max_stage - 1e-9)));
     dense.push_back(steps[k]);
     for (int i = 1; i < count; ++i) {
       InsertionStep step;

@@ -30,9 +30,9 @@ Load<Space> read_load(Context& context) {
 }
 
 /// Lengths [[l₁ or null, l₂ or null], ...]; a tendon without a length is loose.
-std::vector<ChainHold> read_lengths(const Reader& list, std::size_t legs);
+std::vector<TendonConstraint> read_lengths(const Reader& list, std::size_t legs);
 /// Tensions [[T₁, T₂], ...].
-std::vector<ChainHold> read_tensions(const Reader& list, std::size_t legs);
+std::vector<TendonConstraint> read_tensions(const Reader& list, std::size_t legs);
 
 template <class Space>
 Json chain_legs_json(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
@@ -83,7 +83,7 @@ void put_simpler_models(Context& context, const ChainLegs<Space>& robot, const C
   if (load.threshold) answer["linear_valid"] = posture <= *load.threshold;
 
   std::size_t held = 0;
-  for (const ChainHold& hold : loaded.hold) held += hold.length_of >= 0 ? 1 : 0;
+  for (const TendonConstraint& hold : loaded.hold) held += hold.length_of >= 0 ? 1 : 0;
   ChainState<Space> even = unloaded;
   if (held == 0) {
     ChainOptions options = load.options;
@@ -96,7 +96,7 @@ void put_simpler_models(Context& context, const ChainLegs<Space>& robot, const C
     return;
   }
   put_number(answer, "cc_gap", potential(robot, even) - potential(robot, loaded));
-  put_number(answer, "cc_gap_estimate", evenness_gap(robot, unloaded, loaded.wrench));
+  put_number(answer, "cc_gap_estimate", constant_curvature_energy_gap(robot, unloaded, loaded.wrench));
   answer["cc_pose"] = to_json(AnyPose(Space::tidy(even.pose)));
 }
 

@@ -12,19 +12,19 @@ template <class Space>
 struct CurveQuery {
   Branch branch;
   AnyPose at;                   ///< where tendons are set, or the search begins
-  std::vector<ChainHold> hold;  ///< tensions or lengths; of set_at none
+  std::vector<TendonConstraint> hold;  ///< tensions or lengths; of set_at none
   bool holds_lengths;
   Wrench<Space> wrench;
   ChainCurveOptions<Space> how;
 };
 
 /// Tensions or lengths of the tendons, if given.
-std::vector<ChainHold> read_hold(Reader& query, std::size_t legs) {
+std::vector<TendonConstraint> read_hold(Reader& query, std::size_t legs) {
   const auto tensions = query.optional("tensions"), lengths = query.optional("lengths");
   if (tensions && lengths)
     query.fail("ambiguous", "tensions and lengths each say what holds the robot; keep one");
   if (tensions) return read_tensions(*tensions, legs);
-  return lengths ? read_lengths(*lengths, legs) : std::vector<ChainHold>();
+  return lengths ? read_lengths(*lengths, legs) : std::vector<TendonConstraint>();
 }
 
 template <class Space>

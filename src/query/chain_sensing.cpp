@@ -11,7 +11,7 @@ struct SensingQuery {
   Branch branch;
   std::optional<AnyPose> start;
   std::vector<double> inputs;   ///< or else
-  std::vector<ChainHold> hold;  ///< lengths
+  std::vector<TendonConstraint> hold;  ///< lengths
   std::vector<MeasuredTension> measured;
   std::vector<double> deviations;  ///< of these, or none
 };

@@ -44,7 +44,7 @@ Report rest_under(Context& context, ChainLegs<Space>& robot, const Asked<Space>&
   const Wrench<Space> wrench = asked.wrench.value_or(Wrench<Space>::Zero());
   if (!asked.at.inputs) {
     const Report report = rest_at(context, robot, *asked.at.pose, asked.at.branch, true, state);
-    return report.ok() ? hold_pose(robot, wrench, state, work, asked.options) : report;
+    return report.ok() ? inverse_statics(robot, wrench, state, work, asked.options) : report;
   }
   const HeldInputs held = hold_inputs(context, robot, *asked.at.inputs, asked.at.start);
   const Report report = unloaded(robot, held, state, work, asked.options);

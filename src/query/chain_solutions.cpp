@@ -11,7 +11,7 @@
 namespace sinew::inline v0::chains {
 namespace {
 
-constexpr double most_inverses = 256;
+constexpr double max_inverses = 256;
 
 template <class Space>
 Json solution_json(Json begun, const ChainLegs<Space>& robot, const FoundChains<Space>& one) {
@@ -48,16 +48,16 @@ void put_all_inverses(Context& context, ChainLegs<Space> robot, const AnyPose& p
   ArcTwin twin = twin_of(context);
   const WorkingModes modes = working_modes(twin.robot, pose, branch.options(), twin.work);
   std::vector<std::vector<double>> ways;
-  for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, most_inverses); ++k)
+  for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, max_inverses); ++k)
     modes.mode(twin.robot, k, ways.emplace_back(twin.work.inputs.size()));
   ChainWork& work = work_of(context);
   std::vector<std::pair<double, Json>> found;
   for (const std::vector<double>& way : ways) {
     if (work.stop.stop_requested()) break;
     FoundChains<Space> one;
-    static_cast<void>(command(twin.robot, way, twin.work));
+    static_cast<void>(coordinates_from_inputs(twin.robot, way, twin.work));
     one.report = rest_near(robot, pose, arcs_of(twin, pose, twin.work.coordinates), true, one.state);
-    if (one.report.ok()) one.report = hold_pose(robot, load.wrench, one.state, work, load.options);
+    if (one.report.ok()) one.report = inverse_statics(robot, load.wrench, one.state, work, load.options);
     if (!is_solved(one.report)) continue;
     one.stability = check_stability(robot, one.state, work);
     one.potential = potential(robot, one.state);
@@ -66,9 +66,9 @@ void put_all_inverses(Context& context, ChainLegs<Space> robot, const AnyPose& p
   }
   std::ranges::stable_sort(found, {},
                            [](const auto& one) { return std::isfinite(one.first) ? one.first : 0; });
-  if (modes.count > most_inverses)
+  if (modes.count > max_inverses)
     context.answer["message"] =
-        fmt::format("{:.0f} branches exist; the first {:.0f} were tried", modes.count, most_inverses);
+        fmt::format("{:.0f} branches exist; the first {:.0f} were tried", modes.count, max_inverses);
   Json solutions = Json::array();
   for (auto& [energy, one] : found) solutions.push_back(std::move(one));
   put_solutions(context, std::move(solutions));

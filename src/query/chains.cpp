@@ -18,8 +18,8 @@ void refuse_open_legs(Context& context, double closure_error) {
                                  closure_error));
 }
 
-std::vector<ChainHold> read_lengths(const Reader& list, std::size_t legs) {
-  std::vector<ChainHold> hold(legs);
+std::vector<TendonConstraint> read_lengths(const Reader& list, std::size_t legs) {
+  std::vector<TendonConstraint> hold(legs);
   const auto items = list.items(legs);
   for (std::size_t i = 0; i < std::min(items.size(), legs); ++i) {
     const auto pair = items[i].items(2);
@@ -37,8 +37,8 @@ std::vector<ChainHold> read_lengths(const Reader& list, std::size_t legs) {
   return hold;
 }
 
-std::vector<ChainHold> read_tensions(const Reader& list, std::size_t legs) {
-  std::vector<ChainHold> hold(legs);
+std::vector<TendonConstraint> read_tensions(const Reader& list, std::size_t legs) {
+  std::vector<TendonConstraint> hold(legs);
   const auto items = list.items(legs);
   for (std::size_t i = 0; i < std::min(items.size(), legs); ++i)
     hold[i].tension = items[i].array<2>(Dimension::force, Range::not_negative());
@@ -56,7 +56,7 @@ template <class Space>
 void load_and_answer(Context& context, const ChainLegs<Space>& robot, ChainState<Space>& state,
                      const ChainState<Space>& unloaded, const Load<Space>& load) {
   ChainWork& work = work_of(context);
-  const std::vector<ChainHold> hold = state.hold;
+  const std::vector<TendonConstraint> hold = state.hold;
   Report report = equilibrium(robot, hold, load.wrench, state, work, load.options);
   if (report.ok() && load.until) {
     const ChainLoadPath path =
@@ -113,7 +113,7 @@ void answer_statics_of(Context& context, ChainLegs<Space>& robot) {
     query.fail("ambiguous", "until follows a load, inverse holds a pose; keep one");
   if (load.threshold && inverse_asked) refuse_threshold(context);
   const bool holds_lengths = hold_word && hold_word->choice({"tension", "length"}) == "length";
-  std::vector<ChainHold> hold;
+  std::vector<TendonConstraint> hold;
   if (tensions) hold = read_tensions(*tensions, legs);
   if (lengths) hold = read_lengths(*lengths, legs);
   AnyPose at = home(context.robot);
@@ -131,7 +131,7 @@ void answer_statics_of(Context& context, ChainLegs<Space>& robot) {
   if (!report.ok()) return put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
   const ChainState<Space> unloaded = state;
   if (!inverse_asked) return load_and_answer(context, robot, state, unloaded, load);
-  const Report held = hold_pose(robot, load.wrench, state, work, load.options);
+  const Report held = inverse_statics(robot, load.wrench, state, work, load.options);
   put_equilibrium<Space>(context, robot, state, held, nullptr, load, work);
 }
 
@@ -165,7 +165,7 @@ void answer_inverse_of(Context& context, ChainLegs<Space>& robot) {
   ChainState<Space> state;
   Report report = rest_at(context, robot, at, branch, true, state);
   ChainWork& work = work_of(context);
-  if (report.ok()) report = hold_pose(robot, load.wrench, state, work, load.options);
+  if (report.ok()) report = inverse_statics(robot, load.wrench, state, work, load.options);
   put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
   if (is_solved(report)) context.answer["inputs"] = to_json(inputs_of(twin_of(context), robot, state));
   if (wants_all) put_all_inverses(context, robot, at, branch, load);

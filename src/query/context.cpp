@@ -144,7 +144,7 @@ Solved solve_configuration(Context& context, const Configuration& given) {
     context.remember(solved.ok() ? std::optional(solved.pose) : std::nullopt);
     return {solved.report, solved.pose, {solved.coordinates.begin(), solved.coordinates.end()}};
   }
-  Report report = command(context.robot, *given.inputs, work);
+  Report report = coordinates_from_inputs(context.robot, *given.inputs, work);
   Solved solved{report, *given.pose, work.coordinates};
   if (!report.ok()) return solved;
   const Reduced reduced = assemble(context.robot, solved.pose, solved.coordinates, work);

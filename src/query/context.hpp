@@ -130,7 +130,7 @@ std::optional<Along> read_along(Context& context);
 void put_type_2_distance(Context& context, const Along& along, const Configuration& given,
                          const AnyPose& pose);
 
-inline constexpr int default_path_samples = 60, most_path_samples = 100000;
+inline constexpr int default_path_samples = 60, max_path_samples = 100000;
 /// Poses of a path: a list, or samples of a straight line.
 std::vector<AnyPose> read_path(Context& context);
 Objective read_objective(Reader& query);

@@ -11,7 +11,7 @@ namespace sinew::inline v0 {
 /// `range`, `samples`, `backward` and `branches` into the options of a curve.
 template <class Options>
 void read_extent(Context& context, Options& how) {
-  constexpr int most_points = 20000;
+  constexpr int max_points = 20000;
   if (const auto range = context.query.optional("range")) {
     const auto ends = range->items(2);
     if (ends.size() == 2) {
@@ -20,7 +20,7 @@ void read_extent(Context& context, Options& how) {
     }
   }
   if (const auto samples = context.query.optional("samples"))
-    how.max_points = samples->integer(Range::between(2, most_points));
+    how.max_points = samples->integer(Range::between(2, max_points));
   if (const auto backward = context.query.optional("backward")) {
     how.is_backward = backward->boolean();
     if (how.is_backward && how.lowest == 0)

@@ -73,7 +73,7 @@ Json leg_json(const RodLeg& leg, const LegPlace& place) {
           {"link", link},
           {"closure", closure},
           {"platform_point", to_json(leg.platform_point)},
-          {"actuated", {RodFeeder::input_kinds[0].name}},
+          {"actuated", {RodLengthDrive::input_kinds[0].name}},
           {"input", place.input}};
 }
 
@@ -95,7 +95,7 @@ void add_inputs(Json& inputs, const LegT& leg, std::size_t index) {
 }
 
 void add_inputs(Json& inputs, const RodLeg&, std::size_t index) {
-  inputs.push_back({{"name", joined(joined("legs", index), RodFeeder::input_kinds[0].name)}, {"unit", "m"}});
+  inputs.push_back({{"name", joined(joined("legs", index), RodLengthDrive::input_kinds[0].name)}, {"unit", "m"}});
 }
 
 Json pose_json(bool is_planar) {

@@ -14,8 +14,8 @@
 namespace sinew::inline v0 {
 namespace {
 
-constexpr double most_solutions = 256;
-constexpr std::size_t most_trace = 1000;
+constexpr double max_solutions = 256;
+constexpr std::size_t max_trace = 1000;
 
 void refuse_if_asked(Context& context, std::string_view key, std::string_view why) {
   if (const auto asked = context.query.optional(key)) asked->fail("not_available", why);
@@ -31,16 +31,16 @@ Json all_working_modes(Context& context, const AnyPose& pose, const Branch& bran
   const WorkingModes modes = working_modes(context.robot, pose, branch.options(), context.work);
   Json solutions = Json::array();
   std::vector<double> inputs(context.work.inputs.size());
-  for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, most_solutions); ++k) {
+  for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, max_solutions); ++k) {
     modes.mode(context.robot, k, inputs);
-    command(context.robot, inputs, context.work);
+    coordinates_from_inputs(context.robot, inputs, context.work);
     const std::vector<double> coordinates = context.work.coordinates;
     solutions.push_back(
         {{"inputs", to_json(inputs)}, {"legs", legs_json(context.robot, pose, coordinates, context.work)}});
   }
-  if (modes.count > most_solutions)
+  if (modes.count > max_solutions)
     context.answer["message"] =
-        fmt::format("{:.0f} working modes exist; the first {:.0f} are listed", modes.count, most_solutions);
+        fmt::format("{:.0f} working modes exist; the first {:.0f} are listed", modes.count, max_solutions);
   else if (modes.is_continuum)
     context.answer["message"] =
         "the robot is redundant: at this pose its legs can move; listed are the modes of the curvature asked "
@@ -133,7 +133,7 @@ void answer_forward(Context& context) {
   options.start = read_start(context);
   std::vector<TraceStep> trace;
   if (const auto wanted = context.query.optional("trace"))
-    if (wanted->boolean()) trace.resize(most_trace);
+    if (wanted->boolean()) trace.resize(max_trace);
   options.trace = trace;
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();

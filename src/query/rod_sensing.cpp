@@ -41,7 +41,7 @@ void answer_rods_statics(Context& context) {
   const SensingQuery asked = read_sensing(context);
   if (!context.ready()) return;
   EquilibriumOptions options = asked.options;
-  options.resume = holds_last(context);
+  options.warm_start = holds_last(context);
   const SensedWrench sensed =
       sense_wrench(context.robot, asked.inputs, asked.axial, asked.deviations, options, context.work);
   context.report(sensed.report);

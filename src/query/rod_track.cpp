@@ -42,7 +42,7 @@ std::vector<Held> read_independent_path(Context& context) {
          last = query.required("to", "{z, e1, e2}: where the path ends");
   const Held from = read_independent(context, first), to = read_independent(context, last);
   const auto samples = query.optional("samples");
-  const int count = samples ? samples->integer(Range::between(2, most_path_samples)) : default_path_samples;
+  const int count = samples ? samples->integer(Range::between(2, max_path_samples)) : default_path_samples;
   for (int k = 0; k < count && context.errors.empty(); ++k)
     path.push_back(k + 1 < count ? held_between(from, to, static_cast<double>(k) / (count - 1)) : to);
   return path;
@@ -82,7 +82,7 @@ constexpr double longest_stride = 0.05, widest_turn = 0.1;
 /// them.
 Equilibrium follow_to(Context& context, const Held& from, const Held& to, EquilibriumOptions options,
                       double length) {
-  options.resume = true;
+  options.warm_start = true;
   int strides = 1;
   if (const auto* pose = std::get_if<SpatialPose>(&to)) {
     const Vec<double, 6> way = twist_between(std::get<SpatialPose>(from), *pose);
@@ -90,12 +90,12 @@ Equilibrium follow_to(Context& context, const Held& from, const Held& to, Equili
         std::max(way.head<3>().norm() / (longest_stride * length), way.tail<3>().norm() / widest_turn);
     strides = static_cast<int>(std::clamp(std::ceil(far), 1.0, 1e6));
   }
-  options.judge = false;
+  options.check_stability = false;
   for (int k = 1; k < strides; ++k) {
     Equilibrium found = hold(context, held_between(from, to, static_cast<double>(k) / strides), options);
     if (!found.is_solved()) return found;
   }
-  options.judge = true;
+  options.check_stability = true;
   return hold(context, to, options);
 }
 
@@ -156,7 +156,7 @@ void answer_rods_path(Context& context) {
   std::size_t unstable = 0, first_unstable = 0;
   Equilibrium found;
   EquilibriumOptions options = asked.options;
-  options.resume = begin_at(context, asked.start, options, found.report);
+  options.warm_start = begin_at(context, asked.start, options, found.report);
   if (!found.report.ok() && found.report.status != Status::unstable) {
     context.report(found.report);
     context.answer["message"] = "from start: " + std::string(found.report.message.view());

@@ -48,9 +48,9 @@ IndependentPose read_independent(const Context& context, Reader& asked) {
 
 namespace {
 
-Json rods_json(std::span<const RodReading> rods) {
+Json rods_json(std::span<const RodResult> rods) {
   Json legs = Json::array();
-  for (const RodReading& rod : rods) {
+  for (const RodResult& rod : rods) {
     const Vec3<double> moment = rod.moment_0;
     legs.push_back({{"length", rod.length},
                     {"chord", rod.chord},
@@ -185,10 +185,10 @@ Equilibrium solve(Context& context, const RodQuery& asked) {
                                : equilibrium(context.robot, asked.inputs, options, context.work);
   };
   const bool goes_on = holds_last(context);
-  options.resume = options.resume || goes_on || (context.path_start() && !options.start);
+  options.warm_start = options.warm_start || goes_on || (context.path_start() && !options.start);
   Equilibrium found = put();
   if (goes_on && options.start && !found.is_solved() && found.report.status != Status::stopped) {
-    options.resume = false;  // laid to that pose the rods may be on another curve
+    options.warm_start = false;  // laid to that pose the rods may be on another curve
     found = put();
   }
   remember_held(context, found.is_solved() ? std::optional(found.pose) : std::nullopt);
@@ -344,7 +344,7 @@ void answer_rods_inverse(Context& context) {
     all->fail("not_available", "of several solutions only the one nearest home is found; leave it out");
   if (!context.ready()) return;
   Report begun;
-  asked.options.resume = begin_at(context, start, asked.options, begun);
+  asked.options.warm_start = begin_at(context, start, asked.options, begun);
   if (!begun.ok() && begun.status != Status::unstable) {
     context.report(begun);
     context.answer["message"] = "from start: " + std::string(begun.message.view());

@@ -99,7 +99,7 @@ void put_configuration(SerialContext& context, std::span<const Bend> bends, kern
   Json& answer = context.answer;
   answer["configuration"] = configuration_json(context, bends);
   tendon_changes(bends, model, context.work);
-  if (!more.empty()) pay_out(more, context.work);
+  if (!more.empty()) add_slack(more, context.work);
   std::copy(given.begin(), given.end(), context.work.changes.begin());
   answer["changes"] = by_section(context.robot, context.work.changes);
   section_ends(bends, context.work);
@@ -185,7 +185,7 @@ void solve_shape(SerialContext& context, kernel::Model model, Shaped& shape) {
     shape.slack = work.slack;
     shape.slack.resize(context.work.slack.size(), 0.0);
   }
-  extend(context.robot, shape.extensions, context.work);
+  set_extensions(context.robot, shape.extensions, context.work);
 }
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -216,8 +216,8 @@ ByConfiguration by_configuration(const SerialContext& context, std::span<const B
     by.K.middleCols<2>(column) = K.middleCols<2>(from) * turn;
     column += 2;
     if (sections[m].is_extensible()) {
-      by.J.col(column).head<3>() = work.lengthwise[m].tip;
-      by.K.col(column).tail(K.rows() - row).setConstant(work.lengthwise[m].tendons);
+      by.J.col(column).head<3>() = work.extension_jacobians[m].tip;
+      by.K.col(column).tail(K.rows() - row).setConstant(work.extension_jacobians[m].tendons);
       ++column;
     }
     row += sections[m].tendons;
@@ -234,7 +234,7 @@ Json indices_json(const SerialContext& context) {
   for (std::size_t m = 0; m < context.robot.sections.size(); ++m) {
     if (!context.robot.sections[m].is_extensible()) continue;
     J.conservativeResize(6, J.cols() + 1);
-    J.rightCols<1>() << length * work.lengthwise[m].tip, 0, 0, 0;
+    J.rightCols<1>() << length * work.extension_jacobians[m].tip, 0, 0, 0;
   }
   const auto ratio = [](const Rows& matrix) {  // of more columns than the library's own decomposition takes
     const Eigen::VectorXd sigma = Eigen::JacobiSVD<Rows>(matrix).singularValues();
@@ -393,7 +393,7 @@ void answer_serial_describe(SerialContext context) {
     if (section.disc_radius > 0)
       one["disc"] = {{"height", section.disc_height}, {"radius", section.disc_radius}};
     if (std::isfinite(section.limit)) one["limit"] = section.limit;
-    if (section.is_extensible()) one["extension"] = {section.least_extension, section.most_extension};
+    if (section.is_extensible()) one["extension"] = {section.min_extension, section.max_extension};
     sections.push_back(std::move(one));
     for (const char* name : section.is_twin() ? std::array{"beta_1", "beta_2"} : std::array{"theta", "phi"})
       coordinates.push_back({{"name", joined(place, name)}, {"unit", "rad"}});

@@ -69,7 +69,7 @@ std::string_view meaning_of(Model model) {
 /// How a query wants the robot's links to be taken. `statics` is of links that yield.
 struct ModelQuery {
   Model model;
-  ChainModel discretisation = ChainModel::weighted;
+  PrbDiscretisation discretisation = PrbDiscretisation::weighted;
 };
 ModelQuery read_model(Reader& query, const std::optional<Reader>& word, const Robot& robot,
                       const Kind& kind) {
@@ -85,8 +85,8 @@ ModelQuery read_model(Reader& query, const std::optional<Reader>& word, const Ro
   }
   if (asked.model != Model::prb) return asked;
   if (const auto law = query.optional("law"))
-    asked.discretisation = law->choice_of<ChainModel>(
-        {{"M0w", ChainModel::weighted}, {"M0", ChainModel::even}, {"M1", ChainModel::discs}});
+    asked.discretisation = law->choice_of<PrbDiscretisation>(
+        {{"M0w", PrbDiscretisation::weighted}, {"M0", PrbDiscretisation::even}, {"M1", PrbDiscretisation::discs}});
   return asked;
 }
 

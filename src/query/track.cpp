@@ -25,7 +25,7 @@ std::vector<AnyPose> straight_path(const Robot& robot, const AnyPose& from, cons
       poses.emplace_back(PlanarPose{std::lerp(a->x, b->x, part), std::lerp(a->y, b->y, part),
                                     std::lerp(a->phi, b->phi, part)});
     else
-      poses.push_back(k == 0 ? from : k + 1 < samples ? settled(robot, between(from, to, part)) : to);
+      poses.push_back(k == 0 ? from : k + 1 < samples ? project_to_constraints(robot, between(from, to, part)) : to);
   }
   return poses;
 }
@@ -51,7 +51,7 @@ std::vector<AnyPose> read_path(Context& context) {
   const AnyPose from = read_pose(context, query.required("from", "first pose of the path, or poses: a list"));
   const AnyPose to = read_pose(context, query.required("to", "last pose of the path"));
   const auto samples = query.optional("samples");
-  const int count = samples ? samples->integer(Range::between(2, most_path_samples)) : default_path_samples;
+  const int count = samples ? samples->integer(Range::between(2, max_path_samples)) : default_path_samples;
   return context.errors.empty() ? straight_path(context.robot, from, to, std::max(count, 2))
                                 : std::vector<AnyPose>{};
 }

@@ -58,11 +58,11 @@ Reduced assemble(const Robot& robot, const AnyPose& pose, Numbers coordinates, W
   }
   return with_legs(robot, [&]<class Any>(const ParallelRobot<Any>& legs) {
     using Space = typename Any::Space;
-    const auto misfit = KinematicGroup(legs).evaluate(Space::frame(in_space<Space>(pose)), coordinates,
+    const auto closure_error = KinematicGroup(legs).evaluate(Space::frame(in_space<Space>(pose)), coordinates,
                                                       {work.J, work.K, work.s});
     return Reduced{MatrixView(work.J.data(), legs.total.row, Space::dof),
-                   MatrixView(work.K.data(), legs.total.row, legs.total.input), work.s, misfit.distance,
-                   misfit.leg};
+                   MatrixView(work.K.data(), legs.total.row, legs.total.input), work.s, closure_error.distance,
+                   closure_error.leg};
   });
 }
 
@@ -81,7 +81,7 @@ MatrixView homogenise(const Robot& robot, const Reduced& reduced, Workspace& wor
   return {work.unit_J.data(), reduced.J.rows(), dof};
 }
 
-Report command(const Robot& robot, Numbers inputs, Workspace& work) {
+Report coordinates_from_inputs(const Robot& robot, Numbers inputs, Workspace& work) {
   if (Report report = check_workspace(robot, work); !report.ok()) return report;
   if (bears_load(robot)) {
     Report report;

@@ -43,7 +43,7 @@ Errors lacks(const LegT& leg, std::size_t index) {
 }
 
 template <class Space, class LegT>
-ChainLeg<Space> chain_leg(const LegT& leg, ChainModel model) {
+ChainLeg<Space> chain_leg(const LegT& leg, PrbDiscretisation model) {
   ChainLeg<Space> chain;
   const double d = *leg.backbone.diameter;
   chain.base = leg.base;
@@ -60,7 +60,7 @@ ChainLeg<Space> chain_leg(const LegT& leg, ChainModel model) {
 }
 
 template <class LegT>
-Expected<AnyChains> make_chains_of(const ParallelRobot<LegT>& robot, ChainModel model) {
+Expected<AnyChains> make_chains_of(const ParallelRobot<LegT>& robot, PrbDiscretisation model) {
   using Space = typename LegT::Space;
   ChainLegs<Space> chains;
   chains.platform_radius = robot.platform_radius;
@@ -73,7 +73,7 @@ Expected<AnyChains> make_chains_of(const ParallelRobot<LegT>& robot, ChainModel 
         errors = lacks(leg, i);
         if (!errors.empty()) return;
         chains.legs.push_back(chain_leg<Space>(leg, model));
-        if (One::Link::has_own_turn) ++motors;
+        if (One::Link::has_base_joint) ++motors;
       } else {
         errors.push_back(
             {"not_available", fmt::format("legs[{}]", i),
@@ -97,7 +97,7 @@ Expected<AnyChains> make_chains_of(const ParallelRobot<LegT>& robot, ChainModel 
 
 }  // namespace
 
-Expected<AnyChains> make_chains(const AnyLegs& legs, ChainModel discretisation) {
+Expected<AnyChains> make_chains(const AnyLegs& legs, PrbDiscretisation discretisation) {
   return std::visit([&](const auto& own) { return make_chains_of(own, discretisation); }, legs);
 }
 

@@ -14,14 +14,14 @@ namespace {
 
 constexpr double millimetres = 1e3;  ///< of a metre
 constexpr double largest = std::numeric_limits<std::int16_t>::max();
-constexpr double most_unlike = 4;    ///< greatest gain over least: what a share's inverse holds
+constexpr double max_unlike = 4;    ///< greatest gain over least: what a share's inverse holds
 constexpr double lost_chord = 3e-8;  ///< of its series, half a step of a float
-constexpr int most_bits = 30;        ///< behind the point, of numbers that are all small
-constexpr int least_terms = 2;
+constexpr int max_bits = 30;        ///< behind the point, of numbers that are all small
+constexpr int min_terms = 2;
 
 /// As many bits behind the point as `most` leaves, so that it stays below 2¹⁵ with so many steps to spare.
 int fraction_of(double most, double spare = 1) {
-  int bits = most_bits;
+  int bits = max_bits;
   while (bits >= 0 && std::ldexp(most, bits) > largest - spare) --bits;
   return bits;
 }
@@ -34,7 +34,7 @@ std::vector<double> chord_series(const kernel::Section<double>& map, double limi
   for (int k = 1;; ++k) {
     coefficient /= -(2.0 * k) * (2.0 * k + 1);  // of w^k in sin √w / √w
     power *= square;
-    if (k > least_terms && std::abs(coefficient * std::pow(w, k)) < lost_chord) return series;
+    if (k > min_terms && std::abs(coefficient * std::pow(w, k)) < lost_chord) return series;
     series.push_back(coefficient * power);
   }
 }
@@ -227,11 +227,11 @@ Expected<ControllerTable> make_controller_table(const SerialRobot& robot, kernel
   const auto gain = [](const Section& section) { return section.map().gain; };
   const auto [lowest, highest] = std::ranges::minmax_element(robot.sections, {}, gain);
   const double least = gain(*lowest), greatest = gain(*highest);
-  if (greatest >= most_unlike * least)
+  if (greatest >= max_unlike * least)
     return failure(
         "unlike_gains", "sections",
         fmt::format("the greatest gain, {:.3g} mm, is {:.3g} times the least; it must be less than {} times",
-                    greatest * millimetres, greatest / least, most_unlike));
+                    greatest * millimetres, greatest / least, max_unlike));
   ControllerTable table;
   table.robot = robot.name;
   table.model = model;

@@ -65,9 +65,9 @@ Mat<double, 8, 6> base_columns(const GeneralRod& rod) {
   Mat<double, 8, 6> columns = Mat<double, 8, 6>::Zero();
   columns.topLeftCorner<3, 3>() = Mat<double, 3, 3>::Identity() * rod.force_unit;
   columns.block<3, 3>(RodTangent::moment, 3) = rod.frame.R.matrix() * rod.moment_unit;
-  if (rod.seeks_spin) {  // the torque stays 0 while the section turns
+  if (rod.seeks_axial_rotation) {  // the torque stays 0 while the section turns
     columns.col(5).setZero();
-    columns(RodTangent::spin, 5) = 1;
+    columns(RodTangent::axial_rotation, 5) = 1;
   }
   return columns;
 }
@@ -83,7 +83,7 @@ Mat<double, 6, 6> carried(const Vec3<double>& arm) {
 void spoil(GeneralRod& rod) {
   rod.is_regular = false;
   rod.by_twist.setConstant(not_a_number);
-  rod.handed.setConstant(not_a_number);
+  rod.tip_wrench_jacobian.setConstant(not_a_number);
   rod.by_length.setConstant(not_a_number);
   rod.feed.setConstant(not_a_number);
   rod.fix.setConstant(not_a_number);
@@ -109,19 +109,19 @@ void linearise_rod(GeneralRod& rod, const SE3<double>& platform, int steps) {
     rod.by_twist.col(c) = solved;
   }
   rod.factors.solve(by_length.data(), rod.by_length.data());
-  rod.handed = rate.bottomRows<6>();
+  rod.tip_wrench_jacobian = rate.bottomRows<6>();
   rod.feed = fed.tail<6>();
   if (rod.ends.tip == RodEnds::Tip::ball) {
-    rod.handed.bottomRows<3>().setZero();
+    rod.tip_wrench_jacobian.bottomRows<3>().setZero();
     rod.feed.tail<3>().setZero();
   }
-  rod.feed += rod.handed * rod.by_length;
+  rod.feed += rod.tip_wrench_jacobian * rod.by_length;
   rod.is_regular = true;
 }
 
 /// The tip's stiffness as the platform sees it. Forces keep their direction while their arms turn.
 Mat<double, 6, 6> on_platform_stiffness(const GeneralRod& rod) {
-  Mat<double, 6, 6> out = rod.handed * rod.by_twist;
+  Mat<double, 6, 6> out = rod.tip_wrench_jacobian * rod.by_twist;
   const Vec3<double>&b = rod.arm, &n = rod.tip.n;
   out.bottomRows<3>() += skew(b) * out.topRows<3>();
   out.bottomRightCorner<3, 3>() += b * n.transpose() - dot(b, n) * Mat<double, 3, 3>::Identity();
@@ -147,10 +147,10 @@ GeneralSystem::GeneralSystem(const ParallelRobot<RodLeg>& robot) : HeavyRodGroup
     rod.rod = spatial_rod(leg.link);
     rod.frame = {leg.base.p, section_of(leg.base.R)};
     rod.ends = ends_of(leg);
-    rod.seeks_spin = rod.ends.base == RodEnds::Base::spins &&
+    rod.seeks_axial_rotation = rod.ends.base == RodEnds::Base::spins &&
                      (rod.ends.tip == RodEnds::Tip::clamp || !rod.rod.is_isotropic());
-    // a spin that nothing depends on is none: held, it costs no torque
-    if (!rod.seeks_spin) rod.ends.base = RodEnds::Base::held;
+    // a axial_rotation that nothing depends on is none: held, it costs no torque
+    if (!rod.seeks_axial_rotation) rod.ends.base = RodEnds::Base::held;
     rod.platform_point = leg.platform_point;
     rod.platform_section = section_of(leg.platform_across, leg.platform_tangent);
     rod.stiffness = std::sqrt(rod.rod.bending_stiffness[0]) * std::sqrt(rod.rod.bending_stiffness[1]);
@@ -208,7 +208,7 @@ double GeneralSystem::evaluate(bool /*from_scratch*/) {
   double stiffest[2] = {0, 0}, nothing = 0;
   const Mat<double, 3, 3> R = platform_.R.matrix();
   for (GeneralRod& rod : all_) {
-    const SO3<double> section = rod.frame.R.compose(SO3<double>::exp({0, 0, rod.spin}));
+    const SO3<double> section = rod.frame.R.compose(SO3<double>::exp({0, 0, rod.axial_rotation}));
     rod.from = {rod.frame.p, section, rod.force, rod.moment};
     const RodTip tip = integrate(rod.rod, rod.length, rod.from, {elements_, 0});
     rod.tip = tip.state;
@@ -237,7 +237,7 @@ void GeneralSystem::sum_closed() {
   for (GeneralRod& rod : all_) {
     const Vector6 open = -rod.gap;
     if (rod.is_regular) rod.factors.solve(open.data(), rod.fix.data());
-    sum_ += on_platform(rod, wrench_of(rod) + rod.handed * rod.fix);
+    sum_ += on_platform(rod, wrench_of(rod) + rod.tip_wrench_jacobian * rod.fix);
   }
 }
 
@@ -261,9 +261,9 @@ GeneralSystem::Twist GeneralSystem::step(bool fresh) {
 
 void GeneralSystem::move_rod(GeneralRod& rod, const Vector6& by, double fed) {
   rod.force += by.head<3>() * rod.force_unit;
-  const Vec3<double> bent(by[3], by[4], rod.seeks_spin ? 0 : by[5]);
+  const Vec3<double> bent(by[3], by[4], rod.seeks_axial_rotation ? 0 : by[5]);
   rod.moment += rod.frame.R.rotate(bent) * rod.moment_unit;
-  if (rod.seeks_spin) rod.spin += by[5];
+  if (rod.seeks_axial_rotation) rod.axial_rotation += by[5];
   rod.length += fed;
 }
 
@@ -295,7 +295,7 @@ GeneralSystem::Twist GeneralSystem::effort_jacobian(int rod) const {
   return one.by_twist.topRows<3>().transpose() * one.from.tangent() * one.force_unit;
 }
 
-RodReading GeneralSystem::rod(int index) const {
+RodResult GeneralSystem::rod(int index) const {
   const GeneralRod& rod = at(index);
   const Vec3<double> compliance(1 / rod.rod.bending_stiffness[0], 1 / rod.rod.bending_stiffness[1],
                                 1 / rod.rod.torsion_stiffness);
@@ -303,7 +303,7 @@ RodReading GeneralSystem::rod(int index) const {
     return compliance.cwiseProduct(here.R.rotate_back(here.m));
   };
   const Vec3<double> t0 = rod.from.tangent(), way = rod.tip.p - rod.frame.p, last = rod.tip.tangent();
-  RodReading reading;
+  RodResult reading;
   reading.length = rod.length;
   reading.chord = way.norm();
   reading.tip = rod.tip.p;
@@ -362,7 +362,7 @@ void GeneralSystem::get_rod(int index, std::span<double> coordinates) const {
   const GeneralRod& rod = at(index);
   auto to = std::ranges::copy(rod.force, coordinates.begin()).out;
   to = std::ranges::copy(rod.moment, to).out;
-  *to++ = rod.spin;
+  *to++ = rod.axial_rotation;
   *to++ = rod.length;
   std::fill(to, coordinates.end(), 0.0);
 }
@@ -370,12 +370,12 @@ void GeneralSystem::get_rod(int index, std::span<double> coordinates) const {
 void GeneralSystem::set_rod(GeneralRod& rod, Numbers numbers) {
   rod.force = {numbers[0], numbers[1], numbers[2]};
   rod.moment = {numbers[3], numbers[4], numbers[5]};
-  rod.spin = numbers[6];
+  rod.axial_rotation = numbers[6];
   rod.length = numbers[7];
 }
 
 void GeneralSystem::set_rods(Numbers coordinates) {
-  elements_ = most_elements;
+  elements_ = max_elements;
   for (int k = 0; k < limbs(); ++k) set_rod(at(k), coordinates.subspan(v0::at(coordinate_of(k))));
 }
 
@@ -399,12 +399,12 @@ bool GeneralSystem::draw_rods() {
       rod.length += (from + s * twice + s * s / 2 * thrice).norm() / panels;
     }
     // one that turns further than its steps resolve at rest, too
-    if (!(rod.length * rod.rod.precurvature.norm() < most_elements)) return false;
-    const HeldRod held = v0::hold(rod.rod, rod.frame, rod.length, rod.ends, tip, {.tolerance = 1e-9});
+    if (!(rod.length * rod.rod.precurvature.norm() < max_elements)) return false;
+    const RodBvpSolution held = v0::solve_rod_bvp(rod.rod, rod.frame, rod.length, rod.ends, tip, {.tolerance = 1e-9});
     if (!held.report.ok()) return false;
     rod.force = held.base.n;
     rod.moment = held.base.m;
-    rod.spin = held.spin;
+    rod.axial_rotation = held.axial_rotation;
   }
   return true;
 }
@@ -413,7 +413,7 @@ double GeneralSystem::move_to_rest(double most) {
   double largest = 0;
   for (GeneralRod& rod : all_) {
     const Vec3<double> way = platform_.p + rod.arm - rod.frame.p, ahead = way / way.norm();
-    const Vector6 by_fix = rod.handed * rod.fix;
+    const Vector6 by_fix = rod.tip_wrench_jacobian * rod.fix;
     const double pull = dot(ahead, Vec3<double>(rod.tip.n + by_fix.head<3>()));
     const double wanted = -pull / dot(ahead, Vec3<double>(rod.feed.head<3>())), limit = most * rod.length;
     const double fed = std::isfinite(wanted) ? std::clamp(wanted, -limit, limit) : 0;

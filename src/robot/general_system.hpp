@@ -1,5 +1,5 @@
 /// @file general_system.hpp
-/// Rods that bear torque between a base and a platform as one system of equations: held against spin at both
+/// Rods that bear torque between a base and a platform as one system of equations: held against axial_rotation at both
 /// ends, of a section that is not round, or bent when free. Each is shot from its base, and its six unknowns
 /// are eliminated in the same step. TangentSystem is the fast special case without torque. Theory:
 /// docs/theory/spatial_rod.md
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "robot/rod_group.hpp"
-#include "sinew/link/held_rod.hpp"
+#include "sinew/link/rod_bvp.hpp"
 
 namespace sinew::inline v0 {
 
@@ -18,7 +18,7 @@ namespace sinew::inline v0 {
 SpatialRod spatial_rod(const Rod& rod);
 
 /// One rod with all numbers of its Newton step. Its unknowns are dimensionless: force in EI/L², moment in
-/// EI/L about the section's axes at spin 0, where the last is the spin instead if that is free and matters.
+/// EI/L about the section's axes at axial_rotation 0, where the last is the axial_rotation instead if that is free and matters.
 struct GeneralRod {
   using Matrix = Mat<double, 6, 6>;
 
@@ -26,16 +26,16 @@ struct GeneralRod {
   /// @{
   Vec3<double> force = Vec3<double>::Zero();   ///< internal, at the base [N]
   Vec3<double> moment = Vec3<double>::Zero();  ///< [N m]
-  double spin = 0;                             ///< of the section in its guide [rad]
+  double axial_rotation = 0;                             ///< of the section in its guide [rad]
   double length = 1;                           ///< L, unstretched [m]
   /// @}
 
   /// @name What it is
   /// @{
   SpatialRod rod;     ///< its load is weight and own load
-  SE3<double> frame;  ///< of the section at the base, at spin 0
+  SE3<double> frame;  ///< of the section at the base, at axial_rotation 0
   RodEnds ends;
-  bool seeks_spin = false;
+  bool seeks_axial_rotation = false;
   Vec3<double> platform_point;
   SO3<double> platform_section;  ///< of the section at a clamp, platform axes
   double stiffness = 0;          ///< EI, the geometric mean of both ways [N m²]
@@ -57,7 +57,7 @@ struct GeneralRod {
   SmallLu<6> factors;        ///< of the gap by the unknowns
   Matrix by_twist;           ///< the unknowns by the platform's twist, the gap held
   Vec<double, 6> by_length;  ///< ... by the length
-  Matrix handed;             ///< force and moment on the tip by the unknowns; of a ball no moment
+  Matrix tip_wrench_jacobian;             ///< force and moment on the tip by the unknowns; of a ball no moment
   Vec<double, 6> feed;       ///< ... by the length, the gap held
   Vec<double, 6> fix;        ///< of the unknowns: closes the gap at a resting platform
   /// @}
@@ -78,14 +78,14 @@ class GeneralSystem : public HeavyRodGroup {
   Vec3<double> platform_point(int rod) const override { return at(rod).platform_point; }
   double stiffness(int rod) const override { return at(rod).stiffness; }  ///< the mean of both ways
   double length(int rod) const override { return at(rod).length; }
-  void hold(int rod, double length) override { at(rod).length = length; }
+  void solve_rod_bvp(int rod, double length) override { at(rod).length = length; }
   void set_inputs(Numbers inputs) override;
   Wrench wrench() const final { return wrench_; }
   void set_wrench(const Wrench& wrench) final { wrench_ = wrench; }
   double weight_energy() const override;
   int elements() const { return elements_; }  ///< even steps of the integration along each rod
   bool is_fine() const override { return elements_ > coarse_elements; }
-  bool is_finest() const override { return elements_ >= most_elements; }
+  bool is_finest() const override { return elements_ >= max_elements; }
   void refine() override { elements_ = is_finest() ? elements_ : 2 * elements_; }
   void coarsen() override { elements_ = is_fine() ? elements_ / 2 : elements_; }
   bool can_coarsen(double truncation) const override;
@@ -108,7 +108,7 @@ class GeneralSystem : public HeavyRodGroup {
   /// @{
   /// Curvatures of a section: about its x and y, twist about its tangent; the largest is that of bending,
   /// beyond the rod's own at rest.
-  RodReading rod(int index) const override;
+  RodResult rod(int index) const override;
   double effort(int rod) const override;
   double closing_effort(int rod) const override;
   Twist effort_jacobian(int rod) const override;
@@ -133,13 +133,13 @@ class GeneralSystem : public HeavyRodGroup {
   double move_to_rest(double most);
   /// @}
 
-  static constexpr int coarse_elements = 8, most_elements = 128;
+  static constexpr int coarse_elements = 8, max_elements = 128;
 
  private:
   GeneralRod& at(int rod) { return all_[static_cast<std::size_t>(rod)]; }
   const GeneralRod& at(int rod) const { return all_[static_cast<std::size_t>(rod)]; }
   void weigh(int rod, const Vec3<double>& weight) override { at(rod).rod.load = weight; }
-  /// State as numbers: force, moment, spin, length.
+  /// State as numbers: force, moment, axial_rotation, length.
   static constexpr std::size_t rod_numbers = 8;
   static void set_rod(GeneralRod& rod, Numbers numbers);
   void sum_closed();

@@ -58,11 +58,11 @@ bool KinematicGroup<Any>::in_domain(int input, double value) const {
 
 template <class Any>
 auto KinematicGroup<Any>::evaluate(const Frame& platform, Numbers coordinates, const Rows& rows) const
-    -> Misfit {
+    -> ClosureError {
   constexpr std::size_t dof = Space::dof;
   const std::size_t inputs = at(robot_.total.input);
   std::ranges::fill(rows.K, 0.0);
-  Misfit misfit;
+  ClosureError closure_error;
   robot_.for_each_closing_leg([&]<class L>(const L& leg, const LegPlace& place, int i) {
     const auto q = own_coordinates(leg, place, coordinates);
     const auto blocks = leg.template blocks<double>(platform, leg.template tip<double>(q));
@@ -73,11 +73,11 @@ auto KinematicGroup<Any>::evaluate(const Frame& platform, Numbers coordinates, c
       for (int j = 0; j < L::inputs; ++j) rows.K[row * inputs + at(place.input + j)] = -g_a(k, j);
       rows.s[row] = -blocks.g[k];
     }
-    double distance = L::misfit(blocks);
+    double distance = L::closure_error(blocks);
     if (!std::isfinite(distance)) distance = std::numeric_limits<double>::infinity();
-    if (distance > misfit.distance) misfit = {distance, i};
+    if (distance > closure_error.distance) closure_error = {distance, i};
   });
-  return misfit;
+  return closure_error;
 }
 
 template <class Any>
@@ -98,7 +98,7 @@ template <class Any>
 bool KinematicGroup<Any>::close_at(const Frame& platform, std::span<double> inputs) const {
   bool closes = true;
   robot_.for_each_closing_leg([&](const auto& leg, const LegPlace& place, int) {
-    const auto nearest = leg.nearest_solution(platform, Wish{});
+    const auto nearest = leg.nearest_solution(platform, SolutionPreference{});
     closes = closes && nearest.count > 0;
     if (nearest.count < 1) return;
     const auto a = leg.inputs_of(nearest.q);

@@ -36,13 +36,13 @@ class KinematicGroup {
   struct Rows {
     std::span<double> J, K, s;
   };
-  struct Misfit {
+  struct ClosureError {
     double distance = 0;  ///< the largest by which a leg fails to close [m]; infinite where not finite
     int leg = 0;          ///< the leg that does
   };
   /// @implements TDPCR (5)-(6), (17), (19)-(20), (59), (67)
   /// @implements 3PFS (15)-(18)
-  Misfit evaluate(const Frame& platform, Numbers coordinates, const Rows& rows) const;
+  ClosureError evaluate(const Frame& platform, Numbers coordinates, const Rows& rows) const;
 
   /// What the wrench Jᵀλ changes by when the platform moves and when an input changes: the rows' second
   /// derivatives.

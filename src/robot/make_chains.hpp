@@ -12,6 +12,6 @@ using AnyChains = std::variant<ChainLegs<Planar>, ChainLegs<Spatial>>;
 
 /// An error names what a leg lacks: `joints`, `material` or `diameter`, or that there are no chains of its
 /// kind.
-Expected<AnyChains> make_chains(const AnyLegs& legs, ChainModel discretisation);
+Expected<AnyChains> make_chains(const AnyLegs& legs, PrbDiscretisation discretisation);
 
 }  // namespace sinew::inline v0

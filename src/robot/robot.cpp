@@ -21,7 +21,7 @@ struct Robot::Data {
   std::optional<SerialRobot> sections = {};
   /// By the model prb: chains in place of the arcs, and the robot on these.
   std::optional<AnyChains> chains = {};
-  ChainModel discretisation = {};
+  PrbDiscretisation discretisation = {};
   std::shared_ptr<const Data> arcs = {};
 };
 
@@ -71,7 +71,7 @@ std::string_view to_string(Model model) noexcept {
   return names[static_cast<std::size_t>(model)];
 }
 
-Expected<Robot> Robot::as(Model wanted, ChainModel discretisation) const {
+Expected<Robot> Robot::as(Model wanted, PrbDiscretisation discretisation) const {
   if (wanted == model_ && (wanted != Model::prb || discretisation == data_->discretisation)) return *this;
   const std::shared_ptr<const Data>& own = data_->arcs ? data_->arcs : data_;
   if (data_->arcs && wanted == Model::cc) return Robot(own);

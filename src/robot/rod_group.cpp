@@ -7,8 +7,8 @@
 
 namespace sinew::inline v0 {
 
-std::vector<RodReading> RodGroup::readings() const {
-  std::vector<RodReading> rods;
+std::vector<RodResult> RodGroup::readings() const {
+  std::vector<RodResult> rods;
   for (int k = 0; k < limbs(); ++k) rods.push_back(rod(k));
   return rods;
 }

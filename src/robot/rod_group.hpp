@@ -7,7 +7,7 @@
 #include "robot/limb_group.hpp"
 #include "sinew/leg/rod_leg.hpp"
 #include "sinew/robot/parallel.hpp"
-#include "sinew/robot/rod_reading.hpp"
+#include "sinew/robot/rod_result.hpp"
 
 namespace sinew::inline v0 {
 
@@ -59,8 +59,8 @@ class RodGroup : public LimbGroup<Spatial> {
   /// @{
   virtual Vec3<double> base(int rod) const = 0;
   virtual Vec3<double> platform_point(int rod) const = 0;
-  virtual RodReading rod(int index) const = 0;
-  std::vector<RodReading> readings() const;  ///< allocates
+  virtual RodResult rod(int index) const = 0;
+  std::vector<RodResult> readings() const;  ///< allocates
   double energy() const final;
   /// With that of weight and load; NaN under a moment, which keeps its axes and so has no potential.
   double potential() const;

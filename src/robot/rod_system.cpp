@@ -178,8 +178,8 @@ void RodSystem::coarsen() {
 }
 
 double RodSystem::evaluate(bool from_scratch) {
-  constexpr int most_carried = 64;  // each rounds by 2e-16
-  if (carried_ > most_carried) from_scratch = true;
+  constexpr int max_carried = 64;  // each rounds by 2e-16
+  if (carried_ > max_carried) from_scratch = true;
   if (from_scratch) carried_ = 0;
   const double w = platform_.R.w, x = platform_.R.v[0], y = platform_.R.v[1], z = platform_.R.v[2];
   const double xx = 2 * x * x, yy = 2 * y * y, zz = 2 * z * z, xy = 2 * x * y, xz = 2 * x * z, yz = 2 * y * z,
@@ -351,7 +351,7 @@ RodSystem::Twist RodSystem::effort_jacobian(int rod) const {
   });
 }
 
-RodReading RodSystem::rod(int index) const {
+RodResult RodSystem::rod(int index) const {
   return with_rod(index, [](const auto& rods, int i) {
     const double length = rods.length[i], stiffness = 1 / rods.flexibility[i];
     const Vec3<double> h = vector_of(rods.lateral, i), t = vector_of(rods.tangent, i);
@@ -362,7 +362,7 @@ RodReading RodSystem::rod(int index) const {
     // polynomial's derivative is not.
     const double moment = rods.force_d[i] * rods.tip_w[i] - rods.force_w[i] * rods.tip_d[i];
     const double integral = moment * moment / (2 * stiffness) + rods.force_w[i];
-    RodReading reading;
+    RodResult reading;
     reading.length = length;
     reading.tip_angle = sign * tip;
     reading.lateral_force = sign * rods.force_d[i];

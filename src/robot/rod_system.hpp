@@ -61,7 +61,7 @@ class RodSystem : public RodGroup {
   /// @name Single rods, after `evaluate`
   /// @{
 
-  RodReading rod(int index) const override;
+  RodResult rod(int index) const override;
   double effort(int rod) const override;
   double closing_effort(int rod) const override;
   Twist effort_jacobian(int rod) const override;

@@ -14,7 +14,7 @@ SerialWorkspace::SerialWorkspace(const SerialRobot& any)
       bend_rates(2 * bends.size()),
       extension_rates(bends.size()),
       tendon_rates(changes.size()),
-      lengthwise(bends.size()),
+      extension_jacobians(bends.size()),
       sections(any.sections) {
   for (const Section& section : any.sections) {
     maps.push_back(section.map());

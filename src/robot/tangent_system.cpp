@@ -346,13 +346,13 @@ TangentSystem::Twist TangentSystem::effort_jacobian(int rod) const {
   });
 }
 
-RodReading TangentSystem::rod(int index) const {
+RodResult TangentSystem::rod(int index) const {
   return with_rod(index, [&](const TangentRods& rods, int i) {
     const double length = rods.length[i], stiffness = 1 / rods.flexibility[i];
     const Vec3<double> weight = vector_of(rods.weight, i), force = vector_of(rods.force, i);
     const Vec3<double> t0 = vector_of(rods.tangent[0], i), tip = vector_of(rods.tip, i);
     const auto& basis = LobattoBasis<element_degree>::get();
-    RodReading reading;
+    RodResult reading;
     double stretched = 0, bent = 0, largest = 0;
     for (int node = 0; node <= elements_ * degree; ++node) {
       const auto [s, share] = place_of(node, elements_);

@@ -57,7 +57,7 @@ class TangentSystem : public HeavyRodGroup {
 
   /// @name Single rods, after `evaluate`
   /// @{
-  RodReading rod(int index) const override;
+  RodResult rod(int index) const override;
   double effort(int rod) const override;
   double closing_effort(int rod) const override;
   Twist effort_jacobian(int rod) const override;

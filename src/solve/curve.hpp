@@ -25,7 +25,7 @@ concept CurveProblem = requires(P problem, const P& fixed, typename P::Place& pl
   problem.move(step, lambda, /* change of λ */ lambda);
   problem.put(lambda);                                // exactly there
   fixed.equations(/* length of λ */ lambda);          // [A c], rows first
-  fixed.missing();                                    // what is to become 0, negative
+  fixed.residual();                                    // what is to become 0, negative
   fixed.tolerance(), fixed.rounding();                // ... what counts as solved, and where no step can gain
   fixed.size(), fixed.unit(), fixed.longest_scale();  // of steps, of A, of λ
   fixed.signs();                                      // `unstable` and `own` of CurveSigns

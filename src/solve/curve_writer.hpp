@@ -78,7 +78,7 @@ class CurveWriter {
 
   static constexpr double first_stride = 0.01, longest_stride = 0.05, shortest_stride = 1e-7;
   static constexpr double null_tolerance = 0.1;
-  static constexpr int most_curves = 64;
+  static constexpr int max_curves = 64;
 
   /// Where the tracer is. @param unstable directions
   Point point(CurveMark mark, int unstable) const {
@@ -239,7 +239,7 @@ class CurveWriter {
   void leave(Branching& one, std::vector<Curve>& curves) {
     std::vector<Vec<double, N>> begun;
     for (const Step& direction : one.directions) {
-      if (curves.size() >= most_curves || stop_.stop_requested()) return;
+      if (curves.size() >= max_curves || stop_.stop_requested()) return;
       if (!step_aside(one.place, direction)) continue;
       const Vec<double, N> way = problem_.way_from(one.place.state);
       constexpr double same = 0.95;  // cosine; by symmetry they are 60 degrees apart or more

@@ -104,8 +104,8 @@ class Tracer {
   /// state is lost, where it must be shorter.
   bool step(double stride) {
     const Step ahead = before_.tangent;
-    constexpr double most_turned = 0.9;  // its cosine
-    return advance(ahead, stride) && dot(tangent_, ahead) > most_turned && !hides_folds(stride);
+    constexpr double max_turned = 0.9;  // its cosine
+    return advance(ahead, stride) && dot(tangent_, ahead) > max_turned && !hides_folds(stride);
   }
 
   CurveSigns signs() const {
@@ -261,7 +261,7 @@ class Tracer {
     problem_.linearise();
     auto matrix = border(direction);
     Step wanted, step;
-    wanted << problem_.missing(), 0;
+    wanted << problem_.residual(), 0;
     if (!solve(MatrixView(matrix.data(), N + 1, N + 1), MatrixView(wanted.data(), N + 1, 1),
                std::span(step.data(), index(N + 1))))
       return {};

@@ -74,11 +74,11 @@ void classify(const SectionCase& c, SectionDiagram& diagram) {
   const auto [least, most] = std::minmax_element(diagram.slack.begin(), diagram.slack.end());
   const double tolerance = c.question.tolerance;
   if (diagram.margin < -tolerance)
-    diagram.agree = agree_somewhere(c, diagram) ? TendonsAgree::unreachable : TendonsAgree::inconsistent;
+    diagram.agree = agree_somewhere(c, diagram) ? TendonConsistency::unreachable : TendonConsistency::inconsistent;
   else
     diagram.agree =
-        std::max(*most, diagram.margin) <= tolerance ? TendonsAgree::exact : TendonsAgree::indeterminate;
-  diagram.partial = diagram.agree == TendonsAgree::indeterminate && *least <= tolerance;
+        std::max(*most, diagram.margin) <= tolerance ? TendonConsistency::exact : TendonConsistency::indeterminate;
+  diagram.partial = diagram.agree == TendonConsistency::indeterminate && *least <= tolerance;
 }
 
 void find_linear_region(const SectionCase& c, SectionDiagram& diagram) {

@@ -146,7 +146,7 @@ class Walk {
 double Walk::room(double t) const {
   Vec2<double> bend;
   if (!at(t, bend)) return -1;
-  if (curve_ >= c_.tendons()) return c_.least_slack(bend);
+  if (curve_ >= c_.tendons()) return c_.min_slack(bend);
   double least = c_.question.section.gain * c_.depth(bend);
   const kernel::Pull<double> pull = c_.pull(bend);
   for (std::size_t j = 0; j < c_.tendons(); ++j)

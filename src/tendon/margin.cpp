@@ -13,7 +13,7 @@ class Best {
 
   void offer(const Vec2<double>& bend) {
     if (!c_.allows(bend)) return;
-    const double slack = c_.least_slack(bend);
+    const double slack = c_.min_slack(bend);
     if (!(slack > found.slack + c_.rounding)) return;
     found = {bend, slack};
   }
@@ -66,7 +66,7 @@ void offer_ones(const SectionCase& c, Best& best) {
 /// The largest least slack between two fractions of a piece of the rim, of which there is one.
 double climb(const SectionCase& c, std::size_t piece, double low, double high) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
-  const auto value = [&](double t) { return c.least_slack(rim(c, piece, t)); };
+  const auto value = [&](double t) { return c.min_slack(rim(c, piece, t)); };
   double left = high - golden * (high - low), right = low + golden * (high - low);
   double at_left = value(left), at_right = value(right);
   while (high - low > 1e-16 && left < right) {
@@ -87,7 +87,7 @@ void offer_rim(const SectionCase& c, Best& best) {
   std::vector<double> value(samples + 1);
   for (std::size_t piece = 0; piece < rim_pieces(c); ++piece) {
     for (int k = 0; k <= samples; ++k)
-      value[std::size_t(k)] = c.least_slack(rim(c, piece, k / double(samples)));
+      value[std::size_t(k)] = c.min_slack(rim(c, piece, k / double(samples)));
     for (int k = 0; k <= samples; ++k) {
       const int before = std::max(k - 1, 0), after = std::min(k + 1, samples);
       if (value[std::size_t(k)] < std::max(value[std::size_t(before)], value[std::size_t(after)])) continue;

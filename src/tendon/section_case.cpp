@@ -74,7 +74,7 @@ Vec2<double> SectionCase::bend(const Vec2<double>& pull) const {
   return {b.x, b.y};
 }
 
-double SectionCase::least_slack(const Vec2<double>& bend) const {
+double SectionCase::min_slack(const Vec2<double>& bend) const {
   const kernel::Pull<double> asked = pull(bend);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < tendons(); ++i) least = std::min(least, slack(i, asked));

@@ -25,7 +25,7 @@ struct SectionCase {
   double slack(std::size_t i, const kernel::Pull<double>& pull) const {
     return kernel::tendon_slack(own[i], pull, at[i]);
   }
-  double least_slack(const Vec2<double>& bend) const;
+  double min_slack(const Vec2<double>& bend) const;
   double depth(const Vec2<double>& bend) const;  ///< in the envelope [rad], < 0: beyond it
   bool allows(const Vec2<double>& bend) const { return depth(bend) >= -ulps * bend.norm(); }
 

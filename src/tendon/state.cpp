@@ -45,15 +45,15 @@ std::string limit_advice(const Envelope& envelope, double asked) {
 
 }  // namespace
 
-std::string_view state_word(TendonsAgree agree, bool is_partial) {
+std::string_view state_word(TendonConsistency agree, bool is_partial) {
   switch (agree) {
-    case TendonsAgree::exact:
+    case TendonConsistency::exact:
       return "EXACT";
-    case TendonsAgree::indeterminate:
+    case TendonConsistency::indeterminate:
       return is_partial ? "PARTLY SLACK" : "SLACK";
-    case TendonsAgree::inconsistent:
+    case TendonConsistency::inconsistent:
       return "OVER-TENSIONED";
-    case TendonsAgree::unreachable:
+    case TendonConsistency::unreachable:
       break;
   }
   return "UNREACHABLE";
@@ -75,15 +75,15 @@ StateWords state_words(const DiagramQuestion& question, const SectionDiagram& di
   state.is_near_limit = asked >= near_limit * question.envelope.limit;
   const double tolerance = question.tolerance;
   switch (diagram.agree) {
-    case TendonsAgree::exact:
+    case TendonConsistency::exact:
       break;
-    case TendonsAgree::indeterminate:
+    case TendonConsistency::indeterminate:
       advise(state, "Take in", diagram.slack, [&](double slack) { return slack > tolerance; });
       break;
-    case TendonsAgree::inconsistent:
+    case TendonConsistency::inconsistent:
       advise(state, "Pay out", diagram.slack, [](double slack) { return slack < 0; });
       break;
-    case TendonsAgree::unreachable:
+    case TendonConsistency::unreachable:
       state.amount = asked;
       state.advice = limit_advice(question.envelope, asked);
       break;

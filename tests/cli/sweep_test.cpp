@@ -63,7 +63,7 @@ bool is_done_before(const std::function<bool()>& is_time, const std::vector<std:
 }
 
 TEST(SweepCommand, SurvivesKillsAtAnyMoment) {
-  const int most_kills = count_of(10, 25);
+  const int max_kills = count_of(10, 25);
   for (const std::string& study : {rods, queries}) {
     const Scratch here;
     write_text(here.path() / "study.yaml", study);
@@ -75,7 +75,7 @@ TEST(SweepCommand, SurvivesKillsAtAnyMoment) {
     std::uniform_real_distribution<double> part(0.02,
                                                 1.1);  // of a run from nothing: starting is a large part
     int kills = 0, runs = 0, finished = 0;
-    while (kills < most_kills || finished == 0) {
+    while (kills < max_kills || finished == 0) {
       ASSERT_LT(++runs, 500);
       const auto end = std::chrono::steady_clock::now() +
                        std::chrono::microseconds(static_cast<long>(1e6 * whole * part(random)));

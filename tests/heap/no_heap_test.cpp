@@ -117,9 +117,9 @@ TEST(NoHeapOfRods, ThatBearTorque) {
   beside.position += Vec3<double>(0.01, 0.02, 0.01);
   const auto none = [&](auto&& run) { EXPECT_EQ(allocations_of(run), 0); };
   none([&] { EXPECT_TRUE(inverse_equilibrium(robot, at_home, {}, work).is_solved()); });
-  none([&] { EXPECT_TRUE(inverse_equilibrium(robot, beside, {.resume = true}, work).is_solved()); });
+  none([&] { EXPECT_TRUE(inverse_equilibrium(robot, beside, {.warm_start = true}, work).is_solved()); });
   const std::vector<double> inputs = values(work.inputs);
-  none([&] { EXPECT_TRUE(equilibrium(robot, inputs, {.resume = true, .judge = false}, work).is_solved()); });
+  none([&] { EXPECT_TRUE(equilibrium(robot, inputs, {.warm_start = true, .check_stability = false}, work).is_solved()); });
   none([&] { equilibrium(robot, inputs, {.start = at_home}, work); });
 }
 
@@ -144,10 +144,10 @@ TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
     none([&] { EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load}, work).is_solved()); });
     inputs[0] += 1e-3;
     none(
-        [&] { EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load, .resume = true}, work).is_solved()); });
+        [&] { EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load, .warm_start = true}, work).is_solved()); });
     none([&] { inverse_equilibrium(robot, IndependentPose{0.3, 0.1, 0}, {}, work); });
     none([&] { inverse_equilibrium(robot, beside, {}, work); });
-    none([&] { inverse_equilibrium(robot, at_home, {.resume = true, .judge = false}, work); });
+    none([&] { inverse_equilibrium(robot, at_home, {.warm_start = true, .check_stability = false}, work); });
     none([&] { equilibrium(robot, inputs, {.start = std::get<SpatialPose>(home(robot))}, work); });
     none([&] { follow_load(robot, down, 500, work); });
     none([&] { equilibrium(robot, inputs, {.wrench = 1000 * down}, work); });

@@ -107,8 +107,8 @@ TEST(SerialFile, LengthsThatVary) {
         type, extension);
   };
   const SerialRobot robot = read(with_extension("neutral", "[-5 mm, 20 mm]")).value();
-  EXPECT_EQ(robot.sections[0].least_extension, -5e-3);
-  EXPECT_EQ(robot.sections[0].most_extension, 20e-3);
+  EXPECT_EQ(robot.sections[0].min_extension, -5e-3);
+  EXPECT_EQ(robot.sections[0].max_extension, 20e-3);
   EXPECT_TRUE(robot.is_extensible());
   EXPECT_NEAR(robot.longest(), 36e-3, 1e-17);
   EXPECT_NE(error(with_extension("tpcj", "[-5 mm, 20 mm]")).find("twin pivots"), std::string::npos);

@@ -58,7 +58,7 @@ void ask_all(const Robot& robot, const AnyPose& pose, Workspace& work, Asked& as
   working_modes(robot, pose, {}, work).mode(robot, 0, modes);
   EXPECT_TRUE(std::isnan(modes[0]));
   nearest_pose(robot, std::span(&pose, 1), pose);
-  settled(robot, pose);
+  project_to_constraints(robot, pose);
 }
 
 void ask_rods(const Robot& robot, Workspace& work, Asked& asked) {
@@ -177,17 +177,17 @@ TEST(Arguments, ChainsOfAnotherRobotAreAnswered) {
         const std::vector<double> curvature(legs, 2.0);
         EXPECT_EQ(equilibrium(robot, state.hold, wrench, state, work).status, Status::bad_input);
         EXPECT_EQ(follow_load(robot, wrench, 1, state, work).report.status, Status::bad_input);
-        EXPECT_FALSE(hold_pose(robot, wrench, state, work).ok());
+        EXPECT_FALSE(inverse_statics(robot, wrench, state, work).ok());
         EXPECT_EQ(follow_least_norm(robot, pose, pose, state.legs).status, Status::bad_input);
-        EXPECT_TRUE(std::isnan(least_curvature(robot, state)));
+        EXPECT_TRUE(std::isnan(smallest_hessian_eigenvalue(robot, state)));
         EXPECT_TRUE(std::isnan(potential(robot, state)));
-        EXPECT_TRUE(std::isnan(evenness_gap(robot, state, wrench)));
+        EXPECT_TRUE(std::isnan(constant_curvature_energy_gap(robot, state, wrench)));
         EXPECT_TRUE(std::isnan(stiffness(robot, state, work)(0, 0)));
         EXPECT_TRUE(std::isnan(compliance(robot, state, work)(0, 0)));
         EXPECT_TRUE(std::isnan(linear_compliance(robot, state)(0, 0)));
         EXPECT_TRUE(std::isnan(chain_rates(robot, pose, state.legs).closure_error));
         ChainState<Space> at_rest;
-        EXPECT_EQ(rest(robot, pose, curvature, false, at_rest).status, Status::bad_input);
+        EXPECT_EQ(unloaded_equilibrium(robot, pose, curvature, false, at_rest).status, Status::bad_input);
       }
     });
   }
@@ -222,16 +222,16 @@ TEST(Arguments, SerialQuestionsOfAnotherRobotAreAnswered) {
     tendon_rates(wrong, model, work);
     EXPECT_TRUE(std::isnan(work.K[0]));
     extension_motion(wrong, model, work);
-    EXPECT_TRUE(std::isnan(work.lengthwise[0].tendons));
+    EXPECT_TRUE(std::isnan(work.extension_jacobians[0].tendons));
     EXPECT_TRUE(std::isnan(pull_of_all(wrong, model, work).x));
     EXPECT_TRUE(serial_shape(five, wrong, 5).backbones.empty());
   }
   std::vector<double> changes(15);
   tendon_changes_batch(std::vector<double>(9), model, changes, work);
   EXPECT_TRUE(std::isnan(changes[0]));
-  pay_out(std::vector<double>(2), work);
+  add_slack(std::vector<double>(2), work);
   EXPECT_TRUE(std::isnan(work.changes[0]));
-  extend(five, std::vector<double>(2), work);
+  set_extensions(five, std::vector<double>(2), work);
   EXPECT_TRUE(std::isnan(work.extensions[0]));
 }
 

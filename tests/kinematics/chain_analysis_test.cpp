@@ -22,7 +22,7 @@ struct Case {
 
 /// At rest at a pose on a branch, lengths held or tensions.
 template <class Space>
-Case<Space> rest_of(const char* name, ChainModel model, const typename Space::Pose& pose,
+Case<Space> rest_of(const char* name, PrbDiscretisation model, const typename Space::Pose& pose,
                     const std::vector<int>& bending, bool holds_lengths) {
   const Robot any = *load(name);
   Workspace memory(any);
@@ -46,7 +46,7 @@ Case<Space> rest_of(const char* name, ChainModel model, const typename Space::Po
         base = SE2<double>::from(base.p.x(), base.p.y(), coordinates[2 * i] - 1.6);
       }
   }
-  EXPECT_TRUE(rest(one.robot, pose, curvature, holds_lengths, one.state).ok()) << name;
+  EXPECT_TRUE(unloaded_equilibrium(one.robot, pose, curvature, holds_lengths, one.state).ok()) << name;
   return one;
 }
 
@@ -55,7 +55,7 @@ Case<Space> rest_of(const char* name, ChainModel model, const typename Space::Po
 void expect_counted(const Case<Planar>& one, int& unstable, int& unstable_legs) {
   ChainWork work;
   const auto found = check_stability(one.robot, one.state, work);
-  EXPECT_EQ(found.smallest_eigenvalue, least_curvature(one.robot, one.state));
+  EXPECT_EQ(found.smallest_eigenvalue, smallest_hessian_eigenvalue(one.robot, one.state));
   EXPECT_EQ(found.unstable_directions > 0, found.smallest_eigenvalue < 0);
   const int platform = static_cast<int>(found.unstable.size()),
             legs = static_cast<int>(found.unstable_legs.size());
@@ -81,11 +81,11 @@ TEST(ChainStability, CountsThePlatformAndTheLegs) {
         for (int way = 0; way < 8; ++way) {
           const int sign = way % 2 == 0 ? 1 : -1;
           Case<Planar> one =
-              rest_of<Planar>("3-rfr", ChainModel::weighted, pose, {sign, sign, sign}, holds_lengths);
+              rest_of<Planar>("3-rfr", PrbDiscretisation::weighted, pose, {sign, sign, sign}, holds_lengths);
           ChainWork work;
           const double angle = 0.5 * way;  // a pose is held past where it would be lost
           const Vec<double, 3> wrench(load * std::cos(angle), load * std::sin(angle), 0.03 * load * sign);
-          if (!is_equilibrium(hold_pose(one.robot, wrench, one.state, work))) continue;
+          if (!is_equilibrium(inverse_statics(one.robot, wrench, one.state, work))) continue;
           expect_counted(one, unstable, unstable_legs);
           ++solved;
         }
@@ -95,7 +95,7 @@ TEST(ChainStability, CountsThePlatformAndTheLegs) {
 }
 
 TEST(ChainMargins, AreThoseOfArcsAtRest) {
-  const Case<Planar> one = rest_of<Planar>("3-rfr", ChainModel::weighted, {0.01, 0, 0.3}, {1, 1, 1}, false);
+  const Case<Planar> one = rest_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3}, {1, 1, 1}, false);
   ChainWork work;
   const ChainMargins found = margins(one.robot, one.state, work);
   double most = 0;
@@ -123,7 +123,7 @@ void expect_sensitivity(Case<Space> one, double force, int& columns) {
     typename Space::Pose ends[2];
     for (const int side : {0, 1}) {
       Case<Space> moved = one;
-      std::vector<ChainHold> hold = one.state.hold;
+      std::vector<TendonConstraint> hold = one.state.hold;
       change(moved.robot, hold, side == 0 ? -step : step);
       const Report report = equilibrium(moved.robot, hold, wrench, moved.state, work);
       ASSERT_TRUE(is_equilibrium(report)) << to_string(report);
@@ -152,7 +152,7 @@ void expect_sensitivity(Case<Space> one, double force, int& columns) {
 
 TEST(ChainSensitivity, IsTheSlopeOfThePoseByWhatIsHeld) {
   int columns = 0;
-  for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs})
+  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
     for (const bool holds_lengths : {false, true})
       for (const double force : {0.0, 1.0}) {
         expect_sensitivity(rest_of<Planar>("3-rfr", model, {0.01, 0, 0.3}, {1, -1, 1}, holds_lengths), force,
@@ -168,7 +168,7 @@ TEST(ChainSensitivity, IsTheSlopeOfThePoseByWhatIsHeld) {
 }
 
 TEST(ChainAnalysis, OfAnotherRobotIsNone) {
-  const Case<Planar> one = rest_of<Planar>("3-rfr", ChainModel::weighted, {0.01, 0, 0.3}, {1, 1, 1}, false);
+  const Case<Planar> one = rest_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3}, {1, 1, 1}, false);
   ChainState<Planar> state = one.state;
   state.legs.pop_back();
   ChainWork work;
@@ -179,8 +179,8 @@ TEST(ChainAnalysis, OfAnotherRobotIsNone) {
 }
 
 TEST(ChainEquilibria, OfNothingAreNone) {
-  const Case<Planar> one = rest_of<Planar>("3-rfr", ChainModel::weighted, {0.01, 0, 0.3}, {1, 1, 1}, true);
-  const auto count = [&](std::vector<ChainStart<Planar>> starts, std::vector<ChainHold> hold,
+  const Case<Planar> one = rest_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3}, {1, 1, 1}, true);
+  const auto count = [&](std::vector<ChainStart<Planar>> starts, std::vector<TendonConstraint> hold,
                          const Vec<double, 3>& wrench, StopToken stop = {}) {
     ChainWork work{.stop = stop};
     return chain_equilibria<Planar>(one.robot, starts, hold, wrench, work).size();

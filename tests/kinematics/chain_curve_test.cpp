@@ -20,7 +20,7 @@ struct Begun {
 };
 
 template <class Space>
-Begun<Space> begun(const char* name, ChainModel model, const typename Space::Pose& pose, bool holds_lengths) {
+Begun<Space> begun(const char* name, PrbDiscretisation model, const typename Space::Pose& pose, bool holds_lengths) {
   Begun<Space> one{chains_at<Space>(name, model, pose), {}};
   EXPECT_TRUE(rest(one.at.robot, pose, one.at.curvature, holds_lengths, one.state).ok());
   return one;
@@ -29,9 +29,9 @@ Begun<Space> begun(const char* name, ChainModel model, const typename Space::Pos
 const PlanarPose planar_pose{0.01, 0, 0.35};
 
 /// What legs hold at a parameter of a curve.
-std::vector<ChainHold> held_at(const std::vector<ChainHold>& from, const std::vector<ChainHold>& to,
+std::vector<TendonConstraint> held_at(const std::vector<TendonConstraint>& from, const std::vector<TendonConstraint>& to,
                                double part) {
-  std::vector<ChainHold> hold = from;
+  std::vector<TendonConstraint> hold = from;
   for (std::size_t i = 0; i < to.size(); ++i) {
     hold[i].length = std::lerp(from[i].length, to[i].length, part);
     for (std::size_t k = 0; k < 2; ++k)
@@ -46,7 +46,7 @@ void expect_equilibria(const Begun<Space>& one, const ChainCurveOptions<Space>& 
                        const ChainCurve<Space>& curve) {
   for (const auto& point : curve.points) {
     SCOPED_TRACE(point.parameter);
-    const std::vector<ChainHold> hold = held_at(one.state.hold, how.hold, point.parameter);
+    const std::vector<TendonConstraint> hold = held_at(one.state.hold, how.hold, point.parameter);
     ChainState<Space> state = point.state;
     ChainWork work;
     const Vec<double, Space::dof> wrench = one.state.wrench + point.parameter * how.added_wrench;
@@ -69,7 +69,7 @@ const ChainCurvePoint<Space>* first_of(const ChainCurve<Space>& curve, CurveEven
 
 TEST(ChainCurves, TurnBackWhereAGrowingMomentFolds) {
   for (const bool holds_lengths : {false, true}) {
-    const auto one = begun<Planar>("3-rfr", ChainModel::weighted, planar_pose, holds_lengths);
+    const auto one = begun<Planar>("3-rfr", PrbDiscretisation::weighted, planar_pose, holds_lengths);
     const Vec3<double> moment(0, 0, 0.05);
     ChainWork work;
     ChainState<Planar> grown = one.state;
@@ -93,9 +93,9 @@ TEST(ChainCurves, TurnBackWhereAGrowingMomentFolds) {
 
 TEST(ChainCurves, FollowWhatTendonsHold) {
   for (const bool holds_lengths : {false, true}) {
-    const auto one = begun<Planar>("3-rfr", ChainModel::weighted, planar_pose, holds_lengths);
+    const auto one = begun<Planar>("3-rfr", PrbDiscretisation::weighted, planar_pose, holds_lengths);
     ChainCurveOptions<Planar> how{.hold = one.state.hold, .added_wrench = Vec3<double>(0.005, 0, 0)};
-    for (ChainHold& hold : how.hold) {
+    for (TendonConstraint& hold : how.hold) {
       hold.length -= 0.004;
       for (double& tension : hold.tension) tension *= 1.2;
     }
@@ -112,7 +112,7 @@ TEST(ChainCurves, FollowWhatTendonsHold) {
 }
 
 TEST(ChainCurves, FollowLoadsInSpace) {
-  const auto one = begun<Spatial>("6-ufs", ChainModel::weighted, reached_by_6_ufs(), true);
+  const auto one = begun<Spatial>("6-ufs", PrbDiscretisation::weighted, reached_by_6_ufs(), true);
   ChainCurveOptions<Spatial> how{.max_points = 60};
   how.added_wrench << 0.05, 0.02, -0.3, 0, 0, 0;
   ChainWork work;
@@ -123,7 +123,7 @@ TEST(ChainCurves, FollowLoadsInSpace) {
 }
 
 TEST(ChainCurves, RefuseWhatLeadsNowhere) {
-  const auto one = begun<Planar>("3-rfr", ChainModel::weighted, planar_pose, true);
+  const auto one = begun<Planar>("3-rfr", PrbDiscretisation::weighted, planar_pose, true);
   ChainWork work;
   const auto is_refused = [&](const ChainCurveOptions<Planar>& how) {
     return chain_curves(one.at.robot, one.state, how, work).empty();

@@ -26,7 +26,7 @@ PlanarPose planar_pose(const Json& pose) { return {pose[0], pose[1], pose[2]}; }
 
 double stiffness() { return reference_file("data/tdpcr/statics.json")["about"]["EI"]; }
 
-ChainLegs<Planar> three_rfr(ChainModel model, int links = 6) {
+ChainLegs<Planar> three_rfr(PrbDiscretisation model, int links = 6) {
   const Json& robot = reference_file("data/tdpcr/poses.json")["3-RFR"];
   ChainLegs<Planar> result;
   for (std::size_t i = 0; i < 3; ++i)
@@ -38,7 +38,7 @@ ChainLegs<Planar> three_rfr(ChainModel model, int links = 6) {
   return result;
 }
 
-ChainLegs<Planar> three_frr(ChainModel model) {
+ChainLegs<Planar> three_frr(PrbDiscretisation model) {
   const Json& robot = reference_file("data/tdpcr/poses.json")["3-FRR"];
   ChainLegs<Planar> result;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -59,7 +59,7 @@ ChainLegs<Spatial> six_ufs() {
   ChainLegs<Spatial> result;
   for (std::size_t i = 0; i < 6; ++i)
     result.legs.push_back({.base = {vector<3>(robot["a"][i]), {}},
-                           .chain = {.length = robot["l"], .links = 5, .model = ChainModel::even},
+                           .chain = {.length = robot["l"], .links = 5, .model = PrbDiscretisation::even},
                            .bending_stiffness = stiffness(),
                            .tendon_offset = robot["d"],
                            .platform_point = vector<3>(robot["b"][i])});
@@ -74,18 +74,18 @@ ChainState<Planar> base_state(const ChainLegs<Planar>& robot, bool holds_lengths
   for (std::size_t i = 0; i < 3; ++i)
     curvature.push_back(-about["base_theta"][i][0].get<double>() / robot.legs[i].chain.link_length());
   ChainState<Planar> state;
-  const Report report = rest(robot, planar_pose(about["base_pose"]), curvature, holds_lengths, state);
+  const Report report = unloaded_equilibrium(robot, planar_pose(about["base_pose"]), curvature, holds_lengths, state);
   EXPECT_TRUE(report.ok()) << to_string(report);
   return state;
 }
 
-ChainModel model_of(const Json& c) { return c["model"] == "M0" ? ChainModel::even : ChainModel::discs; }
+PrbDiscretisation model_of(const Json& c) { return c["model"] == "M0" ? PrbDiscretisation::even : PrbDiscretisation::discs; }
 bool holds_lengths(const Json& c) { return c["mode"] == "length"; }
-std::vector<ChainHold> hold_of(const Json& c) {
-  std::vector<ChainHold> hold;
+std::vector<TendonConstraint> hold_of(const Json& c) {
+  std::vector<TendonConstraint> hold;
   for (std::size_t i = 0; i < c["T2"].size(); ++i)
-    hold.push_back(holds_lengths(c) ? ChainHold{0, c["l1"][i], {0, c["T2"][i]}}
-                                    : ChainHold{-1, 0, {c["T1"][i], c["T2"][i]}});
+    hold.push_back(holds_lengths(c) ? TendonConstraint{0, c["l1"][i], {0, c["T2"][i]}}
+                                    : TendonConstraint{-1, 0, {c["T1"][i], c["T2"][i]}});
   return hold;
 }
 
@@ -112,7 +112,7 @@ TEST(ChainEquilibrium, LoadedThreeRfrIsTheirs) {
       EXPECT_NEAR(leg.tendon_length[1], c["l2"][i].get<double>(), 1e-11);
       for (std::size_t j = 0; j < 5; ++j) EXPECT_NEAR(leg.angles[j], c["theta"][i][j].get<double>(), 1e-9);
     }
-    EXPECT_NEAR(least_curvature(robot, state), c["min_reduced_hessian_eig"].get<double>(), 1e-9);
+    EXPECT_NEAR(smallest_hessian_eigenvalue(robot, state), c["min_reduced_hessian_eig"].get<double>(), 1e-9);
   }
 }
 
@@ -132,7 +132,7 @@ TEST(ChainEquilibrium, ComplianceIsTheirs) {
   }
 }
 
-ChainLoadPath path_to(ChainModel model, const Vec<double, 3>& direction, double limit,
+ChainLoadPath path_to(PrbDiscretisation model, const Vec<double, 3>& direction, double limit,
                       ChainState<Planar>& state) {
   const auto robot = three_rfr(model);
   state = base_state(robot);
@@ -156,14 +156,14 @@ TEST(ChainEquilibrium, ALoadGrowsUntilWhereTheirsEnds) {
 
 TEST(ChainEquilibrium, ATwistedPlatformFolds) {
   ChainState<Planar> state;
-  const auto even = path_to(ChainModel::even, {0, 0, 1}, 0.02, state);
+  const auto even = path_to(PrbDiscretisation::even, {0, 0, 1}, 0.02, state);
   EXPECT_EQ(even.end, ChainLoadEnd::fold) << to_string(even.end);
   EXPECT_NEAR(even.load, 6.32e-3, 0.5e-5);
-  EXPECT_NEAR(path_to(ChainModel::discs, {0, 0, 1}, 0.02, state).load, 3.94e-3, 0.5e-5);
+  EXPECT_NEAR(path_to(PrbDiscretisation::discs, {0, 0, 1}, 0.02, state).load, 3.94e-3, 0.5e-5);
 }
 
 TEST(ChainEquilibrium, ThePathSaysWhereItEnds) {
-  const auto robot = three_rfr(ChainModel::even);
+  const auto robot = three_rfr(PrbDiscretisation::even);
   ChainState<Planar> state = base_state(robot);
   ChainWork work;
   const Report report = equilibrium(robot, std::vector(state.hold), {0, 0, 0.01}, state, work);
@@ -173,8 +173,8 @@ TEST(ChainEquilibrium, ThePathSaysWhereItEnds) {
   EXPECT_NEAR(state.wrench[2], 6.32e-3, 0.5e-5);
 }
 
-std::vector<ChainHold> tensions_of_moments(const Json& moments, double offset) {
-  std::vector<ChainHold> tensions;
+std::vector<TendonConstraint> tensions_of_moments(const Json& moments, double offset) {
+  std::vector<TendonConstraint> tensions;
   for (const Json& m : moments) {
     const double pull = -m.get<double>() / offset;
     tensions.push_back({-1, 0, {std::max(pull, 0.0), std::max(-pull, 0.0)}});
@@ -185,12 +185,12 @@ std::vector<ChainHold> tensions_of_moments(const Json& moments, double offset) {
 TEST(ChainEquilibrium, LoadedThreeFrrIsTheirs) {
   for (const Json& c : reference_file("data/tdpcr/statics2.json")["3-FRR_equilibria_M0"]["cases"]) {
     if (c["branch_lost"].get<bool>()) continue;
-    const auto robot = three_frr(ChainModel::even);
+    const auto robot = three_frr(PrbDiscretisation::even);
     std::vector<double> curvature;
     for (std::size_t i = 0; i < 3; ++i)
       curvature.push_back(-c["theta0"][i][0].get<double>() / robot.legs[i].chain.link_length());
     ChainState<Planar> state;
-    ASSERT_TRUE(rest(robot, planar_pose(c["pose0"]), curvature, false, state).ok());
+    ASSERT_TRUE(unloaded_equilibrium(robot, planar_pose(c["pose0"]), curvature, false, state).ok());
     ChainWork work;
     const Report report = equilibrium(robot, tensions_of_moments(c["m"], robot.legs[0].tendon_offset),
                                       vector<3>(c["W"]), state, work);
@@ -215,7 +215,7 @@ TEST(ChainEquilibrium, LoadedSixUfsIsTheirs) {
   SpatialPose home;
   home.position = vector<3>(all["p0"]);
   ChainState<Spatial> at_rest;
-  ASSERT_TRUE(rest(robot, home, curvature, false, at_rest).ok());
+  ASSERT_TRUE(unloaded_equilibrium(robot, home, curvature, false, at_rest).ok());
   ChainWork work;
   const auto tensions = tensions_of_moments(all["m"], robot.legs[0].tendon_offset);
   for (const Json& c : all["cases"]) {
@@ -237,7 +237,7 @@ TEST(ChainEquilibrium, LoadedSixUfsIsTheirs) {
 }
 
 TEST(ChainEquilibrium, ComplianceIsTheDerivative) {  // for every model, closure and what is held
-  for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs})
+  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
     for (const bool lengths : {false, true}) {
       const auto robot = three_rfr(model);
       const ChainState<Planar> at_rest = base_state(robot, lengths);
@@ -263,11 +263,11 @@ TEST(ChainEquilibrium, ComplianceIsTheDerivative) {  // for every model, closure
 }
 
 TEST(ChainEquilibrium, RestIsOneForEveryLawAndClosure) {
-  for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs}) {
+  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
     const auto robot = three_frr(model);
     const std::array<double, 3> curvature{5, 5, 5};
     ChainState<Planar> state;
-    const Report report = rest(robot, PlanarPose{0.01, 0, 0.1}, curvature, false, state);
+    const Report report = unloaded_equilibrium(robot, PlanarPose{0.01, 0, 0.1}, curvature, false, state);
     ASSERT_TRUE(report.ok()) << to_string(report);
     const ChainState<Planar> at_rest = state;
     ChainWork work;
@@ -278,18 +278,18 @@ TEST(ChainEquilibrium, RestIsOneForEveryLawAndClosure) {
 }
 
 TEST(ChainEquilibrium, OfTooFewJointsAndAtTypeTwoIsSingular) {
-  const auto robot = three_rfr(ChainModel::even, 3);
+  const auto robot = three_rfr(PrbDiscretisation::even, 3);
   ChainState<Planar> state = [&] {
     ChainState<Planar> at_rest;
-    EXPECT_TRUE(rest(robot, PlanarPose{0.01, 0, 0.3}, towards_plus, true, at_rest).ok());
+    EXPECT_TRUE(unloaded_equilibrium(robot, PlanarPose{0.01, 0, 0.3}, towards_plus, true, at_rest).ok());
     return at_rest;
   }();
   ChainWork work;
   EXPECT_EQ(equilibrium(robot, std::vector(state.hold), {0.01, 0, 0}, state, work).status, Status::singular);
-  EXPECT_GT(least_curvature(robot, state), 0);  // what little is left is stiff
+  EXPECT_GT(smallest_hessian_eigenvalue(robot, state), 0);  // what little is left is stiff
 
-  const auto six = three_rfr(ChainModel::even);
-  ASSERT_TRUE(rest(six, PlanarPose{0.03, 0, std::numbers::pi / 3}, towards_plus, false, state).ok());
+  const auto six = three_rfr(PrbDiscretisation::even);
+  ASSERT_TRUE(unloaded_equilibrium(six, PlanarPose{0.03, 0, std::numbers::pi / 3}, towards_plus, false, state).ok());
   EXPECT_EQ(equilibrium(six, std::vector(state.hold), {0.01, 0, 0}, state, work).status, Status::singular);
 }
 
@@ -297,7 +297,7 @@ TEST(ChainEquilibrium, OfTooFewJointsAndAtTypeTwoIsSingular) {
 TEST(ChainEquilibrium, AFoldIsFoundWhateverTheLimit) {
   for (const double limit : {0.02, 20.0, 1e8}) {
     ChainState<Planar> state;
-    const auto path = path_to(ChainModel::even, {0, 0, 1}, limit, state);
+    const auto path = path_to(PrbDiscretisation::even, {0, 0, 1}, limit, state);
     EXPECT_EQ(path.end, ChainLoadEnd::fold);
     EXPECT_NEAR(path.load, 6.3236e-3, 1e-6) << limit;
     EXPECT_LT(path.report.residual, 1e-13);
@@ -306,7 +306,7 @@ TEST(ChainEquilibrium, AFoldIsFoundWhateverTheLimit) {
 
 ChainState<Planar> at_rest(const ChainLegs<Planar>& robot, const PlanarPose& pose) {
   ChainState<Planar> state;
-  const Report report = rest(robot, pose, towards_plus, false, state);
+  const Report report = unloaded_equilibrium(robot, pose, towards_plus, false, state);
   EXPECT_TRUE(report.ok()) << to_string(report);
   return state;
 }
@@ -316,7 +316,7 @@ ChainState<Planar> at_rest(const ChainLegs<Planar>& robot, const PlanarPose& pos
 TEST(ChainEquilibrium, NothingIsSteppedOver) {
   const auto chains = [](const char* name) {
     const std::string file = std::string(source_folder) + "/robots/" + name;
-    return chains_of<Planar>(*read_robot(*read_robot_file(file))->as(Model::prb, ChainModel::weighted));
+    return chains_of<Planar>(*read_robot(*read_robot_file(file))->as(Model::prb, PrbDiscretisation::weighted));
   };
   struct Case {
     ChainLegs<Planar> robot;
@@ -332,7 +332,7 @@ TEST(ChainEquilibrium, NothingIsSteppedOver) {
       const auto path = follow_load(one.robot, one.direction, share * one.load, state, work);
       EXPECT_EQ(path.end, one.end) << to_string(path.end) << share;
       EXPECT_NEAR(path.load, one.load, 1e-6 * one.load) << share;
-      EXPECT_NEAR(least_curvature(one.robot, state), 0, 1e-6);
+      EXPECT_NEAR(smallest_hessian_eigenvalue(one.robot, state), 0, 1e-6);
     }
   }
 }
@@ -342,14 +342,14 @@ TEST(ChainEquilibrium, ALoadThatIsNoneGrowsWithoutEffect) {
                    inf = std::numeric_limits<double>::infinity();
   ChainState<Planar> state;
   for (const double wrong : {nan, inf, -inf})
-    EXPECT_EQ(path_to(ChainModel::even, {0, wrong, 1}, 1, state).report.status, Status::bad_input);
-  EXPECT_EQ(path_to(ChainModel::even, {0, 0, 1}, nan, state).report.status, Status::bad_input);
-  EXPECT_EQ(path_to(ChainModel::even, {0, 0, 0}, 7, state).load, 7);
+    EXPECT_EQ(path_to(PrbDiscretisation::even, {0, wrong, 1}, 1, state).report.status, Status::bad_input);
+  EXPECT_EQ(path_to(PrbDiscretisation::even, {0, 0, 1}, nan, state).report.status, Status::bad_input);
+  EXPECT_EQ(path_to(PrbDiscretisation::even, {0, 0, 0}, 7, state).load, 7);
   const PlanarPose before = state.pose;
-  EXPECT_EQ(path_to(ChainModel::even, {0, 0, 1}, 0, state).load, 0);
-  EXPECT_EQ(path_to(ChainModel::even, {0, 0, 1}, -1, state).load, 0);
+  EXPECT_EQ(path_to(PrbDiscretisation::even, {0, 0, 1}, 0, state).load, 0);
+  EXPECT_EQ(path_to(PrbDiscretisation::even, {0, 0, 1}, -1, state).load, 0);
   EXPECT_EQ(state.pose.x, before.x);
-  const auto unbounded = path_to(ChainModel::even, {0, 0, 1}, inf, state);
+  const auto unbounded = path_to(PrbDiscretisation::even, {0, 0, 1}, inf, state);
   EXPECT_EQ(unbounded.end, ChainLoadEnd::fold);
   EXPECT_NEAR(unbounded.load, 6.3236e-3, 1e-6);
 }
@@ -357,22 +357,22 @@ TEST(ChainEquilibrium, ALoadThatIsNoneGrowsWithoutEffect) {
 TEST(ChainEquilibrium, ALoadMayBeCountedInAnyUnit) {  // squares of 1e±300 are no numbers, or zero
   for (const double unit : {1e-300, 1e-200, 1e200, 1e300}) {
     ChainState<Planar> state;
-    const auto path = path_to(ChainModel::even, {0, 0, unit}, 20 / unit, state);
+    const auto path = path_to(PrbDiscretisation::even, {0, 0, unit}, 20 / unit, state);
     EXPECT_EQ(path.end, ChainLoadEnd::fold) << unit;
     EXPECT_NEAR(path.load * unit, 6.3236e-3, 1e-6) << unit;
   }
 }
 
 TEST(ChainEquilibrium, LegsOutOfReachAreNamed) {
-  const auto robot = three_rfr(ChainModel::even);
+  const auto robot = three_rfr(PrbDiscretisation::even);
   ChainState<Planar> state;
-  const Report report = rest(robot, PlanarPose{0.3, 0, 0}, towards_plus, false, state);
+  const Report report = unloaded_equilibrium(robot, PlanarPose{0.3, 0, 0}, towards_plus, false, state);
   EXPECT_EQ(report.status, Status::unreachable);
   EXPECT_TRUE(report.message.view().starts_with("legs[")) << report.message.view();
 }
 
 TEST(ChainEquilibrium, ATendonThatWouldPushIsSlack) {
-  const auto robot = three_rfr(ChainModel::even);
+  const auto robot = three_rfr(PrbDiscretisation::even);
   ChainState<Planar> state = base_state(robot, true);
   ChainWork work;
   const Report report = equilibrium(robot, std::vector(state.hold), {0, 1.6, 0}, state, work);
@@ -386,7 +386,7 @@ TEST(ChainEquilibrium, EvenlyBentChainsStoreMore) {
     const auto robot = three_rfr(model_of(c));
     ChainState<Planar> state = base_state(robot), even = state;
     ChainWork work;
-    EXPECT_NEAR(evenness_gap(robot, state, vector<3>(c["W"])), c["CC_energy_gap_estimate"].get<double>(),
+    EXPECT_NEAR(constant_curvature_energy_gap(robot, state, vector<3>(c["W"])), c["CC_energy_gap_estimate"].get<double>(),
                 1e-16);
     ASSERT_TRUE(equilibrium(robot, hold_of(c), vector<3>(c["W"]), state, work).ok());
     const Report report =
@@ -403,13 +403,13 @@ TEST(ChainEquilibrium, EvenlyBentChainsStoreMore) {
 TEST(ChainEquilibrium, PosesAreHeldByLegsWhoseJointsCannotTurn) {
   const Vec<double, 3> wrench(0.002, -0.001, 1e-6);
   for (const auto& [name, links] : {std::pair("3-rfr", 2), std::pair("3-frr", 1)}) {
-    auto robot = chains_of<Planar>(*load(name)->as(Model::prb, ChainModel::weighted));
+    auto robot = chains_of<Planar>(*load(name)->as(Model::prb, PrbDiscretisation::weighted));
     for (auto& leg : robot.legs) leg.chain.links = links;
     ChainState<Planar> state;
     const PlanarPose pose{0.01, 0, 0.1};
-    ASSERT_TRUE(rest(robot, pose, towards_plus, false, state).ok()) << name;
+    ASSERT_TRUE(unloaded_equilibrium(robot, pose, towards_plus, false, state).ok()) << name;
     ChainWork work;
-    const Report report = hold_pose(robot, wrench, state, work);
+    const Report report = inverse_statics(robot, wrench, state, work);
     ASSERT_TRUE(report.ok() || report.status == Status::slack) << name << ": " << to_string(report);
     Vec<double, 3> borne = Vec<double, 3>::Zero();
     const auto rates = chain_rates(robot, state.pose, std::span<const ChainLegState>(state.legs));
@@ -422,12 +422,12 @@ TEST(ChainEquilibrium, PosesAreHeldByLegsWhoseJointsCannotTurn) {
 }
 
 TEST(ChainEquilibrium, TensionsThatHoldAPoseAreTheirs) {
-  const auto robot = three_rfr(ChainModel::even);
+  const auto robot = three_rfr(PrbDiscretisation::even);
   for (const Json& c : reference_file("data/tdpcr/statics.json")["inverse_statics_M0"]) {
     ChainState<Planar> state;
-    ASSERT_TRUE(rest(robot, planar_pose(c["pose"]), towards_plus, false, state).ok());
+    ASSERT_TRUE(unloaded_equilibrium(robot, planar_pose(c["pose"]), towards_plus, false, state).ok());
     ChainWork work;
-    const Report report = hold_pose(robot, vector<3>(c["W"]), state, work);
+    const Report report = inverse_statics(robot, vector<3>(c["W"]), state, work);
     ASSERT_TRUE(report.ok()) << to_string(report);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(state.legs[i].force, c["f"][i].get<double>(), 1e-9);
@@ -438,7 +438,7 @@ TEST(ChainEquilibrium, TensionsThatHoldAPoseAreTheirs) {
     }
     // and back: these tensions and the wrench bring it there
     ChainState<Planar> again;
-    ASSERT_TRUE(rest(robot, planar_pose(c["pose"]), towards_plus, false, again).ok());
+    ASSERT_TRUE(unloaded_equilibrium(robot, planar_pose(c["pose"]), towards_plus, false, again).ok());
     ASSERT_TRUE(equilibrium(robot, state.hold, vector<3>(c["W"]), again, work).ok());
     EXPECT_NEAR(again.pose.x, state.pose.x, 1e-11);
     EXPECT_NEAR(again.pose.phi, state.pose.phi, 1e-10);
@@ -458,7 +458,7 @@ TEST(ChainEquilibrium, LinearModelIsTheirs) {  // @verifies TDPCR (44), (45), (4
 template <class Space>
 void expect_rates(const char* name, const Json& pose, const typename Space::Pose& at) {
   const auto chains = read_robot(*read_robot_file(std::string(source_folder) + "/robots/" + name))
-                          ->as(Model::prb, ChainModel::even);
+                          ->as(Model::prb, PrbDiscretisation::even);
   ASSERT_TRUE(chains.has_value()) << to_string(chains.error());
   auto robot = chains_of<Space>(*chains);
   std::vector<ChainLegState> legs(robot.legs.size());
@@ -501,7 +501,7 @@ TEST(ChainRates, AreTheirs) {  // @verifies TDPCR (34), (36)-(38), (60)-(62)
 TEST(ChainEquilibrium, TipWrenchesAreTheirs) {  // @verifies TDPCR (54), (55)
   for (const Json& c : reference_file("data/tdpcr/statics.json")["equilibria"]) {
     if (c["model"] != "M0") continue;
-    const auto robot = three_rfr(ChainModel::even);
+    const auto robot = three_rfr(PrbDiscretisation::even);
     for (std::size_t i = 0; i < 3; ++i) {
       const PseudoRigid& chain = robot.legs[i].chain;
       std::vector<double> angles = c["theta"][i], torques;
@@ -510,7 +510,7 @@ TEST(ChainEquilibrium, TipWrenchesAreTheirs) {  // @verifies TDPCR (54), (55)
       const TipWrench found = tip_wrench(chain, torques, angles);
       EXPECT_NEAR(found.moment, c["tip_wrench"][i]["Ft"][2].get<double>(), 1e-11);
       EXPECT_NEAR(found.force.norm(), std::abs(c["chord_force"][i].get<double>()), 1e-9);
-      EXPECT_LT(found.misfit, 1e-12);
+      EXPECT_LT(found.closure_error, 1e-12);
     }
   }
 }

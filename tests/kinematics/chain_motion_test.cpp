@@ -14,7 +14,7 @@ namespace sinew::test {
 namespace chain_motion_test {
 
 template <class Space>
-ChainLegs<Space> made_of(const char* file, ChainModel model = ChainModel::even) {
+ChainLegs<Space> made_of(const char* file, PrbDiscretisation model = PrbDiscretisation::even) {
   const auto chains =
       read_robot(*read_robot_file(std::string(source_folder) + "/robots/" + file))->as(Model::prb, model);
   EXPECT_TRUE(chains.has_value()) << to_string(chains.error());
@@ -26,7 +26,7 @@ PlanarPose pose_of(int k) { return {0.03 * k / 59, 0, std::numbers::pi / 3 * k /
 std::vector<ChainLegState> at_start(const ChainLegs<Planar>& robot) {
   ChainState<Planar> state;
   const std::array<double, 3> towards_plus{1, 1, 1};
-  EXPECT_TRUE(rest(robot, pose_of(0), towards_plus, false, state).ok());
+  EXPECT_TRUE(unloaded_equilibrium(robot, pose_of(0), towards_plus, false, state).ok());
   return state.legs;
 }
 
@@ -74,9 +74,9 @@ TEST(ChainMotion, LeastNormShapesAreNoEquilibria) {  // @verifies TDPCR (54)
     const int k = row["k"];
     ASSERT_TRUE(follow_least_norm(robot, pose_of(0), pose_of(k), legs).ok());
     ChainState<Planar> even, weighted;
-    ASSERT_TRUE(rest(robot, pose_of(k), towards_plus, false, even).ok());
+    ASSERT_TRUE(unloaded_equilibrium(robot, pose_of(k), towards_plus, false, even).ok());
     ASSERT_TRUE(
-        rest(made_of<Planar>("3-rfr.yaml", ChainModel::weighted), pose_of(k), towards_plus, false, weighted)
+        unloaded_equilibrium(made_of<Planar>("3-rfr.yaml", PrbDiscretisation::weighted), pose_of(k), towards_plus, false, weighted)
             .ok());
     for (std::size_t i = 0; i < 3; ++i) {
       const PseudoRigid& chain = robot.legs[i].chain;
@@ -98,7 +98,7 @@ TEST(ChainMotion, LeastNormShapesAreNoEquilibria) {  // @verifies TDPCR (54)
       EXPECT_NEAR(dot(found.force, u) / u.norm(), c["chord_force"].get<double>(), 1e-10);
       EXPECT_NEAR(cross(found.force, u), 0, 1e-10);
       EXPECT_NEAR(found.moment, c["Ft"][2].get<double>(), 1e-12);
-      EXPECT_NEAR(found.misfit, c["rel_residual"].get<double>(), 1e-10);
+      EXPECT_NEAR(found.closure_error, c["rel_residual"].get<double>(), 1e-10);
     }
   }
 }
@@ -203,7 +203,7 @@ TEST(ChainMotion, OfSixLegsInSpaceStaysClosed) {
   to = spatial_pose(SE3<double>{{0.01, -0.005, 0.17}, SO3<double>::exp(Vec3<double>(0.05, 0.1, -0.08))});
   ChainState<Spatial> state;
   const std::array<double, 6> towards_plus{1, 1, 1, 1, 1, 1};
-  ASSERT_TRUE(rest(robot, from, towards_plus, false, state).ok());
+  ASSERT_TRUE(unloaded_equilibrium(robot, from, towards_plus, false, state).ok());
   const Report report = follow_least_norm(robot, from, to, state.legs);
   ASSERT_TRUE(report.ok()) << to_string(report);
   EXPECT_LT(chain_rates(robot, to, state.legs).closure_error, 1e-15);

@@ -16,7 +16,7 @@ struct Case {
 };
 
 /// At rest, bent by unlike tendons, with each first link half a link's bend beyond its arc's tangent.
-Case at_rest(ChainModel model, bool holds_lengths) {
+Case at_rest(PrbDiscretisation model, bool holds_lengths) {
   const Robot any = *load("3-rfrr");
   Workspace memory(any);
   const PlanarPose pose{0.01, -0.005, 0.1};
@@ -30,7 +30,7 @@ Case at_rest(ChainModel model, bool holds_lengths) {
         leg.base.p.x(), leg.base.p.y(),
         arcs.coordinates[2 * i] - 0.5 * curvature[i] * leg.chain.link_length() - std::numbers::pi / 2);
   }
-  EXPECT_TRUE(rest(one.robot, pose, curvature, holds_lengths, one.state).ok());
+  EXPECT_TRUE(unloaded_equilibrium(one.robot, pose, curvature, holds_lengths, one.state).ok());
   return one;
 }
 
@@ -42,7 +42,7 @@ const Vec<double, 3> wrench(0.02, -0.012, 4e-4);
 double energy(Case one, std::size_t leg, double turn) {
   auto& base = one.robot.legs[leg].base;
   ChainWork work;
-  const std::vector<ChainHold> hold = one.state.hold;
+  const std::vector<TendonConstraint> hold = one.state.hold;
   EXPECT_TRUE(is_solved(equilibrium(one.robot, hold, wrench, one.state, work)));
   base = SE2<double>::from(base.p.x(), base.p.y(), base.angle() + turn);
   EXPECT_TRUE(is_solved(equilibrium(one.robot, hold, wrench, one.state, work)));
@@ -50,7 +50,7 @@ double energy(Case one, std::size_t leg, double turn) {
 }
 
 TEST(ChainMotors, BearTheDerivativeOfTheEnergyByTheirAngle) {
-  for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs})
+  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
     for (const bool holds_lengths : {false, true}) {
       Case one = at_rest(model, holds_lengths);
       for (std::size_t i = 0; i < 3; ++i)
@@ -70,7 +70,7 @@ TEST(ChainMotors, BearTheDerivativeOfTheEnergyByTheirAngle) {
 
 /// Motors and the load on the platform balance about any point of the base frame.
 TEST(ChainMotors, BalanceTheLoadWithTheForcesOfTheStruts) {
-  Case one = at_rest(ChainModel::weighted, true);
+  Case one = at_rest(PrbDiscretisation::weighted, true);
   ChainWork work;
   ASSERT_TRUE(is_solved(equilibrium(one.robot, std::vector(one.state.hold), wrench, one.state, work)));
   const auto platform = SE2<double>::from(one.state.pose);

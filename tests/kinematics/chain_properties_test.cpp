@@ -16,7 +16,7 @@ namespace chain_properties_test {
 Robot robot_of(const char* name) { return *load(name); }
 
 template <class Space>
-ChainLegs<Space> made_of(const char* name, ChainModel model) {
+ChainLegs<Space> made_of(const char* name, PrbDiscretisation model) {
   return chains_of<Space>(*robot_of(name).as(Model::prb, model));
 }
 
@@ -66,7 +66,7 @@ Dense dense(const LegSystem<Space>& system) {
 template <class Space>
 void expect_slopes(const ChainLeg<Space>& leg, const typename Space::Pose& pose, const ChainLegState& state) {
   constexpr double step = 1e-6;
-  const ChainHold hold{0, 0.19, {}};
+  const TendonConstraint hold{0, 0.19, {}};
   const auto joints = static_cast<std::size_t>(leg.chain.joints());
   LegSystem<Space> here, plus, minus;
   form(leg, Space::frame(pose), state, hold, here);
@@ -130,7 +130,7 @@ template <class Space>
 void expect_slopes_of(const char* name) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> part(-1, 1);
-  for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs}) {
+  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
     const auto robot = made_of<Space>(name, model);
     for (const double size : {0.0, 1e-9, 1e-3, 0.4, 1.2})  // straight, nearly so, bent, folded
       for (int repeat = 0; repeat < 6; ++repeat) {
@@ -223,7 +223,7 @@ template <class Space>
 void expect_moves_of(const char* name) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> part(-1, 1);
-  for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs}) {
+  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
     const auto robot = made_of<Space>(name, model);
     for (const int links : {2, 3, 6, 32})
       for (const double size : {1e-3, 0.1, 0.8})
@@ -238,7 +238,7 @@ void expect_moves_of(const char* name) {
           for (const int length_of : {-1, 0, 1}) {
             if (length_of >= 0 && leg.chain.joints() <= (leg.has_strut() ? 1 : 2))
               continue;  // it leaves nothing
-            const ChainHold hold{length_of, 0.19, {}};
+            const TendonConstraint hold{length_of, 0.19, {}};
             LegSystem<Space> system;
             form(leg, platform, state, hold, system);
             expect_moves(leg, system, false, false, state);
@@ -258,14 +258,14 @@ TEST(ChainLegFactors, AreThoseOfTheEquationsInFull) {
 /// Where springs and force leave some motion of the links no stiffness at all, the closure still holds the
 /// leg.
 TEST(ChainLegFactors, PassThroughTheForceAtWhichAChainBuckles) {
-  const auto robot = made_of<Planar>("3-rfr", ChainModel::weighted);
+  const auto robot = made_of<Planar>("3-rfr", PrbDiscretisation::weighted);
   ChainLeg<Planar> leg = robot.legs[0];
   for (const int links : {3, 6, 32}) {
     leg.chain.links = links;
     ChainLegState state;
     for (double& angle : state.angles) angle = 0.6 / links;
     const auto platform = Planar::frame(PlanarPose{0.01, 0, 0.3});
-    const ChainHold hold{-1, 0, {}};
+    const TendonConstraint hold{-1, 0, {}};
     LegSystem<Planar> system;
     const auto least = [&](double force) {  // of T, in angles
       state.force = force;
@@ -296,7 +296,7 @@ TEST(ChainForces, DoNoWorkAlongMotionsThatStayClosed) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> part(-1, 1);
   for (const char* name : {"3-rfr", "3-frr"})
-    for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs}) {
+    for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
       const auto robot = made_of<Planar>(name, model);
       const bool is_frr = robot.legs[0].has_strut();
       const PlanarPose pose = is_frr ? PlanarPose{0, 0, 0.1} : PlanarPose{0.01, 0, 0.3};
@@ -304,7 +304,7 @@ TEST(ChainForces, DoNoWorkAlongMotionsThatStayClosed) {
       Workspace memory(any);
       const Inverse arcs = inverse(any, pose, {}, memory);
       ChainState<Planar> state;
-      ASSERT_TRUE(rest(robot, pose, arcs.coordinates, false, state).ok());
+      ASSERT_TRUE(unloaded_equilibrium(robot, pose, arcs.coordinates, false, state).ok());
       ChainWork work;
       const Vec<double, 3> wrench(0.01, -0.008, 2e-4);
       ASSERT_TRUE(equilibrium(robot, std::vector(state.hold), wrench, state, work).ok());
@@ -346,7 +346,7 @@ TEST(ChainForces, DoNoWorkAlongMotionsThatStayClosed) {
 
 /// Tendon lengths of an unloaded pose against those of constant curvature, links doubled.
 template <class Space>
-void expect_order(const char* name, const typename Space::Pose& pose, ChainModel model, double order) {
+void expect_order(const char* name, const typename Space::Pose& pose, PrbDiscretisation model, double order) {
   Robot any = robot_of(name);
   Workspace memory(any);
   const Inverse arcs = inverse(any, pose, {}, memory);
@@ -358,7 +358,7 @@ void expect_order(const char* name, const typename Space::Pose& pose, ChainModel
     auto robot = made_of<Space>(name, model);
     for (auto& leg : robot.legs) leg.chain.links = links;
     ChainState<Space> state;
-    ASSERT_TRUE(rest(robot, pose, curvature, false, state).ok());
+    ASSERT_TRUE(unloaded_equilibrium(robot, pose, curvature, false, state).ok());
     double error = 0;
     for (std::size_t i = 0; i < lengths.size(); ++i)
       error = std::max(error, std::abs(state.legs[i].tendon_length[0] - lengths[i]));
@@ -371,11 +371,11 @@ TEST(ChainsOfManyLinks, AreArcs) {
   SpatialPose high;
   high.position = {0.01, 0, 0.18};
   for (const auto& [model, order] :
-       {std::pair(ChainModel::weighted, 2.0), std::pair(ChainModel::even, 1.0)}) {
+       {std::pair(PrbDiscretisation::weighted, 2.0), std::pair(PrbDiscretisation::even, 1.0)}) {
     expect_order<Planar>("3-rfr", PlanarPose{0.01, 0, 0.3}, model, order);
     expect_order<Spatial>("6-ufs", high, model, order);
   }
-  expect_order<Planar>("3-frr", PlanarPose{0, 0, 0.1}, ChainModel::weighted, 2);
+  expect_order<Planar>("3-frr", PlanarPose{0, 0, 0.1}, PrbDiscretisation::weighted, 2);
 }
 
 }  // namespace chain_properties_test

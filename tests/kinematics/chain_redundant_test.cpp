@@ -27,7 +27,7 @@ Case<Space> doubled(Case<Space> one) {
 
 /// Four legs that do not meet in a point, or seven.
 Case<Planar> four_legs() {
-  Case<Planar> one = chains_at<Planar>("3-rfr", ChainModel::weighted, {0.01, 0, 0.3});
+  Case<Planar> one = chains_at<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3});
   auto leg = one.robot.legs[0];
   leg.base = SE2<double>::from(-0.15, 0.12, 0);
   leg.platform_point = Vec2<double>(-0.02, 0.05);
@@ -36,7 +36,7 @@ Case<Planar> four_legs() {
   return one;
 }
 Case<Spatial> seven_legs() {
-  Case<Spatial> one = chains_at<Spatial>("6-ufs", ChainModel::weighted, reached_by_6_ufs());
+  Case<Spatial> one = chains_at<Spatial>("6-ufs", PrbDiscretisation::weighted, reached_by_6_ufs());
   auto leg = one.robot.legs[0];
   leg.base.p += Vec3<double>(-0.03, 0.02, 0);
   one.robot.legs.push_back(leg);
@@ -53,7 +53,7 @@ Vec<double, Space::dof> some_wrench() {
 
 /// Each leg bears half of twice the load: all numbers of the robot with single legs are told once more.
 template <class Space>
-void expect_twice(const char* name, ChainModel model, const typename Space::Pose& pose) {
+void expect_twice(const char* name, PrbDiscretisation model, const typename Space::Pose& pose) {
   const Case<Space> one = chains_at<Space>(name, model, pose), two = doubled(one);
   const std::size_t legs = one.robot.legs.size();
   const Vec<double, Space::dof> wrench = some_wrench<Space>();
@@ -61,14 +61,14 @@ void expect_twice(const char* name, ChainModel model, const typename Space::Pose
   for (const bool holds_lengths : {false, true})
     for (const bool is_pose_held : {false, true}) {
       ChainState<Space> a, b;
-      ASSERT_TRUE(rest(one.robot, pose, one.curvature, holds_lengths, a).ok());
-      ASSERT_TRUE(rest(two.robot, pose, two.curvature, holds_lengths, b).ok());
-      EXPECT_NEAR(evenness_gap(two.robot, b, 2 * wrench) / evenness_gap(one.robot, a, wrench), 2, 1e-9);
+      ASSERT_TRUE(unloaded_equilibrium(one.robot, pose, one.curvature, holds_lengths, a).ok());
+      ASSERT_TRUE(unloaded_equilibrium(two.robot, pose, two.curvature, holds_lengths, b).ok());
+      EXPECT_NEAR(constant_curvature_energy_gap(two.robot, b, 2 * wrench) / constant_curvature_energy_gap(one.robot, a, wrench), 2, 1e-9);
       const auto linear = linear_compliance(one.robot, a), half = linear_compliance(two.robot, b);
       EXPECT_LT((linear - 2 * half).norm(), 1e-10 * linear.norm());
       if (is_pose_held) {
-        ASSERT_TRUE(hold_pose(one.robot, wrench, a, work).ok());
-        ASSERT_TRUE(hold_pose(two.robot, 2 * wrench, b, work).ok());
+        ASSERT_TRUE(inverse_statics(one.robot, wrench, a, work).ok());
+        ASSERT_TRUE(inverse_statics(two.robot, 2 * wrench, b, work).ok());
       } else {
         ASSERT_TRUE(equilibrium(one.robot, std::vector(a.hold), wrench, a, work).ok());
         ASSERT_TRUE(equilibrium(two.robot, std::vector(b.hold), 2 * wrench, b, work).ok());
@@ -83,14 +83,14 @@ void expect_twice(const char* name, ChainModel model, const typename Space::Pose
       }
       const auto S = stiffness(one.robot, a, work), twice = stiffness(two.robot, b, work);
       EXPECT_LT((2 * S - twice).norm(), 1e-8 * twice.norm());
-      EXPECT_GT(least_curvature(two.robot, b), 0);
+      EXPECT_GT(smallest_hessian_eigenvalue(two.robot, b), 0);
     }
 }
 
 TEST(RedundantChains, BearTwiceTheLoadWithTwiceTheLegs) {
   SpatialPose high;
   high.position = {0.01, 0, 0.18};
-  for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs}) {
+  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
     expect_twice<Planar>("3-rfr", model, {0.01, 0, 0.3});
     expect_twice<Planar>("3-frr", model, {0, 0, 0.1});
     expect_twice<Spatial>("6-ufs", model, high);
@@ -106,9 +106,9 @@ void expect_consistent(const Case<Space>& one) {
   const Wrench wrench = some_wrench<Space>();
   for (const bool holds_lengths : {false, true}) {
     ChainState<Space> state;
-    ASSERT_TRUE(rest(one.robot, one.pose, one.curvature, holds_lengths, state).ok());
+    ASSERT_TRUE(unloaded_equilibrium(one.robot, one.pose, one.curvature, holds_lengths, state).ok());
     const ChainState<Space> at_rest = state;
-    const Report held = hold_pose(one.robot, wrench, state, work);
+    const Report held = inverse_statics(one.robot, wrench, state, work);
     ASSERT_TRUE(held.ok()) << to_string(held);
     EXPECT_LT(held.residual, 1e-12);
     ChainState<Space> free = at_rest;
@@ -133,10 +133,10 @@ template <class Space>
 void expect_nearest(const Case<Space>& one) {
   ChainWork work;
   ChainState<Space> at_rest;
-  ASSERT_TRUE(rest(one.robot, one.pose, one.curvature, false, at_rest).ok());
+  ASSERT_TRUE(unloaded_equilibrium(one.robot, one.pose, one.curvature, false, at_rest).ok());
   const auto change = [&](const ChainState<Space>& from) {
     ChainState<Space> state = from;
-    EXPECT_TRUE(hold_pose(one.robot, some_wrench<Space>(), state, work).ok());
+    EXPECT_TRUE(inverse_statics(one.robot, some_wrench<Space>(), state, work).ok());
     double sum = 0;
     for (std::size_t i = 0; i < state.legs.size(); ++i)
       for (std::size_t k = 0; k < 2; ++k)
@@ -165,7 +165,7 @@ TEST(RedundantChains, HoldAPoseWithTheTensionsNearestToThoseAtRest) {
 TEST(RedundantChains, HaveNoSensitivitiesOfTheirJoints) {
   const Case<Planar> one = four_legs();
   ChainState<Planar> state;
-  ASSERT_TRUE(rest(one.robot, one.pose, one.curvature, false, state).ok());
+  ASSERT_TRUE(unloaded_equilibrium(one.robot, one.pose, one.curvature, false, state).ok());
   const auto found = chain_velocity(one.robot, one.pose, state.legs);
   EXPECT_TRUE(found.report.ok());
   EXPECT_FALSE(found.has_inverse);
@@ -182,23 +182,23 @@ TEST(RedundantChains, HaveNoSensitivitiesOfTheirJoints) {
 }
 
 TEST(FewChains, LeaveThePlatformFree) {
-  Case<Planar> one = chains_at<Planar>("3-rfr", ChainModel::weighted, {0.01, 0, 0.3});
+  Case<Planar> one = chains_at<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3});
   ChainWork work;
   for (const std::size_t legs : {2U, 1U}) {
     one.robot.legs.resize(legs);
     one.curvature.resize(legs);
     ChainState<Planar> state;
-    ASSERT_TRUE(rest(one.robot, one.pose, one.curvature, false, state).ok());
+    ASSERT_TRUE(unloaded_equilibrium(one.robot, one.pose, one.curvature, false, state).ok());
     EXPECT_EQ(chain_velocity(one.robot, one.pose, state.legs).report.status, Status::singular);
     for (const Vec<double, 3>& wrench : {Vec<double, 3>(0, 0, 0), Vec<double, 3>(0.01, 0, 0)}) {
       ChainState<Planar> moved = state;
       EXPECT_EQ(equilibrium(one.robot, std::vector(state.hold), wrench, moved, work).status,
                 Status::singular);
-      EXPECT_EQ(hold_pose(one.robot, wrench, moved, work).status, Status::unreachable);
+      EXPECT_EQ(inverse_statics(one.robot, wrench, moved, work).status, Status::unreachable);
       EXPECT_EQ(follow_load(one.robot, wrench, 1, moved, work).report.status, Status::singular);
     }
-    EXPECT_FALSE(least_curvature(one.robot, state) > 1e-9);
-    EXPECT_FALSE(std::isfinite(evenness_gap(one.robot, state, Vec<double, 3>(0.01, 0, 0))));
+    EXPECT_FALSE(smallest_hessian_eigenvalue(one.robot, state) > 1e-9);
+    EXPECT_FALSE(std::isfinite(constant_curvature_energy_gap(one.robot, state, Vec<double, 3>(0.01, 0, 0))));
     EXPECT_FALSE(linear_compliance(one.robot, state).allFinite());
   }
 }
@@ -207,12 +207,12 @@ TEST(ManyChains, AreSolvedButHaveNoRates) {
   Case<Planar> one = four_legs();
   while (one.robot.legs.size() <= static_cast<std::size_t>(max_rows)) one = doubled(one);
   ChainState<Planar> state;
-  ASSERT_TRUE(rest(one.robot, one.pose, one.curvature, false, state).ok());
+  ASSERT_TRUE(unloaded_equilibrium(one.robot, one.pose, one.curvature, false, state).ok());
   ChainWork work;
   EXPECT_TRUE(equilibrium(one.robot, std::vector(state.hold), some_wrench<Planar>(), state, work).ok());
   EXPECT_TRUE(std::isnan(chain_rates(one.robot, one.pose, state.legs).closure_error));
   EXPECT_EQ(chain_velocity(one.robot, one.pose, state.legs).report.status, Status::bad_input);
-  EXPECT_TRUE(std::isnan(evenness_gap(one.robot, state, some_wrench<Planar>())));
+  EXPECT_TRUE(std::isnan(constant_curvature_energy_gap(one.robot, state, some_wrench<Planar>())));
 }
 
 }  // namespace chain_redundant_test

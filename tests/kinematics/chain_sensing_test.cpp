@@ -18,10 +18,10 @@ struct Case {
 };
 
 template <class Space>
-Case<Space> case_of(const char* name, ChainModel model, const typename Space::Pose& pose) {
+Case<Space> case_of(const char* name, PrbDiscretisation model, const typename Space::Pose& pose) {
   const ChainsAt<Space> at = chains_at<Space>(name, model, pose);
   Case<Space> one{at.robot, {}};
-  EXPECT_TRUE(rest(one.robot, pose, at.curvature, true, one.unloaded).ok());
+  EXPECT_TRUE(unloaded_equilibrium(one.robot, pose, at.curvature, true, one.unloaded).ok());
   return one;
 }
 
@@ -72,7 +72,7 @@ void expect_sensed(const Case<Space>& one, double size, std::mt19937& random) {
 
 TEST(ChainSensing, GivesBackTheLoadThatMadeTheTensions) {
   std::mt19937 random(3);
-  for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs})
+  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
     for (const double size : {0.0, 0.01, 0.1}) {
       expect_sensed(case_of<Planar>("3-rfr", model, {0.01, 0, 0.3}), size, random);
       expect_sensed(case_of<Planar>("3-frr", model, {0, 0, 0.1}), 0.1 * size, random);
@@ -82,17 +82,17 @@ TEST(ChainSensing, GivesBackTheLoadThatMadeTheTensions) {
 
 TEST(ChainSensing, TakesAsManyLegsAsAreMeasured) {
   std::mt19937 random(4);
-  Case<Planar> one = case_of<Planar>("3-rfr", ChainModel::weighted, {0.01, 0, 0.3});
+  Case<Planar> one = case_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3});
   auto leg = one.robot.legs[0];
   leg.base = SE2<double>::from(-0.15, 0.12, 0);
   leg.platform_point = Vec2<double>(-0.02, 0.05);
   one.robot.legs.push_back(leg);
-  ASSERT_TRUE(rest(one.robot, {0.01, 0, 0.3}, std::vector{5.0, 5.0, 5.0, 5.0}, true, one.unloaded).ok());
+  ASSERT_TRUE(unloaded_equilibrium(one.robot, {0.01, 0, 0.3}, std::vector{5.0, 5.0, 5.0, 5.0}, true, one.unloaded).ok());
   expect_sensed(one, 0.05, random);
 }
 
 TEST(ChainSensing, RefusesWhatTellsNothing) {
-  const Case<Planar> one = case_of<Planar>("3-rfr", ChainModel::weighted, {0.01, 0, 0.3});
+  const Case<Planar> one = case_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3});
   ChainWork work;
   const auto status = [&](std::vector<MeasuredTension> measured, ChainState<Planar> state) {
     return sense_wrench(one.robot, measured, state, work).report.status;

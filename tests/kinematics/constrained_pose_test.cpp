@@ -89,14 +89,14 @@ TEST(Settled, IsInThePlanesNearbyAndStaysThere) {
   const Robot robot = load("3prs").value();
   std::mt19937 random{3};
   for (int sample = 0; sample < 300; ++sample) {
-    const AnyPose any = pose_near_home(robot, random), there = settled(robot, any);
+    const AnyPose any = pose_near_home(robot, random), there = project_to_constraints(robot, any);
     EXPECT_LT(beside(robot, std::get<SpatialPose>(there)), 1e-14);
-    EXPECT_LT(motion(there, settled(robot, there)).norm(), 1e-14);
+    EXPECT_LT(motion(there, project_to_constraints(robot, there)).norm(), 1e-14);
     EXPECT_LT(motion(any, there).norm(), 1.2);  // about as far as home, in the planes too, is from it
   }
   const Robot free = load("6-ufs").value();
   const AnyPose any = pose_near_home(free, random);
-  EXPECT_EQ(motion(any, settled(free, any)).norm(), 0);
+  EXPECT_EQ(motion(any, project_to_constraints(free, any)).norm(), 0);
 }
 
 }  // namespace constrained_pose_test

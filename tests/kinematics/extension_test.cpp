@@ -23,8 +23,8 @@ constexpr double mm = 1e-3;
 SerialRobot growing(int tendons = 3) {
   SerialRobot robot = nottingham(Backbone::neutral, 5, tendons, degrees(18));
   for (const std::size_t m : {1U, 3U}) {
-    robot.sections[m].least_extension = -5 * mm;
-    robot.sections[m].most_extension = 15 * mm;
+    robot.sections[m].min_extension = -5 * mm;
+    robot.sections[m].max_extension = 15 * mm;
   }
   return robot;
 }
@@ -42,8 +42,8 @@ class Extension : public testing::TestWithParam<int> {
     extensions.clear();
     for (const Section& section : robot.sections)
       extensions.push_back(std::uniform_real_distribution<double>(
-          share * section.least_extension, share * section.most_extension + 1e-300)(random));
-    extend(robot, extensions, work);
+          share * section.min_extension, share * section.max_extension + 1e-300)(random));
+    set_extensions(robot, extensions, work);
   }
 };
 
@@ -98,10 +98,10 @@ TEST_P(Extension, IsWhatTendonsHaveInCommon) {  // there and back, through strai
     bends[static_cast<std::size_t>(k % 5)].setZero();
     if (k % 4 == 0) bends[3] *= 1e-9;
     for (const Model model : {Model::exact, Model::linear}) {
-      extend(robot, extensions, work);
+      set_extensions(robot, extensions, work);
       tendon_changes(bends, model, work);
       const std::vector<double> changes = work.changes;
-      extend(robot, std::vector<double>(5, 0.0), work);
+      set_extensions(robot, std::vector<double>(5, 0.0), work);
       const Report report = bends_of_changes(robot, changes, model, work);
       ASSERT_TRUE(report.ok()) << to_string(report);
       for (std::size_t m = 0; m < bends.size(); ++m) {
@@ -117,7 +117,7 @@ TEST_P(Extension, SlackOfAFixedSectionIsNotTakenForLength) {
   any_shape(0.5);
   tendon_changes(bends, Model::exact, work);
   const std::array more{0.0, 0.0, 1 * mm, 0.0, 0.0};
-  pay_out(more, work);
+  add_slack(more, work);
   const std::vector<double> changes = work.changes;
   const Report report = bends_of_changes(robot, changes, Model::exact, work);
   EXPECT_EQ(report.status, Status::slack);
@@ -151,22 +151,22 @@ TEST_P(Extension, MovesTipAndTendonsAsDifferencesSay) {
         const auto at = [&](double change) {
           std::vector<double> moved = extensions;
           moved[m] += change;
-          extend(robot, moved, work);
+          set_extensions(robot, moved, work);
           section_ends(bends, work);
           tendon_changes(bends, model, work);
           return std::pair(work.ends.back(), work.changes);
         };
         const auto ahead = at(step), behind = at(-step);
-        extend(robot, extensions, work);
+        set_extensions(robot, extensions, work);
         tip_motion(bends, work);
         extension_motion(bends, model, work);
-        EXPECT_LT(((ahead.first.p - behind.first.p) / (2 * step) - work.lengthwise[m].tip).norm(), 1e-12);
+        EXPECT_LT(((ahead.first.p - behind.first.p) / (2 * step) - work.extension_jacobians[m].tip).norm(), 1e-12);
         EXPECT_LT(ahead.first.R.compose(behind.first.R.inverse()).log().norm(), 1e-15);
         std::size_t i = 0;
         for (std::size_t j = 0; j < bends.size(); ++j)
           for (int n = 0; n < robot.sections[j].tendons; ++n, ++i)
             EXPECT_NEAR((ahead.second[i] - behind.second[i]) / (2 * step),
-                        j < m ? 0 : work.lengthwise[m].tendons, 1e-12);
+                        j < m ? 0 : work.extension_jacobians[m].tendons, 1e-12);
       }
   }
 }
@@ -184,7 +184,7 @@ TEST_P(Extension, LimitsAreNamed) {
   // Tendons that ask for more than the limits are slack, or too short; no section gets shorter than it can.
   for (auto& bend : bends) bend.setZero();
   for (const double asked : {-6 * mm, 18 * mm}) {
-    extend(robot, std::array{0.0, asked, 0.0, 0.0, 0.0}, work);
+    set_extensions(robot, std::array{0.0, asked, 0.0, 0.0, 0.0}, work);
     tendon_changes(bends, Model::exact, work);
     const std::vector<double> changes = work.changes;
     report = bends_of_changes(robot, changes, Model::exact, work);
@@ -229,7 +229,7 @@ TEST_P(Extension, ReachesBeyondTheLengthAtRest) {
 
 TEST_P(Extension, MayBeAsLongAsARodThatSlidesIn) {
   SerialRobot slides = robot;
-  slides.sections[1].most_extension = 1e6;
+  slides.sections[1].max_extension = 1e6;
   SerialWorkspace other(slides);
   const SerialInverse answer = inverse(slides, {.position = Vec3<double>(0.1, 0.2, 3)}, {}, other);
   ASSERT_TRUE(answer.ok()) << to_string(answer.report);
@@ -239,12 +239,12 @@ TEST_P(Extension, MayBeAsLongAsARodThatSlidesIn) {
 TEST_P(Extension, RatesUseItAndStopAtItsLimits) {
   std::vector<Bend> straight(5, Bend::Zero());
   const TipTwist along{.linear = Vec3<double>(0, 0, 0.01)};
-  extend(robot, std::array{0.0, 5 * mm, 0.0, 0.0, 0.0}, work);
+  set_extensions(robot, std::array{0.0, 5 * mm, 0.0, 0.0, 0.0}, work);
   ResolvedRate answer = resolved_rate(robot, straight, along, {.task = TipTask::position}, work);
   ASSERT_TRUE(answer.ok()) << to_string(answer.report);
   EXPECT_NEAR(answer.extensions[1] + answer.extensions[3], 0.01, 1e-8);
   for (const double tendon : answer.tendons.last(3)) EXPECT_NEAR(tendon, 0.01, 1e-8);
-  extend(robot, std::array{0.0, 15 * mm, 0.0, 15 * mm, 0.0}, work);
+  set_extensions(robot, std::array{0.0, 15 * mm, 0.0, 15 * mm, 0.0}, work);
   answer = resolved_rate(robot, straight, along, {.task = TipTask::position}, work);
   EXPECT_EQ(answer.report.status, Status::left_domain);
   EXPECT_EQ(answer.held, 2);
@@ -260,7 +260,7 @@ TEST_P(Extension, RatesUseItAndStopAtItsLimits) {
       bends[m] = from[m] + time * Bend(answer.bends[2 * m], answer.bends[2 * m + 1]);
       extensions[m] = at_first[m] + time * answer.extensions[m];
     }
-    extend(robot, extensions, work);
+    set_extensions(robot, extensions, work);
     section_ends(bends, work);
     tendon_changes(bends, Model::exact, work);
     return std::pair(work.ends.back(), work.changes);

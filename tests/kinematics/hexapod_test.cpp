@@ -103,7 +103,7 @@ TEST(Hexapod, ResumedStepsAgreeWithTheWayFromHome) {
     pose = {pose.p + Vec3<double>(4e-4, -3e-4, 5e-4),
             SO3<double>::exp(Vec3<double>(1e-3, -5e-4, 1e-3)).compose(pose.R)};
     const Equilibrium quick =
-        inverse_equilibrium(robot, pose_of(pose), {.resume = true, .judge = false}, walker);
+        inverse_equilibrium(robot, pose_of(pose), {.warm_start = true, .check_stability = false}, walker);
     ASSERT_TRUE(quick.is_solved()) << quick.report.message.view();
     EXPECT_LE(quick.report.residual, 1e-10);
     EXPECT_LE(quick.report.iterations, 5);

@@ -15,7 +15,7 @@
 namespace sinew::test {
 namespace hinged_modes_test {
 
-using Legs = std::array<Reach<3>, 3>;
+using Legs = std::array<PlatformConstraint<3>, 3>;
 
 Vec3<double> point(std::mt19937& random, double size = 1) {
   return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
@@ -105,15 +105,15 @@ TEST(ThreeCircles, TheirRatesAreDerivatives) {
 /// one of them was missed and all said to be there.
 TEST(HingedModes, OfANearPairAreBothThere) {
   const Legs legs{
-      Reach<3>{{1.0819370595627098, 1.560508814804345, 1.3133263426628612},
+      PlatformConstraint<3>{{1.0819370595627098, 1.560508814804345, 1.3133263426628612},
                1.1638323963856112,
                {-0.2293003861151714, 0.3539093859284965, 0.1072918750912627},
                {0.6580260301998307, -0.35940333362965526, -0.6616879833844213}},
-      Reach<3>{{-0.1533603124465933, -0.15532557076944004, 1.7510818150856649},
+      PlatformConstraint<3>{{-0.1533603124465933, -0.15532557076944004, 1.7510818150856649},
                0.5166379605843278,
                {-0.3610868242033988, 0.5526192114812027, -0.46188485176804017},
                {-0.27162047272552126, -0.5899399064703084, -0.7603901798091346}},
-      Reach<3>{{0.9944487917660013, 1.2940117138550047, 0.5319414414147272},
+      PlatformConstraint<3>{{0.9944487917660013, 1.2940117138550047, 0.5319414414147272},
                0.13371543047348325,
                {0.20687593009258987, -0.44423542451216136, 0.6542933855928301},
                {0.6384549424628723, 0.6246350995121069, 0.44967352479574635}},
@@ -243,7 +243,7 @@ TEST(HingedModes, OfLegsThatAreNoneAreRefused) {
   EXPECT_EQ(hinged_modes(legs).report.status, Status::left_domain);
   legs = tripod({0, std::nan(""), 0});
   EXPECT_EQ(hinged_modes(legs).report.status, Status::left_domain);
-  EXPECT_FALSE(are_hinged(std::span<const Reach<3>>(legs).first(2)));
+  EXPECT_FALSE(are_hinged(std::span<const PlatformConstraint<3>>(legs).first(2)));
 }
 
 }  // namespace hinged_modes_test

@@ -63,7 +63,7 @@ TEST_P(EveryRobot, BranchIsChosenAsAsked) {
     const WorkingModes modes = working_modes(robot, pose, {}, work);
     std::vector<double> inputs(work.inputs.size());
     modes.mode(robot, static_cast<std::size_t>(modes.count) / 2, inputs);
-    ASSERT_TRUE(command(robot, inputs, work).ok());
+    ASSERT_TRUE(coordinates_from_inputs(robot, inputs, work).ok());
     const std::vector<double> coordinates = work.coordinates;
     // inputs as a start lead back to themselves
     const Inverse again = inverse(robot, pose, {.start = inputs}, work);

@@ -121,7 +121,7 @@ Arrival by_steps(const Robot& robot, const Trial& trial, Workspace& work, int st
   Equilibrium found = equilibrium(robot, trial.inputs, {}, work);
   if (!found.report.ok()) return {-1, "unloaded"};
   EquilibriumOptions options;
-  options.resume = true;
+  options.warm_start = true;
   for (int k = 1; k <= steps; ++k) {
     const SpatialPose before = found.pose;
     options.wrench = trial.wrench * k / steps;

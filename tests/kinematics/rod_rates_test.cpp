@@ -55,7 +55,7 @@ struct At {
   SpatialPose pose(const std::vector<double>& rates, double time) {
     std::vector<double> moved = inputs;
     for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += time * rates[k];
-    const Equilibrium found = equilibrium(robot, moved, {.wrench = wrench, .resume = true}, work);
+    const Equilibrium found = equilibrium(robot, moved, {.wrench = wrench, .warm_start = true}, work);
     EXPECT_TRUE(found.is_solved()) << found.report.message.view();
     return found.pose;
   }
@@ -157,7 +157,7 @@ TEST(RodStability, IsCountedOnceAnAnswer) {
   const std::vector<double> inputs(6, 0.41), near(6, 0.4101);
   ASSERT_TRUE(equilibrium(robot, inputs, {}, work).is_solved());
   system.asked = 0;
-  ASSERT_TRUE(equilibrium(robot, near, {.resume = true}, work).is_solved());
+  ASSERT_TRUE(equilibrium(robot, near, {.warm_start = true}, work).is_solved());
   const RodAnalysis counted = analyse_equilibrium(robot, work);
   EXPECT_EQ(system.asked, 6);
   EXPECT_EQ(counted.unstable_rods, analyse_equilibrium(robot, work).unstable_rods);

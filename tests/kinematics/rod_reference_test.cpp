@@ -79,7 +79,7 @@ TEST(RodReference, AllCases) {  // @verifies 3PFS (25)-(30)
       double energy = 0;
       for (int k = 0; k < 6; ++k) {
         const auto i = std::size_t(k);
-        const RodReading rod = system.rod(k);
+        const RodResult rod = system.rod(k);
         EXPECT_LT(judge::error(Vec2<double>(rod.curvature_0.head<2>()), c["u0"][i]), 1e-10);
         EXPECT_NEAR(rod.tip_angle, c["tip_angle"][i].get<double>(), 1e-12);
         EXPECT_NEAR(rod.energy, c["energy_rods"][i].get<double>(), 1e-12);

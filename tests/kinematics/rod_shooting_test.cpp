@@ -12,7 +12,7 @@ namespace rod_shooting_test {
 judge::Vector37<double> unknowns(const RodGroup& system) {
   judge::Vector37<double> v;
   for (int k = 0; k < 6; ++k) {
-    const RodReading rod = system.rod(k);
+    const RodResult rod = system.rod(k);
     v.segment<2>(5 * k) = rod.curvature_0.head<2>();
     v.segment<3>(5 * k + 2) = rod.force;
   }

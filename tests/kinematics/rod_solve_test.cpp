@@ -87,7 +87,7 @@ TEST(RodSolve, BeyondItAnswersOrSaysWhyNot) {
         EXPECT_LT(off_elastica(solver.robot, *solver.work.system), 1e-11);
         Wrench6 sum = Wrench6::Zero();
         for (int k = 0; k < 6; ++k) {
-          const RodReading rod = solver.work.system->rod(k);
+          const RodResult rod = solver.work.system->rod(k);
           sum.head<3>() += rod.force;
           sum.tail<3>() += cross(rod.tip - solver.pose().p, rod.force);
           EXPECT_EQ(rod.length, inputs[k / 2]);
@@ -156,7 +156,7 @@ TEST(RodSolve, SaysWhenTheRobotDoesNotHoldByItself) {  // symmetric, pressed bey
     EXPECT_EQ(report.message.view().substr(0, 12), "2 directions");
     EXPECT_LT(off_elastica(solver.robot, *solver.work.system), 1e-12);
     wrench[2] = -load + 20;
-    EXPECT_TRUE(solver.solve(Vec3<double>::Constant(t.length), {.wrench = wrench, .resume = true}).ok());
+    EXPECT_TRUE(solver.solve(Vec3<double>::Constant(t.length), {.wrench = wrench, .warm_start = true}).ok());
   }
 }
 
@@ -169,7 +169,7 @@ TEST(RodSolve, NamesTheLoadWhereTheLoadAloneWasChanged) {
     const Vec3<double> inputs = Vec3<double>::Constant(t.length);
     for (int trial = 0; trial < 60; ++trial) {
       ASSERT_TRUE(solver.solve(inputs, {.wrench = random.wrench(1, 0.1)}).ok());
-      const Report report = solver.solve(inputs, {.wrench = random.wrench(400, 20), .resume = true});
+      const Report report = solver.solve(inputs, {.wrench = random.wrench(400, 20), .warm_start = true});
       if (report.status != Status::singular) continue;
       ++buckled;
       EXPECT_EQ(report.message.view().substr(0, 17), "the robot buckles") << report.message.view();
@@ -184,7 +184,7 @@ TEST(RodSolve, ResumingNothingIsBeginningAtHome) {
     Solver fresh(g2), cold(g2);
     const Vec3<double> inputs = inputs_around(g2, random, 0.1);
     const Wrench6 wrench = random.wrench(50, 3);
-    const Report one = fresh.solve(inputs, {.wrench = wrench, .resume = true});
+    const Report one = fresh.solve(inputs, {.wrench = wrench, .warm_start = true});
     const Report other = cold.solve(inputs, {.wrench = wrench});
     EXPECT_EQ(one.status, other.status);
     EXPECT_EQ(distance(fresh.pose(), cold.pose()), 0);
@@ -205,13 +205,13 @@ TEST(RodSolve, ResumedIsWhatIsFoundFromHome) {
       inputs = inputs.cwiseMin(t.length + 0.05).cwiseMax(t.length - 0.05);
       wrench = 0.98 * wrench + random.wrench(0.4, 0.02);
       ASSERT_TRUE(cold.solve(inputs, {.wrench = wrench}).ok());
-      const Report report = warm.solve(inputs, {.wrench = wrench, .resume = true});
+      const Report report = warm.solve(inputs, {.wrench = wrench, .warm_start = true});
       ASSERT_TRUE(report.ok()) << to_string(report);
       EXPECT_LT(distance(warm.pose(), cold.pose()), 1e-11);
       for (int k = 0; k < 6; ++k)
         EXPECT_LT((warm.work.system->rod(k).force - cold.work.system->rod(k).force).norm(), 1e-8);
       if (trial > 0) iterations += report.iterations, ++steps;
-      ASSERT_TRUE(quick.solve(inputs, {.wrench = wrench, .resume = true, .judge = false}).ok());
+      ASSERT_TRUE(quick.solve(inputs, {.wrench = wrench, .warm_start = true, .check_stability = false}).ok());
       EXPECT_LT(distance(quick.pose(), cold.pose()), 1e-11);
     }
     EXPECT_LT(iterations, 6 * steps);
@@ -228,7 +228,7 @@ TEST(RodSolve, QuickAnswersStayResolved) {  // ten nodes do not: they were 1e-7 
       const Vec3<double> from = inputs, to = inputs_around(t, random, 0.15);
       for (int part = 1; part <= 50; ++part) {
         inputs = from + part / 50.0 * (to - from);
-        ASSERT_TRUE(quick.solve(inputs, {.resume = true, .judge = false}).ok());
+        ASSERT_TRUE(quick.solve(inputs, {.warm_start = true, .check_stability = false}).ok());
         fine += quick.work.system->is_fine();
       }
       ASSERT_TRUE(cold.solve(inputs).ok());
@@ -248,12 +248,12 @@ TEST(RodSolve, NeverLeavesItsBranchInLargeResumedSteps) {  // beside a path in s
       const Wrench6 before = random.wrench(5, 0.3), after = random.wrench(30, 2);
       if (!large.solve(from, {.wrench = before}).ok()) continue;
       ASSERT_TRUE(small.solve(from, {.wrench = before}).ok());
-      if (!is_solved(large.solve(to, {.wrench = after, .resume = true}))) continue;
+      if (!is_solved(large.solve(to, {.wrench = after, .warm_start = true}))) continue;
       bool is_there = true;
       for (int part = 1; part <= 60 && is_there; ++part) {
         const double f = part / 60.0;
         const Vec3<double> inputs = (1 - f) * from + f * to;
-        is_there = is_solved(small.solve(inputs, {.wrench = (1 - f) * before + f * after, .resume = true}));
+        is_there = is_solved(small.solve(inputs, {.wrench = (1 - f) * before + f * after, .warm_start = true}));
       }
       if (!is_there) continue;
       ++tried;
@@ -388,7 +388,7 @@ TEST(RodSolve, SaysWhenHomeCannotBeLaid) {
   // a start is a way out, and what is resumed after it
   Solver solver(tripod_robot(g2.data(), level(-0.1)));
   EXPECT_TRUE(solver.solve({0.44, 0.43, 0.43}, {.start = level(0.4)}).ok());
-  EXPECT_TRUE(solver.solve({0.44, 0.43, 0.44}, {.resume = true}).ok());
+  EXPECT_TRUE(solver.solve({0.44, 0.43, 0.44}, {.warm_start = true}).ok());
 }
 
 TEST(RodInverse, RoundTrips) {
@@ -402,7 +402,7 @@ TEST(RodInverse, RoundTrips) {
                                   random.uniform(-0.12, 0.12)};
       const Wrench6 wrench = random.wrench(trial % 2 * 5, trial % 2 * 0.3);
       const bool resume = trial % 5 == 4;
-      const Report report = there.solve_at(wanted, {.wrench = wrench, .resume = resume});
+      const Report report = there.solve_at(wanted, {.wrench = wrench, .warm_start = resume});
       if (!report.ok()) continue;
       ++solved;
       EXPECT_LE(report.residual, 1e-12);

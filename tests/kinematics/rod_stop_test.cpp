@@ -17,7 +17,7 @@ namespace rod_stop_test {
 
 /// Computed after the request, by all threads: a hundred milliseconds of a machine that has nothing else to
 /// do.
-constexpr double most_seconds = 0.1;
+constexpr double max_seconds = 0.1;
 
 /// One public function, on a workspace that holds an equilibrium; whether its answer says it was stopped.
 struct Question {
@@ -110,7 +110,7 @@ TEST(RodStop, ATokenStoppedBeforeIsSeenAtOnce) {
       work.stop = StopToken(flag);
       const double begun = cpu_seconds();
       EXPECT_TRUE(question.ask(robot, work));
-      EXPECT_LT(cpu_seconds() - begun, most_seconds);
+      EXPECT_LT(cpu_seconds() - begun, max_seconds);
     }
   }
 }
@@ -140,7 +140,7 @@ TEST(RodStop, ARunningSolveEndsSoonAfterTheRequest) {
       }
       const double ended = cpu_seconds();
       other.join();
-      EXPECT_LT(ended - asked, most_seconds);
+      EXPECT_LT(ended - asked, max_seconds);
       work.stop = {};  // and the workspace goes on
       EXPECT_TRUE(equilibrium(robot, home, {}, work).is_solved());
     }

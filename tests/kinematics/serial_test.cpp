@@ -185,7 +185,7 @@ TEST_P(SerialRobots, AreSlackByWhatWasPaidOut) {
   const auto bends = random_bends(robot, random);
   const std::vector<double> more{0, 0.3e-3, 0, -0.1e-3, 0};
   tendon_changes(bends, Model::exact, work);
-  pay_out(more, work);
+  add_slack(more, work);
   const std::vector<double> changes = work.changes;
   const Report report = bends_of_changes(robot, changes, Model::exact, work);
   EXPECT_EQ(report.status, Status::unreachable);  // section 3 is stiffened: no bend is exact

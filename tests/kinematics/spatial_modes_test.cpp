@@ -10,7 +10,7 @@
 namespace sinew::test {
 namespace spatial_modes_test {
 
-using Legs = std::vector<Reach<3>>;
+using Legs = std::vector<PlatformConstraint<3>>;
 
 double uniform(std::mt19937& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
@@ -26,12 +26,12 @@ SE3<double> pose(std::mt19937& random) {
 
 /// The legs take their distances from the pose.
 Legs closed(Legs legs, const SE3<double>& at) {
-  for (Reach<3>& leg : legs) leg.distance = (at.point(leg.platform_point) - leg.anchor).norm();
+  for (PlatformConstraint<3>& leg : legs) leg.distance = (at.point(leg.platform_point) - leg.anchor).norm();
   return legs;
 }
 Legs random_legs(std::mt19937& random, std::size_t count, double flat = 1) {
   Legs legs(count);
-  for (Reach<3>& leg : legs) leg = {point(random, flat), 1, 0.6 * point(random, flat)};
+  for (PlatformConstraint<3>& leg : legs) leg = {point(random, flat), 1, 0.6 * point(random, flat)};
   return legs;
 }
 
@@ -141,7 +141,7 @@ TEST(SpatialModes, UnitsAndPlaceDoNotMatterAndAnswersRepeat) {
   const Legs legs = closed(random_legs(random, 6), pose(random));
   Legs moved = legs;
   const Vec3<double> shift(300, -200, 100);
-  for (Reach<3>& leg : moved)
+  for (PlatformConstraint<3>& leg : moved)
     leg = {1000 * leg.anchor + shift, 1000 * leg.distance, 1000 * leg.platform_point};
   const SpatialModes here = spatial_modes(legs), again = spatial_modes(legs), there = spatial_modes(moved);
   ASSERT_EQ(here.poses.size(), again.poses.size());
@@ -172,7 +172,7 @@ TEST(SpatialModes, MoreLegsChooseAmongThePosesOfSix) {
 TEST(SpatialModes, ShortLegsAreTorn) {
   std::mt19937 random{16};
   Legs legs = closed(random_legs(random, 6), pose(random));
-  for (Reach<3>& leg : legs) leg.distance = 1e-3;
+  for (PlatformConstraint<3>& leg : legs) leg.distance = 1e-3;
   const SpatialModes modes = spatial_modes(legs);
   EXPECT_EQ(modes.report.status, Status::unreachable);
   EXPECT_TRUE(modes.poses.empty());
@@ -184,7 +184,7 @@ TEST(SpatialModes, WhereAllSolutionsAreComplexNewtonFindsNothingEither) {
   int none = 0;
   for (int sample = 0; sample < 10; ++sample) {
     Legs legs = random_legs(random, 6);
-    for (Reach<3>& leg : legs) leg.distance = uniform(random, 0.8, 2.2);
+    for (PlatformConstraint<3>& leg : legs) leg.distance = uniform(random, 0.8, 2.2);
     const SpatialModes modes = spatial_modes(legs);
     if (modes.report.ok()) continue;
     EXPECT_EQ(modes.report.status, Status::unreachable);
@@ -200,7 +200,7 @@ TEST(SpatialModes, ADoubleModeIsFoundAndNotCalledComplete) {  // legs through on
   std::mt19937 random{17};
   const SE3<double> truth = pose(random);
   Legs legs = random_legs(random, 6);
-  for (Reach<3>& leg : legs) {  // every leg's line meets the vertical through the middle
+  for (PlatformConstraint<3>& leg : legs) {  // every leg's line meets the vertical through the middle
     const Vec3<double> end = truth.point(leg.platform_point);
     leg.anchor = Vec3<double>(truth.p[0], truth.p[1], uniform(random, -2, 0)) * 2 - end;
   }
@@ -214,7 +214,7 @@ TEST(SpatialModes, ADoubleModeIsFoundAndNotCalledComplete) {  // legs through on
 TEST(SpatialModes, ASelfMotionIsCalledSingular) {  // equal base and platform, equal legs: a parallelogram
   std::mt19937 random{18};
   Legs legs = random_legs(random, 6);
-  for (Reach<3>& leg : legs) leg.anchor = leg.platform_point, leg.distance = 1;
+  for (PlatformConstraint<3>& leg : legs) leg.anchor = leg.platform_point, leg.distance = 1;
   const SpatialModes modes = spatial_modes(legs);
   EXPECT_EQ(modes.report.status, Status::singular);
   EXPECT_FALSE(modes.is_complete());
@@ -236,11 +236,11 @@ TEST(SpatialModes, TooFewConstraintsAreSingular) {
   Legs same = legs, collapsed = legs, line = legs, stacked = legs;
   same[5] = same[4];
   expect_refused(same, Status::singular, "only 5");
-  for (Reach<3>& leg : collapsed) leg.platform_point = Vec3<double>(1, 2, 3);
+  for (PlatformConstraint<3>& leg : collapsed) leg.platform_point = Vec3<double>(1, 2, 3);
   expect_refused(collapsed, Status::singular, "line");
-  for (Reach<3>& leg : line) leg.platform_point = leg.platform_point[0] * Vec3<double>(1, 2, 3);
+  for (PlatformConstraint<3>& leg : line) leg.platform_point = leg.platform_point[0] * Vec3<double>(1, 2, 3);
   expect_refused(line, Status::singular, "line");
-  for (Reach<3>& leg : stacked) leg.anchor.setZero();
+  for (PlatformConstraint<3>& leg : stacked) leg.anchor.setZero();
   expect_refused(stacked, Status::singular, "line");
 }
 

@@ -139,7 +139,7 @@ TYPED_TEST(EveryLeg, SolutionsCloseTheLeg) {
   for (int sample = 0; sample < 2000; ++sample) {
     const auto leg = random_leg<TypeParam>(this->random);
     const auto platform = this->platform(leg);
-    const Wish wish{.near = random_branch(this->random, leg)};
+    const SolutionPreference wish{.near = random_branch(this->random, leg)};
     std::array<typename TypeParam::Coordinates, 8> roots;
     const int count = leg.solutions_at(platform, wish, roots);
     ASSERT_LE(count, 8);
@@ -192,7 +192,7 @@ TYPED_TEST(EveryLeg, TheNearestSolutionIsTheNearestOfAll) {
     const auto leg = random_leg<TypeParam>(this->random);
     const auto platform = this->platform(leg);
     const double target = sample % 2 ? 0 : random_branch(this->random, leg);
-    const Wish wish{.near = target, .bending = HasArc<typename TypeParam::Link> ? sample % 3 - 1 : 0};
+    const SolutionPreference wish{.near = target, .bending = HasArc<typename TypeParam::Link> ? sample % 3 - 1 : 0};
     std::array<typename TypeParam::Coordinates, 8> roots;
     const int count = leg.solutions_at(platform, wish, roots);
     double best = 1e9;
@@ -204,7 +204,7 @@ TYPED_TEST(EveryLeg, TheNearestSolutionIsTheNearestOfAll) {
     ASSERT_EQ(found.count > 0, best < 1e9) << sample;
     if (found.count > 0) {
       EXPECT_NEAR(std::abs(leg.link.branch(found.q) - target), best, 1e-6) << sample;
-      EXPECT_LT(found.misfit, 1e-13);
+      EXPECT_LT(found.closure_error, 1e-13);
     }
   }
 }

@@ -19,7 +19,7 @@ using Eigen::MatrixXd, Eigen::VectorXd;
 using Json = nlohmann::json;
 
 constexpr auto bases = {ChainBase::pinned, ChainBase::clamped};
-constexpr auto models = {ChainModel::even, ChainModel::weighted, ChainModel::discs};
+constexpr auto models = {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs};
 
 template <class Angles>
 auto span_of(const Angles& angles) {
@@ -80,7 +80,7 @@ RC_GTEST_PROP(PseudoRigid, TendonRatesAreDerivatives, ()) {
 /// Tendons between discs by their holes: points on the links, straight between them.
 TEST(PseudoRigid, TendonsBetweenDiscsAreDistancesOfHoles) {
   for (const ChainBase base : bases) {
-    const PseudoRigid chain{.length = 0.3, .links = 5, .base = base, .model = ChainModel::discs};
+    const PseudoRigid chain{.length = 0.3, .links = 5, .base = base, .model = PrbDiscretisation::discs};
     VectorXd angles(chain.joints());
     for (int j = 0; j < chain.joints(); ++j) angles[j] = 0.3 - 0.25 * j;
     const double d = 0.004, step = chain.link_length();
@@ -105,7 +105,7 @@ TEST(PseudoRigid, TendonsBetweenDiscsAreDistancesOfHoles) {
 
 TEST(PseudoRigid, TurnsOfEndsAndJointsBetweenAreTheTurn) {
   for (const ChainBase base : bases)
-    for (const ChainModel model : {ChainModel::even, ChainModel::weighted, ChainModel::discs})
+    for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
       for (const int links : {2, 5}) {
         const PseudoRigid chain{.length = 0.3, .links = links, .base = base, .model = model};
         VectorXd angles(chain.joints());
@@ -119,7 +119,7 @@ TEST(PseudoRigid, TurnsOfEndsAndJointsBetweenAreTheTurn) {
 TEST(PseudoRigid, ChordsAndTheirRatesAreTheirs) {  // @verifies TDPCR (33)
   const Json& robot = test::reference_file("data/tdpcr/poses.json")["3-RFR"];
   const PseudoRigid chain{
-      .length = robot["l"], .links = robot["n"], .base = ChainBase::pinned, .model = ChainModel::even};
+      .length = robot["l"], .links = robot["n"], .base = ChainBase::pinned, .model = PrbDiscretisation::even};
   for (const Json& pose : robot["poses"])
     for (std::size_t i = 0; i < 3; ++i) {
       const VectorXd angles = vector_of(pose["theta"][i]);
@@ -169,7 +169,7 @@ VectorXd equilibrium(const PseudoRigid& chain, double stiffness, const Load& loa
 TEST(PseudoRigid, LoadedChainsAreTheirs) {
   const Json& about = test::reference_file("data/tdpcr/statics.json")["about"];
   const double stiffness = about["EI"];
-  const PseudoRigid paper{.length = 0.2, .links = 6, .model = ChainModel::even};
+  const PseudoRigid paper{.length = 0.2, .links = 6, .model = PrbDiscretisation::even};
   for (const Json& law : test::reference_file("data/tdpcr/statics2.json")["leg_law_M0"]) {
     const VectorXd angles = equilibrium(paper, stiffness, {.moment = law["m"], .chord_force = law["f"]});
     EXPECT_LT((angles - vector_of(law["theta"])).lpNorm<Eigen::Infinity>(), 1e-12);
@@ -178,11 +178,11 @@ TEST(PseudoRigid, LoadedChainsAreTheirs) {
   }
   for (const Json& load : test::reference_file("data/tdpcr/statics.json")["elastica_convergence"])
     for (const Json& prb : load["prb"])
-      for (const ChainModel model : {ChainModel::even, ChainModel::weighted}) {
+      for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted}) {
         const PseudoRigid chain{.length = 0.2, .links = prb["n"], .model = model};
         const VectorXd angles =
             equilibrium(chain, stiffness, {.moment = load["m"], .chord_force = load["f"]});
-        const bool is_weighted = model == ChainModel::weighted;
+        const bool is_weighted = model == PrbDiscretisation::weighted;
         EXPECT_NEAR(chain.tip(span_of(angles)).position.norm(),
                     prb[is_weighted ? "rho_weighted" : "rho_paper"].get<double>(), 1e-12);
         EXPECT_NEAR(chain.turn(span_of(angles)),
@@ -197,7 +197,7 @@ TEST(PseudoRigid, WithMoreLinksAMomentMakesAnArc) {  // of second order with wei
   const double stiffness = 3e-3, moment = -0.02, curvature = -moment / stiffness;
   const Arc arc{0.2};
   for (const ChainBase base : bases)
-    for (const ChainModel model : {ChainModel::even, ChainModel::weighted}) {
+    for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted}) {
       const auto errors = [&](int links) {
         const PseudoRigid chain{.length = 0.2, .links = links, .base = base, .model = model};
         const VectorXd angles = equilibrium(chain, stiffness, {.moment = moment});
@@ -208,7 +208,7 @@ TEST(PseudoRigid, WithMoreLinksAMomentMakesAnArc) {  // of second order with wei
       };
       const auto coarse = errors(12), fine = errors(24);
       EXPECT_NEAR(order(coarse[0], fine[0]), 2, 0.1);
-      const bool is_weighted = model == ChainModel::weighted, is_pinned = base == ChainBase::pinned;
+      const bool is_weighted = model == PrbDiscretisation::weighted, is_pinned = base == ChainBase::pinned;
       if (is_weighted) {
         EXPECT_LT(std::abs(fine[1]), 1e-14);  // the turn is exact
       } else if (is_pinned) {
@@ -225,12 +225,12 @@ TEST(PseudoRigid, ClampedAndPulledAcrossItTendsToTheElastica) {
   const auto rod = elastica_under_force(force * (length * length / stiffness));
   ASSERT_TRUE(rod.status == Status::converged);
   const Vec2<double> elastica = length * rod.state.tip;
-  const auto error = [&](ChainModel model, int links) {
+  const auto error = [&](PrbDiscretisation model, int links) {
     const PseudoRigid chain{.length = length, .links = links, .base = ChainBase::clamped, .model = model};
     return (chain.tip(span_of(equilibrium(chain, stiffness, {.force = force}))).position - elastica).norm();
   };
-  EXPECT_NEAR(order(error(ChainModel::weighted, 16), error(ChainModel::weighted, 32)), 2, 0.15);
-  EXPECT_NEAR(order(error(ChainModel::even, 16), error(ChainModel::even, 32)), 1, 0.15);
+  EXPECT_NEAR(order(error(PrbDiscretisation::weighted, 16), error(PrbDiscretisation::weighted, 32)), 2, 0.15);
+  EXPECT_NEAR(order(error(PrbDiscretisation::even, 16), error(PrbDiscretisation::even, 32)), 1, 0.15);
 }
 
 }  // namespace pseudo_rigid_test

@@ -43,7 +43,7 @@ TEST_P(StopOf, ARequestBeforeTheStartIsAnsweredAtOnce) {
 
 /// What is computed after the request. Solves look at the flag every millisecond or so; the solutions that
 /// all six-leg robots start from, found once in a process, take longer.
-const double most_seconds = test::is_instrumented ? 10 : 1;
+const double max_seconds = test::is_instrumented ? 10 : 1;
 TEST_P(StopOf, ARequestOnTheWayEndsIt) {
   std::atomic<bool> flag{false};
   double requested = 0;
@@ -57,7 +57,7 @@ TEST_P(StopOf, ARequestOnTheWayEndsIt) {
   other.join();
   const double late = ended - requested;
   RecordProperty("milliseconds", static_cast<int>(1e3 * late));
-  EXPECT_LT(late, most_seconds);  // negative where the question was answered before
+  EXPECT_LT(late, max_seconds);  // negative where the question was answered before
   EXPECT_TRUE(late < 0 || answer["status"] == "stopped" || answer["status"] == "converged");
 }
 

@@ -438,7 +438,7 @@ TEST(ControllerTable, SaysWhyThereIsNone) {
   EXPECT_EQ(code(robot), "unlike_gains");
   robot = prototype();
   robot.sections[0].backbone = kernel::Backbone::neutral;
-  robot.sections[0].most_extension = 1e-3;
+  robot.sections[0].max_extension = 1e-3;
   EXPECT_EQ(code(robot), "extensible");
   robot = prototype();
   robot.motor = TendonMotor{1e-9, 1e9, 1};

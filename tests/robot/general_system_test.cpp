@@ -80,7 +80,7 @@ template <class System>
 bool begin(System& system, const RodRobot& robot, RodRandom& random) {
   system.set_gravity(gravity);
   if (!system.rest_at(random.near(home(robot), 0.03, 0.15))) return false;
-  for (int k = 0; k < system.limbs(); ++k) system.hold(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
+  for (int k = 0; k < system.limbs(); ++k) system.solve_rod_bvp(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
   return close_rods(system) && balance(system);
 }
 
@@ -106,7 +106,7 @@ TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
       if (!close_rods(tangents) || !balance(tangents)) continue;
       rods.set_gravity(gravity);
       ASSERT_TRUE(rods.rest_at(tangents.platform())) << kind.name;
-      for (int k = 0; k < 6; ++k) rods.hold(k, tangents.length(k));
+      for (int k = 0; k < 6; ++k) rods.solve_rod_bvp(k, tangents.length(k));
       finest(rods);
       ASSERT_TRUE(close_rods(rods) && balance(rods)) << kind.name;
       if (unstable_directions(tangents) != 0 || unstable_directions(rods) != 0) continue;  // other shapes
@@ -122,7 +122,7 @@ TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
       for (int k = 0; k < 6; ++k) {
         near(rods.input_wrench_jacobian(k), tangents.input_wrench_jacobian(k), 1e-9, "feed");
         near(rods.effort_jacobian(k), tangents.effort_jacobian(k), 1e-8, "axial row");
-        const RodReading p = rods.rod(k), q = tangents.rod(k);
+        const RodResult p = rods.rod(k), q = tangents.rod(k);
         near(p.force, q.force, 1e-9, "force");
         near(p.force_0, q.force_0, 1e-9, "force at the base");
         near(p.moment, q.moment, 1e-8, "moment");
@@ -266,14 +266,14 @@ TEST(GeneralSystem, RodsIntegratedAnewBalanceThePlatform) {
       for (int k = 0; k < 6; ++k) {
         const RodLeg& leg = robot.legs[std::size_t(k)];
         system.get_rod(k, coordinates);
-        const double spin = coordinates[6], length = coordinates[7];
+        const double axial_rotation = coordinates[6], length = coordinates[7];
         EXPECT_EQ(length, inputs[std::size_t(k)]);
         const Vec3<double> t0 = leg.tangent(), x0 = leg.base.rotate(Vec3<double>(1, 0, 0));
         Mat<double, 3, 3> axes;
         axes << x0, cross(t0, x0), t0;
         RodState<double> base;
         base.p = leg.base.p;
-        base.R = SO3<double>::exp(Vec3<double>(t0 * spin)).compose(SO3<double>::from(axes));
+        base.R = SO3<double>::exp(Vec3<double>(t0 * axial_rotation)).compose(SO3<double>::from(axes));
         base.n = {coordinates[0], coordinates[1], coordinates[2]};
         base.m = {coordinates[3], coordinates[4], coordinates[5]};
         SpatialRod rod = spatial_rod(leg.link);
@@ -327,12 +327,12 @@ TEST(GeneralSystem, EveryRodIsOneHeldByItself) {
       ends.tip = !leg.is_clamped        ? RodEnds::Tip::ball
                  : leg.is_tip_spin_free ? RodEnds::Tip::tangent
                                         : RodEnds::Tip::clamp;
-      const RodReading reading = system.rod(k);
+      const RodResult reading = system.rod(k);
       const Vec3<double> arm = system.platform().R.rotate(leg.platform_point);
       std::vector<double> own(RodLeg::coordinates);
       system.get_rod(k, own);
-      const HeldRod held =
-          hold(rod, {leg.base.p, SO3<double>::from(base)}, reading.length, ends,
+      const RodBvpSolution held =
+          solve_rod_bvp(rod, {leg.base.p, SO3<double>::from(base)}, reading.length, ends,
                {system.platform().p + arm, system.platform().R.compose(SO3<double>::from(tip))},
                RodStart{{own[0], own[1], own[2]}, {own[3], own[4], own[5]}, own[6]}, {.tolerance = 1e-13});
       ASSERT_TRUE(held.report.ok()) << kind.name << held.report.message.view();
@@ -371,7 +371,7 @@ TEST(GeneralSystem, HeldSpinStiffensTheTurnAboutTheAxis) {
   const SE3<double> turned{home(robot).p, SO3<double>::exp({0, 0, 0.4})};
   GeneralSystem spinning(robot), resisting(held);
   ASSERT_TRUE(spinning.rest_at(turned) && resisting.rest_at(turned));
-  for (int k = 0; k < 6; ++k) resisting.hold(k, spinning.length(k));
+  for (int k = 0; k < 6; ++k) resisting.solve_rod_bvp(k, spinning.length(k));
   ASSERT_TRUE(close_rods(spinning) && balance(spinning));
   ASSERT_TRUE(close_rods(resisting) && balance(resisting));
   const double torsion = spatial_rod(held.legs[0].link).torsion_stiffness / spinning.length(0);
@@ -453,7 +453,7 @@ TEST(GeneralSystem, HoldsThePosesThatItsLengthsLeadTo) {
       if (!held.ok()) continue;
       std::array<double, 6> inputs;
       for (std::size_t k = 0; k < 6; ++k) inputs[k] = work.system->length(int(k));
-      question.resume = true;
+      question.warm_start = true;
       for (const double more : {2e-3, 0.0}) {  // away and back
         std::array<double, 6> there = inputs;
         there[1] += more;

@@ -33,7 +33,7 @@ class EveryRobotsJacobians : public testing::TestWithParam<std::string> {
   /// Residuals g at a pose moved by a small motion, with these inputs.
   Eigen::VectorXd residual(const AnyPose& pose, const Eigen::VectorXd& step,
                            const std::vector<double>& inputs) {
-    EXPECT_TRUE(command(robot, inputs, work).ok());
+    EXPECT_TRUE(coordinates_from_inputs(robot, inputs, work).ok());
     const std::vector<double> coordinates = work.coordinates;
     const Reduced at = assemble(robot, moved(pose, step), coordinates, work);
     return -Eigen::Map<const Eigen::VectorXd>(at.s.data(), static_cast<Eigen::Index>(at.s.size()));
@@ -41,7 +41,7 @@ class EveryRobotsJacobians : public testing::TestWithParam<std::string> {
 
   /// Worst error of J and K against differences at this configuration, which need not close the legs.
   double worst_error(const AnyPose& pose, const std::vector<double>& inputs) {
-    EXPECT_TRUE(command(robot, inputs, work).ok());
+    EXPECT_TRUE(coordinates_from_inputs(robot, inputs, work).ok());
     const std::vector<double> coordinates = work.coordinates;
     const Reduced at = assemble(robot, pose, coordinates, work);
     const Eigen::MatrixXd J = at.J, K = at.K;

@@ -252,7 +252,7 @@ TEST(Mechanism, FollowsPathsAndCurves) {
   ASSERT_TRUE(begun.is_solved()) << begun.report.message.view();
   std::vector<double> inputs(begun.inputs.begin(), begun.inputs.end());
   EquilibriumOptions options;
-  options.resume = true;
+  options.warm_start = true;
   for (int k = 0; k < 20; ++k) {
     inputs[0] += 5e-4;
     inputs[2] += 3e-4;

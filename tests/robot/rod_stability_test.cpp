@@ -101,7 +101,7 @@ TEST(RodStability, TruncationIsAnHonestEstimate) {
       const double estimate = rod.system.truncation();
       if (estimate < 1e-12 || estimate > 1e-6 || !(compliance.norm() < 1)) continue;
       // the force it takes to hold the exact tip: how far the tip moves under what that is off
-      const RodReading reading = rod.system.rod(0);
+      const RodResult reading = rod.system.rod(0);
       const Vec2<double> force(exact.state.tip[0] < 0 ? -reading.lateral_force : reading.lateral_force,
                                reading.axial_force);
       const double error = (compliance * (force - exact.state.force)).norm() / estimate;
@@ -152,7 +152,7 @@ std::vector<double> numbers_of_a_step() {
         numbers.insert(numbers.end(), carried.data(), carried.data() + 6);
         numbers.push_back(system.evaluate());
         for (int k = 0; k < rods; ++k) {
-          const RodReading rod = system.rod(k);
+          const RodResult rod = system.rod(k);
           numbers.insert(numbers.end(), rod.force.data(), rod.force.data() + 3);
           numbers.insert(numbers.end(), {rod.tip_angle, rod.energy, rod.length});
         }

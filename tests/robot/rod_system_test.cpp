@@ -33,7 +33,7 @@ TEST(RodSystem, EachRodIsAnElastica) {  // @verifies 3PFS (24)
     EXPECT_LT(off_elastica(robot, system), 2e-12);
     for (int k = 0; k < system.limbs(); ++k) {
       const RodLeg& leg = robot.legs[std::size_t(k)];
-      const RodReading rod = system.rod(k);
+      const RodResult rod = system.rod(k);
       EXPECT_LT((rod.tip - system.platform().point(leg.platform_point)).norm(), 1e-15);
       EXPECT_NEAR(rod.chord, (rod.tip - leg.base.p).norm(), 1e-15);
       EXPECT_LT((rod.moment_0 - cross(rod.tip - leg.base.p, rod.force)).norm(), 1e-14);
@@ -48,7 +48,7 @@ TEST(RodSystem, LargestCurvatureIsThatOfTheExactShape) {
   std::vector<ElasticaSection> sections(s.size());
   each_robot({6}, 2, [&](const RodRobot& robot, RodSystem& system) {
     for (int k = 0; k < system.limbs(); ++k) {
-      const RodReading rod = system.rod(k);
+      const RodResult rod = system.rod(k);
       elastica_sections(local_force(planar_state(rod, robot.legs[std::size_t(k)])), s, sections);
       std::size_t best = 0;
       for (std::size_t i = 0; i < s.size(); ++i)
@@ -75,7 +75,7 @@ TEST(RodSystem, CentrelineRunsAlongTheElastica) {
     ASSERT_TRUE(close_rods(system));
     for (int k = 0; k < system.limbs(); ++k) {
       const RodLeg& leg = robot.legs[std::size_t(k)];
-      const RodReading rod = system.rod(k);
+      const RodResult rod = system.rod(k);
       elastica_sections(local_force(planar_state(rod, leg)), s, sections);
       const Vec3<double> aside =
           rod.tip - leg.base.p - leg.tangent() * dot(leg.tangent(), rod.tip - leg.base.p);
@@ -133,7 +133,7 @@ TEST(RodSystem, EnergyFallsByWhatTheForcesDo) {
     const Wrench6 wrench = system.wrench();
     Eigen::RowVectorXd by_length(system.limbs());
     for (int k = 0; k < system.limbs(); ++k) {
-      const RodReading rod = system.rod(k);
+      const RodResult rod = system.rod(k);
       // −½EIκ² − n·t, the same all along the rod
       by_length[k] = -(rod.energy + dot(rod.force, rod.tip - robot.legs[std::size_t(k)].base.p)) / rod.length;
     }
@@ -289,7 +289,7 @@ TEST(RodSystem, SavesAndRestoresExactly) {
       if (is_fine) system.refine();
       const LimbState saved = system.state();
       const double error = system.evaluate();
-      const RodReading rod = system.rod(4);
+      const RodResult rod = system.rod(4);
       system.linearise();
       const Eigen::MatrixXd stiffness = system.stiffness();
       system.set_platform(random.near(system.platform(), 1e-3, 1e-2));
@@ -311,7 +311,7 @@ TEST(RodSystem, RefinesAndCoarsensTheSameShapes) {
   each_robot({6, 9}, 11, [](const RodRobot&, RodSystem& system) {
     const auto points = [&] { return system.centreline(system.limbs() - 1, 21); };
     const auto before = points();
-    const RodReading rod = system.rod(0);
+    const RodResult rod = system.rod(0);
     system.refine();
     ASSERT_TRUE(system.is_fine());
     EXPECT_GT(system.evaluate(),
@@ -374,7 +374,7 @@ TEST(RodSystem, RodsDoNotMindTheirLanes) {  // idle lanes, several groups: the s
     balance(a);
     balance(b);
     for (int k = 0; k < rods; ++k) {
-      const RodReading one = a.rod(k), same = b.rod(rods - 1 - k);
+      const RodResult one = a.rod(k), same = b.rod(rods - 1 - k);
       EXPECT_LT((one.force - same.force).norm(), 1e-12 * (1 + one.force.norm()));
       EXPECT_NEAR(one.energy, same.energy, 1e-13);
       EXPECT_LT((a.input_wrench_jacobian(k) - b.input_wrench_jacobian(rods - 1 - k)).norm(),

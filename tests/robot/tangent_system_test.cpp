@@ -192,7 +192,7 @@ TEST(TangentSystem, SolvesTheTripodsAsThePlaneRodsDo) {
       EXPECT_LT(difference.norm(), 1e-8 * plane.system->stiffness().norm());
       EXPECT_EQ(unstable_directions(*plane.system), unstable_directions(*spatial.system));
       for (int k = 0; k < 6; ++k) {
-        const RodReading p = plane.system->rod(k), s = spatial.system->rod(k);
+        const RodResult p = plane.system->rod(k), s = spatial.system->rod(k);
         EXPECT_LT((p.force - s.force).norm(), 1e-8);
         EXPECT_LT((p.curvature_0 - s.curvature_0).norm(), 1e-8);
         EXPECT_NEAR(p.energy, s.energy, 1e-11);
@@ -238,7 +238,7 @@ TEST(TangentSystem, BasesAndPlatformCarryTheWeight) {
     while (!system.is_finest()) system.refine();
     ASSERT_TRUE(close_rods(system));
     for (int k = 0; k < system.limbs(); ++k) {
-      const RodReading rod = system.rod(k);
+      const RodResult rod = system.rod(k);
       const RodLeg& leg = robot.legs[std::size_t(k)];
       const Vec3<double> weight = gravity * leg.link.mass_per_length() * rod.length;
       EXPECT_LT((rod.force_0 - rod.force - weight).norm(), 1e-12);

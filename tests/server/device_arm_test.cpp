@@ -68,10 +68,10 @@ struct Desk {
   }
   /// How far the true bends are off these [rad].
   double off(const Bends& bends) {
-    double most_off = 0;
+    double max_off = 0;
     for (std::size_t m = 0; m < bends.size(); ++m)
-      most_off = std::max(most_off, (board.drives.arm.bends()[m] - bends[m]).cwiseAbs().maxCoeff());
-    return most_off;
+      max_off = std::max(max_off, (board.drives.arm.bends()[m] - bends[m]).cwiseAbs().maxCoeff());
+    return max_off;
   }
   double least() {
     double tension = 1e9;

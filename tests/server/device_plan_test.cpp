@@ -80,7 +80,7 @@ TEST(DevicePlan, WhatTheArmCannotDoIsRefusedWithItsStep) {
       {[](DrivePlan& p) { p.steps[40].stage = 1e9; }, "out_of_limits", "step 40: stage"},
       {[](DrivePlan& p) { p.steps.resize(1); }, "out_of_limits", "1 steps"},
       {[](DrivePlan& p) { p.steps.clear(); }, "out_of_limits", "0 steps"},
-      {[](DrivePlan& p) { p.steps.resize(most_steps + 1, p.steps[0]); }, "out_of_limits", "4001 steps"},
+      {[](DrivePlan& p) { p.steps.resize(max_steps + 1, p.steps[0]); }, "out_of_limits", "4001 steps"},
       {[](DrivePlan& p) { p.steps.erase(p.steps.begin() + 5, p.steps.begin() + 20); }, "out_of_limits",
        "41 clearances"},
       {[](DrivePlan& p) { p.steps[12].bends[0][1] += 0.11; }, "too_far", "step 12"},
@@ -107,7 +107,7 @@ TEST(DevicePlan, WhatTheArmCannotDoIsRefusedWithItsStep) {
   EXPECT_EQ(desk.told()["number"], 1) << "the plan before stays";
   DrivePlan most = winding();
   most.clearance.clear();
-  most.steps.assign(most_steps, most.steps[3]);  // all in one place
+  most.steps.assign(max_steps, most.steps[3]);  // all in one place
   EXPECT_EQ(desk.load(most), "");
 }
 
@@ -149,7 +149,7 @@ TEST(DevicePlan, BodiesAreReadWithThePlaceOfWhatIsWrong) {
     EXPECT_EQ(no.error().where, where) << text;
   }
   Json many{{"name", "x"}, {"steps", Json::array()}};
-  for (std::size_t i = 0; i <= most_steps; ++i) many["steps"].push_back(0);
+  for (std::size_t i = 0; i <= max_steps; ++i) many["steps"].push_back(0);
   EXPECT_EQ(read_plan(many).error().code, "too_large");
   many["name"] = std::string(101, 'x');
   EXPECT_FALSE(read_plan(many));

@@ -14,17 +14,17 @@ namespace sinew::server::device {
 inline double share_off(const Posture& posture, const std::vector<Posture>& steps) {
   const auto off = [&](std::size_t k, double t) {
     const Posture &p = steps[k], &q = steps[k + 1];
-    double worst = std::abs(posture.stage - p.stage - t * (q.stage - p.stage)) / OffPath::most_stage;
+    double worst = std::abs(posture.stage - p.stage - t * (q.stage - p.stage)) / OffPath::max_stage;
     for (std::size_t m = 0; m < p.bends.size(); ++m) {
       const Bend point = p.bends[m] + t * (q.bends[m] - p.bends[m]);
-      worst = std::max(worst, (posture.bends[m] - point).norm() / OffPath::most_bend);
+      worst = std::max(worst, (posture.bends[m] - point).norm() / OffPath::max_bend);
     }
     return worst;
   };
   double best = 1e9;
   for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
     const auto [least, most] = std::minmax(steps[k].stage, steps[k + 1].stage);
-    if (std::abs(posture.stage - std::clamp(posture.stage, least, most)) > best * OffPath::most_stage)
+    if (std::abs(posture.stage - std::clamp(posture.stage, least, most)) > best * OffPath::max_stage)
       continue;
     double low = 0, high = 1;  // a convex function of t
     for (int i = 0; i < 25; ++i) {

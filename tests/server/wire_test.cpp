@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Milliseconds, and what a busy machine makes of them: less than a connection has for its request, 30, or
 /// sends for without an answer, 20.
-constexpr double most_seconds = 10;
+constexpr double max_seconds = 10;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -304,7 +304,7 @@ TEST(Wire, SlowConnectionsLockNobodyOut) {
     is_over = true;
     drip.join();
     EXPECT_GE(longest, 0) << begin;
-    EXPECT_LT(longest, most_seconds) << begin;
+    EXPECT_LT(longest, max_seconds) << begin;
   }
 }
 
@@ -326,7 +326,7 @@ TEST(Wire, ThoseWhoComeAgainAndAgainLockNobodyOut) {
   is_over = true;
   for (std::thread& flood : floods) flood.join();
   EXPECT_GE(longest, 0);
-  EXPECT_LT(longest, most_seconds);
+  EXPECT_LT(longest, max_seconds);
 }
 
 TEST(Wire, ARequestThatDoesNotComeWholeInTimeIsTold) {
@@ -348,7 +348,7 @@ TEST(Wire, ARequestThatDoesNotComeWholeInTimeIsTold) {
     EXPECT_EQ(statuses(wire.receive(30'000)), status);
     is_told = true;
     EXPECT_TRUE(wire.has_ended);
-    EXPECT_LT(seconds_since(begin), most_seconds);
+    EXPECT_LT(seconds_since(begin), max_seconds);
     drip.join();
   }
 }
@@ -362,7 +362,7 @@ TEST(Wire, AServerThatStopsWaitsForNoConnection) {
   }
   const auto begin = Clock::now();
   desk.reset();
-  EXPECT_LT(seconds_since(begin), most_seconds);
+  EXPECT_LT(seconds_since(begin), max_seconds);
 }
 
 TEST(Wire, AHandlerThatThrowsIsAnsweredAndTheServerGoesOn) {

@@ -76,7 +76,7 @@ class Problem {
         rows[static_cast<std::size_t>((N + 1) * r + c)] = now_.slope(r, c) / (c < N ? 1 : scale);
     return rows;
   }
-  X missing() const { return -now_.f; }
+  X residual() const { return -now_.f; }
   void move(const X& step, double lambda, double change) {
     state_.x += step;
     put(lambda + change);

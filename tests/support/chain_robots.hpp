@@ -18,7 +18,7 @@ struct ChainsAt {
 
 /// Of a robot of the library without motors at its bases.
 template <class Space>
-ChainsAt<Space> chains_at(const char* name, ChainModel model, const typename Space::Pose& pose) {
+ChainsAt<Space> chains_at(const char* name, PrbDiscretisation model, const typename Space::Pose& pose) {
   const Robot any = *load(name);
   Workspace memory(any);
   const Inverse arcs = inverse(any, pose, {}, memory);

@@ -41,7 +41,7 @@ inline AnyPose pose_near_home(const Robot& robot, std::mt19937& random, double s
 /// A pose near home that every leg reaches, and that hinges allow.
 inline AnyPose reachable_pose(const Robot& robot, std::mt19937& random, Workspace& work) {
   for (int tries = 0; tries < 10000; ++tries) {
-    const AnyPose pose = settled(robot, pose_near_home(robot, random));
+    const AnyPose pose = project_to_constraints(robot, pose_near_home(robot, random));
     if (inverse(robot, pose, {}, work).ok()) return pose;
   }
   throw std::runtime_error(robot.name() + " reaches no pose near home");

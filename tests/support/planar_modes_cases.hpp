@@ -12,7 +12,7 @@
 
 namespace sinew::test {
 
-using Legs = std::vector<Reach<2>>;
+using Legs = std::vector<PlatformConstraint<2>>;
 using Point = Vec2<double>;
 inline constexpr double pi = std::numbers::pi;
 

@@ -231,7 +231,7 @@ inline double off(const ElasticaState<double>& exact, const ElasticaState<double
 }
 
 /// A rod's reading in its plane, unit length and stiffness.
-inline ElasticaState<double> planar_state(const RodReading& rod, const RodLeg& leg) {
+inline ElasticaState<double> planar_state(const RodResult& rod, const RodLeg& leg) {
   const ElasticaUnits unit{rod.length, leg.link.bending_stiffness()};
   const Vec3<double> way = (rod.tip - leg.base.p) / rod.length, tangent = leg.tangent();
   const double w = dot(tangent, way);

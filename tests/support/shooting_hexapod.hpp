@@ -9,7 +9,7 @@
 
 #include "sinew/leg/rod_leg.hpp"
 #include "sinew/robot/parallel.hpp"
-#include "sinew/robot/rod_reading.hpp"
+#include "sinew/robot/rod_result.hpp"
 
 namespace sinew::test {
 
@@ -34,7 +34,7 @@ class ShootingHexapod {
   }
 
   /// The six of a rod from what is known of it elsewhere.
-  Eigen::Matrix<double, 6, 1> unknowns(int k, const RodReading& rod) const {
+  Eigen::Matrix<double, 6, 1> unknowns(int k, const RodResult& rod) const {
     const Eigen::Vector3d moment = frame(legs_[std::size_t(k)].tangent()).transpose() * rod.moment_0;
     Eigen::Matrix<double, 6, 1> v;
     v << rod.force_0, moment[0], moment[1], rod.length;

@@ -64,7 +64,7 @@ struct Asked {
     return x.norm() > 0 ? joints * joint(x.norm() / joints, (c * x[0] + s * x[1]) / x.norm()) : 0;
   }
   double slack(std::size_t i, const Point& x) const { return changes[i] + asked_of(i, x); }
-  double least_slack(const Point& x) const {
+  double min_slack(const Point& x) const {
     double least = 1e9;
     for (std::size_t i = 0; i < changes.size(); ++i) least = std::min(least, slack(i, x));
     return least;
@@ -126,7 +126,7 @@ Asked example(const Json& json) {
   return asked;
 }
 
-std::string name(TendonsAgree agree) {
+std::string name(TendonConsistency agree) {
   const std::array names{"exact", "indeterminate", "inconsistent", "unreachable"};
   return names[std::size_t(agree)];
 }
@@ -150,7 +150,7 @@ TEST(SectionDiagram, AnIndependentImplementationAgrees) {  // [LSK] sections 4.1
     if (json["name"] != "tp4_partial_segment") {  // its whole segment has that margin
       EXPECT_LT((found.margin_point - point_of(json["margin_point"])).norm(), bends);
     }
-    EXPECT_NEAR(asked.least_slack(found.margin_point), found.margin, lengths);
+    EXPECT_NEAR(asked.min_slack(found.margin_point), found.margin, lengths);
     EXPECT_NEAR(found.over_tension, json["least_over_tension_mm"].get<double>() * mm, lengths);
     EXPECT_NEAR(found.free_area, json["area_free"], 1e-12 * json["area_free"].get<double>());
     EXPECT_NEAR(found.area, json["area_envelope"], 1e-12 * json["area_envelope"].get<double>());
@@ -308,7 +308,7 @@ double searched_margin(const Asked& asked, double half, Point centre) {
     for (int i = -count; i <= count; ++i)
       for (int j = -count; j <= count; ++j) {
         const Point x = pulled_in(asked, from + half / count * Point(i, j));
-        if (const double slack = asked.least_slack(x); slack > best) best = slack, centre = x;
+        if (const double slack = asked.min_slack(x); slack > best) best = slack, centre = x;
       }
     half *= level == 0 ? 0.3 : 0.6;
   }
@@ -323,7 +323,7 @@ TEST(SectionDiagram, NoAllowedBendHasMoreMargin) {
       const auto found = asked.answer();
       ASSERT_TRUE(found.report.ok()) << found.report.message.view();
       EXPECT_TRUE(asked.allows(found.margin_point, 1e-13));
-      EXPECT_NEAR(asked.least_slack(found.margin_point), found.margin, 1e-16);
+      EXPECT_NEAR(asked.min_slack(found.margin_point), found.margin, 1e-16);
       const bool twin = asked.question.section.backbone == kernel::Backbone::twin_pivot;
       const double searched = searched_margin(asked, twin ? 0.6 : 5, {0, 0});
       EXPECT_GE(found.margin, searched - 1e-16);
@@ -338,7 +338,7 @@ double searched_area(const Asked& asked, double half) {
   constexpr int columns = 200, steps = 150;
   const double step = 2 * half / steps;
   const auto is_in = [&](double x, double y) {
-    return asked.allows({x, y}) && asked.least_slack({x, y}) >= 0;
+    return asked.allows({x, y}) && asked.min_slack({x, y}) >= 0;
   };
   const auto length_at = [&](double x) {
     double length = 0;
@@ -384,7 +384,7 @@ TEST(SectionDiagram, AreaIsThatOfTheFreeAllowedBends) {
       EXPECT_EQ(found.boundary.empty(), found.margin < 0);
       for (const Point& x : found.boundary) {
         EXPECT_TRUE(asked.allows(x, 1e-13));
-        EXPECT_GT(asked.least_slack(x), -1e-15);
+        EXPECT_GT(asked.min_slack(x), -1e-15);
       }
     }
 }
@@ -521,7 +521,7 @@ double searched_strip(const Asked& asked, const Point& through) {
   double area = 0;
   for (int k = 0; k < steps; ++k) {
     const Point start = through + half * (2 * (k + 0.5) / steps - 1) * along;
-    const auto room = [&](double b) { return asked.least_slack(start + b * across); };
+    const auto room = [&](double b) { return asked.min_slack(start + b * across); };
     double low = -0.02, high = 0.02;  // the middle of the strip: tendons 1 and 3 alike
     for (int n = 0; n < 60; ++n) {
       const double middle = (low + high) / 2;

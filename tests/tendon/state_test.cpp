@@ -83,7 +83,7 @@ TEST(StateWords, NearTheLimitIsWithinFivePercentOfTheEnvelope) {
 
 TEST(StateWords, WithoutToleranceNothingIsTakenInThatIsTaut) {
   const Told exact = told({0, 0}, {0, 0, 0, 0});
-  EXPECT_EQ(exact.diagram.agree, TendonsAgree::exact);
+  EXPECT_EQ(exact.diagram.agree, TendonConsistency::exact);
   EXPECT_EQ(exact.state.advice, "");
 }
 

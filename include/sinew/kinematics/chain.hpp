@@ -13,7 +13,7 @@
 namespace sinew::inline v0 {
 
 /// What the motors of a leg hold: tensions, or the length of one tendon.
-struct ChainHold {
+struct TendonConstraint {
   int length_of = -1;               ///< the tendon whose length is held, 0 or 1; −1: neither
   double length = 0;                ///< of that one [m]
   std::array<double, 2> tension{};  ///< of those whose length is not held [N]
@@ -36,7 +36,7 @@ template <class SpaceT>
 struct ChainState {
   typename SpaceT::Pose pose;
   std::vector<ChainLegState> legs;
-  std::vector<ChainHold> hold;
+  std::vector<TendonConstraint> hold;
   Vec<double, SpaceT::dof> wrench = Vec<double, SpaceT::dof>::Zero();
 };
 
@@ -53,7 +53,7 @@ bool fits(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
 /// @param curvature of each leg [1/m], near it: of a leg without a strut its sign is enough
 /// @return `unreachable` where a leg has no such shape near it
 template <class Space>
-SINEW_API Report rest(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
+SINEW_API Report unloaded_equilibrium(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
                       std::span<const double> curvature, bool holds_lengths, ChainState<Space>& state);
 
 struct ChainOptions {
@@ -73,7 +73,7 @@ struct ChainOptions {
 /// that asks joints for half a turn. `slack` (all fields are
 /// valid) where a tendon would have to push.
 template <class Space>
-SINEW_API Report equilibrium(const ChainLegs<Space>& robot, std::span<const ChainHold> hold,
+SINEW_API Report equilibrium(const ChainLegs<Space>& robot, std::span<const TendonConstraint> hold,
                              const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
                              const ChainOptions& options = {});
 
@@ -82,7 +82,7 @@ SINEW_API Report equilibrium(const ChainLegs<Space>& robot, std::span<const Chai
 /// than freedoms the tensions are those nearest to the ones in `state`, in least squares. `unreachable` where
 /// legs are fewer, `stalled` where the path to the wrench is lost.
 template <class Space>
-SINEW_API Report hold_pose(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& wrench,
+SINEW_API Report inverse_statics(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& wrench,
                            ChainState<Space>& state, ChainWork& work, const ChainOptions& options = {});
 
 /// What the motor at a base exerts on the first link, counter-clockwise [N m]: the energy's derivative by the
@@ -118,7 +118,7 @@ SINEW_API ChainLoadPath follow_load(const ChainLegs<Space>& robot, const Vec<dou
 /// are held, leave free: > 0 where the equilibrium holds by itself, infinite where they leave nothing.
 /// Allocates.
 template <class Space>
-SINEW_API double least_curvature(const ChainLegs<Space>& robot, const ChainState<Space>& state);
+SINEW_API double smallest_hessian_eigenvalue(const ChainLegs<Space>& robot, const ChainState<Space>& state);
 
 /// ∂(wrench)/∂(pose) and ∂(pose)/∂(wrench) with everything held: twist order. Under a moment in space not
 /// symmetric.
@@ -163,16 +163,16 @@ SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<
 /// first order in the chord forces: what constant curvature misses. Of springs alone: low under M1, whose
 /// tendons soften them. Theory: docs/theory/chain_equilibrium.md
 template <class Space>
-SINEW_API double evenness_gap(const ChainLegs<Space>& robot, const ChainState<Space>& unloaded,
+SINEW_API double constant_curvature_energy_gap(const ChainLegs<Space>& robot, const ChainState<Space>& unloaded,
                               const Vec<double, Space::dof>& wrench);
 
 /// Force and moment at a link's tip that joint torques tell of, in base axes, by least squares of τ = J_pᵀ
-/// F, whose last row is what the tip turns by (of M0w each joint's weight); `misfit` of the torques,
+/// F, whose last row is what the tip turns by (of M0w each joint's weight); `closure_error` of the torques,
 /// relative: 0 where the tendons' moment is that of M0 or M0w. @implements TDPCR (54), (55)
 struct TipWrench {
   Vec2<double> force;  ///< in the chain's plane: beside and along the first link [N]
   double moment;       ///< [N m]
-  double misfit;
+  double closure_error;
 };
 SINEW_API TipWrench tip_wrench(const PseudoRigid& chain, std::span<const double> torques,
                                std::span<const double> angles);

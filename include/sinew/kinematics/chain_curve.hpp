@@ -12,7 +12,7 @@ namespace sinew::inline v0 {
 template <class Space>
 struct ChainCurveOptions {
   /// At 1: the same tendons' lengths as at the beginning, or tensions; none: as at the beginning.
-  std::vector<ChainHold> hold = {};
+  std::vector<TendonConstraint> hold = {};
   Vec<double, Space::dof> added_wrench = Vec<double, Space::dof>::Zero();  ///< at 1
   double lowest = 0, highest = 1;  ///< the curve ends where its parameter leaves this range, which holds 0
   int max_points = 500;            ///< on each curve

@@ -27,7 +27,7 @@ struct FoundChains {
 template <class Space>
 SINEW_API std::vector<FoundChains<Space>> chain_equilibria(const ChainLegs<Space>& robot,
                                                            std::span<const ChainStart<Space>> starts,
-                                                           std::span<const ChainHold> hold,
+                                                           std::span<const TendonConstraint> hold,
                                                            const Vec<double, Space::dof>& wrench,
                                                            ChainWork& work, const ChainOptions& options = {});
 

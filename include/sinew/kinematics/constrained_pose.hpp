@@ -35,6 +35,6 @@ SINEW_API ConstrainedPose constrained_pose(const Robot& robot, const Independent
 /// The pose put back into the planes of the robot's hinges, by shifts where these suffice and small turns
 /// where not; of a robot without such planes the pose itself. A pose from which no steps lead there is
 /// answered by the nearest one found.
-SINEW_API AnyPose settled(const Robot& robot, const AnyPose& pose);
+SINEW_API AnyPose project_to_constraints(const Robot& robot, const AnyPose& pose);
 
 }  // namespace sinew::inline v0

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sinew/robot/assembly.hpp"
-#include "sinew/robot/rod_reading.hpp"
+#include "sinew/robot/rod_result.hpp"
 
 namespace sinew::inline v0 {
 
@@ -21,13 +21,13 @@ struct EquilibriumOptions {
   std::optional<SpatialPose> start = {};
   /// Begin from the equilibrium the workspace holds, as a controller does whose inputs change a little. What
   /// is found then depends on what was solved before. Where it holds none the search begins at `start`.
-  bool resume = false;
+  bool warm_start = false;
   /// Newton steps of the whole path; default 4000, of rods that bear torque 400.
   std::optional<int> max_iterations = {};
   /// A resumed answer too is asked for stability and resolution, and its coordinates are handed out. Without,
   /// it is as quick as it can be: shapes to an estimated 1e-10 of the length, of rods that do not bend in one
   /// plane 1e-9.
-  bool judge = true;
+  bool check_stability = true;
 };
 
 /// Views into the workspace.
@@ -80,7 +80,7 @@ SINEW_API bool has_equilibrium_batch(const Robot& robot);
 ///     to one that does; else they are all `converged`
 SINEW_API void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wrench,
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
-                                 bool judge = false);
+                                 bool check_stability = false);
 
 /// What is known of the equilibrium a workspace holds.
 struct RodAnalysis {
@@ -91,7 +91,7 @@ struct RodAnalysis {
   int unstable_directions = 0;      ///< of the second variation, all rods free to move
   std::vector<std::array<double, 6>> unstable;    ///< twists along which the platform's stiffness is negative
   std::vector<std::array<int, 2>> unstable_rods;  ///< tip held: in the rod's plane, out of it
-  std::vector<RodReading> rods;                   ///< in the order of the legs
+  std::vector<RodResult> rods;                   ///< in the order of the legs
   std::vector<Vec3<double>>
       closing_forces;         ///< of the platform on each closing leg, at its point, base axes [N]
   double energy = 0;          ///< of all rods [J]
@@ -143,7 +143,7 @@ SINEW_API LoadPath follow_load(const Robot& robot, const SpatialWrench& directio
 struct FoundEquilibrium {
   SpatialPose pose;
   std::vector<double> inputs;  ///< rod lengths [m]
-  std::vector<RodReading> rods;
+  std::vector<RodResult> rods;
   double residual = 0, potential = 0;
   int unstable_directions = 0;
 };

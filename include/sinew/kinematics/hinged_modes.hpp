@@ -6,7 +6,7 @@
 #include <array>
 #include <span>
 
-#include "sinew/leg/reach.hpp"
+#include "sinew/leg/platform_constraint.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
 
@@ -28,10 +28,10 @@ struct HingedModes {
 };
 
 /// Whether these are three hinged legs.
-SINEW_API bool are_hinged(std::span<const Reach<3>> legs);
+SINEW_API bool are_hinged(std::span<const PlatformConstraint<3>> legs);
 
 /// A pose counts if it closes the legs to 1e-12 of their size; poses nearer than 1e-6 of it count as one. No
 /// heap, no throw, bounded work.
-SINEW_API HingedModes hinged_modes(std::span<const Reach<3>> legs);
+SINEW_API HingedModes hinged_modes(std::span<const PlatformConstraint<3>> legs);
 
 }  // namespace sinew::inline v0

@@ -16,7 +16,7 @@ namespace sinew::inline v0 {
 /// Makes the sections longer than at rest by so much [m]: all other questions to this workspace are about a
 /// robot of these lengths, with tendon changes from those of the straight robot at rest.
 /// Values of another number of sections, here and below, make what is answered NaN.
-SINEW_API void extend(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work);
+SINEW_API void set_extensions(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work);
 
 /// Changes of all tendons into `work.changes`, in one pass over the sections (LSK (5), (12)).
 SINEW_API void tendon_changes(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
@@ -34,7 +34,7 @@ SINEW_API kernel::Pull<double> pull_of_all(std::span<const Bend> bends, kernel::
 /// Adds to the changes of all tendons of each section what `more` says of it [m]: > 0 leaves the section
 /// slack by as much, as for a fast move; < 0 stiffens it, at most by what the tendons bear. Later sections
 /// have tendons of their own. [LSK] section 4.1: exact, or slightly over-tensioned, at rest.
-SINEW_API void pay_out(std::span<const double> more, SerialWorkspace& work);
+SINEW_API void add_slack(std::span<const double> more, SerialWorkspace& work);
 
 /// Bends that come nearest to what the tendons did, in least squares for each section, into `work.bends`, and
 /// what every tendon then has too much (> 0: slack) or too little (< 0: over-tensioned) into `work.slack`.
@@ -72,7 +72,7 @@ SINEW_API std::optional<Mat<double, 2, 2>> tip_steering(const SerialWorkspace& w
 /// ∂(changes)/∂(bends) into `work.K`.
 SINEW_API void tendon_rates(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
 
-/// What extensions do, into `work.lengthwise`; after `section_ends` or `tip_motion` of the same bends.
+/// What extensions do, into `work.extension_jacobians`; after `section_ends` or `tip_motion` of the same bends.
 SINEW_API void extension_motion(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
 
 }  // namespace sinew::inline v0

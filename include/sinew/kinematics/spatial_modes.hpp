@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sinew/base/stop.hpp"
-#include "sinew/leg/reach.hpp"
+#include "sinew/leg/platform_constraint.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
 
@@ -39,6 +39,6 @@ struct SpatialModes {
 
 /// Legs beyond the sixth only choose among the poses of six. Deterministic, bounded work, no threads; the
 /// first call in a process also finds the 40 solutions that all searches start from.
-SINEW_API SpatialModes spatial_modes(std::span<const Reach<3>> legs, const SpatialModesOptions& options = {});
+SINEW_API SpatialModes spatial_modes(std::span<const PlatformConstraint<3>> legs, const SpatialModesOptions& options = {});
 
 }  // namespace sinew::inline v0

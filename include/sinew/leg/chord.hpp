@@ -22,7 +22,7 @@ struct Chord {
   /// Closed form where the link has one: the two curvatures ±κ, once where the link is straight; none beyond
   /// it.
   template <HasArc Link, int D>
-  requires(!Link::has_own_turn) int coordinates_at(const Link& link, const Vec<double, D>& r, const Wish&,
+  requires(!Link::has_base_joint) int coordinates_at(const Link& link, const Vec<double, D>& r, const SolutionPreference&,
                                                    double, std::span<Vec<double, 1>> roots) const {
     const double curvature = link.arc().curvature_from_chord(r.norm());
     if (std::isnan(curvature)) return 0;  // too far

@@ -1,6 +1,6 @@
 /// @file closure.hpp
 /// What every closure is made of: an anchor that moves with the link, and how far the platform point keeps
-/// from it. Rows, slopes and misfit, one formula each; second derivatives are in closure_curvature.hpp.
+/// from it. Rows, slopes and closure_error, one formula each; second derivatives are in closure_curvature.hpp.
 /// Theory: docs/theory/leg.md
 ///
 /// On the way n = r − A from the anchor A to the platform point r a closure has one or more rows: of a
@@ -99,14 +99,14 @@ template <Holds holds, Scalar S, int D, int Q>
 }
 
 /// How far from closed [m].  @param beside how far the platform point is from the plane; 0 without one
-inline double closure_misfit(double distance, double wanted, double beside) {
+inline double closure_error_of(double distance, double wanted, double beside) {
   const double miss = std::abs(distance - wanted);
   return beside == 0 ? miss : std::sqrt(miss * miss + beside * beside);
 }
 
 /// Which of a leg's solutions is wanted: the one of this sign of curvature and this elbow (0: any) whose
 /// branch coordinate (of an arc the curvature, of a rail the slide) is nearest to `near`.
-struct Wish {
+struct SolutionPreference {
   double near = 0;  ///< [1/m], of a rail [m]
   int bending = 0;  ///< +1, −1 or 0; without effect on a rail
   /// Of a link on a motor +1: the strut is turned counter-clockwise from the link's chord; −1: clockwise. Of

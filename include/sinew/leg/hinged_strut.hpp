@@ -38,7 +38,7 @@ struct HingedStrut {
   /// Two slides at the same distance from the foot of the platform point on the rail: elbow +1, then −1; once
   /// where the strut is square to the rail.
   template <HasSlide Link>
-  int coordinates_at(const Link&, const Vec3<double>& r, const Wish& wish, double,
+  int coordinates_at(const Link&, const Vec3<double>& r, const SolutionPreference& wish, double,
                      std::span<Vec<double, 1>> roots) const {
     const double off = std::sqrt(r.x() * r.x() + r.z() * r.z()), along = (length - off) * (length + off);
     if (!is_in_plane(r) || !(along >= 0)) return 0;

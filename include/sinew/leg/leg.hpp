@@ -10,7 +10,7 @@
 #include "sinew/base/fixed_text.hpp"
 #include "sinew/leg/blocks.hpp"
 #include "sinew/leg/closure.hpp"
-#include "sinew/leg/reach.hpp"
+#include "sinew/leg/platform_constraint.hpp"
 #include "sinew/leg/space.hpp"
 #include "sinew/leg/state.hpp"
 #include "sinew/link/backbone.hpp"
@@ -21,7 +21,7 @@ namespace sinew::inline v0 {
 /// A closure that gives the coordinates of this link in closed form; others are searched.
 template <class Closure, class Link, class Point>
 concept SolvesInClosedForm = requires(const Closure& closure, const Link& link, const Point& r,
-                                      const Wish& wish, std::span<Vec<double, Link::coordinates>> roots) {
+                                      const SolutionPreference& wish, std::span<Vec<double, Link::coordinates>> roots) {
   { closure.coordinates_at(link, r, wish, 1.0, roots) } -> std::same_as<int>;
 };
 
@@ -36,7 +36,7 @@ struct Leg {
   static constexpr int coordinates = Link::coordinates;
   static constexpr int inputs = Drive::inputs;
   /// The base tangent has a direction of its own, which a file must give.
-  static constexpr bool is_clamped = !Closure::base_turns && !Link::has_own_turn;
+  static constexpr bool is_clamped = !Closure::base_turns && !Link::has_base_joint;
   /// At a pose the leg can still move: it has a continuum of solutions.
   static constexpr bool is_redundant = coordinates > rows;
   /// The strut may lead to either side: solutions come in pairs that a wish tells apart by their elbow.
@@ -129,17 +129,17 @@ struct Leg {
   }
 
   /// How far the leg is from closed [m].
-  static double misfit(const Blocks<double>& blocks) {
-    return closure_misfit(blocks.error, 0, has_plane ? blocks.g[rows - 1] : 0);
+  static double closure_error(const Blocks<double>& blocks) {
+    return closure_error_of(blocks.error, 0, has_plane ? blocks.g[rows - 1] : 0);
   }
 
   /// The same, without the derivatives.
-  double misfit(const Frame& platform, const Coordinates& q) const {
-    return misfit_at(offset<double>(platform), q);
+  double closure_error(const Frame& platform, const Coordinates& q) const {
+    return closure_error_at(offset<double>(platform), q);
   }
 
   /// What is left of the leg once its link is shaped.
-  Reach<dimension> reach(const Coordinates& q) const {
+  PlatformConstraint<dimension> reach(const Coordinates& q) const {
     const auto anchor = anchor_of<dimension>(closure, link.tip(q));
     const double distance = std::sqrt(2 * anchor.half_square);
     if constexpr (HasSlide<Link> && has_plane)
@@ -170,12 +170,12 @@ struct Leg {
   /// Link coordinates in ascending order of their branch coordinate that close the leg at this platform pose:
   /// all of them, or of a leg that can still move there those the wish singles out. Returns their number, -1
   /// where they cannot be told apart.
-  int solutions_at(const Frame& platform, const Wish& wish, std::span<Coordinates> roots) const {
+  int solutions_at(const Frame& platform, const SolutionPreference& wish, std::span<Coordinates> roots) const {
     return solutions_of(offset<double>(platform), wish, roots);
   }
 
   /// The same for a platform point at r, in the axes the link's tip is given in.
-  int solutions_of(const Point& r, const Wish& wish, std::span<Coordinates> roots) const {
+  int solutions_of(const Point& r, const SolutionPreference& wish, std::span<Coordinates> roots) const {
     int count = 0;
     if constexpr (SolvesInClosedForm<Closure, Link, Point>) {
       count = closure.coordinates_at(link, r, wish, domain(), roots);
@@ -194,14 +194,14 @@ struct Leg {
   struct Nearest {
     int count;
     Coordinates q;
-    double misfit = 0;  ///< how far the leg is from closed there [m]
+    double closure_error = 0;  ///< how far the leg is from closed there [m]
   };
 
   /// The one of them that is wished for.
-  Nearest nearest_solution(const Frame& platform, const Wish& wish) const {
+  Nearest nearest_solution(const Frame& platform, const SolutionPreference& wish) const {
     const Point r = offset<double>(platform);
     Nearest nearest = nearest_of(r, wish);
-    if (nearest.count > 0) nearest.misfit = misfit_at(r, nearest.q);
+    if (nearest.count > 0) nearest.closure_error = closure_error_at(r, nearest.q);
     return nearest;
   }
 
@@ -226,7 +226,7 @@ struct Leg {
   Frame link_frame(const Frame& platform, const Coordinates& q) const {
     if constexpr (Closure::base_turns)
       return Space::aimed(base, offset<double>(platform), link.tip(q).position);
-    else if constexpr (Link::has_own_turn)
+    else if constexpr (Link::has_base_joint)
       return Frame::from(base.p.x(), base.p.y(), link.base_tangent(q) - std::numbers::pi / 2);
     else
       return base;
@@ -254,7 +254,7 @@ struct Leg {
   }
 
  private:
-  Nearest nearest_of(const Point& r, const Wish& wish) const {
+  Nearest nearest_of(const Point& r, const SolutionPreference& wish) const {
     if constexpr (SolvesInClosedForm<Closure, Link, Point>) {
       std::array<Coordinates, 8> roots;
       const int count = solutions_of(r, wish, roots);
@@ -273,14 +273,14 @@ struct Leg {
     }
   }
 
-  double misfit_at(const Point& r, const Coordinates& q) const {
+  double closure_error_at(const Point& r, const Coordinates& q) const {
     const auto anchor = anchor_of<dimension>(closure, link.tip(q));
     const Point n = r - anchor.position;
-    return closure_misfit(n.norm(), std::sqrt(2 * anchor.half_square), dot(plane_normal<double>(), n));
+    return closure_error_of(n.norm(), std::sqrt(2 * anchor.half_square), dot(plane_normal<double>(), n));
   }
 
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
-  double distance(const Coordinates& q, const Wish& wish) const {
+  double distance(const Coordinates& q, const SolutionPreference& wish) const {
     return std::abs(link.branch(q) - wish.near);
   }
 

@@ -21,7 +21,7 @@ struct Pin {
 
   /// The chord ends at the platform point: ±κ, and the base turned half a bend beside it.
   template <HasArc Link>
-  requires(Link::has_own_turn) int coordinates_at(const Link& link, const Vec2<double>& r, const Wish&,
+  requires(Link::has_base_joint) int coordinates_at(const Link& link, const Vec2<double>& r, const SolutionPreference&,
                                                   double, std::span<Vec<double, 2>> roots) const {
     const double curvature = link.arc().curvature_from_chord(r.norm());
     if (std::isnan(curvature)) return 0;

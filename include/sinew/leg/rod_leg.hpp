@@ -22,7 +22,7 @@ struct Clamp {
 };
 
 /// The input of a rod.
-struct RodFeeder {
+struct RodLengthDrive {
   static constexpr int inputs = 1;
   static constexpr std::array input_kinds{InputKind{"length", Dimension::length}};
 };
@@ -30,7 +30,7 @@ struct RodFeeder {
 struct RodLeg {
   using Space = Spatial;
   using Link = Rod;
-  using Drive = RodFeeder;
+  using Drive = RodLengthDrive;
   using Closure = Ball;
   using Frame = SE3<double>;
   using Point = Vec3<double>;

@@ -24,7 +24,7 @@ struct LegState {
   Vec3<double> carriage = Vec3<double>::Zero();  ///< base frame [m]
   double hinge_angle = absent;                   ///< of the strut about the hinge's axis, from the rail [rad]
 
-  int elbow = 0;  ///< see Wish, ±1; 0 of a leg without
+  int elbow = 0;  ///< see SolutionPreference, ±1; 0 of a leg without
 };
 
 }  // namespace sinew::inline v0

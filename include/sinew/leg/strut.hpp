@@ -32,7 +32,7 @@ struct Strut {
   /// The feasible one nearest to the wish is taken, with both elbows.
   /// @param end of the curvature's domain [1/m]
   template <HasArc Link>
-  requires(Link::has_own_turn) int coordinates_at(const Link& link, const Vec2<double>& r, const Wish& wish,
+  requires(Link::has_base_joint) int coordinates_at(const Link& link, const Vec2<double>& r, const SolutionPreference& wish,
                                                   double end, std::span<Vec<double, 2>> roots) const {
     const double distance = r.norm(), reach = link.arc().length;
     const double shortest = std::abs(distance - length), longest = std::min(distance + length, reach);

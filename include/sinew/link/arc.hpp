@@ -22,7 +22,7 @@ struct Arc {
   static constexpr std::string_view name = "arc";
   static constexpr int dimension = 2;
   static constexpr int coordinates = 1;  ///< the signed curvature κ [1/m]
-  static constexpr bool has_own_turn = false;
+  static constexpr bool has_base_joint = false;
 
   double length = 0;  ///< backbone length ℓ [m], > 0
 

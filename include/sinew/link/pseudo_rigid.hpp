@@ -18,7 +18,7 @@ namespace sinew::inline v0 {
 enum class ChainBase { pinned, clamped };
 
 /// How the backbone is lumped into joints, and how its tendons run.
-enum class ChainModel {
+enum class PrbDiscretisation {
   even,      ///< M0, as [TDPCR]: all joints alike, tendons guided along the links
   weighted,  ///< M0w: joints next to an end stand for that end too. Of second order in chord and turn
   discs      ///< M1: as M0, tendons straight between discs at the middles of links
@@ -49,7 +49,7 @@ struct PseudoRigid {
   double length = 0;  ///< backbone length ℓ [m], > 0
   int links = 6;      ///< 1 to `max_chain_joints`; of a pinned base at least 2
   ChainBase base = ChainBase::pinned;
-  ChainModel model = ChainModel::weighted;
+  PrbDiscretisation model = PrbDiscretisation::weighted;
 
   /// Sprung joints: between links, and where the base is clamped at the base too.
   int joints() const { return base == ChainBase::pinned ? links - 1 : links; }
@@ -80,7 +80,7 @@ struct PseudoRigid {
 
   /// Stiffness of a joint as a multiple of EI/ℓ_s.
   double spring(int joint) const {
-    if (model != ChainModel::weighted) return 1;
+    if (model != PrbDiscretisation::weighted) return 1;
     if (is_first(joint) && base == ChainBase::clamped) return 2;  // of half a link's length
     return turn_weight(joint);
   }
@@ -113,7 +113,7 @@ struct PseudoRigid {
   TendonBend<S> tendon_bend(int joint, const S& angle, double offset, int side) const {
     using std::cos, std::sin, std::sqrt;
     const double d = side * offset, h = 0.5 * link_length();
-    if (model != ChainModel::discs) {
+    if (model != PrbDiscretisation::discs) {
       const S arm(d * turn_weight(joint));
       return {arm * angle, arm, S(0)};
     }
@@ -142,7 +142,7 @@ struct PseudoRigid {
  private:
   static bool is_first(int joint) { return joint == 0; }
   /// What a free end bends by beyond its joint, of that joint's angle: half a link's turn.
-  double free_end() const { return model == ChainModel::weighted ? 0.5 : 0; }
+  double free_end() const { return model == PrbDiscretisation::weighted ? 0.5 : 0; }
 };
 
 }  // namespace sinew::inline v0

@@ -13,7 +13,7 @@ struct Rail {
   static constexpr std::string_view name = "rail";
   static constexpr int dimension = 3;
   static constexpr int coordinates = 1;  ///< the slide ρ [m]
-  static constexpr bool has_own_turn = false;
+  static constexpr bool has_base_joint = false;
 
   template <class Self, class Visit>
   static void fields(Self&, Visit&&) {}

@@ -80,10 +80,10 @@ SINEW_API RodTip integrate(const SpatialRod& rod, double length, const RodState<
                            const RodSteps& how = {});
 
 /// The far end with its derivatives. Rows: position, rotation vector (base axes), force, moment. Columns:
-/// force and moment at the base (base axes), spin of the base frame about its own z at these, length. They
+/// force and moment at the base (base axes), axial_rotation of the base frame about its own z at these, length. They
 /// are the derivatives of the numbers computed, steps held, to rounding.
 struct RodTangent {
-  static constexpr int force = 0, moment = 3, spin = 6, length = 7;                // columns
+  static constexpr int force = 0, moment = 3, axial_rotation = 6, length = 7;                // columns
   static constexpr int position = 0, rotation = 3, tip_force = 6, tip_moment = 9;  // rows
   RodTip tip;
   Mat<double, 12, 8> rate;

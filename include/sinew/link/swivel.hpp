@@ -14,7 +14,7 @@ struct Swivel {
   static constexpr std::string_view name = "swivel";
   static constexpr int dimension = 2;
   static constexpr int coordinates = 1 + LinkT::coordinates;  ///< θ [rad], then those of the link
-  static constexpr bool has_own_turn =
+  static constexpr bool has_base_joint =
       true;  ///< the base tangent is a coordinate: a base direction means nothing
 
   LinkT link;

@@ -59,7 +59,7 @@ struct InsertionCheck {
 
 struct InsertionCheckOptions {
   double reach = 10e-3;        ///< distances beyond this are not told apart [m]
-  double least_motion = 1e-6;  ///< the proof gives up where steps move the robot by less [m]
+  double min_motion = 1e-6;  ///< the proof gives up where steps move the robot by less [m]
   unsigned threads = 0;
   StopToken stop;
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();

@@ -18,7 +18,7 @@ struct InsertionStep : SerialPosture {
 
 /// More steps on the curves through these: by the stage, shape-preserving (Fritsch, Butland), so that no bend
 /// leaves the interval of its neighbours. The given steps are among them.
-/// @param most_stage between two of the answer [m], > 0
-SINEW_API std::vector<InsertionStep> interpolated(std::span<const InsertionStep> steps, double most_stage);
+/// @param max_stage between two of the answer [m], > 0
+SINEW_API std::vector<InsertionStep> interpolated(std::span<const InsertionStep> steps, double max_stage);
 
 }  // namespace sinew::inline v0

@@ -31,7 +31,7 @@ SINEW_API MatrixView homogenise(const Robot& robot, const Reduced& reduced, Work
 
 /// Link coordinates that the inputs command, in `work.coordinates`; the view returned is of them.
 /// The report says which input is missing, not finite or outside the link's domain.
-SINEW_API Report command(const Robot& robot, Numbers inputs, Workspace& work);
+SINEW_API Report coordinates_from_inputs(const Robot& robot, Numbers inputs, Workspace& work);
 
 /// What people want to know of each leg. View of `work.legs`.
 SINEW_API std::span<const LegState> leg_states(const Robot& robot, const AnyPose& pose, Numbers coordinates,

@@ -66,7 +66,7 @@ class Robot {
   /// The same robot by another model, which is again a robot: every question that the model can answer may be
   /// put to it. Its file's model and, where its links are arcs, prb. An error names what a leg lacks for
   /// that: `joints`, `material`, `diameter`, or that its links have no such model.
-  SINEW_API Expected<Robot> as(Model model, ChainModel discretisation = ChainModel::weighted) const;
+  SINEW_API Expected<Robot> as(Model model, PrbDiscretisation discretisation = PrbDiscretisation::weighted) const;
 
   /// Its sections, of a serial robot, which has no legs and no platform; else null.
   const SerialRobot* serial() const { return serial_; }

@@ -28,9 +28,9 @@ struct Section {
   double limit = std::numeric_limits<double>::infinity();
   /// How much longer than at rest its backbone can be made [m], evenly over its joints: least ≤ 0 ≤
   /// most. The third coordinate of a neutral backbone; 0 and 0: the length is fixed.
-  double least_extension = 0, most_extension = 0;
+  double min_extension = 0, max_extension = 0;
 
-  bool is_extensible() const { return least_extension < most_extension; }
+  bool is_extensible() const { return min_extension < max_extension; }
   /// The section made longer by so much [m].
   Section extended(double extension) const {
     Section longer = *this;

@@ -59,7 +59,7 @@ struct SerialRobot {
   /// Made as long as it can be.
   double longest() const {
     double length = 0;
-    for (const Section& section : sections) length += section.length() + section.most_extension;
+    for (const Section& section : sections) length += section.length() + section.max_extension;
     return length;
   }
   bool is_extensible() const {

@@ -183,10 +183,10 @@ namespace detail {
 /// and then the mean of its points on these turns is its value at the end. False where it does not come back.
 template <class H>
 bool mean_around(Path<H>& path, Complex end, typename Path<H>::Point& mean) {
-  constexpr int points = 12, most_turns = 8;
+  constexpr int points = 12, max_turns = 8;
   const typename Path<H>::Point start = path.point();
   mean.setZero();
-  for (int turn = 1; turn <= most_turns; ++turn) {
+  for (int turn = 1; turn <= max_turns; ++turn) {
     if (!path.turn_around(end, points, mean)) return false;
     if ((path.point() - start).norm() > 1e-5 * start.norm()) continue;
     mean /= points * turn;

@@ -48,7 +48,7 @@ struct DiagramQuestion {
   double deviation = 1e-4;  ///< arcs are sampled so that no chord is farther from them [rad]
 };
 
-enum class TendonsAgree {
+enum class TendonConsistency {
   exact,          ///< taut within the tolerance: one bend
   indeterminate,  ///< no tendon too short, some slack: a set of bends
   inconsistent,   ///< whatever the bend, some tendon is too short
@@ -64,7 +64,7 @@ struct SectionDiagram {
   /// - `stalled`, exact model only: the free set has several parts and `boundary` is that of the largest, or
   ///   not all of its boundary was found and `boundary` and `area` are not to be trusted; see the message.
   Report report;
-  TendonsAgree agree = TendonsAgree::inconsistent;
+  TendonConsistency agree = TendonConsistency::inconsistent;
   bool partial = false;  ///< indeterminate, with a tendon that is taut at `point`
 
   Vec2<double> point{0, 0};         ///< bend [rad] that meets the tendons' differences in least squares

@@ -21,7 +21,7 @@ struct StateWords {
 /// @param diagram the answer to the question
 SINEW_API StateWords state_words(const DiagramQuestion& question, const SectionDiagram& diagram);
 
-SINEW_API std::string_view state_word(TendonsAgree agree, bool is_partial);
+SINEW_API std::string_view state_word(TendonConsistency agree, bool is_partial);
 /// `tendons 1, 2 and 3`, from indices.
 SINEW_API std::string tendon_names(std::span<const std::size_t> tendons);
 

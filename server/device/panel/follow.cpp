@@ -64,7 +64,7 @@ Outcome Panel::off_path() const {
       fmt::format("off the path by {:.1f}° in S{} and {:.1f} mm of the stage, it may be {:.1f}° and "
                   "{:.1f} mm: {}",
                   degrees_of * off.bend, off.section + 1, millimetres_of * off.stage,
-                  degrees_of * OffPath::most_bend, millimetres_of * OffPath::most_stage, way_out)};
+                  degrees_of * OffPath::max_bend, millimetres_of * OffPath::max_stage, way_out)};
 }
 
 Outcome Panel::may_follow() const {

@@ -21,7 +21,7 @@ constexpr double fast = 8e-3 * times::period;  // in, until it pulls
 constexpr double out = 10e-3 * times::period;  // where nothing comes to pull
 constexpr double slow = 1e-3 * times::period;  // while it pulls
 constexpr double finest = 1e-6, coarsest = 1e-4;
-constexpr double least_out = 3e-4, clear = 1e-3, near = 2e-5, longest = 25e-3;  // [m]
+constexpr double min_out = 3e-4, clear = 1e-3, near = 2e-5, longest = 25e-3;  // [m]
 constexpr int smooth = 40, prompt = 20;  // [ms]: two periods, so that a late one leaves no gap; one
 
 }  // namespace
@@ -92,12 +92,12 @@ std::optional<Homing::Step> Homing::next(const DriveState& state, const Counts& 
 
 /// None may pull while another one is felt for: it would be felt, too.
 std::optional<Homing::Step> Homing::loosen(const DriveState& state, Counts counts) {
-  bool are_loose = gone_ >= least_out;
+  bool are_loose = gone_ >= min_out;
   for (std::size_t i = first(); i < arm_.tendon_drives(); ++i) {
     const bool hangs_now = state.tension[i] < hangs;
     if (!hangs_now && gone_ > longest) fail(i, "still pulls, however far it is paid out");
     are_loose = are_loose && hangs_now;
-    if (!hangs_now || gone_ < least_out) counts[i] += arm_.tendon_counts(out);
+    if (!hangs_now || gone_ < min_out) counts[i] += arm_.tendon_counts(out);
   }
   gone_ += out;
   if (are_loose) enter(own_ < arm_.tendons() ? Phase::seek : Phase::gather);

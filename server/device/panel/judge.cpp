@@ -24,13 +24,13 @@ Word word_of(const std::string& agreement) {
 std::string_view name_of(Word word, bool is_partial) {
   switch (word) {
     case Word::exact:
-      return state_word(TendonsAgree::exact, false);
+      return state_word(TendonConsistency::exact, false);
     case Word::slack:
-      return state_word(TendonsAgree::indeterminate, is_partial);
+      return state_word(TendonConsistency::indeterminate, is_partial);
     case Word::unreachable:
-      return state_word(TendonsAgree::unreachable, false);
+      return state_word(TendonConsistency::unreachable, false);
     case Word::over_tensioned:
-      return state_word(TendonsAgree::inconsistent, false);
+      return state_word(TendonConsistency::inconsistent, false);
     case Word::no_data:
       break;
   }

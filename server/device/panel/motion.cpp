@@ -6,20 +6,20 @@
 namespace sinew::server::device {
 namespace {
 
-constexpr double least_step = 2e-4;            // [m] between recorded postures, of a tendon or the stage
-constexpr double least_bend = 2e-3;            // [rad]
-constexpr std::size_t most_postures = 50'000;  // 10 m of way
+constexpr double min_step = 2e-4;            // [m] between recorded postures, of a tendon or the stage
+constexpr double min_bend = 2e-3;            // [rad]
+constexpr std::size_t max_postures = 50'000;  // 10 m of way
 
 /// Cheap, and enough to thin out a path.
 bool is_near(const Posture& a, const Posture& b) {
   double bend = 0;
   for (std::size_t m = 0; m < a.bends.size(); ++m) bend = std::max(bend, (a.bends[m] - b.bends[m]).norm());
-  return bend < least_bend && std::abs(a.stage - b.stage) < least_step;
+  return bend < min_bend && std::abs(a.stage - b.stage) < min_step;
 }
 
 double apart(const Posture& a, const Posture& b) {
-  double sum = std::abs(a.stage - b.stage) / least_step;
-  for (std::size_t m = 0; m < a.bends.size(); ++m) sum += (a.bends[m] - b.bends[m]).norm() / least_bend;
+  double sum = std::abs(a.stage - b.stage) / min_step;
+  for (std::size_t m = 0; m < a.bends.size(); ++m) sum += (a.bends[m] - b.bends[m]).norm() / min_bend;
   return sum;
 }
 
@@ -36,7 +36,7 @@ Posture between(const Posture& from, const Posture& to, double share) {
 void Path::record(const Posture& posture) {
   while (!postures_.empty() && postures_.back().stage > posture.stage) postures_.pop_back();
   if (!postures_.empty() && is_near(postures_.back(), posture)) return;
-  if (postures_.size() < most_postures) postures_.push_back(posture);
+  if (postures_.size() < max_postures) postures_.push_back(posture);
 }
 
 void Path::rewind(const Posture& posture) {

@@ -26,8 +26,8 @@ OffPath off_between(const Posture& a, const Posture& b) {
 
 /// In which a bend and a stage that are as far off as they may be count alike.
 double product(const Posture& a, const Posture& b, const Posture& origin, const Posture& end) {
-  constexpr double per_stage = 1 / (OffPath::most_stage * OffPath::most_stage),
-                   per_bend = 1 / (OffPath::most_bend * OffPath::most_bend);
+  constexpr double per_stage = 1 / (OffPath::max_stage * OffPath::max_stage),
+                   per_bend = 1 / (OffPath::max_bend * OffPath::max_bend);
   double sum = per_stage * (a.stage - b.stage) * (end.stage - origin.stage);
   for (std::size_t m = 0; m < a.bends.size(); ++m)
     sum += per_bend * (a.bends[m] - b.bends[m]).dot(end.bends[m] - origin.bends[m]);
@@ -58,8 +58,8 @@ Outcome check_step(const Posture& step, std::size_t k, const Arm& arm, double st
 
 Outcome check_plan(const DrivePlan& plan, const Arm& arm, double stage_limit) {
   const std::size_t count = plan.steps.size();
-  if (count < 2 || count > most_steps)
-    return Refused{"out_of_limits", fmt::format("{} steps; a plan has 2 to {}", count, most_steps)};
+  if (count < 2 || count > max_steps)
+    return Refused{"out_of_limits", fmt::format("{} steps; a plan has 2 to {}", count, max_steps)};
   if (!plan.clearance.empty() && plan.clearance.size() != count)
     return Refused{"out_of_limits", fmt::format("{} clearances of {} steps; give one a step, or none",
                                                 plan.clearance.size(), count)};
@@ -67,14 +67,14 @@ Outcome check_plan(const DrivePlan& plan, const Arm& arm, double stage_limit) {
     if (auto no = check_step(plan.steps[k], k, arm, stage_limit)) return no;
     if (k == 0) continue;
     const OffPath by = off_between(plan.steps[k - 1], plan.steps[k]);
-    if (by.bend <= most_bend_step && by.stage <= most_stage_step) continue;
+    if (by.bend <= max_bend_step && by.stage <= max_stage_step) continue;
     return Refused{
         "too_far",
         fmt::format(
             "step {}: {:.3g} mm and {:.3g}° (S{}) from the one before; at most {:.3g} mm and {:.3g}°: "
             "sinew plan makes steps of half a millimetre",
             k, to_millimetres * by.stage, to_degrees * by.bend, by.section + 1,
-            to_millimetres * most_stage_step, to_degrees * most_bend_step)};
+            to_millimetres * max_stage_step, to_degrees * max_bend_step)};
   }
   return {};
 }

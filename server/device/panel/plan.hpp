@@ -22,9 +22,9 @@ struct DrivePlan {
 };
 
 /// Limits of a plan.
-inline constexpr std::size_t most_steps = 4000;
-inline constexpr double most_stage_step = 5e-3;  ///< [m] from one step to the next
-inline constexpr double most_bend_step = 0.1;    ///< [rad] of a section
+inline constexpr std::size_t max_steps = 4000;
+inline constexpr double max_stage_step = 5e-3;  ///< [m] from one step to the next
+inline constexpr double max_bend_step = 0.1;    ///< [rad] of a section
 
 /// What is wrong with a plan for this arm, with its step; nothing: it can be driven.
 /// @param stage_limit [m]; 0: there is no stage
@@ -36,9 +36,9 @@ struct OffPath {
   std::size_t section = 0;
   double stage = 0;  ///< [m]
 
-  static constexpr double most_bend = 0.02, most_stage = 1e-3;  ///< of an arm that is on the path
+  static constexpr double max_bend = 0.02, max_stage = 1e-3;  ///< of an arm that is on the path
   /// Of what an arm on the path may be off.
-  double share() const { return std::max(bend / most_bend, stage / most_stage); }
+  double share() const { return std::max(bend / max_bend, stage / max_stage); }
 };
 
 /// A plan that is driven.

@@ -20,7 +20,7 @@ namespace sinew::server::device {
 namespace {
 
 /// Bytes that wait for a port that takes none; what comes after them is lost, and then noticed as silence.
-constexpr std::size_t most_waiting = 4096;
+constexpr std::size_t max_waiting = 4096;
 
 class Port : public Wire {
  public:
@@ -33,7 +33,7 @@ class Port : public Wire {
     flush();
     std::string text;
     std::array<char, 1024> bytes;
-    while (!is_gone_ && text.size() < most_waiting) {
+    while (!is_gone_ && text.size() < max_waiting) {
       const ssize_t count = ::read(file_, bytes.data(), bytes.size());
       if (count > 0)
         text.append(bytes.data(), static_cast<std::size_t>(count));
@@ -45,7 +45,7 @@ class Port : public Wire {
     return text;
   }
   void write(std::string_view bytes) override {
-    if (waiting_.size() + bytes.size() <= most_waiting) waiting_ += bytes;
+    if (waiting_.size() + bytes.size() <= max_waiting) waiting_ += bytes;
     flush();
   }
   bool is_gone() const override { return is_gone_; }

@@ -33,7 +33,7 @@ std::vector<double> first_links(ArcTwin& twin, const ChainLegs<Space>& robot, co
   std::vector<double> inputs, directions;
   if (!robot.has_base_motors) return directions;
   for (const double length : lengths) inputs.insert(inputs.end(), {0, length});
-  static_cast<void>(command(twin.robot, inputs, twin.work));  // of arcs beyond their domain, too
+  static_cast<void>(coordinates_from_inputs(twin.robot, inputs, twin.work));  // of arcs beyond their domain, too
   const Arcs arcs = arcs_of(twin, pose, twin.work.coordinates);
   for (std::size_t i = 0; i < lengths.size(); ++i)
     directions.push_back(first_link(arcs.base_tangent[i], arcs.curvature[i], robot.legs[i].chain));
@@ -62,7 +62,7 @@ Report rest_near(ChainLegs<Space>& robot, const AnyPose& pose, const Arcs& arcs,
                  ChainState<Space>& state) {
   if (!arcs.report.ok()) return arcs.report;
   aim_bases(robot, arcs);
-  return rest(robot, std::get<typename Space::Pose>(pose), arcs.curvature, holds_lengths, state);
+  return unloaded_equilibrium(robot, std::get<typename Space::Pose>(pose), arcs.curvature, holds_lengths, state);
 }
 
 template <class Space>
@@ -71,7 +71,7 @@ HeldInputs hold_inputs(ArcTwin twin, const ChainLegs<Space>& robot, Numbers inpu
   const Forward found =
       forward(twin.robot, inputs, {.start = start, .max_iterations = max_iterations}, twin.work);
   const bool is_redundant = robot.legs.size() > static_cast<std::size_t>(Space::dof);
-  if (!found.ok() && !(is_redundant && command(twin.robot, inputs, twin.work).ok()))
+  if (!found.ok() && !(is_redundant && coordinates_from_inputs(twin.robot, inputs, twin.work).ok()))
     return {found.pose, {found.report, {}, {}}, {}};
   HeldInputs held{found.ok() ? found.pose : start.value_or(home(twin.robot)), {}, {}};
   held.arcs = arcs_of(twin, held.pose, twin.work.coordinates);

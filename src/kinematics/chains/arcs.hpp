@@ -38,7 +38,7 @@ Report rest_near(ChainLegs<Space>& robot, const AnyPose& pose, const Arcs& arcs,
 struct HeldInputs {
   AnyPose pose;
   Arcs arcs;
-  std::vector<ChainHold> hold;
+  std::vector<TendonConstraint> hold;
 };
 /// Tendon 1 of the arcs' lengths; where it is the outer one the inner is held, whose length is as much
 /// shorter. Of more legs than freedoms, whose lengths chains need not agree on, arcs begin where the search

@@ -26,7 +26,7 @@ void ChainGroup<Space>::set_state(const State& state) {
 }
 
 template <class Space>
-void ChainGroup<Space>::hold_leg(std::size_t leg, const ChainHold& hold) {
+void ChainGroup<Space>::hold_leg(std::size_t leg, const TendonConstraint& hold) {
   state_.hold[leg] = hold;
   for (std::size_t k = 0; k < 2; ++k)
     if (hold.length_of != static_cast<int>(k)) state_.legs[leg].tension[k] = hold.tension[k];
@@ -45,13 +45,13 @@ const LimbTraits& ChainGroup<Space>::traits() const {
 
 template <class Space>
 double ChainGroup<Space>::held(int feed) const {
-  const ChainHold& hold = state_.hold[at(feed)];
+  const TendonConstraint& hold = state_.hold[at(feed)];
   return hold.length_of >= 0 ? hold.length : effort(feed);
 }
 
 template <class Space>
 void ChainGroup<Space>::hold(int feed, double value) {
-  ChainHold& hold = state_.hold[at(feed)];
+  TendonConstraint& hold = state_.hold[at(feed)];
   const std::size_t fed = fed_tendon(leg(feed), state_.legs[at(feed)], hold);
   if (hold.length_of >= 0)
     hold.length = value;
@@ -65,7 +65,7 @@ void ChainGroup<Space>::save(LimbState& to) const {
   to.put(state_.pose);
   to.put(state_.wrench);
   to.put(std::span<const ChainLegState>(state_.legs));
-  to.put(std::span<const ChainHold>(state_.hold));
+  to.put(std::span<const TendonConstraint>(state_.hold));
 }
 
 template <class Space>
@@ -74,7 +74,7 @@ void ChainGroup<Space>::restore(const LimbState& from) {
   reader.get(state_.pose);
   reader.get(state_.wrench);
   reader.get(std::span<ChainLegState>(state_.legs));
-  reader.get(std::span<ChainHold>(state_.hold));
+  reader.get(std::span<TendonConstraint>(state_.hold));
   platform_ = Space::frame(state_.pose);
 }
 
@@ -204,7 +204,7 @@ auto ChainGroup<Space>::effort_jacobian(int feed) const -> Twist {
 }
 
 template <class Space>
-auto ChainGroup<Space>::hold_wrench_jacobian(std::size_t leg, const ChainHold& rate) const -> Wrench {
+auto ChainGroup<Space>::hold_wrench_jacobian(std::size_t leg, const TendonConstraint& rate) const -> Wrench {
   const ChainLeg<Space>& own = robot_->legs[leg];
   LegSystem<Space> change = systems_[leg];  // a unit change as the leg's only imbalance
   change.closure.c = 0;

@@ -23,7 +23,7 @@ class ChainGroup final : public LimbGroup<Space> {
   const State& state() const { return state_; }
   void set_state(const State& state);  ///< of that robot
   /// Tensions that are held are those of the tendons from now on.
-  void hold_leg(std::size_t leg, const ChainHold& hold);
+  void hold_leg(std::size_t leg, const TendonConstraint& hold);
   void measure();  ///< lengths of tendons, into the state
 
   const LimbTraits& traits() const override;
@@ -68,7 +68,7 @@ class ChainGroup final : public LimbGroup<Space> {
 
   const LegSystem<Space>& system(std::size_t leg) const { return systems_[leg]; }
   /// ∂(wrench needed)/∂ of all that a leg holds, along `rate`; the platform held.
-  Wrench hold_wrench_jacobian(std::size_t leg, const ChainHold& rate) const;
+  Wrench hold_wrench_jacobian(std::size_t leg, const TendonConstraint& rate) const;
   /// The change of a leg's feed that leaves the platform without the leg's force.
   double relief(int leg) const;
   /// A step that is only planned: its size, of the platform over the longest chain, turns in rad; and that

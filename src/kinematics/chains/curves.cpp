@@ -11,7 +11,7 @@
 namespace sinew::inline v0 {
 namespace {
 
-ChainHold difference(const ChainHold& from, const ChainHold& to) {
+TendonConstraint difference(const TendonConstraint& from, const TendonConstraint& to) {
   return {to.length_of,
           to.length - from.length,
           {to.tension[0] - from.tension[0], to.tension[1] - from.tension[1]}};
@@ -59,7 +59,7 @@ class ChainProblem : public LoadProblem<Space> {
   void put(double lambda) {
     Base::put(lambda);
     for (std::size_t i = 0; i < rates_.size(); ++i) {
-      ChainHold hold = from_[i];
+      TendonConstraint hold = from_[i];
       hold.length += lambda * rates_[i].length;
       for (std::size_t k = 0; k < 2; ++k) hold.tension[k] += lambda * rates_[i].tension[k];
       chains_.hold_leg(i, hold);
@@ -91,7 +91,7 @@ class ChainProblem : public LoadProblem<Space> {
   const ChainLegs<Space>& robot_;
   ChainGroup<Space>& chains_;
   std::vector<double> fed_;              ///< by a step; none where nothing held changes
-  std::vector<ChainHold> from_, rates_;  ///< held at λ = 0, and its change; none where that stays
+  std::vector<TendonConstraint> from_, rates_;  ///< held at λ = 0, and its change; none where that stays
 };
 
 template <class Space>
@@ -105,7 +105,7 @@ bool is_answerable(const ChainLegs<Space>& robot, const ChainState<Space>& state
   double change = how.added_wrench.norm();
   for (std::size_t i = 0; i < how.hold.size(); ++i) {
     if (how.hold[i].length_of != state.hold[i].length_of) return false;
-    const ChainHold rate = difference(state.hold[i], how.hold[i]);
+    const TendonConstraint rate = difference(state.hold[i], how.hold[i]);
     change += std::abs(rate.length) + std::abs(rate.tension[0]) + std::abs(rate.tension[1]);
   }
   return std::isfinite(change) && change > 0;

@@ -13,12 +13,12 @@ namespace sinew::inline v0 {
 namespace {
 
 constexpr int spread_starts = 40;
-constexpr std::size_t most_bends = 5;  ///< legs of which all bends are tried; of more each by itself
+constexpr std::size_t max_bends = 5;  ///< legs of which all bends are tried; of more each by itself
 
 /// The curvatures with signs turned over: all ways of a few legs, of many one at a time.
 std::vector<std::vector<double>> bends_of(const std::vector<double>& curvature) {
   const std::size_t legs = curvature.size();
-  const bool tries_all = legs <= most_bends;
+  const bool tries_all = legs <= max_bends;
   std::vector<std::vector<double>> bends;
   for (std::size_t way = 0; way < (tries_all ? std::size_t{1} << legs : legs + 1); ++way) {
     bends.push_back(curvature);
@@ -33,7 +33,7 @@ class Search {
  public:
   using Wrench = Vec<double, Space::dof>;
 
-  Search(const ChainLegs<Space>& robot, std::span<const ChainHold> hold, const Wrench& wrench,
+  Search(const ChainLegs<Space>& robot, std::span<const TendonConstraint> hold, const Wrench& wrench,
          ChainWork& work, const ChainOptions& options)
       : robot_(robot),
         hold_(hold),
@@ -46,7 +46,7 @@ class Search {
   /// Let go without load, then loaded; and loaded at once.
   void begin(const typename Space::Pose& pose, const std::vector<double>& curvature) {
     ChainState<Space> start;
-    if (!rest(robot_, pose, curvature, false, start).ok()) return;
+    if (!unloaded_equilibrium(robot_, pose, curvature, false, start).ok()) return;
     ChainState<Space> state = start;
     if (is_solution(equilibrium(robot_, hold_, Wrench::Zero().eval(), state, work_, options_))) load(state);
     if (!wrench_.isZero(0)) load(start);
@@ -93,7 +93,7 @@ class Search {
   }
 
   const ChainLegs<Space>& robot_;
-  std::span<const ChainHold> hold_;
+  std::span<const TendonConstraint> hold_;
   Wrench wrench_;
   ChainWork& work_;
   ChainOptions options_;
@@ -106,7 +106,7 @@ class Search {
 template <class Space>
 std::vector<FoundChains<Space>> chain_equilibria(const ChainLegs<Space>& robot,
                                                  std::span<const ChainStart<Space>> starts,
-                                                 std::span<const ChainHold> hold,
+                                                 std::span<const TendonConstraint> hold,
                                                  const Vec<double, Space::dof>& wrench, ChainWork& work,
                                                  const ChainOptions& options) {
   Search<Space> search(robot, hold, wrench, work, options);
@@ -120,7 +120,7 @@ std::vector<FoundChains<Space>> chain_equilibria(const ChainLegs<Space>& robot,
 
 #define SINEW_OF(Space)                                                                        \
   template SINEW_API std::vector<FoundChains<Space>> chain_equilibria(                         \
-      const ChainLegs<Space>&, std::span<const ChainStart<Space>>, std::span<const ChainHold>, \
+      const ChainLegs<Space>&, std::span<const ChainStart<Space>>, std::span<const TendonConstraint>, \
       const Vec<double, Space::dof>&, ChainWork&, const ChainOptions&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)

@@ -11,16 +11,16 @@
 namespace sinew::inline v0 {
 namespace {
 
-ChainHold between(const ChainHold& from, const ChainHold& to, double part) {
-  ChainHold hold = to;
+TendonConstraint between(const TendonConstraint& from, const TendonConstraint& to, double part) {
+  TendonConstraint hold = to;
   hold.length = std::lerp(from.length, to.length, part);
   for (std::size_t k = 0; k < 2; ++k) hold.tension[k] = std::lerp(from.tension[k], to.tension[k], part);
   return hold;
 }
 
 /// What the state itself has of the things a leg is to hold.
-ChainHold present(const ChainLegState& leg, const ChainHold& to) {
-  ChainHold hold{to.length_of, 0, leg.tension};
+TendonConstraint present(const ChainLegState& leg, const TendonConstraint& to) {
+  TendonConstraint hold{to.length_of, 0, leg.tension};
   if (to.length_of >= 0) hold.length = leg.tendon_length[static_cast<std::size_t>(to.length_of)];
   return hold;
 }
@@ -130,7 +130,7 @@ Report settle(const ChainLegs<Space>& robot, ChainState<Space>& state) {
 }  // namespace
 
 template <class Space>
-Report rest(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
+Report unloaded_equilibrium(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
             std::span<const double> curvature, bool holds_lengths, ChainState<Space>& state) {
   if (curvature.size() != robot.legs.size()) return wrong_sizes();
   state.pose = pose;
@@ -175,7 +175,7 @@ Report rest(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
     own.tension[inner] = std::abs(leg.spring(static_cast<int>(last)) * own.angles[last] / pull.rate);
     measure_tendons(leg, own);
     // straight tendons pull less at a clamped first joint than at the others: even is no rest there
-    is_even = is_even && !(leg.chain.model == ChainModel::discs && leg.chain.base == ChainBase::clamped);
+    is_even = is_even && !(leg.chain.model == PrbDiscretisation::discs && leg.chain.base == ChainBase::clamped);
   }
   if (report.ok() && !is_even) report = settle(robot, state);
   for (std::size_t i = 0; i < robot.legs.size(); ++i)
@@ -186,7 +186,7 @@ Report rest(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
 }
 
 template <class Space>
-Report equilibrium(const ChainLegs<Space>& robot, std::span<const ChainHold> hold,
+Report equilibrium(const ChainLegs<Space>& robot, std::span<const TendonConstraint> hold,
                    const Vec<double, Space::dof>& wrench, ChainState<Space>& state, ChainWork& work,
                    const ChainOptions& options) {
   if (hold.size() != robot.legs.size() || state.legs.size() != robot.legs.size()) return wrong_sizes();
@@ -205,7 +205,7 @@ Report equilibrium(const ChainLegs<Space>& robot, std::span<const ChainHold> hol
 }
 
 template <class Space>
-Report hold_pose(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& wrench,
+Report inverse_statics(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& wrench,
                  ChainState<Space>& state, ChainWork& work, const ChainOptions& options) {
   if (robot.legs.size() < static_cast<std::size_t>(Space::dof)) {
     Report report;
@@ -215,7 +215,7 @@ Report hold_pose(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& w
     return report;
   }
   if (!fits(robot, state) || robot.legs.size() > static_cast<std::size_t>(max_rows)) return wrong_sizes();
-  const std::vector<ChainHold> held = std::exchange(state.hold, std::vector<ChainHold>(robot.legs.size()));
+  const std::vector<TendonConstraint> held = std::exchange(state.hold, std::vector<TendonConstraint>(robot.legs.size()));
   std::array<double, max_rows> near;
   for (std::size_t i = 0; i < robot.legs.size(); ++i)
     near[i] = state.legs[i].tension[inner_tendon(state.legs[i], robot.legs[i].chain)];
@@ -255,12 +255,12 @@ Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>& robot, co
 }
 
 #define SINEW_OF(Space)                                                                                      \
-  template SINEW_API Report rest(const ChainLegs<Space>&, const Space::Pose&, std::span<const double>, bool, \
+  template SINEW_API Report unloaded_equilibrium(const ChainLegs<Space>&, const Space::Pose&, std::span<const double>, bool, \
                                  ChainState<Space>&);                                                        \
-  template SINEW_API Report equilibrium(const ChainLegs<Space>&, std::span<const ChainHold>,                 \
+  template SINEW_API Report equilibrium(const ChainLegs<Space>&, std::span<const TendonConstraint>,                 \
                                         const Vec<double, Space::dof>&, ChainState<Space>&, ChainWork&,      \
                                         const ChainOptions&);                                                \
-  template SINEW_API Report hold_pose(const ChainLegs<Space>&, const Vec<double, Space::dof>&,               \
+  template SINEW_API Report inverse_statics(const ChainLegs<Space>&, const Vec<double, Space::dof>&,               \
                                       ChainState<Space>&, ChainWork&, const ChainOptions&);                  \
   template SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainLegs<Space>&,                  \
                                                                    const ChainState<Space>&, ChainWork&);    \

@@ -114,7 +114,7 @@ inline std::size_t inner_tendon(const ChainLegState& state, const PseudoRigid& c
 
 /// The tendon whose length is held, or else the inner one.
 template <class Space>
-std::size_t fed_tendon(const ChainLeg<Space>& leg, const ChainLegState& state, const ChainHold& hold) {
+std::size_t fed_tendon(const ChainLeg<Space>& leg, const ChainLegState& state, const TendonConstraint& hold) {
   return hold.length_of >= 0 ? static_cast<std::size_t>(hold.length_of) : inner_tendon(state, leg.chain);
 }
 
@@ -128,7 +128,7 @@ void measure_tendons(const ChainLeg<Space>& leg, ChainLegState& state) {
 /// Whether a length that is held leaves a leg's joints nothing: one equation for the length, one for the
 /// closure, which of evenly bent free ends are the same where there are but two joints.
 template <class Space>
-bool is_rigid(const ChainLeg<Space>& leg, const ChainHold& hold) {
+bool is_rigid(const ChainLeg<Space>& leg, const TendonConstraint& hold) {
   return hold.length_of >= 0 && leg.chain.joints() <= (leg.has_strut() ? 1 : 2);
 }
 
@@ -153,7 +153,7 @@ struct LegSystem {
 /// With the geometric stiffness that (44) leaves out.
 template <class Space>
 void form(const ChainLeg<Space>& leg, const typename Space::template Frame<double>& platform,
-          const ChainLegState& state, const ChainHold& hold, LegSystem<Space>& system) {
+          const ChainLegState& state, const TendonConstraint& hold, LegSystem<Space>& system) {
   const PseudoRigid& chain = leg.chain;
   system.joints = chain.joints();
   system.holds_length = hold.length_of >= 0;

@@ -129,7 +129,7 @@ void name_slack(const ChainState<Space>& state, Report& report) {
 
 /// The largest change of a tendon's length that no joint needs half a turn for [m].
 template <class Space>
-double most_change(const ChainLeg<Space>& leg) {
+double max_change(const ChainLeg<Space>& leg) {
   double most = 0;
   for (int j = 0; j < leg.chain.joints(); ++j)
     most += std::numbers::pi * leg.tendon_offset * leg.chain.turn_weight(j);
@@ -138,7 +138,7 @@ double most_change(const ChainLeg<Space>& leg) {
 
 /// Why no path can lead to that; ok where one may.
 template <class Space>
-Report check_hold(const ChainLegs<Space>& robot, std::span<const ChainHold> hold) {
+Report check_hold(const ChainLegs<Space>& robot, std::span<const TendonConstraint> hold) {
   Report report;
   for (std::size_t i = 0; i < hold.size() && report.ok(); ++i) {
     const ChainLeg<Space>& leg = robot.legs[i];
@@ -146,12 +146,12 @@ Report check_hold(const ChainLegs<Space>& robot, std::span<const ChainHold> hold
       say_leg(report, Status::singular, i,
               " has so few joints that none can yield while its tendon's length is held; give the link more "
               "joints, or hold tensions");
-    } else if (hold[i].length_of >= 0 && !(std::abs(hold[i].length - leg.chain.length) < most_change(leg))) {
+    } else if (hold[i].length_of >= 0 && !(std::abs(hold[i].length - leg.chain.length) < max_change(leg))) {
       say_leg(report, Status::left_domain, i, ": a tendon that is ");
       append_mm(report.message, hold[i].length);
       report.message.append(
           " long would fold every joint by half a turn; its length at rest changes by at most ");
-      append_mm(report.message, most_change(leg));
+      append_mm(report.message, max_change(leg));
     }
   }
   return report;

@@ -83,7 +83,7 @@ Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>& ro
 }
 
 template <class Space>
-double evenness_gap(const ChainLegs<Space>& robot, const ChainState<Space>& unloaded,
+double constant_curvature_energy_gap(const ChainLegs<Space>& robot, const ChainState<Space>& unloaded,
                     const Vec<double, Space::dof>& wrench) {
   if (!fits(robot, unloaded) || robot.legs.size() > static_cast<std::size_t>(max_rows))
     return std::numeric_limits<double>::quiet_NaN();
@@ -164,7 +164,7 @@ Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>& leg, std::span<const d
                                                                            const ChainState<Space>&);    \
   template SINEW_API Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>&, std::span<const double>, \
                                                         const Space::Frame<double>&);                    \
-  template SINEW_API double evenness_gap(const ChainLegs<Space>&, const ChainState<Space>&,              \
+  template SINEW_API double constant_curvature_energy_gap(const ChainLegs<Space>&, const ChainState<Space>&,              \
                                          const Vec<double, Space::dof>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)

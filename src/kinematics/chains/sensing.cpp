@@ -31,7 +31,7 @@ Report check_measured(const ChainLegs<Space>& robot, std::span<const MeasuredTen
     for (std::size_t j = 0; j < k; ++j)
       if (measured[j].leg == leg) return refuse("a leg's tension is measured once");
   }
-  return check_hold(robot, std::span<const ChainHold>(state.hold));
+  return check_hold(robot, std::span<const TendonConstraint>(state.hold));
 }
 
 /// The platform's pose by tensions of lengths that are held.

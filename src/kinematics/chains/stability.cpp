@@ -84,7 +84,7 @@ Vec<double, Space::dof> scale_of(const ChainLegs<Space>& robot) {
 }  // namespace
 
 template <class Space>
-double least_curvature(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
+double smallest_hessian_eigenvalue(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
   if (!fits(robot, state)) return std::numeric_limits<double>::quiet_NaN();
   const Variation all = variation(robot, state);
   return least(on_null_space(all.H, all.C));
@@ -161,7 +161,7 @@ double potential(const ChainLegs<Space>& robot, const ChainState<Space>& state) 
 }
 
 #define SINEW_OF(Space)                                                                                   \
-  template SINEW_API double least_curvature(const ChainLegs<Space>&, const ChainState<Space>&);           \
+  template SINEW_API double smallest_hessian_eigenvalue(const ChainLegs<Space>&, const ChainState<Space>&);           \
   template SINEW_API ChainStability<Space> check_stability(const ChainLegs<Space>&,                       \
                                                            const ChainState<Space>&, ChainWork&);         \
   template SINEW_API ChainMargins margins(const ChainLegs<Space>&, const ChainState<Space>&, ChainWork&); \

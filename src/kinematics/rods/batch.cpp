@@ -42,7 +42,7 @@ void RodBatch::from_lane(int lane) {
 RodQuestion RodBatch::question_of(int lane, bool judges) const {
   RodQuestion question;
   for (int k = 0; k < 6; ++k) question.wrench[k] = poses_.wrench[k][lane];
-  question.judge = judges;
+  question.check_stability = judges;
   return question;
 }
 
@@ -67,11 +67,11 @@ bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Status& status)
     system_->set_wrench(question.wrench);
     system_->evaluate();
     work_->is_solved = system_->linearise();
-    question.resume = true;
+    question.warm_start = true;
   }
   Report report = solve_rods(*work_, home_, inputs, question);
-  if (!work_->is_solved && question.resume) {
-    question.resume = false;
+  if (!work_->is_solved && question.warm_start) {
+    question.warm_start = false;
     report = solve_rods(*work_, home_, inputs, question);
   }
   status = report.status;

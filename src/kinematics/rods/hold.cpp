@@ -247,7 +247,7 @@ Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& want
   if (const Report checked = check(system, wanted, question); !checked.ok()) return checked;
   Report report;
   if (note_stop(work.stop, report)) return report;
-  if (question.resume && work.is_solved) {
+  if (question.warm_start && work.is_solved) {
     system.save(work.before);
     system.set_wrench(question.wrench);
     Holder holder(work);
@@ -258,10 +258,10 @@ Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& want
       system.evaluate();
       is_near = holder.renew();
     }
-    if (is_near && holder.follow(wanted, report, question.judge ? rod_tolerance : rod_quick_tolerance)) {
-      if (question.judge || (system.truncation() > system.traits().quick_truncation && !system.is_finest()))
+    if (is_near && holder.follow(wanted, report, question.check_stability ? rod_tolerance : rod_quick_tolerance)) {
+      if (question.check_stability || (system.truncation() > system.traits().quick_truncation && !system.is_finest()))
         report = finish(work, wanted, report,
-                        question.judge ? coarse_truncation : system.traits().quick_truncation);
+                        question.check_stability ? coarse_truncation : system.traits().quick_truncation);
       work.is_solved = report.ok() || report.status == Status::unstable;
       return report;
     }
@@ -270,7 +270,7 @@ Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& want
   } else if (const Report begun = go_home(work, home); !begun.ok()) {
     return begun;
   }
-  const bool is_from_home = !(question.resume && work.is_solved);
+  const bool is_from_home = !(question.warm_start && work.is_solved);
   const RodTarget begin = present(system);
   RodWay way{begin, begin, true, system.platform(), wanted};
   way.target.wrench = question.wrench;

@@ -108,7 +108,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
     return report;
   }
   if (note_stop(work.stop, report)) return report;
-  if (!(question.resume && work.is_solved))
+  if (!(question.warm_start && work.is_solved))
     if (const Report begun = go_home(work, home); !begun.ok()) return begun;
   // home with its own lengths: the tied ones are made equal on the way
   const RodTarget from = present(system);

@@ -20,9 +20,9 @@ inline RodQuestion question_of(const Robot& robot, const EquilibriumOptions& opt
   question.wrench = options.wrench;
   question.wrench.head<3>() += robot.weight().platform_mass * gravity;
   if (options.start) question.start = SE3<double>::from(*options.start);
-  question.resume = options.resume;
+  question.warm_start = options.warm_start;
   question.max_iterations = options.max_iterations.value_or(rods.system->traits().is_slow ? 400 : 4000);
-  question.judge = options.judge;
+  question.check_stability = options.check_stability;
   return question;
 }
 

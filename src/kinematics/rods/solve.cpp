@@ -70,7 +70,7 @@ void lighten(RodWork& work, double truncation) {
 }
 
 Report begin(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& question) {
-  if (question.resume && work.is_solved) return {};
+  if (question.warm_start && work.is_solved) return {};
   if (!question.start) return go_home(work, home);
   if (lay_rods(work, *question.start, inputs) || work.is_solved) return {};
   Report report = failed(Status::left_domain);
@@ -107,9 +107,9 @@ Report travel(RodWork& work, Numbers inputs, const RodQuestion& question) {
       .max_iterations = question.max_iterations, .stop = work.stop, .may_stray = question.may_stray};
   const bool is_loaded = question.wrench != RodGroup::Wrench::Zero();
   // from a pose that was asked for, and on a way that is resumed, lengths and load go together
-  const bool at_once = question.start || question.resume || !is_loaded;
+  const bool at_once = question.start || question.warm_start || !is_loaded;
   RodTarget target = target_of(system, inputs, question.wrench);
-  if (at_once) return go(work, target, options, question.resume && target.lengths == present(system).lengths);
+  if (at_once) return go(work, target, options, question.warm_start && target.lengths == present(system).lengths);
   target.wrench.setZero();
   const Report first = go(work, target, options, false);
   if (first.status == Status::stopped) return first;
@@ -156,7 +156,7 @@ bool jump(RodWork& work, Numbers inputs, const RodQuestion& question, Report& re
 Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& asked) {
   work.knows_feeding = work.knows_stability = false;
   RodQuestion question = asked;
-  question.resume = asked.resume && work.is_solved;  // else it begins like any other
+  question.warm_start = asked.warm_start && work.is_solved;  // else it begins like any other
   if (const Report checked = check_inputs(*work.system, inputs); !checked.ok()) return checked;
   if (!question.wrench.allFinite()) {
     Report report = failed(Status::left_domain);
@@ -165,15 +165,15 @@ Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const 
   }
   RodGroup& system = *work.system;
   if (Report stopped; note_stop(work.stop, stopped)) return stopped;
-  if (question.resume) {
+  if (question.warm_start) {
     system.save(work.before);
-    const double truncation = question.judge ? coarse_truncation : system.traits().quick_truncation;
+    const double truncation = question.check_stability ? coarse_truncation : system.traits().quick_truncation;
     if (system.can_coarsen(truncation)) lighten(work, truncation);
     system.set_inputs(inputs);
     system.set_wrench(question.wrench);
     Report report;
     if (system.solve_warm(report)) {
-      if (question.judge)
+      if (question.check_stability)
         report = settle(work, report, truncation);
       else
         resolve(system, report, truncation);

@@ -13,9 +13,9 @@ namespace sinew::inline v0 {
 struct RodQuestion {
   Vec<double, 6> wrench = Vec<double, 6>::Zero();
   std::optional<SE3<double>> start = {};
-  bool resume = false;
+  bool warm_start = false;
   int max_iterations = 4000;
-  bool judge = true;       ///< stability and resolution of a resumed answer too
+  bool check_stability = true;       ///< stability and resolution of a resumed answer too
   bool may_stray = false;  ///< see RodPathOptions
 };
 

@@ -17,7 +17,7 @@ struct Straightest {
 Straightest straightest(const RodGroup& system) {
   Straightest found;
   for (int k = 0; k < system.limbs(); ++k) {
-    const RodReading rod = system.rod(k);
+    const RodResult rod = system.rod(k);
     const double slack = 1 - rod.chord / rod.length;
     if (slack >= found.slack) continue;
     found = {k, slack, rod.axial_force * rod.length * rod.length / system.stiffness(k)};
@@ -26,11 +26,11 @@ Straightest straightest(const RodGroup& system) {
 }
 
 /// Axial force in EI/L² beyond which a rod counts as straight.
-constexpr double most_tension = 60;
+constexpr double max_tension = 60;
 
 }  // namespace
 
-bool is_pulled_straight(const RodGroup& system) { return straightest(system).tension > most_tension; }
+bool is_pulled_straight(const RodGroup& system) { return straightest(system).tension > max_tension; }
 
 Report failed(Status status) {
   Report report;
@@ -67,7 +67,7 @@ Report explain(const RodGroup& system, const RodPathEnd& end, const RodFold& fol
     return report;
   }
   const Straightest tight = straightest(system);
-  if (tight.tension > most_tension) {
+  if (tight.tension > max_tension) {
     report.status = Status::unreachable;
     report.message.append("legs[");
     append_number(report.message, system.leg_of(tight.rod));

@@ -68,7 +68,7 @@ HWY_INLINE Number chord_series(Number w) {
 /// The kernel's, without a branch of its own for each lane.
 HWY_INLINE Number chord_loss(Number w) {
   if (all_below(w, kernel::few_below)) return w * chord_series<1, kernel::Terms<double>::few>(w);
-  if (all_below(w, kernel::most_below)) return w * chord_series<1, kernel::Terms<double>::most>(w);
+  if (all_below(w, kernel::max_below)) return w * chord_series<1, kernel::Terms<double>::most>(w);
   HWY_ALIGN double lanes[2 * hn::MaxLanes(tag)];
   store(w, lanes);
   for (std::size_t i = 0; i < 2 * hn::Lanes(tag); ++i) lanes[i] = kernel::chord_loss(lanes[i]);

@@ -12,12 +12,12 @@ namespace sinew::inline v0 {
 /// Columns are the components of bends and extensions; bounds that leave no room (low = high = 0) hold one
 /// where it is.
 struct BoundedStep {
-  static constexpr int most_rows = 6, most_columns = 3 * max_sections + max_sections % 2;
-  using Row = double[most_columns];
+  static constexpr int max_rows = 6, max_columns = 3 * max_sections + max_sections % 2;
+  using Row = double[max_columns];
 
   int rows = 0, columns = 0;  ///< columns even
-  Row A[most_rows];
-  double r[most_rows];
+  Row A[max_rows];
+  double r[max_rows];
   Row low, high;
   Row step;      ///< the answer
   int held = 0;  ///< components of it at a bound
@@ -68,7 +68,7 @@ struct BoundedStep {
     Row u = {}, along;
     for (int j = 0; j < columns; ++j) step[j] = 0;
     for (int round = 0; round < 24; ++round) {
-      bool free[most_columns];
+      bool free[max_columns];
       for (int j = 0; j < columns; ++j) free[j] = u[j] > low[j] && u[j] < high[j];
       if (round == 0)  // a step of 0 is free to go where there is room
         for (int j = 0; j < columns; ++j) free[j] = low[j] < high[j];
@@ -131,7 +131,7 @@ struct BoundedStep {
   }
 
   template <int Rows>
-  bool solve_free(const bool (&is_free)[most_columns], double damping, Few<Rows>& y) const {
+  bool solve_free(const bool (&is_free)[max_columns], double damping, Few<Rows>& y) const {
     Row free[static_cast<std::size_t>(Rows)];
     for (int i = 0; i < Rows; ++i) {
       y[i] = r[i];

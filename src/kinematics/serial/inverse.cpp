@@ -127,7 +127,7 @@ Shape spread_start(const SerialRobot& robot, int k) {
                          : Bend(Bend(std::cos(along), std::sin(along)) * (reach * std::sqrt(a)));
     if (section.is_extensible())
       shape.extensions[m] =
-          std::lerp(section.least_extension, section.most_extension, part(2 * max_sections + m));
+          std::lerp(section.min_extension, section.max_extension, part(2 * max_sections + m));
   }
   return shape;
 }

@@ -74,11 +74,11 @@ std::optional<Mat<double, 2, 2>> tip_steering(const SerialWorkspace& work) {
 
 void extension_motion(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work) {
   if (!work.fits(bends))
-    return void(std::ranges::fill(work.lengthwise, ExtensionMotion{nowhere.p, not_a_number}));
+    return void(std::ranges::fill(work.extension_jacobians, ExtensionMotion{nowhere.p, not_a_number}));
   for (std::size_t m = 0; m < bends.size(); ++m) {
     const Vec3<double> own = work.sections[m].extension_motion(bends[m]);
     const kernel::Bend<double> bend{bends[m].x(), bends[m].y()};
-    work.lengthwise[m] = {m == 0 ? own : work.ends[m - 1].rotate(own),
+    work.extension_jacobians[m] = {m == 0 ? own : work.ends[m - 1].rotate(own),
                           kernel::chord_share(model, work.maps[m], bend)};
   }
 }

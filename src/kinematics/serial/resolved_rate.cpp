@@ -34,9 +34,9 @@ void bound_extensions(const SerialRobot& robot, std::span<const double> extensio
   const double slop = at_limit * robot.length();
   for (std::size_t m = 0; m < robot.sections.size(); ++m) {
     const Section& section = robot.sections[m];
-    if (section.is_extensible() && extensions[m] > section.least_extension + slop)
+    if (section.is_extensible() && extensions[m] > section.min_extension + slop)
       system.low[first + m] = -free;
-    if (section.is_extensible() && extensions[m] < section.most_extension - slop)
+    if (section.is_extensible() && extensions[m] < section.max_extension - slop)
       system.high[first + m] = free;
   }
 }
@@ -132,7 +132,7 @@ ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends
   double paid_out = 0;  // of the tendons that pass a section, by the extensions so far
   std::size_t i = 0;
   for (std::size_t m = 0; m < bends.size(); ++m) {
-    paid_out += work.lengthwise[m].tendons * work.extension_rates[m];
+    paid_out += work.extension_jacobians[m].tendons * work.extension_rates[m];
     for (int k = 0; k < work.tendons[m]; ++k, ++i) {
       work.tendon_rates[i] = paid_out;
       for (std::size_t j = 0; j < work.bend_rates.size(); ++j)

@@ -41,7 +41,7 @@ void say_tendon(Report& report, Status status, std::size_t section, int tendon, 
   report.message.append(what);
 }
 
-void extend(const Section& at_rest, std::size_t m, double extension, SerialWorkspace& work) {
+void set_extensions(const Section& at_rest, std::size_t m, double extension, SerialWorkspace& work) {
   work.extensions[m] = extension;
   work.sections[m].joint = at_rest.extended(extension).joint;
 }
@@ -66,10 +66,10 @@ bool has_arcs(const Section& section, const kernel::Section<double>& map, double
 
 }  // namespace
 
-void extend(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work) {
+void set_extensions(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work) {
   if (!work.fits(robot) || !work.fits(extensions))
     return void(std::ranges::fill(work.extensions, not_a_number));
-  for (std::size_t m = 0; m < extensions.size(); ++m) extend(robot.sections[m], m, extensions[m], work);
+  for (std::size_t m = 0; m < extensions.size(); ++m) set_extensions(robot.sections[m], m, extensions[m], work);
 }
 
 void tendon_changes(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work) {
@@ -91,7 +91,7 @@ kernel::Pull<double> pull_of_all(std::span<const Bend> bends, kernel::Model mode
   return sum;
 }
 
-void pay_out(std::span<const double> more, SerialWorkspace& work) {
+void add_slack(std::span<const double> more, SerialWorkspace& work) {
   if (!work.fits(more)) return void(std::ranges::fill(work.changes, not_a_number));
   auto change = work.changes.begin();
   for (std::size_t m = 0; m < work.maps.size(); ++m)
@@ -107,15 +107,15 @@ namespace {
 /// What a limit says of a section, if no section before it was beyond one.
 void check_extension(const Section& section, std::size_t m, double extension, Report& report) {
   const double slop = 1e-12 * section.arc_length();
-  const bool is_long = extension > section.most_extension + slop;
-  if (!report.ok() || !(is_long || extension < section.least_extension - slop)) return;
+  const bool is_long = extension > section.max_extension + slop;
+  if (!report.ok() || !(is_long || extension < section.min_extension - slop)) return;
   report.status = Status::left_domain;
   name_section(report.message, m);
   report.message.append(" is ");
   append_mm(report.message, std::abs(extension));
   report.message.append(extension > 0 ? " longer than at rest, its limit is "
                                       : " shorter than at rest, its limit is ");
-  append_mm(report.message, std::abs(is_long ? section.most_extension : section.least_extension));
+  append_mm(report.message, std::abs(is_long ? section.max_extension : section.min_extension));
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ Report bends_of_changes(const SerialRobot& robot, Numbers changes, kernel::Model
     const bool bends_so = model == kernel::Model::linear || has_arcs(robot.sections[m], work.maps[m], x, y);
     if (const Section& section = robot.sections[m]; section.is_extensible() && bends_so) {
       const double wanted = kernel::extension(model, work.maps[m], bend, sum.common - needed.common);
-      extend(section, m, std::clamp(wanted, section.least_extension, section.most_extension), work);
+      set_extensions(section, m, std::clamp(wanted, section.min_extension, section.max_extension), work);
     }
     needed = needed + pull_of(work, m, work.bends[m], model);
     for (std::size_t i = 0; i < count; ++i)

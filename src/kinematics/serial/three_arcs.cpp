@@ -12,9 +12,9 @@ namespace {
 
 using namespace detail;
 
-constexpr int most_boxes = 400000;
-constexpr std::size_t most_pieces = 100000;  // 40 MB
-constexpr std::size_t most_solutions = 32;
+constexpr int max_boxes = 400000;
+constexpr std::size_t max_pieces = 100000;  // 40 MB
+constexpr std::size_t max_solutions = 32;
 constexpr double same_bends = 1e-7;       // of regular solutions
 constexpr double limit_slack = 1e-9;      // bends at the limit count
 constexpr double example_spacing = 0.25;  // of examples of a continuum
@@ -31,8 +31,8 @@ class Search {
 
   void run(StopToken stop) {
     std::vector<Pair> open{{0, 0, 3}};
-    while (!open.empty() && !stop.stop_requested() && boxes < most_boxes && pieces() < most_pieces &&
-           solutions.size() < most_solutions) {
+    while (!open.empty() && !stop.stop_requested() && boxes < max_boxes && pieces() < max_pieces &&
+           solutions.size() < max_solutions) {
       const Pair pair = open.back();
       open.pop_back();
       if (const Pair left = examined(pair); left.signs) split(left, open);

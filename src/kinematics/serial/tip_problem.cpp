@@ -60,7 +60,7 @@ void TipProblem::bring_within(Shape& shape) const {
     } else if (const double size = std::sqrt(squared_norm(bend)); size > limit) {
       bend *= limit / size;
     }
-    shape.extensions[m] = std::clamp(shape.extensions[m], section.least_extension, section.most_extension);
+    shape.extensions[m] = std::clamp(shape.extensions[m], section.min_extension, section.max_extension);
   }
 }
 
@@ -69,7 +69,7 @@ std::span<const Bend> TipProblem::bends_of(const Shape& shape) const {
 }
 
 void TipProblem::set_lengths(const Shape& shape) const {
-  if (is_extensible_) extend(robot_, {shape.extensions.data(), robot_.sections.size()}, work_);
+  if (is_extensible_) set_extensions(robot_, {shape.extensions.data(), robot_.sections.size()}, work_);
 }
 
 TipMiss TipProblem::screen(const Shape& shape) const {
@@ -113,8 +113,8 @@ void TipProblem::linearise(const Shape& shape, const TipMiss& miss, double most,
   }
   if (!is_extensible_) return;
   for (std::size_t m = 0; m < count; ++m)
-    bound(2 * count + m, (robot_.sections[m].least_extension - shape.extensions[m]) / length_,
-          (robot_.sections[m].most_extension - shape.extensions[m]) / length_);
+    bound(2 * count + m, (robot_.sections[m].min_extension - shape.extensions[m]) / length_,
+          (robot_.sections[m].max_extension - shape.extensions[m]) / length_);
   if (count % 2 == 1) bound(3 * count, 0, 0);  // fills the pair
 }
 

@@ -26,7 +26,7 @@ void append_extensions(const SerialRobot& robot, const SerialWorkspace& work, Bo
     for (int j = first; j < system.columns; ++j) {
       const auto m = static_cast<std::size_t>(j - first);
       const bool varies = m < robot.sections.size() && robot.sections[m].is_extensible();
-      system.A[i][j] = i < 3 && varies ? work.lengthwise[m].tip[i] : 0;
+      system.A[i][j] = i < 3 && varies ? work.extension_jacobians[m].tip[i] : 0;
     }
 }
 

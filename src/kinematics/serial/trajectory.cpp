@@ -67,7 +67,7 @@ class Allowed {
     }
     return 0;
   }
-  double most_acceleration(double x) const { return highest_allowed(x).at(x); }
+  double max_acceleration(double x) const { return highest_allowed(x).at(x); }
 
  private:
   const Line& highest_allowed(double x) const {
@@ -187,7 +187,7 @@ class Speeds {
       interval.time = time;
       look_at(interval, most[i + 1]);
       const double next =
-          std::clamp(x + 2 * interval.width * allowed_.most_acceleration(x), 0.0, most[i + 1]);
+          std::clamp(x + 2 * interval.width * allowed_.max_acceleration(x), 0.0, most[i + 1]);
       interval.acceleration = (next - x) / (2 * interval.width);
       note_greatest(interval, (x + next) / 2, interval.width / 2);
       note_greatest(interval, next, interval.width);

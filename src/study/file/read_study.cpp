@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double most_samples = 1e12, most_values = 1e7;
+constexpr double max_samples = 1e12, max_values = 1e7;
 
 /// What may stand in a heading.
 std::string read_unit(const Reader& place) {
@@ -40,7 +40,7 @@ void read_steps(Reader& place, ColumnValues& values, StudyAxis& axis) {
   const double from = values.value(place.required("from", "first value"));
   const double to = values.value(place.required("to", "last value"));
   const int count =
-      place.required("count", "how many values, both ends included").integer(Range::between(1, most_values));
+      place.required("count", "how many values, both ends included").integer(Range::between(1, max_values));
   const MapAxis steps{.from = from, .to = to, .count = count};
   for (int k = 0; k < count; ++k) axis.values.push_back(steps.at(k));
 }
@@ -150,7 +150,7 @@ class StudyReader {
       study_.is_path = false;
       study_.samples = static_cast<std::size_t>(
           std::max(1.0, random->required("count", "how many samples")
-                            .quantity(Dimension::count, {.low = 1, .high = most_samples})));
+                            .quantity(Dimension::count, {.low = 1, .high = max_samples})));
       if (const auto seed = random->optional("seed"))
         study_.seed = static_cast<std::uint64_t>(seed->quantity(Dimension::count, Range::between(0, 9e15)));
       random->close();
@@ -163,8 +163,8 @@ class StudyReader {
     double product = 1;
     for (const StudyAxis& axis : study_.axes)
       product *= static_cast<double>(std::max<std::size_t>(axis.values.size(), 1));
-    if (product > most_samples)
-      axes.fail("too_large", fmt::format("span {:.3g} samples; {:.0e} at most", product, most_samples));
+    if (product > max_samples)
+      axes.fail("too_large", fmt::format("span {:.3g} samples; {:.0e} at most", product, max_samples));
     else
       study_.samples = static_cast<std::size_t>(product);
   }

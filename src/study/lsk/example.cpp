@@ -40,15 +40,15 @@ SectionDiagram diagram_of(const Section& section, const std::vector<double>& cha
   return section_diagram(question);
 }
 
-std::string text(TendonsAgree agree) {
+std::string text(TendonConsistency agree) {
   switch (agree) {
-    case TendonsAgree::exact:
+    case TendonConsistency::exact:
       return "exact";
-    case TendonsAgree::indeterminate:
+    case TendonConsistency::indeterminate:
       return "indeterminate";
-    case TendonsAgree::inconsistent:
+    case TendonConsistency::inconsistent:
       return "inconsistent";
-    case TendonsAgree::unreachable:
+    case TendonConsistency::unreachable:
       return "unreachable";
   }
   return "?";

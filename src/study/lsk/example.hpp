@@ -37,7 +37,7 @@ SectionDiagram diagram_of(const Section& section, const std::vector<double>& cha
 SectionDiagram diagram_of(const Section& section, const std::vector<double>& changes,
                           const Envelope& envelope);
 
-std::string text(TendonsAgree agree);
+std::string text(TendonConsistency agree);
 std::string text(const Bend& bend);  ///< `(10°, −5°)`
 
 // ---------------------------------------------------------------- drawing

@@ -24,29 +24,29 @@ struct Situation {
   const char* name;
   Bend meant;
   double more;  ///< [m]
-  TendonsAgree expected;
+  TendonConsistency expected;
   SectionDiagram diagram;
   std::vector<double> changes;
 };
 
 std::vector<Situation> situations(const Section& section) {
-  std::vector<Situation> all{{"(a) exact: one bend", lsk::in_degrees(10, -5), 0, TendonsAgree::exact, {}, {}},
+  std::vector<Situation> all{{"(a) exact: one bend", lsk::in_degrees(10, -5), 0, TendonConsistency::exact, {}, {}},
                              {"(b) indeterminate, 0.8 mm too long: any in green",
                               lsk::in_degrees(10, -5),
                               0.8e-3,
-                              TendonsAgree::indeterminate,
+                              TendonConsistency::indeterminate,
                               {},
                               {}},
                              {"(c) inconsistent, 0.8 mm too short: no bend",
                               lsk::in_degrees(10, -5),
                               -0.8e-3,
-                              TendonsAgree::inconsistent,
+                              TendonConsistency::inconsistent,
                               {},
                               {}},
                              {"(d) unreachable: one bend, beyond the limits",
                               lsk::in_degrees(30, 0),
                               0,
-                              TendonsAgree::unreachable,
+                              TendonConsistency::unreachable,
                               {},
                               {}}};
   for (Situation& s : all) {
@@ -121,7 +121,7 @@ Panel panel(const Section& section, const Situation& s) {
   out.series.push_back(lsk::closed(lsk::square(section.limit), Mark::outline, Colour::black, ""));
   if (s.diagram.boundary.size() > 2)
     out.series.push_back(lsk::closed(s.diagram.boundary, Mark::polygon, Colour::green, ""));
-  if (s.expected == TendonsAgree::inconsistent)
+  if (s.expected == TendonConsistency::inconsistent)
     out.series.push_back(lsk::closed(between(s.diagram), Mark::polygon, Colour::grey, ""));
   lsk::add_frontiers(out, s.diagram, state_reach * degree);
   out.series.push_back(lsk::dot(s.meant, Mark::circles, Colour::black, "", 2));

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using lsk::CyclesRun;
 using lsk::KernelCycles;
 
-constexpr int most_sections = 10, prototype = 5;
+constexpr int max_sections = 10, prototype = 5;
 constexpr double megahertz = 16;
 
 using Runs = std::vector<CyclesRun>;  ///< of 1 to 10 sections
@@ -29,9 +29,9 @@ const KernelCycles& at(const Runs& runs, int sections, std::string_view kernel) 
 }
 
 Expected<Runs> measure_all(const lsk::CyclesTools& tools, const fs::path& folder) {
-  std::vector<Expected<CyclesRun>> parts(most_sections, CyclesRun{});
-  tbb::parallel_for(0, most_sections, [&](int k) {  // the longest first
-    const int sections = most_sections - k;
+  std::vector<Expected<CyclesRun>> parts(max_sections, CyclesRun{});
+  tbb::parallel_for(0, max_sections, [&](int k) {  // the longest first
+    const int sections = max_sections - k;
     parts[static_cast<std::size_t>(sections - 1)] = lsk::measure_cycles(sections, tools, folder);
   });
   Runs runs;
@@ -68,22 +68,22 @@ double off_a_line(const Runs& runs, std::string_view kernel, bool of_most) {
     const KernelCycles& k = at(runs, sections, kernel);
     return of_most ? double(k.most) : k.mean;
   };
-  const double first = value(1), last = value(most_sections);
+  const double first = value(1), last = value(max_sections);
   double off = 0;
-  for (int m = 1; m <= most_sections; ++m)
-    off = std::max(off, std::abs(value(m) - first - (last - first) * (m - 1) / (most_sections - 1)) / last);
+  for (int m = 1; m <= max_sections; ++m)
+    off = std::max(off, std::abs(value(m) - first - (last - first) * (m - 1) / (max_sections - 1)) / last);
   return off;
 }
 
 Finding quadratic(const Runs& runs) {
   constexpr const char* kernel = "pcc_polar_paper_float";
   // a line and a square through 1, 5 and 10 sections: evaluations are 3/2 (M² + M)
-  const double one = at(runs, 1, kernel).mean, ten = at(runs, most_sections, kernel).mean,
+  const double one = at(runs, 1, kernel).mean, ten = at(runs, max_sections, kernel).mean,
                five = at(runs, prototype, kernel).mean;
   const double ratio = (ten - one) / (five - one), evaluations = (165.0 - 3) / (45.0 - 3);
   return compare::claimed("PCC as the paper codes it grows with the square of the sections", "quadratic",
                           fmt::format("{:.0f} to {:.0f} cycles, exponent {:.2f} from 5 to 10", one, ten,
-                                      growth(runs, kernel, prototype, most_sections)),
+                                      growth(runs, kernel, prototype, max_sections)),
                           std::abs(ratio / evaluations - 1), 0.05, "of its evaluations, 3/2 (M² + M)");
 }
 
@@ -91,7 +91,7 @@ Finding peaks(const Runs& runs) {
   constexpr const char* kernel = "pcc_polar_paper_float";
   const double exponent =
       std::log(double(at(runs, 10, kernel).most) / double(at(runs, 5, kernel).most)) / std::log(2.0);
-  const double mean = growth(runs, kernel, prototype, most_sections);
+  const double mean = growth(runs, kernel, prototype, max_sections);
   return {"its peaks grow exponentially", "claimed",
           fmt::format("the largest time grows with exponent {:.2f} from 5 to 10, the mean with {:.2f}",
                       exponent, mean),
@@ -174,7 +174,7 @@ std::vector<Finding> findings(const Runs& runs) {
 
 Series curve(const Runs& runs, const char* kernel, const char* label, Colour colour) {
   Series series{label, {}, {}, Mark::line_points, colour, 2};
-  for (int m = 1; m <= most_sections; ++m) {
+  for (int m = 1; m <= max_sections; ++m) {
     series.x.push_back(m);
     series.y.push_back(at(runs, m, kernel).mean / 1e3);
   }

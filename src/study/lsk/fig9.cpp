@@ -90,10 +90,10 @@ const FormatErrors& format_named(const Formats& all, std::string_view name) {
 }
 
 /// Of so many bits, from many before the point to few.
-std::vector<const FormatErrors*> fixed_of(const Formats& all, int least_bits, int most_bits) {
+std::vector<const FormatErrors*> fixed_of(const Formats& all, int min_bits, int max_bits) {
   std::vector<const FormatErrors*> some;
   for (const FormatErrors& f : all)
-    if (f.coded && f.bits >= least_bits && f.bits <= most_bits) some.push_back(&f);
+    if (f.coded && f.bits >= min_bits && f.bits <= max_bits) some.push_back(&f);
   return some;
 }
 

@@ -17,10 +17,10 @@ namespace {
 using hdf5::Handle;
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{3} << 30U;    ///< of all columns together
+constexpr std::uintmax_t max_bytes = std::uintmax_t{3} << 30U;    ///< of all columns together
 constexpr std::uintmax_t small_bytes = std::uintmax_t{64} << 20U;  ///< that no file needs to deserve
-constexpr std::uintmax_t most_packed = 256;  ///< bytes that one byte of a larger file stands for
-constexpr std::size_t most_columns = 100'000;
+constexpr std::uintmax_t max_packed = 256;  ///< bytes that one byte of a larger file stands for
+constexpr std::size_t max_columns = 100'000;
 
 /// A dataset of numbers.
 struct Data {
@@ -75,7 +75,7 @@ std::string_view objection(const Data& data, std::uintmax_t file_size) {
   if (stored > file_size) return "says that it is larger than the file; the file is cut off or damaged";
   if (layout != H5D_CHUNKED && numbers > 0 && stored / width < numbers && stored > 0)
     return "has less numbers than it says; the file is damaged";
-  const std::uintmax_t room = std::max(small_bytes, most_packed * stored);
+  const std::uintmax_t room = std::max(small_bytes, max_packed * stored);
   if (numbers > room / sizeof(double))
     return "says that it has far more numbers than the file can hold; the file is damaged, or made to fill "
            "the memory";
@@ -114,9 +114,9 @@ Expected<std::vector<Data>> columns_of(hid_t file, const fs::path& path) {
     data.unit = hdf5::text_attribute(data.handle, "units");
     data.is_scale = H5DSis_scale(data.handle) > 0;
     found.push_back(std::move(data));
-    if (found.size() > most_columns)
+    if (found.size() > max_columns)
       return failure("too_many_columns", path.string(),
-                     fmt::format("has more than {} columns; give fewer", most_columns));
+                     fmt::format("has more than {} columns; give fewer", max_columns));
   }
   return found;
 }
@@ -173,7 +173,7 @@ Expected<Table> read_hdf5(const fs::path& path) {
     return failure("no_columns", path.string(),
                    "holds no columns of numbers; give a file that sweep has written");
   const std::vector<hsize_t>& shape = first->shape;
-  if (first->size() > most_bytes / sizeof(double) / data->size())
+  if (first->size() > max_bytes / sizeof(double) / data->size())
     return failure(
         "too_large", path.string(),
         fmt::format("has {} samples in {} columns, too many to read at once", first->size(), data->size()));

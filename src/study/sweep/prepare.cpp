@@ -17,13 +17,13 @@ namespace sinew::inline v0 {
 namespace {
 
 constexpr std::size_t trials = 24;
-constexpr std::size_t most_paths = 400;
-constexpr std::size_t most_left_out = 20'000;        ///< passed over in search of a sample to try
-constexpr std::size_t most_looked_at = 100'000'000;  ///< where few are kept: some seconds
+constexpr std::size_t max_paths = 400;
+constexpr std::size_t max_left_out = 20'000;        ///< passed over in search of a sample to try
+constexpr std::size_t max_looked_at = 100'000'000;  ///< where few are kept: some seconds
 
 /// Places of all numbers of a tree.
 void collect(const Json& node, const std::string& path, std::vector<std::string>& paths) {
-  if (paths.size() >= most_paths) return;
+  if (paths.size() >= max_paths) return;
   if (node.is_object()) {
     for (const auto& [key, value] : node.items()) collect(value, joined(path, key), paths);
   } else if (node.is_array()) {
@@ -128,7 +128,7 @@ class Trial {
       if (std::isfinite(derived.low) || std::isfinite(derived.high))
         names += (names.empty() ? "" : ", ") + derived.name;
     return fmt::format("{} samples are outside the limits of {}; widen from and to, or the axes",
-                       study_.samples <= most_looked_at ? "all" : "the first 1e8", names);
+                       study_.samples <= max_looked_at ? "all" : "the first 1e8", names);
   }
 
   /// The first and the last sample, and between them places that no axis repeats; of those left out the next
@@ -143,8 +143,8 @@ class Trial {
                                                                static_cast<double>(t)) %
                                           n;
       std::size_t passed = 0;
-      while (passed < std::min(n, most_left_out) && !is_kept((first + passed) % n)) ++passed;
-      if (passed == std::min(n, most_left_out)) return chosen_of_all();
+      while (passed < std::min(n, max_left_out) && !is_kept((first + passed) % n)) ++passed;
+      if (passed == std::min(n, max_left_out)) return chosen_of_all();
       found.push_back((first + passed) % n);
     }
     return found;
@@ -155,7 +155,7 @@ class Trial {
     std::vector<std::size_t> found;
     std::minstd_rand random;
     std::size_t kept = 0;
-    for (std::size_t k = 0; k < std::min(study_.samples, most_looked_at); ++k) {
+    for (std::size_t k = 0; k < std::min(study_.samples, max_looked_at); ++k) {
       if (!is_kept(k)) continue;
       const std::size_t place = ++kept <= trials ? kept - 1 : random() % kept;
       if (found.size() < trials) found.push_back(k);

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_chunks = 20'000'000;  ///< each takes 16 bytes of memory
+constexpr std::size_t max_chunks = 20'000'000;  ///< each takes 16 bytes of memory
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) {
@@ -144,7 +144,7 @@ class Sweep {
   Expected<void> open() {
     if (Errors errors = refuse_result_name(options_.output); !errors.empty())
       return tl::unexpected(std::move(errors));
-    if (plan_.chunks().count() > most_chunks)
+    if (plan_.chunks().count() > max_chunks)
       return failure(
           "too_large", plan_.study().source,
           fmt::format(

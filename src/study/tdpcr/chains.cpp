@@ -65,7 +65,7 @@ Bent elastica(const Case& load) {
 }
 
 /// s k θ = m t + f g, by iteration: the chord force is well below buckling.
-Bent chain_under(const Case& load, int count, ChainModel model) {
+Bent chain_under(const Case& load, int count, PrbDiscretisation model) {
   const PseudoRigid chain{.length = length, .links = count, .model = model};
   std::vector<double> angles(static_cast<std::size_t>(chain.joints()));
   for (int round = 0; round < 200; ++round) {
@@ -90,7 +90,7 @@ struct LinkErrors {
   std::array<double, links.size()> chord, turn;
 };
 
-LinkErrors errors_of(const Case& load, ChainModel model) {
+LinkErrors errors_of(const Case& load, PrbDiscretisation model) {
   const Bent rod = elastica(load);
   LinkErrors errors{};
   for (std::size_t k = 0; k < links.size(); ++k) {
@@ -125,9 +125,9 @@ Panel panel_of(const char* title, const char* unit, bool is_chord) {
       .legend = Legend::bottom_left};
   constexpr std::array colours{Colour::blue, Colour::orange, Colour::green};
   for (std::size_t c = 1; c < cases.size(); ++c)
-    for (const ChainModel model : {ChainModel::even, ChainModel::weighted}) {
+    for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted}) {
       const LinkErrors errors = errors_of(cases[c], model);
-      const bool is_even = model == ChainModel::even;
+      const bool is_even = model == PrbDiscretisation::even;
       Series series{.label = fmt::format("{}, {}", is_even ? "M0" : "M0w", cases[c].name),
                     .x = {},
                     .y = {},
@@ -149,8 +149,8 @@ Expected<ItemResult> tdpcr_chains(const StudyItem&, const std::filesystem::path&
   Table table{"moment[N m]", "force[N]", "weighted", "n", "chord_error[m]", "turn_error[rad]"};
   table.comments = provenance();
   for (const Case& load : cases)
-    for (const ChainModel model : {ChainModel::even, ChainModel::weighted}) {
-      const bool is_even = model == ChainModel::even;
+    for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted}) {
+      const bool is_even = model == PrbDiscretisation::even;
       const LinkErrors errors = errors_of(load, model);
       for (std::size_t k = 0; k < links.size(); ++k)
         table.add_row(std::array{load.moment, load.force, is_even ? 0.0 : 1.0, static_cast<double>(links[k]),

@@ -12,7 +12,7 @@ tl::unexpected<Errors> failed(std::string_view where, const Report& report) {
 }  // namespace
 
 Expected<ChainLegs<Planar>> chains(const Robot& robot) {
-  auto on_chains = robot.as(Model::prb, ChainModel::even);
+  auto on_chains = robot.as(Model::prb, PrbDiscretisation::even);
   if (!on_chains) return tl::unexpected(std::move(on_chains.error()));
   return chains_of<Planar>(*on_chains);
 }
@@ -20,7 +20,7 @@ Expected<ChainLegs<Planar>> chains(const Robot& robot) {
 Expected<std::vector<ChainLegState>> evenly_bent(const ChainLegs<Planar>& robot, const PlanarPose& pose) {
   ChainState<Planar> state;
   const std::vector<double> towards_plus(robot.legs.size(), 1);
-  const Report report = rest(robot, pose, towards_plus, false, state);
+  const Report report = unloaded_equilibrium(robot, pose, towards_plus, false, state);
   if (!report.ok()) return failed("evenly bent chains", report);
   return std::move(state.legs);
 }

@@ -9,7 +9,7 @@ namespace sinew {
 namespace kernel {
 
 /// Bounds of w = (β/2)²: `few` terms of the series do up to 24.3°, `most` up to half a turn.
-constexpr double few_below = 0.045, most_below = 2.4675;
+constexpr double few_below = 0.045, max_below = 2.4675;
 
 /// How many terms of the series a scalar needs.
 template <class S>
@@ -92,7 +92,7 @@ S arcsine_ratio(S y) {
 template <class S>
 constexpr S chord_loss(S w) {
   return !(w > S(few_below))    ? S(w * detail::PowerSeries<S, 2, 1, Terms<S>::few>::at(w))
-         : !(w > S(most_below)) ? S(w * detail::PowerSeries<S, 2, 1, Terms<S>::most>::at(w))
+         : !(w > S(max_below)) ? S(w * detail::PowerSeries<S, 2, 1, Terms<S>::most>::at(w))
                                 : detail::chord_loss_beyond(w);
 }
 

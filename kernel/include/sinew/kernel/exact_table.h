@@ -36,12 +36,12 @@ struct Chords {
   /// What all tendons have in common.
   constexpr Length common(Loss x, Loss y) const { return Length(Stored<Half>::load(half_length) * (x + y)); }
 
-  static constexpr int most_steps = 12;  ///< serve up to 120 degrees a joint
+  static constexpr int max_steps = 12;  ///< serve up to 120 degrees a joint
 
   /// The bend of these chords. Each step leaves a share 1 - cos(b/2) of what lacks; always as many, so that
   /// the time is always the same.
   template <class Angle>
-  constexpr Bend<Angle> bend_of(const Bend<Angle>& chord, int steps = most_steps) const {
+  constexpr Bend<Angle> bend_of(const Bend<Angle>& chord, int steps = max_steps) const {
     Bend<Angle> bend = chord;
     for (int k = 0; k < steps; ++k) {
       Loss x{}, y{};
@@ -91,7 +91,7 @@ struct ExactTable {
 
   /// The bends that come nearest to the changes, in least squares for each section.
   constexpr void bends(const Length (&changes)[Sections][Tendons], Bend<Angle> (&bends)[Sections]) const {
-    this->bends(changes, bends, Chords<Format, Terms>::most_steps, NoPause{});
+    this->bends(changes, bends, Chords<Format, Terms>::max_steps, NoPause{});
   }
   /// @param pause called after each section: for what cannot wait
   template <class Pause>

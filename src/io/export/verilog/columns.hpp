@@ -19,7 +19,7 @@ inline int bits_of(std::int64_t value) {
 }
 
 template <class Value>
-int most_bits(const ControllerTable& table, Value value) {
+int max_bits(const ControllerTable& table, Value value) {
   int most = 1;
   for (const ControllerSection& section : table.sections) most = std::max(most, bits_of(value(section)));
   return most;
@@ -30,7 +30,7 @@ inline std::vector<int> column_bits(const ControllerTable& table, Rows Controlle
                                     std::size_t axis) {
   std::vector<int> bits;
   for (std::size_t i = 0; i < (table.sections[0].*rows).size(); ++i)
-    bits.push_back(most_bits(table, [&](const ControllerSection& section) {
+    bits.push_back(max_bits(table, [&](const ControllerSection& section) {
       return fixed_point((section.*rows)[i][axis], places);
     }));
   return bits;
@@ -38,7 +38,7 @@ inline std::vector<int> column_bits(const ControllerTable& table, Rows Controlle
 
 template <class Value>
 int share_bits(const ControllerTable& table, Value value) {
-  return most_bits(table, [&](const ControllerSection& section) {
+  return max_bits(table, [&](const ControllerSection& section) {
     return fixed_point(value(section.share), ShortBits::share);
   });
 }

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr double millimetres = 1e3;
 constexpr int samples = 48;
-constexpr const char* most_cycles = "100000000000";  // the program ends by itself
+constexpr const char* max_cycles = "100000000000";  // the program ends by itself
 
 /// Table 2 with so many sections.
 SerialRobot robot_of(const std::string& name, int sections) {
@@ -182,7 +182,7 @@ Expected<CyclesRun> measure_cycles(int sections, const CyclesTools& tools, const
                    fmt::format("-DSINEW_SAMPLES={}", samples), "-I.", "main.cpp", "-o", "cycles.elf"},
                   place);
   if (!compiled.succeeded()) return failure("compiler_failed", tools.compiler, compiled.complaint());
-  const ProcessResult ran = run_process({tools.simulator, "cycles.elf", "--cycles", most_cycles}, place);
+  const ProcessResult ran = run_process({tools.simulator, "cycles.elf", "--cycles", max_cycles}, place);
   if (!ran.succeeded()) return failure("simulator_failed", tools.simulator, ran.complaint());
   return read_run(ran.output, robots);
 }

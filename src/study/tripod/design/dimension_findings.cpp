@@ -61,7 +61,7 @@ void add_heights(std::vector<Finding>& findings, const Designs& made) {
 }
 
 /// Falls to its least and rises beyond.
-Finding least_distance(const Designs& made) {
+Finding min_distance(const Designs& made) {
   const auto nearest = [&](Index i, Index j) { return least(made.over_angle(i, j, &Measures::distance)); };
   const auto all = steps(made, Along::angle, &Measures::distance);
   const double rise =
@@ -125,7 +125,7 @@ void add_dimension_findings(std::vector<Finding>& findings, const Designs& made)
                        static_cast<double>(asked - solved), 0, "poses"));
   findings.push_back(largest_of_all(made));
   add_heights(findings, made);
-  findings.push_back(least_distance(made));
+  findings.push_back(min_distance(made));
   findings.push_back(drift_over_angle(made));
   add_largest_turn(findings, made);
 }

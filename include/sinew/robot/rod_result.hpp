@@ -1,4 +1,4 @@
-/// @file rod_reading.hpp
+/// @file rod_result.hpp
 /// What people want to know of a rod in an equilibrium.
 #pragma once
 #include <limits>
@@ -8,7 +8,7 @@
 namespace sinew::inline v0 {
 
 /// Vectors in base axes.
-struct RodReading {
+struct RodResult {
   double length = 0;         ///< L [m]
   double chord = 0;          ///< from base to tip [m]
   double tip_angle = 0;      ///< of the tangent at the tip from that at the base, in the rod's plane [rad]

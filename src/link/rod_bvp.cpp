@@ -1,4 +1,4 @@
-#include "sinew/link/held_rod.hpp"
+#include "sinew/link/rod_bvp.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ Point turn_between(const Point& from, const Point& to) {
 Point z_axis(const Turn& R) { return R.rotate(Point(0, 0, 1)); }
 
 /// The equations of one rod between two ends, for Newton's method. Unknowns: force at the base in EI/L²,
-/// base axes; moment there in EI/L, in the section's axes, where the last is the spin instead if it matters.
+/// base axes; moment there in EI/L, in the section's axes, where the last is the axial_rotation instead if it matters.
 struct HoldProblem {
   static constexpr int unknowns = 6;
   using Point = Vec<double, 6>;
@@ -47,24 +47,24 @@ struct HoldProblem {
   double length = 0, stiffness = 0;
   RodEnds ends;
   Vec3<double> tip_moment{0, 0, 0};  // wanted of a ball, in EI/L: not 0 on the way
-  bool seeks_spin = false;
+  bool seeks_axial_rotation = false;
   int steps = 0;
 
   double force_unit() const { return stiffness / (length * length); }
   double moment_unit() const { return stiffness / length; }
 
   RodState<double> base_state(const Point& x) const {
-    const double spin = seeks_spin ? x[5] : 0, torque = seeks_spin ? 0 : x[5];
-    const Turn R = base.R.compose(Turn::exp({0, 0, spin}));
+    const double axial_rotation = seeks_axial_rotation ? x[5] : 0, torque = seeks_axial_rotation ? 0 : x[5];
+    const Turn R = base.R.compose(Turn::exp({0, 0, axial_rotation}));
     return {base.p, R, Vec3<double>(x.head<3>() * force_unit()),
             R.rotate(Vec3<double>(x[3], x[4], torque)) * moment_unit()};
   }
 
-  Point unknowns_of(const RodState<double>& state, double spin) const {
+  Point unknowns_of(const RodState<double>& state, double axial_rotation) const {
     Point x;
     x.head<3>() = state.n / force_unit();
     x.tail<3>() = state.R.rotate_back(state.m) / moment_unit();
-    if (seeks_spin) x[5] = spin;
+    if (seeks_axial_rotation) x[5] = axial_rotation;
     return x;
   }
 
@@ -73,9 +73,9 @@ struct HoldProblem {
     Mat<double, 8, 6> columns = Mat<double, 8, 6>::Zero();
     columns.topLeftCorner<3, 3>() = Mat<double, 3, 3>::Identity() * force_unit();
     columns.block<3, 3>(RodTangent::moment, 3) = state.R.matrix() * moment_unit();
-    if (seeks_spin) {  // the moment goes with the frame
+    if (seeks_axial_rotation) {  // the moment goes with the frame
       columns.block<3, 1>(RodTangent::moment, 5) = cross(state.tangent(), state.m);
-      columns(RodTangent::spin, 5) = 1;
+      columns(RodTangent::axial_rotation, 5) = 1;
     }
     return columns;
   }
@@ -95,7 +95,7 @@ struct HoldProblem {
   Point moved(const Point& x, const Point& step) const { return x + step; }
   /// A rod in higher and higher modes also meets the ends: no more than a fraction of a mode a step.
   double shortened(const Point& step) const {
-    const double turn = seeks_spin ? 4 * std::abs(step[5]) : std::abs(step[5]);
+    const double turn = seeks_axial_rotation ? 4 * std::abs(step[5]) : std::abs(step[5]);
     return 1 / std::max({1.0, step.head<3>().norm() / 20, step.segment<2>(3).norm() / 4, turn / 4});
   }
 };
@@ -215,7 +215,7 @@ class Way {
 };
 
 /// Stiffness and feed by the implicit function theorem; false where the equations are singular.
-bool differentiate(const HoldProblem& problem, const RodTangent& tangent, HeldRod& held) {
+bool differentiate(const HoldProblem& problem, const RodTangent& tangent, RodBvpSolution& held) {
   const Mat<double, 12, 6> rate = tangent.rate * problem.base_columns(held.base);
   const Mat<double, 12, 1> fed = tangent.rate.col(RodTangent::length);
   const TipGaps gaps = problem.gaps();
@@ -237,7 +237,7 @@ bool differentiate(const HoldProblem& problem, const RodTangent& tangent, HeldRo
 }
 
 /// Newton's method to the last digits, and as many steps of integration as these ask for.
-bool polish(HoldProblem& problem, Vec<double, 6>& x, const HoldOptions& options, HeldRod& held) {
+bool polish(HoldProblem& problem, Vec<double, 6>& x, const HoldOptions& options, RodBvpSolution& held) {
   for (int round = 0; round < 4; ++round) {
     const NewtonOptions newton_options{0.1 * options.tolerance * problem.length, options.max_iterations};
     const Report report = newton(problem, x, newton_options);
@@ -262,7 +262,7 @@ HoldProblem stated(const SpatialRod& rod, const SE3<double>& base, double length
   problem.stiffness = std::sqrt(rod.bending_stiffness[0]) * std::sqrt(rod.bending_stiffness[1]);
   problem.ends = ends;
   const bool matters = ends.tip == RodEnds::Tip::clamp || !rod.is_isotropic();
-  problem.seeks_spin = ends.base == RodEnds::Base::spins && matters;
+  problem.seeks_axial_rotation = ends.base == RodEnds::Base::spins && matters;
   problem.steps = options.steps;
   return problem;
 }
@@ -292,26 +292,26 @@ bool is_answerable(const SpatialRod& rod, const SE3<double>& base, double length
   return false;
 }
 
-HeldRod unanswered() {
-  HeldRod held;
+RodBvpSolution unanswered() {
+  RodBvpSolution held;
   held.stiffness.setConstant(not_a_number);
   held.feed.setConstant(not_a_number);
   return held;
 }
 
-/// Where the ends do not say how the base frame spins: from an equilibrium with its spin held, on to where
-/// the base has to hold no torque, downhill: dE/dψ = −m(0)·t(0). x is that of the problem with spin
+/// Where the ends do not say how the base frame spins: from an equilibrium with its axial_rotation held, on to where
+/// the base has to hold no torque, downhill: dE/dψ = −m(0)·t(0). x is that of the problem with axial_rotation
 /// afterwards.
 bool turn_downhill(const HoldProblem& problem, bool fixed_steps, Vec<double, 6>& x, int& iterations) {
   HoldProblem held = problem;
-  held.seeks_spin = false;
+  held.seeks_axial_rotation = false;
   const double side = std::copysign(1.0, x[5]);
-  double spin = 0;
+  double axial_rotation = 0;
   int solves = 0;
   const auto has_budget = [&] { return solves++ < max_solves; };
   const StepsEnd end =
       take_steps({0.2, shortest_step}, has_budget, [&](double step) -> std::optional<double> {
-        held.base.R = problem.base.R.compose(Turn::exp({0, 0, spin + side * step}));
+        held.base.R = problem.base.R.compose(Turn::exp({0, 0, axial_rotation + side * step}));
         Vec<double, 6> ahead = x;
         if (!fixed_steps) held.steps = path_steps(held, x);
         const Report report = newton(held, ahead, {path_tolerance * problem.length, 10});
@@ -320,19 +320,19 @@ bool turn_downhill(const HoldProblem& problem, bool fixed_steps, Vec<double, 6>&
         const bool passed = ahead[5] * x[5] <= 0;
         const double share = passed ? x[5] / (x[5] - ahead[5]) : 1;
         x += share * (ahead - x);
-        spin += share * side * step;
+        axial_rotation += share * side * step;
         return passed ? std::nullopt : std::optional(step);
       });
   if (end != StepsEnd::done) return false;
-  x[5] = spin;
+  x[5] = axial_rotation;
   return x.allFinite();
 }
 
 /// From one arc to the equilibrium, to the last digits.
-bool from_arc(HoldProblem& problem, int side, Vec<double, 6>& x, const HoldOptions& options, HeldRod& held) {
+bool from_arc(HoldProblem& problem, int side, Vec<double, 6>& x, const HoldOptions& options, RodBvpSolution& held) {
   HoldProblem first = problem;
-  const bool turns_free = problem.seeks_spin && problem.ends.tip != RodEnds::Tip::clamp;
-  if (turns_free) first.seeks_spin = false;
+  const bool turns_free = problem.seeks_axial_rotation && problem.ends.tip != RodEnds::Tip::clamp;
+  if (turns_free) first.seeks_axial_rotation = false;
   Way way(first, side, options);
   if (!way.follow(x, held.report.iterations)) return false;
   if (turns_free && !turn_downhill(problem, options.steps > 0, x, held.report.iterations)) return false;
@@ -341,12 +341,12 @@ bool from_arc(HoldProblem& problem, int side, Vec<double, 6>& x, const HoldOptio
 }
 
 /// Of four arcs the first that leads to a stable equilibrium; otherwise the first that leads to any.
-bool from_arcs(HoldProblem& problem, Vec<double, 6>& x, const HoldOptions& options, HeldRod& held) {
+bool from_arcs(HoldProblem& problem, Vec<double, 6>& x, const HoldOptions& options, RodBvpSolution& held) {
   bool found = false;
   for (int side = 0; side < 4; ++side) {
     HoldProblem attempt = problem;
     attempt.steps = options.steps;
-    HeldRod answer = held;
+    RodBvpSolution answer = held;
     Vec<double, 6> end = x;
     const bool arrived = from_arc(attempt, side, end, options, answer);
     held.report.iterations = answer.report.iterations;
@@ -364,10 +364,10 @@ bool from_arcs(HoldProblem& problem, Vec<double, 6>& x, const HoldOptions& optio
 }
 
 /// The numbers of the last iterate, whatever it is worth.
-void conclude(HoldProblem& problem, const Vec<double, 6>& x, bool found, HeldRod& held) {
+void conclude(HoldProblem& problem, const Vec<double, 6>& x, bool found, RodBvpSolution& held) {
   if (problem.steps == 0) problem.steps = path_steps(problem, x);  // nothing was found
   held.base = problem.base_state(x);
-  held.spin = problem.seeks_spin ? x[5] : 0;
+  held.axial_rotation = problem.seeks_axial_rotation ? x[5] : 0;
   const RodTangent tangent = integrate_tangent(problem.rod, problem.length, held.base, {problem.steps, 0});
   held.tip = tangent.tip.state;
   held.energy = tangent.tip.energy;
@@ -385,9 +385,9 @@ void conclude(HoldProblem& problem, const Vec<double, 6>& x, bool found, HeldRod
 
 }  // namespace
 
-HeldRod hold(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
+RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
              const SE3<double>& tip, const HoldOptions& options) {
-  HeldRod held = unanswered();
+  RodBvpSolution held = unanswered();
   if (!is_answerable(rod, base, length, tip, held.report)) return held;
   HoldProblem problem = stated(rod, base, length, ends, tip, options);
   Vec<double, 6> x = Vec<double, 6>::Zero();
@@ -396,13 +396,13 @@ HeldRod hold(const SpatialRod& rod, const SE3<double>& base, double length, cons
   return held;
 }
 
-HeldRod hold(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
+RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
              const SE3<double>& tip, const RodStart& start, const HoldOptions& options) {
-  HeldRod held = unanswered();
+  RodBvpSolution held = unanswered();
   if (!is_answerable(rod, base, length, tip, held.report)) return held;
   HoldProblem problem = stated(rod, base, length, ends, tip, options);
-  const Turn R = base.R.compose(Turn::exp({0, 0, problem.seeks_spin ? start.spin : 0}));
-  Vec<double, 6> x = problem.unknowns_of({base.p, R, start.force, start.moment}, start.spin);
+  const Turn R = base.R.compose(Turn::exp({0, 0, problem.seeks_axial_rotation ? start.axial_rotation : 0}));
+  Vec<double, 6> x = problem.unknowns_of({base.p, R, start.force, start.moment}, start.axial_rotation);
   bool found = x.allFinite();
   if (found && options.steps == 0) {  // coarsely first
     problem.steps = path_steps(problem, x);

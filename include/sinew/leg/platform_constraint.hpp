@@ -1,4 +1,4 @@
-/// @file reach.hpp
+/// @file platform_constraint.hpp
 /// What the inputs leave of a kinematic leg: a point of the base that a point of the platform keeps a
 /// distance from, and of a hinged leg the plane it stays in. Forward kinematics needs no more, whatever the
 /// link, its drive and its closure.
@@ -9,7 +9,7 @@ namespace sinew::inline v0 {
 
 /// @tparam D dimension of space, 2 or 3
 template <int D>
-struct Reach {
+struct PlatformConstraint {
   Vec<double, D> anchor;  ///< A, base frame [m]
   double distance;        ///< of the platform point from A [m], ≥ 0; 0: pinned to A, which holds D freedoms
   Vec<double, D> platform_point;  ///< b, platform frame [m]
@@ -21,7 +21,7 @@ struct Reach {
   int rows() const { return distance > 0 ? 1 + (has_plane() ? 1 : 0) : D; }
 
   /// How far from closed it is where the way from the anchor to the platform point is n [m].
-  double misfit(const Vec<double, D>& n) const { return closure_misfit(n.norm(), distance, dot(normal, n)); }
+  double closure_error(const Vec<double, D>& n) const { return closure_error_of(n.norm(), distance, dot(normal, n)); }
 
   /// Calls `use` with its rows there.
   template <class Use>

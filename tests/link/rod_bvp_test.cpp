@@ -1,4 +1,4 @@
-#include "sinew/link/held_rod.hpp"
+#include "sinew/link/rod_bvp.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -32,11 +32,11 @@ struct Task {
   RodEnds ends;
   SE3<double> base, tip;
 
-  HeldRod held() const { return hold(rod, base, length, ends, tip); }
+  RodBvpSolution held() const { return solve_rod_bvp(rod, base, length, ends, tip); }
   /// The equilibrium near another, with the tip moved and the rod fed.
-  HeldRod near(const HeldRod& other, const Vec<double, 7>& x) const {
-    return hold(rod, base, length + x[6], ends, tip.displaced(x.head<6>()),
-                {other.base.n, other.base.m, other.spin}, {.steps = other.steps});
+  RodBvpSolution near(const RodBvpSolution& other, const Vec<double, 7>& x) const {
+    return solve_rod_bvp(rod, base, length + x[6], ends, tip.displaced(x.head<6>()),
+                {other.base.n, other.base.m, other.axial_rotation}, {.steps = other.steps});
   }
 };
 
@@ -54,21 +54,21 @@ Task any_task() {
   return task;
 }
 
-Vec<double, 6> wrench(const HeldRod& x) {
+Vec<double, 6> wrench(const RodBvpSolution& x) {
   Vec<double, 6> w;
   w << x.tip.n, x.tip.m;
   return w;
 }
 
 /// Whether `there`, after this motion, continues `x`: another equilibrium is far away in force.
-bool continues(const HeldRod& x, const HeldRod& there, const Vec<double, 7>& motion, double force_unit) {
+bool continues(const RodBvpSolution& x, const RodBvpSolution& there, const Vec<double, 7>& motion, double force_unit) {
   const Vec<double, 6> expected = x.stiffness * motion.head<6>() + x.feed * motion[6];
   const Vec<double, 6> off = wrench(there) - wrench(x) - expected;
   return there.report.ok() && off.head<3>().norm() < 0.3 * expected.head<3>().norm() + 0.1 * force_unit;
 }
 
 /// A rod in space meets its ends: what any answer is judged by.
-void check_ends(const Task& task, const HeldRod& x) {
+void check_ends(const Task& task, const RodBvpSolution& x) {
   const double EI = task.rod.bending_stiffness[0], moment = 1e-8 * EI / length;
   const RodTip again = integrate(task.rod, length, x.base, {.steps = 2 * x.steps});
   RC_ASSERT((again.state.p - x.tip.p).norm() < 1e-9);
@@ -86,9 +86,9 @@ void check_ends(const Task& task, const HeldRod& x) {
   }
 }
 
-RC_GTEST_PROP(HeldRod, MeetsItsEndsOrSaysThatItDoesNot, ()) {
+RC_GTEST_PROP(RodBvpSolution, MeetsItsEndsOrSaysThatItDoesNot, ()) {
   const Task task = any_task();
-  const HeldRod x = task.held();
+  const RodBvpSolution x = task.held();
   RC_CLASSIFY(x.report.ok());
   if (x.report.ok()) {
     RC_ASSERT(x.report.residual < 1e-11 * length);
@@ -99,7 +99,7 @@ RC_GTEST_PROP(HeldRod, MeetsItsEndsOrSaysThatItDoesNot, ()) {
 }
 
 // A search may fail; how often is known. The same tasks every time.
-TEST(HeldRod, IsFoundFromAnArcNearlyAlways) {
+TEST(RodBvpSolution, IsFoundFromAnArcNearlyAlways) {
   std::mt19937 engine(7);
   const auto vector = [&](double size) {
     const auto one = [&] { return size * (static_cast<double>(engine() % 20001) / 1e4 - 1); };
@@ -118,7 +118,7 @@ TEST(HeldRod, IsFoundFromAnArcNearlyAlways) {
         }
         const Vec3<double> way = (Vec3<double>(0, 0, 1) + vector(0.5)).normalized();
         const SE3<double> tip{way * (0.72 + 0.23 * vector(1)[0]) * length, SO3<double>::exp(vector(0.6))};
-        const HeldRod x = hold(rod, {}, length, {base_end, tip_end}, tip);
+        const RodBvpSolution x = solve_rod_bvp(rod, {}, length, {base_end, tip_end}, tip);
         ++tasks;
         found += x.report.ok();
         stable += x.report.ok() && unstable_directions(rod, length, x.base, {base_end, tip_end}) == 0;
@@ -132,10 +132,10 @@ TEST(HeldRod, IsFoundFromAnArcNearlyAlways) {
 /// Properties that hold dozens of rods a case let most cases be, under sanitizers nearly all.
 bool is_let_be() { return *rc::gen::inRange(0, test::addresses_are_checked ? 20 : 3) != 0; }
 
-RC_GTEST_PROP(HeldRod, StiffnessAndFeedAreTheDerivatives, ()) {
+RC_GTEST_PROP(RodBvpSolution, StiffnessAndFeedAreTheDerivatives, ()) {
   if (is_let_be()) return;
   const Task task = any_task();
-  const HeldRod x = task.held();
+  const RodBvpSolution x = task.held();
   RC_PRE(x.report.ok());
   const double EI = task.rod.bending_stiffness[0];
   RC_PRE(x.stiffness.norm() < 150 * EI / std::pow(length, 3));  // away from folds and from straight
@@ -143,7 +143,7 @@ RC_GTEST_PROP(HeldRod, StiffnessAndFeedAreTheDerivatives, ()) {
   exact << x.stiffness, x.feed;
   bool all_found = true;
   const auto moved = [&](const Vec<double, 7>& motion) {
-    const HeldRod there = task.near(x, motion);
+    const RodBvpSolution there = task.near(x, motion);
     all_found = all_found && continues(x, there, motion, EI / (length * length));
     return wrench(there);
   };
@@ -153,9 +153,9 @@ RC_GTEST_PROP(HeldRod, StiffnessAndFeedAreTheDerivatives, ()) {
   RC_ASSERT(test::jacobian_error(exact, differences, 0.01 * EI / (length * length)) < 1e-5);
 }
 
-RC_GTEST_PROP(HeldRod, StiffnessIsSymmetricButForTheMomentItself, ()) {
+RC_GTEST_PROP(RodBvpSolution, StiffnessIsSymmetricButForTheMomentItself, ()) {
   const Task task = any_task();
-  const HeldRod x = task.held();
+  const RodBvpSolution x = task.held();
   RC_PRE(x.report.ok());
   // Turns do not commute: the work of two small ones in either order differs by m·(δ₁ × δ₂).
   Mat<double, 6, 6> odd = x.stiffness - x.stiffness.transpose();
@@ -166,10 +166,10 @@ RC_GTEST_PROP(HeldRod, StiffnessIsSymmetricButForTheMomentItself, ()) {
   RC_ASSERT(by_force.norm() < size);
 }
 
-RC_GTEST_PROP(HeldRod, WrenchIsTheDerivativeOfTheEnergy, ()) {
+RC_GTEST_PROP(RodBvpSolution, WrenchIsTheDerivativeOfTheEnergy, ()) {
   if (is_let_be()) return;
   const Task task = any_task();
-  const HeldRod x = task.held();
+  const RodBvpSolution x = task.held();
   RC_PRE(x.report.ok());
   const double EI = task.rod.bending_stiffness[0];
   RC_PRE(x.stiffness.norm() < 150 * EI / std::pow(length, 3));
@@ -177,7 +177,7 @@ RC_GTEST_PROP(HeldRod, WrenchIsTheDerivativeOfTheEnergy, ()) {
   const auto energy = [&](const Vec<double, 6>& motion) {
     Vec<double, 7> all;
     all << motion, 0;
-    const HeldRod there = task.near(x, all);
+    const RodBvpSolution there = task.near(x, all);
     all_found = all_found && continues(x, there, all, EI / (length * length));
     return Vec<double, 1>(there.energy);
   };
@@ -187,14 +187,14 @@ RC_GTEST_PROP(HeldRod, WrenchIsTheDerivativeOfTheEnergy, ()) {
   RC_ASSERT(test::jacobian_error(wrench(x).transpose(), slope, 0.1 * EI / (length * length)) < 1e-7);
 }
 
-RC_GTEST_PROP(HeldRod, BallTipIsTheStableElastica, ()) {
+RC_GTEST_PROP(RodBvpSolution, BallTipIsTheStableElastica, ()) {
   const double d = uniform(0.05, 0.5), w = uniform(0.5, 0.95) * std::sqrt(1 - d * d);
   const SpatialRod rod = any_rod(RodKind::plain);
   const ElasticaMap map = elastica_map({d, w});
   RC_PRE(map.report.ok() && map.equilibria[0].is_stable());
   SE3<double> tip;
   tip.p = Vec3<double>(d, 0, w) * length;
-  const HeldRod x = hold(rod, {}, length, {*rc::gen::element(Base::held, Base::spins), Tip::ball}, tip);
+  const RodBvpSolution x = solve_rod_bvp(rod, {}, length, {*rc::gen::element(Base::held, Base::spins), Tip::ball}, tip);
   RC_ASSERT(x.report.ok());
   const ElasticaEquilibrium& e = map.equilibria[0];
   const ElasticaUnits unit{length, rod.bending_stiffness[0]};
@@ -208,7 +208,7 @@ RC_GTEST_PROP(HeldRod, BallTipIsTheStableElastica, ()) {
   RC_ASSERT((ours - stiffness).norm() < 1e-7 * stiffness.norm());
 }
 
-TEST(HeldRod, AgreesWithAnotherCosseratRod) {
+TEST(RodBvpSolution, AgreesWithAnotherCosseratRod) {
   const auto& file = test::reference_file("data/field/rod_ivp_bvp.json");
   const auto& robot = file["robot"];
   const auto vector = [](const auto& x) { return Vec3<double>(x[0], x[1], x[2]); };
@@ -219,7 +219,7 @@ TEST(HeldRod, AgreesWithAnotherCosseratRod) {
   tip.p = vector(file["bvp"]["pL_m"]);
   const auto& wanted = file["bvp"]["outputs"];
   const Vec3<double> force = vector(wanted["n0"]), moment = vector(wanted["m0"]);
-  const HeldRod x = hold(rod, {}, L, clamped, tip, {force * 1.1, moment * 0.9, 0});
+  const RodBvpSolution x = solve_rod_bvp(rod, {}, L, clamped, tip, {force * 1.1, moment * 0.9, 0});
   ASSERT_TRUE(x.report.ok());
   EXPECT_LT((x.base.n - force).norm(), file["tolerance"]["bvp_n0_N"].get<double>());
   EXPECT_LT((x.base.m - moment).norm(), file["tolerance"]["bvp_m0_Nm"].get<double>());
@@ -227,7 +227,7 @@ TEST(HeldRod, AgreesWithAnotherCosseratRod) {
   EXPECT_LT((x.tip.m - vector(wanted["mL"])).norm(), 1e-7);
   // It bends across the weight and would swing down; from nothing known, the one that has is found.
   EXPECT_EQ(unstable_directions(rod, L, x.base, clamped), 1);
-  const HeldRod swung = hold(rod, {}, L, clamped, tip);
+  const RodBvpSolution swung = solve_rod_bvp(rod, {}, L, clamped, tip);
   ASSERT_TRUE(swung.report.ok());
   EXPECT_EQ(unstable_directions(rod, L, swung.base, clamped), 0);
   EXPECT_LT(swung.energy, x.energy - 0.02);
@@ -282,46 +282,46 @@ RC_GTEST_PROP(UnstableDirections, AreThoseOfTheElastica, ()) {
   RC_ASSERT(unstable_directions(rod, 1, base, ends) == e.unstable_in_plane + e.unstable_out_of_plane);
 }
 
-TEST(HeldRod, SaysWhatCannotBe) {
+TEST(RodBvpSolution, SaysWhatCannotBe) {
   const SpatialRod rod = SpatialRod::round(200e9, 80e9, 0.002);
   SE3<double> tip;
   tip.p = {0, 0, 0.51};
-  const HeldRod beyond = hold(rod, {}, length, pinned, tip);
+  const RodBvpSolution beyond = solve_rod_bvp(rod, {}, length, pinned, tip);
   EXPECT_EQ(beyond.report.status, Status::unreachable);
   EXPECT_NEAR(beyond.report.residual, 0.01, 1e-12);
   EXPECT_EQ(beyond.report.message.view(), "the tip is farther away than the rod is long, by 10 mm");
   tip.p = {0, 0, length};
-  EXPECT_EQ(hold(rod, {}, length, pinned, tip).report.status, Status::singular);  // straight
+  EXPECT_EQ(solve_rod_bvp(rod, {}, length, pinned, tip).report.status, Status::singular);  // straight
   tip.p = {0, 0, 0.4};
-  EXPECT_EQ(hold(rod, {}, length, pinned, tip).report.status, Status::singular);  // turns about the base
+  EXPECT_EQ(solve_rod_bvp(rod, {}, length, pinned, tip).report.status, Status::singular);  // turns about the base
   tip.p = {0.1, 0, 0.4};
-  EXPECT_TRUE(hold(rod, {}, length, pinned, tip).report.ok());
+  EXPECT_TRUE(solve_rod_bvp(rod, {}, length, pinned, tip).report.ok());
   for (const double L : {0.0, -1.0, std::nan("")})
-    EXPECT_EQ(hold(rod, {}, L, pinned, tip).report.status, Status::left_domain);
-  EXPECT_EQ(hold(SpatialRod{}, {}, length, pinned, tip).report.status, Status::left_domain);
+    EXPECT_EQ(solve_rod_bvp(rod, {}, L, pinned, tip).report.status, Status::left_domain);
+  EXPECT_EQ(solve_rod_bvp(SpatialRod{}, {}, length, pinned, tip).report.status, Status::left_domain);
   tip.p[0] = std::nan("");
-  EXPECT_EQ(hold(rod, {}, length, pinned, tip).report.status, Status::left_domain);
-  EXPECT_FALSE(hold(rod, {}, length, pinned, tip).stiffness.allFinite());
+  EXPECT_EQ(solve_rod_bvp(rod, {}, length, pinned, tip).report.status, Status::left_domain);
+  EXPECT_FALSE(solve_rod_bvp(rod, {}, length, pinned, tip).stiffness.allFinite());
 }
 
-TEST(HeldRod, OfABadStartItFallsBackToTheArc) {
+TEST(RodBvpSolution, OfABadStartItFallsBackToTheArc) {
   const SpatialRod rod = SpatialRod::round(200e9, 80e9, 0.002);
   SE3<double> tip;
   tip.p = {0.1, 0.05, 0.4};
-  const HeldRod good = hold(rod, {}, length, clamped, tip);
+  const RodBvpSolution good = solve_rod_bvp(rod, {}, length, clamped, tip);
   ASSERT_TRUE(good.report.ok());
   const double nan = std::nan("");
-  const HeldRod again = hold(rod, {}, length, clamped, tip, {{nan, 0, 0}, {0, 0, 0}, 0});
+  const RodBvpSolution again = solve_rod_bvp(rod, {}, length, clamped, tip, {{nan, 0, 0}, {0, 0, 0}, 0});
   EXPECT_TRUE(again.report.ok());
   EXPECT_NEAR(again.energy, good.energy, 1e-10);
 }
 
-TEST(HeldRod, StretchesWhereItMay) {
+TEST(RodBvpSolution, StretchesWhereItMay) {
   SpatialRod rod = SpatialRod::round(200e9, 80e9, 0.002, RodLaw::cosserat);
   rod.extension_compliance = 1e-3;
   SE3<double> tip;
   tip.p = {0, 0, 0.51};
-  const HeldRod x = hold(rod, {}, length, clamped, tip);
+  const RodBvpSolution x = solve_rod_bvp(rod, {}, length, clamped, tip);
   ASSERT_TRUE(x.report.ok());
   EXPECT_NEAR(x.tip.n[2], 20, 1e-7);
   EXPECT_NEAR(x.stiffness(2, 2), 2000, 1e-5);

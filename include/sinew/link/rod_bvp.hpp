@@ -1,4 +1,4 @@
-/// @file held_rod.hpp
+/// @file rod_bvp.hpp
 /// A general elastic rod held at both ends: the forces that hold it, what they become when the tip moves or
 /// the rod is fed, and whether it stays where it is. Theory: docs/theory/spatial_rod.md
 #pragma once
@@ -20,7 +20,7 @@ struct RodEnds {
 struct RodStart {
   Vec3<double> force{0, 0, 0};   ///< n(0) [N], base axes
   Vec3<double> moment{0, 0, 0};  ///< m(0) [N m]
-  double spin = 0;               ///< [rad]
+  double axial_rotation = 0;               ///< [rad]
 };
 
 struct HoldOptions {
@@ -29,11 +29,11 @@ struct HoldOptions {
   int max_iterations = 60;   ///< of each of at most 100 solves on the way
 };
 
-struct HeldRod {
+struct RodBvpSolution {
   Report report;          ///< `residual`: position, turn × L, free moment × L²/EI, the largest [m]
-  RodState<double> base;  ///< with force and moment at the base, and the frame after its spin
+  RodState<double> base;  ///< with force and moment at the base, and the frame after its axial_rotation
   RodState<double> tip;   ///< its n and m are what holds the tip on the rod
-  double spin = 0;        ///< of the base frame about its z [rad]; 0 where nothing depends on it
+  double axial_rotation = 0;        ///< of the base frame about its z [rad]; 0 where nothing depends on it
   double energy = 0;      ///< elastic energy and potential of the load, as RodTip::energy [J]
   double error = 0;       ///< of the integration, estimated, of the length and in rad
   int steps = 0;          ///< of the integration
@@ -51,14 +51,14 @@ struct HeldRod {
 /// - `unreachable`: an inextensible rod shorter than the way.
 /// - `singular`: the ends are met, but do not determine the forces (straight; free to turn; about to jump).
 /// - `stalled`: none was found; the numbers are those of the last iterate, and meet nothing.
-SINEW_API HeldRod hold(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
+SINEW_API RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
                        const SE3<double>& tip, const HoldOptions& options = {});
-SINEW_API HeldRod hold(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
+SINEW_API RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
                        const SE3<double>& tip, const RodStart& start, const HoldOptions& options = {});
 
 /// In how many directions the energy of an equilibrium falls with its ends held so: 0 where it is stable, −1
 /// where it cannot be counted. A rod that does not stretch is counted as one with 1/EA = 10⁻⁸ L²/EI.
-/// @param base state at the base, as in HeldRod
+/// @param base state at the base, as in RodBvpSolution
 SINEW_API int unstable_directions(const SpatialRod& rod, double length, const RodState<double>& base,
                                   const RodEnds& ends);
 
