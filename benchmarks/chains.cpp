@@ -6,10 +6,10 @@
 #include <Eigen/LU>
 #include <memory>
 
+#include "analysis/chain_velocity.hpp"
+#include "kinematics/chain_motion.hpp"
 #include "report.hpp"
-#include "sinew/analysis/chain_velocity.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/kinematics/chain_motion.hpp"
 
 namespace sinew::bench {
 namespace {
@@ -34,7 +34,8 @@ struct Walk {
 
   explicit Walk(bool holds_lengths) {
     const std::array<double, 3> towards_plus{1, 1, 1};
-    if (!unloaded_equilibrium(robot, PlanarPose{0.01, 0, 0.35}, towards_plus, holds_lengths, state).ok()) std::abort();
+    if (!unloaded_equilibrium(robot, PlanarPose{0.01, 0, 0.35}, towards_plus, holds_lengths, state).ok())
+      std::abort();
     hold = state.hold;
     for (int i = 0; i < 256; ++i) {
       const double t = 2 * pi * i / 256;
@@ -170,7 +171,8 @@ void compare_rates() {
   };
   auto one = std::make_shared<Case>();
   const std::array<double, 3> towards_plus{1, 1, 1};
-  if (!unloaded_equilibrium(one->robot, PlanarPose{0.01, 0, 0.35}, towards_plus, false, one->state).ok()) std::abort();
+  if (!unloaded_equilibrium(one->robot, PlanarPose{0.01, 0, 0.35}, towards_plus, false, one->state).ok())
+    std::abort();
   const auto differences = [one] {
     std::array<std::array<double, 5>, 3> K;
     for (std::size_t i = 0; i < 3; ++i)
@@ -212,7 +214,8 @@ void compare_rates() {
 
 void compare_six_legs() {
   struct Case {
-    ChainLegs<Spatial> robot = chains_of<Spatial>(*load("6-ufs")->as(Model::prb, PrbDiscretisation::weighted));
+    ChainLegs<Spatial> robot =
+        chains_of<Spatial>(*load("6-ufs")->as(Model::prb, PrbDiscretisation::weighted));
     ChainState<Spatial> state;
     ChainWork work;
     std::vector<TendonConstraint> hold;

@@ -7,10 +7,10 @@
 
 #include "instruction_sets.hpp"
 #include "report.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/analysis/velocity_batch.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/inverse.hpp"
-#include "sinew/robot/parallel.hpp"
 
 namespace sinew::bench {
 namespace {

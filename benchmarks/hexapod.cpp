@@ -11,14 +11,14 @@
 #include <random>
 
 #include "instruction_sets.hpp"
+#include "link/spatial_rod.hpp"
 #include "report.hpp"
 #include "robot/mechanism.hpp"
+#include "robot/parallel.hpp"
 #include "robot/tangent_system.hpp"
 #include "shooting_hexapod.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
-#include "sinew/link/spatial_rod.hpp"
-#include "sinew/robot/parallel.hpp"
 
 namespace sinew::bench {
 namespace {

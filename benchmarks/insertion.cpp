@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <vector>
 
+#include "plan/compressor.hpp"
 #include "scenes.hpp"
 #include "sinew/io/serial_file.hpp"
-#include "sinew/plan/compressor.hpp"
 #include "sinew/plan/insertion.hpp"
 
 namespace sinew::bench {

@@ -19,13 +19,13 @@
 #include <string>
 #include <vector>
 
+#include "kinematics/chain.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/assembly_modes.hpp"
-#include "sinew/kinematics/chain.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
-#include "sinew/robot/parallel.hpp"
 #include "sinew/study/sweep.hpp"
 
 namespace {
@@ -154,7 +154,8 @@ Operation warm_hexapod() {
       const double t = turn(++step);
       SpatialPose pose;
       pose.position = {0.04 * std::cos(t), 0.04 * std::sin(t), 0.45 + 0.02 * std::sin(2 * t)};
-      return inverse_equilibrium(robot, pose, {.warm_start = step > 1, .check_stability = false}, work).report.residual;
+      return inverse_equilibrium(robot, pose, {.warm_start = step > 1, .check_stability = false}, work)
+          .report.residual;
     }
   };
   return [one = std::make_shared<Case>()] { return one->next(); };

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
+#include "kinematics/planar_modes.hpp"
 #include "report.hpp"
-#include "sinew/kinematics/planar_modes.hpp"
 
 namespace sinew::bench {
 namespace {

@@ -8,10 +8,10 @@
 #include <memory>
 
 #include "report.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
-#include "sinew/robot/parallel.hpp"
 
 namespace sinew::bench {
 namespace {

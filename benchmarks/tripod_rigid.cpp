@@ -8,11 +8,11 @@
 #include <memory>
 
 #include "report.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
-#include "sinew/robot/parallel.hpp"
 
 namespace sinew::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "sinew/io/quantity.hpp"
-#include "sinew/io/visible.hpp"
+#include "io/quantity.hpp"
+#include "io/visible.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 #include "waiting.hpp"

@@ -6,9 +6,9 @@
 #include <array>
 #include <cctype>
 
+#include "io/quantity.hpp"
+#include "io/visible.hpp"
 #include "sinew/io/node.hpp"
-#include "sinew/io/quantity.hpp"
-#include "sinew/io/visible.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {

@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "sinew/io/figure.hpp"
+#include "io/figure.hpp"
 #include "verbs.hpp"
 
 namespace sinew::cli {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/parse.hpp"
+#include "io/quantity.hpp"
 #include "show.hpp"
-#include "sinew/io/parse.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/math/so3.hpp"
 #include "terminal.hpp"

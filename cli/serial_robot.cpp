@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "io/visible.hpp"
 #include "request.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
-#include "sinew/io/visible.hpp"
 
 namespace sinew::cli {
 

@@ -4,7 +4,7 @@
 #pragma once
 #include <vector>
 
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 #include "verbs.hpp"
 
 namespace sinew::cli {

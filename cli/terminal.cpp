@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "sinew/io/visible.hpp"
+#include "io/visible.hpp"
 
 namespace sinew::cli {
 namespace {

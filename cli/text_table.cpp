@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sinew/io/visible.hpp"
+#include "io/visible.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {

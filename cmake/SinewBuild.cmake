@@ -1,6 +1,8 @@
 # Compile options shared by every target of this project; nothing here reaches a consumer.
 add_library(sinew_options INTERFACE)
 target_compile_features(sinew_options INTERFACE cxx_std_20)
+# What belongs to the project may include what is not installed.
+target_include_directories(sinew_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_compile_options(sinew_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Wold-style-cast
   -Wnon-virtual-dtor -Wimplicit-fallthrough

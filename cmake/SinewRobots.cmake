@@ -33,7 +33,7 @@ file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/builtin_robots.cpp @ONLY CONTE
 #include "io/builtin.hpp"
 #include "sinew/io/robot_file.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::span<const BuiltinRobot> builtin_robots() {
   static constexpr BuiltinRobot robots[] = {
@@ -49,14 +49,14 @@ std::span<const BuiltinRobot> robot_templates() {
 
 std::string_view scene_template() { return R"sinew(@scene_text@)sinew"; }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1
 ]])
 
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/builtin_studies.cpp @ONLY CONTENT
 [[// Generated from studies/*.yaml, firmware/cycles and kernel/include.
 #include "study/builtin.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::span<const BuiltinFile> builtin_studies() {
   static constexpr BuiltinFile studies[] = {
@@ -70,5 +70,5 @@ std::span<const BuiltinFile> builtin_firmware() {
   return files;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1
 ]])

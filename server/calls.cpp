@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "io/parse.hpp"
 #include "queries.hpp"
 #include "sinew/base/export.hpp"
-#include "sinew/io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
 #include "sinew/query/session.hpp"

@@ -13,10 +13,10 @@
 #include <thread>
 #include <utility>
 
+#include "plan/plan_table.hpp"
 #include "robots.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/plan/check.hpp"
-#include "sinew/plan/plan_table.hpp"
 #include "sinew/study/result.hpp"
 
 namespace sinew::server {

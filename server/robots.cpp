@@ -7,8 +7,8 @@
 #include <exception>
 #include <utility>
 
+#include "io/parse.hpp"
 #include "reply.hpp"
-#include "sinew/io/parse.hpp"
 
 namespace sinew::server {
 

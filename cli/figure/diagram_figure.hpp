@@ -1,8 +1,8 @@
 /// @file diagram_figure.hpp
 /// What the tendons of one section leave it free to do, drawn over its two bends.
 #pragma once
+#include "io/figure.hpp"
 #include "request.hpp"
-#include "sinew/io/figure.hpp"
 
 namespace sinew::cli {
 

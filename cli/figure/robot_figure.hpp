@@ -1,8 +1,8 @@
 /// @file robot_figure.hpp
 /// The shape of a robot: projections, or a picture in space.
 #pragma once
+#include "io/figure.hpp"
 #include "request.hpp"
-#include "sinew/io/figure.hpp"
 
 namespace sinew::cli {
 

@@ -10,10 +10,10 @@
 #include <numeric>
 
 #include "figure/quantity_name.hpp"
+#include "io/quantity.hpp"
 #include "request.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/node.hpp"
-#include "sinew/io/quantity.hpp"
 #include "text_table.hpp"
 
 namespace sinew::cli {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "io/quantity.hpp"
 #include "sinew/io/node.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"

@@ -9,10 +9,10 @@
 
 #include "figure/quantity_name.hpp"
 #include "figure_file.hpp"
+#include "io/figure.hpp"
+#include "io/visible.hpp"
 #include "question.hpp"
-#include "sinew/io/figure.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/io/visible.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 

@@ -8,9 +8,9 @@
 #include <iterator>
 #include <numbers>
 
+#include "io/parse.hpp"
+#include "io/quantity.hpp"
 #include "show.hpp"
-#include "sinew/io/parse.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"

@@ -5,14 +5,14 @@
 #include <array>
 #include <filesystem>
 
+#include "io/parse.hpp"
+#include "io/posture_table.hpp"
+#include "io/quantity.hpp"
+#include "io/trajectory_file.hpp"
+#include "io/visible.hpp"
 #include "request.hpp"
 #include "serial_robot.hpp"
-#include "sinew/io/parse.hpp"
-#include "sinew/io/posture_table.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/io/serial_file.hpp"
-#include "sinew/io/trajectory_file.hpp"
-#include "sinew/io/visible.hpp"
 #include "sinew/study/result.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"

@@ -5,10 +5,10 @@
 #include <array>
 #include <filesystem>
 
+#include "io/export.hpp"
+#include "io/visible.hpp"
+#include "io/write_file.hpp"
 #include "serial_robot.hpp"
-#include "sinew/io/export.hpp"
-#include "sinew/io/visible.hpp"
-#include "sinew/io/write_file.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 

@@ -9,13 +9,13 @@
 #include <functional>
 
 #include "figure_file.hpp"
+#include "io/quantity.hpp"
+#include "io/visible.hpp"
+#include "io/write_file.hpp"
 #include "map_figure.hpp"
 #include "question.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/io/visible.hpp"
-#include "sinew/io/write_file.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {
@@ -115,8 +115,8 @@ Expected<PoseGrid> read_grid(const Arguments& arguments, const Robot& robot, con
                         fmt::format("is no axis of this robot, which is {}; its axes: --{}.",
                                     grid.is_spatial ? "spatial" : "planar", fmt::join(known, ", --"))});
   if (errors.empty() && poses > max_poses)
-    errors.push_back({"too_large", "",
-                      fmt::format("{:.3g} poses; {:.0g} at most: give fewer values.", poses, max_poses)});
+    errors.push_back(
+        {"too_large", "", fmt::format("{:.3g} poses; {:.0g} at most: give fewer values.", poses, max_poses)});
   return errors.empty() ? Expected<PoseGrid>(grid) : tl::unexpected(errors);
 }
 

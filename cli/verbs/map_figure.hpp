@@ -3,9 +3,9 @@
 #pragma once
 #include <functional>
 
+#include "io/figure.hpp"
 #include "request.hpp"
 #include "sinew/analysis/singularity_map.hpp"
-#include "sinew/io/figure.hpp"
 
 namespace sinew::cli {
 

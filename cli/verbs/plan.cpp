@@ -6,13 +6,13 @@
 #include <functional>
 
 #include "answer.hpp"
+#include "io/quantity.hpp"
+#include "io/visible.hpp"
+#include "plan/compressor.hpp"
+#include "plan/plan_table.hpp"
 #include "request.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/io/serial_file.hpp"
-#include "sinew/io/visible.hpp"
-#include "sinew/plan/compressor.hpp"
 #include "sinew/plan/insertion.hpp"
-#include "sinew/plan/plan_table.hpp"
 #include "sinew/study/result.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"

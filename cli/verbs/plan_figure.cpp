@@ -8,13 +8,13 @@
 #include <numbers>
 
 #include "figure_file.hpp"
+#include "plan/compressor.hpp"
+#include "plan/insertion_figure.hpp"
+#include "plan/plan_table.hpp"
 #include "request.hpp"
 #include "sinew/io/serial_file.hpp"
 #include "sinew/kinematics/serial.hpp"
-#include "sinew/plan/compressor.hpp"
 #include "sinew/plan/insertion.hpp"
-#include "sinew/plan/insertion_figure.hpp"
-#include "sinew/plan/plan_table.hpp"
 #include "sinew/study/result.hpp"
 #include "study_items.hpp"
 #include "terminal.hpp"

@@ -1,5 +1,5 @@
 /// reproduce: figures and tables of the papers, ours beside theirs.
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 
 #include <fmt/format.h>
 

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "io/parse.hpp"
+#include "io/quantity.hpp"
+#include "io/visible.hpp"
 #include "progress.hpp"
 #include "request.hpp"
-#include "sinew/io/parse.hpp"
-#include "sinew/io/quantity.hpp"
-#include "sinew/io/visible.hpp"
-#include "sinew/study/cluster.hpp"
+#include "study/cluster.hpp"
 #include "terminal.hpp"
 #include "text_table.hpp"
 #include "verbs/study.hpp"

@@ -1,10 +1,10 @@
 /// track: the inputs along a path of the platform, as a table for people or a file of numbers.
 #include <fmt/format.h>
 
+#include "io/visible.hpp"
 #include "question.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/io/visible.hpp"
 #include "terminal.hpp"
 
 namespace sinew::cli {

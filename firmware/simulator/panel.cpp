@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <thread>
 
+#include "io/parse.hpp"
 #include "simulator/faults.hpp"
 #include "simulator/standard_input.hpp"
 #include "simulator/terminal.hpp"
-#include "sinew/io/parse.hpp"
 #include "sinew/io/serial_file.hpp"
 
 namespace sinew::firmware {

@@ -16,7 +16,7 @@ struct ArmDrives {
   double speed = 0.03;                              ///< at which a tendon's goes at most [m/s],
   double stage_speed = 0.1;                         ///< and the stage's
   double backlash = 0.02e-3;                        ///< between motor and tendon [m]
-  double min_slack = 0.5e-3, max_slack = 3e-3;   ///< with which tendons begin, at counts of 0 [m]
+  double min_slack = 0.5e-3, max_slack = 3e-3;      ///< with which tendons begin, at counts of 0 [m]
   unsigned seed = 1;                                ///< of which
 };
 

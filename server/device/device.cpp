@@ -9,8 +9,8 @@
 #include <ctime>
 #include <utility>
 
+#include "io/parse.hpp"
 #include "server/robots.hpp"
-#include "sinew/io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
 

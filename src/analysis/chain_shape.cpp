@@ -1,8 +1,8 @@
-#include "sinew/analysis/chain_shape.hpp"
+#include "analysis/chain_shape.hpp"
 
 #include <cmath>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// From a link that points along a unit vector, towards its tendon 1.
@@ -60,4 +60,4 @@ template SINEW_API ShapeOf<2> chain_shape(const ChainLegs<Planar>&, const Planar
 template SINEW_API ShapeOf<3> chain_shape(const ChainLegs<Spatial>&, const SpatialPose&,
                                           std::span<const ChainLegState>);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,10 +1,10 @@
-#include "sinew/analysis/chain_velocity.hpp"
+#include "analysis/chain_velocity.hpp"
 
 #include <cmath>
 
 #include "sinew/base/numbers.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// 2-norm of the rows of J⁻¹ diag(|gᵢ|) from `first` on.
@@ -134,4 +134,4 @@ template SINEW_API ChainVelocity<Planar> chain_velocity(const ChainLegs<Planar>&
 template SINEW_API ChainVelocity<Spatial> chain_velocity(const ChainLegs<Spatial>&, const SpatialPose&,
                                                          std::span<const ChainLegState>);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/analysis/chord_error.hpp"
+#include "analysis/chord_error.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include "sinew/kinematics/serial.hpp"
 #include "sinew/tendon/diagram.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 // ---------------------------------------------------------------- the series
@@ -255,4 +255,4 @@ double linear_freedom(const Section& section, const Bend& bend) {
   return farthest;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -11,7 +11,7 @@
 #include "analysis/pose_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0::velocity_lanes {
+namespace sinew::inline v1::velocity_lanes {
 namespace HWY_NAMESPACE {
 
 template <std::size_t Dimension, std::size_t Freedoms>
@@ -77,6 +77,6 @@ class ChordLegs {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0::velocity_lanes
+}  // namespace sinew::inline v1::velocity_lanes
 HWY_AFTER_NAMESPACE();
 #endif

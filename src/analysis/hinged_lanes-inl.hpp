@@ -11,11 +11,11 @@
 #include <numbers>
 
 #include "analysis/pose_lanes-inl.hpp"
+#include "leg/hinged_strut.hpp"
 #include "sinew/base/units.hpp"
-#include "sinew/leg/hinged_strut.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0::velocity_lanes {
+namespace sinew::inline v1::velocity_lanes {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE Pack along(const std::array<double, 3>& axis, const Pack* x) {
@@ -189,6 +189,6 @@ class HingedLegs {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0::velocity_lanes
+}  // namespace sinew::inline v1::velocity_lanes
 HWY_AFTER_NAMESPACE();
 #endif

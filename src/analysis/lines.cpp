@@ -5,7 +5,7 @@
 
 #include "sinew/base/assert.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Rank and condition, and how far the free twists of these lines may be off: a line that is off by
@@ -189,4 +189,4 @@ std::string_view to_string(LineClass kind) noexcept {
   return index < names.size() ? names[index] : "unknown";
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

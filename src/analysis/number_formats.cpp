@@ -1,4 +1,4 @@
-#include "sinew/analysis/number_formats.hpp"
+#include "analysis/number_formats.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "sinew/kernel/fixed.h"
 #include "sinew/kernel/section.h"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 struct Samples {
@@ -138,4 +138,4 @@ std::vector<FormatErrors> format_errors(const JointTendon& tendon, int samples) 
           fixed<8, 5>("Q2.5", tendon, all)};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

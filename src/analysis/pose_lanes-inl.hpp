@@ -14,7 +14,7 @@
 #include "math/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0::velocity_lanes {
+namespace sinew::inline v1::velocity_lanes {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace lanes::HWY_NAMESPACE;
@@ -139,6 +139,6 @@ struct Rows {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0::velocity_lanes
+}  // namespace sinew::inline v1::velocity_lanes
 HWY_AFTER_NAMESPACE();
 #endif

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// IEEE 754 binary16: 11 bits, subnormals from 2⁻¹⁴ down to 2⁻²⁴, infinite from 65520. Computed in double,
 /// whose 53 bits are more than twice 11: rounding twice is rounding once.
@@ -71,4 +71,4 @@ class CodedFixed {
   std::int64_t raw_ = 0;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,6 +1,6 @@
 #include "sinew/analysis/serial_shape.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Pose at a share of a joint's arc: a shorter arc, bent by as much less.
@@ -62,4 +62,4 @@ SerialShape serial_shape(const SerialRobot& robot, std::span<const Bend> bends, 
   return std::move(walk.shape);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,11 +1,11 @@
 #include "sinew/analysis/shape.hpp"
-#include "sinew/robot/parallel.hpp"
+#include "robot/parallel.hpp"
 
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "robot/rod_work.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A point of the bending plane in a frame of the robot's space.
@@ -107,4 +107,4 @@ AnyShape any_shape(const Robot& robot, const AnyPose& pose, Numbers coordinates,
       });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

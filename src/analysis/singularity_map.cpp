@@ -6,7 +6,7 @@
 #include "robot/pose.hpp"
 #include "sinew/analysis/velocity.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr std::size_t poses_between_reports = 256;
@@ -97,4 +97,4 @@ SingularityMap singularity_map(const Robot& robot, const PoseGrid& grid, const I
   return map;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

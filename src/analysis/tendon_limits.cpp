@@ -9,7 +9,7 @@
 #include "sinew/kernel/arc.h"
 #include "sinew/math/entire.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A joint and a tendon at this distance from the backbone, towards the bend.
@@ -141,4 +141,4 @@ ToleranceParts tolerance_parts(const SerialRobot& robot, int section, const Tend
           tendon_stretch(robot, section, forces.friction).value_or(0)};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/analysis/tripod_loci.hpp"
+#include "analysis/tripod_loci.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 #include "sinew/math/linalg.hpp"
 #include "sinew/math/so3.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr int steps = 1000;  // along a direction, from 0 to 1
@@ -88,4 +88,4 @@ std::optional<double> forward_locus(const TripodSize& size, double direction) {
                           [&](double e1, double e2) { return sign * tripod_determinant(size, e1, e2); });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

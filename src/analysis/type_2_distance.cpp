@@ -12,13 +12,13 @@
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double step_size = 0.02;  // of a step [rad, or platform radii]
 constexpr double stencil = 0.2;     // spacing of the points of a derivative, in steps
-constexpr int max_steps = 20000;   // four hundred platform radii, or sixty turns
-constexpr double min_dip = 1e-9;  // of the volume beside a smallest one; less is rounding
+constexpr int max_steps = 20000;    // four hundred platform radii, or sixty turns
+constexpr double min_dip = 1e-9;    // of the volume beside a smallest one; less is rounding
 
 /// A straight motion of the platform, by its distance s; put back into the planes that hinges may hold it in.
 struct Line {
@@ -40,7 +40,8 @@ struct Line {
   AnyPose at(double s) const {
     if (const auto* planar = std::get_if<PlanarPose>(&start))
       return Planar::moved(*planar, Vec<double, 3>(s * direction.head<3>()));
-    return project_to_constraints(robot, Spatial::moved(std::get<SpatialPose>(start), Vec<double, 6>(s * direction)));
+    return project_to_constraints(
+        robot, Spatial::moved(std::get<SpatialPose>(start), Vec<double, 6>(s * direction)));
   }
 };
 
@@ -251,4 +252,4 @@ TypeTwoDistance type_2_distance(const Robot& robot, const AnyPose& pose, Numbers
   return behind;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

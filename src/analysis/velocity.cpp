@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "robot/arguments.hpp"
+#include "robot/parallel.hpp"
 #include "robot/pose.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/robot/parallel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// σmax/σmin; absent beyond 1e15, where it says how the matrix was rounded and not what it is.
@@ -195,4 +195,4 @@ Report rates(const Velocity& velocity, Numbers twist, Workspace& work) {
   return report;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,12 +4,12 @@
 
 #include "analysis/velocity_lanes.hpp"
 #include "robot/arguments.hpp"
+#include "robot/parallel.hpp"
 #include "robot/pose.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/kinematics/inverse.hpp"
-#include "sinew/robot/parallel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using velocity_lanes::ChordLeg, velocity_lanes::ChordRobot, velocity_lanes::HingedLeg,
@@ -212,4 +212,4 @@ std::size_t velocity_batch(const Robot& robot, const PoseBatch& batch, const Vel
   return left;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -13,7 +13,7 @@
 #include "analysis/velocity_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0::velocity_lanes {
+namespace sinew::inline v1::velocity_lanes {
 namespace HWY_NAMESPACE {
 
 /// What is asked for, and what that needs.
@@ -189,11 +189,11 @@ void Evaluate(const LaneRobot& robot, const Part& part, const VelocityBatch& out
 const char* InstructionSet() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0::velocity_lanes
+}  // namespace sinew::inline v1::velocity_lanes
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace sinew::inline v0::velocity_lanes {
+namespace sinew::inline v1::velocity_lanes {
 
 HWY_EXPORT(Evaluate);
 HWY_EXPORT(InstructionSet);
@@ -204,5 +204,5 @@ void evaluate(const LaneRobot& robot, const Part& part, const VelocityBatch& out
 
 const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(InstructionSet)(); }
 
-}  // namespace sinew::inline v0::velocity_lanes
+}  // namespace sinew::inline v1::velocity_lanes
 #endif

@@ -7,7 +7,7 @@
 
 #include "sinew/analysis/velocity_batch.hpp"
 
-namespace sinew::inline v0::velocity_lanes {
+namespace sinew::inline v1::velocity_lanes {
 
 /// An arc between free joints.
 struct ChordLeg {
@@ -64,4 +64,4 @@ void evaluate(const LaneRobot& robot, const Part& part, const VelocityBatch& out
 /// Name of the instruction set that is used.
 const char* instruction_set();
 
-}  // namespace sinew::inline v0::velocity_lanes
+}  // namespace sinew::inline v1::velocity_lanes

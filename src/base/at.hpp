@@ -3,8 +3,8 @@
 #pragma once
 #include <cstddef>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,6 +1,6 @@
 #include "sinew/base/error.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 const char* version() noexcept { return SINEW_VERSION_STRING; }
 
@@ -13,4 +13,4 @@ std::string to_string(const Errors& errors) {
   return text;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

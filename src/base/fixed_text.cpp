@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::string_view format_mm(double metres, std::span<char> buffer) noexcept {
   const auto end = fmt::format_to_n(buffer.data(), buffer.size(), "{:.6g} mm", 1000 * metres);
@@ -18,4 +18,4 @@ std::string_view format_degrees(double radians, std::span<char> buffer) noexcept
   return {buffer.data(), std::min(end.size, buffer.size())};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

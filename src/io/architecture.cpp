@@ -7,11 +7,11 @@
 #include <type_traits>
 #include <vector>
 
+#include "robot/catalog.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/robot/catalog.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 Node placed(Node node, const Node& like) {
@@ -280,4 +280,4 @@ Expected<Document> expanded(const Document& document) {
   return longer;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

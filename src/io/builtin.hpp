@@ -6,7 +6,7 @@
 
 #include "sinew/base/export.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct BuiltinRobot {
   std::string_view name;  ///< file name without `.yaml`
@@ -16,4 +16,4 @@ struct BuiltinRobot {
 std::span<const BuiltinRobot> builtin_robots();   ///< robots/*.yaml
 std::span<const BuiltinRobot> robot_templates();  ///< examples/robots/*.yaml
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/io/contour.hpp"
+#include "io/contour.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "sinew/base/numbers.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A point in the units of the axes.
@@ -309,4 +309,4 @@ void add_contours(Panel& panel, const std::vector<double>& levels, double width,
   for (const Series& line : lines) panel.series.push_back(without(line, labels, page));
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/io/figure.hpp"
+#include "io/figure.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 #include <fstream>
 #include <iterator>
 
-#include "sinew/io/process.hpp"
+#include "io/process.hpp"
+#include "io/write_file.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/io/write_file.hpp"
 #include "sinew/kernel/crc32.h"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,4 +116,4 @@ Expected<std::vector<fs::path>> write_figure(const Figure& figure, const fs::pat
   return paths;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

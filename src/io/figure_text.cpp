@@ -1,9 +1,9 @@
-#include "sinew/io/figure_text.hpp"
+#include "io/figure_text.hpp"
 
 #include <algorithm>
 #include <cctype>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -125,4 +125,4 @@ Text with_unit(const Text& label, std::string_view unit) {
   return label + (label.empty() ? "(" : " (") + unit_text(unit) + ")";
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

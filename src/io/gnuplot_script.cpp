@@ -1,4 +1,4 @@
-#include "sinew/io/figure.hpp"
+#include "io/figure.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <limits>
 #include <numbers>
 
-#include "sinew/io/quantity.hpp"
-#include "sinew/io/visible.hpp"
+#include "io/quantity.hpp"
+#include "io/visible.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr std::string_view grid = "  set grid lc rgb '#cccccc' lw 1 dt 1\n";
@@ -858,4 +858,4 @@ bool is_as_written(std::string_view script) {
          script.substr(script.size() - size) == seal(script.substr(0, script.size() - size));
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,10 +6,10 @@
 #include <cctype>
 #include <charconv>
 
-#include "sinew/io/quantity.hpp"
-#include "sinew/io/visible.hpp"
+#include "io/quantity.hpp"
+#include "io/visible.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A key, or an index into a list where the key is empty.
@@ -333,4 +333,4 @@ std::string NodeBuilder::path() const {
   return path;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "sinew/io/parse.hpp"
-#include "sinew/io/quantity.hpp"
+#include "io/parse.hpp"
+#include "io/quantity.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Events of nlohmann's parser into the builder. It calls every function by name; false ends it.
@@ -83,4 +83,4 @@ Expected<Document> parse_json(std::string_view text, std::string source) {
   return builder.finish();
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

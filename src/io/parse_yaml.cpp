@@ -10,10 +10,10 @@
 #include <istream>
 #include <streambuf>
 
-#include "sinew/io/parse.hpp"
-#include "sinew/io/quantity.hpp"
+#include "io/parse.hpp"
+#include "io/quantity.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr std::string_view unclosed_quote = "a quote is opened and never closed.";
@@ -286,4 +286,4 @@ Expected<Document> read_file(const std::string& path) {
   return text ? parse_yaml(*text, path) : tl::unexpected(text.error());
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

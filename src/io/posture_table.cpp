@@ -1,12 +1,12 @@
-#include "sinew/io/posture_table.hpp"
+#include "io/posture_table.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "sinew/io/quantity.hpp"
+#include "io/quantity.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 Bend bend_of(const Section& section, double first, double second) {
@@ -75,4 +75,4 @@ Expected<std::vector<SerialPosture>> read_postures(const Table& table, const Ser
   return postures;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/io/process.hpp"
+#include "io/process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -15,7 +15,7 @@
 
 extern char** environ;
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// One stream of a child, read here.
@@ -134,4 +134,4 @@ ProcessResult run_process(std::vector<std::string> arguments, const std::filesys
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/io/quantity.hpp"
+#include "io/quantity.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "sinew/io/node.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 struct Words {
@@ -302,4 +302,4 @@ std::string si_text(double value) {
   return {buffer.data(), written.ptr};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

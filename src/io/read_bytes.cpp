@@ -1,4 +1,4 @@
-#include "sinew/io/read_bytes.hpp"
+#include "io/read_bytes.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A descriptor that closes itself.
@@ -80,4 +80,4 @@ Expected<std::string> read_bytes(const std::filesystem::path& path, std::uintmax
   return text;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,8 +1,8 @@
-#include "sinew/io/read_pose.hpp"
+#include "io/read_pose.hpp"
 
-#include "sinew/math/tilt.hpp"
+#include "math/tilt.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 PlanarPose read_planar_pose(Reader pose) {
   PlanarPose result;
@@ -58,4 +58,4 @@ Vec3<double> read_gravity(const Reader& gravity) {
   return {x, y, z};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

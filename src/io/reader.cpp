@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "sinew/io/quantity.hpp"
+#include "io/quantity.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -283,4 +283,4 @@ void Reader::report(std::string_view code, std::string where_text, std::string m
   sink_->insert(after, {std::string(code), std::move(where_text), std::move(message)});
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,15 +8,15 @@
 #include <numbers>
 
 #include "io/builtin.hpp"
+#include "io/parse.hpp"
+#include "io/read_pose.hpp"
 #include "io/robot_size.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/base/limits.hpp"
-#include "sinew/io/parse.hpp"
-#include "sinew/io/read_pose.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/serial_file.hpp"
-#include "sinew/robot/parallel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// `[x, y]` or `{radius, angle}`; in space `[x, y, z]` or `{radius, angle, height}`.
@@ -702,4 +702,4 @@ ThetaIs read_theta_is(const Reader& word) {
   return word.choice_of<ThetaIs>({{"tangent", ThetaIs::tangent}, {"chord", ThetaIs::chord}});
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

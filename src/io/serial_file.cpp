@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <numbers>
 
+#include "io/quantity.hpp"
 #include "io/robot_size.hpp"
 #include "sinew/base/limits.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr int max_segments = 1000, max_tendons = 24;
@@ -241,4 +241,4 @@ Expected<TendonMotor> read_motor(const Document& document) {
   return errors.empty() ? Expected<TendonMotor>(read) : tl::unexpected(errors);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

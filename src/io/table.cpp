@@ -8,13 +8,13 @@
 #include <unordered_set>
 #include <utility>
 
+#include "io/quantity.hpp"
+#include "io/read_bytes.hpp"
 #include "sinew/base/assert.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/node.hpp"
-#include "sinew/io/quantity.hpp"
-#include "sinew/io/read_bytes.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr std::uintmax_t max_bytes = std::uintmax_t{4} << 30U;
@@ -235,4 +235,4 @@ Expected<Table> read_csv(const std::filesystem::path& path) {
   return text ? parse_csv(*text, path.string()) : tl::unexpected(text.error());
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,14 +1,14 @@
-#include "sinew/io/trajectory_file.hpp"
+#include "io/trajectory_file.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "sinew/io/posture_table.hpp"
-#include "sinew/io/quantity.hpp"
+#include "io/posture_table.hpp"
+#include "io/quantity.hpp"
 #include "sinew/kinematics/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Values = std::vector<double>;
@@ -88,4 +88,4 @@ std::string ros_trajectory(const SerialRobot& robot, const Trajectory& trajector
   return text;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,12 +1,12 @@
-#include "sinew/io/visible.hpp"
+#include "io/visible.hpp"
 
 #include <fmt/format.h>
 
 #include <iterator>
 
-#include "sinew/io/parse.hpp"
+#include "io/parse.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A character of UTF-8 of two bytes or more, which is known to be whole.
@@ -57,4 +57,4 @@ std::string visible(std::string_view text) { return spelled(text, false); }
 
 std::string visible_line(std::string_view text) { return spelled(text, true); }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/io/write_file.hpp"
+#include "io/write_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 
 #include "sinew/io/table.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -215,4 +215,4 @@ Expected<void> write_text(std::string_view text, const fs::path& path) {
   return file->finish();
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/hinged_modes.hpp"
+#include "kinematics/planar_modes.hpp"
 #include "kinematics/reaches.hpp"
+#include "kinematics/spatial_modes.hpp"
 #include "robot/pose.hpp"
-#include "sinew/kinematics/hinged_modes.hpp"
-#include "sinew/kinematics/planar_modes.hpp"
-#include "sinew/kinematics/spatial_modes.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 template <class Found>
@@ -77,4 +77,4 @@ std::size_t nearest_pose(const Robot& robot, std::span<const AnyPose> poses, con
   });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

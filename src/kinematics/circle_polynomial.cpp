@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Complex = std::complex<double>;
@@ -154,4 +154,4 @@ std::optional<int> CirclePolynomial::count_real(double margin) const {
   return static_cast<int>(std::lround(count));
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

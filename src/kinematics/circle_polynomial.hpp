@@ -8,7 +8,7 @@
 
 #include "kinematics/three_circles.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// F is evaluated as it is, never by its coefficients: between its roots it may be 1e-10 of its largest
 /// value.
@@ -35,4 +35,4 @@ class CirclePolynomial {
   Mat<double, 3, 3> to_second_, to_third_, between_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -2,11 +2,11 @@
 #pragma once
 #include <span>
 
-#include "sinew/leg/platform_constraint.hpp"
-#include "sinew/leg/space.hpp"
-#include "sinew/solve/newton.hpp"
+#include "leg/platform_constraint.hpp"
+#include "leg/space.hpp"
+#include "solve/newton.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The closures as a function of the platform pose. The links are shaped by the inputs alone: of each leg a
 /// reach is left. The unknowns are lengths, turns times the robot's size: so the answer does not depend on
@@ -75,4 +75,4 @@ class Closing {
   double size_ = 0;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
+#include "robot/parallel.hpp"
 #include "robot/pose.hpp"
-#include "sinew/robot/parallel.hpp"
-#include "sinew/solve/newton.hpp"
+#include "solve/newton.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A plane of the base and the platform point that stays in it.
@@ -167,4 +167,4 @@ AnyPose project_to_constraints(const Robot& robot, const AnyPose& pose) {
   return spatial_pose(platform);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -15,7 +15,7 @@
 #include "kinematics/spread.hpp"
 #include "robot/arguments.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 Equilibrium refused(const Report& report) {
@@ -108,7 +108,7 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
   if (RodWork& rods = rods_of(work); rods.system->elastica()) {
     std::vector<SE3<double>> found(poses.size());
     const SpatialWrench whole = question_of(robot, {.wrench = wrench}, rods).wrench;
-    RodBatch(rods, home_of(robot)).solve(rows, whole, judge, found, statuses);
+    RodBatch(rods, home_of(robot)).solve(rows, whole, check_stability, found, statuses);
     std::transform(found.begin(), found.end(), poses.begin(), spatial_pose);
     return;
   }
@@ -117,10 +117,10 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
       std::fill(statuses.begin() + static_cast<std::ptrdiff_t>(k), statuses.end(), Status::stopped);
       return;
     }
-    EquilibriumOptions options{.wrench = wrench, .warm_start = true, .check_stability = judge};
+    EquilibriumOptions options{.wrench = wrench, .warm_start = true, .check_stability = check_stability};
     const Numbers row = rows.subspan(k * inputs, inputs);
     Equilibrium found = equilibrium(robot, row, options, work);
-    if (judge && found.report.status == Status::unstable) {
+    if (check_stability && found.report.status == Status::unstable) {
       options.warm_start = false;
       const SpatialPose from = found.pose;
       found = equilibrium(robot, row, options, work);
@@ -129,7 +129,7 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
         found = equilibrium(robot, row, options, work);  // back to where the path is
     }
     poses[k] = found.pose;
-    statuses[k] = found.is_solved() && !judge ? Status::converged : found.report.status;
+    statuses[k] = found.is_solved() && !check_stability ? Status::converged : found.report.status;
   }
 }
 
@@ -336,4 +336,4 @@ std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const Spati
   return found;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

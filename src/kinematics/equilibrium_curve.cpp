@@ -8,7 +8,7 @@
 #include "kinematics/rods/trace.hpp"
 #include "robot/arguments.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 bool is_answerable(const Robot& robot, const CurveOptions& how) {
@@ -83,4 +83,4 @@ std::vector<EquilibriumCurve> equilibrium_curves(const Robot& robot, const Curve
   return trace_rods(rods, way, how);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

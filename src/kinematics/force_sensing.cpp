@@ -9,7 +9,7 @@
 #include "kinematics/rods/verdict.hpp"
 #include "robot/arguments.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A Σ Aᵀ of independent deviations.
@@ -87,4 +87,4 @@ SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Num
   return sensed;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

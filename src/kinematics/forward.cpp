@@ -2,15 +2,15 @@
 
 #include "kinematics/closing.hpp"
 #include "kinematics/four_bars.hpp"
+#include "kinematics/hinged_modes.hpp"
+#include "kinematics/planar_modes.hpp"
 #include "kinematics/reaches.hpp"
 #include "kinematics/three_circles.hpp"
 #include "robot/arguments.hpp"
 #include "robot/pose.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
-#include "sinew/kinematics/hinged_modes.hpp"
-#include "sinew/kinematics/planar_modes.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 void explain(Report& report, const Reduced& at_end) {
@@ -43,12 +43,12 @@ void warn_of_freedom(Report& report, Eigen::Index rows, int dof) {
 }
 
 /// Newton's method from `platform`; of three hinged legs in their angles, half as many unknowns.
-Report solve(const Closing<Planar>& closing, std::span<const PlatformConstraint<2>>, const NewtonOptions& options,
-             SE2<double>& platform) {
+Report solve(const Closing<Planar>& closing, std::span<const PlatformConstraint<2>>,
+             const NewtonOptions& options, SE2<double>& platform) {
   return newton(closing, platform, options);
 }
-Report solve(const Closing<Spatial>& closing, std::span<const PlatformConstraint<3>> reaches, const NewtonOptions& options,
-             SE3<double>& platform) {
+Report solve(const Closing<Spatial>& closing, std::span<const PlatformConstraint<3>> reaches,
+             const NewtonOptions& options, SE3<double>& platform) {
   // a start that is no number is Newton's to refuse
   if (!ThreeCircles::fit(reaches) || !Spatial::is_finite(platform)) return newton(closing, platform, options);
   const ThreeCircles circles(reaches, closing.size(), platform);
@@ -146,4 +146,4 @@ Forward forward(const Robot& robot, Numbers inputs, const ForwardOptions& option
   return with_legs(robot, [&](const auto& legs) { return forward_robot(legs, robot, options, work); });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

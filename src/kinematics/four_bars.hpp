@@ -3,10 +3,10 @@
 #pragma once
 #include <span>
 
-#include "sinew/leg/platform_constraint.hpp"
+#include "leg/platform_constraint.hpp"
 #include "sinew/solve/report.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// True, with the reason and `unreachable`, where two legs prove that no pose exists.
 template <int D>
@@ -31,4 +31,4 @@ bool are_torn(std::span<const PlatformConstraint<D>> legs, Report& report) {
   return false;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -2,7 +2,7 @@
 
 #include "kinematics/leg_sections.hpp"
 
-namespace sinew::inline v0::detail {
+namespace sinew::inline v1::detail {
 namespace {
 
 /// Six equations with rows of unit length, at right angles to each other.
@@ -61,4 +61,4 @@ const GenericLegs& generic_legs() {
   return found;
 }
 
-}  // namespace sinew::inline v0::detail
+}  // namespace sinew::inline v1::detail

@@ -1,4 +1,4 @@
-#include "sinew/kinematics/hinged_modes.hpp"
+#include "kinematics/hinged_modes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "kinematics/sort_poses.hpp"
 #include "kinematics/three_circles.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
@@ -214,4 +214,4 @@ HingedModes hinged_modes(std::span<const PlatformConstraint<3>> legs) {
              : end_with(Status::stalled, "no pose found, but some may be missing");
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "leg/project.hpp"
 #include "robot/arguments.hpp"
+#include "robot/parallel.hpp"
 #include "robot/pose.hpp"
-#include "sinew/leg/project.hpp"
-#include "sinew/robot/parallel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr auto per_leg = static_cast<std::size_t>(Workspace::max_solutions);
@@ -127,7 +127,8 @@ class Problem {
     double worst = 0;
     each_sharing(owner, [&]<class L>(const L& leg, const LegPlace&, std::size_t) {
       const auto q = leg.coordinates_of(inputs);
-      const double error = L::closure_error(leg.template blocks<double>(platform_, leg.template tip<double>(q)));
+      const double error =
+          L::closure_error(leg.template blocks<double>(platform_, leg.template tip<double>(q)));
       worst = std::max(worst, leg.in_domain(q) ? error / leg.size() : infinity);
     });
     return worst;
@@ -228,7 +229,8 @@ class Problem {
     const SolutionPreference wish = default_elbow(leg, wish_of(leg, place, i));
     const auto found = leg.nearest_solution(platform_, wish);
     keep(leg, place, found.q);
-    closure_error_ = found.closure_error <= closure_error_ ? closure_error_ : found.closure_error;  // NaN is the worst
+    closure_error_ =
+        found.closure_error <= closure_error_ ? closure_error_ : found.closure_error;  // NaN is the worst
     if (found.count > 0) return {};
     const SolutionPreference anything{.near = wish.near};
     if (!HasArc<typename LegT::Link> || wish.bending == 0 ||
@@ -345,4 +347,4 @@ void WorkingModes::mode(const Robot& robot, std::size_t k, std::span<double> inp
   });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,11 +7,11 @@
 #include <random>
 #include <vector>
 
-#include "sinew/leg/platform_constraint.hpp"
+#include "leg/platform_constraint.hpp"
 #include "sinew/math/so3.hpp"
-#include "sinew/solve/homotopy.hpp"
+#include "solve/homotopy.hpp"
 
-namespace sinew::inline v0::detail {
+namespace sinew::inline v1::detail {
 
 inline constexpr int leg_coordinates = 17, max_modes = 40;
 using Study = Vec<Complex, 8>;  ///< (e, g)
@@ -122,4 +122,4 @@ inline bool same_ray(const Study& x, const Study& y, double tolerance) {
   return (y - along * x).norm() <= tolerance * y.norm();
 }
 
-}  // namespace sinew::inline v0::detail
+}  // namespace sinew::inline v1::detail

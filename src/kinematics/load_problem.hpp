@@ -9,7 +9,7 @@
 #include "robot/limb_signs.hpp"
 #include "solve/growing_load.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// From pose to pose as one twist.
 inline Vec<double, 6> between(const SE3<double>& from, const SE3<double>& to) {
@@ -161,4 +161,4 @@ GrownLoad grow_load(LimbGroup<Space>& group, LimbPlaces<Space>& places,
           grown.definite_until < 0 ? -1 : grown.definite_until * unit, tracer.iterations()};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 #include "sinew/base/limits.hpp"
 #include "sinew/math/linalg.hpp"
 
-namespace sinew::inline v0::detail {
+namespace sinew::inline v1::detail {
 namespace {
 
 using Points = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
@@ -107,4 +107,4 @@ std::optional<NormalLegs> normal_legs(std::span<const PlatformConstraint<3>> leg
   return normal;
 }
 
-}  // namespace sinew::inline v0::detail
+}  // namespace sinew::inline v1::detail

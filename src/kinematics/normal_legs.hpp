@@ -9,7 +9,7 @@
 #include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
 
-namespace sinew::inline v0::detail {
+namespace sinew::inline v1::detail {
 
 struct NormalLegs {
   std::vector<PlatformConstraint<3>> legs;
@@ -28,4 +28,4 @@ struct NormalLegs {
 /// Report says why not where there is no well-posed problem.
 std::optional<NormalLegs> normal_legs(std::span<const PlatformConstraint<3>> legs, Report& report);
 
-}  // namespace sinew::inline v0::detail
+}  // namespace sinew::inline v1::detail

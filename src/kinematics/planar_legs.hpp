@@ -5,10 +5,10 @@
 #include <cmath>
 #include <span>
 
-#include "sinew/leg/platform_constraint.hpp"
+#include "leg/platform_constraint.hpp"
 #include "sinew/math/se2.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The legs in units of their size and about the shortest: there the pose is (s, R) with s = A₁→B₁, and leg i
 /// closes where |s + R bᵢ − aᵢ| is its distance.
@@ -85,4 +85,4 @@ inline NormalEquations normal_equations(const ScaledLegs& legs, const SE2<double
   return normal;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

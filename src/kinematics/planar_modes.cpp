@@ -1,4 +1,4 @@
-#include "sinew/kinematics/planar_modes.hpp"
+#include "kinematics/planar_modes.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "kinematics/planar_legs.hpp"
 #include "kinematics/planar_sextic.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using V = Vec2<double>;
@@ -152,8 +152,8 @@ bool turn_about_pin(const ScaledLegs& legs, Found& found) {
 }
 
 /// How the search ended, and in words.
-void judge(std::span<const PlatformConstraint<2>> given, const ScaledLegs& legs, const Found& found, bool binds,
-           Report& report) {
+void judge(std::span<const PlatformConstraint<2>> given, const ScaledLegs& legs, const Found& found,
+           bool binds, Report& report) {
   if (!found.overfull() && binds && !found.empty()) return;
   const bool torn = found.empty() && are_torn(given, report);
   if (torn || (found.empty() && binds)) {
@@ -222,4 +222,4 @@ PlanarModes planar_modes(std::span<const PlatformConstraint<2>> legs) {
   return modes;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using V = Vec2<double>;
@@ -154,4 +154,4 @@ SE2<double> Sextic::closed(SE2<double> pose) const {
   return best;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,11 +4,11 @@
 #pragma once
 #include <array>
 
-#include "sinew/leg/platform_constraint.hpp"
-#include "sinew/math/polynomial.hpp"
+#include "leg/platform_constraint.hpp"
+#include "math/polynomial.hpp"
 #include "sinew/math/se2.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Three legs in units of their size. The first has its anchor and its platform point at the origin, so that
 /// the pose is (s, R) with |s| = `length`, and leg i closes where |s + wᵢ| is its distance, wᵢ = R bᵢ − aᵢ.
@@ -77,4 +77,4 @@ class Sextic {
   double origin_c_ = 1, origin_s_ = 0;  ///< φ of T = 0; T = ∞ is opposite, where |F| is largest
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

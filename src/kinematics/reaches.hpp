@@ -5,10 +5,10 @@
 #include <new>
 #include <type_traits>
 
-#include "sinew/robot/parallel.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/robot/workspace.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A list of fixed capacity; what is not listed is not initialised.
 template <int D>
@@ -36,4 +36,4 @@ Reaches<LegT::Space::dimension> reaches_of(const ParallelRobot<LegT>& robot, Num
   return reaches;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

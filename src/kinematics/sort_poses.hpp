@@ -7,7 +7,7 @@
 
 #include "sinew/math/se3.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Below this two poses are one: a double mode is known to the root of the rounding error only.
 inline constexpr double same_pose = 1e-6;
@@ -24,4 +24,4 @@ inline void sort_poses(std::span<SpatialPose> poses, double size) {
   std::ranges::sort(poses, {}, key);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

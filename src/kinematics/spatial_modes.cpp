@@ -1,4 +1,4 @@
-#include "sinew/kinematics/spatial_modes.hpp"
+#include "kinematics/spatial_modes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "kinematics/sort_poses.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using namespace detail;
@@ -155,7 +155,8 @@ class Poses {
 };
 
 /// Puts the poses into the answer, in the given legs' units.
-void tell(const Poses& poses, const NormalLegs& normal, std::span<const PlatformConstraint<3>> legs, SpatialModes& modes) {
+void tell(const Poses& poses, const NormalLegs& normal, std::span<const PlatformConstraint<3>> legs,
+          SpatialModes& modes) {
   for (const SE3<double>& pose : poses.all()) modes.poses.push_back(spatial_pose(normal.given(pose)));
   sort_poses(modes.poses, normal.size);
   const Closing<Spatial> closing(legs);
@@ -216,4 +217,4 @@ SpatialModes spatial_modes(std::span<const PlatformConstraint<3>> legs, const Sp
   return modes;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -2,7 +2,7 @@
 /// Low-discrepancy numbers: many starts that leave no gap.
 #pragma once
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The k-th number of van der Corput to a prime base, in (−1, 1).
 inline double spread_number(int k, int base) {
@@ -14,4 +14,4 @@ inline double spread_number(int k, int base) {
   return 2 * value - 1;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

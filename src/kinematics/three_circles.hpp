@@ -5,11 +5,11 @@
 #include <array>
 #include <span>
 
-#include "sinew/leg/platform_constraint.hpp"
+#include "leg/platform_constraint.hpp"
 #include "sinew/math/se3.hpp"
-#include "sinew/solve/newton.hpp"
+#include "solve/newton.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Where the three points are on their circles, (cos, sin) each.
 using CircleAngles = std::array<Vec2<double>, 3>;
@@ -23,13 +23,16 @@ class ThreeCircles {
 
   /// Whether the legs are three with a plane each.
   static bool fit(std::span<const PlatformConstraint<3>> legs) {
-    const auto is_circle = [](const PlatformConstraint<3>& leg) { return leg.distance > 0 && leg.has_plane(); };
+    const auto is_circle = [](const PlatformConstraint<3>& leg) {
+      return leg.distance > 0 && leg.has_plane();
+    };
     return legs.size() == 3 && is_circle(legs[0]) && is_circle(legs[1]) && is_circle(legs[2]);
   }
 
   /// @param size of the robot [m]: a length to compare errors with
   /// @param towards where the angles count from: each towards the platform point there
-  ThreeCircles(std::span<const PlatformConstraint<3>> legs, double size, const SE3<double>& towards) : size_(size) {
+  ThreeCircles(std::span<const PlatformConstraint<3>> legs, double size, const SE3<double>& towards)
+      : size_(size) {
     for (std::size_t i = 0; i < 3; ++i) {
       const PlatformConstraint<3>& leg = legs[i];
       const Vec3<double>& u = leg.normal;
@@ -176,4 +179,4 @@ class ThreeCircles {
   double size_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

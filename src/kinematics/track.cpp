@@ -2,15 +2,15 @@
 
 #include <cmath>
 
+#include "leg/project.hpp"
 #include "robot/arguments.hpp"
+#include "robot/parallel.hpp"
 #include "robot/pose.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
-#include "sinew/leg/project.hpp"
-#include "sinew/robot/parallel.hpp"
 #include "solve/continuation.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 Vec<double, 3> twist_between(const PlanarPose& from, const PlanarPose& to) {
   return {to.x - from.x, to.y - from.y, to.phi - from.phi};  // as the numbers say: turns count
 }
@@ -26,7 +26,7 @@ namespace {
 /// Newton's steps may shrink no slower: then the branch found is the one begun on.
 constexpr double contraction_limit = 0.25;
 constexpr double shortest_part = 1e-7;  // of the way between two poses
-constexpr int max_steps = 20000;       // between two poses
+constexpr int max_steps = 20000;        // between two poses
 constexpr int null_steps = 4;           // at a pose
 
 /// Projector onto the motions that leave a leg closed, in scaled coordinates.
@@ -297,4 +297,4 @@ AnyPose between(const AnyPose& from, const AnyPose& to, double part) {
       from);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,11 +1,11 @@
-#include "sinew/link/elastica.hpp"
+#include "link/elastica.hpp"
 
 #include <numbers>
 
 #include "sinew/base/assert.hpp"
 #include "sinew/math/se2.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A number with its derivatives by the two components of the local force.
@@ -165,4 +165,4 @@ void elastica_sections(const Vec2<double>& local_force, std::span<const double> 
   }
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,10 +1,10 @@
-#include "sinew/link/elastica_map.hpp"
+#include "link/elastica_map.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <numbers>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double straight = 1e-5;  // 1 − w ~ d²: below, rounding of w hides the force
@@ -213,4 +213,4 @@ ElasticaMap elastica_map(const Vec2<double>& tip, const ElasticaMapOptions& opti
   return map;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 
 #include "link/interpolation.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Gauss nodes and weights of (0, 1), ascending: Newton's method on the Legendre polynomial.
@@ -102,4 +102,4 @@ const Refinement& refinement() {
   return table;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,9 +7,9 @@
 #pragma once
 #include <cstddef>
 
-#include "sinew/link/rod.hpp"
+#include "link/rod.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Tables for N nodes, made once in extended precision.
 template <std::size_t N>
@@ -41,4 +41,4 @@ struct Refinement {
 };
 const Refinement& refinement();
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

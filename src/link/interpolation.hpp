@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 using Real = long double;
 
@@ -39,4 +39,4 @@ std::array<std::array<Real, M>, M> lagrange_slopes(const std::array<Real, M>& z)
   return slope;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 
 #include "link/interpolation.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The inner nodes are where P_N′ vanishes: Newton's method from those of Chebyshev, by Legendre's equation.
 template <std::size_t N>
@@ -51,4 +51,4 @@ const LobattoBasis<N> LobattoBasis<N>::basis_ = LobattoBasis<N>::make();
 
 template struct LobattoBasis<element_degree>;
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

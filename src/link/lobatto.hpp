@@ -4,7 +4,7 @@
 #pragma once
 #include <cstddef>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Tables for polynomials of degree N, made once in extended precision.
 template <std::size_t N>
@@ -26,4 +26,4 @@ struct LobattoBasis {
 inline constexpr std::size_t element_degree = 8;
 extern template struct LobattoBasis<element_degree>;
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,16 +1,16 @@
-#include "sinew/link/rod_bvp.hpp"
+#include "link/rod_bvp.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "link/tip_gaps.hpp"
+#include "math/inverse_sinc.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/math/inverse_sinc.hpp"
 #include "sinew/math/linalg.hpp"
-#include "sinew/solve/newton.hpp"
 #include "solve/continuation.hpp"
+#include "solve/newton.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Turn = SO3<double>;
@@ -37,7 +37,8 @@ Point turn_between(const Point& from, const Point& to) {
 Point z_axis(const Turn& R) { return R.rotate(Point(0, 0, 1)); }
 
 /// The equations of one rod between two ends, for Newton's method. Unknowns: force at the base in EI/L²,
-/// base axes; moment there in EI/L, in the section's axes, where the last is the axial_rotation instead if it matters.
+/// base axes; moment there in EI/L, in the section's axes, where the last is the axial_rotation instead if it
+/// matters.
 struct HoldProblem {
   static constexpr int unknowns = 6;
   using Point = Vec<double, 6>;
@@ -299,9 +300,9 @@ RodBvpSolution unanswered() {
   return held;
 }
 
-/// Where the ends do not say how the base frame spins: from an equilibrium with its axial_rotation held, on to where
-/// the base has to hold no torque, downhill: dE/dψ = −m(0)·t(0). x is that of the problem with axial_rotation
-/// afterwards.
+/// Where the ends do not say how the base frame spins: from an equilibrium with its axial_rotation held, on
+/// to where the base has to hold no torque, downhill: dE/dψ = −m(0)·t(0). x is that of the problem with
+/// axial_rotation afterwards.
 bool turn_downhill(const HoldProblem& problem, bool fixed_steps, Vec<double, 6>& x, int& iterations) {
   HoldProblem held = problem;
   held.seeks_axial_rotation = false;
@@ -329,7 +330,8 @@ bool turn_downhill(const HoldProblem& problem, bool fixed_steps, Vec<double, 6>&
 }
 
 /// From one arc to the equilibrium, to the last digits.
-bool from_arc(HoldProblem& problem, int side, Vec<double, 6>& x, const HoldOptions& options, RodBvpSolution& held) {
+bool from_arc(HoldProblem& problem, int side, Vec<double, 6>& x, const HoldOptions& options,
+              RodBvpSolution& held) {
   HoldProblem first = problem;
   const bool turns_free = problem.seeks_axial_rotation && problem.ends.tip != RodEnds::Tip::clamp;
   if (turns_free) first.seeks_axial_rotation = false;
@@ -385,8 +387,8 @@ void conclude(HoldProblem& problem, const Vec<double, 6>& x, bool found, RodBvpS
 
 }  // namespace
 
-RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
-             const SE3<double>& tip, const HoldOptions& options) {
+RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length,
+                             const RodEnds& ends, const SE3<double>& tip, const HoldOptions& options) {
   RodBvpSolution held = unanswered();
   if (!is_answerable(rod, base, length, tip, held.report)) return held;
   HoldProblem problem = stated(rod, base, length, ends, tip, options);
@@ -396,8 +398,9 @@ RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, dou
   return held;
 }
 
-RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length, const RodEnds& ends,
-             const SE3<double>& tip, const RodStart& start, const HoldOptions& options) {
+RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length,
+                             const RodEnds& ends, const SE3<double>& tip, const RodStart& start,
+                             const HoldOptions& options) {
   RodBvpSolution held = unanswered();
   if (!is_answerable(rod, base, length, tip, held.report)) return held;
   HoldProblem problem = stated(rod, base, length, ends, tip, options);
@@ -415,4 +418,4 @@ RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, dou
   return held;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

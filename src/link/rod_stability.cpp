@@ -2,11 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "link/rod_bvp.hpp"
 #include "link/rod_tangents.hpp"
-#include "sinew/link/rod_bvp.hpp"
 #include "sinew/math/linalg.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Matrix6 = Mat<double, 6, 6>;
@@ -153,4 +153,4 @@ int unstable_directions(const SpatialRod& rod, double length, const RodState<dou
   return all.unstable(ends, at.tangent());
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

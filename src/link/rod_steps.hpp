@@ -6,9 +6,9 @@
 #include <array>
 #include <cstddef>
 
-#include "sinew/link/spatial_rod.hpp"
+#include "link/spatial_rod.hpp"
 
-namespace sinew::inline v0::rod_steps {
+namespace sinew::inline v1::rod_steps {
 
 inline constexpr std::size_t stages = 11;
 inline constexpr double r21 = 4.582575694955840006588;  // √21
@@ -170,4 +170,4 @@ struct Walk {
   std::array<Stage<S>, stages> stage;
 };
 
-}  // namespace sinew::inline v0::rod_steps
+}  // namespace sinew::inline v1::rod_steps

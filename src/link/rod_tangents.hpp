@@ -8,7 +8,7 @@
 
 #include "link/rod_steps.hpp"
 
-namespace sinew::inline v0::rod_steps {
+namespace sinew::inline v1::rod_steps {
 
 /// One number's derivatives by two things. What every machine has; GCC and Clang agree on it.
 using Lane = double __attribute__((vector_size(16)));
@@ -209,4 +209,4 @@ class Tangents {
   std::array<std::array<Pair, stages>, lanes> rate_;
 };
 
-}  // namespace sinew::inline v0::rod_steps
+}  // namespace sinew::inline v1::rod_steps

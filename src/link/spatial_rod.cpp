@@ -1,4 +1,4 @@
-#include "sinew/link/spatial_rod.hpp"
+#include "link/spatial_rod.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "link/rod_tangents.hpp"
 #include "sinew/base/assert.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Walk = rod_steps::Walk<double>;
@@ -175,4 +175,4 @@ Status rod_sections(const SpatialRod& rod, double length, const RodState<double>
   return tip.status;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,9 +3,9 @@
 /// length; of a ball the moment in EI/L, of a clamp the turn, of a tangent two parts of the turn and the
 /// torque. Theory: docs/theory/spatial_rod.md
 #pragma once
-#include "sinew/link/rod_bvp.hpp"
+#include "link/rod_bvp.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct TipGaps {
   RodEnds::Tip kind;
@@ -74,4 +74,4 @@ struct TipGaps {
   Vec3<double> turn(const RodState<double>& at) const { return at.R.compose(tip.R.inverse()).log(); }
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -15,11 +15,11 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "math/inverse_sinc.hpp"
 #include "sinew/math/entire.hpp"
-#include "sinew/math/inverse_sinc.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0::lanes {
+namespace sinew::inline v1::lanes {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -158,6 +158,6 @@ HWY_INLINE Pack determinant(const Pack (&rows)[6][6]) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0::lanes
+}  // namespace sinew::inline v1::lanes
 HWY_AFTER_NAMESPACE();
 #endif

@@ -10,7 +10,7 @@
 #include "sinew/base/assert.hpp"
 #include "sinew/base/numbers.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr int most = max_rows;
@@ -174,4 +174,4 @@ double determinant(const MatrixView& a) {
   return Eigen::PartialPivLU<Small>(a).determinant();
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "sinew/kernel/arc.h"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -196,4 +196,4 @@ Polygon boundary(const DiscCut& cut, double deviation) {
   return points;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

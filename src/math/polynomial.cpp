@@ -1,11 +1,11 @@
-#include "sinew/math/polynomial.hpp"
+#include "math/polynomial.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "sinew/base/assert.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 struct Sample {
@@ -99,4 +99,4 @@ PolynomialRoots real_roots(std::span<const double> coefficients, const Polynomia
   return roots;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

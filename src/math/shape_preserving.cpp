@@ -1,8 +1,8 @@
-#include "sinew/math/shape_preserving.hpp"
+#include "math/shape_preserving.hpp"
 
 #include <utility>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Slope at a point between intervals of widths h0, h1 and mean slopes d0, d1: their harmonic mean, so that
@@ -51,4 +51,4 @@ double ShapePreservingCurve::second_derivative(std::size_t piece, std::size_t co
   return 2 * p.c + 6 * p.d * (parameter - parameters_[piece]);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

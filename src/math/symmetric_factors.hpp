@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// P M Pᵀ = L D Lᵀ with D of 1×1 and 2×2 blocks, by complete pivoting (Bunch and Parlett 1971): as stable as
 /// LU, and its blocks tell how many eigenvalues are negative (Sylvester's law of inertia).
@@ -114,4 +114,4 @@ class SymmetricFactors {
   int negatives_ = 0;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 int pieces_of(double length, double spacing) {
@@ -149,4 +149,4 @@ double Body::sag_bound(std::size_t i, const InsertionWeight& weight) const {
   return sum;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

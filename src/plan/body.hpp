@@ -10,7 +10,7 @@
 #include "sinew/plan/scene.hpp"
 #include "sinew/plan/steps.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Where a robot is: unknowns of all searches. `x` is the stage, then two bends a section.
 using Posture = std::vector<double>;
@@ -80,4 +80,4 @@ class Body {
   std::vector<double> levers_;  ///< of point i: arc over which each unknown may swing it [m/rad]
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -24,7 +24,7 @@
 #include "sinew/analysis/tendon_limits.hpp"
 #include "sinew/kinematics/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Solid = fcl::BVHModel<fcl::OBBRSSd>;
@@ -328,4 +328,4 @@ std::string exceeded_limit(const InsertionScene& scene, const InsertionStep& ste
                      1e3 * scene.stage_limit);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/plan/compressor.hpp"
+#include "plan/compressor.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <functional>
 #include <numbers>
 
+#include "io/quantity.hpp"
 #include "plan/draw.hpp"
-#include "sinew/io/quantity.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr int camber_steps = 24, plate_around = 96, plate_steps = 20;
@@ -221,4 +221,4 @@ std::string compressor_scene_text(const Compressor& c, const SerialRobot& robot)
   return text;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

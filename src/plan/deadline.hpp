@@ -5,7 +5,7 @@
 
 #include "sinew/base/stop.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct Deadline {
   StopToken stop;
@@ -13,4 +13,4 @@ struct Deadline {
   bool is_over() const { return stop.stop_requested() || std::chrono::steady_clock::now() > at; }
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 double descend(std::vector<double>& x, std::span<const double> lower, std::span<const double> upper,
                const std::function<void(std::span<const double>, Quadratic&)>& cost,
@@ -49,4 +49,4 @@ double descend(std::vector<double>& x, std::span<const double> lower, std::span<
   return at.cost;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -10,7 +10,7 @@
 
 #include "plan/deadline.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Sum of squares at a point, its gradient and J Jᵀ.
 struct Quadratic {
@@ -43,7 +43,7 @@ struct Quadratic {
 struct DescentOptions {
   int max_steps = 40;
   double min_gain = 1e-6;  ///< it ends where a step lowers the cost by a smaller share
-  double damping = 1e-3;     ///< at first, of the diagonal
+  double damping = 1e-3;   ///< at first, of the diagonal
   Deadline deadline;
 };
 
@@ -54,4 +54,4 @@ double descend(std::vector<double>& x, std::span<const double> lower, std::span<
                const std::function<void(std::span<const double> x, Quadratic& at)>& cost,
                const std::function<void(std::vector<double>&)>& project, const DescentOptions& options);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

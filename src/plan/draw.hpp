@@ -3,7 +3,7 @@
 #pragma once
 #include <cstdint>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Numbers in [0, 1) by splitmix64: the same with every standard library, and on every thread.
 class Draw {
@@ -20,4 +20,4 @@ class Draw {
   std::uint64_t state_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

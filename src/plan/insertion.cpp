@@ -12,7 +12,7 @@
 #include "plan/search.hpp"
 #include "plan/smoothing.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double bend_weight = 0.02;        // of a final pose [1/rad]: of several, the straighter
@@ -322,4 +322,4 @@ InsertionPlan plan_insertion(const InsertionScene& scene, const InsertionOptions
   return Planner(scene, options).plan();
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/plan/insertion_figure.hpp"
+#include "plan/insertion_figure.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <map>
 #include <numbers>
 
+#include "io/posture_table.hpp"
 #include "plan/body.hpp"
-#include "sinew/io/posture_table.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double mm = 1e3, degree = 180 / std::numbers::pi;
@@ -262,4 +262,4 @@ Figure insertion_curves(const InsertionScene& scene, std::span<const InsertionSt
   return figure;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -12,7 +12,7 @@
 #include "plan/mesh_file.hpp"
 #include "sinew/io/table.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 std::string shown(const Vec3<double>& p) {
@@ -267,4 +267,4 @@ Mesh moved(Mesh mesh, const SE3<double>& pose) {
   return mesh;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

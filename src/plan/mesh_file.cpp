@@ -23,10 +23,10 @@
 #include <string>
 #include <string_view>
 
-#include "sinew/io/visible.hpp"
+#include "io/visible.hpp"
 #include "sinew/plan/mesh.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr std::chrono::seconds longest{30};
@@ -191,4 +191,4 @@ Expected<std::vector<float>> read_triangles(const std::filesystem::path& path) {
                  "assimp, which reads it, died of it or did not end: it is damaged, or too large");
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 constexpr int leaf_size = 4;
 constexpr int stack_size = 128;  // a tree of halves has log2 of the triangles' number levels
@@ -199,4 +199,4 @@ Nearest Obstacles::nearest(const Vec3<double>& point, double within) const {
   return best;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "sinew/plan/mesh.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The surface point that is nearest to a point.
 struct Nearest {
@@ -65,4 +65,4 @@ class Obstacles {
   std::vector<TriangleTree> trees_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

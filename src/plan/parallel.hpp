@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Calls `work(i, thread)` once for every i < count; what it does must not depend on the thread.
 template <class Work>
@@ -20,4 +20,4 @@ void in_parallel(std::size_t count, std::size_t threads, Work&& work) {
   run(0);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

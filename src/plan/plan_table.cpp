@@ -1,10 +1,10 @@
-#include "sinew/plan/plan_table.hpp"
+#include "plan/plan_table.hpp"
 
 #include <fmt/format.h>
 
-#include "sinew/io/posture_table.hpp"
+#include "io/posture_table.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::vector<std::array<double, 2>> plan_angles(const InsertionScene& scene, const InsertionStep& step) {
   std::vector<std::array<double, 2>> angles;
@@ -45,4 +45,4 @@ Expected<std::vector<InsertionStep>> plan_steps(const Table& table, const Insert
   return steps;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,14 +8,14 @@
 #include <numbers>
 #include <set>
 
-#include "sinew/io/parse.hpp"
-#include "sinew/io/quantity.hpp"
-#include "sinew/io/read_pose.hpp"
+#include "io/parse.hpp"
+#include "io/quantity.hpp"
+#include "io/read_pose.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ Expected<InsertionScene> load_scene(const fs::path& path) {
   return read_scene(*document, path.parent_path());
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

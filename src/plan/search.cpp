@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 // Scales of the terms: what each of them may be off before it costs as much as the others [m, rad].
 constexpr double contact_scale = 0.05e-3, target_scale = 0.05e-3, direction_scale = 5e-3;
@@ -129,4 +129,4 @@ Posture Search::descended(Posture x, const std::function<void(Quadratic&)>& more
   return x;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

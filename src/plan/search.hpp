@@ -6,7 +6,7 @@
 #include "plan/obstacles.hpp"
 #include "sinew/plan/insertion.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Where a robot comes nearest to the solids.
 struct Gap {
@@ -53,4 +53,4 @@ class Search {
   const Obstacles* obstacles_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 
 #include "plan/parallel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double change_scale =
@@ -125,4 +125,4 @@ void smooth(std::vector<Posture>& way, std::vector<Search>& searches, double goa
   }
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

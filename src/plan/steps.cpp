@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/math/shape_preserving.hpp"
+#include "math/shape_preserving.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::vector<InsertionStep> interpolated(std::span<const InsertionStep> steps, double max_stage) {
   if (steps.size() < 2) return {steps.begin(), steps.end()};
@@ -37,4 +37,4 @@ std::vector<InsertionStep> interpolated(std::span<const InsertionStep> steps, do
   return dense;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 
 #include "query/chains.hpp"
 
-namespace sinew::inline v0::chains {
+namespace sinew::inline v1::chains {
 
 /// What every question about loaded chains may say.
 template <class Space>
@@ -149,4 +149,4 @@ void put_equilibrium(Context& context, const ChainLegs<Space>& robot, const Chai
   if (unloaded) put_simpler_models(context, robot, *unloaded, state, load, work);
 }
 
-}  // namespace sinew::inline v0::chains
+}  // namespace sinew::inline v1::chains

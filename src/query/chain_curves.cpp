@@ -1,17 +1,17 @@
 /// `track` of robots on chains with `to`: curves of equilibria along loads and what tendons hold.
 #include "query/chain_curves.hpp"
 
+#include "kinematics/chain_curve.hpp"
 #include "query/chain_answer.hpp"
 #include "query/curves.hpp"
-#include "sinew/kinematics/chain_curve.hpp"
 
-namespace sinew::inline v0::chains {
+namespace sinew::inline v1::chains {
 namespace {
 
 template <class Space>
 struct CurveQuery {
   Branch branch;
-  AnyPose at;                   ///< where tendons are set, or the search begins
+  AnyPose at;                          ///< where tendons are set, or the search begins
   std::vector<TendonConstraint> hold;  ///< tensions or lengths; of set_at none
   bool holds_lengths;
   Wrench<Space> wrench;
@@ -107,4 +107,4 @@ void answer_curves(Context& context, ChainLegs<Space>& robot) {
 template void answer_curves(Context&, ChainLegs<Planar>&);
 template void answer_curves(Context&, ChainLegs<Spatial>&);
 
-}  // namespace sinew::inline v0::chains
+}  // namespace sinew::inline v1::chains

@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "sinew/kinematics/chain_sensing.hpp"
+#include "kinematics/chain_sensing.hpp"
 
-namespace sinew::inline v0::chains {
+namespace sinew::inline v1::chains {
 namespace {
 
 struct SensingQuery {
   Branch branch;
   std::optional<AnyPose> start;
-  std::vector<double> inputs;   ///< or else
+  std::vector<double> inputs;          ///< or else
   std::vector<TendonConstraint> hold;  ///< lengths
   std::vector<MeasuredTension> measured;
   std::vector<double> deviations;  ///< of these, or none
@@ -93,4 +93,4 @@ void answer_sensing(Context& context, ChainLegs<Space>& robot) {
 template void answer_sensing(Context&, ChainLegs<Planar>&);
 template void answer_sensing(Context&, ChainLegs<Spatial>&);
 
-}  // namespace sinew::inline v0::chains
+}  // namespace sinew::inline v1::chains

@@ -3,9 +3,9 @@
 #pragma once
 #include "query/chain_answer.hpp"
 
-namespace sinew::inline v0::chains {
+namespace sinew::inline v1::chains {
 
 template <class Space>
 void answer_sensing(Context& context, ChainLegs<Space>& robot);
 
-}  // namespace sinew::inline v0::chains
+}  // namespace sinew::inline v1::chains

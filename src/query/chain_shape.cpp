@@ -1,8 +1,8 @@
 /// Handler of shape on pseudo-rigid chains.
-#include "sinew/analysis/chain_shape.hpp"
+#include "analysis/chain_shape.hpp"
 #include "query/chains.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using namespace chains;
@@ -83,4 +83,4 @@ void answer_chains_shape(Context& context) {
   on_chains(context, [&](auto& robot) { answer_shape_of(context, robot); });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

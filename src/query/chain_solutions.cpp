@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "kinematics/chain_equilibria.hpp"
 #include "sinew/kinematics/assembly_modes.hpp"
-#include "sinew/kinematics/chain_equilibria.hpp"
 
-namespace sinew::inline v0::chains {
+namespace sinew::inline v1::chains {
 namespace {
 
 constexpr double max_inverses = 256;
@@ -83,4 +83,4 @@ SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF
 
-}  // namespace sinew::inline v0::chains
+}  // namespace sinew::inline v1::chains

@@ -3,7 +3,7 @@
 #pragma once
 #include "query/chain_answer.hpp"
 
-namespace sinew::inline v0::chains {
+namespace sinew::inline v1::chains {
 
 /// Every equilibrium that is found of what these inputs hold.
 template <class Space>
@@ -15,4 +15,4 @@ template <class Space>
 void put_all_inverses(Context& context, ChainLegs<Space> robot, const AnyPose& pose, const Branch& branch,
                       const Load<Space>& load);
 
-}  // namespace sinew::inline v0::chains
+}  // namespace sinew::inline v1::chains

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/chain_velocity.hpp"
+#include "kinematics/chain_motion.hpp"
 #include "query/chain_curves.hpp"
-#include "sinew/analysis/chain_velocity.hpp"
-#include "sinew/kinematics/chain_motion.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using namespace chains;
@@ -157,4 +157,4 @@ void answer_chains_velocity(Context& context) {
   on_chains(context, [&](auto& robot) { answer_velocity_of(context, robot); });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

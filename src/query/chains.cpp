@@ -7,7 +7,7 @@
 #include "query/chain_solutions.hpp"
 #include "query/rods.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace chains {
 
 void refuse_open_legs(Context& context, double closure_error) {
@@ -186,4 +186,4 @@ void answer_chains_inverse(Context& context) {
   on_chains(context, [&](auto& robot) { answer_inverse_of(context, robot); });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

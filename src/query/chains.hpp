@@ -1,11 +1,11 @@
 /// @file chains.hpp
 /// Handlers of queries put to robots by the pseudo-rigid model.
 #pragma once
+#include "kinematics/chain_analysis.hpp"
 #include "kinematics/chains/arcs.hpp"
 #include "query/loads.hpp"
-#include "sinew/kinematics/chain_analysis.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 void answer_chains_forward(Context& context);
 void answer_chains_inverse(Context& context);
@@ -126,4 +126,4 @@ ChainStability<Space> judge(const ChainLegs<Space>& robot, const ChainState<Spac
 }
 
 }  // namespace chains
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

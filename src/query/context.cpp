@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "sinew/io/read_pose.hpp"
+#include "io/read_pose.hpp"
+#include "math/tilt.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/forward.hpp"
-#include "sinew/math/tilt.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 AnyPose read_pose(const Context& context, Reader pose) {
   if (std::holds_alternative<PlanarPose>(home(context.robot))) return read_planar_pose(std::move(pose));
@@ -237,4 +237,4 @@ Json legs_json(const Robot& robot, const AnyPose& pose, std::span<const double> 
   return legs;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -11,7 +11,7 @@
 #include "sinew/kinematics/track.hpp"
 #include "sinew/robot/workspace.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 using Json = nlohmann::ordered_json;
 
@@ -145,4 +145,4 @@ void answer_shape(Context& context);
 void answer_track(Context& context);
 void answer_describe(Context& context);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include "query/context.hpp"
 #include "sinew/kinematics/equilibrium_curve.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// `range`, `samples`, `backward` and `branches` into the options of a curve.
 template <class Options>
@@ -93,4 +93,4 @@ void put_curves(Context& context, const std::vector<Curve>& curves, WhereOf&& wh
   answer["curves"] = std::move(list);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,10 +1,10 @@
 /// Handler of `describe`: what a robot has.
+#include "io/quantity.hpp"
 #include "query/context.hpp"
 #include "query/serial.hpp"
-#include "sinew/io/quantity.hpp"
-#include "sinew/robot/parallel.hpp"
+#include "robot/parallel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Writes the fields of a part into a JSON object, in SI.
@@ -95,7 +95,8 @@ void add_inputs(Json& inputs, const LegT& leg, std::size_t index) {
 }
 
 void add_inputs(Json& inputs, const RodLeg&, std::size_t index) {
-  inputs.push_back({{"name", joined(joined("legs", index), RodLengthDrive::input_kinds[0].name)}, {"unit", "m"}});
+  inputs.push_back(
+      {{"name", joined(joined("legs", index), RodLengthDrive::input_kinds[0].name)}, {"unit", "m"}});
 }
 
 Json pose_json(bool is_planar) {
@@ -144,4 +145,4 @@ void answer_describe(Context& context) {
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -11,7 +11,7 @@
 #include "sinew/kinematics/assembly_modes.hpp"
 #include "sinew/kinematics/forward.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double max_solutions = 256;
@@ -242,4 +242,4 @@ void answer_shape(Context& context) {
   context.answer["frames"] = Json::array({to_json(at.pose)});
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

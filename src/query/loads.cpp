@@ -2,7 +2,7 @@
 
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 Wanted read_want(Context& context) {
   Wanted wanted;
@@ -42,4 +42,4 @@ void put_solutions(Context& context, Json solutions) {
   context.answer["solutions"] = std::move(solutions);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,10 +1,10 @@
 /// @file loads.hpp
 /// What questions about loads may say, whatever bears them, and what is answered of many equilibria.
 #pragma once
+#include "leg/space.hpp"
 #include "query/context.hpp"
-#include "sinew/leg/space.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What is asked of an equilibrium beside it.
 struct Wanted {
@@ -51,4 +51,4 @@ bool read_all(Context& context);
 /// `solutions` that were found by many starts, without proof.
 void put_solutions(Context& context, Json solutions);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,12 +1,12 @@
 /// `track` of robots on rods: curves of equilibria along inputs, loads or poses, through folds.
 #include <fmt/format.h>
 
+#include "io/read_pose.hpp"
 #include "query/curves.hpp"
 #include "query/rods.hpp"
-#include "sinew/io/read_pose.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 struct CurveQuery {
@@ -74,4 +74,4 @@ void answer_rods_track(Context& context) {
   });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 #include "query/rods.hpp"
 #include "sinew/kinematics/force_sensing.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 namespace {
 
@@ -59,4 +59,4 @@ void answer_rods_statics(Context& context) {
     answer["covariance"] = rows_json(sensed.covariance);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

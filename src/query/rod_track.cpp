@@ -8,7 +8,7 @@
 #include "sinew/kinematics/track.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// What inputs can hold: a pose, or three coordinates of one.
@@ -189,4 +189,4 @@ void answer_rods_path(Context& context) {
   context.answer["rows"] = std::move(rows);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

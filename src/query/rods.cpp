@@ -4,14 +4,14 @@
 
 #include <cmath>
 
+#include "io/read_pose.hpp"
+#include "robot/parallel.hpp"
 #include "robot/rod_work.hpp"
 #include "sinew/analysis/shape.hpp"
-#include "sinew/io/read_pose.hpp"
 #include "sinew/kinematics/rod_rates.hpp"
-#include "sinew/robot/parallel.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::optional<Vec3<double>> read_gravity_of(Context& context) {
   const auto gravity = context.query.optional("gravity");
@@ -437,4 +437,4 @@ void answer_rods_shape(Context& context) {
   context.answer["frames"] = Json::array({to_json(found.pose)});
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 #include "query/loads.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Gravity of the question; refused where nothing has a mass.
 std::optional<Vec3<double>> read_gravity_of(Context& context);
@@ -51,4 +51,4 @@ RodStart read_start_of_inverse(Context& context);
 /// Puts the rods there; whether they then are somewhere to go on from. Else the report says why not.
 bool begin_at(Context& context, const RodStart& start, const EquilibriumOptions& options, Report& report);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/quantity.hpp"
 #include "sinew/analysis/serial_shape.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/kinematics/resolved_rate.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 kernel::Model read_tendon_model(SerialContext& context, kernel::Model otherwise) {
   const auto model = context.query.optional("model");
@@ -421,4 +421,4 @@ void answer_serial_describe(SerialContext context) {
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "query/context.hpp"
 #include "sinew/kinematics/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A query put to a serial robot.
 struct SerialContext : Question {
@@ -60,4 +60,4 @@ void answer_serial_shape(SerialContext context);
 void answer_serial_describe(SerialContext context);
 void answer_diagram(Context& context);  ///< of a serial robot
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

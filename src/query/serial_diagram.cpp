@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "query/serial.hpp"
-#include "sinew/tendon/state.hpp"
+#include "tendon/state.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Changes of the tendons of section m and of all before it; those before are straight where only its own are
@@ -217,4 +217,4 @@ void answer_diagram(Context& of_robot) {
   }
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

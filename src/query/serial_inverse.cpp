@@ -3,12 +3,12 @@
 
 #include <numbers>
 
+#include "io/read_pose.hpp"
+#include "kinematics/three_arcs.hpp"
 #include "query/serial.hpp"
-#include "sinew/io/read_pose.hpp"
 #include "sinew/kinematics/serial_inverse.hpp"
-#include "sinew/kinematics/three_arcs.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// `position`, `position` and `direction`, or `pose`.
@@ -120,4 +120,4 @@ void answer_serial_inverse(SerialContext context) {
   context.answer["iterations"] = found.report.iterations;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

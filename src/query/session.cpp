@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <array>
 
+#include "io/parse.hpp"
+#include "io/quantity.hpp"
 #include "query/chains.hpp"
 #include "query/context.hpp"
 #include "query/serial.hpp"
 #include "query/tree_session.hpp"
 #include "query/unit_hint.hpp"
-#include "sinew/io/parse.hpp"
-#include "sinew/io/quantity.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/robot/parallel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 struct Kind {
@@ -85,8 +85,9 @@ ModelQuery read_model(Reader& query, const std::optional<Reader>& word, const Ro
   }
   if (asked.model != Model::prb) return asked;
   if (const auto law = query.optional("law"))
-    asked.discretisation = law->choice_of<PrbDiscretisation>(
-        {{"M0w", PrbDiscretisation::weighted}, {"M0", PrbDiscretisation::even}, {"M1", PrbDiscretisation::discs}});
+    asked.discretisation = law->choice_of<PrbDiscretisation>({{"M0w", PrbDiscretisation::weighted},
+                                                              {"M0", PrbDiscretisation::even},
+                                                              {"M1", PrbDiscretisation::discs}});
   return asked;
 }
 
@@ -340,4 +341,4 @@ void Session::stop_on(StopToken stop) { state_->session.stop_on(stop); }
 
 void Session::forget() { state_->last.reset(); }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 #include "query/context.hpp"
 #include "sinew/analysis/type_2_distance.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::optional<Along> read_along(Context& context) {
   const auto direction = context.query.optional("along");
@@ -41,4 +41,4 @@ void put_type_2_distance(Context& context, const Along& along, const Configurati
   answer["pose"] = to_json(found.pose);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,15 +3,15 @@
 
 #include <cmath>
 
+#include "io/quantity.hpp"
 #include "query/chains.hpp"
 #include "query/context.hpp"
 #include "query/rods.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// From, to and how many: angles of the plane as the numbers say, rotations the shortest way; in between put
@@ -25,7 +25,9 @@ std::vector<AnyPose> straight_path(const Robot& robot, const AnyPose& from, cons
       poses.emplace_back(PlanarPose{std::lerp(a->x, b->x, part), std::lerp(a->y, b->y, part),
                                     std::lerp(a->phi, b->phi, part)});
     else
-      poses.push_back(k == 0 ? from : k + 1 < samples ? project_to_constraints(robot, between(from, to, part)) : to);
+      poses.push_back(k == 0            ? from
+                      : k + 1 < samples ? project_to_constraints(robot, between(from, to, part))
+                                        : to);
   }
   return poses;
 }
@@ -139,4 +141,4 @@ void answer_track(Context& context) {
   context.answer["rows"] = std::move(rows);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "query/context.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// As Session. Not for two threads at once: open one a thread.
 class SINEW_API TreeSession {
@@ -30,4 +30,4 @@ class SINEW_API TreeSession {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "sinew/io/quantity.hpp"
-#include "sinew/robot/parallel.hpp"
+#include "io/quantity.hpp"
+#include "robot/parallel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// How many times the robot's own measure is far outside; by a slip of units it is 57 times or 1000 times.
@@ -261,4 +261,4 @@ std::string unit_hint(const Node& query, const Json& answer, const RobotScale& s
   return search.found().empty() ? far_answer(answer, scale) : search.found();
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

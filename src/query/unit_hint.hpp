@@ -8,7 +8,7 @@
 #include "sinew/io/node.hpp"
 #include "sinew/robot/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What a robot's numbers are measured by; 0 where it is not known.
 struct RobotScale {
@@ -25,4 +25,4 @@ RobotScale scale_of(const Robot& robot);
 std::string unit_hint(const Node& query, const Json& answer, const RobotScale& scale, const Node& robot,
                       std::span<const InputOfLeg> inputs);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

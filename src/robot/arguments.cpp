@@ -3,7 +3,7 @@
 #include "sinew/base/limits.hpp"
 #include "sinew/robot/assembly.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 Report bad_input() {
@@ -70,4 +70,4 @@ Report check_arguments(const Robot& robot, const AnyPose& pose, Numbers coordina
   return wrong_coordinates(coordinates.size(), needed);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include "sinew/robot/workspace.hpp"
 #include "sinew/solve/report.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 bool is_planar(const Robot& robot);
 
@@ -20,4 +20,4 @@ Report check_arguments(const Robot& robot, const AnyPose& pose, const Workspace&
 /// ... or there are more or fewer link coordinates than the robot has.
 Report check_arguments(const Robot& robot, const AnyPose& pose, Numbers coordinates, const Workspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -10,7 +10,7 @@
 #include "robot/rod_work.hpp"
 #include "sinew/robot/serial_workspace.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -59,10 +59,10 @@ Reduced assemble(const Robot& robot, const AnyPose& pose, Numbers coordinates, W
   return with_legs(robot, [&]<class Any>(const ParallelRobot<Any>& legs) {
     using Space = typename Any::Space;
     const auto closure_error = KinematicGroup(legs).evaluate(Space::frame(in_space<Space>(pose)), coordinates,
-                                                      {work.J, work.K, work.s});
+                                                             {work.J, work.K, work.s});
     return Reduced{MatrixView(work.J.data(), legs.total.row, Space::dof),
-                   MatrixView(work.K.data(), legs.total.row, legs.total.input), work.s, closure_error.distance,
-                   closure_error.leg};
+                   MatrixView(work.K.data(), legs.total.row, legs.total.input), work.s,
+                   closure_error.distance, closure_error.leg};
   });
 }
 
@@ -194,4 +194,4 @@ Workspace::Workspace(const Robot& any) : robot(any.shared()) {
   legs.resize(legs_);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

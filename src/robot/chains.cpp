@@ -1,16 +1,16 @@
 /// Chains in place of a robot's arcs.
-#include "sinew/robot/chains.hpp"
+#include "robot/chains.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "robot/catalog.hpp"
 #include "robot/make_chains.hpp"
-#include "sinew/robot/catalog.hpp"
-#include "sinew/robot/parallel.hpp"
+#include "robot/parallel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 template <class LegT>
@@ -130,4 +130,4 @@ template SINEW_API std::vector<Vec2<double>> chain_points(const ChainLeg<Planar>
 template SINEW_API std::vector<Vec3<double>> chain_points(const ChainLeg<Spatial>&, std::span<const double>,
                                                           const SE3<double>&);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

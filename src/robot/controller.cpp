@@ -1,4 +1,4 @@
-#include "sinew/robot/controller.hpp"
+#include "robot/controller.hpp"
 
 #include <fmt/format.h>
 
@@ -9,14 +9,14 @@
 
 #include "sinew/kernel/crc32.h"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double millimetres = 1e3;  ///< of a metre
 constexpr double largest = std::numeric_limits<std::int16_t>::max();
-constexpr double max_unlike = 4;    ///< greatest gain over least: what a share's inverse holds
+constexpr double max_unlike = 4;     ///< greatest gain over least: what a share's inverse holds
 constexpr double lost_chord = 3e-8;  ///< of its series, half a step of a float
-constexpr int max_bits = 30;        ///< behind the point, of numbers that are all small
+constexpr int max_bits = 30;         ///< behind the point, of numbers that are all small
 constexpr int min_terms = 2;
 
 /// As many bits behind the point as `most` leaves, so that it stays below 2¹⁵ with so many steps to spare.
@@ -249,4 +249,4 @@ Expected<ControllerTable> make_controller_table(const SerialRobot& robot, kernel
   return table;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "link/tip_gaps.hpp"
 #include "sinew/base/numbers.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Vector6 = Vec<double, 6>;
@@ -148,7 +148,7 @@ GeneralSystem::GeneralSystem(const ParallelRobot<RodLeg>& robot) : HeavyRodGroup
     rod.frame = {leg.base.p, section_of(leg.base.R)};
     rod.ends = ends_of(leg);
     rod.seeks_axial_rotation = rod.ends.base == RodEnds::Base::spins &&
-                     (rod.ends.tip == RodEnds::Tip::clamp || !rod.rod.is_isotropic());
+                               (rod.ends.tip == RodEnds::Tip::clamp || !rod.rod.is_isotropic());
     // a axial_rotation that nothing depends on is none: held, it costs no torque
     if (!rod.seeks_axial_rotation) rod.ends.base = RodEnds::Base::held;
     rod.platform_point = leg.platform_point;
@@ -400,7 +400,8 @@ bool GeneralSystem::draw_rods() {
     }
     // one that turns further than its steps resolve at rest, too
     if (!(rod.length * rod.rod.precurvature.norm() < max_elements)) return false;
-    const RodBvpSolution held = v0::solve_rod_bvp(rod.rod, rod.frame, rod.length, rod.ends, tip, {.tolerance = 1e-9});
+    const RodBvpSolution held =
+        v0::solve_rod_bvp(rod.rod, rod.frame, rod.length, rod.ends, tip, {.tolerance = 1e-9});
     if (!held.report.ok()) return false;
     rod.force = held.base.n;
     rod.moment = held.base.m;
@@ -423,4 +424,4 @@ double GeneralSystem::move_to_rest(double most) {
   return largest;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,24 +1,25 @@
 /// @file general_system.hpp
-/// Rods that bear torque between a base and a platform as one system of equations: held against axial_rotation at both
-/// ends, of a section that is not round, or bent when free. Each is shot from its base, and its six unknowns
-/// are eliminated in the same step. TangentSystem is the fast special case without torque. Theory:
-/// docs/theory/spatial_rod.md
+/// Rods that bear torque between a base and a platform as one system of equations: held against
+/// axial_rotation at both ends, of a section that is not round, or bent when free. Each is shot from its
+/// base, and its six unknowns are eliminated in the same step. TangentSystem is the fast special case without
+/// torque. Theory: docs/theory/spatial_rod.md
 #pragma once
 #include <array>
 #include <cmath>
 #include <span>
 #include <vector>
 
+#include "link/rod_bvp.hpp"
 #include "robot/rod_group.hpp"
-#include "sinew/link/rod_bvp.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The rod as one that can bear torque. Where its material has no shear modulus nothing may depend on it.
 SpatialRod spatial_rod(const Rod& rod);
 
 /// One rod with all numbers of its Newton step. Its unknowns are dimensionless: force in EI/L², moment in
-/// EI/L about the section's axes at axial_rotation 0, where the last is the axial_rotation instead if that is free and matters.
+/// EI/L about the section's axes at axial_rotation 0, where the last is the axial_rotation instead if that is
+/// free and matters.
 struct GeneralRod {
   using Matrix = Mat<double, 6, 6>;
 
@@ -26,7 +27,7 @@ struct GeneralRod {
   /// @{
   Vec3<double> force = Vec3<double>::Zero();   ///< internal, at the base [N]
   Vec3<double> moment = Vec3<double>::Zero();  ///< [N m]
-  double axial_rotation = 0;                             ///< of the section in its guide [rad]
+  double axial_rotation = 0;                   ///< of the section in its guide [rad]
   double length = 1;                           ///< L, unstretched [m]
   /// @}
 
@@ -53,13 +54,13 @@ struct GeneralRod {
   /// @name Kept from the last linearisation
   /// @{
   double force_unit = 0, moment_unit = 0;
-  bool is_regular = false;   ///< the gap determines the unknowns; else the rest are no numbers
-  SmallLu<6> factors;        ///< of the gap by the unknowns
-  Matrix by_twist;           ///< the unknowns by the platform's twist, the gap held
-  Vec<double, 6> by_length;  ///< ... by the length
-  Matrix tip_wrench_jacobian;             ///< force and moment on the tip by the unknowns; of a ball no moment
-  Vec<double, 6> feed;       ///< ... by the length, the gap held
-  Vec<double, 6> fix;        ///< of the unknowns: closes the gap at a resting platform
+  bool is_regular = false;     ///< the gap determines the unknowns; else the rest are no numbers
+  SmallLu<6> factors;          ///< of the gap by the unknowns
+  Matrix by_twist;             ///< the unknowns by the platform's twist, the gap held
+  Vec<double, 6> by_length;    ///< ... by the length
+  Matrix tip_wrench_jacobian;  ///< force and moment on the tip by the unknowns; of a ball no moment
+  Vec<double, 6> feed;         ///< ... by the length, the gap held
+  Vec<double, 6> fix;          ///< of the unknowns: closes the gap at a resting platform
   /// @}
 };
 
@@ -152,4 +153,4 @@ class GeneralSystem : public HeavyRodGroup {
   Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness_ = Mat<double, 6, 6>::Zero();
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

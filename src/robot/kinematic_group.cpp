@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "base/at.hpp"
-#include "sinew/leg/leg_curvature.hpp"
+#include "leg/leg_curvature.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 template <class LegT>
@@ -110,4 +110,4 @@ bool KinematicGroup<Any>::close_at(const Frame& platform, std::span<double> inpu
 template class KinematicGroup<AnyPlanarLeg>;
 template class KinematicGroup<AnySpatialLeg>;
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,12 +3,12 @@
 /// Jacobians, whether they are all of the robot or stand beside rods. Theory: docs/theory/leg.md,
 /// docs/theory/mixed_robot.md
 #pragma once
+#include "robot/parallel.hpp"
 #include "sinew/base/limits.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/robot/parallel.hpp"
 #include "sinew/solve/report.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A view of a robot's legs: inputs, coordinates and rows are numbered as the robot's. Nothing here
 /// allocates.
@@ -57,4 +57,4 @@ class KinematicGroup {
   const ParallelRobot<Any>& robot_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,14 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include "leg/space.hpp"
 #include "robot/limb_state.hpp"
 #include "robot/small_lu.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/leg/space.hpp"
 #include "sinew/math/linalg.hpp"
 #include "sinew/solve/report.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Estimated error of a shape at its tip, over the length, from which a path and a resumed answer refine it.
 inline constexpr double coarse_truncation = 1e-12;
@@ -168,4 +168,4 @@ LimbPlaces<Space> places_of(const LimbGroup<Space>& group) {
   return {place, place, place, place};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

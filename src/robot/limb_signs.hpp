@@ -5,7 +5,7 @@
 
 #include "robot/limb_group.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What does not change on a smooth piece of a curve of equilibria, at fixed inputs and load.
 struct LimbSigns {
@@ -43,4 +43,4 @@ int unstable_directions(const LimbGroup<Space>& group) {
   return signs_of(group).unstable;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

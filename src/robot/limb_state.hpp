@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A copy onto another state of the same robot does not allocate.
 class LimbState {
@@ -70,4 +70,4 @@ class LimbState {
   std::size_t size_ = 0;  ///< of what was put
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,11 +1,11 @@
 /// @file make_chains.hpp
 /// From legs on arcs to legs on pseudo-rigid chains.
 #pragma once
+#include "robot/chains.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/base/error.hpp"
-#include "sinew/robot/chains.hpp"
-#include "sinew/robot/parallel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 using AnyLegs = std::variant<PlanarRobot, SpatialRobot>;
 using AnyChains = std::variant<ChainLegs<Planar>, ChainLegs<Spatial>>;
@@ -14,4 +14,4 @@ using AnyChains = std::variant<ChainLegs<Planar>, ChainLegs<Spatial>>;
 /// kind.
 Expected<AnyChains> make_chains(const AnyLegs& legs, PrbDiscretisation discretisation);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -12,7 +12,7 @@
 #include "robot/rod_group.hpp"
 #include "solve/contraction.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Without closing legs it does what `Rods` does.
 /// @tparam Rods a group of rods: RodSystem, TangentSystem or GeneralSystem
@@ -294,4 +294,4 @@ class Mechanism final : public Rods {
   SmallLu<6> lu_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

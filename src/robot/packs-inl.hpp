@@ -13,7 +13,7 @@
 #include "robot/rod_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0::packs {
+namespace sinew::inline v1::packs {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -93,6 +93,6 @@ struct Wrench {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0::packs
+}  // namespace sinew::inline v1::packs
 HWY_AFTER_NAMESPACE();
 #endif

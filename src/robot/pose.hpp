@@ -3,11 +3,11 @@
 #pragma once
 #include <cmath>
 
+#include "leg/space.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/leg/space.hpp"
 #include "sinew/robot/robot.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 inline PlanarPose nowhere(Planar) { return {not_a_number, not_a_number, not_a_number}; }
 inline SpatialPose nowhere(Spatial) { return {Vec3<double>::Constant(not_a_number), {1, 0, 0, 0}}; }
@@ -32,4 +32,4 @@ inline double gap(const SpatialPose& a, const SpatialPose& b, double radius) {
   return std::hypot((a.position - b.position).norm(), radius * turn.norm());
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -11,7 +11,7 @@
 #include "sinew/robot/assembly.hpp"
 #include "sinew/robot/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct Robot::Data {
   std::string name;
@@ -105,4 +105,4 @@ bool has_weight(const Robot& robot) {
   return has;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

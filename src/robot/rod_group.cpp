@@ -5,7 +5,7 @@
 
 #include "solve/contraction.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::vector<RodResult> RodGroup::readings() const {
   std::vector<RodResult> rods;
@@ -95,4 +95,4 @@ bool HeavyRodGroup::set_gravity(const Vec3<double>& gravity) {
   return std::ranges::any_of(mass_, [](double mass) { return mass > 0; });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

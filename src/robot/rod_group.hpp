@@ -4,12 +4,12 @@
 #pragma once
 #include <cmath>
 
+#include "leg/rod_leg.hpp"
 #include "robot/limb_group.hpp"
-#include "sinew/leg/rod_leg.hpp"
-#include "sinew/robot/parallel.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/robot/rod_result.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 class RodSystem;
 
@@ -152,4 +152,4 @@ class HeavyRodGroup : public RodGroup {
   std::vector<Vec3<double>> load_;  ///< beside its weight [N/m]
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -10,7 +10,7 @@
 #include "robot/rod_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0::rod_kernels {
+namespace sinew::inline v1::rod_kernels {
 namespace HWY_NAMESPACE {
 using namespace packs::HWY_NAMESPACE;
 /// Horner's rule for several arguments at once, so that a coefficient is loaded once for all.
@@ -815,11 +815,11 @@ void TruncationFine(std::span<const FineRods> groups, double* largest) { truncat
 const char* InstructionSet() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0::rod_kernels
+}  // namespace sinew::inline v1::rod_kernels
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace sinew::inline v0::rod_kernels {
+namespace sinew::inline v1::rod_kernels {
 
 HWY_EXPORT(EvaluateCoarse);
 HWY_EXPORT(EvaluateFine);
@@ -869,5 +869,5 @@ void advance(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& poses)
 }
 const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(InstructionSet)(); }
 
-}  // namespace sinew::inline v0::rod_kernels
+}  // namespace sinew::inline v1::rod_kernels
 #endif

@@ -6,7 +6,7 @@
 
 #include "robot/rod_lanes.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 using CoarseRods = RodLanes<coarse_nodes>;
 using FineRods = RodLanes<fine_nodes>;
@@ -84,4 +84,4 @@ void advance(std::span<CoarseRods> rods, const PoseStep& step, PoseLanes& poses)
 const char* instruction_set();
 
 }  // namespace rod_kernels
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

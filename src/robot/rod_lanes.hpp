@@ -7,7 +7,7 @@
 #include "link/galerkin.hpp"
 #include "sinew/math/vec.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 inline constexpr int rod_lanes = 8;
 using RodLane = double[rod_lanes];
@@ -67,4 +67,4 @@ struct alignas(64) RodLanes : PlaneRodState<N> {
   /// @}
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

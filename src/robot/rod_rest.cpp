@@ -9,7 +9,7 @@
 #include "robot/rod_system.hpp"
 #include "robot/tangent_system.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr int N = coarse_nodes;
@@ -103,4 +103,4 @@ bool GeneralSystem::rest_at(const SE3<double>& platform) {
   return draw_rods() && settle_rods();
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

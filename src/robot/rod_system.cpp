@@ -7,7 +7,7 @@
 
 #include "base/at.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 template <class Group>
@@ -440,4 +440,4 @@ std::vector<Vec3<double>> RodSystem::centreline(int index, int samples) const {
   });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -11,7 +11,7 @@
 #include "robot/rod_group.hpp"
 #include "robot/rod_kernels.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
 class RodSystem : public RodGroup {
@@ -123,4 +123,4 @@ class RodSystem : public RodGroup {
   mutable SmallLu<6> lu_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "robot/rod_system.hpp"
 #include "robot/tangent_system.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::unique_ptr<RodGroup> rod_group(const Robot& robot) {
   const SpatialRobot& legs = *robot.spatial();
@@ -23,4 +23,4 @@ std::unique_ptr<RodGroup> rod_group(const Robot& robot) {
   return heavy;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

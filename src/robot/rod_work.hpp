@@ -8,7 +8,7 @@
 #include "robot/rod_group.hpp"
 #include "sinew/robot/workspace.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The rods of a robot that bears load, with the legs that close beside them: of the quickest kind that holds
 /// for all of them.
@@ -39,4 +39,4 @@ inline RodWork& rods_of(Workspace& work) {
   return *work.rods;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

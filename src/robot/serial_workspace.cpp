@@ -1,6 +1,6 @@
 #include "sinew/robot/serial_workspace.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 SerialWorkspace::SerialWorkspace(const SerialRobot& any)
     : robot(any.identity),
@@ -23,4 +23,4 @@ SerialWorkspace::SerialWorkspace(const SerialRobot& any)
   }
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "base/at.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 template <int N>
 bool SmallLu<N>::factor(const double* matrix, double length) {
@@ -66,4 +66,4 @@ void SmallLu<N>::solve(const double* rhs, double* x) const {
 template class SmallLu<3>;
 template class SmallLu<6>;
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

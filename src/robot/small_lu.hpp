@@ -3,7 +3,7 @@
 #pragma once
 #include <array>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// LU factors, with partial pivoting, of an N×N matrix that takes twists to wrenches, its moments divided by
 /// a length first.
@@ -24,4 +24,4 @@ class SmallLu {
   double per_length_ = 1, smallest_ = 0;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

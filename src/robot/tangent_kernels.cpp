@@ -10,7 +10,7 @@
 #include "robot/tangent_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0::tangent_kernels {
+namespace sinew::inline v1::tangent_kernels {
 namespace HWY_NAMESPACE {
 using namespace packs::HWY_NAMESPACE;
 using packs::HWY_NAMESPACE::sum;
@@ -658,11 +658,11 @@ void Truncation(std::span<const TangentRods> groups, int elements, double* large
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0::tangent_kernels
+}  // namespace sinew::inline v1::tangent_kernels
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace sinew::inline v0::tangent_kernels {
+namespace sinew::inline v1::tangent_kernels {
 
 HWY_EXPORT(Evaluate);
 HWY_EXPORT(Linearise);
@@ -687,5 +687,5 @@ void truncation(std::span<const TangentRods> groups, int elements, double* large
   HWY_DYNAMIC_DISPATCH(Truncation)(groups, elements, largest);
 }
 
-}  // namespace sinew::inline v0::tangent_kernels
+}  // namespace sinew::inline v1::tangent_kernels
 #endif

@@ -7,7 +7,7 @@
 #include "robot/rod_kernels.hpp"
 #include "robot/tangent_lanes.hpp"
 
-namespace sinew::inline v0::tangent_kernels {
+namespace sinew::inline v1::tangent_kernels {
 
 /// Gaps, forces and moments at the tips: `wrench`, errors. `from_scratch` after states were set, not stepped.
 void evaluate(std::span<TangentRods> groups, int elements, const RodPlatform& platform, bool from_scratch,
@@ -26,4 +26,4 @@ void apply(std::span<TangentRods> groups, int elements, const double* step, cons
 /// Of each lane the largest of all groups: squares of the two highest Legendre coefficients of t′.
 void truncation(std::span<const TangentRods> groups, int elements, double* largest);
 
-}  // namespace sinew::inline v0::tangent_kernels
+}  // namespace sinew::inline v1::tangent_kernels

@@ -5,7 +5,7 @@
 #include "link/lobatto.hpp"
 #include "robot/rod_lanes.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Most elements of a rod; they are of equal length.
 inline constexpr int max_elements = 8;
@@ -77,4 +77,4 @@ struct alignas(64) TangentRods : TangentState {
   /// @}
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include "base/at.hpp"
 #include "robot/tangent_kernels.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr int degree = TangentState::degree;
@@ -451,4 +451,4 @@ std::vector<Vec3<double>> TangentSystem::centreline(int index, int samples) cons
   });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

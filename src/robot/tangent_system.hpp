@@ -12,7 +12,7 @@
 #include "robot/rod_kernels.hpp"
 #include "robot/tangent_lanes.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// All numbers of one robot's equilibrium. No function here allocates unless it says so.
 class TangentSystem : public HeavyRodGroup {
@@ -101,4 +101,4 @@ class TangentSystem : public HeavyRodGroup {
   RodSums sums_{};
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 #include "sinew/base/stop.hpp"
 #include "solve/contraction.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// How a series of steps ended; `lost`: no step however short succeeds.
 enum class StepsEnd { done, lost, ran_out, stopped };
@@ -99,4 +99,4 @@ void follow_parameter(ParameterPath& end, const ParameterOptions& options, Attem
   end.stopped = why == StepsEnd::stopped;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

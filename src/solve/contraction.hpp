@@ -4,7 +4,7 @@
 /// docs/theory/continuation.md
 #pragma once
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Newton's method as long as each step halves the error, at most twelve of them; on below `tolerance` while
 /// it gains a digit a step, down to `rounding`.
@@ -52,4 +52,4 @@ bool contract_with_kept_factors(Error&& error, Renew&& renew, Step&& step, doubl
   return true;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,7 +3,7 @@
 #pragma once
 #include "sinew/math/vec.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What decides where something happened between two points of a curve.
 struct CurveSigns {
@@ -25,10 +25,10 @@ concept CurveProblem = requires(P problem, const P& fixed, typename P::Place& pl
   problem.move(step, lambda, /* change of λ */ lambda);
   problem.put(lambda);                                // exactly there
   fixed.equations(/* length of λ */ lambda);          // [A c], rows first
-  fixed.residual();                                    // what is to become 0, negative
+  fixed.residual();                                   // what is to become 0, negative
   fixed.tolerance(), fixed.rounding();                // ... what counts as solved, and where no step can gain
   fixed.size(), fixed.unit(), fixed.longest_scale();  // of steps, of A, of λ
   fixed.signs();                                      // `unstable` and `own` of CurveSigns
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

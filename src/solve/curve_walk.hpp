@@ -3,7 +3,7 @@
 #pragma once
 #include "solve/tracer.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What came of a step along a curve.
 enum class CurveStep { failed, taken, last };
@@ -33,4 +33,4 @@ StepsEnd walk(Tracer<Problem>& tracer, typename Problem::Place& begun, const Str
   });
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

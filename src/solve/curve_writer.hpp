@@ -7,7 +7,7 @@
 
 #include "solve/curve_walk.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What is special about a point of a curve.
 enum class CurveMark {
@@ -291,4 +291,4 @@ class CurveWriter {
   std::vector<Found> found_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

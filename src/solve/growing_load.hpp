@@ -4,7 +4,7 @@
 #pragma once
 #include "solve/curve_walk.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 enum class GrowthEnd {
   limit,        ///< the limit was reached
@@ -147,4 +147,4 @@ class GrowingLoad {
   Growth growth_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::string_view to_string(Status status) noexcept {
   switch (status) {
@@ -44,4 +44,4 @@ std::string to_string(const Report& report) {
   return text;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 #include "sinew/base/stop.hpp"
 #include "sinew/solve/report.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Status and message of it; residual and iterations stay those of the best iterate.
 inline void say_stopped(Report& report) {
@@ -19,4 +19,4 @@ inline bool note_stop(StopToken stop, Report& report) {
   return is_stopped;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

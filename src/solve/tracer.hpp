@@ -13,7 +13,7 @@
 #include "solve/continuation.hpp"
 #include "solve/curve.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 template <CurveProblem Problem>
 class Tracer {
@@ -289,4 +289,4 @@ class Tracer {
   bool looks_closely_ = false;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct BuiltinFile {
   std::string_view name;  ///< of a study without `.yaml`; of a source its path as it is included
@@ -15,4 +15,4 @@ struct BuiltinFile {
 std::span<const BuiltinFile> builtin_studies();
 std::span<const BuiltinFile> builtin_firmware();
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

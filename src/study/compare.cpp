@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sinew::inline v0::compare {
+namespace sinew::inline v1::compare {
 
 std::vector<std::string> provenance(std::string_view id, std::string_view what, std::string_view robot) {
   return {fmt::format("sinew {}, study {}: {}", version(), id, what), std::string(robot)};
@@ -36,4 +36,4 @@ Finding claimed(std::string quantity, std::string paper, std::string ours, doubl
   return finding;
 }
 
-}  // namespace sinew::inline v0::compare
+}  // namespace sinew::inline v1::compare

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 
-namespace sinew::inline v0::compare {
+namespace sinew::inline v1::compare {
 
 /// The first lines of a result's file: version, study, what it has, and of which robot.
 std::vector<std::string> provenance(std::string_view id, std::string_view what, std::string_view robot);
@@ -26,4 +26,4 @@ Finding given(std::string quantity, std::string paper, std::string ours, double 
 Finding claimed(std::string quantity, std::string paper, std::string ours, double off, double bound,
                 const char* unit);
 
-}  // namespace sinew::inline v0::compare
+}  // namespace sinew::inline v1::compare

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "sinew/io/figure.hpp"
+#include "io/figure.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Computes an item and compares.
 /// @param folder for results of sweeps, which are written as they are computed
@@ -48,4 +48,4 @@ Expected<ItemResult> lsk_fig8(const StudyItem& item, const std::filesystem::path
 Expected<ItemResult> lsk_fig9(const StudyItem& item, const std::filesystem::path& folder);
 Expected<ItemResult> lsk_numbers(const StudyItem& item, const std::filesystem::path& folder);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "study/item.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr std::array items{
@@ -120,4 +120,4 @@ std::string to_markdown(const Reproduction& reproduction) {
   return text;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 
 #include "tendon/exact_region.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 struct Cut {
@@ -74,10 +74,11 @@ void classify(const SectionCase& c, SectionDiagram& diagram) {
   const auto [least, most] = std::minmax_element(diagram.slack.begin(), diagram.slack.end());
   const double tolerance = c.question.tolerance;
   if (diagram.margin < -tolerance)
-    diagram.agree = agree_somewhere(c, diagram) ? TendonConsistency::unreachable : TendonConsistency::inconsistent;
-  else
     diagram.agree =
-        std::max(*most, diagram.margin) <= tolerance ? TendonConsistency::exact : TendonConsistency::indeterminate;
+        agree_somewhere(c, diagram) ? TendonConsistency::unreachable : TendonConsistency::inconsistent;
+  else
+    diagram.agree = std::max(*most, diagram.margin) <= tolerance ? TendonConsistency::exact
+                                                                 : TendonConsistency::indeterminate;
   diagram.partial = diagram.agree == TendonConsistency::indeterminate && *least <= tolerance;
 }
 
@@ -155,4 +156,4 @@ SectionOutline section_outline(const DiagramQuestion& asked, const SectionTendon
   return outline;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

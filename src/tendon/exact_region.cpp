@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Largest pull a bend of the envelope asks for [m].
@@ -322,4 +322,4 @@ Curve exact_frontier(const SectionCase& c, std::size_t i) {
   return curve;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

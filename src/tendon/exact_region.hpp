@@ -3,7 +3,7 @@
 #pragma once
 #include "tendon/margin.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct ExactRegion {
   Polygon boundary;    ///< counter-clockwise [rad], of the largest part if there are several
@@ -17,4 +17,4 @@ ExactRegion exact_region(const SectionCase& c, const Margin& margin);
 /// Where tendon i has neither slack nor stretch, around the envelope.
 Curve exact_frontier(const SectionCase& c, std::size_t i);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,7 +3,7 @@
 #include <limits>
 #include <numbers>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// The best of what is offered.
@@ -127,4 +127,4 @@ Margin largest_margin(const SectionCase& c, const Vec2<double>& first) {
   return best.found;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

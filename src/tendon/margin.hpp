@@ -3,7 +3,7 @@
 #pragma once
 #include "tendon/section_case.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct Margin {
   Vec2<double> point;
@@ -17,4 +17,4 @@ Margin largest_margin(const SectionCase& c, const Vec2<double>& first);
 Vec2<double> rim(const SectionCase& c, std::size_t piece, double t);
 std::size_t rim_pieces(const SectionCase& c);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

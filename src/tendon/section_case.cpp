@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double largest_bend = 1e6;  // [rad]; squares and products of bends stay far from infinity
@@ -124,4 +124,4 @@ std::string_view complaint(const DiagramQuestion& question) {
   return {};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

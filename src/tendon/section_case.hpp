@@ -8,7 +8,7 @@
 #include "sinew/kernel/tendon_state.h"
 #include "sinew/tendon/diagram.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct SectionCase {
   static constexpr double ulps = 32 * std::numeric_limits<double>::epsilon();
@@ -46,4 +46,4 @@ std::string_view complaint(const SectionTendons& tendons, double gain);
 std::vector<HalfPlane> frontiers(std::span<const kernel::Direction<double>> at, std::span<const double> own,
                                  double gain);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

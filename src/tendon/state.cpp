@@ -1,4 +1,4 @@
-#include "sinew/tendon/state.hpp"
+#include "tendon/state.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double near_limit = 0.95;  // of the envelope
@@ -91,4 +91,4 @@ StateWords state_words(const DiagramQuestion& question, const SectionDiagram& di
   return state;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

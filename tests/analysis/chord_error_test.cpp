@@ -1,6 +1,6 @@
 /// What linearised tendon lengths cost, against tests/data/lsk, whose numbers come from another
 /// implementation in many digits, and against integrals and poses by hand.
-#include "sinew/analysis/chord_error.hpp"
+#include "analysis/chord_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Lengths in short formats: every mean and largest error against tests/data/lsk/error_precision.json, and
 /// what the arithmetic behind them is, written out here once more.
-#include "sinew/analysis/number_formats.hpp"
+#include "analysis/number_formats.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sinew/analysis/tripod_loci.hpp"
+#include "analysis/tripod_loci.hpp"
 
 #include <gtest/gtest.h>
 

@@ -147,7 +147,8 @@ TEST(TypeTwoDistance, OfEveryRobotIsTheFirstOneOnItsWay) {
     for (int k = 0; k <= 200; ++k) {
       const Eigen::VectorXd step =
           Eigen::Map<const Eigen::VectorXd>(turn.data(), std::ssize(turn)) * (end * k / 200);
-      ASSERT_TRUE(track.advance(project_to_constraints(robot, moved(home(robot), step))).ok()) << name << ' ' << k;
+      ASSERT_TRUE(track.advance(project_to_constraints(robot, moved(home(robot), step))).ok())
+          << name << ' ' << k;
       EXPECT_FALSE(velocity(robot, track.pose(), track.coordinates(), work).type_2.singular) << name;
     }
   }

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/parse.hpp"
 #include "sinew/base/error.hpp"
-#include "sinew/io/parse.hpp"
 
 namespace sinew::fuzz {
 

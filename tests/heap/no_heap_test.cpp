@@ -119,7 +119,9 @@ TEST(NoHeapOfRods, ThatBearTorque) {
   none([&] { EXPECT_TRUE(inverse_equilibrium(robot, at_home, {}, work).is_solved()); });
   none([&] { EXPECT_TRUE(inverse_equilibrium(robot, beside, {.warm_start = true}, work).is_solved()); });
   const std::vector<double> inputs = values(work.inputs);
-  none([&] { EXPECT_TRUE(equilibrium(robot, inputs, {.warm_start = true, .check_stability = false}, work).is_solved()); });
+  none([&] {
+    EXPECT_TRUE(equilibrium(robot, inputs, {.warm_start = true, .check_stability = false}, work).is_solved());
+  });
   none([&] { equilibrium(robot, inputs, {.start = at_home}, work); });
 }
 
@@ -143,8 +145,9 @@ TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
     const auto none = [&](auto&& run) { EXPECT_EQ(allocations_of(run), 0) << name; };
     none([&] { EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load}, work).is_solved()); });
     inputs[0] += 1e-3;
-    none(
-        [&] { EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load, .warm_start = true}, work).is_solved()); });
+    none([&] {
+      EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load, .warm_start = true}, work).is_solved());
+    });
     none([&] { inverse_equilibrium(robot, IndependentPose{0.3, 0.1, 0}, {}, work); });
     none([&] { inverse_equilibrium(robot, beside, {}, work); });
     none([&] { inverse_equilibrium(robot, at_home, {.warm_start = true, .check_stability = false}, work); });

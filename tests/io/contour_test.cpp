@@ -1,4 +1,4 @@
-#include "sinew/io/contour.hpp"
+#include "io/contour.hpp"
 
 #include <gtest/gtest.h>
 

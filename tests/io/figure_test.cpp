@@ -1,4 +1,4 @@
-#include "sinew/io/figure.hpp"
+#include "io/figure.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "sinew/io/parse.hpp"
+#include "io/parse.hpp"
 #include "sinew/io/reader.hpp"
 
 namespace fuzz_test {

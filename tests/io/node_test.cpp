@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sinew/io/parse.hpp"
+#include "io/parse.hpp"
 
 namespace node_test {
 

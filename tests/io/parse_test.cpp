@@ -1,4 +1,4 @@
-#include "sinew/io/parse.hpp"
+#include "io/parse.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "sinew/io/quantity.hpp"
+#include "io/quantity.hpp"
 
 #include <gtest/gtest.h>
 

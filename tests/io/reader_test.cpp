@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "sinew/io/parse.hpp"
+#include "io/parse.hpp"
 
 namespace reader_test {
 

@@ -5,9 +5,9 @@
 
 #include "cpu_time.hpp"
 #include "every_robot.hpp"
+#include "io/parse.hpp"
 #include "paths.hpp"
 #include "sinew/analysis/velocity.hpp"
-#include "sinew/io/parse.hpp"
 #include "sinew/io/serial_file.hpp"
 
 namespace sinew::test {

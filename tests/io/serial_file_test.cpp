@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "io/parse.hpp"
 #include "serial_robots.hpp"
-#include "sinew/io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::test {

@@ -1,11 +1,11 @@
-#include "sinew/io/trajectory_file.hpp"
+#include "io/trajectory_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sinew/io/parse.hpp"
-#include "sinew/io/posture_table.hpp"
+#include "io/parse.hpp"
+#include "io/posture_table.hpp"
 #include "sinew/io/serial_file.hpp"
 #include "sinew/kinematics/serial.hpp"
 

@@ -1,4 +1,4 @@
-#include "sinew/io/visible.hpp"
+#include "io/visible.hpp"
 
 #include <gtest/gtest.h>
 

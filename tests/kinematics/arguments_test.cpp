@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "every_robot.hpp"
+#include "kinematics/chain_motion.hpp"
 #include "serial_robots.hpp"
 #include "sinew/analysis/singularity_map.hpp"
 #include "sinew/analysis/type_2_distance.hpp"
 #include "sinew/kinematics/assembly_modes.hpp"
-#include "sinew/kinematics/chain_motion.hpp"
 #include "sinew/kinematics/equilibrium_curve.hpp"
 #include "sinew/kinematics/force_sensing.hpp"
 #include "sinew/kinematics/resolved_rate.hpp"

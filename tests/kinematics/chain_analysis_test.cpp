@@ -1,5 +1,5 @@
 /// Stability as a count, margins, and what inputs do to an equilibrium of chains.
-#include "sinew/kinematics/chain_analysis.hpp"
+#include "kinematics/chain_analysis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "chain_robots.hpp"
+#include "kinematics/chain_equilibria.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/kinematics/chain_equilibria.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {
@@ -95,7 +95,8 @@ TEST(ChainStability, CountsThePlatformAndTheLegs) {
 }
 
 TEST(ChainMargins, AreThoseOfArcsAtRest) {
-  const Case<Planar> one = rest_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3}, {1, 1, 1}, false);
+  const Case<Planar> one =
+      rest_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3}, {1, 1, 1}, false);
   ChainWork work;
   const ChainMargins found = margins(one.robot, one.state, work);
   double most = 0;
@@ -152,7 +153,8 @@ void expect_sensitivity(Case<Space> one, double force, int& columns) {
 
 TEST(ChainSensitivity, IsTheSlopeOfThePoseByWhatIsHeld) {
   int columns = 0;
-  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
+  for (const PrbDiscretisation model :
+       {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
     for (const bool holds_lengths : {false, true})
       for (const double force : {0.0, 1.0}) {
         expect_sensitivity(rest_of<Planar>("3-rfr", model, {0.01, 0, 0.3}, {1, -1, 1}, holds_lengths), force,
@@ -168,7 +170,8 @@ TEST(ChainSensitivity, IsTheSlopeOfThePoseByWhatIsHeld) {
 }
 
 TEST(ChainAnalysis, OfAnotherRobotIsNone) {
-  const Case<Planar> one = rest_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3}, {1, 1, 1}, false);
+  const Case<Planar> one =
+      rest_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3}, {1, 1, 1}, false);
   ChainState<Planar> state = one.state;
   state.legs.pop_back();
   ChainWork work;
@@ -179,7 +182,8 @@ TEST(ChainAnalysis, OfAnotherRobotIsNone) {
 }
 
 TEST(ChainEquilibria, OfNothingAreNone) {
-  const Case<Planar> one = rest_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3}, {1, 1, 1}, true);
+  const Case<Planar> one =
+      rest_of<Planar>("3-rfr", PrbDiscretisation::weighted, {0.01, 0, 0.3}, {1, 1, 1}, true);
   const auto count = [&](std::vector<ChainStart<Planar>> starts, std::vector<TendonConstraint> hold,
                          const Vec<double, 3>& wrench, StopToken stop = {}) {
     ChainWork work{.stop = stop};

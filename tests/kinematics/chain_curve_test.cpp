@@ -1,5 +1,5 @@
 /// Curves of equilibria on chains: their points are equilibria, their folds those of growing loads.
-#include "sinew/kinematics/chain_curve.hpp"
+#include "kinematics/chain_curve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "chain_robots.hpp"
-#include "sinew/kinematics/chain_analysis.hpp"
+#include "kinematics/chain_analysis.hpp"
 #include "sinew/kinematics/track.hpp"
 
 namespace sinew::test {
@@ -20,7 +20,8 @@ struct Begun {
 };
 
 template <class Space>
-Begun<Space> begun(const char* name, PrbDiscretisation model, const typename Space::Pose& pose, bool holds_lengths) {
+Begun<Space> begun(const char* name, PrbDiscretisation model, const typename Space::Pose& pose,
+                   bool holds_lengths) {
   Begun<Space> one{chains_at<Space>(name, model, pose), {}};
   EXPECT_TRUE(rest(one.at.robot, pose, one.at.curvature, holds_lengths, one.state).ok());
   return one;
@@ -29,8 +30,8 @@ Begun<Space> begun(const char* name, PrbDiscretisation model, const typename Spa
 const PlanarPose planar_pose{0.01, 0, 0.35};
 
 /// What legs hold at a parameter of a curve.
-std::vector<TendonConstraint> held_at(const std::vector<TendonConstraint>& from, const std::vector<TendonConstraint>& to,
-                               double part) {
+std::vector<TendonConstraint> held_at(const std::vector<TendonConstraint>& from,
+                                      const std::vector<TendonConstraint>& to, double part) {
   std::vector<TendonConstraint> hold = from;
   for (std::size_t i = 0; i < to.size(); ++i) {
     hold[i].length = std::lerp(from[i].length, to[i].length, part);

@@ -1,6 +1,6 @@
 /// Platforms on pseudo-rigid chains against the numbers of an independent implementation, and against
 /// differences.
-#include "sinew/kinematics/chain.hpp"
+#include "kinematics/chain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -74,12 +74,15 @@ ChainState<Planar> base_state(const ChainLegs<Planar>& robot, bool holds_lengths
   for (std::size_t i = 0; i < 3; ++i)
     curvature.push_back(-about["base_theta"][i][0].get<double>() / robot.legs[i].chain.link_length());
   ChainState<Planar> state;
-  const Report report = unloaded_equilibrium(robot, planar_pose(about["base_pose"]), curvature, holds_lengths, state);
+  const Report report =
+      unloaded_equilibrium(robot, planar_pose(about["base_pose"]), curvature, holds_lengths, state);
   EXPECT_TRUE(report.ok()) << to_string(report);
   return state;
 }
 
-PrbDiscretisation model_of(const Json& c) { return c["model"] == "M0" ? PrbDiscretisation::even : PrbDiscretisation::discs; }
+PrbDiscretisation model_of(const Json& c) {
+  return c["model"] == "M0" ? PrbDiscretisation::even : PrbDiscretisation::discs;
+}
 bool holds_lengths(const Json& c) { return c["mode"] == "length"; }
 std::vector<TendonConstraint> hold_of(const Json& c) {
   std::vector<TendonConstraint> hold;
@@ -237,7 +240,8 @@ TEST(ChainEquilibrium, LoadedSixUfsIsTheirs) {
 }
 
 TEST(ChainEquilibrium, ComplianceIsTheDerivative) {  // for every model, closure and what is held
-  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
+  for (const PrbDiscretisation model :
+       {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
     for (const bool lengths : {false, true}) {
       const auto robot = three_rfr(model);
       const ChainState<Planar> at_rest = base_state(robot, lengths);
@@ -263,7 +267,8 @@ TEST(ChainEquilibrium, ComplianceIsTheDerivative) {  // for every model, closure
 }
 
 TEST(ChainEquilibrium, RestIsOneForEveryLawAndClosure) {
-  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
+  for (const PrbDiscretisation model :
+       {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
     const auto robot = three_frr(model);
     const std::array<double, 3> curvature{5, 5, 5};
     ChainState<Planar> state;
@@ -289,7 +294,8 @@ TEST(ChainEquilibrium, OfTooFewJointsAndAtTypeTwoIsSingular) {
   EXPECT_GT(smallest_hessian_eigenvalue(robot, state), 0);  // what little is left is stiff
 
   const auto six = three_rfr(PrbDiscretisation::even);
-  ASSERT_TRUE(unloaded_equilibrium(six, PlanarPose{0.03, 0, std::numbers::pi / 3}, towards_plus, false, state).ok());
+  ASSERT_TRUE(
+      unloaded_equilibrium(six, PlanarPose{0.03, 0, std::numbers::pi / 3}, towards_plus, false, state).ok());
   EXPECT_EQ(equilibrium(six, std::vector(state.hold), {0.01, 0, 0}, state, work).status, Status::singular);
 }
 
@@ -316,7 +322,8 @@ ChainState<Planar> at_rest(const ChainLegs<Planar>& robot, const PlanarPose& pos
 TEST(ChainEquilibrium, NothingIsSteppedOver) {
   const auto chains = [](const char* name) {
     const std::string file = std::string(source_folder) + "/robots/" + name;
-    return chains_of<Planar>(*read_robot(*read_robot_file(file))->as(Model::prb, PrbDiscretisation::weighted));
+    return chains_of<Planar>(
+        *read_robot(*read_robot_file(file))->as(Model::prb, PrbDiscretisation::weighted));
   };
   struct Case {
     ChainLegs<Planar> robot;
@@ -386,8 +393,8 @@ TEST(ChainEquilibrium, EvenlyBentChainsStoreMore) {
     const auto robot = three_rfr(model_of(c));
     ChainState<Planar> state = base_state(robot), even = state;
     ChainWork work;
-    EXPECT_NEAR(constant_curvature_energy_gap(robot, state, vector<3>(c["W"])), c["CC_energy_gap_estimate"].get<double>(),
-                1e-16);
+    EXPECT_NEAR(constant_curvature_energy_gap(robot, state, vector<3>(c["W"])),
+                c["CC_energy_gap_estimate"].get<double>(), 1e-16);
     ASSERT_TRUE(equilibrium(robot, hold_of(c), vector<3>(c["W"]), state, work).ok());
     const Report report =
         equilibrium(robot, hold_of(c), vector<3>(c["W"]), even, work, {.evenly_bent = true});

@@ -1,6 +1,6 @@
 /// Joints of chains along a path of the platform: the numbers of an independent implementation, and what the
 /// flow must keep.
-#include "sinew/kinematics/chain_motion.hpp"
+#include "kinematics/chain_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,9 +75,9 @@ TEST(ChainMotion, LeastNormShapesAreNoEquilibria) {  // @verifies TDPCR (54)
     ASSERT_TRUE(follow_least_norm(robot, pose_of(0), pose_of(k), legs).ok());
     ChainState<Planar> even, weighted;
     ASSERT_TRUE(unloaded_equilibrium(robot, pose_of(k), towards_plus, false, even).ok());
-    ASSERT_TRUE(
-        unloaded_equilibrium(made_of<Planar>("3-rfr.yaml", PrbDiscretisation::weighted), pose_of(k), towards_plus, false, weighted)
-            .ok());
+    ASSERT_TRUE(unloaded_equilibrium(made_of<Planar>("3-rfr.yaml", PrbDiscretisation::weighted), pose_of(k),
+                                     towards_plus, false, weighted)
+                    .ok());
     for (std::size_t i = 0; i < 3; ++i) {
       const PseudoRigid& chain = robot.legs[i].chain;
       EXPECT_NEAR(chain.tendon_length(legs[i].of(chain), 0.005, 1), row["l1_min_norm"][i].get<double>(),

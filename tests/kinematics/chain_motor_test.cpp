@@ -3,8 +3,8 @@
 
 #include <numbers>
 
+#include "kinematics/chain.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/kinematics/chain.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {
@@ -50,7 +50,8 @@ double energy(Case one, std::size_t leg, double turn) {
 }
 
 TEST(ChainMotors, BearTheDerivativeOfTheEnergyByTheirAngle) {
-  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
+  for (const PrbDiscretisation model :
+       {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
     for (const bool holds_lengths : {false, true}) {
       Case one = at_rest(model, holds_lengths);
       for (std::size_t i = 0; i < 3; ++i)

@@ -130,7 +130,8 @@ template <class Space>
 void expect_slopes_of(const char* name) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> part(-1, 1);
-  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
+  for (const PrbDiscretisation model :
+       {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
     const auto robot = made_of<Space>(name, model);
     for (const double size : {0.0, 1e-9, 1e-3, 0.4, 1.2})  // straight, nearly so, bent, folded
       for (int repeat = 0; repeat < 6; ++repeat) {
@@ -223,7 +224,8 @@ template <class Space>
 void expect_moves_of(const char* name) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> part(-1, 1);
-  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
+  for (const PrbDiscretisation model :
+       {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
     const auto robot = made_of<Space>(name, model);
     for (const int links : {2, 3, 6, 32})
       for (const double size : {1e-3, 0.1, 0.8})
@@ -296,7 +298,8 @@ TEST(ChainForces, DoNoWorkAlongMotionsThatStayClosed) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> part(-1, 1);
   for (const char* name : {"3-rfr", "3-frr"})
-    for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
+    for (const PrbDiscretisation model :
+         {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
       const auto robot = made_of<Planar>(name, model);
       const bool is_frr = robot.legs[0].has_strut();
       const PlanarPose pose = is_frr ? PlanarPose{0, 0, 0.1} : PlanarPose{0.01, 0, 0.3};

@@ -3,10 +3,10 @@
 
 #include <numbers>
 
+#include "analysis/chain_velocity.hpp"
 #include "chain_robots.hpp"
-#include "sinew/analysis/chain_velocity.hpp"
+#include "kinematics/chain.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/kinematics/chain.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {
@@ -63,7 +63,9 @@ void expect_twice(const char* name, PrbDiscretisation model, const typename Spac
       ChainState<Space> a, b;
       ASSERT_TRUE(unloaded_equilibrium(one.robot, pose, one.curvature, holds_lengths, a).ok());
       ASSERT_TRUE(unloaded_equilibrium(two.robot, pose, two.curvature, holds_lengths, b).ok());
-      EXPECT_NEAR(constant_curvature_energy_gap(two.robot, b, 2 * wrench) / constant_curvature_energy_gap(one.robot, a, wrench), 2, 1e-9);
+      EXPECT_NEAR(constant_curvature_energy_gap(two.robot, b, 2 * wrench) /
+                      constant_curvature_energy_gap(one.robot, a, wrench),
+                  2, 1e-9);
       const auto linear = linear_compliance(one.robot, a), half = linear_compliance(two.robot, b);
       EXPECT_LT((linear - 2 * half).norm(), 1e-10 * linear.norm());
       if (is_pose_held) {
@@ -90,7 +92,8 @@ void expect_twice(const char* name, PrbDiscretisation model, const typename Spac
 TEST(RedundantChains, BearTwiceTheLoadWithTwiceTheLegs) {
   SpatialPose high;
   high.position = {0.01, 0, 0.18};
-  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
+  for (const PrbDiscretisation model :
+       {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs}) {
     expect_twice<Planar>("3-rfr", model, {0.01, 0, 0.3});
     expect_twice<Planar>("3-frr", model, {0, 0, 0.1});
     expect_twice<Spatial>("6-ufs", model, high);

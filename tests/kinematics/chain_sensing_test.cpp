@@ -1,5 +1,5 @@
 /// The load from tensions: put on, read, and sensed back.
-#include "sinew/kinematics/chain_sensing.hpp"
+#include "kinematics/chain_sensing.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,8 @@ void expect_sensed(const Case<Space>& one, double size, std::mt19937& random) {
 
 TEST(ChainSensing, GivesBackTheLoadThatMadeTheTensions) {
   std::mt19937 random(3);
-  for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
+  for (const PrbDiscretisation model :
+       {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
     for (const double size : {0.0, 0.01, 0.1}) {
       expect_sensed(case_of<Planar>("3-rfr", model, {0.01, 0, 0.3}), size, random);
       expect_sensed(case_of<Planar>("3-frr", model, {0, 0, 0.1}), 0.1 * size, random);
@@ -87,7 +88,9 @@ TEST(ChainSensing, TakesAsManyLegsAsAreMeasured) {
   leg.base = SE2<double>::from(-0.15, 0.12, 0);
   leg.platform_point = Vec2<double>(-0.02, 0.05);
   one.robot.legs.push_back(leg);
-  ASSERT_TRUE(unloaded_equilibrium(one.robot, {0.01, 0, 0.3}, std::vector{5.0, 5.0, 5.0, 5.0}, true, one.unloaded).ok());
+  ASSERT_TRUE(
+      unloaded_equilibrium(one.robot, {0.01, 0, 0.3}, std::vector{5.0, 5.0, 5.0, 5.0}, true, one.unloaded)
+          .ok());
   expect_sensed(one, 0.05, random);
 }
 

@@ -160,7 +160,8 @@ TEST_P(Extension, MovesTipAndTendonsAsDifferencesSay) {
         set_extensions(robot, extensions, work);
         tip_motion(bends, work);
         extension_motion(bends, model, work);
-        EXPECT_LT(((ahead.first.p - behind.first.p) / (2 * step) - work.extension_jacobians[m].tip).norm(), 1e-12);
+        EXPECT_LT(((ahead.first.p - behind.first.p) / (2 * step) - work.extension_jacobians[m].tip).norm(),
+                  1e-12);
         EXPECT_LT(ahead.first.R.compose(behind.first.R.inverse()).log().norm(), 1e-15);
         std::size_t i = 0;
         for (std::size_t j = 0; j < bends.size(); ++j)

@@ -253,7 +253,8 @@ TEST(RodSolve, NeverLeavesItsBranchInLargeResumedSteps) {  // beside a path in s
       for (int part = 1; part <= 60 && is_there; ++part) {
         const double f = part / 60.0;
         const Vec3<double> inputs = (1 - f) * from + f * to;
-        is_there = is_solved(small.solve(inputs, {.wrench = (1 - f) * before + f * after, .warm_start = true}));
+        is_there =
+            is_solved(small.solve(inputs, {.wrench = (1 - f) * before + f * after, .warm_start = true}));
       }
       if (!is_there) continue;
       ++tried;

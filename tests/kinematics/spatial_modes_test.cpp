@@ -1,4 +1,4 @@
-#include "sinew/kinematics/spatial_modes.hpp"
+#include "kinematics/spatial_modes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sinew/kinematics/three_arcs.hpp"
+#include "kinematics/three_arcs.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -32,7 +32,8 @@ TEST_P(EveryRobotTracks, AClosedLoopAndComesBackToItsInputs) {  // @verifies TDP
     bool gets_there = true;
     for (int k = 1; gets_there && k <= 40; ++k) {
       const double part = k <= 20 ? k / 20.0 : (40 - k) / 20.0;
-      const Report report = track.advance(part == 1 ? far : project_to_constraints(robot, between(home_pose, far, part)));
+      const Report report =
+          track.advance(part == 1 ? far : project_to_constraints(robot, between(home_pose, far, part)));
       gets_there = report.ok();
       EXPECT_LT(track.closure_error(), 1e-13);
     }
@@ -46,7 +47,8 @@ TEST_P(EveryRobotTracks, AClosedLoopAndComesBackToItsInputs) {  // @verifies TDP
 
 TEST_P(EveryRobotTracks, TheRatesOfTheDifferentialInverseKinematics) {
   const AnyPose pose = reachable_pose(robot, random, work);
-  const AnyPose next = project_to_constraints(robot, moved(pose, Eigen::VectorXd::Constant(dof(robot), 1e-6)));
+  const AnyPose next =
+      project_to_constraints(robot, moved(pose, Eigen::VectorXd::Constant(dof(robot), 1e-6)));
   const Eigen::VectorXd step = motion(pose, next);
   Track track(robot, {}, work);
   ASSERT_TRUE(track.advance(pose).ok());

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "check_jacobian.hpp"
+#include "leg/leg_curvature.hpp"
+#include "leg/project.hpp"
 #include "random_leg.hpp"
-#include "sinew/leg/leg_curvature.hpp"
-#include "sinew/leg/project.hpp"
-#include "sinew/robot/catalog.hpp"
+#include "robot/catalog.hpp"
 
 namespace sinew::test {
 namespace leg_test {
@@ -192,7 +192,8 @@ TYPED_TEST(EveryLeg, TheNearestSolutionIsTheNearestOfAll) {
     const auto leg = random_leg<TypeParam>(this->random);
     const auto platform = this->platform(leg);
     const double target = sample % 2 ? 0 : random_branch(this->random, leg);
-    const SolutionPreference wish{.near = target, .bending = HasArc<typename TypeParam::Link> ? sample % 3 - 1 : 0};
+    const SolutionPreference wish{.near = target,
+                                  .bending = HasArc<typename TypeParam::Link> ? sample % 3 - 1 : 0};
     std::array<typename TypeParam::Coordinates, 8> roots;
     const int count = leg.solutions_at(platform, wish, roots);
     double best = 1e9;

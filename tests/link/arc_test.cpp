@@ -2,7 +2,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "check_jacobian.hpp"
-#include "sinew/link/arc.hpp"
+#include "link/arc.hpp"
 
 namespace sinew {
 namespace arc_test {

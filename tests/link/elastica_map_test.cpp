@@ -1,4 +1,4 @@
-#include "sinew/link/elastica_map.hpp"
+#include "link/elastica_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sinew/link/elastica.hpp"
+#include "link/elastica.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

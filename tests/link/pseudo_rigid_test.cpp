@@ -1,6 +1,6 @@
 /// The pseudo-rigid chain against differences, the numbers of an independent implementation, and the
 /// elastica.
-#include "sinew/link/pseudo_rigid.hpp"
+#include "link/pseudo_rigid.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,9 +8,9 @@
 #include <Eigen/Cholesky>
 
 #include "check_jacobian.hpp"
+#include "link/arc.hpp"
+#include "link/elastica.hpp"
 #include "reference_file.hpp"
-#include "sinew/link/arc.hpp"
-#include "sinew/link/elastica.hpp"
 
 namespace sinew {
 namespace pseudo_rigid_test {
@@ -105,7 +105,8 @@ TEST(PseudoRigid, TendonsBetweenDiscsAreDistancesOfHoles) {
 
 TEST(PseudoRigid, TurnsOfEndsAndJointsBetweenAreTheTurn) {
   for (const ChainBase base : bases)
-    for (const PrbDiscretisation model : {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
+    for (const PrbDiscretisation model :
+         {PrbDiscretisation::even, PrbDiscretisation::weighted, PrbDiscretisation::discs})
       for (const int links : {2, 5}) {
         const PseudoRigid chain{.length = 0.3, .links = links, .base = base, .model = model};
         VectorXd angles(chain.joints());

@@ -1,4 +1,4 @@
-#include "sinew/link/rail.hpp"
+#include "link/rail.hpp"
 
 #include <gtest/gtest.h>
 

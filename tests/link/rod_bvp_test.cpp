@@ -1,4 +1,4 @@
-#include "sinew/link/rod_bvp.hpp"
+#include "link/rod_bvp.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,10 +8,10 @@
 #include <random>
 
 #include "check_jacobian.hpp"
+#include "link/elastica_map.hpp"
 #include "random_rod.hpp"
 #include "reference_file.hpp"
 #include "sanitizers.hpp"
-#include "sinew/link/elastica_map.hpp"
 
 namespace sinew {
 namespace held_rod_test {
@@ -36,7 +36,7 @@ struct Task {
   /// The equilibrium near another, with the tip moved and the rod fed.
   RodBvpSolution near(const RodBvpSolution& other, const Vec<double, 7>& x) const {
     return solve_rod_bvp(rod, base, length + x[6], ends, tip.displaced(x.head<6>()),
-                {other.base.n, other.base.m, other.axial_rotation}, {.steps = other.steps});
+                         {other.base.n, other.base.m, other.axial_rotation}, {.steps = other.steps});
   }
 };
 
@@ -61,7 +61,8 @@ Vec<double, 6> wrench(const RodBvpSolution& x) {
 }
 
 /// Whether `there`, after this motion, continues `x`: another equilibrium is far away in force.
-bool continues(const RodBvpSolution& x, const RodBvpSolution& there, const Vec<double, 7>& motion, double force_unit) {
+bool continues(const RodBvpSolution& x, const RodBvpSolution& there, const Vec<double, 7>& motion,
+               double force_unit) {
   const Vec<double, 6> expected = x.stiffness * motion.head<6>() + x.feed * motion[6];
   const Vec<double, 6> off = wrench(there) - wrench(x) - expected;
   return there.report.ok() && off.head<3>().norm() < 0.3 * expected.head<3>().norm() + 0.1 * force_unit;
@@ -194,7 +195,8 @@ RC_GTEST_PROP(RodBvpSolution, BallTipIsTheStableElastica, ()) {
   RC_PRE(map.report.ok() && map.equilibria[0].is_stable());
   SE3<double> tip;
   tip.p = Vec3<double>(d, 0, w) * length;
-  const RodBvpSolution x = solve_rod_bvp(rod, {}, length, {*rc::gen::element(Base::held, Base::spins), Tip::ball}, tip);
+  const RodBvpSolution x =
+      solve_rod_bvp(rod, {}, length, {*rc::gen::element(Base::held, Base::spins), Tip::ball}, tip);
   RC_ASSERT(x.report.ok());
   const ElasticaEquilibrium& e = map.equilibria[0];
   const ElasticaUnits unit{length, rod.bending_stiffness[0]};
@@ -293,7 +295,8 @@ TEST(RodBvpSolution, SaysWhatCannotBe) {
   tip.p = {0, 0, length};
   EXPECT_EQ(solve_rod_bvp(rod, {}, length, pinned, tip).report.status, Status::singular);  // straight
   tip.p = {0, 0, 0.4};
-  EXPECT_EQ(solve_rod_bvp(rod, {}, length, pinned, tip).report.status, Status::singular);  // turns about the base
+  EXPECT_EQ(solve_rod_bvp(rod, {}, length, pinned, tip).report.status,
+            Status::singular);  // turns about the base
   tip.p = {0.1, 0, 0.4};
   EXPECT_TRUE(solve_rod_bvp(rod, {}, length, pinned, tip).report.ok());
   for (const double L : {0.0, -1.0, std::nan("")})

@@ -1,4 +1,4 @@
-#include "sinew/link/spatial_rod.hpp"
+#include "link/spatial_rod.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "check_jacobian.hpp"
+#include "link/elastica.hpp"
 #include "link/rod_steps.hpp"
 #include "random_rod.hpp"
 #include "reference_file.hpp"
 #include "rod_3pfs.hpp"
-#include "sinew/link/elastica.hpp"
 
 namespace sinew {
 namespace spatial_rod_test {

@@ -1,4 +1,4 @@
-#include "sinew/math/inverse_sinc.hpp"
+#include "math/inverse_sinc.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

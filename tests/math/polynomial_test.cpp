@@ -1,4 +1,4 @@
-#include "sinew/math/polynomial.hpp"
+#include "math/polynomial.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sinew/math/shape_preserving.hpp"
+#include "math/shape_preserving.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// Tilt, azimuth and torsion of rotations.
-#include "sinew/math/tilt.hpp"
+#include "math/tilt.hpp"
 
 #include <gtest/gtest.h>
 

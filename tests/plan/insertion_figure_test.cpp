@@ -1,4 +1,4 @@
-#include "sinew/plan/insertion_figure.hpp"
+#include "plan/insertion_figure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <random>
 
+#include "io/parse.hpp"
 #include "scenes.hpp"
-#include "sinew/io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "study_folder.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "plan/compressor.hpp"
 #include "sinew/io/serial_file.hpp"
-#include "sinew/plan/compressor.hpp"
 #include "sinew/plan/scene.hpp"
 
 namespace sinew::test {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sinew/analysis/tripod_loci.hpp"
+#include "analysis/tripod_loci.hpp"
 #include "sinew_query.hpp"
 
 namespace sinew::test {

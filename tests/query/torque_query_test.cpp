@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "sinew/io/parse.hpp"
+#include "io/parse.hpp"
 #include "sinew/query/session.hpp"
 
 namespace sinew::test {

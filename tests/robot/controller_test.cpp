@@ -1,4 +1,4 @@
-#include "sinew/robot/controller.hpp"
+#include "robot/controller.hpp"
 
 #include <gtest/gtest.h>
 

@@ -80,7 +80,8 @@ template <class System>
 bool begin(System& system, const RodRobot& robot, RodRandom& random) {
   system.set_gravity(gravity);
   if (!system.rest_at(random.near(home(robot), 0.03, 0.15))) return false;
-  for (int k = 0; k < system.limbs(); ++k) system.solve_rod_bvp(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
+  for (int k = 0; k < system.limbs(); ++k)
+    system.solve_rod_bvp(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
   return close_rods(system) && balance(system);
 }
 
@@ -331,10 +332,10 @@ TEST(GeneralSystem, EveryRodIsOneHeldByItself) {
       const Vec3<double> arm = system.platform().R.rotate(leg.platform_point);
       std::vector<double> own(RodLeg::coordinates);
       system.get_rod(k, own);
-      const RodBvpSolution held =
-          solve_rod_bvp(rod, {leg.base.p, SO3<double>::from(base)}, reading.length, ends,
-               {system.platform().p + arm, system.platform().R.compose(SO3<double>::from(tip))},
-               RodStart{{own[0], own[1], own[2]}, {own[3], own[4], own[5]}, own[6]}, {.tolerance = 1e-13});
+      const RodBvpSolution held = solve_rod_bvp(
+          rod, {leg.base.p, SO3<double>::from(base)}, reading.length, ends,
+          {system.platform().p + arm, system.platform().R.compose(SO3<double>::from(tip))},
+          RodStart{{own[0], own[1], own[2]}, {own[3], own[4], own[5]}, own[6]}, {.tolerance = 1e-13});
       ASSERT_TRUE(held.report.ok()) << kind.name << held.report.message.view();
       EXPECT_LT((held.tip.n - reading.force).norm(), 1e-9 * (1 + reading.force.norm())) << kind.name;
       EXPECT_LT((held.base.n - reading.force_0).norm(), 1e-9 * (1 + reading.force.norm())) << kind.name;

@@ -1,7 +1,7 @@
 /// Robots as one kind: by which models their links are reckoned, and what a serial robot answers.
 #include <gtest/gtest.h>
 
-#include "sinew/robot/chains.hpp"
+#include "robot/chains.hpp"
 #include "sinew/sinew.hpp"
 
 namespace sinew {

@@ -4,8 +4,8 @@
 #include <hwy/targets.h>
 
 #include "kinematics/rods/path.hpp"
+#include "link/elastica_map.hpp"
 #include "rod_robots.hpp"
-#include "sinew/link/elastica_map.hpp"
 
 namespace sinew::test {
 namespace rod_stability_test {

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "sinew/io/parse.hpp"
+#include "io/parse.hpp"
 #include "sinew/query/session.hpp"
 
 int main() {

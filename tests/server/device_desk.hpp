@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "io/parse.hpp"
 #include "server/device/panel/panel.hpp"
-#include "sinew/io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
 
 namespace sinew::server::device {

@@ -11,8 +11,8 @@
 
 #include "device_desk.hpp"
 #include "device_way.hpp"
+#include "io/posture_table.hpp"
 #include "paths.hpp"
-#include "sinew/io/posture_table.hpp"
 #include "sinew/study/result.hpp"
 
 namespace sinew::server::device {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "sinew/solve/newton.hpp"
-#include "sinew/solve/roots.hpp"
+#include "solve/newton.hpp"
+#include "solve/roots.hpp"
 
 namespace sinew {
 namespace solve_test {

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "sanitizers.hpp"
-#include "sinew/study/reproduce.hpp"
 #include "study/lsk/cycles/measure.hpp"
+#include "study/reproduce.hpp"
 #include "study_folder.hpp"
 
 namespace sinew {

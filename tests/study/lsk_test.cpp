@@ -9,7 +9,7 @@
 
 #include "serial_robots.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 #include "study_folder.hpp"
 
 namespace lsk_test {

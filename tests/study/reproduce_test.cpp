@@ -1,4 +1,4 @@
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 #include "reference_file.hpp"
 #include "study_folder.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "reference_file.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/study/reproduce.hpp"
 #include "study/compare.hpp"
+#include "study/reproduce.hpp"
 #include "study/tdpcr/example51.hpp"
 #include "study_folder.hpp"
 

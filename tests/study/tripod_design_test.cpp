@@ -11,7 +11,7 @@
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 #include "study_folder.hpp"
 
 namespace tripod_design_test {

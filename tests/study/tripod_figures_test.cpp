@@ -14,7 +14,7 @@
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
 #include "sinew/math/linalg.hpp"
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 #include "study/tripod/contour.hpp"
 #include "study/tripod/example.hpp"
 #include "study_folder.hpp"

@@ -8,7 +8,7 @@
 
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 #include "study/tripod/equation36.hpp"
 #include "study/tripod/swept.hpp"
 #include "study_folder.hpp"

@@ -3,8 +3,8 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include "kinematics/chain.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "sinew/kinematics/chain.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
 namespace sinew::test {

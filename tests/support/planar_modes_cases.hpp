@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "sinew/kinematics/planar_modes.hpp"
+#include "kinematics/planar_modes.hpp"
 #include "uniform.hpp"
 
 namespace sinew::test {

@@ -1,10 +1,10 @@
 /// @file planar_robots.hpp
 /// Robots for tests, built in C++ as a user would build them.
 #pragma once
+#include "robot/parallel.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/kinematics/inverse.hpp"
-#include "sinew/robot/parallel.hpp"
 
 namespace sinew::test {
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <random>
 
-#include "sinew/robot/parallel.hpp"
+#include "robot/parallel.hpp"
 #include "uniform.hpp"
 
 namespace sinew::test {

@@ -3,7 +3,7 @@
 #pragma once
 #include <rapidcheck.h>
 
-#include "sinew/link/spatial_rod.hpp"
+#include "link/spatial_rod.hpp"
 
 namespace sinew::test {
 

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "kinematics/rods/path.hpp"
+#include "link/elastica.hpp"
 #include "robot/general_system.hpp"
 #include "robot/mechanism.hpp"
 #include "robot/rod_system.hpp"
 #include "robot/rod_work.hpp"
 #include "robot/tangent_system.hpp"
-#include "sinew/link/elastica.hpp"
 #include "tripod_3pfs.hpp"
 
 namespace sinew::test {

@@ -7,8 +7,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "sinew/leg/rod_leg.hpp"
-#include "sinew/robot/parallel.hpp"
+#include "leg/rod_leg.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/robot/rod_result.hpp"
 
 namespace sinew::test {

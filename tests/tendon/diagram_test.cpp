@@ -337,9 +337,7 @@ TEST(SectionDiagram, NoAllowedBendHasMoreMargin) {
 double searched_area(const Asked& asked, double half) {
   constexpr int columns = 200, steps = 150;
   const double step = 2 * half / steps;
-  const auto is_in = [&](double x, double y) {
-    return asked.allows({x, y}) && asked.min_slack({x, y}) >= 0;
-  };
+  const auto is_in = [&](double x, double y) { return asked.allows({x, y}) && asked.min_slack({x, y}) >= 0; };
   const auto length_at = [&](double x) {
     double length = 0;
     for (int j = 0; j < steps; ++j) {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "sinew/link/swivel.hpp"
-#include "sinew/tendon/swivel_drive.hpp"
+#include "link/swivel.hpp"
+#include "tendon/swivel_drive.hpp"
 
 namespace sinew {
 namespace pair_test {

@@ -1,4 +1,4 @@
-#include "sinew/tendon/state.hpp"
+#include "tendon/state.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 
 #include "sinew/math/linalg.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// In the plane by name; in space the varieties of lines of Grassmann geometry, whose customary number begins
 /// the text of `to_string` ("5a general linear complex").
@@ -70,4 +70,4 @@ SINEW_API TypeTwo classify(const MatrixView& lines, const Vec2<double>& referenc
 /// The same in space: rows (f, m/radius).
 SINEW_API TypeTwo classify(const MatrixView& lines, const Vec3<double>& reference, double radius);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

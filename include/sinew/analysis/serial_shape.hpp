@@ -8,7 +8,7 @@
 #include "sinew/base/export.hpp"
 #include "sinew/robot/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A disc of a segment: it stands on the frame, its axis along z.
 struct DiscShape {
@@ -29,4 +29,4 @@ struct SerialShape {
 /// joint's arc, at least 2
 SINEW_API SerialShape serial_shape(const SerialRobot& robot, std::span<const Bend> bends, int samples);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

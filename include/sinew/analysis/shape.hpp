@@ -3,7 +3,7 @@
 #pragma once
 #include "sinew/robot/assembly.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 template <int D>
 using PolylineOf = std::vector<Vec<double, D>>;  ///< base frame [m]
@@ -34,4 +34,4 @@ inline PlanarShape shape(const Robot& robot, const AnyPose& pose, Numbers coordi
   return planar ? *planar : PlanarShape{};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

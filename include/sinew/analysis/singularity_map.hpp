@@ -12,7 +12,7 @@
 #include "sinew/analysis/lines.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// One coordinate of a pose: a value that stays (count 1), or `count` values from … to, both included.
 struct MapAxis {
@@ -88,4 +88,4 @@ SINEW_API SingularityMap singularity_map(const Robot& robot, const PoseGrid& gri
                                          const InverseOptions& branch, Workspace& work,
                                          const Progress& progress = {});
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 
 #include "sinew/robot/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Bend of the whole section for each length that a tendon in the bending plane is drawn in, 1/r [rad/m]. Of
 /// two axes both bend: of N/2 twin pivots by N/2·β.
@@ -69,4 +69,4 @@ struct ToleranceParts {
 /// What `SerialRobot::tolerance` should at least be for the tendons of that section.
 SINEW_API ToleranceParts tolerance_parts(const SerialRobot& robot, int section, const TendonForces& forces);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "sinew/analysis/lines.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct TypeTwoSearch {
   InverseOptions branch = {};  ///< of the first pose; it is followed from there
@@ -36,4 +36,4 @@ struct TypeTwoDistance {
 SINEW_API TypeTwoDistance type_2_distance(const Robot& robot, const AnyPose& pose, Numbers direction,
                                           const TypeTwoSearch& search, Workspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

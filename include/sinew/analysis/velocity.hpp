@@ -5,7 +5,7 @@
 #include "sinew/analysis/lines.hpp"
 #include "sinew/robot/assembly.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Performance indices. `position` and `rotation` are the 2-norms of the blocks of U: the largest platform
 /// speed [m/s] and turning rate [rad/s] that inputs of unit norm can cause. Absent (NaN) where J is singular;
@@ -40,4 +40,4 @@ SINEW_API Velocity velocity(const Robot& robot, const AnyPose& pose, Numbers coo
 /// follow, or legs that are tied would need different rates.  @implements TDPCR (41)
 SINEW_API Report rates(const Velocity& velocity, Numbers twist, Workspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

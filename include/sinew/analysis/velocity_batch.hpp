@@ -8,7 +8,7 @@
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// n poses and the branch on which they are reached.
 struct PoseBatch {
@@ -45,4 +45,4 @@ SINEW_API bool has_velocity_batch(const Robot& robot);
 SINEW_API std::size_t velocity_batch(const Robot& robot, const PoseBatch& batch, const VelocityBatch& out,
                                      Workspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

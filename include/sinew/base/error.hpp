@@ -9,7 +9,7 @@
 
 #include "sinew/base/export.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// One thing wrong with an input.
 struct Error {
@@ -33,4 +33,4 @@ inline tl::unexpected<Errors> failure(std::string_view code, std::string_view wh
 /// One line an error: `where: message [code]`.
 SINEW_API std::string to_string(const Errors& errors);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

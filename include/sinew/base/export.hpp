@@ -14,9 +14,9 @@
 #endif
 
 /// The inline namespace carries the ABI version: two incompatible sinews in one program do not link silently.
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Version of the library that is linked (the macros above give that of the headers).
 SINEW_API const char* version() noexcept;
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

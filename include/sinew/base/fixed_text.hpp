@@ -10,7 +10,7 @@
 
 #include "sinew/base/export.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 template <std::size_t Capacity>
 class FixedText {
@@ -73,4 +73,4 @@ void append_number(FixedText<Capacity>& text, int number) {
   text.append({buffer.data(), static_cast<std::size_t>(end - buffer.data())});
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

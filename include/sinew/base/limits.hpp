@@ -3,7 +3,7 @@
 #pragma once
 #include "sinew/base/export.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Most constraint rows of a robot, and most rows or columns of a matrix that is decomposed.
 inline constexpr int max_rows = 24;
@@ -14,4 +14,4 @@ inline constexpr int max_sections = max_rows / 2;
 /// Most joints of a pseudo-rigid link.
 inline constexpr int max_chain_joints = 32;
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

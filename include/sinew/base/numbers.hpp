@@ -9,7 +9,7 @@
 
 #include "sinew/base/export.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// In results: not solved, not asked for, or not defined there. An empty cell of a table.
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -22,4 +22,4 @@ struct Numbers : std::span<const double> {
   Numbers(std::initializer_list<double> values) : span(values.begin(), values.size()) {}
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 #pragma once
 #include <atomic>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// View of a flag that another thread or a signal handler may set. The default token is never asked to stop.
 class StopToken {
@@ -18,4 +18,4 @@ class StopToken {
   const std::atomic<bool>* flag_ = nullptr;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

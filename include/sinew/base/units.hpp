@@ -7,7 +7,7 @@
 
 #include "sinew/base/export.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What a number measures. `number` is dimensionless; `count` is a whole number.
 enum class Dimension {
@@ -52,4 +52,4 @@ struct Range {
   static constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -14,7 +14,7 @@
 #include "sinew/base/error.hpp"
 #include "sinew/base/export.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct Member;
 
@@ -141,4 +141,4 @@ class NodeBuilder {
   std::size_t nodes_ = 0;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

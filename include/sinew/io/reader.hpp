@@ -26,7 +26,7 @@
 #include "sinew/base/units.hpp"
 #include "sinew/io/node.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Document, sink and nodes must outlive the reader. It moves, but is not copied: it remembers which keys
 /// were asked.
@@ -163,4 +163,4 @@ class FieldReader {
   Reader* map_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

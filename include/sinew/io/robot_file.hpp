@@ -11,9 +11,9 @@
 #include "sinew/io/node.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/robot/robot.hpp"
-#include "sinew/tendon/swivel_drive.hpp"
+#include "sinew/tendon/theta_is.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The document of a robot file, or of a robot that is part of the library (`3-rfr`; see
 /// `builtin_robot_names`).
@@ -55,4 +55,4 @@ SINEW_API Expected<Document> with(const Document& document, std::span<const Memb
 /// `tangent` or `chord`.
 SINEW_API ThetaIs read_theta_is(const Reader& word);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

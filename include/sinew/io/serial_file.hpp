@@ -8,7 +8,7 @@
 #include "sinew/io/node.hpp"
 #include "sinew/robot/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Whether a document says `kind: serial`.
 SINEW_API bool is_serial(const Document& document);
@@ -26,4 +26,4 @@ SINEW_API Expected<TendonMotor> read_motor(const Document& document);
 /// The same document with `sections: {count, ...}` written out as a list; unchanged if it is one.
 SINEW_API Expected<Document> expanded_sections(const Document& document);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

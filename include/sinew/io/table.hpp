@@ -18,7 +18,7 @@
 #include "sinew/base/error.hpp"
 #include "sinew/base/numbers.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// One column. A value that is not finite is missing.
 struct Column {
@@ -70,4 +70,4 @@ SINEW_API Expected<Table> read_csv(const std::filesystem::path& path);
 /// Write a whole file, making the folders above it. Codes: `file_unwritable`.
 SINEW_API Expected<void> write_text(std::string_view text, const std::filesystem::path& path);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 
 #include "sinew/robot/assembly.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct AssemblyModes {
   Report report;  ///< unreachable where there is none; singular where there is a continuum
@@ -24,4 +24,4 @@ SINEW_API AssemblyModes assembly_modes(const Robot& robot, Numbers inputs, Works
 /// Index of the pose nearest to `start`, turns counted by what they move a point at the platform's radius.
 SINEW_API std::size_t nearest_pose(const Robot& robot, std::span<const AnyPose> poses, const AnyPose& start);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 #pragma once
 #include "sinew/robot/assembly.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What can be chosen of the pose of a tripod: a height and two components of the quaternion (e₀, e₁, e₂,
 /// e₃).
@@ -37,4 +37,4 @@ SINEW_API ConstrainedPose constrained_pose(const Robot& robot, const Independent
 /// answered by the nearest one found.
 SINEW_API AnyPose project_to_constraints(const Robot& robot, const AnyPose& pose);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 #include "sinew/robot/assembly.hpp"
 #include "sinew/robot/rod_result.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A wrench (force [N], moment about the platform's reference point [N m]) in base axes, of the world on the
 /// platform.
@@ -75,8 +75,8 @@ SINEW_API bool has_equilibrium_batch(const Robot& robot);
 /// the lanes resolve, is solved alone; rods that do not bend in one plane go row by row. Shapes to the
 /// estimate of quick resumed answers. Gravity is the robot's. Where a status is neither `converged` nor
 /// `unstable` the pose is not one. Allocates once a call.
-/// @param judge whether it is asked if equilibria hold by themselves, and where they do not whether home
-/// leads
+/// @param check_stability whether it is asked if equilibria hold by themselves, and where they do not whether
+/// home leads
 ///     to one that does; else they are all `converged`
 SINEW_API void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wrench,
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
@@ -91,7 +91,7 @@ struct RodAnalysis {
   int unstable_directions = 0;      ///< of the second variation, all rods free to move
   std::vector<std::array<double, 6>> unstable;    ///< twists along which the platform's stiffness is negative
   std::vector<std::array<int, 2>> unstable_rods;  ///< tip held: in the rod's plane, out of it
-  std::vector<RodResult> rods;                   ///< in the order of the legs
+  std::vector<RodResult> rods;                    ///< in the order of the legs
   std::vector<Vec3<double>>
       closing_forces;         ///< of the platform on each closing leg, at its point, base axes [N]
   double energy = 0;          ///< of all rods [J]
@@ -161,4 +161,4 @@ SINEW_API std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, c
                                                            const EquilibriumOptions& options,
                                                            Workspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

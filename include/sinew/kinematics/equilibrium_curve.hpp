@@ -9,7 +9,7 @@
 
 #include "sinew/kinematics/equilibrium.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Where a curve leads, and how far it is followed. Inputs, wrench, or pose change linearly in a parameter
 /// that is 0 at its beginning and 1 here.
@@ -73,4 +73,4 @@ struct EquilibriumCurve {
 SINEW_API std::vector<EquilibriumCurve> equilibrium_curves(const Robot& robot, const CurveOptions& how,
                                                            Workspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

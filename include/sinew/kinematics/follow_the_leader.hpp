@@ -7,7 +7,7 @@
 
 #include "sinew/robot/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The curve is kept as bend per length; a section takes the mean of what it lies on. The base moves on a
 /// straight line, so the body stays on the curve as far as the curve began straight; where the robot was bent
@@ -35,4 +35,4 @@ class SINEW_API FollowTheLeader {
   std::deque<Piece> curve_;     ///< from the base to the tip
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

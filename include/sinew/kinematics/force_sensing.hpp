@@ -4,7 +4,7 @@
 #pragma once
 #include "sinew/kinematics/equilibrium.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct SensedWrench {
   Report report;
@@ -23,4 +23,4 @@ struct SensedWrench {
 SINEW_API SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Numbers deviations,
                                     const EquilibriumOptions& options, Workspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "sinew/robot/assembly.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct ForwardOptions {
   std::optional<AnyPose> start = {};  ///< default: the robot's home. Newton answers with the mode it leads to
@@ -33,4 +33,4 @@ struct Forward {
 /// @implements TDPCR (42)
 SINEW_API Forward forward(const Robot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #pragma once
 #include "sinew/robot/assembly.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Which of the solutions is wanted; default the smallest |κ|, positive where both signs do.
 struct InverseOptions {
@@ -46,4 +46,4 @@ struct WorkingModes {
 SINEW_API WorkingModes working_modes(const Robot& robot, const AnyPose& pose, const InverseOptions& options,
                                      Workspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

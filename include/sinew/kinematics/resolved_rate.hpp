@@ -6,7 +6,7 @@
 
 #include "sinew/kinematics/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Motion of the tip: velocity of its origin [m/s] and angular velocity [rad/s].
 struct TipTwist {
@@ -51,4 +51,4 @@ SINEW_API ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const B
                                      const TipTwist& twist, const ResolvedRateOptions& options,
                                      SerialWorkspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

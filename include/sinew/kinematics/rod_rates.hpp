@@ -4,7 +4,7 @@
 #pragma once
 #include "sinew/kinematics/equilibrium.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Rates of the inputs that move the platform so, into `rates`: those for which K·(rates) = J·(twist), of
 /// fewer rows where legs close beside the rods. `singular` where none do, within 1e-9.
@@ -15,4 +15,4 @@ SINEW_API Report rod_rates(const RodAnalysis& analysis, Numbers twist, std::span
 /// with all inputs held. No heap.
 SINEW_API Report rod_twist(const RodAnalysis& analysis, Numbers rates, std::span<double, 6> twist);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -11,12 +11,13 @@
 #include "sinew/robot/serial_workspace.hpp"
 #include "sinew/solve/report.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Makes the sections longer than at rest by so much [m]: all other questions to this workspace are about a
 /// robot of these lengths, with tendon changes from those of the straight robot at rest.
 /// Values of another number of sections, here and below, make what is answered NaN.
-SINEW_API void set_extensions(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work);
+SINEW_API void set_extensions(const SerialRobot& robot, std::span<const double> extensions,
+                              SerialWorkspace& work);
 
 /// Changes of all tendons into `work.changes`, in one pass over the sections (LSK (5), (12)).
 SINEW_API void tendon_changes(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
@@ -72,7 +73,8 @@ SINEW_API std::optional<Mat<double, 2, 2>> tip_steering(const SerialWorkspace& w
 /// ∂(changes)/∂(bends) into `work.K`.
 SINEW_API void tendon_rates(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
 
-/// What extensions do, into `work.extension_jacobians`; after `section_ends` or `tip_motion` of the same bends.
+/// What extensions do, into `work.extension_jacobians`; after `section_ends` or `tip_motion` of the same
+/// bends.
 SINEW_API void extension_motion(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "sinew/kinematics/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Where the tip is wanted, in the base's frame. Of `direction` and `rotation` at most one.
 struct TipTarget {
@@ -47,4 +47,4 @@ struct SerialInverse {
 SINEW_API SerialInverse inverse(const SerialRobot& robot, const TipTarget& target,
                                 const SerialInverseOptions& options, SerialWorkspace& work);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 #pragma once
 #include "sinew/kinematics/inverse.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What a redundant robot does with the freedom a pose leaves it. Other robots have none: the objective is
 /// then without effect.
@@ -61,4 +61,4 @@ SINEW_API AnyPose between(const AnyPose& from, const AnyPose& to, double part);
 SINEW_API Vec<double, 3> twist_between(const PlanarPose& from, const PlanarPose& to);
 SINEW_API Vec<double, 6> twist_between(const SpatialPose& from, const SpatialPose& to);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 #include "sinew/robot/serial.hpp"
 #include "sinew/solve/report.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Where a serial robot on a linear stage is.
 struct SerialPosture {
@@ -54,4 +54,4 @@ SINEW_API Trajectory time_optimal_trajectory(const SerialRobot& robot,
 /// Most points that a trajectory may have.
 inline constexpr std::size_t trajectory_point_limit = 1'000'000;
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "sinew/math/vec.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What a person wants to know of a leg in an answer: first of one with an arc, then of one on a rail; what
 /// the leg has not is NaN or 0.
@@ -27,4 +27,4 @@ struct LegState {
   int elbow = 0;  ///< see SolutionPreference, ±1; 0 of a leg without
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

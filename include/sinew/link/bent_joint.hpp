@@ -15,7 +15,7 @@
 #pragma once
 #include "sinew/link/bent_motion.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 namespace detail {
 
@@ -131,4 +131,4 @@ struct BentJoint {
   }
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "sinew/math/se3.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 namespace detail {
 
@@ -119,4 +119,4 @@ struct BentMotion {
   }
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -17,7 +17,7 @@
 
 #include "sinew/math/vec.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 namespace detail {
 
@@ -154,4 +154,4 @@ S sinc5(const S& x) {
   return (static_cast<S>(1.0 / 6.0) - sinc3(x)) / (x * x);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

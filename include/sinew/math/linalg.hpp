@@ -11,7 +11,7 @@
 #include "sinew/base/limits.hpp"
 #include "sinew/math/vec.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Somebody's row-major numbers as a matrix: `MatrixView(data, rows, columns)`.
 using MatrixView = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
@@ -54,4 +54,4 @@ SINEW_API void symmetric_eigenvalues(const MatrixView& a, std::span<double> valu
 
 SINEW_API double determinant(const MatrixView& a);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

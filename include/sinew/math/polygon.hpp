@@ -12,7 +12,7 @@
 
 #include "sinew/math/vec.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A convex set by its vertices, counter-clockwise, none twice: none of them is the empty set, one a point,
 /// two a segment.
@@ -60,4 +60,4 @@ SINEW_API double area(const DiscCut& cut);
 /// Points of the boundary; a chord between them is nowhere farther from its arc than `deviation`.
 SINEW_API Polygon boundary(const DiscCut& cut, double deviation);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

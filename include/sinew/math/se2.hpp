@@ -9,7 +9,7 @@
 #include "sinew/math/entire.hpp"
 #include "sinew/math/vec.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The angle in (−π, π]. Exact: the remainder of an IEEE division by the double 2π is not rounded.
 inline double wrap_angle(double angle) {
@@ -107,4 +107,4 @@ inline PlanarPose planar_pose(const SE2<double>& pose) {
   return {pose.p[0], pose.p[1], wrap_angle(pose.angle())};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

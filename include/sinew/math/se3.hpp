@@ -6,7 +6,7 @@
 
 #include "sinew/math/so3.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Platform pose as people write it; quaternion [w, x, y, z], w ≥ 0, platform → base.
 struct SpatialPose {
@@ -85,4 +85,4 @@ inline SpatialPose spatial_pose(const SE3<double>& pose) {
   return {pose.p, {q.w, q.v[0], q.v[1], q.v[2]}};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "sinew/math/se2.hpp"
 #include "sinew/math/vec.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// [v]: the matrix with [v] u = v × u.
 template <Scalar S>
@@ -119,4 +119,4 @@ struct SO3 {
   }
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

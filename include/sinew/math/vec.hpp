@@ -12,7 +12,7 @@
 
 #include "sinew/base/export.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The real number a scalar stands for, to choose a branch by. A derivative type brings its own, found by
 /// ADL.
@@ -99,4 +99,4 @@ Vec2<typename A::Scalar> perp(const Eigen::MatrixBase<A>& v_) {
   return {-v[1], v[0]};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -12,7 +12,7 @@
 #include "sinew/plan/scene.hpp"
 #include "sinew/plan/steps.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 enum class InsertionVerdict {
   clear = 0,      ///< also where the robot is as far off as it may be
@@ -58,7 +58,7 @@ struct InsertionCheck {
 };
 
 struct InsertionCheckOptions {
-  double reach = 10e-3;        ///< distances beyond this are not told apart [m]
+  double reach = 10e-3;      ///< distances beyond this are not told apart [m]
   double min_motion = 1e-6;  ///< the proof gives up where steps move the robot by less [m]
   unsigned threads = 0;
   StopToken stop;
@@ -73,4 +73,4 @@ SINEW_API InsertionCheck check_insertion(const InsertionScene& scene, std::span<
 /// Which limit a step exceeds, of a bend or of the stage, in words; empty: none.
 SINEW_API std::string exceeded_limit(const InsertionScene& scene, const InsertionStep& step);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -12,7 +12,7 @@
 #include "sinew/plan/scene.hpp"
 #include "sinew/solve/report.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What keeps a robot from a way in, where none was found.
 struct Blocked {
@@ -50,4 +50,4 @@ struct InsertionPlan {
 
 SINEW_API InsertionPlan plan_insertion(const InsertionScene& scene, const InsertionOptions& options = {});
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

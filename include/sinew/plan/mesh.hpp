@@ -11,7 +11,7 @@
 #include "sinew/base/export.hpp"
 #include "sinew/math/se3.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Triangles that bound a solid, counter-clockwise seen from outside. [m]
 struct Mesh {
@@ -51,4 +51,4 @@ SINEW_API Mesh cylinder_mesh(double radius, double length, double deviation);  /
 
 SINEW_API Mesh moved(Mesh mesh, const SE3<double>& pose);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

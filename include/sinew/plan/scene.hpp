@@ -11,7 +11,7 @@
 #include "sinew/plan/mesh.hpp"
 #include "sinew/robot/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Where the tip is to get, in scene axes.
 struct InsertionTarget {
@@ -56,4 +56,4 @@ SINEW_API Expected<InsertionScene> read_scene(const Document& document, const st
 /// The scene in a file.
 SINEW_API Expected<InsertionScene> load_scene(const std::filesystem::path& path);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

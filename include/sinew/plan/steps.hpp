@@ -8,7 +8,7 @@
 #include "sinew/base/export.hpp"
 #include "sinew/kinematics/trajectory.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct InsertionStep : SerialPosture {
   double clearance = 0;         ///< least distance between robot and solids [m]; < 0: they overlap
@@ -21,4 +21,4 @@ struct InsertionStep : SerialPosture {
 /// @param max_stage between two of the answer [m], > 0
 SINEW_API std::vector<InsertionStep> interpolated(std::span<const InsertionStep> steps, double max_stage);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

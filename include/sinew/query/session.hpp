@@ -10,7 +10,7 @@
 #include "sinew/base/stop.hpp"
 #include "sinew/io/node.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A robot opened for questions. Not for two threads at once: open one a thread.
 class SINEW_API Session {
@@ -44,4 +44,4 @@ class SINEW_API Session {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 #include "sinew/solve/report.hpp"
 #include "sinew/tendon/input_kind.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Rows in the papers' raw form (multiplied by the closure's distance). Views into the workspace.
 struct Reduced {
@@ -58,4 +58,4 @@ struct InputOfLeg {
 };
 SINEW_API std::vector<InputOfLeg> inputs_of(const Robot& robot);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,11 +8,11 @@
 
 #include "sinew/base/error.hpp"
 #include "sinew/base/export.hpp"
-#include "sinew/link/pseudo_rigid.hpp"
+#include "sinew/link/prb_discretisation.hpp"
 #include "sinew/math/se2.hpp"
 #include "sinew/math/se3.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 template <class LegT>
 struct ParallelRobot;
@@ -66,7 +66,8 @@ class Robot {
   /// The same robot by another model, which is again a robot: every question that the model can answer may be
   /// put to it. Its file's model and, where its links are arcs, prb. An error names what a leg lacks for
   /// that: `joints`, `material`, `diameter`, or that its links have no such model.
-  SINEW_API Expected<Robot> as(Model model, PrbDiscretisation discretisation = PrbDiscretisation::weighted) const;
+  SINEW_API Expected<Robot> as(Model model,
+                               PrbDiscretisation discretisation = PrbDiscretisation::weighted) const;
 
   /// Its sections, of a serial robot, which has no legs and no platform; else null.
   const SerialRobot* serial() const { return serial_; }
@@ -112,4 +113,4 @@ inline bool bears_load(const Robot& robot) {
 }
 SINEW_API bool has_weight(const Robot& robot);  ///< gravity does something to it
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

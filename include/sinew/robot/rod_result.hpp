@@ -5,7 +5,7 @@
 
 #include "sinew/math/vec.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Vectors in base axes.
 struct RodResult {
@@ -26,4 +26,4 @@ struct RodResult {
   double energy = 0;  ///< elastic [J]
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

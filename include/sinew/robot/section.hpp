@@ -9,7 +9,7 @@
 #include "sinew/kernel/section.h"
 #include "sinew/link/bent_joint.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Bend of a section [rad]: (β₁, β₂) of each joint of a twin-pivot backbone, θ (cos φ, sin φ) of a neutral
 /// one.
@@ -107,4 +107,4 @@ struct Section {
   }
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -11,7 +11,7 @@
 #include "sinew/base/export.hpp"
 #include "sinew/robot/section.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// How a motor moves a tendon: turns of a lead screw, counted by an encoder.
 struct TendonMotor {
@@ -69,4 +69,4 @@ struct SerialRobot {
   }
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

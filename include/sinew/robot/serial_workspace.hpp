@@ -9,7 +9,7 @@
 #include "sinew/math/linalg.hpp"
 #include "sinew/robot/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// How tip and tendons move with the extension of a section.
 struct ExtensionMotion {
@@ -32,7 +32,7 @@ struct SerialWorkspace {
   std::vector<double> bend_rates;       ///< by `resolved_rate`, section by section [rad/s]
   std::vector<double> extension_rates;  ///< of every section [m/s]
   std::vector<double> tendon_rates;     ///< of Δl [m/s], section by section; > 0 pays out
-  std::vector<ExtensionMotion> extension_jacobians;            ///< of every section, by `extension_motion`
+  std::vector<ExtensionMotion> extension_jacobians;   ///< of every section, by `extension_motion`
   std::vector<Section> sections;                      ///< as long as they are
   std::vector<kernel::Section<double>> maps;          ///< of the sections at rest
   std::vector<kernel::Direction<double>> directions;  ///< of every tendon
@@ -52,4 +52,4 @@ struct SerialWorkspace {
   }
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -9,7 +9,7 @@
 #include "sinew/leg/state.hpp"
 #include "sinew/robot/robot.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct RodWork;
 struct SerialWorkspace;
@@ -48,4 +48,4 @@ struct Workspace {
   std::unique_ptr<Workspace> arcs;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "sinew/base/export.hpp"
 #include "sinew/base/fixed_text.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// How a solve ended. Of the first eight the first that holds is reported. The numbers stand in result files:
 /// new statuses are appended.
@@ -48,4 +48,4 @@ struct TraceStep {
   double step;      ///< fraction of the Newton step taken to get here; 0 for the start
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 
 #include "sinew/io/table.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// An HDF5 file as `sweep` writes it, or any whose root has columns of numbers of one shape, with dimension
 /// scales or without: axes first, then columns in the order of their creation; `status` is its code. Codes:
@@ -19,4 +19,4 @@ SINEW_API Expected<Table> read_result(const std::filesystem::path& path);
 /// `seed: 3` are facts of its provenance. Codes: `unknown_format`, `file_unwritable`, `write_failed`.
 SINEW_API Expected<void> write_result(const Table& table, const std::filesystem::path& path);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

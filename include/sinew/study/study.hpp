@@ -14,7 +14,7 @@
 #include "sinew/base/error.hpp"
 #include "sinew/io/node.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What varies from sample to sample; it stands in the query as `$name`.
 struct StudyAxis {
@@ -123,4 +123,4 @@ SINEW_API std::string_view builtin_study(std::string_view name);  ///< empty whe
 /// @param set changes of the robot, `{path: value}`, over the study's own
 SINEW_API Expected<Study> read_study(const std::string& path_or_name, std::span<const Member> set = {});
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

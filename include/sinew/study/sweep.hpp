@@ -11,7 +11,7 @@
 
 #include "sinew/study/study.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 class Ranks;
 
@@ -92,4 +92,4 @@ SINEW_API Expected<SweepSummary> sweep(Study study, const SweepOptions& options)
 SINEW_API bool use_instruction_set(std::string_view name);
 SINEW_API std::string_view instruction_set_in_use();
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

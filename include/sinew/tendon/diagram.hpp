@@ -19,7 +19,7 @@
 #include "sinew/math/polygon.hpp"
 #include "sinew/solve/report.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Tendons that end at one section, spread evenly around its discs, at least 3. One direction a change.
 struct SectionTendons {
@@ -111,4 +111,4 @@ struct SectionOutline {
 /// [LSK] section 4.2, whose polygon of one section takes those before it for exact.
 SINEW_API SectionOutline section_outline(const DiagramQuestion& question, const SectionTendons& previous);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

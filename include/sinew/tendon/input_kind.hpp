@@ -5,7 +5,7 @@
 
 #include "sinew/base/units.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What a motor commands, and in which unit.
 struct InputKind {
@@ -13,4 +13,4 @@ struct InputKind {
   Dimension dimension;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

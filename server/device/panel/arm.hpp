@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "robot/controller.hpp"
 #include "server/device/wire/frames.hpp"
 #include "sinew/base/error.hpp"
 #include "sinew/io/node.hpp"
 #include "sinew/kinematics/serial.hpp"
-#include "sinew/robot/controller.hpp"
 
 namespace sinew::server::device {
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "sinew/tendon/state.hpp"
+#include "tendon/state.hpp"
 
 namespace sinew::server::device {
 namespace {

@@ -6,8 +6,8 @@
 namespace sinew::server::device {
 namespace {
 
-constexpr double min_step = 2e-4;            // [m] between recorded postures, of a tendon or the stage
-constexpr double min_bend = 2e-3;            // [rad]
+constexpr double min_step = 2e-4;             // [m] between recorded postures, of a tendon or the stage
+constexpr double min_bend = 2e-3;             // [rad]
 constexpr std::size_t max_postures = 50'000;  // 10 m of way
 
 /// Cheap, and enough to thin out a path.

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "sinew/io/export.hpp"
+#include "io/export.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// How numbers of a kernel's format are written.
@@ -171,4 +171,4 @@ std::string controller_header(const ControllerTable& table, std::string_view nam
          fmt::format("\n}}  // namespace {}\n\n#endif\n", name);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "sinew/kinematics/chain_analysis.hpp"
+#include "kinematics/chain_analysis.hpp"
 #include "sinew/kinematics/forward.hpp"
 #include "sinew/robot/assembly.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// First links along the tangents of the arcs, less the half of a link that they stand for.
@@ -33,7 +33,8 @@ std::vector<double> first_links(ArcTwin& twin, const ChainLegs<Space>& robot, co
   std::vector<double> inputs, directions;
   if (!robot.has_base_motors) return directions;
   for (const double length : lengths) inputs.insert(inputs.end(), {0, length});
-  static_cast<void>(coordinates_from_inputs(twin.robot, inputs, twin.work));  // of arcs beyond their domain, too
+  static_cast<void>(
+      coordinates_from_inputs(twin.robot, inputs, twin.work));  // of arcs beyond their domain, too
   const Arcs arcs = arcs_of(twin, pose, twin.work.coordinates);
   for (std::size_t i = 0; i < lengths.size(); ++i)
     directions.push_back(first_link(arcs.base_tangent[i], arcs.curvature[i], robot.legs[i].chain));
@@ -62,7 +63,8 @@ Report rest_near(ChainLegs<Space>& robot, const AnyPose& pose, const Arcs& arcs,
                  ChainState<Space>& state) {
   if (!arcs.report.ok()) return arcs.report;
   aim_bases(robot, arcs);
-  return unloaded_equilibrium(robot, std::get<typename Space::Pose>(pose), arcs.curvature, holds_lengths, state);
+  return unloaded_equilibrium(robot, std::get<typename Space::Pose>(pose), arcs.curvature, holds_lengths,
+                              state);
 }
 
 template <class Space>
@@ -139,4 +141,4 @@ SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,10 +4,10 @@
 #pragma once
 #include <optional>
 
-#include "sinew/kinematics/chain.hpp"
+#include "kinematics/chain.hpp"
 #include "sinew/kinematics/inverse.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A robot by the model prb on its arcs, and the memory for these in its workspace.
 struct ArcTwin {
@@ -65,4 +65,4 @@ Eigen::Matrix<double, Space::dof, Eigen::Dynamic, Eigen::RowMajor> sensitivity_t
 /// Whether there is an equilibrium; tendons that would have to push are told of, not forbidden.
 inline bool is_solved(const Report& report) { return report.ok() || report.status == Status::slack; }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 template <class Space>
 void ChainGroup<Space>::set_robot(const ChainLegs<Space>& robot, bool is_evenly_bent) {
@@ -231,4 +231,4 @@ double ChainGroup<Space>::relief(int leg) const {
 template class ChainGroup<Planar>;
 template class ChainGroup<Spatial>;
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "kinematics/chains/leg_factors.hpp"
 #include "robot/limb_group.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The feed of a leg is the tendon whose length is held, or else the tension of its inner tendon.
 template <class Space>
@@ -98,4 +98,4 @@ class ChainGroup final : public LimbGroup<Space> {
   Twist planned_ = Twist::Zero();
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,5 +1,5 @@
 /// Curves of equilibria on chains.
-#include "sinew/kinematics/chain_curve.hpp"
+#include "kinematics/chain_curve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "kinematics/load_problem.hpp"
 #include "solve/curve_writer.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 TendonConstraint difference(const TendonConstraint& from, const TendonConstraint& to) {
@@ -90,7 +90,7 @@ class ChainProblem : public LoadProblem<Space> {
  private:
   const ChainLegs<Space>& robot_;
   ChainGroup<Space>& chains_;
-  std::vector<double> fed_;              ///< by a step; none where nothing held changes
+  std::vector<double> fed_;                     ///< by a step; none where nothing held changes
   std::vector<TendonConstraint> from_, rates_;  ///< held at λ = 0, and its change; none where that stays
 };
 
@@ -134,4 +134,4 @@ SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

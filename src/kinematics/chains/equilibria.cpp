@@ -1,5 +1,5 @@
 /// Many equilibria of chains, by many starts.
-#include "sinew/kinematics/chain_equilibria.hpp"
+#include "kinematics/chain_equilibria.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "kinematics/load_problem.hpp"
 #include "kinematics/spread.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr int spread_starts = 40;
@@ -118,12 +118,12 @@ std::vector<FoundChains<Space>> chain_equilibria(const ChainLegs<Space>& robot,
   return search.found();
 }
 
-#define SINEW_OF(Space)                                                                        \
-  template SINEW_API std::vector<FoundChains<Space>> chain_equilibria(                         \
+#define SINEW_OF(Space)                                                                               \
+  template SINEW_API std::vector<FoundChains<Space>> chain_equilibria(                                \
       const ChainLegs<Space>&, std::span<const ChainStart<Space>>, std::span<const TendonConstraint>, \
       const Vec<double, Space::dof>&, ChainWork&, const ChainOptions&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

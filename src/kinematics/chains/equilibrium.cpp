@@ -8,7 +8,7 @@
 #include "sinew/math/linalg.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 TendonConstraint between(const TendonConstraint& from, const TendonConstraint& to, double part) {
@@ -131,7 +131,7 @@ Report settle(const ChainLegs<Space>& robot, ChainState<Space>& state) {
 
 template <class Space>
 Report unloaded_equilibrium(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
-            std::span<const double> curvature, bool holds_lengths, ChainState<Space>& state) {
+                            std::span<const double> curvature, bool holds_lengths, ChainState<Space>& state) {
   if (curvature.size() != robot.legs.size()) return wrong_sizes();
   state.pose = pose;
   state.legs.assign(robot.legs.size(), {});
@@ -175,7 +175,8 @@ Report unloaded_equilibrium(const ChainLegs<Space>& robot, const typename Space:
     own.tension[inner] = std::abs(leg.spring(static_cast<int>(last)) * own.angles[last] / pull.rate);
     measure_tendons(leg, own);
     // straight tendons pull less at a clamped first joint than at the others: even is no rest there
-    is_even = is_even && !(leg.chain.model == PrbDiscretisation::discs && leg.chain.base == ChainBase::clamped);
+    is_even =
+        is_even && !(leg.chain.model == PrbDiscretisation::discs && leg.chain.base == ChainBase::clamped);
   }
   if (report.ok() && !is_even) report = settle(robot, state);
   for (std::size_t i = 0; i < robot.legs.size(); ++i)
@@ -206,7 +207,7 @@ Report equilibrium(const ChainLegs<Space>& robot, std::span<const TendonConstrai
 
 template <class Space>
 Report inverse_statics(const ChainLegs<Space>& robot, const Vec<double, Space::dof>& wrench,
-                 ChainState<Space>& state, ChainWork& work, const ChainOptions& options) {
+                       ChainState<Space>& state, ChainWork& work, const ChainOptions& options) {
   if (robot.legs.size() < static_cast<std::size_t>(Space::dof)) {
     Report report;
     report.status = Status::unreachable;
@@ -215,7 +216,8 @@ Report inverse_statics(const ChainLegs<Space>& robot, const Vec<double, Space::d
     return report;
   }
   if (!fits(robot, state) || robot.legs.size() > static_cast<std::size_t>(max_rows)) return wrong_sizes();
-  const std::vector<TendonConstraint> held = std::exchange(state.hold, std::vector<TendonConstraint>(robot.legs.size()));
+  const std::vector<TendonConstraint> held =
+      std::exchange(state.hold, std::vector<TendonConstraint>(robot.legs.size()));
   std::array<double, max_rows> near;
   for (std::size_t i = 0; i < robot.legs.size(); ++i)
     near[i] = state.legs[i].tension[inner_tendon(state.legs[i], robot.legs[i].chain)];
@@ -254,20 +256,20 @@ Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>& robot, co
   return C;
 }
 
-#define SINEW_OF(Space)                                                                                      \
-  template SINEW_API Report unloaded_equilibrium(const ChainLegs<Space>&, const Space::Pose&, std::span<const double>, bool, \
-                                 ChainState<Space>&);                                                        \
-  template SINEW_API Report equilibrium(const ChainLegs<Space>&, std::span<const TendonConstraint>,                 \
-                                        const Vec<double, Space::dof>&, ChainState<Space>&, ChainWork&,      \
-                                        const ChainOptions&);                                                \
-  template SINEW_API Report inverse_statics(const ChainLegs<Space>&, const Vec<double, Space::dof>&,               \
-                                      ChainState<Space>&, ChainWork&, const ChainOptions&);                  \
-  template SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainLegs<Space>&,                  \
-                                                                   const ChainState<Space>&, ChainWork&);    \
-  template SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>&,                 \
+#define SINEW_OF(Space)                                                                                   \
+  template SINEW_API Report unloaded_equilibrium(const ChainLegs<Space>&, const Space::Pose&,             \
+                                                 std::span<const double>, bool, ChainState<Space>&);      \
+  template SINEW_API Report equilibrium(const ChainLegs<Space>&, std::span<const TendonConstraint>,       \
+                                        const Vec<double, Space::dof>&, ChainState<Space>&, ChainWork&,   \
+                                        const ChainOptions&);                                             \
+  template SINEW_API Report inverse_statics(const ChainLegs<Space>&, const Vec<double, Space::dof>&,      \
+                                            ChainState<Space>&, ChainWork&, const ChainOptions&);         \
+  template SINEW_API Mat<double, Space::dof, Space::dof> stiffness(const ChainLegs<Space>&,               \
+                                                                   const ChainState<Space>&, ChainWork&); \
+  template SINEW_API Mat<double, Space::dof, Space::dof> compliance(const ChainLegs<Space>&,              \
                                                                     const ChainState<Space>&, ChainWork&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -20,7 +20,7 @@
 #include "kinematics/chains/leg_system.hpp"
 #include "math/symmetric_factors.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The unknowns of a leg, to first order in what moves them: its own imbalance, the platform, and its feed,
 /// the tension of the inner tendon or the length that is held.
@@ -266,4 +266,4 @@ class LegFactors {
   std::array<double, max_chain_joints> turns_{};           ///< of the joints, as planned [rad]
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "sinew/kinematics/chain.hpp"
-#include "sinew/leg/chord.hpp"
-#include "sinew/leg/closure_curvature.hpp"
-#include "sinew/leg/strut.hpp"
+#include "kinematics/chain.hpp"
+#include "leg/chord.hpp"
+#include "leg/closure_curvature.hpp"
+#include "leg/strut.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The larger size; NaN stays.
 inline double worse(double a, double b) {
@@ -177,4 +177,4 @@ void form(const ChainLeg<Space>& leg, const typename Space::template Frame<doubl
   system.yields = slope > 1e-9 * chain.length && !is_rigid(leg, hold);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include "kinematics/load_problem.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::string_view to_string(ChainLoadEnd end) noexcept {
   constexpr std::string_view names[] = {"limit", "fold", "bifurcation", "slack", "iterations", "stability"};
@@ -66,4 +66,4 @@ SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,9 +1,9 @@
 #include <cmath>
 
+#include "kinematics/chain_motion.hpp"
 #include "kinematics/chains/leg_system.hpp"
-#include "sinew/kinematics/chain_motion.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr int most = max_chain_joints + 1;  // and a motor
@@ -206,4 +206,4 @@ SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 #include "kinematics/chains/chain_group.hpp"
 #include "solve/continuation.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What a solver keeps in the work of whoever asks.
 template <class Space>
@@ -165,4 +165,4 @@ inline void check_regularity(double regularity, Report& report) {
   report.message.append("the platform can move with everything held: a type II singularity, see velocity");
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

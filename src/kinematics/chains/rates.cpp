@@ -6,7 +6,7 @@
 #include "kinematics/chains/leg_system.hpp"
 #include "sinew/math/linalg.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 template <class Space>
 ChainRates<Space> chain_rates(const ChainLegs<Space>& robot, const typename Space::Pose& pose,
@@ -84,7 +84,7 @@ Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>& ro
 
 template <class Space>
 double constant_curvature_energy_gap(const ChainLegs<Space>& robot, const ChainState<Space>& unloaded,
-                    const Vec<double, Space::dof>& wrench) {
+                                     const Vec<double, Space::dof>& wrench) {
   if (!fits(robot, unloaded) || robot.legs.size() > static_cast<std::size_t>(max_rows))
     return std::numeric_limits<double>::quiet_NaN();
   const auto platform = Space::frame(unloaded.pose);
@@ -157,17 +157,17 @@ Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>& leg, std::span<const d
   return wrench;
 }
 
-#define SINEW_OF(Space)                                                                                  \
-  template SINEW_API ChainRates<Space> chain_rates(const ChainLegs<Space>&, const Space::Pose&,          \
-                                                   std::span<const ChainLegState>);                      \
-  template SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>&,      \
-                                                                           const ChainState<Space>&);    \
-  template SINEW_API Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>&, std::span<const double>, \
-                                                        const Space::Frame<double>&);                    \
-  template SINEW_API double constant_curvature_energy_gap(const ChainLegs<Space>&, const ChainState<Space>&,              \
-                                         const Vec<double, Space::dof>&);
+#define SINEW_OF(Space)                                                                                      \
+  template SINEW_API ChainRates<Space> chain_rates(const ChainLegs<Space>&, const Space::Pose&,              \
+                                                   std::span<const ChainLegState>);                          \
+  template SINEW_API Mat<double, Space::dof, Space::dof> linear_compliance(const ChainLegs<Space>&,          \
+                                                                           const ChainState<Space>&);        \
+  template SINEW_API Vec<double, Space::dof> tip_wrench(const ChainLeg<Space>&, std::span<const double>,     \
+                                                        const Space::Frame<double>&);                        \
+  template SINEW_API double constant_curvature_energy_gap(const ChainLegs<Space>&, const ChainState<Space>&, \
+                                                          const Vec<double, Space::dof>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

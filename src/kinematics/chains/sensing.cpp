@@ -1,5 +1,5 @@
 /// The wrench from tensions.
-#include "sinew/kinematics/chain_sensing.hpp"
+#include "kinematics/chain_sensing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "kinematics/chains/path.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 template <class Space>
@@ -137,4 +137,4 @@ SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,8 +1,8 @@
 /// What inputs do to an equilibrium of chains.
+#include "kinematics/chain_analysis.hpp"
 #include "kinematics/chains/path.hpp"
-#include "sinew/kinematics/chain_analysis.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// What a motor at a base does to the wrench that is needed: the base turns as if the platform turned back
@@ -59,4 +59,4 @@ template SINEW_API Eigen::Matrix<double, 6, Eigen::Dynamic> input_sensitivity(co
                                                                               const ChainState<Spatial>&,
                                                                               ChainWork&);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

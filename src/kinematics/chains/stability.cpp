@@ -3,10 +3,10 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "kinematics/chain_analysis.hpp"
 #include "kinematics/chains/path.hpp"
-#include "sinew/kinematics/chain_analysis.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Eigen::MatrixXd;
@@ -160,14 +160,14 @@ double potential(const ChainLegs<Space>& robot, const ChainState<Space>& state) 
   return sum;
 }
 
-#define SINEW_OF(Space)                                                                                   \
-  template SINEW_API double smallest_hessian_eigenvalue(const ChainLegs<Space>&, const ChainState<Space>&);           \
-  template SINEW_API ChainStability<Space> check_stability(const ChainLegs<Space>&,                       \
-                                                           const ChainState<Space>&, ChainWork&);         \
-  template SINEW_API ChainMargins margins(const ChainLegs<Space>&, const ChainState<Space>&, ChainWork&); \
+#define SINEW_OF(Space)                                                                                     \
+  template SINEW_API double smallest_hessian_eigenvalue(const ChainLegs<Space>&, const ChainState<Space>&); \
+  template SINEW_API ChainStability<Space> check_stability(const ChainLegs<Space>&,                         \
+                                                           const ChainState<Space>&, ChainWork&);           \
+  template SINEW_API ChainMargins margins(const ChainLegs<Space>&, const ChainState<Space>&, ChainWork&);   \
   template SINEW_API double potential(const ChainLegs<Space>&, const ChainState<Space>&);
 SINEW_OF(Planar)
 SINEW_OF(Spatial)
 #undef SINEW_OF
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

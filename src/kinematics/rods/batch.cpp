@@ -6,7 +6,7 @@
 #include "base/at.hpp"
 #include "kinematics/rods/verdict.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 RodBatch::RodBatch(RodWork& work, const SE3<double>& home)
     : work_(&work),
       system_(work.system->elastica()),
@@ -158,4 +158,4 @@ void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrenc
   }
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 #include "kinematics/rods/solve.hpp"
 #include "robot/rod_system.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 class RodBatch {
  public:
@@ -39,4 +39,4 @@ class RodBatch {
   int walked_ = 0;                       ///< rows
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -11,7 +11,7 @@
 #include "robot/pose.hpp"
 #include "solve/curve_writer.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 class RodProblem : public LoadProblem<Spatial> {
  public:
@@ -115,4 +115,4 @@ class RodProblem : public LoadProblem<Spatial> {
   const RodWay& way_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -12,7 +12,7 @@
 #include "kinematics/rods/verdict.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Twist = Vec<double, 6>;
@@ -258,8 +258,10 @@ Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& want
       system.evaluate();
       is_near = holder.renew();
     }
-    if (is_near && holder.follow(wanted, report, question.check_stability ? rod_tolerance : rod_quick_tolerance)) {
-      if (question.check_stability || (system.truncation() > system.traits().quick_truncation && !system.is_finest()))
+    if (is_near &&
+        holder.follow(wanted, report, question.check_stability ? rod_tolerance : rod_quick_tolerance)) {
+      if (question.check_stability ||
+          (system.truncation() > system.traits().quick_truncation && !system.is_finest()))
         report = finish(work, wanted, report,
                         question.check_stability ? coarse_truncation : system.traits().quick_truncation);
       work.is_solved = report.ok() || report.status == Status::unstable;
@@ -297,4 +299,4 @@ Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& want
   return report;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 #include "kinematics/rods/verdict.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 RodCoordinates coordinates_of(const SE3<double>& pose) {
@@ -154,4 +154,4 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
   return report;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

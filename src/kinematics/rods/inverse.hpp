@@ -3,7 +3,7 @@
 #pragma once
 #include "kinematics/rods/solve.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Coordinates a robot with three inputs can be asked for.
 struct RodCoordinates {
@@ -14,4 +14,4 @@ struct RodCoordinates {
 Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinates& wanted,
                      const RodQuestion& question);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

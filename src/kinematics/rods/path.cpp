@@ -6,7 +6,7 @@
 #include "base/at.hpp"
 #include "sinew/math/linalg.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A step of the platform as one length [m].
@@ -134,4 +134,4 @@ RodPathEnd follow(RodGroup& system, const RodTarget& target, const RodPathOption
   return Follower(system, target, options, spare).run();
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

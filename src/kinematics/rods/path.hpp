@@ -9,7 +9,7 @@
 #include "sinew/solve/report.hpp"
 #include "solve/continuation.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Where a path leads: a length a rod, an input of each closing leg, and the wrench on the platform.
 struct RodTarget {
@@ -42,4 +42,4 @@ RodPathEnd follow(RodGroup& system, const RodTarget& target, const RodPathOption
 /// What the system is now, as a target.
 RodTarget present(const RodGroup& system);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/robot/assembly.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Home of a robot in space.
 inline SE3<double> home_of(const Robot& robot) {
@@ -26,4 +26,4 @@ inline RodQuestion question_of(const Robot& robot, const EquilibriumOptions& opt
   return question;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "kinematics/rods/verdict.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr int count = 6;
@@ -128,4 +128,4 @@ Report sense_rods(RodWork& work, RodSensing& sensing) {
   return report;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

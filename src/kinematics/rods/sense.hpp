@@ -3,7 +3,7 @@
 #pragma once
 #include "kinematics/rods/solve.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What is measured at the guides, and what it says.
 struct RodSensing {
@@ -17,4 +17,4 @@ struct RodSensing {
 /// says. The wrench that is left over is what acts there. Fills `rows`.
 Report sense_rods(RodWork& work, RodSensing& sensing);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -9,7 +9,7 @@
 #include "kinematics/rods/verdict.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 Report check_inputs(const RodGroup& system, Numbers inputs) {
@@ -109,7 +109,8 @@ Report travel(RodWork& work, Numbers inputs, const RodQuestion& question) {
   // from a pose that was asked for, and on a way that is resumed, lengths and load go together
   const bool at_once = question.start || question.warm_start || !is_loaded;
   RodTarget target = target_of(system, inputs, question.wrench);
-  if (at_once) return go(work, target, options, question.warm_start && target.lengths == present(system).lengths);
+  if (at_once)
+    return go(work, target, options, question.warm_start && target.lengths == present(system).lengths);
   target.wrench.setZero();
   const Report first = go(work, target, options, false);
   if (first.status == Status::stopped) return first;
@@ -198,4 +199,4 @@ Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const 
   return settled;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

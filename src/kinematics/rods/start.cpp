@@ -7,7 +7,7 @@
 #include "base/at.hpp"
 #include "kinematics/rods/verdict.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 RodTarget target_of(const RodGroup& system, Numbers inputs, const Vec<double, 6>& wrench) {
   RodTarget target;
   for (int k = 0; k < system.feeds(); ++k) target.lengths[at(k)] = inputs[at(system.input_of(k))];
@@ -60,4 +60,4 @@ bool lay_rods(RodWork& work, const SE3<double>& pose, Numbers inputs) {
   return end.arrived && work.is_solved;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 #include "robot/rod_work.hpp"
 #include "sinew/base/numbers.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Lengths of all rods from the inputs.
 RodTarget target_of(const RodGroup& system, Numbers inputs, const Vec<double, 6>& wrench);
@@ -17,4 +17,4 @@ Report go_home(RodWork& work, const SE3<double>& home);
 /// be laid, the state is then at rest with lengths of its own. See rest_at for what it needs.
 bool lay_rods(RodWork& work, const SE3<double>& pose, Numbers inputs);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 
 #include "kinematics/rods/curve_problem.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// In the first two places of the memory.
@@ -102,4 +102,4 @@ bool pass_fold(RodWork& work, const RodWay& way, double parameter) {
   return arrives;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

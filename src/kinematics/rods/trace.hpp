@@ -7,7 +7,7 @@
 #include "kinematics/rods/solve.hpp"
 #include "sinew/kinematics/equilibrium_curve.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// What changes along a curve, linearly in its parameter λ: 0 where it begins, 1 at `target`.
 struct RodWay {
@@ -39,4 +39,4 @@ RodFold find_fold(RodWork& work, const RodWay& way, double parameter);
 /// the system stays where it was.
 bool pass_fold(RodWork& work, const RodWay& way, double parameter);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include "base/at.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Of the rods the one nearest to straight: by how much less than its length it spans.
@@ -139,4 +139,4 @@ Report settle(RodWork& work, Report report, double truncation) {
   return report;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,7 +3,7 @@
 #pragma once
 #include "kinematics/rods/trace.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Estimated error of a shape at its tip, over the length, beyond which an answer is refused.
 inline constexpr double worst_truncation = 1e-10;
@@ -38,4 +38,4 @@ LimbSigns count_unstable_rods(RodWork& work);
 /// then knows.
 Report settle(RodWork& work, Report report, double truncation);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

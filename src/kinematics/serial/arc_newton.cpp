@@ -6,7 +6,7 @@
 
 #include "sinew/math/linalg.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace detail {
 namespace {
 
@@ -126,4 +126,4 @@ bool is_within_limit(const ThreeArcPose& pose, const ThreeBends& bends) {
 }
 
 }  // namespace detail
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

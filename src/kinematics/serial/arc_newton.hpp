@@ -4,7 +4,7 @@
 
 #include "kinematics/serial/arc_pairs.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace detail {
 
 struct ArcSolution {
@@ -32,4 +32,4 @@ double regularity(const ThreeArcPose& pose, const ThreeBends& bends);
 bool is_within_limit(const ThreeArcPose& pose, const ThreeBends& bends);
 
 }  // namespace detail
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace detail {
 namespace {
 
@@ -241,4 +241,4 @@ Vec2<double> middle_bend(const ThreeArcPose& pose, const OuterBends& outer) {
 }
 
 }  // namespace detail
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

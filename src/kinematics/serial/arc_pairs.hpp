@@ -2,10 +2,10 @@
 /// Theory: docs/theory/three_arcs.md
 #pragma once
 #include "kinematics/serial/chord_curve.hpp"
-#include "sinew/kinematics/three_arcs.hpp"
+#include "kinematics/three_arcs.hpp"
 #include "sinew/math/se3.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace detail {
 
 /// A robot of total length 1 and the pose its tip is to take.
@@ -68,4 +68,4 @@ PairAnswer judge(const ThreeArcPose& pose, const Piece& first, const Piece& last
 Vec2<double> middle_bend(const ThreeArcPose& pose, const OuterBends& outer);
 
 }  // namespace detail
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

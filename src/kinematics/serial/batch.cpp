@@ -13,7 +13,7 @@
 
 // A namespace of its own: others have a `load` and a `store` for each instruction set, too.
 HWY_BEFORE_NAMESPACE();
-namespace sinew::inline v0::serial_lanes {
+namespace sinew::inline v1::serial_lanes {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -132,11 +132,11 @@ void TendonChanges(const SerialWorkspace& maps, kernel::Model model, std::span<c
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace sinew::inline v0::serial_lanes
+}  // namespace sinew::inline v1::serial_lanes
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace serial_lanes {
 
 HWY_EXPORT(TendonChanges);
@@ -156,5 +156,5 @@ void tendon_changes_batch(std::span<const double> bends, kernel::Model model, st
   if (poses > 0) serial_lanes::tendon_changes(bends, model, changes, work, poses);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1
 #endif

@@ -7,7 +7,7 @@
 
 #include "sinew/base/limits.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Columns are the components of bends and extensions; bounds that leave no room (low = high = 0) hold one
 /// where it is.
@@ -176,4 +176,4 @@ struct BoundedStep {
   }
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

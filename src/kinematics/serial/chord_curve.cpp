@@ -4,7 +4,7 @@
 #include <limits>
 #include <tuple>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace detail {
 namespace {
 
@@ -240,4 +240,4 @@ std::array<int, 2> PieceTree::parts(int i) {
 }
 
 }  // namespace detail
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include "sinew/math/entire.hpp"
 #include "sinew/math/so3.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace detail {
 
 /// A vector and its derivatives by two coordinates.
@@ -94,4 +94,4 @@ class PieceTree {
 };
 
 }  // namespace detail
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 FollowTheLeader::FollowTheLeader(const SerialRobot& robot) {
   double end = 0;
@@ -39,4 +39,4 @@ Vec2<double> FollowTheLeader::mean(double from, double to) const {
   return sum / (to - from);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

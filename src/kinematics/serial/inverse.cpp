@@ -6,7 +6,7 @@
 #include "kinematics/serial/tip_problem.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Where a descent is, or has ended.
@@ -259,4 +259,4 @@ SerialInverse inverse(const SerialRobot& robot, const TipTarget& target, const S
   return answer;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "sinew/base/numbers.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 const SE3<double> nowhere{Vec3<double>::Constant(not_a_number), SO3<double>::identity()};
@@ -79,8 +79,8 @@ void extension_motion(std::span<const Bend> bends, kernel::Model model, SerialWo
     const Vec3<double> own = work.sections[m].extension_motion(bends[m]);
     const kernel::Bend<double> bend{bends[m].x(), bends[m].y()};
     work.extension_jacobians[m] = {m == 0 ? own : work.ends[m - 1].rotate(own),
-                          kernel::chord_share(model, work.maps[m], bend)};
+                                   kernel::chord_share(model, work.maps[m], bend)};
   }
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "kinematics/serial/tip_rows.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr int rows_of(TipTask task) { return task == TipTask::position ? 3 : task == TipTask::axis ? 5 : 6; }
@@ -145,4 +145,4 @@ ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends
   return answer;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include "sinew/kernel/tendon_state.h"
 #include "sinew/kinematics/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Pull = kernel::Pull<double>;
@@ -69,7 +69,8 @@ bool has_arcs(const Section& section, const kernel::Section<double>& map, double
 void set_extensions(const SerialRobot& robot, std::span<const double> extensions, SerialWorkspace& work) {
   if (!work.fits(robot) || !work.fits(extensions))
     return void(std::ranges::fill(work.extensions, not_a_number));
-  for (std::size_t m = 0; m < extensions.size(); ++m) set_extensions(robot.sections[m], m, extensions[m], work);
+  for (std::size_t m = 0; m < extensions.size(); ++m)
+    set_extensions(robot.sections[m], m, extensions[m], work);
 }
 
 void tendon_changes(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work) {
@@ -235,4 +236,4 @@ void tendon_rates(std::span<const Bend> bends, kernel::Model model, SerialWorksp
   }
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,4 +1,4 @@
-#include "sinew/kinematics/three_arcs.hpp"
+#include "kinematics/three_arcs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "kinematics/serial/arc_pairs.hpp"
 #include "solve/stopped.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using namespace detail;
@@ -218,4 +218,4 @@ ThreeArcSolutions all_bends(const ThreeArcs& robot, const SpatialPose& tip, Stop
   return answer;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

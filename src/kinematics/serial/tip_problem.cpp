@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// The shortest turn from one unit vector to the other; between opposite ones any across.
@@ -130,4 +130,4 @@ Shape TipProblem::moved(const Shape& shape, const BoundedStep& system) const {
   return ahead;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "kinematics/serial/tip_rows.hpp"
 #include "sinew/kinematics/serial_inverse.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 using Bends = std::array<Bend, max_sections>;
 
@@ -57,4 +57,4 @@ class TipProblem {
   bool is_extensible_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,7 +1,7 @@
 /// Rows of a bounded least squares problem from the Jacobian of a serial robot's tip.
 #include "kinematics/serial/tip_rows.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Columns from per bend to per unknown.
@@ -73,4 +73,4 @@ void tip_rows(const SerialRobot& robot, std::span<const Bend> bends, const Seria
   append_extensions(robot, work, system);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

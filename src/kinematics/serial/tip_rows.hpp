@@ -9,7 +9,7 @@
 #include "kinematics/serial/bounded_step.hpp"
 #include "sinew/kinematics/serial.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Joints that turn about one axis when a component of a bend does.
 inline double turns(const Section& section) { return section.is_twin() ? 0.5 * section.segments : 1; }
@@ -38,4 +38,4 @@ int unknowns(const SerialRobot& robot);
 void tip_rows(const SerialRobot& robot, std::span<const Bend> bends, const SerialWorkspace& work,
               double length, const Vec3<double>& shift, const Vec3<double>& turn, BoundedStep& system);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

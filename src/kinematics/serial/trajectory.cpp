@@ -7,10 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "math/shape_preserving.hpp"
 #include "sinew/kinematics/serial.hpp"
-#include "sinew/math/shape_preserving.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Values = std::vector<double>;
@@ -186,8 +186,7 @@ class Speeds {
       interval.squared_speed = x;
       interval.time = time;
       look_at(interval, most[i + 1]);
-      const double next =
-          std::clamp(x + 2 * interval.width * allowed_.max_acceleration(x), 0.0, most[i + 1]);
+      const double next = std::clamp(x + 2 * interval.width * allowed_.max_acceleration(x), 0.0, most[i + 1]);
       interval.acceleration = (next - x) / (2 * interval.width);
       note_greatest(interval, (x + next) / 2, interval.width / 2);
       note_greatest(interval, next, interval.width);
@@ -378,4 +377,4 @@ Trajectory time_optimal_trajectory(const SerialRobot& robot, std::span<const Ser
   return trajectory;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

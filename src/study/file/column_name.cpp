@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 bool is_name(std::string_view text) {
   const auto is_part = [](char c) {
@@ -21,4 +21,4 @@ void check_name(const Reader& place, std::string_view name) {
     place.fail("bad_name", fmt::format("{} names no column; give letters, digits and _", in_quotes(name)));
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

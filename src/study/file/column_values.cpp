@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "sinew/io/quantity.hpp"
+#include "io/quantity.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 double ColumnValues::value(const Reader& place) {
   if (!place.node()) return 0;
@@ -26,4 +26,4 @@ double ColumnValues::value(const Reader& place) {
   return read->value;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 
 #include "sinew/io/reader.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 class ColumnValues {
  public:
@@ -26,4 +26,4 @@ class ColumnValues {
   std::string_view noun_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

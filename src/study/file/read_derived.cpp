@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/io/quantity.hpp"
+#include "io/quantity.hpp"
 #include "study/file/column_name.hpp"
 #include "study/file/column_values.hpp"
 #include "study/sweep/terms.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// What is known of the unit of a sum. A number may carry a unit: 20 x may be an angle.
@@ -128,4 +128,4 @@ void read_derived(const Reader& place, Study& study) {
   }
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

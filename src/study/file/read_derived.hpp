@@ -4,10 +4,10 @@
 #include "sinew/io/reader.hpp"
 #include "sinew/study/study.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Reads them into a study whose axes are known. Codes: `bad_name`, `duplicate_column`, `wrong_type`,
 /// `bad_term`, `unknown_column`, `later_column`, `unknown_unit`, `wrong_dimension`, `out_of_range`.
 void read_derived(const Reader& place, Study& study);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

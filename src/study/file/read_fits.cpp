@@ -7,7 +7,7 @@
 #include "study/file/column_name.hpp"
 #include "study/sweep/terms.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Names of columns.
@@ -140,4 +140,4 @@ void read_fits(const Reader& place, Study& study) {
   }
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,10 +4,10 @@
 #include "sinew/io/reader.hpp"
 #include "sinew/study/study.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Reads them into a study whose columns are known. Codes: `bad_name`, `duplicate_column`, `unknown_column`,
 /// `bad_term`, `empty_list`, `empty_map`, `ambiguous`, `missing_key`, `unused_coefficient`.
 void read_fits(const Reader& place, Study& study);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

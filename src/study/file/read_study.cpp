@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/parse.hpp"
+#include "io/quantity.hpp"
 #include "sinew/analysis/singularity_map.hpp"
-#include "sinew/io/parse.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
@@ -20,7 +20,7 @@
 #include "study/file/read_fits.hpp"
 #include "study/samplers/placeholders.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -380,4 +380,4 @@ Expected<Study> read_study(const std::string& path, std::span<const Member> set)
   return study;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,6 +1,6 @@
 #include "sinew/study/study.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::size_t Study::reduced_samples() const {
   std::size_t product = 1;
@@ -26,4 +26,4 @@ std::optional<std::size_t> Study::find_variable(std::string_view name) const {
   return {};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 
 #include "study/compare.hpp"
 
-namespace sinew::inline v0::lsk {
+namespace sinew::inline v1::lsk {
 
 std::vector<std::string> provenance(const std::string& id, const std::string& what) {
   return compare::provenance(
@@ -136,4 +136,4 @@ void add_frontiers(Panel& panel, const SectionDiagram& diagram, double reach) {
   }
 }
 
-}  // namespace sinew::inline v0::lsk
+}  // namespace sinew::inline v1::lsk

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "sinew/io/figure.hpp"
+#include "io/figure.hpp"
 #include "sinew/io/table.hpp"
 #include "sinew/robot/serial.hpp"
-#include "sinew/study/reproduce.hpp"
 #include "sinew/tendon/diagram.hpp"
+#include "study/reproduce.hpp"
 
-namespace sinew::inline v0::lsk {
+namespace sinew::inline v1::lsk {
 
 inline constexpr double degree = std::numbers::pi / 180;
 
@@ -61,4 +61,4 @@ Polygon visible(const HalfPlane& frontier, double reach);
 /// Frontiers of all tendons, named, and from the origin the vectors they are perpendicular to.
 void add_frontiers(Panel& panel, const SectionDiagram& diagram, double reach);
 
-}  // namespace sinew::inline v0::lsk
+}  // namespace sinew::inline v1::lsk

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/analysis/chord_error.hpp"
+#include "analysis/chord_error.hpp"
 #include "sinew/io/serial_file.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using lsk::degree;
@@ -110,4 +110,4 @@ Expected<ItemResult> lsk_fig3(const StudyItem&, const std::filesystem::path&) {
   return ItemResult{findings(section, all), {}, {{"fig3", table_of(all)}}, {{"fig3", figure_of(all)}}};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

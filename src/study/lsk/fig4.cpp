@@ -13,7 +13,7 @@
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using lsk::degree;
@@ -172,4 +172,4 @@ Expected<ItemResult> lsk_fig4(const StudyItem&, const std::filesystem::path&) {
                     {{"fig4", figure_of(section, diagram, meant)}}};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -12,7 +12,7 @@
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using lsk::degree;
@@ -30,25 +30,26 @@ struct Situation {
 };
 
 std::vector<Situation> situations(const Section& section) {
-  std::vector<Situation> all{{"(a) exact: one bend", lsk::in_degrees(10, -5), 0, TendonConsistency::exact, {}, {}},
-                             {"(b) indeterminate, 0.8 mm too long: any in green",
-                              lsk::in_degrees(10, -5),
-                              0.8e-3,
-                              TendonConsistency::indeterminate,
-                              {},
-                              {}},
-                             {"(c) inconsistent, 0.8 mm too short: no bend",
-                              lsk::in_degrees(10, -5),
-                              -0.8e-3,
-                              TendonConsistency::inconsistent,
-                              {},
-                              {}},
-                             {"(d) unreachable: one bend, beyond the limits",
-                              lsk::in_degrees(30, 0),
-                              0,
-                              TendonConsistency::unreachable,
-                              {},
-                              {}}};
+  std::vector<Situation> all{
+      {"(a) exact: one bend", lsk::in_degrees(10, -5), 0, TendonConsistency::exact, {}, {}},
+      {"(b) indeterminate, 0.8 mm too long: any in green",
+       lsk::in_degrees(10, -5),
+       0.8e-3,
+       TendonConsistency::indeterminate,
+       {},
+       {}},
+      {"(c) inconsistent, 0.8 mm too short: no bend",
+       lsk::in_degrees(10, -5),
+       -0.8e-3,
+       TendonConsistency::inconsistent,
+       {},
+       {}},
+      {"(d) unreachable: one bend, beyond the limits",
+       lsk::in_degrees(30, 0),
+       0,
+       TendonConsistency::unreachable,
+       {},
+       {}}};
   for (Situation& s : all) {
     s.changes = lsk::changes_of(section, s.meant, s.more);
     s.diagram = lsk::diagram_of(section, s.changes);
@@ -153,4 +154,4 @@ Expected<ItemResult> lsk_fig5(const StudyItem&, const std::filesystem::path&) {
       findings(section, all), {}, {{"fig5", table_of(all)}}, {{"fig5", figure_of(section, all)}}};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

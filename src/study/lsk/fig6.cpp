@@ -12,7 +12,7 @@
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using lsk::degree;
@@ -154,4 +154,4 @@ Expected<ItemResult> lsk_fig6(const StudyItem&, const std::filesystem::path&) {
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

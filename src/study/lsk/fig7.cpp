@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 
-#include "sinew/analysis/chord_error.hpp"
+#include "analysis/chord_error.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using lsk::degree;
@@ -163,4 +163,4 @@ Expected<ItemResult> lsk_fig7(const StudyItem&, const std::filesystem::path&) {
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

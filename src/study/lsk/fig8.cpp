@@ -12,7 +12,7 @@
 #include "study/lsk/cycles/measure.hpp"
 #include "study/lsk/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -227,4 +227,4 @@ Expected<ItemResult> lsk_fig8(const StudyItem&, const fs::path& folder) {
   return ItemResult{findings(*runs), {}, {{"fig8", table_of(*runs, *tools)}}, {{"fig8", figure_of(*runs)}}};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

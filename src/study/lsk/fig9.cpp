@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include "sinew/analysis/number_formats.hpp"
+#include "analysis/number_formats.hpp"
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using lsk::degree;
@@ -274,4 +274,4 @@ Expected<ItemResult> lsk_fig9(const StudyItem&, const std::filesystem::path&) {
   return ItemResult{findings(all), {}, {{"fig9", table_of(all)}}, {{"fig9", figure_of(all)}}};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

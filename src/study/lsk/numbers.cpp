@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "sinew/analysis/chord_error.hpp"
+#include "analysis/chord_error.hpp"
 #include "sinew/analysis/tendon_limits.hpp"
 #include "sinew/io/serial_file.hpp"
 #include "sinew/kinematics/serial.hpp"
@@ -15,7 +15,7 @@
 #include "study/item.hpp"
 #include "study/lsk/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using lsk::degree;
@@ -325,4 +325,4 @@ Expected<ItemResult> lsk_numbers(const StudyItem&, const std::filesystem::path&)
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

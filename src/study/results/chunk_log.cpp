@@ -14,9 +14,9 @@
 #include <cstring>
 #include <utility>
 
-#include "sinew/io/write_file.hpp"
+#include "io/write_file.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 // Little-endian as every machine this runs on; the header says so by its first number.
@@ -224,4 +224,4 @@ void ChunkLog::remove() {
   std::filesystem::remove(path_, ignored);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

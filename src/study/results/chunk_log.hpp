@@ -13,7 +13,7 @@
 
 #include "sinew/base/error.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// SHA-256.
 using Digest = std::array<std::uint8_t, 32>;
@@ -62,4 +62,4 @@ class ChunkLog {
   std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/quantity.hpp"
+#include "io/write_file.hpp"
 #include "sinew/io/node.hpp"
-#include "sinew/io/quantity.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/io/write_file.hpp"
 #include "study/results/result_file.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -150,4 +150,4 @@ Expected<std::unique_ptr<ResultFile>> create_result(const fs::path& path, Result
   return file;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace sinew::inline v0::hdf5 {
+namespace sinew::inline v1::hdf5 {
 namespace {
 
 /// A text of fixed length, in UTF-8.
@@ -98,4 +98,4 @@ std::string text_dataset(hid_t group, const char* name) {
   return without_padding(std::move(text));
 }
 
-}  // namespace sinew::inline v0::hdf5
+}  // namespace sinew::inline v1::hdf5

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace sinew::inline v0::hdf5 {
+namespace sinew::inline v1::hdf5 {
 
 /// Not thread-safe, as the library is; errors are quiet and seen by the handles.
 class Handle {
@@ -47,4 +47,4 @@ bool put_text(hid_t group, const char* name, const std::string& text);
 std::string text_attribute(hid_t object, const char* name);  ///< empty where there is none
 std::string text_dataset(hid_t group, const char* name);
 
-}  // namespace sinew::inline v0::hdf5
+}  // namespace sinew::inline v1::hdf5

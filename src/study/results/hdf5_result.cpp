@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <functional>
 
-#include "sinew/io/write_file.hpp"
+#include "io/write_file.hpp"
 #include "study/results/hdf5.hpp"
 #include "study/results/result_file.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using hdf5::Handle;
@@ -328,4 +328,4 @@ std::string recorded_hdf5_fact(const fs::path& path, const std::string& name) {
   return hdf5::text_dataset(facts, name.c_str());
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,18 +6,18 @@
 #include <limits>
 #include <sstream>
 
+#include "io/read_bytes.hpp"
 #include "sinew/io/node.hpp"
-#include "sinew/io/read_bytes.hpp"
 #include "sinew/study/result.hpp"
 #include "study/results/hdf5.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using hdf5::Handle;
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t max_bytes = std::uintmax_t{3} << 30U;    ///< of all columns together
+constexpr std::uintmax_t max_bytes = std::uintmax_t{3} << 30U;     ///< of all columns together
 constexpr std::uintmax_t small_bytes = std::uintmax_t{64} << 20U;  ///< that no file needs to deserve
 constexpr std::uintmax_t max_packed = 256;  ///< bytes that one byte of a larger file stands for
 constexpr std::size_t max_columns = 100'000;
@@ -205,4 +205,4 @@ Expected<Table> read_result(const fs::path& path) {
   return path.extension() == ".h5" ? read_hdf5(path) : read_csv(path);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -10,7 +10,7 @@
 #include "sinew/study/sweep.hpp"
 #include "study/samplers/sampler.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A named text of the provenance.
 struct Fact {
@@ -65,4 +65,4 @@ std::unique_ptr<ResultFile> create_hdf5(const std::filesystem::path& path, Resul
 std::string recorded_fact(const std::filesystem::path& path, const std::string& name);
 std::string recorded_hdf5_fact(const std::filesystem::path& path, const std::string& name);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

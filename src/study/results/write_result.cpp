@@ -1,7 +1,7 @@
 #include "sinew/study/result.hpp"
 #include "study/results/result_file.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 Expected<void> write_result(const Table& table, const std::filesystem::path& path) {
   ResultLayout layout;
@@ -28,4 +28,4 @@ Expected<void> write_result(const Table& table, const std::filesystem::path& pat
   return (*file)->finish({});
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

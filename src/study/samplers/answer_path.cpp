@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 AnswerPath::AnswerPath(std::string_view path) {
   constexpr std::string_view count = ".count";
@@ -101,4 +101,4 @@ std::string_view unit_of_answer(std::string_view path) {
   return found == units.end() ? std::string_view() : found->second;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

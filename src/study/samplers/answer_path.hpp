@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 class AnswerPath {
  public:
@@ -30,4 +30,4 @@ class AnswerPath {
 /// The SI unit of a number of an answer, as far as its place tells; empty for plain numbers.
 std::string_view unit_of_answer(std::string_view path);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -2,7 +2,7 @@
 
 #include "study/samplers/sampler.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::size_t chunk_size(const Study& study, std::size_t least, std::size_t most) {
   constexpr std::size_t chunks = 256;  // to share, to show progress by, and to lose one of
@@ -15,4 +15,4 @@ SamplerKind choose_sampler(const Study& study) {
   return query_sampler(study);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 
 #include "sinew/study/sweep.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Those the kernels are compiled for; SSSE3 is what every x86-64 of the last fifteen years has.
@@ -34,4 +34,4 @@ std::string_view instruction_set_in_use() {
   return has(HWY_AVX3) ? "AVX-512" : has(HWY_AVX2) ? "AVX2" : "SSSE3";
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,8 +1,8 @@
 #include "study/samplers/placeholders.hpp"
 
-#include "sinew/io/quantity.hpp"
+#include "io/quantity.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 void collect(Node& node, const Study& study, std::vector<Placeholder>& found) {
@@ -40,4 +40,4 @@ void put(Node& node, double value, std::string_view unit) {
   node.text += ' ' + std::string(unit);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 
 #include "sinew/study/study.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct Placeholder {
   std::string_view name;            ///< without the `$`; a view into the study or the node
@@ -26,4 +26,4 @@ void put(Node& node, double value);
 /// ... or a text with its unit, which the query's reader then checks.
 void put(Node& node, double value, std::string_view unit);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

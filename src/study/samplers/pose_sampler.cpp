@@ -10,7 +10,7 @@
 #include "sinew/io/robot_file.hpp"
 #include "study/samplers/query_entries.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// What of a batch becomes a column.
@@ -288,4 +288,4 @@ SamplerKind pose_sampler(const Study& study) {
           }};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "sinew/io/quantity.hpp"
+#include "io/quantity.hpp"
 #include "study/samplers/placeholders.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 std::optional<QueryEntry> query_entry(const Node& node, const Study& study) {
   if (node.kind == Node::Kind::number) return QueryEntry{node.number};
@@ -37,4 +37,4 @@ std::optional<std::vector<double>> constant_entries(const Node& list, const Stud
   return values;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 
 #include "study/samplers/sampler.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct QueryEntry {
   double value = 0;
@@ -28,4 +28,4 @@ std::optional<std::vector<QueryEntry>> query_entries(const Node& list, const Stu
 /// All of a list, none of them an axis.
 std::optional<std::vector<double>> constant_entries(const Node& list, const Study& study);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 #include "study/samplers/placeholders.hpp"
 #include "study/samplers/sampler.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 class QuerySampler {
@@ -92,4 +92,4 @@ std::string_view name_of(SampleStatus status) {
   return to_string(static_cast<Status>(status));
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 #include "sinew/kinematics/equilibrium.hpp"
 #include "study/samplers/query_entries.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr std::array<std::string_view, 7> pose_paths{
@@ -105,4 +105,4 @@ SamplerKind rod_sampler(const Study& study) {
           }};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -12,7 +12,7 @@
 #include "sinew/solve/report.hpp"
 #include "sinew/study/study.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// How a sample ended: a Status, or why no solver was asked.
 using SampleStatus = std::uint8_t;
@@ -67,4 +67,4 @@ SamplerKind serial_sampler(const Study& study);
 /// The quickest there is.
 SamplerKind choose_sampler(const Study& study);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

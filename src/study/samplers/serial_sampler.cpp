@@ -11,7 +11,7 @@
 #include "sinew/io/serial_file.hpp"
 #include "study/samplers/query_entries.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A number of the pose of a section's end: x, y, z, and of the quaternion w, x, y, z.
@@ -170,4 +170,4 @@ SamplerKind serial_sampler(const Study& study) {
           }};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -14,7 +14,7 @@ extern "C" void __tsan_acquire(void* at);
 extern "C" void __tsan_release(void* at);
 #endif
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A filter's turn. ThreadSanitizer does not see how TBB, which is not compiled with it, hands things from
@@ -75,4 +75,4 @@ void run_on_threads(const ChunkJob& job, int threads) {
 
 int core_count() { return std::max(1, oneapi::tbb::info::default_concurrency()); }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The bytes of a chunk; empty where the work was broken off.
 using ChunkWorker = std::function<void(std::size_t chunk, std::vector<std::byte>& bytes)>;
@@ -29,4 +29,4 @@ void run_on_threads(const ChunkJob& job, int threads);
 /// Threads this process may use: one for each core.
 int core_count();
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

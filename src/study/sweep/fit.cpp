@@ -7,7 +7,7 @@
 #include "sinew/base/numbers.hpp"
 #include "study/sweep/terms.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr Eigen::Index rows_at_once = 256;
@@ -129,4 +129,4 @@ FittedTerms StreamedFit::result() const {
   return done;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 
 #include "sinew/study/sweep.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// One fit: a row a sample and column, all with the same coefficients. Householder's QR of the rows so far, R
 /// with the right-hand side as last column; new rows are stacked under it and folded in, so that nothing is
@@ -41,4 +41,4 @@ class StreamedFit {
   FittedTerms result_;
 };
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

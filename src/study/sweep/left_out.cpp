@@ -6,7 +6,7 @@
 #include "sinew/base/numbers.hpp"
 #include "study/sweep/terms.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Of the size of what is summed: some thousand roundings.
@@ -80,4 +80,4 @@ Sampler without_left_out(const Study& study, Sampler sampler) {
   };
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,7 +3,7 @@
 #pragma once
 #include "study/samplers/sampler.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Whether a sample is left out.
 /// @param values of its axes and derived values; one within rounding of a limit is within it, so that a grid
@@ -15,4 +15,4 @@ bool is_left_out(const Study& study, std::span<const double> values);
 /// study limits nothing it is the sampler itself.
 Sampler without_left_out(const Study& study, Sampler sampler);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -1,7 +1,7 @@
 /// Ranks by MPI; without it, only the message that says so.
 #include <cstdlib>
 
-#include "sinew/study/cluster.hpp"
+#include "study/cluster.hpp"
 #include "study/sweep/executor.hpp"
 
 #ifdef SINEW_WITH_MPI
@@ -14,7 +14,7 @@
 #include <thread>
 #endif
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// Of the starters of OpenMPI, MPICH, and Slurm with either.
@@ -169,4 +169,4 @@ Expected<std::unique_ptr<Ranks>> join_ranks() {
 #endif
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 Digest sha256(std::span<const std::string> texts) {
@@ -95,4 +95,4 @@ std::vector<Fact> SweepPlan::provenance(const SweepOptions& options) const {
   return facts;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "study/samplers/sampler.hpp"
 #include "study/sweep/samples.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 class SweepPlan {
  public:
@@ -33,4 +33,4 @@ class SweepPlan {
 
 std::string hexadecimal(const Digest& digest);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -13,7 +13,7 @@
 #include "study/sweep/left_out.hpp"
 #include "study/sweep/samples.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr std::size_t trials = 24;
@@ -237,4 +237,4 @@ class Trial {
 
 Expected<std::string> prepare(Study& study) { return Trial(study).run(); }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,7 +3,7 @@
 #pragma once
 #include "sinew/study/study.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// Puts the query at a few samples spread over the study: refuses one that is no good question at any of
 /// them, outputs that no answer has, and fills in what the file leaves out: outputs and their units. A
@@ -11,4 +11,4 @@ namespace sinew::inline v0 {
 /// `no_outputs`, `all_left_out`.
 Expected<std::string> prepare(Study& study);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

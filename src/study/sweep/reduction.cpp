@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using Kind = StudyReduction::Kind;
@@ -68,4 +68,4 @@ double value_of(Kind kind, const CellSum& sum) {
   return kind == Kind::rms ? std::sqrt(sum.value / sum.count) : sum.value / sum.count;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include "study/samplers/sampler.hpp"
 #include "study/sweep/samples.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The samples of a chunk as bytes: outputs column after column, then statuses.
 void pack_samples(const SampleBlock& block, std::vector<std::byte>& bytes);
@@ -25,4 +25,4 @@ void add(StudyReduction::Kind kind, CellSum& sum, const CellSum& more);
 /// NaN where there were no values.
 double value_of(StudyReduction::Kind kind, const CellSum& sum);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -10,9 +10,9 @@
 #include <mutex>
 #include <thread>
 
-#include "sinew/io/write_file.hpp"
-#include "sinew/study/cluster.hpp"
+#include "io/write_file.hpp"
 #include "sinew/study/sweep.hpp"
+#include "study/cluster.hpp"
 #include "study/sweep/executor.hpp"
 #include "study/sweep/left_out.hpp"
 #include "study/sweep/plan.hpp"
@@ -20,7 +20,7 @@
 #include "study/sweep/reduction.hpp"
 #include "study/sweep/write_results.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -323,4 +323,4 @@ Expected<SweepSummary> sweep(Study study, const SweepOptions& options) {
   return summary;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

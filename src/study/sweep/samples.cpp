@@ -6,7 +6,7 @@
 
 #include "study/sweep/terms.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// A number of its own for each sample and axis, whoever asks for it: the finaliser of SplitMix64 (Steele,
@@ -98,4 +98,4 @@ std::size_t row_of(const Study& study) {
   return study.sampling == Study::Sampling::grid ? study.axes.back().values.size() : 1;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

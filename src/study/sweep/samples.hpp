@@ -8,7 +8,7 @@
 
 #include "sinew/study/study.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// A stretch of samples, [first, first + count).
 struct Chunk {
@@ -48,4 +48,4 @@ void unwind(const Chunk& chunk, std::size_t row, std::span<T> values) {
 /// Samples of a row of the grid; of others 1.
 std::size_t row_of(const Study& study);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -6,9 +6,9 @@
 #include <cctype>
 #include <cmath>
 
-#include "sinew/io/quantity.hpp"
+#include "io/quantity.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr std::size_t highest_power = 20;
@@ -160,4 +160,4 @@ double size_of(std::span<const Monomial> term, std::span<const double> columns) 
   return sum;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

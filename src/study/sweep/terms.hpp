@@ -7,7 +7,7 @@
 
 #include "sinew/study/study.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 /// The monomials of a term, over columns of these names. Errors have no place: `bad_term`, `unknown_column`.
 /// @param nouns what the names are, for messages: `axis or output of this study`
@@ -20,4 +20,4 @@ double value_of(std::span<const Monomial> term, std::span<const double> columns)
 /// The sum of its products' sizes: what its value is exact to, times a rounding.
 double size_of(std::span<const Monomial> term, std::span<const double> columns);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

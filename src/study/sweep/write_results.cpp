@@ -5,7 +5,7 @@
 #include "study/sweep/fit.hpp"
 #include "study/sweep/reduction.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 /// The log into the file of results.
@@ -136,4 +136,4 @@ Expected<WrittenResults> write_results(const SweepPlan& plan, const ChunkLog& lo
   return Writer(plan, log, options, stop).run();
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

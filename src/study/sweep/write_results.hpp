@@ -6,7 +6,7 @@
 
 #include "study/sweep/plan.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 
 struct WrittenResults {
   std::vector<FittedTerms> fits;
@@ -17,4 +17,4 @@ struct WrittenResults {
 Expected<WrittenResults> write_results(const SweepPlan& plan, const ChunkLog& log,
                                        const SweepOptions& options, const std::atomic<bool>& stop);
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

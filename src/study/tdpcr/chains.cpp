@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/chain.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/kinematics/chain.hpp"
 #include "study/compare.hpp"
 #include "study/item.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 constexpr double length = 0.2, stiffness = 2.9452431127404317e-3;  // ℓ [m], EI [N m²] of the 3-RFR's legs
@@ -176,4 +176,4 @@ Expected<ItemResult> tdpcr_chains(const StudyItem&, const std::filesystem::path&
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,7 +8,7 @@
 #include "sinew/kinematics/inverse.hpp"
 #include "sinew/math/linalg.hpp"
 
-namespace sinew::inline v0::example51 {
+namespace sinew::inline v1::example51 {
 
 using std::numbers::pi, std::numbers::sqrt3;
 
@@ -96,4 +96,4 @@ Rates rates(const Sample& last) {
   return {last.sigma[0] * scale * std::sqrt(squared * (1 + c2)), std::sqrt(c2) * rotation, rotation};
 }
 
-}  // namespace sinew::inline v0::example51
+}  // namespace sinew::inline v1::example51

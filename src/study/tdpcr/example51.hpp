@@ -12,7 +12,7 @@
 #include "sinew/base/error.hpp"
 #include "sinew/robot/robot.hpp"
 
-namespace sinew::inline v0::example51 {
+namespace sinew::inline v1::example51 {
 
 /// The geometry that section 5.1 prints.
 struct Printed {
@@ -79,4 +79,4 @@ struct Rates {
 /// @param last the singular sample
 Rates rates(const Sample& last);
 
-}  // namespace sinew::inline v0::example51
+}  // namespace sinew::inline v1::example51

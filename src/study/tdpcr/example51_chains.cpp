@@ -1,8 +1,8 @@
 #include "study/tdpcr/example51_chains.hpp"
 
-#include "sinew/kinematics/chain_motion.hpp"
+#include "kinematics/chain_motion.hpp"
 
-namespace sinew::inline v0::example51 {
+namespace sinew::inline v1::example51 {
 namespace {
 
 tl::unexpected<Errors> failed(std::string_view where, const Report& report) {
@@ -56,4 +56,4 @@ Rates rates(const Sample& last, const ChainSample& chains) {
   return rates(driven);
 }
 
-}  // namespace sinew::inline v0::example51
+}  // namespace sinew::inline v1::example51

@@ -4,11 +4,11 @@
 #pragma once
 #include <vector>
 
-#include "sinew/analysis/chain_velocity.hpp"
+#include "analysis/chain_velocity.hpp"
 #include "sinew/base/error.hpp"
 #include "study/tdpcr/example51.hpp"
 
-namespace sinew::inline v0::example51 {
+namespace sinew::inline v1::example51 {
 
 struct ChainSample {
   double eta;
@@ -31,4 +31,4 @@ Expected<ChainSample> sample(ChainLegs<Planar> robot, double eta);
 /// Limits of index·(π/3 − φ) for the drive |gᵢ| of the last pose's joints in place of tendons.
 Rates rates(const Sample& last, const ChainSample& chains);
 
-}  // namespace sinew::inline v0::example51
+}  // namespace sinew::inline v1::example51

@@ -18,7 +18,7 @@
 #include "study/tdpcr/example51.hpp"
 #include "study/tdpcr/robot_drawing.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using drawing::Point;
@@ -258,4 +258,4 @@ Expected<ItemResult> tdpcr_fig10(const StudyItem&, const std::filesystem::path&)
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

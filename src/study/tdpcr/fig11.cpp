@@ -14,7 +14,7 @@
 #include "study/tdpcr/example51_chains.hpp"
 #include "study/tdpcr/index_panel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using compare::number, compare::small;
@@ -235,4 +235,4 @@ Expected<ItemResult> tdpcr_fig11(const StudyItem&, const std::filesystem::path&)
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -12,7 +12,7 @@
 #include "study/tdpcr/example51_chains.hpp"
 #include "study/tdpcr/robot_drawing.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using drawing::Point;
@@ -122,4 +122,4 @@ Expected<ItemResult> tdpcr_fig12(const StudyItem&, const std::filesystem::path&)
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -16,7 +16,7 @@
 #include "study/tdpcr/example51.hpp"
 #include "study/tdpcr/robot_drawing.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using example51::Printed, example51::Sample;
@@ -300,4 +300,4 @@ Expected<ItemResult> tdpcr_fig8(const StudyItem&, const std::filesystem::path&) 
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "io/figure.hpp"
 #include "sinew/analysis/shape.hpp"
-#include "sinew/io/figure.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/table.hpp"
 #include "study/compare.hpp"
@@ -17,7 +17,7 @@
 #include "study/tdpcr/example51.hpp"
 #include "study/tdpcr/index_panel.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using compare::number, compare::printed, compare::small;
@@ -269,4 +269,4 @@ Expected<ItemResult> tdpcr_fig9(const StudyItem&, const std::filesystem::path&) 
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace sinew::inline v0::example51 {
+namespace sinew::inline v1::example51 {
 
 using std::numbers::pi;
 
@@ -37,4 +37,4 @@ Panel index_panel(Axis y, std::vector<Series> curves, double limit) {
           .series = std::move(curves)};
 }
 
-}  // namespace sinew::inline v0::example51
+}  // namespace sinew::inline v1::example51

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "sinew/io/figure.hpp"
+#include "io/figure.hpp"
 
-namespace sinew::inline v0::example51 {
+namespace sinew::inline v1::example51 {
 
 Axis log_axis(std::string label, std::string unit, double low, double high);
 
 /// The curves over η, the derived rate limit/(π/3 − φ), and the singular last pose.
 Panel index_panel(Axis y, std::vector<Series> curves, double limit);
 
-}  // namespace sinew::inline v0::example51
+}  // namespace sinew::inline v1::example51

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string_view>
 
-namespace sinew::inline v0::drawing {
+namespace sinew::inline v1::drawing {
 
 namespace {
 
@@ -101,4 +101,4 @@ void add_platform_names(Panel& panel, const PlanarShape& robot, const Point& cen
   }
 }
 
-}  // namespace sinew::inline v0::drawing
+}  // namespace sinew::inline v1::drawing

@@ -3,10 +3,10 @@
 #pragma once
 #include <string>
 
+#include "io/figure.hpp"
 #include "sinew/analysis/shape.hpp"
-#include "sinew/io/figure.hpp"
 
-namespace sinew::inline v0::drawing {
+namespace sinew::inline v1::drawing {
 
 using Point = Vec2<double>;
 
@@ -43,4 +43,4 @@ void add_base_names(Panel& panel, const PlanarShape& robot, double distance);
 void add_platform_names(Panel& panel, const PlanarShape& robot, const Point& centre, double distance,
                         double turn);
 
-}  // namespace sinew::inline v0::drawing
+}  // namespace sinew::inline v1::drawing

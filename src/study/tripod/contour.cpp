@@ -8,10 +8,10 @@
 #include <numbers>
 #include <utility>
 
+#include "io/contour.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/io/contour.hpp"
 
-namespace sinew::inline v0::contour {
+namespace sinew::inline v1::contour {
 namespace {
 
 /// A point in the units of the axes.
@@ -96,4 +96,4 @@ HeatMap spread(HeatMap map, int rings) {
   return map;
 }
 
-}  // namespace sinew::inline v0::contour
+}  // namespace sinew::inline v1::contour

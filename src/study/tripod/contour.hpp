@@ -3,9 +3,9 @@
 #pragma once
 #include <vector>
 
-#include "sinew/io/figure.hpp"
+#include "io/figure.hpp"
 
-namespace sinew::inline v0::contour {
+namespace sinew::inline v1::contour {
 
 /// Lines of some values, each written where its line first crosses a ray from the middle of the map, once for
 /// each direction in which it does.
@@ -21,4 +21,4 @@ void add(Panel& panel, const std::vector<Levels>& all);
 /// lies under an edge that cuts through cells. The map's own values stay.
 HeatMap spread(HeatMap map, int rings = 2);
 
-}  // namespace sinew::inline v0::contour
+}  // namespace sinew::inline v1::contour

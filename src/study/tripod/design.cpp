@@ -6,7 +6,7 @@
 #include "study/item.hpp"
 #include "study/tripod/design/parts.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using tripod::Designs, tripod::Loaded, tripod::Measures;
@@ -86,4 +86,4 @@ Expected<ItemResult> tripod_design(const StudyItem&, const std::filesystem::path
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -11,7 +11,7 @@
 #include "study/item.hpp"
 #include "study/tripod/swept.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace tripod {
 
 Parasitic36 equation_36(const Coefficients36& c, double e1, double e2, bool as_printed) {
@@ -207,4 +207,4 @@ Expected<ItemResult> tripod_equation36(const StudyItem&, const std::filesystem::
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,7 +3,7 @@
 #pragma once
 #include <array>
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 /// c₀ to c₆; c₀ has no unit, the others are in m, and each stands with terms of several powers.
 using Coefficients36 = std::array<double, 7>;
@@ -17,4 +17,4 @@ struct Parasitic36 {
 /// docs/errata.md.  @implements 3PFS (36)
 Parasitic36 equation_36(const Coefficients36& c, double e1, double e2, bool as_printed = false);
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

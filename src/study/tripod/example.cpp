@@ -5,13 +5,13 @@
 #include <numbers>
 #include <utility>
 
+#include "math/tilt.hpp"
+#include "robot/parallel.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/kinematics/inverse.hpp"
-#include "sinew/math/tilt.hpp"
-#include "sinew/robot/parallel.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 using std::numbers::pi;
@@ -214,4 +214,4 @@ Panel map_panel(const TripodSize& size, std::string title, HeatMap map,
   return panel;
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

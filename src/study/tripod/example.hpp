@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/tripod_loci.hpp"
-#include "sinew/io/figure.hpp"
+#include "analysis/tripod_loci.hpp"
+#include "io/figure.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "study/tripod/contour.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 /// Below (19), [m].
 inline constexpr TripodSize printed{.base_radius = 0.25, .platform_radius = 0.125, .strut_length = 0.35};
@@ -100,4 +100,4 @@ Panel plane(std::string title);
 Panel map_panel(const TripodSize& size, std::string title, HeatMap map,
                 const std::vector<contour::Levels>& levels);
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

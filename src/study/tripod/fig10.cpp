@@ -9,7 +9,7 @@
 #include "study/item.hpp"
 #include "study/tripod/tilt_plane.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using tripod::Preset, tripod::presets, tripod::heights, tripod::Swept;
@@ -105,4 +105,4 @@ Expected<ItemResult> tripod_fig10(const StudyItem&, const std::filesystem::path&
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -13,7 +13,7 @@
 #include "study/item.hpp"
 #include "study/tripod/tilt_plane.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using tripod::Preset, tripod::presets, tripod::heights, tripod::Swept;
@@ -227,4 +227,4 @@ Expected<ItemResult> tripod_fig13(const StudyItem& item, const std::filesystem::
   return reproduce_coordinate(item, folder, y);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

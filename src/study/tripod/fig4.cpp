@@ -16,7 +16,7 @@
 #include "study/tripod/contour.hpp"
 #include "study/tripod/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using std::numbers::pi;
@@ -224,4 +224,4 @@ Expected<ItemResult> tripod_fig4(const StudyItem&, const std::filesystem::path&)
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

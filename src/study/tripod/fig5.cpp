@@ -17,7 +17,7 @@
 #include "study/item.hpp"
 #include "study/tripod/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using std::numbers::pi, std::numbers::sqrt3;
@@ -265,4 +265,4 @@ Expected<ItemResult> tripod_fig5(const StudyItem&, const std::filesystem::path&)
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -13,7 +13,7 @@
 #include "study/item.hpp"
 #include "study/tripod/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using std::numbers::pi;
@@ -185,4 +185,4 @@ Expected<ItemResult> tripod_fig6(const StudyItem&, const std::filesystem::path&)
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

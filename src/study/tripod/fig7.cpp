@@ -14,7 +14,7 @@
 #include "study/item.hpp"
 #include "study/tripod/example.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using std::numbers::pi;
@@ -193,4 +193,4 @@ Expected<ItemResult> tripod_fig7(const StudyItem&, const std::filesystem::path&)
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -11,7 +11,7 @@
 #include "study/tripod/example.hpp"
 #include "study/tripod/tilt_plane.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using tripod::Preset, tripod::presets, tripod::Swept;
@@ -113,4 +113,4 @@ Expected<ItemResult> tripod_fig9(const StudyItem&, const std::filesystem::path& 
   return result;
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -7,7 +7,7 @@
 #include "sinew/study/result.hpp"
 #include "study/samplers/sampler.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 void drop_left_out(Table& table) {
@@ -85,4 +85,4 @@ double likeness(std::span<const double> a, std::span<const double> b) {
   return ab / std::sqrt(aa * bb);
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

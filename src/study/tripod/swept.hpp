@@ -11,7 +11,7 @@
 #include "sinew/io/table.hpp"
 #include "sinew/study/sweep.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 /// The samples of a study, those left out dropped. Numbers of samples without a solution are NaN.
 struct Swept {
@@ -42,4 +42,4 @@ double root_mean_square(std::span<const double> values);
 /// Σab/√(Σa²Σb²) over the pairs that are finite: 1 where the shapes are the same, whatever their size.
 double likeness(std::span<const double> a, std::span<const double> b);
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

@@ -7,7 +7,7 @@
 #include "study/tripod/contour.hpp"
 #include "study/tripod/example.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 /// The grid of studies/3pfs-*-height.yaml.
@@ -60,4 +60,4 @@ HeatMap height_map(const Swept& study, double z, const std::vector<double>& valu
 
 Series rim() { return circle(reach, Mark::outside, Colour::black, 1); }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

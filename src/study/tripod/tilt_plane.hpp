@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "sinew/io/figure.hpp"
+#include "io/figure.hpp"
 #include "study/tripod/swept.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 /// A geometry that the paper may have had; robots/3pfs-*.yaml say what is known of each.
 struct Preset {
@@ -44,4 +44,4 @@ HeatMap height_map(const Swept& study, double z, const std::vector<double>& valu
 /// The page's white outside the disc of tilts that the studies at constant height go to.
 Series rim();
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

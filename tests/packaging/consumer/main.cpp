@@ -3,27 +3,16 @@
 // either side is compiled for.
 #include <cmath>
 #include <iostream>
-#include <numbers>
 
 #include "sinew/sinew.hpp"
 
-using PlanarLeg = sinew::Leg<sinew::Planar, sinew::Arc, sinew::TendonPair, sinew::Chord>;
-static_assert(alignof(PlanarLeg) == alignof(double), "a public type is over-aligned");
-static_assert(alignof(sinew::Velocity) == alignof(double) && alignof(sinew::Forward) == alignof(double));
+static_assert(alignof(sinew::Velocity) == alignof(double) && alignof(sinew::Forward) == alignof(double),
+              "a public type is over-aligned");
 
+// One of the library's robots, changed by its document.
 sinew::Robot in_code() {
-  std::vector<PlanarLeg> legs;
-  for (int i = 0; i < 3; ++i) {
-    const double foot = (90 + 120 * i) * std::numbers::pi / 180,
-                 head = (30 + 120 * i) * std::numbers::pi / 180;
-    PlanarLeg leg{};
-    leg.base = sinew::SE2<double>::from(0.19 * std::cos(foot), 0.19 * std::sin(foot), 0.0);
-    leg.link.length = 0.2;
-    leg.drive.offset = 0.005;
-    leg.platform_point = {0.05 * std::cos(head), 0.05 * std::sin(head)};
-    legs.push_back(leg);
-  }
-  return {"in code", sinew::ParallelRobot<PlanarLeg>(legs, {}, 0.05)};
+  const auto document = sinew::read_robot_file("3-rfr").value();
+  return sinew::read_robot(sinew::with(document, "name", sinew::make_node("in code")).value()).value();
 }
 
 int main() {

@@ -91,9 +91,9 @@ S arcsine_ratio(S y) {
 /// @implements LSK (6)
 template <class S>
 constexpr S chord_loss(S w) {
-  return !(w > S(few_below))    ? S(w * detail::PowerSeries<S, 2, 1, Terms<S>::few>::at(w))
+  return !(w > S(few_below))   ? S(w * detail::PowerSeries<S, 2, 1, Terms<S>::few>::at(w))
          : !(w > S(max_below)) ? S(w * detail::PowerSeries<S, 2, 1, Terms<S>::most>::at(w))
-                                : detail::chord_loss_beyond(w);
+                               : detail::chord_loss_beyond(w);
 }
 
 /// The same of two axes: where both are small, as they mostly are, without a branch between them.

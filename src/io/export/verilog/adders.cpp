@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 namespace {
 
 /// A number of the tree.
@@ -49,4 +49,4 @@ std::string adders(const std::vector<int>& factor_bits, int levels) {
   return text + fmt::format("  assign sum = {};", terms[0].widened(32));
 }
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

@@ -2,7 +2,7 @@
 #include "io/export/verilog/text.hpp"
 #include "io/export/verilog/vectors.hpp"
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 namespace {
 
 constexpr std::string_view bench_module =
@@ -154,4 +154,4 @@ std::string bench_text(const ControllerTable& table, const Core& core) {
   return filled(bench_module, words);
 }
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

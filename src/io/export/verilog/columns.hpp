@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "sinew/robot/controller.hpp"
+#include "robot/controller.hpp"
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 
 using Rows = std::vector<std::array<double, 2>>;
 
@@ -43,4 +43,4 @@ int share_bits(const ControllerTable& table, Value value) {
   });
 }
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

@@ -10,7 +10,7 @@
 #include "io/export/verilog/streams.hpp"
 #include "io/export/verilog/text.hpp"
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 namespace {
 
 constexpr std::string_view head =
@@ -175,4 +175,4 @@ std::string core_text(const ControllerTable& table, const Core& core) {
   return filled(text, words);
 }
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

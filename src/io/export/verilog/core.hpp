@@ -3,9 +3,9 @@
 #pragma once
 #include <string>
 
-#include "sinew/robot/controller.hpp"
+#include "robot/controller.hpp"
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 
 /// What modules of this robot are called before their own name, and clocks from a section to its result.
 struct Core {
@@ -19,4 +19,4 @@ Core core_of(const ControllerTable& table);
 std::string core_text(const ControllerTable& table, const Core& core);
 std::string bench_text(const ControllerTable& table, const Core& core);
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

@@ -2,9 +2,9 @@
 
 #include <bit>
 
-#include "sinew/io/export.hpp"
+#include "io/export.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace verilog {
 namespace {
 
@@ -43,4 +43,4 @@ std::vector<ExportedFile> controller_verilog(const ControllerTable& table) {
           {core.name + "_core_tb.v", verilog::bench_text(table, core)}};
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -3,7 +3,7 @@
 #pragma once
 #include <string_view>
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 
 /// Of sections with twin pivots alone: no squares.
 constexpr std::string_view square_limits_module = R"(
@@ -81,4 +81,4 @@ module <robot>_state (
 endmodule
 )";
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

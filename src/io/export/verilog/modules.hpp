@@ -4,7 +4,7 @@
 #pragma once
 #include <string_view>
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 
 constexpr std::string_view walk_module = R"(
 // Which section a stream is at. `first` begins a robot anew, whatever came before; what follows a robot's last
@@ -186,4 +186,4 @@ module <robot>_nearest (
 endmodule
 )";
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

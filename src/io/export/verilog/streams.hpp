@@ -3,7 +3,7 @@
 #pragma once
 #include <string_view>
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 
 /// Sections that are alike have a share of 1: the bends themselves are summed up.
 constexpr std::string_view alike_forward = R"(
@@ -160,4 +160,4 @@ module <robot>_core (
 endmodule
 )";
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 
 using Words = std::map<std::string, std::string, std::less<>>;
 
@@ -43,4 +43,4 @@ inline std::string signed_text(std::int64_t value) {
   return fmt::format("{}16'sd{}", value < 0 ? "-" : "", value < 0 ? -value : value);
 }
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

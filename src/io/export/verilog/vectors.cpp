@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 namespace {
 
 constexpr int robots = 24;
@@ -122,4 +122,4 @@ std::vector<Vector> vectors(const ControllerTable& table) {
   return result;
 }
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

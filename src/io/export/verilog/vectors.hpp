@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "sinew/robot/controller.hpp"
+#include "robot/controller.hpp"
 
-namespace sinew::inline v0::verilog {
+namespace sinew::inline v1::verilog {
 
 struct Bend {
   std::int64_t x = 0, y = 0;
@@ -26,4 +26,4 @@ struct Vector {
 /// Robots in turn, the sections of each in turn: at rest, at limits, at the ends of 16 bits, at random.
 std::vector<Vector> vectors(const ControllerTable& table);
 
-}  // namespace sinew::inline v0::verilog
+}  // namespace sinew::inline v1::verilog

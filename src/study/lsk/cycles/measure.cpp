@@ -10,13 +10,13 @@
 #include <numbers>
 #include <sstream>
 
-#include "sinew/io/export.hpp"
-#include "sinew/io/process.hpp"
+#include "io/export.hpp"
+#include "io/process.hpp"
 #include "sinew/io/serial_file.hpp"
 #include "sinew/io/table.hpp"
 #include "study/builtin.hpp"
 
-namespace sinew::inline v0::lsk {
+namespace sinew::inline v1::lsk {
 namespace {
 
 namespace fs = std::filesystem;
@@ -187,4 +187,4 @@ Expected<CyclesRun> measure_cycles(int sections, const CyclesTools& tools, const
   return read_run(ran.output, robots);
 }
 
-}  // namespace sinew::inline v0::lsk
+}  // namespace sinew::inline v1::lsk

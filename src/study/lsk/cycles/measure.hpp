@@ -8,7 +8,7 @@
 
 #include "sinew/base/error.hpp"
 
-namespace sinew::inline v0::lsk {
+namespace sinew::inline v1::lsk {
 
 /// A kernel over all samples of a robot.
 struct KernelCycles {
@@ -38,4 +38,4 @@ Expected<CyclesTools> find_cycles_tools();
 Expected<CyclesRun> measure_cycles(int sections, const CyclesTools& tools,
                                    const std::filesystem::path& folder);
 
-}  // namespace sinew::inline v0::lsk
+}  // namespace sinew::inline v1::lsk

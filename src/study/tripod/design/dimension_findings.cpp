@@ -10,7 +10,7 @@
 #include "study/tripod/design/parts.hpp"
 #include "study/tripod/design/steps.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 using Index = std::size_t;
@@ -130,4 +130,4 @@ void add_dimension_findings(std::vector<Finding>& findings, const Designs& made)
   add_largest_turn(findings, made);
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

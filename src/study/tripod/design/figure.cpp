@@ -6,7 +6,7 @@
 
 #include "study/tripod/design/parts.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 constexpr std::array colours{Colour::blue, Colour::vermillion, Colour::green, Colour::orange, Colour::purple};
@@ -125,4 +125,4 @@ Figure design_figure(const Designs& made, std::span<const Loaded> presets) {
           "rigid 3PRS: what that one is itself"}};
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

@@ -9,7 +9,7 @@
 #include "study/tripod/design/parts.hpp"
 #include "study/tripod/design/steps.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 using Index = std::size_t;
@@ -110,4 +110,4 @@ void add_lever_findings(std::vector<Finding>& findings, const Designs& made) {
   add_total_shift(findings, made);
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

@@ -10,7 +10,7 @@
 #include "study/compare.hpp"
 #include "study/tripod/design/parts.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 std::string listed(const std::vector<double>& values, double factor) {
@@ -134,4 +134,4 @@ Expected<void> add_load_findings(std::vector<Finding>& findings, std::span<const
   return {};
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

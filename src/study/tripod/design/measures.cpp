@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 constexpr double platform_radius = 0.125;  // of both presets, and of the 3PRS below (19) [m]
@@ -118,4 +118,4 @@ Loaded loaded(const Swept& study, std::string name, double height) {
   return made;
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

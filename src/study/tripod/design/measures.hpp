@@ -10,7 +10,7 @@
 
 #include "study/tripod/swept.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 /// Root mean squares over the tilts of one tripod.
 struct Measures {
@@ -65,4 +65,4 @@ inline double worse(double most, double here) { return here <= most ? most : her
 /// What is above 0, else 0; NaN stays.
 inline double excess(double value) { return value <= 0 ? 0 : value; }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "sinew/io/figure.hpp"
+#include "io/figure.hpp"
 #include "sinew/io/table.hpp"
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 #include "study/tripod/design/measures.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 /// Where a value is among those of a dimension.
 inline std::size_t index_of(const std::vector<double>& values, double wanted) {
@@ -33,4 +33,4 @@ void add_recommendations(std::vector<Finding>& findings, const Designs& made,
 
 Figure design_figure(const Designs& made, std::span<const Loaded> presets);
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

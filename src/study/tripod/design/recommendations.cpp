@@ -7,7 +7,7 @@
 
 #include "study/tripod/design/parts.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 /// Parts of the rigid motion that a tripod may be off.
@@ -88,4 +88,4 @@ void add_recommendations(std::vector<Finding>& findings, const Designs& made,
   findings.push_back(in_short(made));
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 std::vector<Step> steps(const Designs& made, Along along, Measure measure) {
   const std::size_t di = along == Along::radius, dj = along == Along::height, dk = along == Along::angle;
@@ -37,4 +37,4 @@ std::string exceptions(const Designs& made, const std::vector<Step>& all, double
                      fmt::join(angles, "°, "));
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

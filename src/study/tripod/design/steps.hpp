@@ -8,7 +8,7 @@
 
 #include "study/tripod/design/measures.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 /// How much a measure rises in one step, over its value.
 struct Step {
@@ -41,4 +41,4 @@ inline std::size_t largest(const std::vector<double>& values) {
   return static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 Finding judged(std::string quantity, std::string paper, std::string ours, bool holds) {
@@ -179,4 +179,4 @@ void add_load_claims(std::vector<Finding>& findings, const std::string& name, co
   findings.push_back(unequal(name, study));
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

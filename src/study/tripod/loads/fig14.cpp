@@ -12,7 +12,7 @@
 #include "study/tripod/loads/claims.hpp"
 #include "study/tripod/tilt_plane.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using tripod::Load, tripod::LoadCase, tripod::LoadedPairs, tripod::Swept;
@@ -146,4 +146,4 @@ Expected<ItemResult> tripod_fig16(const StudyItem& item, const std::filesystem::
   return loaded_poses(item, Load::moment_y, folder);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

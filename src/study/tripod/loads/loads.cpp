@@ -5,7 +5,7 @@
 
 #include "study/tripod/tilt_plane.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 std::vector<std::size_t> rows_of(const Swept& study, const LoadCase& at) {
   const auto &rods = study["rods"], &kind = study["kind"], &step = study["step"];
@@ -58,4 +58,4 @@ RmsCells relative_rms(const Swept& study, Rods rods) {
   return cells;
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

@@ -9,7 +9,7 @@
 #include "study/tripod/loads/printed_tables.hpp"
 #include "study/tripod/swept.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 struct LoadedGeometry {
   const char *name, *study;
@@ -48,4 +48,4 @@ double relative_rms(const LoadedPairs& pairs);
 /// Of every load, step and variable.
 RmsCells relative_rms(const Swept& study, Rods rods);
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 using Weights = std::array<double, load_steps>;
@@ -45,4 +45,4 @@ double pole(const RmsCells& cells, Load load, std::size_t variable) {
          std::abs(value_of(load, 1));
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 /// A load on the platform, constant in the fixed frame; as the studies' axis `kind` counts them.
 enum class Load { force_z, moment_x, moment_y };
@@ -68,4 +68,4 @@ double linear_limit(const RmsCells& cells, Load load, std::size_t variable);
 /// The load at which the straight line through load over RMS is 0, where RMS would be infinite [N or N m].
 double pole(const RmsCells& cells, Load load, std::size_t variable);
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

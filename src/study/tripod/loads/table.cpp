@@ -11,7 +11,7 @@
 #include "study/tripod/loads/loads.hpp"
 #include "study/tripod/loads/table_findings.hpp"
 
-namespace sinew::inline v0 {
+namespace sinew::inline v1 {
 namespace {
 
 using tripod::cell, tripod::ComparedTables, tripod::Load, tripod::PrintedTable, tripod::Rods,
@@ -144,4 +144,4 @@ Expected<ItemResult> tripod_table2(const StudyItem& item, const std::filesystem:
   return table(item, tripod::table_2, true, folder);
 }
 
-}  // namespace sinew::inline v0
+}  // namespace sinew::inline v1

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 namespace {
 
 constexpr std::size_t x = 0, y = 1, z = 2, e3 = 3;  // of `variables`
@@ -155,4 +155,4 @@ void add_table_findings(std::vector<Finding>& findings, const PrintedTable& pape
   });
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

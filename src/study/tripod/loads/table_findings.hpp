@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "sinew/study/reproduce.hpp"
+#include "study/reproduce.hpp"
 #include "study/tripod/loads/printed_tables.hpp"
 
-namespace sinew::inline v0::tripod {
+namespace sinew::inline v1::tripod {
 
 /// What becomes of one geometry on rods of one kind.
 struct TableOfOurs {
@@ -38,4 +38,4 @@ void each_cell(const F& f) {
       for (std::size_t v = 0; v < variables.size(); ++v) f(load, step, v);
 }
 
-}  // namespace sinew::inline v0::tripod
+}  // namespace sinew::inline v1::tripod

@@ -1,0 +1,19 @@
+/// @file read_pose.hpp
+/// Poses as robot files and queries write them.
+#pragma once
+#include "sinew/io/reader.hpp"
+#include "sinew/math/se3.hpp"
+
+namespace sinew::inline v1 {
+
+/// `{x, y, phi}`, all required.
+SINEW_API PlanarPose read_planar_pose(Reader pose);
+
+/// `{position: [x, y, z], quaternion: [w, x, y, z]}`; the quaternion need not be normalised; no turn
+/// where it is left out. In its place `tilt`, `azimuth`, `torsion`, see math/tilt.hpp, each 0 by default.
+SINEW_API SpatialPose read_spatial_pose(Reader pose);
+
+/// `[x, y, z]`: what falls falls so [m/s²], base axes.
+SINEW_API Vec3<double> read_gravity(const Reader& gravity);
+
+}  // namespace sinew::inline v1

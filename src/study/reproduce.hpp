@@ -1,0 +1,64 @@
+/// @file reproduce.hpp
+/// The papers' figures and tables, made again: ours beside the paper's, the difference, a verdict.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/figure.hpp"
+#include "sinew/base/error.hpp"
+#include "sinew/io/table.hpp"
+
+namespace sinew::inline v1 {
+
+/// Something of a paper that can be made again.
+struct StudyItem {
+  std::string_view id;  ///< paper/item: `tdpcr/fig9`
+  std::string_view title;
+};
+
+/// All of them, in the order of the papers.
+SINEW_API std::span<const StudyItem> study_items();
+
+/// One number or claim of the paper beside ours, formatted for people.
+struct Finding {
+  std::string quantity;
+  std::string paper;  ///< as printed; `not printed` where the paper gives none
+  std::string ours;
+  std::string difference;  ///< empty where there is nothing to subtract
+  std::string verdict;     ///< `agrees`, `differs`, `holds`, `fails`, or `for information`
+};
+
+struct Reproduction {
+  std::string id, title;
+  std::vector<Finding> findings;
+  std::vector<std::filesystem::path> files;  ///< written, in order
+};
+
+/// What an item found and has to show. `write_item` writes it.
+struct ItemResult {
+  std::vector<Finding> findings;
+  std::vector<std::filesystem::path> swept;             ///< files that its sweeps have written there
+  std::vector<std::pair<std::string, Table>> tables;    ///< by the names of their files, without extension
+  std::vector<std::pair<std::string, Figure>> figures;  ///< the same
+};
+
+/// Writes it into a folder: tables, findings, then figures. Codes: as `reproduce`.
+SINEW_API Expected<Reproduction> write_item(const StudyItem& item, const ItemResult& made,
+                                            const std::filesystem::path& folder,
+                                            const FigureOptions& page = {});
+
+/// Makes one item again; its files go to `out`/paper/. What is written before an error stays: without gnuplot
+/// the table, the findings and the scripts of the figures are there. Codes: `unknown_study`,
+/// `file_unwritable`, `gnuplot_missing`, `gnuplot_failed`, `script_edited`.
+/// @param page of the figures: width, font, formats, and whether scripts that were edited are replaced
+SINEW_API Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out,
+                                           const FigureOptions& page = {});
+
+/// The findings as a Markdown table.
+SINEW_API std::string to_markdown(const Reproduction& reproduction);
+
+}  // namespace sinew::inline v1
