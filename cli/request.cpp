@@ -254,9 +254,9 @@ void Request::independent(std::string_view option, std::string_view key) {
     return fail(
         "wrong_length", option,
         fmt::format(
-            "{}; it has three, a height and two components of the quaternion{}: --{} \"0.54 m, 0.1, 0.05\".",
-            counted(*given, count), option == "independent" ? ", and after them half_turn for that mode" : "",
-            option));
+            "{}; {} three, a height and two components of the quaternion{}: --{} \"0.54 m, 0.1, 0.05\".",
+            counted(*given, count), option == "independent" ? "it has" : "three rod lengths hold",
+            option == "independent" ? ", and after them half_turn for that mode" : "", option));
   const auto values_of = values(option, parts, lengths_then(1, Dimension::number, 2));
   member(key, fmt::format(R"({{"z": {}, "e1": {}, "e2": {}{}}})", si_text(values_of[0]),
                           si_text(values_of[1]), si_text(values_of[2]), mode));

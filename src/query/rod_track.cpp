@@ -27,12 +27,21 @@ Held held_between(const Held& from, const Held& to, double part) {
   return IndependentPose{std::lerp(a.z, b.z, part), std::lerp(a.e1, b.e1, part), std::lerp(a.e2, b.e2, part)};
 }
 
+Held read_three(Context& context, Reader& place) {
+  if (place.is(Node::Kind::map) && (place.has("position") || place.has("quaternion"))) {
+    place.fail("not_available",
+               "on rods the rest of a pose follows from three lengths and load; give {z, e1, e2}");
+    return IndependentPose{};
+  }
+  return read_independent(context, place);
+}
+
 /// As read_path, of {z, e1, e2}.
 std::vector<Held> read_independent_path(Context& context) {
   std::vector<Held> path;
   Reader& query = context.query;
   if (const auto list = query.optional("poses")) {
-    for (Reader& item : list->items()) path.emplace_back(read_independent(context, item));
+    for (Reader& item : list->items()) path.push_back(read_three(context, item));
     if (path.empty()) list->fail("empty_list", "a path needs at least one pose");
     for (const char* key : {"from", "to", "samples"})
       if (query.has(key)) query.fail("ambiguous", fmt::format("gives both poses and {}; keep one", key));
@@ -40,7 +49,7 @@ std::vector<Held> read_independent_path(Context& context) {
   }
   Reader first = query.required("from", "{z, e1, e2}: where the path begins"),
          last = query.required("to", "{z, e1, e2}: where the path ends");
-  const Held from = read_independent(context, first), to = read_independent(context, last);
+  const Held from = read_three(context, first), to = read_three(context, last);
   const auto samples = query.optional("samples");
   const int count = samples ? samples->integer(Range::between(2, max_path_samples)) : default_path_samples;
   for (int k = 0; k < count && context.errors.empty(); ++k)
