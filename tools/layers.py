@@ -33,8 +33,8 @@ HEIGHT = {layer: len(ROWS) - i for i, row in enumerate(ROWS) for layer in row}
 
 # What a user of the installed library has: any other library in a public header breaks his build.
 PUBLIC_LIBRARIES = ("Eigen/", "tl/expected.hpp")
-# Templates on fixed sizes need these; the slow rest of Eigen belongs behind functions in few .cpp files.
-PUBLIC_EIGEN = {"Eigen/Core", "Eigen/Geometry", "Eigen/LU", "Eigen/Cholesky"}
+# Vectors need these; decompositions and the slow rest of Eigen belongs behind functions in few .cpp files.
+PUBLIC_EIGEN = {"Eigen/Core", "Eigen/Geometry"}
 
 HEADER_LINES = 300
 FOLDER_FILES = 15

@@ -142,7 +142,7 @@ Velocity velocity(const Robot& robot, const AnyPose& pose, Numbers coordinates, 
       robot, [&](const auto& r) { return velocity_of(r, robot, pose, coordinates, reduced, work); },
       [&] {
         Velocity answer = nothing_yet(reduced, work);
-        refuse(answer, Status::left_domain,
+        refuse(answer, Status::unsupported,
                "the legs bear load: analyse_equilibrium has their stiffness and sensitivity");
         return answer;
       });

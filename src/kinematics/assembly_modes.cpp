@@ -37,7 +37,7 @@ void put_modes(AssemblyModes& modes, std::span<const PlatformConstraint<3>> reac
   const bool has_plane =
       std::ranges::any_of(reaches, [](const PlatformConstraint<3>& reach) { return reach.has_plane(); });
   if (has_plane && !are_hinged(reaches)) {
-    modes.report.status = Status::left_domain;
+    modes.report.status = Status::unsupported;
     modes.report.message.append(
         "all modes are known of three hinged legs, or of legs without hinges, not of both mixed");
     modes.is_complete = false;

@@ -26,8 +26,10 @@ Equilibrium refused(const Report& report) {
 
 Equilibrium refused() {
   Equilibrium answer;
-  answer.report.status = Status::left_domain;
-  answer.report.message.append("the legs of this robot bear no load: it has no equilibrium to find");
+  answer.report.status = Status::unsupported;
+  answer.report.message.append(
+      "the legs of this robot are no rods: arcs bear no load, and chains are asked by a Session with model "
+      "prb");
   return answer;
 }
 

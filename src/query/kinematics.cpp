@@ -88,7 +88,7 @@ void answer_all_modes(Context& context, const std::vector<double>& inputs, const
   const AssemblyModes modes = assembly_modes(context.robot, inputs, context.work);
   context.report(modes.report);
   context.remember({});
-  if (modes.report.status == Status::left_domain) return;
+  if (modes.report.status == Status::left_domain || modes.report.status == Status::unsupported) return;
   Json solutions = Json::array();
   for (std::size_t k = 0; k < modes.poses.size(); ++k)
     solutions.push_back({{"pose", to_json(modes.poses[k])},

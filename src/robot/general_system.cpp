@@ -190,7 +190,7 @@ void GeneralSystem::restore(const LimbState& from) {
 }
 
 void GeneralSystem::set_inputs(Numbers inputs) {
-  for (int k = 0; k < limbs(); ++k) at(k).length = inputs[v0::at(input_of(k))];
+  for (int k = 0; k < limbs(); ++k) at(k).length = inputs[v1::at(input_of(k))];
 }
 
 double GeneralSystem::weight_energy() const {
@@ -271,7 +271,7 @@ void GeneralSystem::move(const Twist& twist, Numbers fed) {
   move_platform(twist);
   for (int k = 0; k < limbs(); ++k) {
     GeneralRod& rod = at(k);
-    const double more = fed.empty() ? 0 : fed[v0::at(input_of(k))];
+    const double more = fed.empty() ? 0 : fed[v1::at(input_of(k))];
     move_rod(rod, rod.fix + rod.by_twist * twist + rod.by_length * more, more);
   }
 }
@@ -333,7 +333,7 @@ RodResult GeneralSystem::rod(int index) const {
 
 std::array<int, 2> GeneralSystem::unstable_with_tip_held(int index) const {
   const GeneralRod& rod = at(index);
-  const int count = v0::unstable_directions(rod.rod, rod.length, rod.from, rod.ends);
+  const int count = v1::unstable_directions(rod.rod, rod.length, rod.from, rod.ends);
   return {count < 0 ? 1 : count, 0};  // what cannot be counted is not vouched for
 }
 
@@ -351,7 +351,7 @@ double GeneralSystem::truncation() const {
 
 std::vector<Vec3<double>> GeneralSystem::centreline(int index, int samples) const {
   const GeneralRod& rod = at(index);
-  std::vector<RodState<double>> sections(v0::at(samples));
+  std::vector<RodState<double>> sections(v1::at(samples));
   rod_sections(rod.rod, rod.length, rod.from, sections, {elements_, 0});
   std::vector<Vec3<double>> points;
   for (const RodState<double>& section : sections) points.push_back(section.p);
@@ -376,7 +376,7 @@ void GeneralSystem::set_rod(GeneralRod& rod, Numbers numbers) {
 
 void GeneralSystem::set_rods(Numbers coordinates) {
   elements_ = max_elements;
-  for (int k = 0; k < limbs(); ++k) set_rod(at(k), coordinates.subspan(v0::at(coordinate_of(k))));
+  for (int k = 0; k < limbs(); ++k) set_rod(at(k), coordinates.subspan(v1::at(coordinate_of(k))));
 }
 
 bool GeneralSystem::draw_rods() {
@@ -401,7 +401,7 @@ bool GeneralSystem::draw_rods() {
     // one that turns further than its steps resolve at rest, too
     if (!(rod.length * rod.rod.precurvature.norm() < max_elements)) return false;
     const RodBvpSolution held =
-        v0::solve_rod_bvp(rod.rod, rod.frame, rod.length, rod.ends, tip, {.tolerance = 1e-9});
+        v1::solve_rod_bvp(rod.rod, rod.frame, rod.length, rod.ends, tip, {.tolerance = 1e-9});
     if (!held.report.ok()) return false;
     rod.force = held.base.n;
     rod.moment = held.base.m;

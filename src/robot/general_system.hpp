@@ -79,7 +79,7 @@ class GeneralSystem : public HeavyRodGroup {
   Vec3<double> platform_point(int rod) const override { return at(rod).platform_point; }
   double stiffness(int rod) const override { return at(rod).stiffness; }  ///< the mean of both ways
   double length(int rod) const override { return at(rod).length; }
-  void solve_rod_bvp(int rod, double length) override { at(rod).length = length; }
+  void hold(int rod, double length) override { at(rod).length = length; }
   void set_inputs(Numbers inputs) override;
   Wrench wrench() const final { return wrench_; }
   void set_wrench(const Wrench& wrench) final { wrench_ = wrench; }

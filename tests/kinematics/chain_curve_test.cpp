@@ -23,7 +23,7 @@ template <class Space>
 Begun<Space> begun(const char* name, PrbDiscretisation model, const typename Space::Pose& pose,
                    bool holds_lengths) {
   Begun<Space> one{chains_at<Space>(name, model, pose), {}};
-  EXPECT_TRUE(rest(one.at.robot, pose, one.at.curvature, holds_lengths, one.state).ok());
+  EXPECT_TRUE(unloaded_equilibrium(one.at.robot, pose, one.at.curvature, holds_lengths, one.state).ok());
   return one;
 }
 

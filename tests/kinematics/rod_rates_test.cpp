@@ -46,7 +46,7 @@ struct At {
   SpatialWrench wrench;
   std::vector<double> inputs;
   explicit At(const Place& place, RodRandom& random)
-      : robot(v0::load(place.robot).value()),
+      : robot(v1::load(place.robot).value()),
         work(robot),
         wrench(place.wrench),
         inputs(place.inputs) {
@@ -138,18 +138,18 @@ TEST(RodRates, WhatCannotBeFollowedIsRefused) {
 }
 
 /// Of rods that bear torque each takes long to be asked whether it holds by itself: an answer asks once.
-class Counting : public v0::GeneralSystem {
+class Counting : public v1::GeneralSystem {
  public:
-  using v0::GeneralSystem::GeneralSystem;
+  using v1::GeneralSystem::GeneralSystem;
   std::array<int, 2> unstable_with_tip_held(int limb) const override {
     ++asked;
-    return v0::GeneralSystem::unstable_with_tip_held(limb);
+    return v1::GeneralSystem::unstable_with_tip_held(limb);
   }
   mutable int asked = 0;
 };
 
 TEST(RodStability, IsCountedOnceAnAnswer) {
-  const Robot robot = v0::load("hexapod-torsion").value();
+  const Robot robot = v1::load("hexapod-torsion").value();
   Workspace work(robot);
   auto counting = std::make_unique<Mechanism<Counting>>(*robot.spatial());
   const Counting& system = *counting;

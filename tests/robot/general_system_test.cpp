@@ -80,8 +80,7 @@ template <class System>
 bool begin(System& system, const RodRobot& robot, RodRandom& random) {
   system.set_gravity(gravity);
   if (!system.rest_at(random.near(home(robot), 0.03, 0.15))) return false;
-  for (int k = 0; k < system.limbs(); ++k)
-    system.solve_rod_bvp(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
+  for (int k = 0; k < system.limbs(); ++k) system.hold(k, system.length(k) * (1 + random.uniform(0, 3e-4)));
   return close_rods(system) && balance(system);
 }
 
@@ -107,7 +106,7 @@ TEST(GeneralSystem, WithoutTorqueIsTheFieldOfTangents) {
       if (!close_rods(tangents) || !balance(tangents)) continue;
       rods.set_gravity(gravity);
       ASSERT_TRUE(rods.rest_at(tangents.platform())) << kind.name;
-      for (int k = 0; k < 6; ++k) rods.solve_rod_bvp(k, tangents.length(k));
+      for (int k = 0; k < 6; ++k) rods.hold(k, tangents.length(k));
       finest(rods);
       ASSERT_TRUE(close_rods(rods) && balance(rods)) << kind.name;
       if (unstable_directions(tangents) != 0 || unstable_directions(rods) != 0) continue;  // other shapes
@@ -372,7 +371,7 @@ TEST(GeneralSystem, HeldSpinStiffensTheTurnAboutTheAxis) {
   const SE3<double> turned{home(robot).p, SO3<double>::exp({0, 0, 0.4})};
   GeneralSystem spinning(robot), resisting(held);
   ASSERT_TRUE(spinning.rest_at(turned) && resisting.rest_at(turned));
-  for (int k = 0; k < 6; ++k) resisting.solve_rod_bvp(k, spinning.length(k));
+  for (int k = 0; k < 6; ++k) resisting.hold(k, spinning.length(k));
   ASSERT_TRUE(close_rods(spinning) && balance(spinning));
   ASSERT_TRUE(close_rods(resisting) && balance(resisting));
   const double torsion = spatial_rod(held.legs[0].link).torsion_stiffness / spinning.length(0);

@@ -48,6 +48,7 @@ TEST(SerialRobotAsRobot, QuestionsOfPlatformsAreUnsupported) {
     EXPECT_EQ(report.status, Status::unsupported);
     EXPECT_NE(report.message.view().find("robot.serial()"), std::string_view::npos);
   }
+  EXPECT_EQ(equilibrium(robot, {}, {}, work).report.status, Status::unsupported);
   EXPECT_EQ(to_string(Status::unsupported), "unsupported");
 }
 

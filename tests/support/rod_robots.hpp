@@ -18,9 +18,9 @@
 namespace sinew::test {
 
 /// Groups of rods as solvers have them: mechanisms without closing legs.
-using RodSystem = Mechanism<v0::RodSystem>;
-using TangentSystem = Mechanism<v0::TangentSystem>;
-using GeneralSystem = Mechanism<v0::GeneralSystem>;
+using RodSystem = Mechanism<v1::RodSystem>;
+using TangentSystem = Mechanism<v1::TangentSystem>;
+using GeneralSystem = Mechanism<v1::GeneralSystem>;
 
 namespace judge = shooting;
 using RodRobot = ParallelRobot<RodLeg>;

@@ -16,6 +16,7 @@ const verdicts: Record<string, Verdict> = {
   iteration_limit: {word: 'LIMIT REACHED', shape: '⊗', state: 'over', advice: 'Raise the limit of iterations under Model.'},
   stopped: {word: 'STOPPED', shape: '■', state: 'stale', advice: 'It was ended before it was solved. Ask again, or take a smaller step.'},
   bad_input: {word: 'BAD INPUT', shape: '⊗', state: 'over', advice: 'These numbers do not fit this robot: go back, or Home.'},
+  unsupported: {word: 'NOT AVAILABLE', shape: '⊗', state: 'over', advice: 'This robot does not answer this: the message says what it answers.'},
   // Of a plan
   clear: {word: 'CLEAR', shape: '●', state: 'exact', advice: ''},
   clear_if_taut: {word: 'CLEAR ONLY IF TAUT', shape: '▼', state: 'slack', advice: 'As planned it touches nothing; where tendons are slack or stretched, the robot sags or the model is off, it may.'},

@@ -137,7 +137,7 @@ Report explain_hold(const RodGroup& system, const RodPathEnd& end, const RodFold
 Report check(const RodGroup& system, const SE3<double>& wanted, const RodQuestion& question) {
   Report report;
   if (system.inputs() != 6 || system.feeds() != 6) {
-    report = failed(Status::left_domain);
+    report = failed(Status::unsupported);
     report.message.append("a pose is held by six inputs, each feeding one leg; this robot has ");
     append_number(report.message, system.feeds());
     report.message.append(" legs fed and ");
@@ -149,7 +149,7 @@ Report check(const RodGroup& system, const SE3<double>& wanted, const RodQuestio
     report.message.append("the pose or the wrench is not a number");
   }
   if (report.ok() && system.undriven() > 0) {
-    report = failed(Status::left_domain);
+    report = failed(Status::unsupported);
     report.message.append(
         "legs beside the rods hold motions that no input drives: not all of a pose can be "
         "chosen; ask forward with inputs");

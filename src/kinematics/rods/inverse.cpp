@@ -97,7 +97,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
   work.knows_feeding = work.knows_stability = false;
   Report report;
   if (system.inputs() != 3) {
-    report = failed(Status::left_domain);
+    report = failed(Status::unsupported);
     report.message.append("independent coordinates are for robots of three inputs");
     return report;
   }

@@ -18,7 +18,7 @@ double ColumnValues::value(const Reader& place) {
     place.fail(read.error().front().code, read.error().front().message);
     return 0;
   }
-  const std::string unit(v0::unit(read->dimension));
+  const std::string unit(v1::unit(read->dimension));
   if (unit_.empty()) unit_ = unit;
   if (!unit.empty() && unit != unit_)
     place.fail("wrong_dimension",
