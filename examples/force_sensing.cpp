@@ -9,7 +9,7 @@ int main() {
   const auto robot = sinew::load("hexapod").value();
   sinew::Workspace work(robot);
   const double lengths[] = {0.410, 0.410, 0.405, 0.405, 0.405, 0.405};
-  const double axial[] = {0.1, -0.2, 0, 0, 0.1, 0};  // [N], pull > 0
+  const double axial[] = {0.1, -0.2, 0.1, 0, 0.1, 0};  // [N], pull > 0
   const double deviations[] = {0.01, 0.01, 0.01, 0.01, 0.01, 0.01};
 
   const auto sensed = sinew::sense_wrench(robot, lengths, axial, deviations, {}, work);
