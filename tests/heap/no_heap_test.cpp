@@ -2,6 +2,7 @@
 /// is theirs.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cstdlib>
 
@@ -10,6 +11,7 @@
 #include "sinew/analysis/velocity_batch.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/resolved_rate.hpp"
+#include "sinew/kinematics/rod_rates.hpp"
 #include "sinew/kinematics/serial_inverse.hpp"
 #include "sinew/math/linalg.hpp"
 
@@ -148,6 +150,11 @@ TEST(NoHeapOfRods, InEquilibriaThatAreFoundOrNot) {
     none([&] {
       EXPECT_TRUE(equilibrium(robot, inputs, {.wrench = load, .warm_start = true}, work).is_solved());
     });
+    const RodAnalysis analysis = analyse_equilibrium(robot, work);
+    std::vector<double> rates(inputs.size(), 0.01);
+    std::array<double, 6> twist{};
+    none([&] { EXPECT_TRUE(rod_twist(analysis, rates, twist).ok()); });
+    none([&] { EXPECT_TRUE(rod_rates(analysis, twist, rates).ok()); });
     none([&] { inverse_equilibrium(robot, IndependentPose{0.3, 0.1, 0}, {}, work); });
     none([&] { inverse_equilibrium(robot, beside, {}, work); });
     none([&] { inverse_equilibrium(robot, at_home, {.warm_start = true, .check_stability = false}, work); });
