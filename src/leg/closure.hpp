@@ -1,6 +1,6 @@
 /// @file closure.hpp
 /// What every closure is made of: an anchor that moves with the link, and how far the platform point keeps
-/// from it. Rows, slopes and closure_error, one formula each; second derivatives are in
+/// from it. Rows, slopes and closure error, one formula each; second derivatives are in
 /// closure_curvature.hpp. Theory: docs/theory/leg.md
 ///
 /// On the way n = r − A from the anchor A to the platform point r a closure has one or more rows: of a

@@ -37,7 +37,7 @@ Point turn_between(const Point& from, const Point& to) {
 Point z_axis(const Turn& R) { return R.rotate(Point(0, 0, 1)); }
 
 /// The equations of one rod between two ends, for Newton's method. Unknowns: force at the base in EI/L²,
-/// base axes; moment there in EI/L, in the section's axes, where the last is the axial_rotation instead if it
+/// base axes; moment there in EI/L, in the section's axes, where the last is the axial rotation instead if it
 /// matters.
 struct HoldProblem {
   static constexpr int unknowns = 6;
@@ -300,9 +300,9 @@ RodBvpSolution unanswered() {
   return held;
 }
 
-/// Where the ends do not say how the base frame spins: from an equilibrium with its axial_rotation held, on
+/// Where the ends do not say how the base frame spins: from an equilibrium with its axial rotation held, on
 /// to where the base has to hold no torque, downhill: dE/dψ = −m(0)·t(0). x is that of the problem with
-/// axial_rotation afterwards.
+/// axial rotation afterwards.
 bool turn_downhill(const HoldProblem& problem, bool fixed_steps, Vec<double, 6>& x, int& iterations) {
   HoldProblem held = problem;
   held.seeks_axial_rotation = false;

@@ -31,7 +31,7 @@ struct HoldOptions {
 
 struct RodBvpSolution {
   Report report;              ///< `residual`: position, turn × L, free moment × L²/EI, the largest [m]
-  RodState<double> base;      ///< with force and moment at the base, and the frame after its axial_rotation
+  RodState<double> base;      ///< with force and moment at the base, and the frame after its axial rotation
   RodState<double> tip;       ///< its n and m are what holds the tip on the rod
   double axial_rotation = 0;  ///< of the base frame about its z [rad]; 0 where nothing depends on it
   double energy = 0;          ///< elastic energy and potential of the load, as RodTip::energy [J]

@@ -80,7 +80,7 @@ SINEW_API RodTip integrate(const SpatialRod& rod, double length, const RodState<
                            const RodSteps& how = {});
 
 /// The far end with its derivatives. Rows: position, rotation vector (base axes), force, moment. Columns:
-/// force and moment at the base (base axes), axial_rotation of the base frame about its own z at these,
+/// force and moment at the base (base axes), axial rotation of the base frame about its own z at these,
 /// length. They are the derivatives of the numbers computed, steps held, to rounding.
 struct RodTangent {
   static constexpr int force = 0, moment = 3, axial_rotation = 6, length = 7;      // columns

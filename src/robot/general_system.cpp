@@ -149,7 +149,7 @@ GeneralSystem::GeneralSystem(const ParallelRobot<RodLeg>& robot) : HeavyRodGroup
     rod.ends = ends_of(leg);
     rod.seeks_axial_rotation = rod.ends.base == RodEnds::Base::spins &&
                                (rod.ends.tip == RodEnds::Tip::clamp || !rod.rod.is_isotropic());
-    // a axial_rotation that nothing depends on is none: held, it costs no torque
+    // an axial rotation that nothing depends on is none: held, it costs no torque
     if (!rod.seeks_axial_rotation) rod.ends.base = RodEnds::Base::held;
     rod.platform_point = leg.platform_point;
     rod.platform_section = section_of(leg.platform_across, leg.platform_tangent);

@@ -1,6 +1,6 @@
 /// @file general_system.hpp
 /// Rods that bear torque between a base and a platform as one system of equations: held against
-/// axial_rotation at both ends, of a section that is not round, or bent when free. Each is shot from its
+/// axial rotation at both ends, of a section that is not round, or bent when free. Each is shot from its
 /// base, and its six unknowns are eliminated in the same step. TangentSystem is the fast special case without
 /// torque. Theory: docs/theory/spatial_rod.md
 #pragma once
@@ -18,7 +18,7 @@ namespace sinew::inline v1 {
 SpatialRod spatial_rod(const Rod& rod);
 
 /// One rod with all numbers of its Newton step. Its unknowns are dimensionless: force in EI/L², moment in
-/// EI/L about the section's axes at axial_rotation 0, where the last is the axial_rotation instead if that is
+/// EI/L about the section's axes at axial rotation 0, where the last is the axial rotation instead if that is
 /// free and matters.
 struct GeneralRod {
   using Matrix = Mat<double, 6, 6>;
@@ -34,7 +34,7 @@ struct GeneralRod {
   /// @name What it is
   /// @{
   SpatialRod rod;     ///< its load is weight and own load
-  SE3<double> frame;  ///< of the section at the base, at axial_rotation 0
+  SE3<double> frame;  ///< of the section at the base, at axial rotation 0
   RodEnds ends;
   bool seeks_axial_rotation = false;
   Vec3<double> platform_point;
@@ -140,7 +140,7 @@ class GeneralSystem : public HeavyRodGroup {
   GeneralRod& at(int rod) { return all_[static_cast<std::size_t>(rod)]; }
   const GeneralRod& at(int rod) const { return all_[static_cast<std::size_t>(rod)]; }
   void weigh(int rod, const Vec3<double>& weight) override { at(rod).rod.load = weight; }
-  /// State as numbers: force, moment, axial_rotation, length.
+  /// State as numbers: force, moment, axial rotation, length.
   static constexpr std::size_t rod_numbers = 8;
   static void set_rod(GeneralRod& rod, Numbers numbers);
   void sum_closed();
