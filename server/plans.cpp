@@ -135,7 +135,7 @@ struct Plan {
   Json check;  ///< null until it is done
 };
 
-Reply unknown() {
+Reply unknown_plan() {
   return refused(404, "unknown_plan", "plan",
                  "no plan has this handle; GET /api/plans lists those there are");
 }
@@ -220,7 +220,7 @@ Reply Plans::list() const {
 
 Reply Plans::plan(std::string_view handle, const HandleOf& handle_of) const {
   const Plan* plan = state_->find(handle);
-  if (!plan) return unknown();
+  if (!plan) return unknown_plan();
   Json json = plan->told;
   json["robot"]["robot"] = handle_of(state_->robot);
   json["robot"]["text"] = state_->robot;
@@ -230,7 +230,7 @@ Reply Plans::plan(std::string_view handle, const HandleOf& handle_of) const {
 }
 
 Reply Plans::meshes(std::string_view handle) const {
-  if (!state_->find(handle)) return unknown();
+  if (!state_->find(handle)) return unknown_plan();
   return {200, {}, "application/octet-stream", state_->meshes};
 }
 

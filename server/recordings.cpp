@@ -193,7 +193,7 @@ Json row_of(const std::string& name, std::uintmax_t size, const RecordingSummary
   return row;
 }
 
-Reply unknown() {
+Reply unknown_recording() {
   return refused(404, "unknown_recording", "recording",
                  "no recording has this name; GET /api/recordings lists them");
 }
@@ -236,11 +236,11 @@ Reply Recordings::list() {
 
 Reply Recordings::text(std::string_view name, int every) const {
   if (every < 0) return refused(400, "out_of_range", "every", "give a whole number from 1 on");
-  if (!is_name(name)) return unknown();
+  if (!is_name(name)) return unknown_recording();
   Lines lines(folder_ / (std::string(name) + ".csv"));
-  if (!lines.is_open()) return unknown();
+  if (!lines.is_open()) return unknown_recording();
   std::string_view line = lines.next();
-  if (version_of(line) < 1) return unknown();
+  if (version_of(line) < 1) return unknown_recording();
   std::string text;
   for (; !line.empty() && line[0] == '#'; line = lines.next()) text += line;
   Columns columns;

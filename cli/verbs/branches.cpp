@@ -60,7 +60,7 @@ std::string show_events(const Answer& answer, bool is_spatial) {
          fmt::format("equilibria found at 1: {}, of them stable: {}\n", equilibria.size(), stable);
 }
 
-Table table_of(const Answer& answer, const OpenRobot& robot) {
+Table solutions_table(const Answer& answer, const OpenRobot& robot) {
   Table table;
   table.comments = {fmt::format("sinew {}: branches {}", version(), answer.text("robot")),
                     "event: 1 begin, 2 target, 3 fold, 4 bifurcation, 5 rod_bifurcation, 6 stability"};
@@ -223,7 +223,7 @@ int run_branches(const Arguments& arguments) {
       answer->find("curves") && answer->find("equilibria");  // not where it was stopped before
   std::string shown = has_curves ? show_events(*answer, robot->is_spatial) : "";
   if (has_curves && is_table) {
-    const auto written = write_csv(table_of(*answer, *robot), *file);
+    const auto written = write_csv(solutions_table(*answer, *robot), *file);
     if (!written) return refuse_question(arguments, written.error());
     shown += arguments.has("quiet") ? "" : visible_line(*file) + '\n';
   } else if (has_curves && file) {

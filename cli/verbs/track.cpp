@@ -32,7 +32,7 @@ std::vector<Input> columns_of(const Answer& answer, const OpenRobot& robot) {
 }
 
 /// The path in SI.
-Table table_of(const Answer& answer, const OpenRobot& robot) {
+Table path_table(const Answer& answer, const OpenRobot& robot) {
   Table table;
   table.comments = {fmt::format("sinew {}: track {}", version(), answer.text("robot"))};
   for (const Input& column : columns_of(answer, robot))
@@ -80,7 +80,7 @@ int run_track(const Arguments& arguments) {
   std::string shown = rows && !rows->items.empty() ? show_path(*rows, *robot) : "";
   const std::string* file = arguments.text("output");
   if (rows && file) {
-    const auto written = write_csv(table_of(*answer, *robot), *file);
+    const auto written = write_csv(path_table(*answer, *robot), *file);
     if (!written) return refuse_question(arguments, written.error());
     shown = arguments.has("quiet") ? "" : visible_line(*file) + '\n';
   }

@@ -12,6 +12,13 @@
 #include "sinew/io/node.hpp"
 
 namespace sinew::inline v1 {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t\r\n";
+  const std::size_t begin = text.find_first_not_of(blank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
+}
 namespace {
 
 struct Words {
@@ -159,13 +166,6 @@ std::optional<double> value_of(std::string_view number, int shift) {
   const auto parsed = std::from_chars(shifted.data(), shifted.data() + shifted.size(), value);
   if (parsed.ec != std::errc() || parsed.ptr != shifted.data() + shifted.size()) return {};
   return value;
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(blank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
 }
 
 /// One spelling of a unit: µ is u, a product is a space, a power is ^.

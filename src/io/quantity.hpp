@@ -11,6 +11,9 @@
 
 namespace sinew::inline v1 {
 
+/// The text without the blanks and ends of lines around it.
+std::string_view trimmed(std::string_view text);
+
 /// `"175 mm"`, `"24 deg"`, `"1/2 in"`, `"0.175"` in SI. With a decimal unit the answer is the very double
 /// that the SI spelling has: `"175 mm"` is `0.175`. Errors: `wrong_dimension`, `unknown_unit`,
 /// `not_a_number`, `not_whole`; they have no place.

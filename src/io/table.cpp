@@ -24,12 +24,6 @@ constexpr std::size_t max_errors = 20;  // of one file: after that it is not thi
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // of spreadsheets
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 /// Quoted as RFC 4180 has it where the text would not read back as one cell, or a heading as a comment.
 std::string csv_cell(const std::string& text) {
   const bool is_kept = text.find_first_of(",\"\n\r#") == std::string::npos && !text.empty() &&

@@ -44,7 +44,7 @@ class Dependent {
   using Point = Vec3<double>;
   static constexpr int unknowns = 3;
 
-  Dependent(const Planes& planes, const Independent& given)
+  Dependent(const Planes& planes, const IndependentPose& given)
       : planes_(planes),
         given_(given),
         share_(std::sqrt(std::max(0.0, 1 - given.e1 * given.e1 - given.e2 * given.e2))) {}
@@ -84,7 +84,7 @@ class Dependent {
 
  private:
   const Planes& planes_;
-  Independent given_;
+  IndependentPose given_;
   double share_;
 };
 
@@ -136,7 +136,7 @@ ConstrainedPose refused(std::string_view why) {
 
 }  // namespace
 
-ConstrainedPose constrained_pose(const Robot& robot, const Independent& independent, OperationMode mode) {
+ConstrainedPose constrained_pose(const Robot& robot, const IndependentPose& independent, OperationMode mode) {
   const Planes planes = planes_of(robot);
   if (planes.count != 3)
     return refused(

@@ -81,7 +81,7 @@ Equilibrium inverse_equilibrium(const Robot& robot, const IndependentPose& wante
                                 const EquilibriumOptions& options, Workspace& work) {
   return solved(robot, options, work,
                 [&](RodWork& rods, const SE3<double>& home, const RodQuestion& question) {
-                  return solve_rods_at(rods, home, {wanted.z, wanted.e1, wanted.e2}, question);
+                  return solve_rods_at(rods, home, wanted, question);
                 });
 }
 
@@ -93,16 +93,12 @@ Equilibrium inverse_equilibrium(const Robot& robot, const SpatialPose& wanted,
                 });
 }
 
-bool has_equilibrium_batch(const Robot& robot) {
-  if (!has_rods(robot)) return false;
-  const Workspace work(robot);
-  return work.rods->system->elastica() != nullptr;
-}
+bool has_equilibrium_batch(const Robot& robot) { return robot.is_within_limits() && is_elastica(robot); }
 
 void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wrench,
                        std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
                        bool check_stability) {
-  std::fill(statuses.begin(), statuses.end(), Status::left_domain);
+  std::fill(statuses.begin(), statuses.end(), has_rods(robot) ? Status::bad_input : Status::unsupported);
   const std::size_t inputs = at(input_count(robot));
   if (!has_rods(robot) || !check_workspace(robot, work).ok() || statuses.size() != poses.size() ||
       rows.size() != poses.size() * inputs)
@@ -191,7 +187,7 @@ RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
 }  // namespace
 
 RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work) {
-  if (!has_rods(robot) || !check_workspace(robot, work).ok()) return {};
+  if (!has_rods(robot) || !check_workspace(robot, work).ok() || !work.rods->is_solved) return {};
   work.rods->stop = work.stop;
   return analysis_of(robot, *work.rods);
 }
@@ -232,8 +228,8 @@ LoadPath follow_load(const Robot& robot, const SpatialWrench& direction, double 
   system.evaluate();
   system.linearise();
   const int most = system.traits().is_slow ? 400 : 4000;
-  const GrownLoad grown = grow_load<Spatial>(system, rods.places, direction, limit, rods.stop,
-                                             [&](int steps, int) { return steps < most; });
+  const GrownLoad grown =
+      grow_load<Spatial>(system, rods.places, direction, limit, rods.stop, {.steps = most});
   constexpr LoadEnd ends[] = {LoadEnd::limit, LoadEnd::fold,    LoadEnd::bifurcation, LoadEnd::stability,
                               LoadEnd::limit, LoadEnd::stalled, LoadEnd::iterations,  LoadEnd::stopped};
   path.end = grown.end == GrowthEnd::lost ? why_stuck<LoadEnd>(system) : ends[static_cast<int>(grown.end)];
@@ -280,8 +276,6 @@ FoundEquilibrium found_equilibrium(const Report& report, RodWork& rods, Workspac
           .unstable_directions = count_unstable_rods(rods).unstable};
 }
 
-bool is_solution(const Report& report) { return report.ok() || report.status == Status::unstable; }
-
 }  // namespace
 
 std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
@@ -300,7 +294,7 @@ std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
     if (k >= 0) question.start = scattered(home, size, k);
     question.may_stray = k >= 0;  // more are found so
     const Report report = solve_rods(rods, home, inputs, question);
-    if (is_solution(report) && is_new(found, rods.system->platform(), size))
+    if (report.is_solved() && is_new(found, rods.system->platform(), size))
       found.push_back(found_equilibrium(report, rods, work));
   }
   std::ranges::sort(found, {}, by_energy);
@@ -326,11 +320,11 @@ std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const Spati
     question.warm_start = false;
     if (k >= 0) {  // by a pose between
       const Report between = hold_rods(rods, home, scattered(home, size, k), question);
-      if (!is_solution(between)) continue;
+      if (!between.is_solved()) continue;
       question.warm_start = true;
     }
     const Report report = hold_rods(rods, home, target, question);
-    if (!is_solution(report)) continue;
+    if (!report.is_solved()) continue;
     FoundEquilibrium one = found_equilibrium(report, rods, work);
     if (!is_known(one)) found.push_back(std::move(one));
   }

@@ -76,8 +76,7 @@ std::vector<EquilibriumCurve> equilibrium_curves(const Robot& robot, const Curve
   if (!how.inputs.empty()) way.target = target_of(system, how.inputs, system.wrench());
   way.target.wrench += how.added_wrench;
   if (how.pose) way.to = SE3<double>::from(*how.pose);
-  const bool moves =
-      (way.to.p - way.from.p).norm() > 0 || way.to.R.compose(way.from.R.inverse()).log().norm() > 0;
+  const bool moves = !twist_between(way.from, way.to).isZero(0);
   if (!moves && way.target.lengths == way.begin.lengths && how.added_wrench.isZero(0)) return {};
   rods.is_solved = rods.knows_feeding = false;
   return trace_rods(rods, way, how);

@@ -48,10 +48,10 @@ SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Num
                           const EquilibriumOptions& options, Workspace& work) {
   SensedWrench sensed{};
   const auto is_number = [](double x) { return std::isfinite(x); };
-  if (!has_rods(robot) || robot.rod_count() != 6 || leg_count(robot) != 6 || axial.size() != 6 ||
-      deviations.size() != 6 || !std::ranges::all_of(axial, is_number) ||
+  const bool has_six = robot.rod_count() == 6 && leg_count(robot) == 6;
+  if (!has_six || axial.size() != 6 || deviations.size() != 6 || !std::ranges::all_of(axial, is_number) ||
       !std::ranges::all_of(deviations, is_number)) {
-    sensed.report = failed(Status::left_domain);
+    sensed.report = failed(has_six ? Status::bad_input : Status::unsupported);
     sensed.report.message.append("a wrench has six parts: six rods are needed, with a force of each");
     return sensed;
   }
@@ -78,7 +78,7 @@ SensedWrench sense_wrench(const Robot& robot, Numbers inputs, Numbers axial, Num
     sensed.report = sense_rods(rods, sensing);
     if (sensed.report.ok()) sensed.report = settle(rods, sensed.report, sensing.truncation);
   }
-  rods.is_solved = sensed.report.ok() || sensed.report.status == Status::unstable;
+  rods.is_solved = sensed.report.is_solved();
   if (!rods.is_solved) return sensed;
   sensed.pose = spatial_pose(rods.system->platform());
   sensed.wrench = rods.system->wrench() - weight;

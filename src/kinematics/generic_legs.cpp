@@ -1,5 +1,3 @@
-#include <Eigen/QR>
-
 #include "kinematics/leg_sections.hpp"
 
 namespace sinew::inline v1::detail {
@@ -7,11 +5,12 @@ namespace {
 
 /// Six equations with rows of unit length, at right angles to each other.
 Sections random_sections(ComplexNumbers& random) {
-  Eigen::Matrix<Complex, leg_coordinates, 6> columns;
-  for (Complex& entry : columns.reshaped()) entry = random.next();
-  const Eigen::HouseholderQR<Eigen::Matrix<Complex, leg_coordinates, 6>> qr(columns);
-  const Eigen::Matrix<Complex, leg_coordinates, 6> unit =
-      qr.householderQ() * Eigen::Matrix<Complex, leg_coordinates, 6>::Identity();
+  Mat<Complex, leg_coordinates, 6> unit;
+  for (Complex& entry : unit.reshaped()) entry = random.next();
+  for (int k = 0; k < 6; ++k) {
+    for (int other = 0; other < k; ++other) unit.col(k) -= unit.col(other) * unit.col(other).dot(unit.col(k));
+    unit.col(k).normalize();
+  }
   return unit.adjoint();
 }
 
@@ -62,3 +61,7 @@ const GenericLegs& generic_legs() {
 }
 
 }  // namespace sinew::inline v1::detail
+
+namespace sinew::inline v1 {
+template class Path<detail::Pencil>;
+}

@@ -66,19 +66,24 @@ class Problem {
 
   /// All solutions of every leg into the workspace.
   Report solve_all() {
-    return each_owner(
-        [&](const auto& leg, const LegPlace& place, std::size_t i) { return solve_leg(leg, place, i); });
+    return each_owner([&](const auto& leg, const LegPlace& place, std::size_t i, Report& report) {
+      report = solve_leg(leg, place, i);
+    });
   }
 
   /// The wanted solution of every leg into the workspace.
   Report solve_wanted() {
-    return each_owner([&](const auto& leg, const LegPlace& place, std::size_t i) {
-      return legs_.has_ties() ? choose(leg, place, i) : nearest(leg, place, i);
+    return each_owner([&](const auto& leg, const LegPlace& place, std::size_t i, Report& report) {
+      if (legs_.has_ties())
+        report = choose(leg, place, i);
+      else if (!keep_nearest(leg, place, i))
+        report = without_nearest(leg, place, i);
     });
   }
 
  private:
-  /// Calls `use` with every leg that has inputs of its own, until one reports a failure.
+  /// Calls `use(leg, place, i, report)` with every leg that has inputs of its own, until one reports a
+  /// failure.
   template <class Use>
   Report each_owner(const Use& use) {
     Report report;
@@ -86,7 +91,7 @@ class Problem {
       if (place.is_tied)
         work_.solution_count[index(i)] = 1;
       else if (report.ok())
-        report = use(leg, place, index(i));
+        use(leg, place, index(i), report);
     });
     return report;
   }
@@ -215,27 +220,31 @@ class Problem {
     return {};
   }
 
-  /// The wanted solution of a leg that has its inputs for itself.
+  /// The wanted solution of a leg that has its inputs for itself; false where it has none.
   template <class LegT>
-  Report nearest(const LegT& leg, const LegPlace& place, std::size_t i) {
+  bool keep_nearest(const LegT& leg, const LegPlace& place, std::size_t i) {
     if (LegT::is_redundant && is_from_start()) {
       auto q = start_of(leg, place);
       if (leg.in_domain(q) && project(leg, platform_, 1e-15 * leg.size(), q).ok) {
         keep(leg, place, q);
         closure_error_ = std::max(closure_error_, leg.closure_error(platform_, q));
-        return {};
+        return true;
       }
     }
-    const SolutionPreference wish = default_elbow(leg, wish_of(leg, place, i));
-    const auto found = leg.nearest_solution(platform_, wish);
+    const auto found = leg.nearest_solution(platform_, default_elbow(leg, wish_of(leg, place, i)));
     keep(leg, place, found.q);
     closure_error_ =
         found.closure_error <= closure_error_ ? closure_error_ : found.closure_error;  // NaN is the worst
-    if (found.count > 0) return {};
-    const SolutionPreference anything{.near = wish.near};
+    return found.count > 0;
+  }
+
+  /// Why it has none.
+  template <class LegT>
+  Report without_nearest(const LegT& leg, const LegPlace& place, std::size_t i) const {
+    const SolutionPreference wish = default_elbow(leg, wish_of(leg, place, i)), anything{.near = wish.near};
     if (!HasArc<typename LegT::Link> || wish.bending == 0 ||
         leg.nearest_solution(platform_, anything).count <= 0)
-      return without_solution(leg, platform_, i, found.count);
+      return without_solution(leg, platform_, i, leg.nearest_solution(platform_, wish).count);
     Report report = name(Status::unreachable, "legs", i);
     report.message.append(wish.bending > 0 ? "has no solution of positive curvature at this pose"
                                            : "has no solution of negative curvature at this pose");
@@ -271,12 +280,11 @@ class Problem {
   double closure_error_ = 0;
 };
 
-Report check(const Robot& robot, const InverseOptions& options) {
-  const auto legs = static_cast<std::size_t>(leg_count(robot));
+Report check(const InverseOptions& options, const Workspace& work) {
+  const std::size_t legs = work.legs.size();
   const auto fits = [](std::size_t size, std::size_t needed) { return size == 0 || size == needed; };
   if (fits(options.bending.size(), legs) && fits(options.curvature.size(), legs) &&
-      fits(options.elbow.size(), legs) &&
-      fits(options.start.size(), static_cast<std::size_t>(input_count(robot))))
+      fits(options.elbow.size(), legs) && fits(options.start.size(), work.inputs.size()))
     return {};
   return refused(Status::bad_input,
                  "bending, curvature and elbow need one value a leg, start one value an input");
@@ -287,7 +295,7 @@ template <class Solve>
 Report with_problem(const Robot& robot, const AnyPose& pose, const InverseOptions& options, Workspace& work,
                     const Solve& solve) {
   if (const Report report = check_arguments(robot, pose, work); !report.ok()) return report;
-  if (const Report report = check(robot, options); !report.ok()) return report;
+  if (const Report report = check(options, work); !report.ok()) return report;
   return with_closing_legs(
       robot,
       [&](const auto& r) {
@@ -298,7 +306,7 @@ Report with_problem(const Robot& robot, const AnyPose& pose, const InverseOption
       },
       [] {
         return refused(
-            Status::left_domain,
+            Status::unsupported,
             "the legs bear load: their inputs hold an equilibrium; ask for independent coordinates");
       });
 }

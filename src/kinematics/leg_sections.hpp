@@ -123,3 +123,7 @@ inline bool same_ray(const Study& x, const Study& y, double tolerance) {
 }
 
 }  // namespace sinew::inline v1::detail
+
+namespace sinew::inline v1 {
+extern template class Path<detail::Pencil>;  // compiled once
+}

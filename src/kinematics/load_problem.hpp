@@ -2,24 +2,15 @@
 /// The equilibrium of limbs and platform under a load that grows, as a curve (solve/tracer.hpp), whatever the
 /// limbs are. Theory: docs/theory/limb_group.md
 #pragma once
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "robot/limb_signs.hpp"
+#include "robot/pose.hpp"
 #include "solve/growing_load.hpp"
 
 namespace sinew::inline v1 {
-
-/// From pose to pose as one twist.
-inline Vec<double, 6> between(const SE3<double>& from, const SE3<double>& to) {
-  Vec<double, 6> twist;
-  twist << to.p - from.p, to.R.compose(from.R.inverse()).log();
-  return twist;
-}
-inline Vec<double, 3> between(const SE2<double>& from, const SE2<double>& to) {
-  return {to.p[0] - from.p[0], to.p[1] - from.p[1], wrap_angle(to.angle() - from.angle())};
-}
 
 /// Unknowns are the platform's motion; the parameter λ is how much of a load is added. Turns count by the
 /// group's radius, moments over it.
@@ -87,7 +78,7 @@ class LoadProblem {
   /// @{
   Place place() const { return {{group_.state(), group_.platform()}}; }
   Twist way_from(const State& state) const {
-    Twist way = between(state.platform, group_.platform());
+    Twist way = twist_between(state.platform, group_.platform());
     way.template tail<unknowns - forces>() *= group_.radius();
     return way.normalized();
   }
@@ -100,13 +91,10 @@ class LoadProblem {
   /// symmetric part says is more.
   int giving_way(const CurveSigns& signs) const {
     if (signs.unstable == 0) return 0;  // whose symmetric part is definite
-    Mat<double, unknowns, unknowns> scaled = group_.stiffness();
+    Eigen::Matrix<double, unknowns, unknowns, Eigen::RowMajor> scaled = group_.stiffness();
     scaled.template bottomRows<unknowns - forces>() /= group_.radius();
     scaled.template rightCols<unknowns - forces>() /= group_.radius();
-    const Eigen::EigenSolver<Mat<double, unknowns, unknowns>> solved(scaled, false);
-    int count = signs.own;
-    for (int k = 0; k < unknowns; ++k) count += solved.eigenvalues()[k].real() < 0;
-    return count;
+    return signs.own + count_left_of_zero(MatrixView(scaled.data(), unknowns, unknowns));
   }
   bool is_symmetric() const {
     return forces == 2 || group_.wrench().template tail<unknowns - forces>().isZero(0);
@@ -139,26 +127,17 @@ struct GrownLoad {
   int iterations = 0;
 };
 
+/// Most steps of a growing load, and most of Newton's iterations in all.
+struct GrowthBudget {
+  int steps = std::numeric_limits<int>::max(), iterations = std::numeric_limits<int>::max();
+};
+
 /// Adds a growing multiple of `direction` to the wrench of the state the group is in, to `limit`, or to where
 /// the equilibrium gives way; by arc length, so that the load is exact to rounding there. The group is then
 /// at the last equilibrium before.
-/// @param has_budget of this many steps and iterations of Newton's
-template <class Space, class HasBudget>
+template <class Space>
 GrownLoad grow_load(LimbGroup<Space>& group, LimbPlaces<Space>& places,
                     const Vec<double, Space::dof>& direction, double limit, StopToken stop,
-                    HasBudget&& has_budget) {
-  double bending = 0;  // a force that bends the limbs, roughly
-  for (int k = 0; k < group.limbs(); ++k) bending += group.stiffness(k) / (group.length(k) * group.length(k));
-  const double largest = direction.cwiseAbs().maxCoeff(), unit = bending / largest;
-  const Vec<double, Space::dof> load = direction / largest * bending;
-  using Problem = LoadProblem<Space>;
-  Tracer<Problem> tracer(Problem(group, load), 0, places[0], places[1]);
-  int steps = 0;
-  const Growth grown = GrowingLoad<Problem>(tracer, places[2], places[3]).run(limit / unit, stop, [&] {
-    return has_budget(steps++, tracer.iterations());
-  });
-  return {grown.end, grown.end == GrowthEnd::limit ? limit : grown.parameter * unit,
-          grown.definite_until < 0 ? -1 : grown.definite_until * unit, tracer.iterations()};
-}
+                    const GrowthBudget& budget);
 
 }  // namespace sinew::inline v1

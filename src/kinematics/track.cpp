@@ -15,10 +15,7 @@ Vec<double, 3> twist_between(const PlanarPose& from, const PlanarPose& to) {
   return {to.x - from.x, to.y - from.y, to.phi - from.phi};  // as the numbers say: turns count
 }
 Vec<double, 6> twist_between(const SpatialPose& from, const SpatialPose& to) {
-  const SE3<double> a = SE3<double>::from(from), b = SE3<double>::from(to);
-  Vec<double, 6> twist;
-  twist << b.p - a.p, b.R.compose(a.R.inverse()).log();
-  return twist;
+  return twist_between(SE3<double>::from(from), SE3<double>::from(to));
 }
 
 namespace {

@@ -168,6 +168,14 @@ void symmetric_eigenvalues(const MatrixView& a, std::span<double> values, std::s
   }
 }
 
+int count_left_of_zero(const MatrixView& a) {
+  const bool square = fits(a) && a.rows() == a.cols();
+  SINEW_EXPECTS(square);
+  if (!square || !a.allFinite()) return 0;
+  const Eigen::EigenSolver<Small> found(Small(a), false);
+  return static_cast<int>((found.eigenvalues().real().array() < 0).count());
+}
+
 double determinant(const MatrixView& a) {
   SINEW_EXPECTS(a.rows() == a.cols());
   if (!fits(a)) return not_a_number;

@@ -46,7 +46,8 @@ Report rest_under(Context& context, ChainLegs<Space>& robot, const Asked<Space>&
     const Report report = rest_at(context, robot, *asked.at.pose, asked.at.branch, true, state);
     return report.ok() ? inverse_statics(robot, wrench, state, work, asked.options) : report;
   }
-  const HeldInputs held = hold_inputs(context, robot, *asked.at.inputs, asked.at.start);
+  const HeldInputs held =
+      hold_inputs(context, robot, *asked.at.inputs, asked.at.start ? asked.at.start : context.path_start());
   const Report report = unloaded(robot, held, state, work, asked.options);
   return is_solved(report) ? equilibrium(robot, held.hold, wrench, state, work, asked.options) : report;
 }

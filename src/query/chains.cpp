@@ -144,7 +144,7 @@ void answer_forward_of(Context& context, ChainLegs<Space>& robot) {
   if (wants_all && load.until)
     context.query.fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
   if (!context.ready()) return;
-  const HeldInputs held = hold_inputs(context, robot, inputs, start);
+  const HeldInputs held = hold_inputs(context, robot, inputs, start ? start : context.path_start());
   context.remember({});  // until the chains are found
   if (!held.arcs.report.ok()) return context.report(held.arcs.report);
   answer_held(context, robot, held, load);

@@ -36,9 +36,9 @@ AskedPose read_asked_pose(Context& context) {
   if (pose) asked.pose = read_pose(context, std::move(*pose));
   auto independent = context.query.optional("independent");
   if (!independent) return asked;
-  const Independent free{independent->required("z", "height of the platform").quantity(Dimension::length),
-                         independent->required("e1", "a number").number(Range::between(-1, 1)),
-                         independent->required("e2", "a number").number(Range::between(-1, 1))};
+  const IndependentPose free{independent->required("z", "height of the platform").quantity(Dimension::length),
+                             independent->required("e1", "a number").number(Range::between(-1, 1)),
+                             independent->required("e2", "a number").number(Range::between(-1, 1))};
   OperationMode mode = OperationMode::tilt;
   if (const auto word = independent->optional("mode"))
     mode = word->choice_of<OperationMode>(

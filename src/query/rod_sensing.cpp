@@ -41,11 +41,11 @@ void answer_rods_statics(Context& context) {
   const SensingQuery asked = read_sensing(context);
   if (!context.ready()) return;
   EquilibriumOptions options = asked.options;
-  options.warm_start = holds_last(context);
+  options.warm_start = holds_last(context) || (context.path_start() && !options.start);
   const SensedWrench sensed =
       sense_wrench(context.robot, asked.inputs, asked.axial, asked.deviations, options, context.work);
   context.report(sensed.report);
-  const bool is_solved = sensed.report.ok() || sensed.report.status == Status::unstable;
+  const bool is_solved = sensed.report.is_solved();
   remember_held(context, is_solved ? std::optional(sensed.pose) : std::nullopt);
   if (!is_solved) return;
   Json& answer = context.answer;

@@ -87,8 +87,8 @@ Equilibrium hold(Context& context, const Held& wanted, const EquilibriumOptions&
 /// another branch.
 constexpr double longest_stride = 0.05, widest_turn = 0.1;
 
-/// From the equilibrium that is held to the next one on the path, in strides; a pose is its own limit of
-/// them.
+/// From the equilibrium that is held to the next one on the path: to a pose in strides; three coordinates are
+/// followed in strides by who solves them.
 Equilibrium follow_to(Context& context, const Held& from, const Held& to, EquilibriumOptions options,
                       double length) {
   options.warm_start = true;
@@ -117,7 +117,7 @@ Json rod_row_json(const Equilibrium& found, const RodAnalysis& analysis) {
            {"unstable_directions", analysis.unstable_directions}};
   put_number(row, "potential", analysis.potential);
   row["margins"] = {{"fold", analysis.smallest_pivot}, {"strain", analysis.largest_strain}};
-  row["indices"] = {{"position", analysis.position_index}, {"rotation", analysis.rotation_index}};
+  row["indices"] = indices_json(analysis);
   if (analysis.is_singular()) row["singular"] = true;
   return row;
 }
@@ -166,7 +166,7 @@ void answer_rods_path(Context& context) {
   Equilibrium found;
   EquilibriumOptions options = asked.options;
   options.warm_start = begin_at(context, asked.start, options, found.report);
-  if (!found.report.ok() && found.report.status != Status::unstable) {
+  if (!found.report.is_solved()) {
     context.report(found.report);
     context.answer["message"] = "from start: " + std::string(found.report.message.view());
     context.answer["reached"] = {{"rows", 0}, {"part", 0.0}};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/read_pose.hpp"
@@ -51,13 +52,12 @@ namespace {
 Json rods_json(std::span<const RodResult> rods) {
   Json legs = Json::array();
   for (const RodResult& rod : rods) {
-    const Vec3<double> moment = rod.moment_0;
     legs.push_back({{"length", rod.length},
                     {"chord", rod.chord},
                     {"force", to_json(rod.force)},
                     {"force_0", to_json(rod.force_0)},
                     {"moment", to_json(rod.moment)},
-                    {"moment_0", to_json(moment)},
+                    {"moment_0", to_json(rod.moment_0)},
                     {"curvature_0", {rod.curvature_0.x(), rod.curvature_0.y()}},
                     {"tip", to_json(rod.tip)},
                     {"tip_angle", rod.tip_angle},
@@ -86,6 +86,12 @@ Json rows_json(std::span<const double> numbers, std::size_t columns) {
                             static_cast<Eigen::Index>(columns)));
 }
 
+/// Left out where the platform is not held, and they say nothing.
+void put_rows(Json& answer, const char* key, std::span<const double> numbers, std::size_t columns) {
+  const auto is_number = [](double x) { return std::isfinite(x); };
+  if (std::ranges::all_of(numbers, is_number)) answer[key] = rows_json(numbers, columns);
+}
+
 void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analysis) {
   Json& answer = context.answer;
   if (wanted.stiffness) answer["stiffness"] = rows_json(analysis.stiffness, 6);
@@ -104,7 +110,7 @@ void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analy
   }
   if (wanted.margins)
     answer["margins"] = {{"fold", analysis.smallest_pivot}, {"strain", analysis.largest_strain}};
-  if (wanted.sensitivity) answer["sensitivity"] = rows_json(analysis.sensitivity, context.work.inputs.size());
+  if (wanted.sensitivity) put_rows(answer, "sensitivity", analysis.sensitivity, context.work.inputs.size());
 }
 
 constexpr int pose_inputs = 6;  ///< so many lengths hold a pose
@@ -131,6 +137,13 @@ std::optional<SpatialPose> read_held_pose(const Context& context) {
 }
 
 }  // namespace
+
+Json indices_json(const RodAnalysis& analysis) {
+  Json indices = Json::object();
+  put_number(indices, "position", analysis.position_index);
+  put_number(indices, "rotation", analysis.rotation_index);
+  return indices;
+}
 
 std::optional<SpatialPose> read_spatial_start(Context& context) {
   const std::optional<AnyPose> start = read_start(context);
@@ -345,7 +358,7 @@ void answer_rods_inverse(Context& context) {
   if (!context.ready()) return;
   Report begun;
   asked.options.warm_start = begin_at(context, start, asked.options, begun);
-  if (!begun.ok() && begun.status != Status::unstable) {
+  if (!begun.is_solved()) {
     context.report(begun);
     context.answer["message"] = "from start: " + std::string(begun.message.view());
     remember_held(context, {});
@@ -379,18 +392,21 @@ AskedMotion read_motion(Context& context) {
 }
 
 /// The one of the other; of a short twist also the whole of it.
-void put_motion(Context& context, const AskedMotion& asked, const RodAnalysis& analysis) {
+void put_motion(Context& context, const AskedMotion& asked, const Report& equilibrium,
+                const RodAnalysis& analysis) {
+  const auto is_known = [&](const Report& found) {
+    if (!found.ok() && equilibrium.ok()) context.report(found);
+    return found.ok();
+  };
   std::vector<double> rates = asked.rates;
   if (!asked.twist.empty()) {
     rates.resize(static_cast<std::size_t>(input_count(context.robot)));
-    const Report found = rod_rates(analysis, asked.twist, rates);
-    if (!found.ok()) return context.report(found);
+    if (!is_known(rod_rates(analysis, asked.twist, rates))) return;
     context.answer["rates"] = to_json(rates);
   }
   if (rates.empty() || asked.twist.size() == 6) return;
   std::array<double, 6> twist;
-  const Report found = rod_twist(analysis, rates, twist);
-  if (!found.ok()) return context.report(found);
+  if (!is_known(rod_twist(analysis, rates, twist))) return;
   context.answer["twist"] = to_json(std::span<const double>(twist));
 }
 
@@ -413,11 +429,11 @@ void answer_rods_velocity(Context& context) {
   answer["inputs"] = to_json(found.inputs);
   answer["J"] = rows_json(analysis.stiffness, 6);
   answer["K"] = rows_json(analysis.feed, columns);
-  answer["U"] = rows_json(analysis.sensitivity, columns);
-  answer["indices"] = {{"position", analysis.position_index}, {"rotation", analysis.rotation_index}};
+  put_rows(answer, "U", analysis.sensitivity, columns);
+  answer["indices"] = indices_json(analysis);
   answer["type_2"] = {{"singular", analysis.is_singular()}};
   answer["residual"] = found.report.residual;
-  put_motion(context, motion, analysis);
+  put_motion(context, motion, found.report, analysis);
   answer["legs"] = legs_of(context, found, analysis);
 }
 

@@ -36,6 +36,9 @@ void answer_rods_track(Context& context);
 /// `track` along poses, or along coordinates that three inputs hold: `poses`, or `from` and `to`.
 void answer_rods_path(Context& context);
 
+/// Of position and rotation; one that is infinite, where the platform is not held, is left out.
+Json indices_json(const RodAnalysis& analysis);
+
 /// `{z, e1, e2}` of robots with three inputs.
 IndependentPose read_independent(const Context& context, Reader& asked);
 /// What rods are asked by but where they are: wrench, gravity, most iterations.

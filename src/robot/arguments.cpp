@@ -33,41 +33,31 @@ Report wrong_coordinates(std::size_t found, int needed) {
 
 }  // namespace
 
-bool is_planar(const Robot& robot) { return robot.planar() != nullptr; }
-
-Report check_workspace(const Robot& robot, const Workspace& work) {
-  const bool fits = robot.is_within_limits() && work.robot && work.robot.get() == robot.identity();
-  if (fits && !robot.serial()) return {};
+Report explain_misfit(const Robot& robot, const Workspace& work) {
   Report report = bad_input();
-  if (fits) {
-    report.status = Status::unsupported;
-    report.message.append(
-        "a serial robot has no legs and no platform: its questions are put to robot.serial(), see "
-        "kinematics/serial.hpp");
-    return report;
-  }
   if (!robot.is_within_limits()) {
     report.message.append("the robot has more constraints or actuators than this build carries, ");
     append_number(report.message, max_rows);
     report.message.append(" of either");
-    return report;
+  } else if (work.robot.get() != robot.identity()) {
+    report.message.append(
+        "the workspace was made for another robot: make one of this robot, Workspace(robot)");
+  } else {
+    report.status = Status::unsupported;
+    report.message.append(
+        "a serial robot has no legs and no platform: its questions are put to robot.serial(), see "
+        "kinematics/serial.hpp");
   }
-  report.message.append("the workspace was made for another robot: make one of this robot, Workspace(robot)");
   return report;
 }
 
-Report check_arguments(const Robot& robot, const AnyPose& pose, const Workspace& work,
-                       std::string_view name) {
-  if (Report report = check_workspace(robot, work); !report.ok()) return report;
-  if (std::holds_alternative<PlanarPose>(pose) == is_planar(robot)) return {};
-  return wrong_space(is_planar(robot), name);
+Report explain_misfit(const Robot& robot, const AnyPose&, const Workspace& work, std::string_view name) {
+  return fits(robot, work) ? wrong_space(is_planar(robot), name) : explain_misfit(robot, work);
 }
 
-Report check_arguments(const Robot& robot, const AnyPose& pose, Numbers coordinates, const Workspace& work) {
-  if (Report report = check_arguments(robot, pose, work); !report.ok()) return report;
-  const int needed = coordinate_count(robot);
-  if (coordinates.size() == static_cast<std::size_t>(needed)) return {};
-  return wrong_coordinates(coordinates.size(), needed);
+Report explain_misfit(const Robot& robot, const AnyPose& pose, Numbers coordinates, const Workspace& work) {
+  if (!fits(robot, work) || !fits(robot, pose)) return explain_misfit(robot, pose, work, "pose");
+  return wrong_coordinates(coordinates.size(), coordinate_count(robot));
 }
 
 }  // namespace sinew::inline v1

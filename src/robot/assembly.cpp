@@ -85,7 +85,7 @@ Report coordinates_from_inputs(const Robot& robot, Numbers inputs, Workspace& wo
   if (Report report = check_workspace(robot, work); !report.ok()) return report;
   if (bears_load(robot)) {
     Report report;
-    report.status = Status::left_domain;
+    report.status = Status::unsupported;
     report.message.append("the legs bear load: inputs alone do not shape them, an equilibrium does");
     return report;
   }

@@ -344,7 +344,7 @@ double GeneralSystem::truncation() const {
     const RodTip coarse = integrate(rod.rod, rod.length, rod.from, {elements_ / 2, 0});
     const double turn = rod.tip.R.compose(coarse.state.R.inverse()).log().norm();
     const double missed = std::max((rod.tip.p - coarse.state.p).norm() / rod.length, turn) * per_difference;
-    if (!(missed <= worst)) worst = missed;  // NaN stays
+    if (!(missed <= worst) && !std::isnan(worst)) worst = missed;
   }
   return worst;
 }

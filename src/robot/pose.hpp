@@ -23,6 +23,16 @@ typename Space::Pose in_space(const AnyPose& pose) {
 inline PlanarPose pose_of(const SE2<double>& frame) { return planar_pose(frame); }
 inline SpatialPose pose_of(const SE3<double>& frame) { return spatial_pose(frame); }
 
+/// From one frame to the other as one twist, base axes; the shortest turn.
+inline Vec<double, 6> twist_between(const SE3<double>& from, const SE3<double>& to) {
+  Vec<double, 6> twist;
+  twist << to.p - from.p, to.R.compose(from.R.inverse()).log();
+  return twist;
+}
+inline Vec<double, 3> twist_between(const SE2<double>& from, const SE2<double>& to) {
+  return {to.p[0] - from.p[0], to.p[1] - from.p[1], wrap_angle(to.angle() - from.angle())};
+}
+
 /// How far two poses are apart [m], turns counted by what they move a point at `radius`.
 inline double gap(const PlanarPose& a, const PlanarPose& b, double radius) {
   return std::hypot(a.x - b.x, a.y - b.y, radius * wrap_angle(a.phi - b.phi));

@@ -36,7 +36,9 @@ Robot::Robot(std::shared_ptr<const Data> data)
            : serial_ || has_arc(*this) ? Model::cc
                                        : Model::rigid;
   is_within_limits_ = with_legs(*this, [](const auto& legs) {
-    return std::max(legs.total.row, legs.total.input) <= max_rows && legs.rods <= max_rods;
+    int feeds = legs.rods;  // beside rods a tied leg is fed, too
+    legs.for_each_closing_leg([&]<class L>(const L&, const LegPlace&, int) { feeds += L::inputs; });
+    return std::max(legs.total.row, legs.total.input) <= max_rows && (legs.rods == 0 || feeds <= max_rods);
   });
 }
 

@@ -14,6 +14,9 @@ namespace sinew::inline v1 {
 /// for all of them.
 std::unique_ptr<RodGroup> rod_group(const Robot& robot);
 
+/// Whether all legs are rods that bend in one plane each.
+bool is_elastica(const Robot& robot);
+
 struct RodWork {
   explicit RodWork(std::unique_ptr<RodGroup> rods) : system(std::move(rods)) {}
 
@@ -22,8 +25,9 @@ struct RodWork {
   LimbPlaces<Spatial> places = places_of(*system);
   StopToken stop;           ///< that of the workspace
   bool knows_home = false;  ///< `home` is in equilibrium
-  bool is_solved = false;   ///< `system` is in equilibrium and linearised there
-  SmallLu<6> feeding;       ///< factors of what the inputs do to the wrench, of the last pose that was held
+  bool is_solved =
+      false;  ///< `system` is in equilibrium, with factors found there or, after a quick warm answer, near by
+  SmallLu<6> feeding;  ///< factors of what the inputs do to the wrench, of the last pose that was held
   bool knows_feeding = false;
   /// Of each rod, its tip held: counted once for an answer, since rods that bear torque take long to count.
   std::vector<std::array<int, 2>> unstable_rods =

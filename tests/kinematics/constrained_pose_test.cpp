@@ -78,8 +78,9 @@ TEST(ConstrainedPose, OfThreePlanesOfAnyDirection) {
 TEST(ConstrainedPose, WhatIsNoQuaternionOrNoTripodIsRefused) {
   const Robot robot = load("3prs").value();
   EXPECT_TRUE(constrained_pose(robot, {0.5, 1, 0}).ok());  // both modes in one: e₀ = e₃ = 0
-  for (const Independent& wrong : {Independent{0.5, 0.8, 0.8}, Independent{0.5, std::nan(""), 0},
-                                   Independent{0.5, 0, std::nan("")}, Independent{std::nan(""), 0, 0}})
+  for (const IndependentPose& wrong :
+       {IndependentPose{0.5, 0.8, 0.8}, IndependentPose{0.5, std::nan(""), 0},
+        IndependentPose{0.5, 0, std::nan("")}, IndependentPose{std::nan(""), 0, 0}})
     EXPECT_EQ(constrained_pose(robot, wrong).report.status, Status::left_domain);
   EXPECT_EQ(constrained_pose(load("6-ufs").value(), {0.2, 0, 0}).report.status, Status::left_domain);
   EXPECT_EQ(constrained_pose(load("3-rfr").value(), {0.2, 0, 0}).report.status, Status::left_domain);

@@ -177,8 +177,7 @@ TEST(RodPath,
     ASSERT_TRUE(follow(system, target, {}, work.spare).arrived);
     Wrench6 down = Wrench6::Zero();
     down[2] = -1;
-    const GrownLoad grown =
-        grow_load<Spatial>(system, work.places, down, 300, {}, [](int, int) { return true; });
+    const GrownLoad grown = grow_load<Spatial>(system, work.places, down, 300, {}, {});
     EXPECT_EQ(grown.end, GrowthEnd::bifurcation);
     EXPECT_GT(grown.load, low);
     EXPECT_LT(grown.load, high);

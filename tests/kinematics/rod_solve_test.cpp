@@ -21,7 +21,7 @@ struct Solver {
   Report solve(const Vec3<double>& inputs, const RodQuestion& question = {}) {
     return ask(std::span<const double>(inputs.data(), 3), question);
   }
-  Report solve_at(const RodCoordinates& wanted, const RodQuestion& question = {}) {
+  Report solve_at(const IndependentPose& wanted, const RodQuestion& question = {}) {
     return solve_rods_at(work, home(robot), wanted, question);
   }
   const SE3<double>& pose() const { return work.system->platform(); }
@@ -399,8 +399,8 @@ TEST(RodInverse, RoundTrips) {
     RodRandom random(9);
     int solved = 0;
     for (int trial = 0; trial < 300; ++trial) {
-      const RodCoordinates wanted{t.height + random.uniform(-0.03, 0.03), random.uniform(-0.12, 0.12),
-                                  random.uniform(-0.12, 0.12)};
+      const IndependentPose wanted{t.height + random.uniform(-0.03, 0.03), random.uniform(-0.12, 0.12),
+                                   random.uniform(-0.12, 0.12)};
       const Wrench6 wrench = random.wrench(trial % 2 * 5, trial % 2 * 0.3);
       const bool resume = trial % 5 == 4;
       const Report report = there.solve_at(wanted, {.wrench = wrench, .warm_start = resume});
@@ -430,7 +430,7 @@ TEST(RodInverse, RodsOfOneInputHaveOneLengthWhateverTheHome) {
   for (int trial = 0; trial < 20; ++trial) {
     const SE3<double> tilted = random.near(level(g2.height), 0.02, 0.15);
     Solver solver(tripod_robot(g2.data(), tilted)), plain(g2);
-    const RodCoordinates wanted{0.4, 0.05, 0.02};
+    const IndependentPose wanted{0.4, 0.05, 0.02};
     ASSERT_TRUE(solver.solve_at(wanted).ok() && plain.solve_at(wanted).ok());
     for (int k = 0; k < 6; k += 2)
       EXPECT_NEAR(solver.work.system->length(k), solver.work.system->length(k + 1), 1e-15);
@@ -442,12 +442,12 @@ TEST(RodInverse, RodsOfOneInputHaveOneLengthWhateverTheHome) {
 TEST(RodInverse, SaysWhatIsWrongOrOutOfReach) {
   Solver solver(g2);
   const double nan = std::nan("");
-  for (const RodCoordinates& wanted :
-       {RodCoordinates{nan, 0, 0}, {0.4, nan, 0}, {0.4, 0, nan}, {0.4, 0.8, 0.7}})
+  for (const IndependentPose& wanted :
+       {IndependentPose{nan, 0, 0}, {0.4, nan, 0}, {0.4, 0, nan}, {0.4, 0.8, 0.7}})
     EXPECT_EQ(solver.solve_at(wanted).status, Status::left_domain);
   EXPECT_EQ(solver.solve_at({0.4, 0, 0}, {.wrench = Wrench6::Constant(nan)}).status, Status::left_domain);
-  for (const RodCoordinates& wanted :
-       {RodCoordinates{-5, 0, 0}, {0.4, 0.95, 0}, {0.4, 0, -0.99}, {0.001, 0, 0}}) {
+  for (const IndependentPose& wanted :
+       {IndependentPose{-5, 0, 0}, {0.4, 0.95, 0}, {0.4, 0, -0.99}, {0.001, 0, 0}}) {
     const Report report = solver.solve_at(wanted);
     SCOPED_TRACE(to_string(report));
     if (!is_solved(report)) {

@@ -6,9 +6,9 @@
 
 namespace sinew::inline v1 {
 
-/// What can be chosen of the pose of a tripod: a height and two components of the quaternion (e₀, e₁, e₂,
-/// e₃).
-struct Independent {
+/// What can be chosen of the pose of a tripod, or of a spatial robot with three inputs: a height and two
+/// components of the quaternion (e₀, e₁, e₂, e₃); the others are parasitic.
+struct IndependentPose {
   double z = 0;           ///< [m]
   double e1 = 0, e2 = 0;  ///< e₁² + e₂² ≤ 1
 };
@@ -29,7 +29,7 @@ struct ConstrainedPose {
 /// exactly x = −2r e₁e₂, y = r(e₂² − e₁²) and e₃ = 0 or e₀ = 0. `left_domain` where the robot has not three
 /// planes, or the coordinates are no quaternion's. No heap, no throw, bounded work.
 /// @implements 3PFS (9)-(10)
-SINEW_API ConstrainedPose constrained_pose(const Robot& robot, const Independent& independent,
+SINEW_API ConstrainedPose constrained_pose(const Robot& robot, const IndependentPose& independent,
                                            OperationMode mode = OperationMode::tilt);
 
 /// The pose put back into the planes of the robot's hinges, by shifts where these suffice and small turns

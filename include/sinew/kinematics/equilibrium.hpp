@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sinew/robot/assembly.hpp"
+#include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/robot/rod_result.hpp"
 
 namespace sinew::inline v1 {
@@ -24,13 +24,14 @@ struct EquilibriumOptions {
   bool warm_start = false;
   /// Newton steps of the whole path; default 4000, of rods that bear torque 400.
   std::optional<int> max_iterations = {};
-  /// A resumed answer too is asked for stability and resolution, and its coordinates are handed out. Without,
-  /// it is as quick as it can be: shapes to an estimated 1e-10 of the length, of rods that do not bend in one
-  /// plane 1e-9.
+  /// A warm answer too is asked for stability and resolution. Without, no answer hands out coordinates, and a
+  /// warm one is as quick as it can be: shapes to an estimated 1e-10 of the length, of rods that do not bend
+  /// in one plane 1e-9.
   bool check_stability = true;
 };
 
-/// Views into the workspace.
+/// Views into the workspace. Where nothing was solved pose and inputs are those of the last state tried, at
+/// which a path ended.
 struct Equilibrium {
   Report report;  ///< `unstable` where the equilibrium does not hold by itself; all fields are then valid
   SpatialPose pose;
@@ -38,7 +39,7 @@ struct Equilibrium {
   std::span<const double> coordinates;  ///< of the legs, see RodLeg
 
   /// Solved, stable or not.
-  bool is_solved() const noexcept { return report.ok() || report.status == Status::unstable; }
+  bool is_solved() const noexcept { return report.is_solved(); }
 };
 
 /// The platform on rods of these lengths, under a wrench. One Newton iteration on pose and rods together,
@@ -49,12 +50,6 @@ struct Equilibrium {
 /// @implements 3PFS (25)-(30)
 SINEW_API Equilibrium equilibrium(const Robot& robot, Numbers inputs, const EquilibriumOptions& options,
                                   Workspace& work);
-
-/// Coordinates of a spatial pose that a robot with three inputs can be asked for; the others are parasitic.
-struct IndependentPose {
-  double z = 0;           ///< [m]
-  double e1 = 0, e2 = 0;  ///< of the platform's quaternion
-};
 
 /// Lengths that hold the platform at z, e₁, e₂, and where the parasitic coordinates x, y, e₃ come to rest.
 SINEW_API Equilibrium inverse_equilibrium(const Robot& robot, const IndependentPose& wanted,
@@ -85,7 +80,7 @@ SINEW_API void equilibrium_batch(const Robot& robot, Numbers rows, const Spatial
 /// What is known of the equilibrium a workspace holds.
 struct RodAnalysis {
   /// ∂(F, M)/∂(p, φ) at fixed inputs, rows first, twist order; 0 for motions that closing legs forbid.
-  std::array<double, 36> stiffness;
+  std::array<double, 36> stiffness{};
   std::vector<double> feed;         ///< −∂(F, M)/∂inputs at a resting platform, 6 × inputs, rows first
   std::vector<double> sensitivity;  ///< ∂(p, φ)/∂inputs at fixed load, 6 × inputs, rows first
   int unstable_directions = 0;      ///< of the second variation, all rods free to move
@@ -105,7 +100,7 @@ struct RodAnalysis {
   bool is_singular() const { return !(smallest_pivot >= 1e-10); }
 };
 
-/// Allocates.
+/// Where it holds none, the lists are empty. Allocates.
 SINEW_API RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work);
 
 /// Why a load path ended.

@@ -39,7 +39,8 @@ struct WorkingModes {
   double count;                         ///< product of the counts; exact up to 2^53
   bool is_continuum = false;            ///< a leg is redundant: these are some of infinitely many
 
-  /// Inputs of mode k < count, the first leg turning slowest. `command` gives their link coordinates.
+  /// Inputs of mode k < count, the first leg turning slowest. `coordinates_from_inputs` gives their link
+  /// coordinates.
   SINEW_API void mode(const Robot& robot, std::size_t k, std::span<double> inputs) const;
 };
 

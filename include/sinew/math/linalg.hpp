@@ -52,6 +52,9 @@ SINEW_API int least_norm(const MatrixView& a, std::span<const double> b, std::sp
 SINEW_API void symmetric_eigenvalues(const MatrixView& a, std::span<double> values,
                                      std::span<double> vectors = {});
 
+/// How many eigenvalues of a square matrix have a real part below 0; none where an entry is not finite.
+SINEW_API int count_left_of_zero(const MatrixView& a);
+
 SINEW_API double determinant(const MatrixView& a);
 
 }  // namespace sinew::inline v1

@@ -1,6 +1,7 @@
 /// @file assembly.hpp
 /// What assembly makes of the legs: `J·δx = K·δa + s` (x platform, a inputs). Forward, inverse and
-/// differential kinematics, singularities and sensitivities all read it. Theory: docs/theory/leg.md
+/// differential kinematics, singularities and sensitivities all read it. Theory: docs/theory/leg.md;
+/// of rods docs/theory/rod_robot.md
 #pragma once
 #include "sinew/base/numbers.hpp"
 #include "sinew/math/linalg.hpp"
@@ -10,18 +11,22 @@
 
 namespace sinew::inline v1 {
 
-/// Rows in the papers' raw form (multiplied by the closure's distance). Views into the workspace.
+/// Rows in the papers' raw form (multiplied by the closure's distance). Views into the workspace. On rods
+/// the rows are the platform's balance: J its stiffness, K what feeding the rods does to the wrench, s the
+/// wrench that is missing [N, N m].
 struct Reduced {
   MatrixView J;               ///< rows × dof: stack of g_x, each row a Plücker line
   MatrixView K;               ///< rows × inputs: −∂g/∂a, block diagonal where no legs are tied
   std::span<const double> s;  ///< rows: −g [m²], of pins and planes [m]
-  double closure_error =
-      0;              ///< largest distance by which a leg fails to close [m]; infinite where not finite
-  int worst_leg = 0;  ///< the leg that does
+  /// Largest distance by which a leg fails to close [m], infinite where not finite; of rods the error of
+  /// their own equations, no unit, NaN where not finite.
+  double closure_error = 0;
+  int worst_leg = 0;  ///< the leg that does; 0 of rods
 };
 
 /// J, K and s at a platform pose and link coordinates (of an arc its curvature κ [1/m], of a swivelled one θ
-/// [rad] and κ, of a rail its slide ρ [m]), leg by leg, the rows of planes last.
+/// [rad] and κ, of a rail its slide ρ [m]), leg by leg, the rows of planes last. Where the arguments do not
+/// fit the robot, and by the model prb, J and K are null.
 SINEW_API Reduced assemble(const Robot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
 
 /// J with its rows scaled to unit lines and their moments divided by the platform radius, and K scaled alike,
@@ -33,7 +38,8 @@ SINEW_API MatrixView homogenise(const Robot& robot, const Reduced& reduced, Work
 /// The report says which input is missing, not finite or outside the link's domain.
 SINEW_API Report coordinates_from_inputs(const Robot& robot, Numbers inputs, Workspace& work);
 
-/// What people want to know of each leg. View of `work.legs`.
+/// What people want to know of each leg that closes; those of rods are left as they were. View of
+/// `work.legs`; empty where the arguments do not fit the robot, and by the model prb.
 SINEW_API std::span<const LegState> leg_states(const Robot& robot, const AnyPose& pose, Numbers coordinates,
                                                Workspace& work);
 

@@ -28,11 +28,11 @@ struct SerialWorkspace {
   std::vector<SE3<double>> ends;        ///< pose of every section's end
   std::vector<double> J;                ///< tip twist (base axes, of the tip) per bend rate: 6 × 2M [m, rad]
   std::vector<double> K;                ///< tendon rates per bend rate: tendons × 2M [m]
-  std::vector<double> extensions;       ///< of every section [m], by `extend`; 0 at first
+  std::vector<double> extensions;       ///< of every section [m], by `set_extensions`; 0 at first
   std::vector<double> bend_rates;       ///< by `resolved_rate`, section by section [rad/s]
   std::vector<double> extension_rates;  ///< of every section [m/s]
   std::vector<double> tendon_rates;     ///< of Δl [m/s], section by section; > 0 pays out
-  std::vector<ExtensionMotion> extension_jacobians;   ///< of every section, by `extension_motion`
+  std::vector<ExtensionMotion> extension_jacobians;   ///< of every section, by `extension_jacobians`
   std::vector<Section> sections;                      ///< as long as they are
   std::vector<kernel::Section<double>> maps;          ///< of the sections at rest
   std::vector<kernel::Direction<double>> directions;  ///< of every tendon

@@ -32,10 +32,12 @@ SINEW_API std::string_view to_string(Status status) noexcept;
 struct Report {
   Status status = Status::converged;
   int iterations = 0;
-  double residual = 0;     ///< largest closure error of a leg [m]
+  double residual = 0;     ///< largest closure error of a leg [m]; of rods the error over their size, no unit
   FixedText<240> message;  ///< why not converged, in words; empty otherwise
 
   bool ok() const noexcept { return status == Status::converged; }
+  /// Of loaded robots: whether there is an equilibrium, which may be unstable.
+  bool is_solved() const noexcept { return ok() || status == Status::unstable; }
 };
 
 /// One line: `converged in 4 iterations, residual 5e-14 m`.

@@ -74,7 +74,7 @@ class ChainProblem : public LoadProblem<Space> {
             unstable, residual * this->size_,        energy};
   }
   bool is_same(const ChainCurvePoint<Space>& one, const ChainCurvePoint<Space>& other) const {
-    double apart = between(Space::frame(one.state.pose), Space::frame(other.state.pose)).norm();
+    double apart = twist_between(Space::frame(one.state.pose), Space::frame(other.state.pose)).norm();
     for (std::size_t i = 0; i < one.state.legs.size(); ++i)
       for (std::size_t j = 0; j < one.state.legs[i].angles.size(); ++j)
         apart = std::max(apart, std::abs(one.state.legs[i].angles[j] - other.state.legs[i].angles[j]));

@@ -82,7 +82,7 @@ class Search {
 
   bool is_known(const ChainState<Space>& state) const {
     return std::ranges::any_of(found_, [&](const FoundChains<Space>& other) {
-      const Wrench apart = between(Space::frame(other.state.pose), Space::frame(state.pose));
+      const Wrench apart = twist_between(Space::frame(other.state.pose), Space::frame(state.pose));
       double most = std::max(apart.template head<Space::dimension>().norm() / size_,
                              apart.template tail<Space::dof - Space::dimension>().norm());
       for (std::size_t i = 0; i < robot_.legs.size(); ++i)

@@ -40,9 +40,8 @@ ChainLoadPath follow_load(const ChainLegs<Space>& robot, const Vec<double, Space
     path.load = std::max(limit, 0.0);
     return path;
   }
-  const GrownLoad grown =
-      grow_load<Space>(group, memory.places, direction, limit, work.stop,
-                       [&](int, int iterations) { return iterations < options.max_iterations; });
+  const GrownLoad grown = grow_load<Space>(group, memory.places, direction, limit, work.stop,
+                                           {.iterations = options.max_iterations});
   using End = ChainLoadEnd;
   constexpr End ends[] = {End::limit, End::fold, End::bifurcation, End::stability,
                           End::slack, End::fold, End::iterations,  End::iterations};

@@ -122,9 +122,12 @@ void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrenc
     }
     for (std::size_t k = 0; k < rods_.size(); ++k) before_[k] = rods_[k];
     poses_before_ = poses_;
-    const auto row = [&](int lane) { return std::min(at(lane) * stretch + step, count - 1); };
-    for (int lane = 0; lane < rod_lanes; ++lane)
+    const auto row = [&](int lane) { return at(lane) * stretch + step; };
+    const auto has_row = [&](int lane) { return at(lane) * stretch + step < count; };
+    for (int lane = 0; lane < rod_lanes; ++lane) {
+      knows_[at(lane)] = knows_[at(lane)] && has_row(lane);
       if (knows_[at(lane)]) set_lengths(lane, rows.subspan(row(lane) * inputs, inputs));
+    }
     if (std::ranges::any_of(knows_, std::identity())) {
       walk();
       if (judges) rod_kernels::advance(rods_, {.moves = false, .renews = true, .judges = true}, poses_);
@@ -133,6 +136,7 @@ void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrenc
     rod_kernels::truncation(rods_, truncation);
     bool is_renewed = false;
     for (int lane = 0; lane < rod_lanes; ++lane) {
+      if (!has_row(lane)) continue;
       Status status = judges && poses_.unstable[lane] > 0 ? Status::unstable : Status::converged;
       if (!knows_[at(lane)] || !(poses_.error[lane] <= rod_tolerance) ||
           !(truncation[lane] <= system_->traits().quick_truncation)) {

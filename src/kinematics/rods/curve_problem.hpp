@@ -37,7 +37,7 @@ class RodProblem : public LoadProblem<Spatial> {
     Wrench by_parameter = system_.project_wrench(-load_);
     if (way_.holds_pose) {
       for (int k = 0; k < 6; ++k) put_column(rows, k, system_.input_wrench_jacobian(k), 1);
-      by_parameter += system_.stiffness() * between(way_.from, way_.to);
+      by_parameter += system_.stiffness() * twist_between(way_.from, way_.to);
     } else {
       for (int input = 0; input < system_.inputs(); ++input)
         for (int rod = 0; rod < system_.feeds(); ++rod)
@@ -55,7 +55,7 @@ class RodProblem : public LoadProblem<Spatial> {
     Twist twist = comparable(step);
     if (way_.holds_pose) {
       for (int k = 0; k < 6; ++k) fed[at(k)] = step[k];
-      twist = between(system_.platform(), way_.pose(lambda + change));
+      twist = twist_between(system_.platform(), way_.pose(lambda + change));
     } else {
       for (int k = 0; k < system_.feeds(); ++k) fed[at(system_.input_of(k))] = change * rate(k);
     }

@@ -35,7 +35,7 @@ class Holder {
 
   /// To `pose` with the last factors, `fresh` right after `renew`. False where a rod would be no rod.
   bool step(const SE3<double>& pose, bool fresh) {
-    const Twist given = between(system_.platform(), pose);
+    const Twist given = twist_between(system_.platform(), pose);
     if (!fresh) system_.step(false);
     const Twist wanted = system_.wrench_residual() - system_.stiffness() * given;
     double fed[6];
@@ -264,7 +264,9 @@ Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& want
           (system.truncation() > system.traits().quick_truncation && !system.is_finest()))
         report = finish(work, wanted, report,
                         question.check_stability ? coarse_truncation : system.traits().quick_truncation);
-      work.is_solved = report.ok() || report.status == Status::unstable;
+      else
+        is_in_domain(system, report);
+      work.is_solved = report.is_solved();
       return report;
     }
     system.restore(work.before);
@@ -295,7 +297,7 @@ Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& want
     }
   }
   report = finish(work, wanted, report, system.traits().best_truncation);
-  work.is_solved = report.ok() || report.status == Status::unstable;
+  work.is_solved = report.is_solved();
   return report;
 }
 

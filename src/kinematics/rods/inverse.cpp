@@ -6,18 +6,19 @@
 #include "base/at.hpp"
 #include "kinematics/rods/start.hpp"
 #include "kinematics/rods/verdict.hpp"
+#include "robot/pose.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-RodCoordinates coordinates_of(const SE3<double>& pose) {
+IndependentPose coordinates_of(const SE3<double>& pose) {
   const SO3<double> q = pose.R.canonical();
   return {pose.p[2], q.v[0], q.v[1]};
 }
 
 /// The pose of these coordinates that keeps x, y and e₃.
-std::optional<SE3<double>> with(const SE3<double>& pose, const RodCoordinates& wanted) {
+std::optional<SE3<double>> with(const SE3<double>& pose, const IndependentPose& wanted) {
   const double e3 = pose.R.canonical().v[2];
   const double square = 1 - wanted.e1 * wanted.e1 - wanted.e2 * wanted.e2 - e3 * e3;
   if (!(square > 1e-12)) return {};
@@ -40,13 +41,13 @@ class Inverse {
   Inverse(RodGroup& system, int& iterations) : system_(system), iterations_(iterations) {}
 
   /// From a state near by. False where it does not contract.
-  bool correct(const RodCoordinates& wanted, double& residual) {
+  bool correct(const IndependentPose& wanted, double& residual) {
     return contract([&] { return system_.evaluate(); }, [&] { return step(wanted, RodGroup::Twist::Zero()); },
                     rod_tolerance, rod_rounding, iterations_, residual);
   }
 
   /// One step, with a given motion of the platform beside; then exactly onto the wanted coordinates.
-  bool step(const RodCoordinates& wanted, const Vec<double, 6>& given) {
+  bool step(const IndependentPose& wanted, const Vec<double, 6>& given) {
     system_.linearise();  // the platform's own stiffness may be singular here
     const SO3<double> q = system_.platform().R.canonical();
     // de₃ at fixed e₁, e₂: q̇ = (−e₃/e₀, 0, 0, 1), ω = 2 q̇ q*
@@ -91,7 +92,7 @@ class Inverse {
 
 }  // namespace
 
-Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinates& wanted,
+Report solve_rods_at(RodWork& work, const SE3<double>& home, const IndependentPose& wanted,
                      const RodQuestion& question) {
   RodGroup& system = *work.system;
   work.knows_feeding = work.knows_stability = false;
@@ -112,14 +113,14 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
     if (const Report begun = go_home(work, home); !begun.ok()) return begun;
   // home with its own lengths: the tied ones are made equal on the way
   const RodTarget from = present(system);
-  const RodCoordinates begin = coordinates_of(system.platform());
+  const IndependentPose begin = coordinates_of(system.platform());
   RodPathEnd end;
   end.residual = 0;
   Inverse inverse(system, end.iterations);
   follow_parameter(end, {{0.5, 1e-7, work.stop}, 0, question.max_iterations}, [&](double next, double taken) {
     system.save(work.spare);
-    const RodCoordinates now{begin.z + next * (wanted.z - begin.z), begin.e1 + next * (wanted.e1 - begin.e1),
-                             begin.e2 + next * (wanted.e2 - begin.e2)};
+    const IndependentPose now{begin.z + next * (wanted.z - begin.z), begin.e1 + next * (wanted.e1 - begin.e1),
+                              begin.e2 + next * (wanted.e2 - begin.e2)};
     system.set_wrench(from.wrench + next * (question.wrench - from.wrench));
     for (int k = 0; k < system.feeds(); ++k) {
       const int first = first_of_input(system, k);
@@ -128,8 +129,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
     const auto ahead = with(system.platform(), now);
     bool is_reached = false;
     if (ahead && (ahead->p - system.platform().p).norm() < 0.1 * system.length(0)) {
-      Vec<double, 6> given;
-      given << ahead->p - system.platform().p, ahead->R.compose(system.platform().R.inverse()).log();
+      const Vec<double, 6> given = twist_between(system.platform(), *ahead);
       system.evaluate();
       is_reached =
           given.tail<3>().norm() < 0.3 && inverse.step(now, given) && inverse.correct(now, end.residual);
@@ -150,7 +150,7 @@ Report solve_rods_at(RodWork& work, const SE3<double>& home, const RodCoordinate
   report.iterations = end.iterations;
   report.residual = end.residual;
   report = settle(work, report, system.traits().best_truncation);
-  work.is_solved = report.ok() || report.status == Status::unstable;
+  work.is_solved = report.is_solved();
   return report;
 }
 

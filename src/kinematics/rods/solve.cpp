@@ -13,8 +13,8 @@ namespace sinew::inline v1 {
 namespace {
 
 Report check_inputs(const RodGroup& system, Numbers inputs) {
-  Report report = failed(Status::left_domain);
   if (inputs.size() != at(system.inputs())) {
+    Report report = failed(Status::bad_input);
     report.message.append("the robot has ");
     append_number(report.message, system.inputs());
     report.message.append(" inputs, ");
@@ -22,15 +22,8 @@ Report check_inputs(const RodGroup& system, Numbers inputs) {
     report.message.append(" were given");
     return report;
   }
-  for (int k = 0; k < system.feeds(); ++k) {
-    const int input = system.input_of(k);
-    if (system.in_domain(k, inputs[at(input)])) continue;
-    report.message.append("inputs[");
-    append_number(report.message, input);
-    report.message.append(k < system.limbs() ? "] is not a length a rod can have; it must be positive"
-                                             : "] is beyond what its leg can do");
-    return report;
-  }
+  for (int k = 0; k < system.feeds(); ++k)
+    if (!system.in_domain(k, inputs[at(system.input_of(k))])) return beyond_domain(system, k);
   return {};
 }
 
@@ -178,7 +171,7 @@ Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const 
         report = settle(work, report, truncation);
       else
         resolve(system, report, truncation);
-      work.is_solved = report.ok() || report.status == Status::unstable;
+      work.is_solved = report.is_solved();
       return report;
     }
     system.restore(work.before);
@@ -195,7 +188,7 @@ Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const 
   work.is_solved = report.ok();
   if (!work.is_solved) return report;
   const Report settled = settle(work, report, system.traits().best_truncation);
-  work.is_solved = settled.ok() || settled.status == Status::unstable;
+  work.is_solved = settled.is_solved();
   return settled;
 }
 

@@ -24,7 +24,7 @@ RodTarget RodWay::at(double parameter, int rods) const {
 
 SE3<double> RodWay::pose(double parameter) const {
   if (parameter == 1) return to;
-  const Vec<double, 6> way = between(from, to);
+  const Vec<double, 6> way = twist_between(from, to);
   return {from.p + parameter * way.head<3>(), SO3<double>::exp(parameter * way.tail<3>()).compose(from.R)};
 }
 

@@ -96,6 +96,26 @@ Report explain(const RodGroup& system, const RodPathEnd& end, const RodFold& fol
   return report;
 }
 
+Report beyond_domain(const RodGroup& system, int feed) {
+  Report report = failed(Status::left_domain);
+  report.message.append("inputs[");
+  append_number(report.message, system.input_of(feed));
+  report.message.append(feed < system.limbs() ? "] is not a length a rod can have; it must be positive"
+                                              : "] is beyond what its leg can do");
+  return report;
+}
+
+bool is_in_domain(const RodGroup& system, Report& report) {
+  for (int k = system.limbs(); k < system.feeds(); ++k) {
+    if (system.in_domain(k, system.held(k))) continue;
+    const int iterations = report.iterations;
+    report = beyond_domain(system, k);
+    report.iterations = iterations;
+    return false;
+  }
+  return true;
+}
+
 bool resolve(RodGroup& system, Report& report, double truncation) {
   while (!system.is_finest() && system.truncation() > truncation) {
     system.refine();
@@ -127,7 +147,7 @@ LimbSigns count_unstable_rods(RodWork& work) {
 Report settle(RodWork& work, Report report, double truncation) {
   RodGroup& system = *work.system;
   work.knows_stability = false;
-  if (!resolve(system, report, truncation)) return report;
+  if (!is_in_domain(system, report) || !resolve(system, report, truncation)) return report;
   system.linearise();
   const int unstable = count_unstable_rods(work).unstable;
   if (unstable == 0) return report;

@@ -27,6 +27,12 @@ End why_stuck(const RodGroup& system) {
 /// Why a path ended early; the system is at its last equilibrium. Says "fold" only of one that was found.
 Report explain(const RodGroup& system, const RodPathEnd& end, const RodFold& fold, bool is_load);
 
+/// Names an input that its leg cannot have.
+Report beyond_domain(const RodGroup& system, int feed);
+
+/// Of a solved state: false, and named, where an input of a closing leg is beyond what the leg can do.
+bool is_in_domain(const RodGroup& system, Report& report);
+
 /// The shapes of a solved state to this estimate of their error, by the fine nodes where it takes them. False
 /// where those do not do it.
 bool resolve(RodGroup& system, Report& report, double truncation);

@@ -17,9 +17,9 @@ struct Iterate {
 };
 
 /// One start after the other; the best end so far is kept.
-class Search {
+class TipSearch {
  public:
-  Search(const TipProblem& problem, const SerialInverseOptions& options, StopToken stop)
+  TipSearch(const TipProblem& problem, const SerialInverseOptions& options, StopToken stop)
       : problem_(problem),
         options_(options),
         stop_(stop),
@@ -229,7 +229,7 @@ SerialInverse inverse(const SerialRobot& robot, const TipTarget& target, const S
     return refused;
   }
   const TipProblem problem(robot, target, work);
-  Search search(problem, options, work.stop);
+  TipSearch search(problem, options, work.stop);
   Shape first = first_start(robot, options);
   problem.bring_within(first);
   const double beyond = problem.farthest();

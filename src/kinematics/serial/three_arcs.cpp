@@ -20,9 +20,9 @@ constexpr double limit_slack = 1e-9;      // bends at the limit count
 constexpr double example_spacing = 0.25;  // of examples of a continuum
 
 /// The search through all pairs of pieces of the two outer curves.
-class Search {
+class BoxSearch {
  public:
-  Search(const ThreeArcPose& pose, double resolution, double spacing)
+  BoxSearch(const ThreeArcPose& pose, double resolution, double spacing)
       : pose_(pose),
         first_(pose.first_curve()),
         last_(pose.last_curve()),
@@ -166,7 +166,7 @@ bool is_straight(const ThreeArcPose& pose, ThreeArcSolutions& answer) {
   return true;
 }
 
-void tell(Search& search, const ThreeArcPose& pose, double size, ThreeArcSolutions& answer) {
+void tell(BoxSearch& search, const ThreeArcPose& pose, double size, ThreeArcSolutions& answer) {
   std::erase_if(search.solutions, [&](const ArcSolution& s) { return !is_within_limit(pose, s.bends); });
   std::ranges::sort(search.solutions, {}, sort_key);
   for (const ArcSolution& s : search.solutions) {
@@ -210,8 +210,8 @@ ThreeArcSolutions all_bends(const ThreeArcs& robot, const SpatialPose& tip, Stop
   pose.tip.p /= size;
   if (is_straight(pose, answer)) return answer;
   const bool is_free = pose.has_free_circle();
-  Search search(pose, is_free ? example_spacing : ThreeArcSolutions::resolution,
-                is_free ? example_spacing : 10 * ThreeArcSolutions::resolution);
+  BoxSearch search(pose, is_free ? example_spacing : ThreeArcSolutions::resolution,
+                   is_free ? example_spacing : 10 * ThreeArcSolutions::resolution);
   search.run(stop);
   tell(search, pose, size, answer);
   if (!note_stop(stop, answer.report)) explain(is_free, search.is_cut, answer);

@@ -33,7 +33,7 @@ Bend bend_change(const Section& section, const Bend& bend, double first, double 
 int unknowns(const SerialRobot& robot);
 
 /// A and r for the motion (shift [m], turn [rad]) in base axes, after `tip_motion` of the same bends and, of
-/// sections of variable length, `extension_motion`. Rows 1 to 3: the shift, as a share of `length`. Then
+/// sections of variable length, `extension_jacobians`. Rows 1 to 3: the shift, as a share of `length`. Then
 /// nothing, of 3 rows; of 5 the turn about the tip's x and y; of 6 the turn.
 void tip_rows(const SerialRobot& robot, std::span<const Bend> bends, const SerialWorkspace& work,
               double length, const Vec3<double>& shift, const Vec3<double>& turn, BoundedStep& system);

@@ -77,7 +77,7 @@ double Sample::frobenius() const { return std::hypot(rises[0], rises[1], rises[2
 double Sample::largest() const { return is_reached() ? *std::ranges::max_element(rises) : not_a_number; }
 double Sample::smallest() const { return is_reached() ? *std::ranges::min_element(rises) : not_a_number; }
 
-Sample sample(const Robot& robot, const Independent& at, Workspace& work) {
+Sample sample(const Robot& robot, const IndependentPose& at, Workspace& work) {
   Sample out{at.e1,        at.e2,        {not_a_number, not_a_number, not_a_number},
              not_a_number, not_a_number, not_a_number,
              not_a_number};

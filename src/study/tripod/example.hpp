@@ -56,7 +56,7 @@ struct Sample {
 };
 
 /// Through the whole robot: pose by (10), slides by inverse kinematics, J, K and U by the velocity analysis.
-Sample sample(const Robot& robot, const Independent& at, Workspace& work);
+Sample sample(const Robot& robot, const IndependentPose& at, Workspace& work);
 
 /// At every place of the grid, e₁ fastest.
 std::vector<Sample> samples(const Robot& robot, Workspace& work);

@@ -30,7 +30,7 @@ struct Parasitic {
   double beside = not_a_number;  ///< largest distance of a platform point from its plane [m]
 };
 
-Parasitic parasitic(const Robot& robot, const Independent& at) {
+Parasitic parasitic(const Robot& robot, const IndependentPose& at) {
   Parasitic out{at.e1, at.e2};
   if (at.e1 * at.e1 + at.e2 * at.e2 > 1) return out;
   const ConstrainedPose found = constrained_pose(robot, at);
