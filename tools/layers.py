@@ -14,7 +14,7 @@ import sys
 # each other, but for the pairs in SIBLINGS.
 ROWS = [
     ["cli", "server", "python", "firmware"],
-    ["study"],
+    ["study", "abi"],
     ["query"],
     ["plan"],
     ["io"],

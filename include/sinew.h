@@ -1,0 +1,78 @@
+/* sinew.h - the C interface of sinew: what every other language binds. Plain C11.
+ *
+ * A robot is opened once and never changes; any number of threads may use it. A session puts questions to it
+ * and belongs to one thread at a time: open one a thread. Questions and answers are JSON, docs/protocol.md
+ * has their fields.
+ *
+ *     sinew_robot* robot;
+ *     char* error = NULL;
+ *     if (sinew_open("3pfs-g2", 7, SINEW_FILE, &robot, &error) != SINEW_OK) { puts(error); sinew_free(error);
+ * return 1; } sinew_session* session = sinew_session_new(robot); const char* question = "{\"query\":
+ * \"forward\", \"inputs\": [0.44, 0.42, 0.41]}"; char* answer = sinew_ask(session, question,
+ * strlen(question), NULL); puts(answer); sinew_free(answer); sinew_release(session); sinew_release(robot);
+ *
+ * Nothing throws. Texts are UTF-8, of `size` bytes where one is given to sinew, ended by 0 where sinew gives
+ * one; those belong to the caller and go back by sinew_free. NULL in the place of an object or a text is
+ * answered by SINEW_BAD_INPUT, or NULL. Lengths are m, angles rad, forces N, moments N m, in base axes. */
+#ifndef SINEW_H
+#define SINEW_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(SINEW_SHARED) && defined(__GNUC__)
+#define SINEW_C_API __attribute__((visibility("default")))
+#else
+#define SINEW_C_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Grows with every function or value that is added, and says so at its place. What is there stays as it is.
+ */
+#define SINEW_ABI 1
+SINEW_C_API int32_t sinew_abi(void); /* of the library that is linked */
+
+typedef struct sinew_robot sinew_robot;
+typedef struct sinew_session sinew_session;
+
+/* What a call says of itself. What came of a question is in its answer. */
+enum sinew_code {
+  SINEW_OK = 0,
+  SINEW_BAD_INPUT = 1, /* the text or an argument; the error says what */
+  SINEW_NO_MEMORY = 2,
+  SINEW_FAILED = 3 /* an error of the library: please report it */
+};
+
+enum sinew_source {
+  SINEW_FILE = 0, /* a file's path, or the name of a robot that comes with sinew */
+  SINEW_TEXT = 1  /* what a robot file says: YAML or JSON */
+};
+
+/* Opens a robot. Where that fails *robot is NULL and *error, if `error` is not NULL, all that is wrong with
+ * it, a line each: place, what was found, the rule, the way out. */
+SINEW_C_API int32_t sinew_open(const char* source, size_t size, int32_t kind, sinew_robot** robot,
+                               char** error);
+
+/* A session for questions to this robot, which stays open as long as one of its sessions does. NULL where
+ * there is no memory for it. */
+SINEW_C_API sinew_session* sinew_session_new(const sinew_robot* robot);
+
+/* Answers a question, in JSON, on one line. `length`, if it is not NULL, becomes that of the answer in bytes.
+ * What is wrong with a question is in the answer: {"error": {"code", "where", "message"}}. NULL where there
+ * is no memory for it. */
+SINEW_C_API char* sinew_ask(sinew_session* session, const char* question, size_t size, size_t* length);
+
+/* Ends what the session answers now, from any thread: the answer says `stopped`, with the best there is. A
+ * question put later is answered as ever. The session must not be released meanwhile. */
+SINEW_C_API void sinew_stop(sinew_session* session);
+
+SINEW_C_API void sinew_free(void* text);      /* of a text that sinew gave, or NULL */
+SINEW_C_API void sinew_release(void* object); /* of a robot or a session, or NULL; once each */
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* SINEW_H */
