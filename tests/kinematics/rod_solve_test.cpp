@@ -352,12 +352,13 @@ TEST(RodSolve, RobotsOfManyRodsEachWithItsInput) {
 TEST(RodSolve, SaysWhatIsWrongWithAQuestion) {
   Solver solver(g2);
   const double nan = std::nan(""), L = g2.length;
-  const auto is_refused = [&](Numbers inputs, const RodQuestion& question, std::string_view because) {
+  const auto is_refused = [&](Numbers inputs, const RodQuestion& question, std::string_view because,
+                              Status status = Status::left_domain) {
     const Report report = solver.ask(inputs, question);
-    EXPECT_EQ(report.status, Status::left_domain);
+    EXPECT_EQ(report.status, status);
     EXPECT_NE(report.message.view().find(because), std::string_view::npos) << report.message.view();
   };
-  is_refused({L, L}, {}, "3 inputs, 2 were given");
+  is_refused({L, L}, {}, "3 inputs, 2 were given", Status::bad_input);
   is_refused({L, nan, L}, {}, "inputs[1]");
   is_refused({L, L, -L}, {}, "inputs[2]");
   is_refused({0, L, L}, {}, "inputs[0]");

@@ -10,6 +10,7 @@
 #include "link/elastica.hpp"
 #include "robot/general_system.hpp"
 #include "robot/mechanism.hpp"
+#include "robot/pose.hpp"
 #include "robot/rod_system.hpp"
 #include "robot/rod_work.hpp"
 #include "robot/tangent_system.hpp"
@@ -57,9 +58,6 @@ RodWork work_of(const RodRobot& robot, const Vec3<double>& gravity = Vec3<double
   return RodWork(std::move(system));
 }
 
-inline SpatialPose pose_of(const SE3<double>& frame) {
-  return {frame.p, {frame.R.w, frame.R.v[0], frame.R.v[1], frame.R.v[2]}};
-}
 inline SE3<double> level(double height) { return {Vec3<double>(0, 0, height), SO3<double>::identity()}; }
 inline SE3<double> home(const RodRobot& robot) { return SE3<double>::from(robot.home); }
 

@@ -1,5 +1,4 @@
 /// Velocity equations of robots on chains, and what the paper's linear statics make of them.
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
@@ -36,6 +35,18 @@ ChainRates<Space> chain_rates(const ChainLegs<Space>& robot, const typename Spac
 
 namespace {
 
+/// Not a number where there is none.
+template <class Square>
+Square inverse_of(const Square& matrix) {
+  constexpr int n = Square::RowsAtCompileTime;
+  using Rows = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
+  const Rows rows = matrix, unit = Rows::Identity();
+  Rows inverse;
+  const bool is_found = solve(MatrixView(rows.data(), n, n), MatrixView(unit.data(), n, n),
+                              std::span(inverse.data(), static_cast<std::size_t>(n * n)));
+  return is_found ? Square(inverse) : Square(Square::Constant(std::numeric_limits<double>::quiet_NaN()));
+}
+
 /// ∂(pose)/∂(wrench) of springs: row i of `lines` times the platform's motion is what yields by `soft`[i]
 /// times the force along it. Of as many lines as freedoms none has to yield.
 template <class Lines>
@@ -45,10 +56,10 @@ auto compliance_along(const Lines& lines, std::span<const double> soft) {
   if (lines.rows() < dof) return Square(Square::Constant(std::numeric_limits<double>::quiet_NaN()));
   const Eigen::Map<const Eigen::VectorXd> softness(soft.data(), lines.rows());
   if (lines.rows() == dof) {
-    const Square inverse = Square(lines).inverse();
+    const Square inverse = inverse_of(Square(lines));
     return Square(inverse * softness.asDiagonal() * inverse.transpose());
   }
-  return Square(Square(lines.transpose() * softness.cwiseInverse().asDiagonal() * lines).inverse());
+  return inverse_of(Square(lines.transpose() * softness.cwiseInverse().asDiagonal() * lines));
 }
 
 }  // namespace

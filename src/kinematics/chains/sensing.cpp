@@ -124,7 +124,15 @@ SensedLoad<Space> sense_wrench(const ChainLegs<Space>& robot, std::span<const Me
     report.message.append("here the tensions do not tell the wrench: some motion changes none of them");
   } else {
     name_slack(state, report);
-    sensed.sensitivity = group.stiffness() * sensor.rows().inverse();
+    // K R⁻¹, by Rᵀ on its transpose
+    constexpr int dof = Space::dof;
+    const typename Sensor<Space>::Rows by_pose = sensor.rows().transpose(),
+                                       turned = group.stiffness().transpose();
+    typename Sensor<Space>::Rows found;
+    if (!solve(MatrixView(by_pose.data(), dof, dof), MatrixView(turned.data(), dof, dof),
+               std::span(found.data(), static_cast<std::size_t>(dof * dof))))
+      found.setConstant(std::numeric_limits<double>::quiet_NaN());
+    sensed.sensitivity = found.transpose();
   }
   return sensed;
 }

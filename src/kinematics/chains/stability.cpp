@@ -1,6 +1,6 @@
 /// Energy of robots on chains: its value, and its curvature along what the closures leave free.
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 #include "kinematics/chain_analysis.hpp"
@@ -11,13 +11,32 @@ namespace {
 
 using Eigen::MatrixXd;
 
-/// Eigenvalues of H where C is 0, ascending; none where that leaves nothing.
-Eigen::VectorXd on_null_space(const MatrixXd& H, const MatrixXd& C) {
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(C.transpose());  // rows may say the same twice
-  qr.setThreshold(1e-12);
-  if (qr.rank() >= H.cols()) return {};
-  const MatrixXd Q = qr.householderQ();
-  const MatrixXd Z = Q.rightCols(H.cols() - qr.rank()), reduced = Z.transpose() * H * Z;
+/// Eigenvalues of H where C is 0, ascending; none where that leaves nothing. Reflections turn one row of C
+/// after the other onto an axis, the longest first; H is seen along the axes that are left.
+Eigen::VectorXd on_null_space(MatrixXd H, MatrixXd C) {
+  const Eigen::Index n = H.cols();
+  double longest = 0;
+  Eigen::Index rank = 0;
+  for (; rank < std::min(C.rows(), n); ++rank) {
+    const Eigen::Index left = n - rank;
+    Eigen::Index row = 0;
+    const double length = C.bottomRightCorner(C.rows() - rank, left).rowwise().norm().maxCoeff(&row);
+    longest = std::max(longest, length);
+    if (!(length > 1e-12 * longest)) break;  // rows may say the same twice
+    C.row(rank).swap(C.row(rank + row));
+    Eigen::VectorXd v = C.row(rank).tail(left).transpose();
+    v[0] += std::copysign(length, v[0]);
+    v.normalize();
+    const auto reflect = [&](auto columns) {
+      const Eigen::VectorXd along = columns * v;
+      columns.noalias() -= 2 * along * v.transpose();
+    };
+    reflect(C.rightCols(left));
+    reflect(H.rightCols(left));
+    reflect(H.bottomRows(left).transpose());
+  }
+  if (rank == n) return {};
+  const MatrixXd reduced = H.bottomRightCorner(n - rank, n - rank);
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(reduced, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
