@@ -1,25 +1,27 @@
 /// @file placeholders.hpp
-/// The places of a study's query where values of axes and derived values go: texts `$name`.
+/// The places of a query where the numbers of columns go: texts `$name`.
 #pragma once
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "sinew/study/study.hpp"
+#include "sinew/io/node.hpp"
 
 namespace sinew::inline v1 {
 
 struct Placeholder {
-  std::string_view name;            ///< without the `$`; a view into the study or the node
-  std::optional<std::size_t> axis;  ///< or derived value; nothing where the study has none of that name
+  std::string name;                  ///< without the `$`
+  std::optional<std::size_t> input;  ///< which of the names; nothing where there is none of that name
   Node* node;
 };
 
 /// What a node stands for, if it is a placeholder.
-std::optional<Placeholder> placeholder(Node& node, const Study& study);
+std::optional<Placeholder> placeholder(Node& node, std::span<const std::string> names);
 
 /// All of a tree; they point into it, and its shape must stay.
-std::vector<Placeholder> placeholders(Node& query, const Study& study);
+std::vector<Placeholder> placeholders(Node& query, std::span<const std::string> names);
 
 /// Makes the node this number ...
 void put(Node& node, double value);
