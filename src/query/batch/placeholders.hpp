@@ -21,11 +21,11 @@ struct Placeholder {
 std::optional<Placeholder> placeholder(Node& node, std::span<const std::string> names);
 
 /// All of a tree; they point into it, and its shape must stay.
-std::vector<Placeholder> placeholders(Node& query, std::span<const std::string> names);
+SINEW_API std::vector<Placeholder> placeholders(Node& query, std::span<const std::string> names);
 
 /// Makes the node this number ...
-void put(Node& node, double value);
+SINEW_API void put(Node& node, double value);
 /// ... or a text with its unit, which the query's reader then checks.
-void put(Node& node, double value, std::string_view unit);
+SINEW_API void put(Node& node, double value, std::string_view unit);
 
 }  // namespace sinew::inline v1

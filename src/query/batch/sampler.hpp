@@ -22,7 +22,7 @@ inline constexpr SampleStatus left_out = 10;       ///< a derived value is outsi
 inline constexpr SampleStatus not_computed = 254;  ///< its block was stopped; in no file
 inline constexpr SampleStatus converged = static_cast<SampleStatus>(Status::converged);
 inline constexpr SampleStatus unstable = static_cast<SampleStatus>(Status::unstable);
-std::string_view name_of(SampleStatus status);
+SINEW_API std::string_view name_of(SampleStatus status);
 inline constexpr int sample_statuses = 11;
 
 /// Samples of one chunk, column after column.
@@ -51,10 +51,10 @@ struct SamplerKind {
 };
 
 /// Samples of a chunk, about: so many that there are some hundred chunks, within the bounds.
-std::size_t chunk_size(const SamplerKind& kind, std::size_t samples);
+SINEW_API std::size_t chunk_size(const SamplerKind& kind, std::size_t samples);
 
 /// Each sample by its own query: any robot, any query, any output.
-SamplerKind query_sampler(const BatchQuestion& question);
+SINEW_API SamplerKind query_sampler(const BatchQuestion& question);
 
 /// Forward kinematics of rods, eight stretches of samples in the lanes; empty `make` where the question asks
 /// for more or less than that.
@@ -67,6 +67,6 @@ SamplerKind pose_sampler(const BatchQuestion& question);
 SamplerKind serial_sampler(const BatchQuestion& question);
 
 /// The quickest there is.
-SamplerKind choose_sampler(const BatchQuestion& question);
+SINEW_API SamplerKind choose_sampler(const BatchQuestion& question);
 
 }  // namespace sinew::inline v1
