@@ -1,6 +1,6 @@
 # sinew_together(RESULT TARGET FILE...): TARGET's sources in groups, each group one generated source that includes them. Most of the
 # time of compiling a file goes into headers and templates that it shares with its neighbours, so together they take a
-# third to a half of it. Files of one folder are grouped, at most twelve of them, and so two of one folder may not define
+# third to a half of it. Files of one folder are grouped, at most fifteen of them, and so two of one folder may not define
 # one name in an anonymous namespace. What lists its instruction sets with Highway includes itself again and stays alone.
 #
 # -D SINEW_TOGETHER=OFF compiles each file alone: quicker while one file is changed again and again, and with it the
@@ -34,7 +34,7 @@ function(sinew_together result target)
       list(APPEND sources ${files})
       continue()
     endif()
-    math(EXPR groups "(${count} + 11) / 12")
+    math(EXPR groups "(${count} + 14) / 15")
     foreach(group RANGE 1 ${groups})
       math(EXPR begin "(${group} - 1) * ${count} / ${groups}")
       math(EXPR length "${group} * ${count} / ${groups} - ${begin}")

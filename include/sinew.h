@@ -37,6 +37,7 @@ SINEW_C_API int32_t sinew_abi(void); /* of the library that is linked */
 
 typedef struct sinew_robot sinew_robot;
 typedef struct sinew_session sinew_session;
+typedef struct sinew_batch sinew_batch;
 
 /* What a call says of itself. What came of a question is in its answer. */
 enum sinew_code {
@@ -65,12 +66,51 @@ SINEW_C_API sinew_session* sinew_session_new(const sinew_robot* robot);
  * is no memory for it. */
 SINEW_C_API char* sinew_ask(sinew_session* session, const char* question, size_t size, size_t* length);
 
-/* Ends what the session answers now, from any thread: the answer says `stopped`, with the best there is. A
- * question put later is answered as ever. The session must not be released meanwhile. */
-SINEW_C_API void sinew_stop(sinew_session* session);
+/* Prepares a question for many rows: a query in which texts "$name" stand where the numbers of a column go,
+ * with "outputs": {"name": "place in the answer"} (left out: the usual ones), and "path": "continue" or
+ * "anew" (the default).
+ *
+ *     {"query": "forward", "inputs": ["$L1", "$L2", "$L3"], "outputs": {"z": "pose.position[2]"}, "path":
+ * "continue"}
+ *
+ * Where that fails *batch is NULL and *error says what is wrong. A batch may be run by several threads at
+ * once. */
+SINEW_C_API int32_t sinew_prepare(const sinew_robot* robot, const char* question, size_t size,
+                                  sinew_batch** batch, char** error);
+
+/* The columns that go in and come out, in their order, in JSON: {"inputs": [{"name": "L1", "unit": "m"},
+ * ...], "outputs":
+ * [...], "method": "rods in lanes"}. Units are SI, "" for plain numbers. NULL where there is no memory for
+ * it. */
+SINEW_C_API char* sinew_fields(const sinew_batch* batch);
+
+/* A column as it lies in memory: its first number, and how many bytes further the next one is. */
+typedef struct sinew_input {
+  const double* data;
+  ptrdiff_t stride;
+} sinew_input;
+typedef struct sinew_output {
+  double* data;
+  ptrdiff_t stride;
+} sinew_output;
+
+/* Computes all rows on so many threads, 0 for as many as there are cores; the bytes do not depend on how
+ * many. Each batch starts anew, unlike a session, which goes on warm from question to question, and may
+ * differ from it in the last digits. A number that a row has no value of is NaN. `statuses`, if it is not
+ * NULL, becomes a status a row: 0 unreachable, 1 left_domain, 2 slack, 3 singular, 4 stalled, 5
+ * iteration_limit, 6 unstable, 7 converged, 8 stopped, 9 bad_input (the question does not take these
+ * numbers), 255 an error of the library. SINEW_OK also where rows have no solution; *error then has the
+ * answer to the first row that is bad input, or names a column that has a number in no row that is solved. */
+SINEW_C_API int32_t sinew_run(sinew_batch* batch, size_t rows, const sinew_input* inputs,
+                              const sinew_output* outputs, uint8_t* statuses, int32_t threads, char** error);
+
+/* Ends what a session answers now, or all runs of a batch, from any thread: the answer says `stopped`, with
+ * the best there is, and so do rows not yet computed. What is asked later is answered as ever. The object
+ * must not be released meanwhile. */
+SINEW_C_API void sinew_stop(void* session_or_batch);
 
 SINEW_C_API void sinew_free(void* text);      /* of a text that sinew gave, or NULL */
-SINEW_C_API void sinew_release(void* object); /* of a robot or a session, or NULL; once each */
+SINEW_C_API void sinew_release(void* object); /* of a robot, session or batch, or NULL; once each */
 
 #ifdef __cplusplus
 }

@@ -1,16 +1,22 @@
 /// The C interface over sessions: sinew.h says what it promises.
 #include "sinew.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "io/parse.hpp"
 #include "sinew/io/robot_file.hpp"
+#include "sinew/query/batch.hpp"
 #include "sinew/query/session.hpp"
+#include "sinew/solve/report.hpp"
 
 /// What `sinew_release` deletes, whatever it is.
 struct sinew_object {
@@ -18,6 +24,7 @@ struct sinew_object {
   sinew_object(const sinew_object&) = delete;
   sinew_object& operator=(const sinew_object&) = delete;
   virtual ~sinew_object() = default;
+  virtual void stop() {}
 };
 
 struct sinew_robot : sinew_object {
@@ -30,8 +37,17 @@ struct sinew_session : sinew_object {
   explicit sinew_session(const sinew_robot& robot) : session(sinew::Session::open(*robot.document).value()) {
     session.stop_on(sinew::StopToken(is_to_stop));
   }
+  void stop() override { is_to_stop = true; }
   sinew::Session session;
   std::atomic<bool> is_to_stop = false;
+};
+
+struct sinew_batch : sinew_object {
+  explicit sinew_batch(sinew::Batch prepared) : batch(std::move(prepared)) {}
+  void stop() override { is_to_stop = true; }
+  sinew::Batch batch;
+  std::atomic<bool> is_to_stop = false;
+  std::atomic<int> running = 0;
 };
 
 namespace {
@@ -58,6 +74,27 @@ sinew::Expected<std::unique_ptr<sinew_robot>> opened(std::string_view source, st
   return std::make_unique<sinew_robot>(std::move(*document));
 }
 
+/// Calls `use(why)`, whatever it throws; a text in `why` goes to whoever called.
+template <class Use>
+std::int32_t guarded(char** error, const Use& use) noexcept {
+  if (error) *error = nullptr;
+  const auto say = [&](std::string_view why) {
+    if (error && !why.empty()) *error = given(why);
+  };
+  try {
+    std::string why;
+    const std::int32_t code = use(why);
+    say(why);
+    return code;
+  } catch (const std::bad_alloc&) {
+    say("there is not enough memory");
+    return SINEW_NO_MEMORY;
+  } catch (const std::exception& thrown) {
+    say(thrown.what());
+    return SINEW_FAILED;
+  }
+}
+
 /// An answer where the library itself failed: in the form of all errors.
 constexpr std::string_view failed_answer =
     R"({"error":{"code":"failed","where":"sinew","message":"an error of the library; please report the question"}})";
@@ -68,23 +105,20 @@ std::int32_t sinew_abi() { return SINEW_ABI; }
 
 std::int32_t sinew_open(const char* source, std::size_t size, std::int32_t kind, sinew_robot** robot,
                         char** error) {
-  if (error) *error = nullptr;
   if (robot) *robot = nullptr;
-  const auto refuse = [&](std::int32_t code, std::string_view why) {
-    if (error) *error = given(why);
-    return code;
-  };
-  if (!source || !robot) return refuse(SINEW_BAD_INPUT, "source and robot must not be NULL");
-  try {
+  return guarded(error, [&](std::string& why) {
+    if (!source || !robot) {
+      why = "source and robot must not be NULL";
+      return SINEW_BAD_INPUT;
+    }
     auto found = opened({source, size}, kind);
-    if (!found) return refuse(SINEW_BAD_INPUT, sinew::to_string(found.error()));
+    if (!found) {
+      why = sinew::to_string(found.error());
+      return SINEW_BAD_INPUT;
+    }
     *robot = found->release();
     return SINEW_OK;
-  } catch (const std::bad_alloc&) {
-    return refuse(SINEW_NO_MEMORY, "there is not enough memory");
-  } catch (const std::exception& thrown) {
-    return refuse(SINEW_FAILED, thrown.what());
-  }
+  });
 }
 
 sinew_session* sinew_session_new(const sinew_robot* robot) {
@@ -114,8 +148,104 @@ char* sinew_ask(sinew_session* session, const char* question, std::size_t size, 
   }
 }
 
-void sinew_stop(sinew_session* session) {
-  if (session) session->is_to_stop = true;
+std::int32_t sinew_prepare(const sinew_robot* robot, const char* question, std::size_t size,
+                           sinew_batch** batch, char** error) {
+  if (batch) *batch = nullptr;
+  return guarded(error, [&](std::string& why) {
+    if (!robot || !question || !batch) {
+      why = "robot, question and batch must not be NULL";
+      return SINEW_BAD_INPUT;
+    }
+    const auto asked = sinew::parse_json({question, size}, "query");
+    auto prepared = asked ? sinew::Batch::prepare(*robot->document, *asked) : tl::unexpected(asked.error());
+    if (!prepared) {
+      why = sinew::to_string(prepared.error());
+      return SINEW_BAD_INPUT;
+    }
+    *batch = new sinew_batch(std::move(*prepared));
+    return SINEW_OK;
+  });
+}
+
+char* sinew_fields(const sinew_batch* batch) {
+  if (!batch) return nullptr;
+  try {
+    const auto columns = [](std::span<const sinew::Batch::Column> all) {
+      nlohmann::ordered_json list = nlohmann::ordered_json::array();
+      for (const auto& column : all) list.push_back({{"name", column.name}, {"unit", column.unit}});
+      return list;
+    };
+    return given(nlohmann::ordered_json{{"inputs", columns(batch->batch.inputs())},
+                                        {"outputs", columns(batch->batch.outputs())},
+                                        {"method", batch->batch.method()}}
+                     .dump());
+  } catch (const std::exception&) {
+    return nullptr;
+  }
+}
+
+namespace {
+
+/// What whoever called should know of rows that were computed; mostly nothing.
+std::string oddity(const sinew::Batch& batch, std::span<const sinew::Batch::Strided<const double>> in,
+                   std::span<const sinew::Batch::Strided<double>> out,
+                   std::span<const std::uint8_t> statuses) {
+  const auto bad = std::ranges::find(statuses, static_cast<std::uint8_t>(sinew::Status::bad_input));
+  if (bad != statuses.end()) {
+    std::vector<double> numbers;
+    for (const auto& column : in) numbers.push_back(column[static_cast<std::size_t>(bad - statuses.begin())]);
+    return batch.answer(numbers);
+  }
+  const auto solved = static_cast<std::uint8_t>(sinew::Status::converged);
+  if (std::ranges::find(statuses, solved) == statuses.end()) return {};
+  for (std::size_t o = 0; o < out.size(); ++o) {
+    bool is_there = false;
+    for (std::size_t k = 0; k < statuses.size() && !is_there; ++k)
+      is_there = statuses[k] == solved && !std::isnan(out[o][k]);
+    if (!is_there) return "outputs." + batch.outputs()[o].name + ": no row that is solved has a number there";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::int32_t sinew_run(sinew_batch* batch, std::size_t rows, const sinew_input* inputs,
+                       const sinew_output* outputs, std::uint8_t* statuses, std::int32_t threads,
+                       char** error) {
+  return guarded(error, [&](std::string& why) {
+    if (!batch || !inputs || !outputs) {
+      why = "batch, inputs and outputs must not be NULL";
+      return SINEW_BAD_INPUT;
+    }
+    std::vector<sinew::Batch::Strided<const double>> in;
+    std::vector<sinew::Batch::Strided<double>> out;
+    for (std::size_t i = 0; i < batch->batch.inputs().size(); ++i)
+      in.push_back({inputs[i].data, inputs[i].stride});
+    for (std::size_t o = 0; o < batch->batch.outputs().size(); ++o)
+      out.push_back({outputs[o].data, outputs[o].stride});
+    const auto is_null = [](const auto& column) { return !column.data; };
+    if (rows > 0 && (std::ranges::any_of(in, is_null) || std::ranges::any_of(out, is_null))) {
+      why = "a column is NULL";
+      return SINEW_BAD_INPUT;
+    }
+    std::vector<std::uint8_t> own(statuses ? 0 : rows);
+    const std::span<std::uint8_t> all(statuses ? statuses : own.data(), rows);
+    if (batch->running++ == 0) batch->is_to_stop = false;
+    const auto end = [&] { --batch->running; };
+    try {
+      batch->batch.run(rows, in, out, all, {.threads = threads, .stop = &batch->is_to_stop});
+    } catch (...) {
+      end();
+      throw;
+    }
+    end();
+    if (error) why = oddity(batch->batch, in, out, all);
+    return SINEW_OK;
+  });
+}
+
+void sinew_stop(void* object) {
+  if (object) static_cast<sinew_object*>(object)->stop();
 }
 
 void sinew_free(void* text) { std::free(text); }

@@ -53,9 +53,9 @@ struct Place {
 };
 
 /// Walks along the line and looks for zeros of the volume that the unit lines span.
-class Walk {
+class LineWalk {
  public:
-  Walk(const Robot& robot, const Line& line, double limit, Workspace& work)
+  LineWalk(const Robot& robot, const Line& line, double limit, Workspace& work)
       : robot_(robot),
         line_(line),
         limit_(limit),
@@ -85,7 +85,7 @@ class Walk {
 };
 
 /// det J of the homogenised lines; of more lines than freedoms det JᵀJ, which cannot change its sign.
-double Walk::volume(const Track& track) {
+double LineWalk::volume(const Track& track) {
   const MatrixView lines =
       homogenise(robot_, assemble(robot_, track.pose(), track.coordinates(), work_), work_);
   if (lines.rows() == lines.cols()) return determinant(lines);
@@ -99,7 +99,7 @@ double Walk::volume(const Track& track) {
 }
 
 /// On the branch of a place to another near by; as far as the branch goes, `report_` says why not further.
-Place Walk::moved(const Place& from, double s) {
+Place LineWalk::moved(const Place& from, double s) {
   Place to{s, from.track, 0};
   report_ = to.track.advance(line_.at(s));
   if (!report_.ok()) to.s = std::lerp(from.s, s, to.track.progress());
@@ -108,7 +108,7 @@ Place Walk::moved(const Place& from, double s) {
 }
 
 /// d volume/ds, by central differences of sixth order: what they leave is of the size of rounding.
-double Walk::slope(const Place& near, double s) {
+double LineWalk::slope(const Place& near, double s) {
   constexpr std::array weights{45.0, -9.0, 1.0};
   const double h = stencil * line_.step;
   double sum = 0;
@@ -121,7 +121,7 @@ double Walk::slope(const Place& near, double s) {
 
 /// Where f changes its sign, to the last digit.
 template <class F>
-double Walk::zero(double low, double high, const F& f) {
+double LineWalk::zero(double low, double high, const F& f) {
   const bool sign = std::signbit(f(low));
   for (;;) {
     const double middle = low + (high - low) / 2;
@@ -132,7 +132,7 @@ double Walk::zero(double low, double high, const F& f) {
 
 /// The answer if the robot is at a type II there. A volume may change its sign at other places too: where a
 /// line turns round because its points meet.
-std::optional<TypeTwoDistance> Walk::found_at(const Place& near, double s) {
+std::optional<TypeTwoDistance> LineWalk::found_at(const Place& near, double s) {
   const Place there = moved(near, s);
   const TypeTwo type = type_2(there.track);
   if (!report_.ok() || !type.singular) return {};
@@ -140,12 +140,13 @@ std::optional<TypeTwoDistance> Walk::found_at(const Place& near, double s) {
       .found = true, .distance = s, .pose = there.track.pose(), .type_2 = type, .report = {}};
 }
 
-std::optional<TypeTwoDistance> Walk::crossing(const Place& from, double to) {
+std::optional<TypeTwoDistance> LineWalk::crossing(const Place& from, double to) {
   return found_at(from, zero(from.s, to, [&](double s) { return moved(from, s).volume; }));
 }
 
 /// Three places, the volume smallest at the middle one: it may touch zero near by, or cross it twice.
-std::optional<TypeTwoDistance> Walk::touching(const Place& before, const Place& here, const Place& after) {
+std::optional<TypeTwoDistance> LineWalk::touching(const Place& before, const Place& here,
+                                                  const Place& after) {
   const double lowest = zero(before.s, after.s, [&](double s) { return slope(here, s); });
   const bool is_beyond = std::signbit(moved(here, lowest).volume) != std::signbit(here.volume);
   if (is_beyond) return crossing(before, lowest);
@@ -153,7 +154,7 @@ std::optional<TypeTwoDistance> Walk::touching(const Place& before, const Place& 
 }
 
 /// The type II in the step from here to the next place, or, where the volume is smallest here, beside it.
-std::optional<TypeTwoDistance> Walk::in_step(const Place& before, const Place& here, const Place& next) {
+std::optional<TypeTwoDistance> LineWalk::in_step(const Place& before, const Place& here, const Place& next) {
   const double size = std::abs(here.volume);
   std::optional<TypeTwoDistance> found;
   if (std::signbit(here.volume) != std::signbit(next.volume))
@@ -164,7 +165,7 @@ std::optional<TypeTwoDistance> Walk::in_step(const Place& before, const Place& h
   return found || next.s < limit_ ? found : found_at(here, next.s);
 }
 
-TypeTwoDistance Walk::run(const InverseOptions& branch) {
+TypeTwoDistance LineWalk::run(const InverseOptions& branch) {
   Track start(robot_, {.branch = branch}, work_);
   Report report = start.advance(line_.start);
   TypeTwoDistance answer{.found = false, .distance = 0, .pose = line_.start, .type_2 = {}, .report = report};
@@ -217,7 +218,7 @@ TypeTwoDistance one_way(const Robot& robot, const AnyPose& pose, const Vec<doubl
     return answer;
   }
   const double limit = std::isnan(search.limit) ? full_turn(robot, direction) : search.limit;
-  return Walk(robot, line, limit, work).run(search.branch);
+  return LineWalk(robot, line, limit, work).run(search.branch);
 }
 
 }  // namespace

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "io/quantity.hpp"
 #include "sinew/analysis/serial_shape.hpp"
+#include "sinew/base/limits.hpp"
 #include "sinew/kinematics/resolved_rate.hpp"
 
 namespace sinew::inline v1 {
@@ -225,6 +228,29 @@ ByConfiguration by_configuration(const SerialContext& context, std::span<const B
   return by;
 }
 
+/// L of A = L Q, Q of orthonormal rows: it has A's singular values in as many columns as rows.
+Rows without_right_factor(Rows rows) {
+  Rows L = Rows::Zero(rows.rows(), rows.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    for (Eigen::Index k = 0; k < i; ++k) {
+      L(i, k) = rows.row(i).dot(rows.row(k));
+      rows.row(i) -= L(i, k) * rows.row(k);
+    }
+    L(i, i) = rows.row(i).norm();
+    if (L(i, i) > 0) rows.row(i) /= L(i, i);
+  }
+  return L;
+}
+
+/// The largest singular value, and it over the smallest.
+std::pair<double, double> largest_and_ratio(const Rows& matrix) {
+  const Rows fits = matrix.cols() > max_rows ? without_right_factor(matrix) : matrix;
+  std::array<double, 6> sigma{};
+  const auto values = std::span(sigma).first(static_cast<std::size_t>(std::min(fits.rows(), fits.cols())));
+  singular_values(MatrixView(fits.data(), fits.rows(), fits.cols()), values);
+  return {values.front(), values.front() / values.back()};
+}
+
 /// σmax/σmin, and the largest speeds of the tip for rates of unit norm: of bends in rad, not of [θ, φ], and
 /// of extensions as shares of the robot's length.
 Json indices_json(const SerialContext& context) {
@@ -236,20 +262,16 @@ Json indices_json(const SerialContext& context) {
     J.conservativeResize(6, J.cols() + 1);
     J.rightCols<1>() << length * work.extension_jacobians[m].tip, 0, 0, 0;
   }
-  const auto ratio = [](const Rows& matrix) {  // of more columns than the library's own decomposition takes
-    const Eigen::VectorXd sigma = Eigen::JacobiSVD<Rows>(matrix).singularValues();
-    return std::pair(sigma[0], sigma[0] / sigma[sigma.size() - 1]);
-  };
   Rows scaled = J;
   scaled.topRows<3>() /= length;
   Json indices = Json::object();
   const auto put = [&](const char* key, double value) {
     if (value < 1e15) indices[key] = value;  // beyond, it says how the matrix was rounded
   };
-  put("condition", ratio(J).second);
-  put("condition_homogenised", ratio(scaled).second);
-  put("position", ratio(J.topRows<3>()).first);
-  put("rotation", ratio(J.bottomRows<3>()).first);
+  put("condition", largest_and_ratio(J).second);
+  put("condition_homogenised", largest_and_ratio(scaled).second);
+  put("position", largest_and_ratio(J.topRows<3>()).first);
+  put("rotation", largest_and_ratio(J.bottomRows<3>()).first);
   return indices;
 }
 

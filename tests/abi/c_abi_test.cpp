@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -134,6 +135,118 @@ TEST(CAbi, StopsFromAnotherThread) {
   EXPECT_EQ(Json::parse(asked(session, home))["robot"], "hexapod-torsion");  // answered as ever
   sinew_release(session);
   sinew_release(robot);
+}
+
+/// A prepared question and the columns of its rows.
+struct Rows {
+  sinew_batch* batch = nullptr;
+  std::vector<double> in, out;
+  std::vector<std::uint8_t> statuses;
+
+  Rows(std::string_view robot, std::string_view question) {
+    sinew_robot* opened_robot = opened(robot);
+    char* error = nullptr;
+    EXPECT_EQ(sinew_prepare(opened_robot, question.data(), question.size(), &batch, &error), SINEW_OK)
+        << error;
+    sinew_release(opened_robot);  // the batch keeps what it needs
+  }
+  Rows(const Rows&) = delete;
+  Rows& operator=(const Rows&) = delete;
+  ~Rows() { sinew_release(batch); }
+
+  /// Of an array of n × k.
+  std::string run(std::size_t rows, std::size_t inputs, std::size_t outputs, std::int32_t threads = 0) {
+    out.assign(rows * outputs, -1);
+    statuses.assign(rows, 99);
+    std::vector<sinew_input> from;
+    std::vector<sinew_output> to;
+    const auto stride = [](std::size_t n) { return static_cast<std::ptrdiff_t>(n * sizeof(double)); };
+    for (std::size_t i = 0; i < inputs; ++i) from.push_back({in.data() + i, stride(inputs)});
+    for (std::size_t o = 0; o < outputs; ++o) to.push_back({out.data() + o, stride(outputs)});
+    char* error = nullptr;
+    EXPECT_EQ(sinew_run(batch, rows, from.data(), to.data(), statuses.data(), threads, &error), SINEW_OK);
+    const std::string said = error ? error : "";
+    sinew_free(error);
+    return said;
+  }
+};
+
+TEST(CAbi, RunsRowsOfColumns) {
+  Rows rows("3pfs-g2", R"({"query": "forward", "inputs": ["$a", "$b", "$c"], "path": "continue"})");
+  char* fields = sinew_fields(rows.batch);
+  const Json told = Json::parse(fields);
+  sinew_free(fields);
+  EXPECT_EQ(told["inputs"][1], (Json{{"name", "b"}, {"unit", "m"}}));
+  EXPECT_EQ(told["outputs"].size(), 7U);
+  EXPECT_EQ(told["method"], "rods in lanes");
+  for (int k = 0; k < 100; ++k)
+    for (const double length : {0.43, 0.43 + 1e-4 * k, 0.43 - 1e-4 * k}) rows.in.push_back(length);
+  EXPECT_EQ(rows.run(100, 3, 7), "");
+  EXPECT_EQ(rows.statuses, std::vector<std::uint8_t>(100, 7));
+  sinew_robot* robot = opened("3pfs-g2");
+  sinew_session* session = sinew_session_new(robot);
+  const Json last =
+      Json::parse(asked(session, Json{{"query", "forward"}, {"inputs", {0.43, 0.4399, 0.4201}}}.dump()));
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(rows.out[99 * 7 + c], last["pose"]["position"][c].get<double>(), 1e-10);
+  sinew_release(session);
+  sinew_release(robot);
+}
+
+TEST(CAbi, SaysWhatIsOddAboutRows) {
+  Rows rows("3-rfr",
+            R"({"query": "inverse", "pose": {"x": "$x", "y": 0, "phi": 0}, "outputs": {"l": "inputs[0]"}})");
+  rows.in = {0, NAN, 0.01};
+  EXPECT_EQ(Json::parse(rows.run(3, 1, 1))["error"]["where"], "pose.x");
+  EXPECT_EQ(rows.statuses, (std::vector<std::uint8_t>{7, 9, 7}));
+  EXPECT_TRUE(std::isnan(rows.out[1]));
+  Rows wrong("3-rfr",
+             R"({"query": "inverse", "pose": {"x": "$x", "y": 0, "phi": 0}, "outputs": {"l": "input[0]"}})");
+  wrong.in = {0, 0.01};
+  EXPECT_NE(wrong.run(2, 1, 1).find("outputs.l"), std::string::npos);
+}
+
+TEST(CAbi, PreparesNothingOfNothing) {
+  sinew_batch* batch = nullptr;
+  char* error = nullptr;
+  EXPECT_EQ(sinew_prepare(nullptr, "{}", 2, &batch, nullptr), SINEW_BAD_INPUT);
+  sinew_robot* robot = opened("3-rfr");
+  for (const std::string_view question : {"", "{", "[]", "null", R"({"query": "forward"})"}) {
+    EXPECT_EQ(sinew_prepare(robot, question.data(), question.size(), &batch, &error), SINEW_BAD_INPUT)
+        << question;
+    EXPECT_EQ(batch, nullptr);
+    ASSERT_NE(error, nullptr);
+    sinew_free(error);
+  }
+  EXPECT_EQ(sinew_prepare(robot, nullptr, 0, &batch, nullptr), SINEW_BAD_INPUT);
+  EXPECT_EQ(sinew_prepare(robot, "{}", 2, nullptr, nullptr), SINEW_BAD_INPUT);
+  sinew_release(robot);
+  EXPECT_EQ(sinew_fields(nullptr), nullptr);
+  EXPECT_EQ(sinew_run(nullptr, 1, nullptr, nullptr, nullptr, 0, nullptr), SINEW_BAD_INPUT);
+  Rows rows("3-rfr",
+            R"({"query": "inverse", "pose": {"x": "$x", "y": 0, "phi": 0}, "outputs": {"l": "inputs[0]"}})");
+  const sinew_input in{nullptr, 8};
+  const sinew_output out{nullptr, 8};
+  EXPECT_EQ(sinew_run(rows.batch, 1, &in, &out, nullptr, 0, &error), SINEW_BAD_INPUT);
+  sinew_free(error);
+  EXPECT_EQ(sinew_run(rows.batch, 0, &in, &out, nullptr, 0, nullptr), SINEW_OK);
+}
+
+TEST(CAbi, StopsRows) {
+  Rows rows("hexapod-torsion",
+            R"({"query": "forward", "inputs": ["$a", 0.5, 0.5, 0.5, 0.5, 0.5], "all": true})");
+  rows.in.assign(64, 0.5);
+  std::atomic<bool> is_done = false;
+  std::thread stopper([&] {
+    while (!is_done) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      sinew_stop(rows.batch);
+    }
+  });
+  rows.run(64, 1, 7);
+  is_done = true;
+  stopper.join();
+  EXPECT_EQ(rows.statuses, std::vector<std::uint8_t>(64, 8));
 }
 
 }  // namespace

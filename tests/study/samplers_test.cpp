@@ -1,12 +1,13 @@
 // The quick samplers say what queries say, one by one.
-#include "study/samplers/sampler.hpp"
+#include "query/batch/sampler.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "study/samplers/answer_path.hpp"
+#include "query/batch/answer_path.hpp"
+#include "study/sweep/plan.hpp"
 #include "study/sweep/prepare.hpp"
 #include "study/sweep/samples.hpp"
 #include "study_support.hpp"
@@ -43,9 +44,9 @@ double difference(const std::string& text, const char* expected_kind) {
   }
   const auto ready = prepare(*study);
   EXPECT_TRUE(ready) << to_string(ready.error());
-  const SamplerKind quick = choose_sampler(*study);
+  const SamplerKind quick = choose_sampler(question_of(*study));
   EXPECT_EQ(quick.name, expected_kind);
-  const Computed one = compute(quick, *study), other = compute(query_sampler(*study), *study);
+  const Computed one = compute(quick, *study), other = compute(query_sampler(question_of(*study)), *study);
   EXPECT_EQ(one.statuses, other.statuses);
   double worst = 0;
   for (std::size_t i = 0; i < one.outputs.size(); ++i) {
@@ -210,7 +211,7 @@ TEST(Samplers, OthersAreAskedQueryByQuery) {
     const auto ready = prepare(*study);
     ASSERT_TRUE(ready) << text << to_string(ready.error());
     EXPECT_EQ(*ready, "") << text;
-    const SamplerKind kind = choose_sampler(*study);
+    const SamplerKind kind = choose_sampler(question_of(*study));
     EXPECT_EQ(kind.name, "query by query") << text;
     const Computed done = compute(kind, *study);
     for (const double value : done.outputs) EXPECT_TRUE(std::isfinite(value)) << text;
@@ -230,7 +231,7 @@ outputs: {x: "pose.position[0]", iterations: iterations}
 )");
     ASSERT_TRUE(study) << to_string(study.error());
     ASSERT_TRUE(prepare(*study));
-    const Computed done = compute(choose_sampler(*study), *study);
+    const Computed done = compute(choose_sampler(question_of(*study)), *study);
     for (std::size_t k = 1; k < 5; ++k) {
       EXPECT_GT(done.outputs[k], done.outputs[k - 1]);
       const double iterations = done.outputs[5 + k];
@@ -258,7 +259,7 @@ TEST(Samplers, APathDoesNotStayOnABranchThatDoesNotHold) {
     auto study = test::study_of(folder, std::string("sinew: 1\nrobot: 3pfs-g2") + snapping + end);
     ASSERT_TRUE(study) << to_string(study.error());
     ASSERT_TRUE(prepare(*study));
-    const Computed done = compute(choose_sampler(*study), *study);
+    const Computed done = compute(choose_sampler(question_of(*study)), *study);
     for (std::size_t k = 0; k < 729; ++k) EXPECT_EQ(name_of(done.statuses[k]), "converged") << k;
   }
 }
@@ -272,7 +273,7 @@ axes: {x: {from: 0, to: 10 mm, count: 2}, l: [-0.1, 0.2, 0.21]}
 )");
   ASSERT_TRUE(study) << to_string(study.error());
   ASSERT_TRUE(prepare(*study));
-  const Computed done = compute(choose_sampler(*study), *study);
+  const Computed done = compute(choose_sampler(question_of(*study)), *study);
   EXPECT_EQ(name_of(done.statuses[0]), "refused");
   EXPECT_EQ(name_of(done.statuses[1]), "converged");
   EXPECT_TRUE(std::isnan(done.outputs[0]));

@@ -105,6 +105,7 @@ struct Study {
   /// @{
   /// Axes and derived values: what `$name` may stand for.
   std::size_t variable_count() const { return axes.size() + derived.size(); }
+  SINEW_API std::vector<std::string> variable_names() const;
   std::size_t column_count() const { return variable_count() + outputs.size(); }
   SINEW_API const std::string& column_name(std::size_t column) const;
   SINEW_API const std::string& column_unit(std::size_t column) const;

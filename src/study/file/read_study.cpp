@@ -8,6 +8,7 @@
 
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
+#include "query/batch/placeholders.hpp"
 #include "sinew/analysis/singularity_map.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
@@ -18,7 +19,6 @@
 #include "study/file/column_values.hpp"
 #include "study/file/read_derived.hpp"
 #include "study/file/read_fits.hpp"
-#include "study/samplers/placeholders.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -214,12 +214,12 @@ class StudyReader {
     if (study_.axes.empty()) return;                // said already
     study_.query = {study_.source, *query.node()};  // errors then name its place
     std::vector<bool> is_used(study_.variable_count(), false);
-    for (const Placeholder& place : placeholders(study_.query.root, study_))
-      if (place.axis)
-        is_used[*place.axis] = true;
+    for (const Placeholder& place : placeholders(study_.query.root, study_.variable_names()))
+      if (place.input)
+        is_used[*place.input] = true;
       else
         query.fail("unknown_axis", fmt::format("${} is no axis; there are {}", place.name,
-                                               fmt::join(variable_names(), ", ")));
+                                               fmt::join(study_.variable_names(), ", ")));
     for (const StudyDerived& derived : study_.derived)  // an axis may stand in one of them alone
       for (const Monomial& monomial : derived.is)
         for (const std::size_t column : monomial.columns) is_used[column] = true;
@@ -232,13 +232,6 @@ class StudyReader {
   std::vector<std::string_view> axis_names() const {
     std::vector<std::string_view> names;
     for (const StudyAxis& axis : study_.axes) names.push_back(axis.name);
-    return names;
-  }
-
-  /// Of axes and derived values.
-  std::vector<std::string_view> variable_names() const {
-    std::vector<std::string_view> names = axis_names();
-    for (const StudyDerived& derived : study_.derived) names.push_back(derived.name);
     return names;
   }
 

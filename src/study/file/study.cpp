@@ -20,6 +20,12 @@ const std::string& Study::column_unit(std::size_t column) const {
   return outputs[column - variable_count()].unit;
 }
 
+std::vector<std::string> Study::variable_names() const {
+  std::vector<std::string> names;
+  for (std::size_t v = 0; v < variable_count(); ++v) names.push_back(column_name(v));
+  return names;
+}
+
 std::optional<std::size_t> Study::find_variable(std::string_view name) const {
   for (std::size_t v = 0; v < variable_count(); ++v)
     if (column_name(v) == name) return v;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "query/batch/sampler.hpp"
 #include "sinew/study/sweep.hpp"
-#include "study/samplers/sampler.hpp"
 
 namespace sinew::inline v1 {
 

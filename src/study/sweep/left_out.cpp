@@ -35,7 +35,7 @@ class Sieve {
     outputs_.resize(study_.outputs.size() * n);
     statuses_.assign(n, converged);
     for (std::size_t a = 0; a < one_.size(); ++a)
-      for (std::size_t k = 0; k < n; ++k) axes_[a * n + k] = block.axis(a, kept_[k]);
+      for (std::size_t k = 0; k < n; ++k) axes_[a * n + k] = block.input(a, kept_[k]);
     sampler_({n, axes_, outputs_, statuses_, block.done, block.stop});
     for (std::size_t k = 0; k < n; ++k) block.statuses[kept_[k]] = statuses_[k];
     for (std::size_t o = 0; o < study_.outputs.size(); ++o)
@@ -46,7 +46,7 @@ class Sieve {
   void choose(const SampleBlock& block) {
     kept_.clear();
     for (std::size_t k = 0; k < block.count; ++k) {
-      for (std::size_t a = 0; a < one_.size(); ++a) one_[a] = block.axis(a, k);
+      for (std::size_t a = 0; a < one_.size(); ++a) one_[a] = block.input(a, k);
       if (!is_left_out(study_, one_)) kept_.push_back(k);
     }
   }

@@ -1,7 +1,8 @@
 /// @file left_out.hpp
 /// Samples with a derived value outside its limits: no sampler sees them.
 #pragma once
-#include "study/samplers/sampler.hpp"
+#include "query/batch/sampler.hpp"
+#include "sinew/study/study.hpp"
 
 namespace sinew::inline v1 {
 

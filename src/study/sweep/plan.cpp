@@ -40,11 +40,17 @@ void write_tree(const Node& node, std::string& text) {
 
 }  // namespace
 
+BatchQuestion question_of(const Study& study) {
+  BatchQuestion question{study.robot_document, study.query, study.variable_names(), {}, study.is_path};
+  for (const StudyOutput& output : study.outputs) question.outputs.push_back(output.path);
+  return question;
+}
+
 SweepPlan::SweepPlan(const Study& study)
     : study_(study),
-      kind_(choose_sampler(study)),
+      kind_(choose_sampler(question_of(study))),
       chunks_(study.samples, study.reductions.empty() ? row_of(study) : study.reduced_samples(),
-              row_of(study), kind_.chunk) {}
+              row_of(study), chunk_size(kind_, study.samples)) {}
 
 std::string hexadecimal(const Digest& digest) {
   std::string text;
@@ -55,9 +61,9 @@ std::string hexadecimal(const Digest& digest) {
 Digest SweepPlan::key() const {
   std::string robot;  // with what --set changes
   write_tree(study_.robot_document.root, robot);
-  return sha256(std::array<std::string, 6>{version(), std::string(instruction_set_in_use()), study_.text,
-                                           robot, study_.list_text,
-                                           fmt::format("{} {}", kind_.name, kind_.chunk)});
+  return sha256(std::array<std::string, 6>{
+      version(), std::string(instruction_set_in_use()), study_.text, robot, study_.list_text,
+      fmt::format("{} {}", kind_.name, chunk_size(kind_, study_.samples))});
 }
 
 ResultLayout SweepPlan::layout(const SweepOptions& options) const {

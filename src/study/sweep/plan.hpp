@@ -1,13 +1,16 @@
 /// @file plan.hpp
 /// Everything of a sweep that its data depend on.
 #pragma once
+#include "query/batch/sampler.hpp"
 #include "sinew/study/sweep.hpp"
 #include "study/results/chunk_log.hpp"
 #include "study/results/result_file.hpp"
-#include "study/samplers/sampler.hpp"
 #include "study/sweep/samples.hpp"
 
 namespace sinew::inline v1 {
+
+/// What a study asks at each of its samples.
+BatchQuestion question_of(const Study& study);
 
 class SweepPlan {
  public:

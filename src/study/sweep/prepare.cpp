@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
+#include "query/batch/answer_path.hpp"
+#include "query/batch/placeholders.hpp"
 #include "query/tree_session.hpp"
-#include "study/samplers/answer_path.hpp"
-#include "study/samplers/placeholders.hpp"
 #include "study/sweep/left_out.hpp"
 #include "study/sweep/samples.hpp"
 
@@ -102,14 +102,14 @@ class Trial {
  private:
   void ask(TreeSession& session) {
     Document query = study_.query;
-    const auto places = placeholders(query.root, study_);
+    const auto places = placeholders(query.root, study_.variable_names());
     const auto begin = std::chrono::steady_clock::now();
     for (const std::size_t sample : chosen()) {
       const bool takes_long = std::chrono::steady_clock::now() - begin > std::chrono::seconds(2);
       if (takes_long && solved_ > 0) break;  // some queries take seconds
       axis_values(study_, {sample, 1}, false, values_);
       for (const Placeholder& place : places)
-        put(*place.node, values_[*place.axis], study_.column_unit(*place.axis));
+        put(*place.node, values_[*place.input], study_.column_unit(*place.input));
       Json answer = session.answer(query);
       if (const auto error = answer.find("error"); error != answer.end()) {
         if (errors_.empty())

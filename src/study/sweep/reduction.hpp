@@ -3,7 +3,8 @@
 #pragma once
 #include <vector>
 
-#include "study/samplers/sampler.hpp"
+#include "query/batch/sampler.hpp"
+#include "sinew/study/study.hpp"
 #include "study/sweep/samples.hpp"
 
 namespace sinew::inline v1 {

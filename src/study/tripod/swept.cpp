@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "query/batch/sampler.hpp"
 #include "sinew/base/assert.hpp"
 #include "sinew/study/result.hpp"
-#include "study/samplers/sampler.hpp"
 
 namespace sinew::inline v1::tripod {
 namespace {

@@ -1,32 +1,33 @@
 /// Samples by queries, one after the other.
 #include <cmath>
 #include <exception>
+#include <memory>
 
+#include "query/batch/answer_path.hpp"
+#include "query/batch/placeholders.hpp"
+#include "query/batch/sampler.hpp"
 #include "query/tree_session.hpp"
 #include "sinew/base/numbers.hpp"
-#include "study/samplers/answer_path.hpp"
-#include "study/samplers/placeholders.hpp"
-#include "study/samplers/sampler.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
 class QuerySampler {
  public:
-  explicit QuerySampler(const Study& study)
-      : study_(study),
-        query_(study.query),
-        places_(placeholders(query_.root, study)) {
-    for (const StudyOutput& output : study.outputs) paths_.emplace_back(output.path);
+  explicit QuerySampler(std::shared_ptr<const BatchQuestion> question)
+      : question_(std::move(question)),
+        query_(question_->query),
+        places_(placeholders(query_.root, question_->inputs)) {
+    for (const std::string& output : question_->outputs) paths_.emplace_back(output);
   }
 
   void operator()(const SampleBlock& block) {
     // anew for each block: what was solved before must not show in the last digits
-    TreeSession session = TreeSession::open(study_.robot_document).value();
+    TreeSession session = TreeSession::open(question_->robot).value();
     session.stop_on(StopToken(*block.stop));
     last_.reset();
     for (std::size_t k = 0; k < block.count && !*block.stop; ++k, ++*block.done) {
-      for (const Placeholder& place : places_) put(*place.node, block.axis(*place.axis, k));
+      for (const Placeholder& place : places_) put(*place.node, block.input(*place.input, k));
       block.statuses[k] = sample(session, block, k);
     }
   }
@@ -36,7 +37,7 @@ class QuerySampler {
     for (std::size_t o = 0; o < paths_.size(); ++o) block.output(o, k) = not_a_number;
     try {
       const bool continues = last_.has_value();
-      Json answer = session.answer(query_, study_.is_path ? &last_ : nullptr);
+      Json answer = session.answer(query_, question_->is_path ? &last_ : nullptr);
       if (continues && !last_) answer = session.answer(query_, &last_);  // lost on the way: anew
       if (continues && last_ && status_of(answer) == unstable) settle(session, answer);
       if (answer.contains("error")) return refused;
@@ -62,12 +63,14 @@ class QuerySampler {
     const auto found = answer.find("status");
     if (found == answer.end() || !found->is_string()) return converged;  // a question that is always answered
     const auto& text = found->get_ref<const std::string&>();
+    if (text == to_string(Status::stopped)) return not_computed;
+    if (text == to_string(Status::bad_input) || text == to_string(Status::unsupported)) return refused;
     for (SampleStatus s = 0; s < sample_statuses; ++s)
       if (name_of(s) == text) return s;
     return failed_inside;
   }
 
-  const Study& study_;
+  std::shared_ptr<const BatchQuestion> question_;
   Document query_;
   std::vector<Placeholder> places_;
   std::vector<AnswerPath> paths_;
@@ -76,10 +79,11 @@ class QuerySampler {
 
 }  // namespace
 
-SamplerKind query_sampler(const Study& study) {
-  return {.name = "query by query", .chunk = chunk_size(study, 16, 256), .make = [&study]() -> Sampler {
+SamplerKind query_sampler(const BatchQuestion& question) {
+  const auto shared = std::make_shared<const BatchQuestion>(question);
+  return {.name = "query by query", .chunks = {16, 256}, .make = [shared]() -> Sampler {
             // std::function copies what it holds
-            return [sampler = std::make_shared<QuerySampler>(study)](const SampleBlock& block) {
+            return [sampler = std::make_shared<QuerySampler>(shared)](const SampleBlock& block) {
               (*sampler)(block);
             };
           }};

@@ -1,14 +1,14 @@
-/// Inverse kinematics and velocity analysis of poses in lanes, for studies that vary the pose of a robot
+/// Inverse kinematics and velocity analysis of poses in lanes, for questions that vary the pose of a robot
 /// whose legs close in closed form.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <memory>
 
+#include "query/batch/query_entries.hpp"
 #include "sinew/analysis/velocity_batch.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/robot_file.hpp"
-#include "study/samplers/query_entries.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -32,7 +32,7 @@ struct Output {
   std::size_t row = 0;  ///< of several a pose: the leg, the coordinate
 };
 
-struct PoseStudy {
+struct AskedPoses {
   bool is_inverse = false, is_spatial = false;
   std::vector<QueryEntry> pose;  ///< x, y, φ; position and quaternion; z, e₁, e₂
   std::optional<OperationMode> independent;
@@ -50,7 +50,7 @@ std::optional<std::size_t> index_in(std::string_view path, std::string_view befo
   return error == std::errc() && end == path.data() + path.size() ? std::optional(index) : std::nullopt;
 }
 
-std::optional<Output> output_of(std::string_view path, const PoseStudy& asked, std::size_t legs) {
+std::optional<Output> output_of(std::string_view path, const AskedPoses& asked, std::size_t legs) {
   if (asked.independent) {
     const auto position = index_in(path, "pose.position[", "]"),
                quaternion = index_in(path, "pose.quaternion[", "]");
@@ -77,34 +77,34 @@ std::optional<Output> output_of(std::string_view path, const PoseStudy& asked, s
 }
 
 /// Numbers under these keys.
-bool read_members(const Node& map, std::initializer_list<const char*> names, const Study& study,
-                  PoseStudy& asked) {
+bool read_members(const Node& map, std::initializer_list<const char*> names, const BatchQuestion& question,
+                  AskedPoses& asked) {
   for (const char* name : names) {
     const Node* value = map.find(name);
-    const auto entry = value ? query_entry(*value, study) : std::nullopt;
+    const auto entry = value ? query_entry(*value, question) : std::nullopt;
     if (!entry) return false;
     asked.pose.push_back(*entry);
   }
   return true;
 }
 
-bool read_independent(const Node& place, const Study& study, PoseStudy& asked) {
+bool read_independent(const Node& place, const BatchQuestion& question, AskedPoses& asked) {
   if (place.kind != Node::Kind::map) return false;
   const Node* mode = place.find("mode");
   if (mode && mode->text != "tilt" && mode->text != "half_turn") return false;
   asked.independent = mode && mode->text == "half_turn" ? OperationMode::half_turn : OperationMode::tilt;
-  return place.members.size() == (mode ? 4U : 3U) && read_members(place, {"z", "e1", "e2"}, study, asked);
+  return place.members.size() == (mode ? 4U : 3U) && read_members(place, {"z", "e1", "e2"}, question, asked);
 }
 
 /// ±1 of each leg.
-bool read_signs(const Node& list, const Study& study, std::vector<int>& signs) {
-  const auto found = constant_entries(list, study);
+bool read_signs(const Node& list, const BatchQuestion& question, std::vector<int>& signs) {
+  const auto found = constant_entries(list, question);
   if (!found) return false;
   for (const double sign : *found) signs.push_back(sign < 0 ? -1 : 1);
   return true;
 }
 
-bool read_pose(const Node& pose, const Study& study, PoseStudy& asked) {
+bool read_pose(const Node& pose, const BatchQuestion& question, AskedPoses& asked) {
   const auto add = [&](const std::optional<std::vector<QueryEntry>>& entries, std::size_t size) {
     if (!entries || entries->size() != size) return false;
     asked.pose.insert(asked.pose.end(), entries->begin(), entries->end());
@@ -112,41 +112,42 @@ bool read_pose(const Node& pose, const Study& study, PoseStudy& asked) {
   };
   if (pose.kind != Node::Kind::map) return false;
   if (!asked.is_spatial)
-    return pose.members.size() == 3 && read_members(pose, {"x", "y", "phi"}, study, asked);
+    return pose.members.size() == 3 && read_members(pose, {"x", "y", "phi"}, question, asked);
   const Node *position = pose.find("position"), *quaternion = pose.find("quaternion");
-  if (pose.members.size() != (quaternion ? 2U : 1U) || !position || !add(query_entries(*position, study), 3))
+  if (pose.members.size() != (quaternion ? 2U : 1U) || !position ||
+      !add(query_entries(*position, question), 3))
     return false;
-  return quaternion ? add(query_entries(*quaternion, study), 4)
+  return quaternion ? add(query_entries(*quaternion, question), 4)
                     : add(std::vector<QueryEntry>{{1}, {0}, {0}, {0}}, 4);
 }
 
-std::optional<PoseStudy> pose_study(const Study& study, const Robot& robot) {
-  PoseStudy asked{.is_spatial = std::holds_alternative<SpatialPose>(home(robot)),
-                  .pose = {},
-                  .independent = {},
-                  .bending = {},
-                  .elbow = {},
-                  .outputs = {}};
+std::optional<AskedPoses> asked_of_poses(const BatchQuestion& question, const Robot& robot) {
+  AskedPoses asked{.is_spatial = std::holds_alternative<SpatialPose>(home(robot)),
+                   .pose = {},
+                   .independent = {},
+                   .bending = {},
+                   .elbow = {},
+                   .outputs = {}};
   const auto legs = static_cast<std::size_t>(leg_count(robot));
-  for (const Member& field : study.query.root.members) {
+  for (const Member& field : question.query.root.members) {
     if (field.key == "query") {
       asked.is_inverse = field.value.text == "inverse";
       if (!asked.is_inverse && field.value.text != "velocity") return {};
     } else if (field.key == "pose") {
-      if (!read_pose(field.value, study, asked)) return {};
+      if (!read_pose(field.value, question, asked)) return {};
     } else if (field.key == "independent") {
-      if (!read_independent(field.value, study, asked)) return {};
+      if (!read_independent(field.value, question, asked)) return {};
     } else if (field.key == "bending") {
-      if (!read_signs(field.value, study, asked.bending)) return {};
+      if (!read_signs(field.value, question, asked.bending)) return {};
     } else if (field.key == "elbow") {
-      if (!read_signs(field.value, study, asked.elbow)) return {};
+      if (!read_signs(field.value, question, asked.elbow)) return {};
     } else {
       return {};
     }
   }
   if (asked.pose.empty()) return {};
-  for (const StudyOutput& output : study.outputs) {
-    const auto found = output_of(output.path, asked, legs);
+  for (const std::string& output : question.outputs) {
+    const auto found = output_of(output, asked, legs);
     if (!found) return {};
     asked.outputs.push_back(*found);
   }
@@ -155,7 +156,7 @@ std::optional<PoseStudy> pose_study(const Study& study, const Robot& robot) {
 
 class PoseSampler {
  public:
-  PoseSampler(const Robot& robot, const PoseStudy& asked) : robot_(robot), asked_(asked), work_(robot) {}
+  PoseSampler(const Robot& robot, const AskedPoses& asked) : robot_(robot), asked_(asked), work_(robot) {}
 
   void operator()(const SampleBlock& block) {
     place(block);
@@ -262,7 +263,7 @@ class PoseSampler {
   }
 
   const Robot& robot_;
-  const PoseStudy& asked_;
+  const AskedPoses& asked_;
   Workspace work_;
   std::vector<double> poses_, squares_;  ///< of the quaternions given
   std::vector<Status> statuses_;
@@ -272,17 +273,17 @@ class PoseSampler {
 
 }  // namespace
 
-SamplerKind pose_sampler(const Study& study) {
-  auto robot = read_robot(study.robot_document);
+SamplerKind pose_sampler(const BatchQuestion& question) {
+  auto robot = read_robot(question.robot);
   if (!robot || !has_velocity_batch(*robot)) return {};
-  auto asked = pose_study(study, *robot);
+  auto asked = asked_of_poses(question, *robot);
   if (!asked) return {};
   struct Shared {
     Robot robot;
-    PoseStudy asked;
+    AskedPoses asked;
   };
   const auto shared = std::make_shared<const Shared>(Shared{std::move(*robot), std::move(*asked)});
-  return {.name = "poses in lanes", .chunk = chunk_size(study, 2048, 16384), .make = [shared]() -> Sampler {
+  return {.name = "poses in lanes", .chunks = {2048, 16384}, .make = [shared]() -> Sampler {
             return [shared, sampler = std::make_shared<PoseSampler>(shared->robot, shared->asked)](
                        const SampleBlock& block) { (*sampler)(block); };
           }};

@@ -8,9 +8,11 @@
 #include <variant>
 #include <vector>
 
+#include "sinew/base/export.hpp"
+
 namespace sinew::inline v1 {
 
-class AnswerPath {
+class SINEW_API AnswerPath {
  public:
   using Json = nlohmann::ordered_json;
 
@@ -28,6 +30,6 @@ class AnswerPath {
 };
 
 /// The SI unit of a number of an answer, as far as its place tells; empty for plain numbers.
-std::string_view unit_of_answer(std::string_view path);
+SINEW_API std::string_view unit_of_answer(std::string_view path);
 
 }  // namespace sinew::inline v1

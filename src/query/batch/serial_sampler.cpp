@@ -1,5 +1,5 @@
-/// Configurations of serial robots, for studies that vary them: tendon changes in lanes, ends of sections one
-/// by one.
+/// Configurations of serial robots, for questions that vary them: tendon changes in lanes, ends of sections
+/// one by one.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,9 +7,9 @@
 #include <memory>
 #include <variant>
 
+#include "query/batch/query_entries.hpp"
 #include "query/serial.hpp"
 #include "sinew/io/serial_file.hpp"
-#include "study/samplers/query_entries.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -20,7 +20,7 @@ struct EndNumber {
 };
 using SerialOutput = std::variant<std::size_t, EndNumber>;  ///< or of the change of a tendon, among all
 
-struct SerialStudy {
+struct AskedSections {
   SerialRobot robot;
   std::vector<std::array<QueryEntry, 2>> configuration;  ///< of all sections; those not given are straight
   kernel::Model model = kernel::Model::exact;
@@ -68,10 +68,10 @@ std::optional<EndNumber> end_number_of(const std::string& path, const SerialRobo
   return {};
 }
 
-bool read_configuration(const Node& list, const Study& study, SerialStudy& asked) {
+bool read_configuration(const Node& list, const BatchQuestion& question, AskedSections& asked) {
   if (list.kind != Node::Kind::list || list.items.size() > asked.robot.sections.size()) return false;
   for (const Node& section : list.items) {
-    const auto entries = query_entries(section, study);
+    const auto entries = query_entries(section, question);
     if (!entries || entries->size() != 2) return false;
     asked.configuration.push_back({(*entries)[0], (*entries)[1]});
   }
@@ -79,26 +79,26 @@ bool read_configuration(const Node& list, const Study& study, SerialStudy& asked
   return true;
 }
 
-std::optional<SerialStudy> serial_study(const Study& study) {
-  if (!is_serial(study.robot_document)) return {};
-  auto robot = read_serial_robot(study.robot_document);
+std::optional<AskedSections> asked_of_sections(const BatchQuestion& question) {
+  if (!is_serial(question.robot)) return {};
+  auto robot = read_serial_robot(question.robot);
   if (!robot || std::ranges::any_of(robot->sections, &Section::is_extensible)) return {};
-  SerialStudy asked{.robot = std::move(*robot), .configuration = {}, .outputs = {}};
-  for (const Member& field : study.query.root.members) {
+  AskedSections asked{.robot = std::move(*robot), .configuration = {}, .outputs = {}};
+  for (const Member& field : question.query.root.members) {
     if (field.key == "query") {
       if (field.value.text != "forward") return {};
     } else if (field.key == "configuration") {
-      if (!read_configuration(field.value, study, asked)) return {};
+      if (!read_configuration(field.value, question, asked)) return {};
     } else if (field.key == "model") {
       asked.model = field.value.text == "lsk" ? kernel::Model::linear : kernel::Model::exact;
     } else {
       return {};
     }
   }
-  for (const StudyOutput& output : study.outputs) {
-    if (const auto tendon = tendon_of(output.path, asked.robot))
+  for (const std::string& output : question.outputs) {
+    if (const auto tendon = tendon_of(output, asked.robot))
       asked.outputs.emplace_back(*tendon);
-    else if (const auto end = end_number_of(output.path, asked.robot))
+    else if (const auto end = end_number_of(output, asked.robot))
       asked.outputs.emplace_back(*end);
     else
       return {};
@@ -108,7 +108,7 @@ std::optional<SerialStudy> serial_study(const Study& study) {
 
 class SerialSampler {
  public:
-  explicit SerialSampler(std::shared_ptr<const SerialStudy> asked)
+  explicit SerialSampler(std::shared_ptr<const AskedSections> asked)
       : asked_(std::move(asked)),
         has_ends_(asked_->has_ends()),
         work_(asked_->robot) {}
@@ -149,7 +149,7 @@ class SerialSampler {
     }
   }
 
-  std::shared_ptr<const SerialStudy> asked_;
+  std::shared_ptr<const AskedSections> asked_;
   bool has_ends_;
   SerialWorkspace work_;
   std::vector<double> bends_, changes_;
@@ -157,12 +157,12 @@ class SerialSampler {
 
 }  // namespace
 
-SamplerKind serial_sampler(const Study& study) {
-  auto asked = serial_study(study);
+SamplerKind serial_sampler(const BatchQuestion& question) {
+  auto asked = asked_of_sections(question);
   if (!asked) return {};
-  const auto shared = std::make_shared<const SerialStudy>(std::move(*asked));
+  const auto shared = std::make_shared<const AskedSections>(std::move(*asked));
   return {.name = shared->has_ends() ? "ends of sections" : "tendons in lanes",
-          .chunk = chunk_size(study, 2048, 16384),
+          .chunks = {2048, 16384},
           .make = [shared]() -> Sampler {
             return [sampler = std::make_shared<SerialSampler>(shared)](const SampleBlock& block) {
               (*sampler)(block);

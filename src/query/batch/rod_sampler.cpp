@@ -1,12 +1,12 @@
-/// Forward kinematics of robots on rods, for studies that vary the inputs and ask for the pose.
+/// Forward kinematics of robots on rods, for questions that vary the inputs and ask for the pose.
 #include <algorithm>
 #include <array>
 #include <memory>
 
+#include "query/batch/query_entries.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
-#include "study/samplers/query_entries.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -15,33 +15,33 @@ constexpr std::array<std::string_view, 7> pose_paths{
     "pose.position[0]",   "pose.position[1]",   "pose.position[2]",  "pose.quaternion[0]",
     "pose.quaternion[1]", "pose.quaternion[2]", "pose.quaternion[3]"};
 
-/// What such a study asks, if it is one.
-struct RodStudy {
+/// What such a question asks, if it is one.
+struct AskedRods {
   std::vector<QueryEntry> inputs;
   SpatialWrench wrench = SpatialWrench::Zero();
   std::vector<std::size_t> outputs;  ///< which of the pose's numbers
 };
 
-std::optional<RodStudy> rod_study(const Study& study) {
-  RodStudy asked;
-  if (!study.is_path) return {};  // each from home: query by query
-  for (const Member& field : study.query.root.members) {
+std::optional<AskedRods> asked_of_rods(const BatchQuestion& question) {
+  AskedRods asked;
+  if (!question.is_path) return {};  // each from home: query by query
+  for (const Member& field : question.query.root.members) {
     if (field.key == "query") {
       if (field.value.text != "forward") return {};
     } else if (field.key == "inputs") {
-      auto entries = query_entries(field.value, study);
+      auto entries = query_entries(field.value, question);
       if (!entries) return {};
       asked.inputs = std::move(*entries);
     } else if (field.key == "wrench") {
-      const auto wrench = constant_entries(field.value, study);
+      const auto wrench = constant_entries(field.value, question);
       if (!wrench || wrench->size() != 6) return {};
       std::copy(wrench->begin(), wrench->end(), asked.wrench.begin());
     } else {
       return {};
     }
   }
-  for (const StudyOutput& output : study.outputs) {
-    const auto path = std::ranges::find(pose_paths, output.path);
+  for (const std::string& output : question.outputs) {
+    const auto path = std::ranges::find(pose_paths, output);
     if (path == pose_paths.end()) return {};
     asked.outputs.push_back(static_cast<std::size_t>(path - pose_paths.begin()));
   }
@@ -50,7 +50,7 @@ std::optional<RodStudy> rod_study(const Study& study) {
 
 class RodSampler {
  public:
-  RodSampler(const Robot& robot, const RodStudy& asked) : robot_(robot), asked_(asked) {}
+  RodSampler(const Robot& robot, const AskedRods& asked) : robot_(robot), asked_(asked) {}
 
   void operator()(const SampleBlock& block) {
     const std::size_t inputs = asked_.inputs.size();
@@ -79,7 +79,7 @@ class RodSampler {
   }
 
   const Robot& robot_;
-  const RodStudy& asked_;
+  const AskedRods& asked_;
   std::vector<double> rows_;
   std::vector<SpatialPose> poses_;
   std::vector<Status> statuses_;
@@ -87,19 +87,19 @@ class RodSampler {
 
 }  // namespace
 
-SamplerKind rod_sampler(const Study& study) {
-  const auto asked = rod_study(study);
+SamplerKind rod_sampler(const BatchQuestion& question) {
+  const auto asked = asked_of_rods(question);
   if (!asked) return {};
-  auto robot = read_robot(study.robot_document);
+  auto robot = read_robot(question.robot);
   if (!robot || !has_equilibrium_batch(*robot) ||
       static_cast<std::size_t>(input_count(*robot)) != asked->inputs.size())
     return {};
   struct Shared {
     Robot robot;
-    RodStudy asked;
+    AskedRods asked;
   };
   const auto shared = std::make_shared<const Shared>(Shared{std::move(*robot), *asked});
-  return {.name = "rods in lanes", .chunk = chunk_size(study, 1024, 8192), .make = [shared]() -> Sampler {
+  return {.name = "rods in lanes", .chunks = {1024, 8192}, .make = [shared]() -> Sampler {
             return [shared, sampler = std::make_shared<RodSampler>(shared->robot, shared->asked)](
                        const SampleBlock& block) { (*sampler)(block); };
           }};

@@ -1,4 +1,4 @@
-#include "study/samplers/answer_path.hpp"
+#include "query/batch/answer_path.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,76 @@
+/// @file batch.hpp
+/// One question put at many rows of numbers, on as many threads as there are: what studies, the C interface
+/// and every binding put their columns through. The fields of questions are in docs/protocol.md.
+#pragma once
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "sinew/base/error.hpp"
+#include "sinew/io/node.hpp"
+
+namespace sinew::inline v1 {
+
+/// Constant once prepared: any number of threads may run it.
+class SINEW_API Batch {
+ public:
+  struct Column {
+    std::string name, unit;  ///< SI; empty for a plain number
+  };
+  /// A column as it lies in memory, its numbers `stride` bytes apart.
+  template <class Number>
+  struct Strided {
+    Number* data = nullptr;
+    std::ptrdiff_t stride = sizeof(double);
+
+    Number& operator[](std::size_t row) const {
+      using Byte = std::conditional_t<std::is_const_v<Number>, const char, char>;
+      return *reinterpret_cast<Number*>(reinterpret_cast<Byte*>(data) +
+                                        static_cast<std::ptrdiff_t>(row) * stride);
+    }
+  };
+
+  /// @param robot a robot file's document
+  /// @param question a query in which texts `$name` stand where the numbers of a column go, and which may
+  ///     have `outputs: {name: place in the answer}` (`pose.position[2]`, `type_1.count`), left out the usual
+  ///     ones of the question, and `path: continue` (each row begins where the one before ended) or `anew`,
+  ///     the default
+  /// Errors: those of robot files; `no_inputs`, and what is wrong with the fields above.
+  static Expected<Batch> prepare(const Document& robot, const Document& question);
+
+  std::span<const Column> inputs() const;   ///< in the order in which they stand in the question
+  std::span<const Column> outputs() const;  ///< in the order of the question
+  /// How rows are computed: `rods in lanes`, `poses in lanes`, `query by query`, ...
+  std::string_view method() const;
+
+  struct Options {
+    int threads = 0;  ///< 0: as many as there are cores
+    /// Set by another thread: rows not computed then have the status `stopped`.
+    const std::atomic<bool>* stop = nullptr;
+  };
+  static constexpr std::uint8_t failed =
+      255;  ///< status of a row at which the library failed; please report it
+  /// Where a row has no value of a column it is NaN. Statuses are those of Report, in their numbers; of a row
+  /// whose numbers the question does not take `bad_input`, see `answer`. Rows are cut into chunks by their
+  /// number alone: the same bytes for any number of threads. Allocates a chunk's memory for each thread;
+  /// throws what that throws. Nothing happens where there are more or fewer columns than those above.
+  /// @param statuses one a row, or none
+  void run(std::size_t rows, std::span<const Strided<const double>> inputs,
+           std::span<const Strided<double>> outputs, std::span<std::uint8_t> statuses,
+           const Options& options) const;
+
+  /// The answer to one row by itself, in JSON: what is wrong with it, and all that is no column.
+  std::string answer(std::span<const double> inputs) const;
+
+ private:
+  struct State;
+  explicit Batch(std::shared_ptr<const State> state);
+  std::shared_ptr<const State> state_;
+};
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,20 @@
+/// @file batch_question.hpp
+/// One question put at many rows.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "sinew/io/node.hpp"
+
+namespace sinew::inline v1 {
+
+/// `$name` stands in the query where the numbers of a column go.
+struct BatchQuestion {
+  Document robot;  ///< of a robot file
+  Document query;
+  std::vector<std::string> inputs;   ///< names of the columns that go in
+  std::vector<std::string> outputs;  ///< places in the answers, see AnswerPath
+  bool is_path = true;               ///< each row begins where the one before ended
+};
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,18 @@
+#include <algorithm>
+
+#include "query/batch/sampler.hpp"
+
+namespace sinew::inline v1 {
+
+std::size_t chunk_size(const SamplerKind& kind, std::size_t samples) {
+  constexpr std::size_t chunks = 256;  // to share, to show progress by, and to lose one of
+  return std::clamp(samples / chunks, kind.chunks.least, kind.chunks.most);
+}
+
+SamplerKind choose_sampler(const BatchQuestion& question) {
+  for (const auto& quick : {rod_sampler, pose_sampler, serial_sampler})
+    if (SamplerKind kind = quick(question); kind.make) return kind;
+  return query_sampler(question);
+}
+
+}  // namespace sinew::inline v1
