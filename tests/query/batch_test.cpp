@@ -203,7 +203,13 @@ TEST(Batch, OfNoRowsOrOfOtherColumnsDoesNothing) {
   batch.run(0, {}, {}, {}, {});
   std::vector<std::uint8_t> statuses(3, 99);
   batch.run(3, {}, {}, statuses, {});
+  const double x[] = {0, 0, 0};
+  double found[9] = {-1};
+  const Batch::Strided<const double> in{x};
+  const std::vector<Batch::Strided<double>> out{{found}, {found + 3}, {found + 6}};
+  batch.run(2, {&in, 1}, out, statuses, {});  // statuses of three rows
   EXPECT_EQ(statuses, std::vector<std::uint8_t>(3, 99));
+  EXPECT_EQ(found[0], -1);
 }
 
 }  // namespace batch_test

@@ -58,7 +58,8 @@ class SINEW_API Batch {
   /// Where a row has no value of a column it is NaN. Statuses are those of Report, in their numbers; of a row
   /// whose numbers the question does not take `bad_input`, see `answer`. Rows are cut into chunks by their
   /// number alone: the same bytes for any number of threads. Allocates a chunk's memory for each thread;
-  /// throws what that throws. Nothing happens where there are more or fewer columns than those above.
+  /// throws what that throws. Nothing happens where there are more or fewer columns than those above, or
+  /// statuses than rows.
   /// @param statuses one a row, or none
   void run(std::size_t rows, std::span<const Strided<const double>> inputs,
            std::span<const Strided<double>> outputs, std::span<std::uint8_t> statuses,

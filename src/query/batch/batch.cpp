@@ -146,7 +146,9 @@ std::string_view Batch::method() const { return state_->kind.name; }
 void Batch::run(std::size_t rows, std::span<const Strided<const double>> inputs,
                 std::span<const Strided<double>> outputs, std::span<std::uint8_t> statuses,
                 const Options& options) const {
-  if (inputs.size() != state_->inputs.size() || outputs.size() != state_->outputs.size() || rows == 0) return;
+  if (inputs.size() != state_->inputs.size() || outputs.size() != state_->outputs.size() ||
+      (!statuses.empty() && statuses.size() != rows) || rows == 0)
+    return;
   const std::size_t size = chunk_size(state_->kind, rows), chunks = (rows + size - 1) / size;
   const std::atomic<bool> never{false};
   const std::atomic<bool>& stop = options.stop ? *options.stop : never;
