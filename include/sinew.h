@@ -6,10 +6,14 @@
  *
  *     sinew_robot* robot;
  *     char* error = NULL;
- *     if (sinew_open("3pfs-g2", 7, SINEW_FILE, &robot, &error) != SINEW_OK) { puts(error); sinew_free(error);
- * return 1; } sinew_session* session = sinew_session_new(robot); const char* question = "{\"query\":
- * \"forward\", \"inputs\": [0.44, 0.42, 0.41]}"; char* answer = sinew_ask(session, question,
- * strlen(question), NULL); puts(answer); sinew_free(answer); sinew_release(session); sinew_release(robot);
+ *     if (sinew_open("3pfs-g2", 7, SINEW_FILE, &robot, &error) != SINEW_OK) { puts(error); return 1; }
+ *     sinew_session* session = sinew_session_new(robot);
+ *     const char* question = "{\"query\": \"forward\", \"inputs\": [0.44, 0.42, 0.41]}";
+ *     char* answer = sinew_ask(session, question, strlen(question), NULL);
+ *     puts(answer);
+ *     sinew_free(answer);
+ *     sinew_release(session);
+ *     sinew_release(robot);
  *
  * Nothing throws. Texts are UTF-8, of `size` bytes where one is given to sinew, ended by 0 where sinew gives
  * one; those belong to the caller and go back by sinew_free. NULL in the place of an object or a text is
@@ -70,18 +74,19 @@ SINEW_C_API char* sinew_ask(sinew_session* session, const char* question, size_t
  * with "outputs": {"name": "place in the answer"} (left out: the usual ones), and "path": "continue" or
  * "anew" (the default).
  *
- *     {"query": "forward", "inputs": ["$L1", "$L2", "$L3"], "outputs": {"z": "pose.position[2]"}, "path":
- * "continue"}
+ *     {"query": "forward", "inputs": ["$L1", "$L2", "$L3"], "outputs": {"z": "pose.position[2]"},
+ *      "path": "continue"}
  *
  * Where that fails *batch is NULL and *error says what is wrong. A batch may be run by several threads at
  * once. */
 SINEW_C_API int32_t sinew_prepare(const sinew_robot* robot, const char* question, size_t size,
                                   sinew_batch** batch, char** error);
 
-/* The columns that go in and come out, in their order, in JSON: {"inputs": [{"name": "L1", "unit": "m"},
- * ...], "outputs":
- * [...], "method": "rods in lanes"}. Units are SI, "" for plain numbers. NULL where there is no memory for
- * it. */
+/* The columns that go in and come out, in their order, in JSON:
+ *
+ *     {"inputs": [{"name": "L1", "unit": "m"}, ...], "outputs": [...], "method": "rods in lanes"}
+ *
+ * Units are SI, "" for plain numbers. NULL where there is no memory for it. */
 SINEW_C_API char* sinew_fields(const sinew_batch* batch);
 
 /* A column as it lies in memory: its first number, and how many bytes further the next one is. */

@@ -85,11 +85,30 @@ void singular_values_3x3(const MatrixView& a_, std::span<double> out) {
   out[2] = two > 0 ? std::min(std::abs(det.high) / two * scale, out[1]) : 0.0;
 }
 
+/// L of A = L Q, Q of orthonormal rows: it has A's singular values in as many columns as rows.
+Small left_factor(const MatrixView& a) {
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = a;
+  Small left = Small::Zero(a.rows(), a.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    for (Eigen::Index k = 0; k < i; ++k) {
+      left(i, k) = rows.row(i).dot(rows.row(k));
+      rows.row(i) -= left(i, k) * rows.row(k);
+    }
+    left(i, i) = rows.row(i).norm();
+    if (left(i, i) > 0) rows.row(i) /= left(i, i);
+  }
+  return left;
+}
+
 }  // namespace
 
 void singular_values(const MatrixView& a, std::span<double> out) {
   SINEW_EXPECTS(static_cast<Eigen::Index>(out.size()) >= std::min(a.rows(), a.cols()));
   const Eigen::Index count = std::min(a.rows(), a.cols());
+  if (a.rows() > 0 && a.rows() <= most && a.cols() > most && a.allFinite()) {
+    const Small left = left_factor(a);
+    return singular_values(MatrixView(left.data(), left.rows(), left.cols()), out);
+  }
   if (!fits(a) || !a.allFinite()) return void(std::fill_n(out.begin(), count, not_a_number));
   if (a.rows() == 3 && a.cols() == 3) return singular_values_3x3(a, out);
   const Eigen::JacobiSVD<Small> svd(a);

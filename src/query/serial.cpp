@@ -11,7 +11,6 @@
 
 #include "io/quantity.hpp"
 #include "sinew/analysis/serial_shape.hpp"
-#include "sinew/base/limits.hpp"
 #include "sinew/kinematics/resolved_rate.hpp"
 
 namespace sinew::inline v1 {
@@ -228,26 +227,12 @@ ByConfiguration by_configuration(const SerialContext& context, std::span<const B
   return by;
 }
 
-/// L of A = L Q, Q of orthonormal rows: it has A's singular values in as many columns as rows.
-Rows without_right_factor(Rows rows) {
-  Rows L = Rows::Zero(rows.rows(), rows.rows());
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    for (Eigen::Index k = 0; k < i; ++k) {
-      L(i, k) = rows.row(i).dot(rows.row(k));
-      rows.row(i) -= L(i, k) * rows.row(k);
-    }
-    L(i, i) = rows.row(i).norm();
-    if (L(i, i) > 0) rows.row(i) /= L(i, i);
-  }
-  return L;
-}
-
 /// The largest singular value, and it over the smallest.
 std::pair<double, double> largest_and_ratio(const Rows& matrix) {
-  const Rows fits = matrix.cols() > max_rows ? without_right_factor(matrix) : matrix;
   std::array<double, 6> sigma{};
-  const auto values = std::span(sigma).first(static_cast<std::size_t>(std::min(fits.rows(), fits.cols())));
-  singular_values(MatrixView(fits.data(), fits.rows(), fits.cols()), values);
+  const auto values =
+      std::span(sigma).first(static_cast<std::size_t>(std::min(matrix.rows(), matrix.cols())));
+  singular_values(MatrixView(matrix.data(), matrix.rows(), matrix.cols()), values);
   return {values.front(), values.front() / values.back()};
 }
 

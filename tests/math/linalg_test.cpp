@@ -115,6 +115,27 @@ TEST(Linalg, SingularValues3x3OfDegenerateMatrices) {
   EXPECT_TRUE(std::isnan(s[0]));
 }
 
+/// More columns than are decomposed: the values are those of the matrix between orthogonal factors.
+RC_GTEST_PROP(Linalg, SingularValuesOfWideMatrices, (std::uint32_t seed)) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const auto any = [&](Eigen::Index rows, Eigen::Index columns) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); }));
+  };
+  for (const Eigen::Index rows : {3, 6}) {
+    const Eigen::MatrixXd left = any(rows, rows).householderQr().householderQ(),
+                          right = any(40, 40).householderQr().householderQ();
+    Eigen::VectorXd wanted(rows);
+    for (Eigen::Index k = 0; k < rows; ++k) wanted[k] = std::pow(10.0, -static_cast<double>(k));
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> matrix =
+        left * wanted.asDiagonal() * right.topRows(rows);
+    std::vector<double> found(static_cast<std::size_t>(rows));
+    singular_values(MatrixView(matrix.data(), rows, 40), found);
+    for (Eigen::Index k = 0; k < rows; ++k)
+      RC_ASSERT(std::abs(found[static_cast<std::size_t>(k)] - wanted[k]) < 1e-14);
+  }
+}
+
 TEST(Linalg, RankCountsAgainstTheLargest) {
   EXPECT_EQ(rank(std::array{1e-20, 1e-21, 1e-40}), 2);
   EXPECT_EQ(rank(std::array{0.0, 0.0}), 0);

@@ -30,7 +30,8 @@ struct Svd {
 };
 
 /// min(rows, columns) singular values into `out`, descending. Those of a 3×3 matrix each to 1e-13 of itself,
-/// however ill-conditioned the matrix; others to a few eps of the largest.
+/// however ill-conditioned the matrix; others to a few eps of the largest. Allocates for more columns than
+/// max_rows.
 SINEW_API void singular_values(const MatrixView& a, std::span<double> out);
 
 SINEW_API Svd svd(const MatrixView& a);

@@ -1,6 +1,6 @@
 /// @file batch.hpp
-/// One question put at many rows of numbers, on as many threads as there are: what studies, the C interface
-/// and every binding put their columns through. The fields of questions are in docs/protocol.md.
+/// One question put at many rows of numbers, on as many threads as there are: what the C interface
+/// puts its columns through; studies compute their samples alike. The fields of questions: docs/protocol.md.
 #pragma once
 #include <atomic>
 #include <cstddef>
