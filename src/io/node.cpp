@@ -154,10 +154,19 @@ const Node* at(const Node& root, std::string_view path) {
 Node* at(Node& root, std::string_view path) { return const_cast<Node*>(at(std::as_const(root), path)); }
 
 std::string joined(std::string_view path, std::string_view key) {
-  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+  std::string whole;
+  whole.reserve(path.size() + 1 + key.size());
+  whole = path;
+  if (!path.empty()) whole += '.';
+  return whole += key;
 }
 
-std::string joined(std::string_view path, std::size_t index) { return fmt::format("{}[{}]", path, index); }
+std::string joined(std::string_view path, std::size_t index) {
+  std::string whole(path);
+  whole += '[';
+  whole += std::to_string(index);
+  return whole += ']';
+}
 
 std::string place(const Document& document, int line, int column) {
   return line > 0 ? fmt::format("{}:{}:{}", document.source, line, column) : document.source;
@@ -262,6 +271,11 @@ bool NodeBuilder::open(Node::Kind list_or_map, int line, int column) {
   level.node.kind = list_or_map;
   level.node.line = line;
   level.node.column = column;
+  constexpr std::size_t usual = 4;  // of queries: a list of coordinates, a map of few fields
+  if (list_or_map == Node::Kind::list)
+    level.node.items.reserve(usual);
+  else
+    level.node.members.reserve(usual);
   open_.push_back(std::move(level));
   return true;
 }
@@ -274,12 +288,11 @@ bool NodeBuilder::close() {
 
 bool NodeBuilder::key(std::string_view key, int line, int column) {
   Level& level = open_.back();
-  const auto [first, is_new] = level.lines.try_emplace(std::string(key), line);
-  if (!is_new) {
+  if (const std::optional<int> first = level.line_of(key)) {
     const std::string map = path();
     stop("duplicate_key", line, column,
          fmt::format("{} is given twice{}{}; keep one.", in_quotes(key), map.empty() ? "" : " in " + map,
-                     line > 0 ? fmt::format("; it was first given at line {}", first->second) : ""));
+                     line > 0 ? fmt::format("; it was first given at line {}", *first) : ""));
     if (errors_.size() >= 100) return false;  // nobody mends more at once
   }
   level.next = {.key = std::string(key), .line = line, .column = column, .value = {}};
@@ -292,6 +305,18 @@ bool NodeBuilder::scalar(Node node) { return count(node.line, node.column) && at
 bool NodeBuilder::stop(std::string_view code, int line, int column, std::string_view message) {
   errors_.push_back({std::string(code), place(document_, line, column), one_line(message, 1000)});
   return false;
+}
+
+std::optional<int> NodeBuilder::Level::line_of(std::string_view key) {
+  constexpr std::size_t few = 24;  // a search of more would be quadratic
+  const auto& members = node.members;
+  if (members.size() <= few) {
+    const auto found = std::ranges::find(members, key, &Member::key);
+    return found == members.end() ? std::nullopt : std::optional(found->line);
+  }
+  for (; indexed < members.size(); ++indexed) lines.try_emplace(members[indexed].key, members[indexed].line);
+  const auto found = lines.find(std::string(key));
+  return found == lines.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::pair<int, int> NodeBuilder::key_place() const {

@@ -43,7 +43,9 @@ class JsonEvents {
 
  private:
   bool number(double value, std::string written) {
-    Node node = make_node(value);
+    Node node;
+    node.kind = Node::Kind::number;
+    node.number = value;
     node.text = std::move(written);
     return builder_.scalar(std::move(node));
   }

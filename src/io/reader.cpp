@@ -81,16 +81,13 @@ Reader Reader::required(std::string_view key, std::string_view meaning) {
   const std::string path = joined(path_, key);
   if (!expect(Node::Kind::map, "a map of keys")) return {document_, sink_, nullptr, path};
   const Node* value = node_->find(key);
-  const bool is_null = value && value->kind == Node::Kind::null;  // as for optional keys: null is no value
-  const std::string at = is_null && value->line > 0 ? where(value->line, value->column, path) : place();
-  if (is_null) value = nullptr;
-  if (!value) {
-    const std::string in = name(*node_, path_);
-    report("missing_key", at,
-           fmt::format("missing key {}{}{}.", in_quotes(key), in.empty() ? "" : " in " + in,
-                       meaning.empty() ? "" : fmt::format(" ({})", meaning)));
-  }
-  return {document_, sink_, value, path};
+  if (value && value->kind != Node::Kind::null) return {document_, sink_, value, path};
+  // as for optional keys: null is no value
+  const std::string in = name(*node_, path_);
+  report("missing_key", value && value->line > 0 ? where(value->line, value->column, path) : place(),
+         fmt::format("missing key {}{}{}.", in_quotes(key), in.empty() ? "" : " in " + in,
+                     meaning.empty() ? "" : fmt::format(" ({})", meaning)));
+  return {document_, sink_, nullptr, path};
 }
 
 std::optional<Reader> Reader::optional(std::string_view key) {
@@ -115,15 +112,22 @@ std::vector<std::pair<std::string, Reader>> Reader::members() const {
 
 std::vector<Reader> Reader::items(std::optional<std::size_t> size) const {
   std::vector<Reader> result;
-  if (!expect(Node::Kind::list, size ? fmt::format("a list of {} values", *size) : "a list")) return result;
-  if (size && node_->items.size() != *size) {
-    report("wrong_length", place(),
-           fmt::format("{} has {} value{}; it must have {}.", name(*node_, path_), node_->items.size(),
-                       node_->items.size() == 1 ? "" : "s", *size));
+  if (!is(Node::Kind::list)) {
+    expect(Node::Kind::list, size ? fmt::format("a list of {} values", *size) : "a list");
+    return result;
   }
+  if (size) expect_size(*size);
+  result.reserve(node_->items.size());
   for (std::size_t i = 0; i < node_->items.size(); ++i)
     result.push_back({document_, sink_, &node_->items[i], joined(path_, i)});
   return result;
+}
+
+void Reader::expect_size(std::size_t size) const {
+  if (node_->items.size() == size) return;
+  report("wrong_length", place(),
+         fmt::format("{} has {} value{}; it must have {}.", name(*node_, path_), node_->items.size(),
+                     node_->items.size() == 1 ? "" : "s", size));
 }
 
 void Reader::close() {
@@ -156,14 +160,14 @@ bool Reader::boolean() const { return expect(Node::Kind::boolean, "true or false
 
 std::size_t Reader::choice_index(std::span<const std::string_view> words) const {
   if (!node_) return 0;
-  const std::string allowed = fmt::format("{}", fmt::join(words, ", "));
   const bool is_scalar = !node_->text.empty() || node_->kind == Node::Kind::string;
+  const auto word = std::ranges::find(words, std::string_view(node_->text));  // 5 or true may be a word, too
+  if (is_scalar && word != words.end()) return static_cast<std::size_t>(word - words.begin());
+  const std::string allowed = fmt::format("{}", fmt::join(words, ", "));
   if (!is_scalar) {
     unsuitable("one of " + allowed);
     return 0;
   }
-  const auto word = std::ranges::find(words, std::string_view(node_->text));  // 5 or true may be a word, too
-  if (word != words.end()) return static_cast<std::size_t>(word - words.begin());
   const std::string_view hint = closest(node_->text, words);
   report("unknown_choice", place(),
          fmt::format("{} {} is unknown{} Known here: {}.", name(*node_, path_), found(*node_, true),
@@ -174,9 +178,21 @@ std::size_t Reader::choice_index(std::span<const std::string_view> words) const 
 std::vector<double> Reader::quantities(Dimension dimension, Range range,
                                        std::optional<std::size_t> size) const {
   std::vector<double> result;
-  const std::string list = size ? fmt::format("a list of {} values", *size) : "a list of values";
-  if (expect(Node::Kind::list, fmt::format("{}, each {}", list, advice(dimension))))
-    for (const Reader& item : items(size)) result.push_back(item.quantity(dimension, range));
+  if (is(Node::Kind::list)) {
+    if (size) expect_size(*size);
+    result.reserve(node_->items.size());
+    for (std::size_t i = 0; i < node_->items.size(); ++i) {
+      const Node& item = node_->items[i];
+      const bool is_plain = item.kind == Node::Kind::number && dimension != Dimension::count &&
+                            range.contains(item.number);  // most are: spares the path
+      result.push_back(is_plain
+                           ? item.number
+                           : Reader(document_, sink_, &item, joined(path_, i)).quantity(dimension, range));
+    }
+  } else {
+    const std::string list = size ? fmt::format("a list of {} values", *size) : "a list of values";
+    expect(Node::Kind::list, fmt::format("{}, each {}", list, advice(dimension)));
+  }
   if (size) result.resize(*size, harmless(range));
   return result;
 }
@@ -238,7 +254,7 @@ void Reader::unknown(const Member& member) const {
   const std::size_t parent = path.size() - std::min(path.size(), member.key.size() + 1);
   const std::string in = path.substr(0, parent);
   std::vector<std::string_view> known;
-  for (const std::string& key : known_)
+  for (const std::string_view key : known_)
     if (std::ranges::find(known, key) == known.end()) known.push_back(key);
   const std::string_view hint = closest(member.key, known);
   report(

@@ -50,13 +50,6 @@ Equilibrium answer_of(const Report& report, const RodGroup& system, Workspace& w
   return answer;
 }
 
-/// Of three rows.
-double largest_singular_value(const double* rows, int columns) {
-  std::array<double, 3> sigma;
-  singular_values(MatrixView(rows, 3, columns), std::span(sigma).first(at(std::min(3, columns))));
-  return sigma[0];
-}
-
 /// Calls `solve(rods, home, question)` and answers with what it found.
 template <class Solve>
 Equilibrium solved(const Robot& robot, const EquilibriumOptions& options, Workspace& work, Solve&& solve) {
@@ -133,11 +126,29 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
 
 namespace {
 
+/// Along which the platform's stiffness is negative.
+std::vector<std::array<double, 6>> unstable_twists(const RodGroup& system) {
+  std::vector<std::array<double, 6>> twists;
+  std::array<double, 6> values;
+  std::array<double, 36> vectors;
+  symmetric_eigenvalues(system.stiffness(), values, vectors);
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (!(values[k] < 0)) continue;
+    SpatialWrench twist(vectors.data() + 6 * k);
+    if (system.closes()) twist = system.free_motion(twist).normalized();
+    std::ranges::copy(twist, twists.emplace_back().begin());
+  }
+  return twists;
+}
+
 RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
   RodGroup& system = *work.system;
   RodAnalysis analysis;
-  system.evaluate();
-  system.linearise();
+  if (!work.signs) {
+    system.evaluate();
+    system.linearise();
+  }
+  const LimbSigns signs = count_unstable_rods(work);
   const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness = system.platform_stiffness();
   std::copy_n(stiffness.data(), 36, analysis.stiffness.begin());
   for (int k = 0; k < system.closing_legs(); ++k) analysis.closing_forces.push_back(system.closing_force(k));
@@ -155,29 +166,16 @@ RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
       analysis.feed[r * inputs + k] = feed[static_cast<Eigen::Index>(r)];
     }
   }
-  std::array<double, 6> values;
-  std::array<double, 36> vectors;
-  symmetric_eigenvalues(system.stiffness(), values, vectors);
-  for (std::size_t k = 0; k < 6; ++k) {
-    if (!(values[k] < 0)) continue;
-    analysis.unstable.emplace_back();
-    SpatialWrench twist(vectors.data() + 6 * k);
-    if (system.closes()) twist = system.free_motion(twist).normalized();
-    std::ranges::copy(twist, analysis.unstable.back().begin());
-  }
-  analysis.rods = system.readings();
-  count_unstable_rods(work);
+  if (signs.unstable > signs.own) analysis.unstable = unstable_twists(system);
+  analysis.unstable_directions = signs.unstable;
   analysis.unstable_rods = work.unstable_rods;
-  analysis.unstable_directions = static_cast<int>(analysis.unstable.size());
-  for (const auto& [in_plane, aside] : work.unstable_rods) analysis.unstable_directions += in_plane + aside;
+  analysis.rods = system.readings();
   for_each_rod(robot, [&, k = std::size_t{0}](const RodLeg& leg, const LegPlace&, int) mutable {
     const RodResult& rod = analysis.rods[k++];
     const double strain =
         leg.link.is_round() ? rod.largest_curvature * leg.link.diameter / 2 : rod.largest_strain;
     analysis.largest_strain = std::max(analysis.largest_strain, strain);
   });
-  analysis.position_index = largest_singular_value(&analysis.sensitivity[0], system.inputs());
-  analysis.rotation_index = largest_singular_value(&analysis.sensitivity[3 * inputs], system.inputs());
   analysis.energy = system.energy();
   analysis.potential = system.potential();
   analysis.smallest_pivot = factors.smallest_pivot();
@@ -185,6 +183,28 @@ RodAnalysis analysis_of(const Robot& robot, RodWork& work) {
 }
 
 }  // namespace
+
+namespace {
+
+/// Of three rows of a matrix of six.
+double largest_singular_value(std::span<const double> rows) {
+  if (rows.empty()) return 0;
+  const std::size_t columns = rows.size() / 3;
+  std::array<double, 3> sigma;
+  singular_values(MatrixView(rows.data(), 3, static_cast<Eigen::Index>(columns)),
+                  std::span(sigma).first(std::min<std::size_t>(3, columns)));
+  return sigma[0];
+}
+
+}  // namespace
+
+double RodAnalysis::position_index() const {
+  return largest_singular_value(std::span(sensitivity).first(sensitivity.size() / 2));
+}
+
+double RodAnalysis::rotation_index() const {
+  return largest_singular_value(std::span(sensitivity).last(sensitivity.size() / 2));
+}
 
 RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work) {
   if (!has_rods(robot) || !check_workspace(robot, work).ok() || !work.rods->is_solved) return {};

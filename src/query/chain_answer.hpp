@@ -35,17 +35,17 @@ std::vector<TendonConstraint> read_lengths(const Reader& list, std::size_t legs)
 std::vector<TendonConstraint> read_tensions(const Reader& list, std::size_t legs);
 
 template <class Space>
-Json chain_legs_json(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
+Value chain_legs_value(const ChainLegs<Space>& robot, const ChainState<Space>& state) {
   const auto platform = Space::frame(state.pose);
-  Json legs = Json::array(), angles = angles_json<Space>(robot, state.legs);
+  Value legs = Value::list();
+  Value::List angles = angles_value<Space>(robot, state.legs);
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     const ChainLegState& leg = state.legs[i];
     legs.push_back({{"angles", std::move(angles[i])},
                     {"chord_force", leg.force},
                     {"tendon_lengths", leg.tendon_length},
                     {"tensions", leg.tension},
-                    {"tip_wrench",
-                     to_json<Space::dof>(tip_wrench(robot.legs[i], leg.of(robot.legs[i].chain), platform))}});
+                    {"tip_wrench", Value(tip_wrench(robot.legs[i], leg.of(robot.legs[i].chain), platform))}});
     if constexpr (Space::dimension == 2)
       if (robot.has_base_motors) legs.back()["motor_torque"] = motor_torque(robot.legs[i], leg, platform);
   }
@@ -54,19 +54,19 @@ Json chain_legs_json(const ChainLegs<Space>& robot, const ChainState<Space>& sta
 
 /// Left out where it is not finite.
 template <class Space>
-void put_matrix(Json& answer, const char* key, const Mat<double, Space::dof, Space::dof>& matrix) {
+void put_matrix(Value& answer, Value::Key key, const Mat<double, Space::dof, Space::dof>& matrix) {
   const Eigen::Matrix<double, Space::dof, Space::dof, Eigen::RowMajor> rows = matrix;
-  if (rows.allFinite()) answer[key] = to_json(MatrixView(rows.data(), Space::dof, Space::dof));
+  if (rows.allFinite()) answer[key] = Value(MatrixView(rows.data(), Space::dof, Space::dof));
 }
 
 /// The paper's linear model and constant curvature, beside the answer.
 template <class Space>
 void put_simpler_models(Context& context, const ChainLegs<Space>& robot, const ChainState<Space>& unloaded,
                         const ChainState<Space>& loaded, const Load<Space>& load, ChainWork& work) {
-  Json& answer = context.answer;
+  Value& answer = context.answer;
   const Vec<double, Space::dof> change = linear_compliance(robot, unloaded) * loaded.wrench,
                                 actual = twist_between(unloaded.pose, loaded.pose);
-  if (change.allFinite()) answer["linear"] = to_json<Space::dof>(change);
+  if (change.allFinite()) answer["linear"] = Value(change);
   double scale = 0, gap = 0;
   for (int k = 0; k < Space::dof; ++k) {
     const double unit = k < Space::dimension ? 1 : robot.platform_radius;
@@ -97,28 +97,28 @@ void put_simpler_models(Context& context, const ChainLegs<Space>& robot, const C
   }
   put_number(answer, "cc_gap", potential(robot, even) - potential(robot, loaded));
   put_number(answer, "cc_gap_estimate", constant_curvature_energy_gap(robot, unloaded, loaded.wrench));
-  answer["cc_pose"] = to_json(AnyPose(Space::tidy(even.pose)));
+  answer["cc_pose"] = pose_value(AnyPose(Space::tidy(even.pose)));
 }
 
 template <class Space>
 void put_wanted(Context& context, const ChainLegs<Space>& robot, const ChainState<Space>& state,
                 const ChainStability<Space>& stability, const Wanted& wanted, ChainWork& work) {
-  Json& answer = context.answer;
+  Value& answer = context.answer;
   if (wanted.stability) {
-    Json twists = Json::array();
-    for (const auto& twist : stability.unstable) twists.push_back(to_json<Space::dof>(twist));
+    Value twists = Value::list();
+    for (const auto& twist : stability.unstable) twists.push_back(Value(twist));
     answer["unstable"] = std::move(twists);
-    answer["unstable_legs"] = stability.unstable_legs;
+    answer["unstable_legs"] = std::span<const int>(stability.unstable_legs);
   }
   if (wanted.margins) {
     const ChainMargins found = margins(robot, state, work);
-    answer["margins"] = Json::object();
+    answer["margins"] = Value::map();
     put_number(answer["margins"], "fold", found.fold);
     put_number(answer["margins"], "strain", found.strain);
   }
   if (wanted.sensitivity)
     if (const auto rows = sensitivity_to_inputs(twin_of(context), robot, state, work); rows.allFinite())
-      answer["sensitivity"] = to_json(MatrixView(rows.data(), Space::dof, rows.cols()));
+      answer["sensitivity"] = Value(MatrixView(rows.data(), Space::dof, rows.cols()));
 }
 
 /// @param unloaded what simpler models start from, if it is known
@@ -126,7 +126,7 @@ template <class Space>
 void put_equilibrium(Context& context, const ChainLegs<Space>& robot, const ChainState<Space>& state,
                      Report report, const ChainState<Space>* unloaded, const Load<Space>& load,
                      ChainWork& work) {
-  Json& answer = context.answer;
+  Value& answer = context.answer;
   const bool is_found = is_solved(report);
   ChainStability<Space> stability{};
   if (is_found) stability = judge(robot, state, work, report);
@@ -136,9 +136,9 @@ void put_equilibrium(Context& context, const ChainLegs<Space>& robot, const Chai
   if (!is_found) return;
   const AnyPose pose = Space::tidy(state.pose);
   context.remember(pose);
-  answer["pose"] = to_json(pose);
-  answer["legs"] = chain_legs_json(robot, state);
-  answer["wrench"] = to_json<Space::dof>(state.wrench);
+  answer["pose"] = pose_value(pose);
+  answer["legs"] = chain_legs_value(robot, state);
+  answer["wrench"] = Value(state.wrench);
   put_matrix<Space>(answer, "stiffness", stiffness(robot, state, work));
   put_matrix<Space>(answer, "compliance", compliance(robot, state, work));
   answer["stable"] = stability.is_stable();

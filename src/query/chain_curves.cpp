@@ -96,11 +96,11 @@ void answer_curves(Context& context, ChainLegs<Space>& robot) {
         "nothing changes between the beginning and `to`, or that holds other tendons, or "
         "lengths that no joints allow; give other values");
   put_curves(context, curves, [&](const ChainCurvePoint<Space>& point) {
-    Json tensions = Json::array();
+    Value tensions = Value::list();
     for (const ChainLegState& leg : point.state.legs) tensions.push_back(leg.tension);
-    return Json{{"pose", to_json(AnyPose(Space::tidy(point.state.pose)))},
-                {"inputs", to_json(inputs_of(twin_of(context), robot, point.state))},
-                {"tensions", std::move(tensions)}};
+    return Value{{"pose", pose_value(AnyPose(Space::tidy(point.state.pose)))},
+                 {"inputs", Value(inputs_of(twin_of(context), robot, point.state))},
+                 {"tensions", std::move(tensions)}};
   });
 }
 

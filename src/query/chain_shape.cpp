@@ -73,9 +73,9 @@ void answer_shape_of(Context& context, ChainLegs<Space>& robot) {
   if (!is_found) return;
   const AnyPose pose = Space::tidy(state.pose);
   context.remember(pose);
-  context.answer["pose"] = to_json(pose);
+  context.answer["pose"] = pose_value(pose);
   put_shape(context.answer, chain_shape(robot, state.pose, state.legs));
-  context.answer["frames"] = Json::array({to_json(pose)});
+  context.answer["frames"] = Value::list({pose_value(pose)});
 }
 
 }  // namespace

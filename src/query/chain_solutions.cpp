@@ -14,13 +14,13 @@ namespace {
 constexpr double max_inverses = 256;
 
 template <class Space>
-Json solution_json(Json begun, const ChainLegs<Space>& robot, const FoundChains<Space>& one) {
+Value solution_value(Value begun, const ChainLegs<Space>& robot, const FoundChains<Space>& one) {
   begun["residual"] = one.report.residual;
   begun["stable"] = one.stability.is_stable();
   begun["unstable_directions"] = one.stability.unstable_directions;
   put_number(begun, "potential", one.potential);
   if (!one.report.ok()) begun["slack"] = true;
-  begun["legs"] = chain_legs_json(robot, one.state);
+  begun["legs"] = chain_legs_value(robot, one.state);
   return begun;
 }
 
@@ -35,10 +35,11 @@ void put_all_equilibria(Context& context, const ChainLegs<Space>& robot, const H
   const AssemblyModes modes = assembly_modes(twin.robot, inputs, twin.work);
   for (const AnyPose& pose : modes.poses) starts.push_back({std::get<Pose>(pose), held.arcs.curvature});
   ChainWork& work = work_of(context);
-  Json solutions = Json::array();
+  Value solutions = Value::list();
   const std::span<const ChainStart<Space>> all(starts);
   for (const auto& one : chain_equilibria(robot, all, held.hold, load.wrench, work, load.options))
-    solutions.push_back(solution_json({{"pose", to_json(AnyPose(Space::tidy(one.state.pose)))}}, robot, one));
+    solutions.push_back(
+        solution_value({{"pose", pose_value(AnyPose(Space::tidy(one.state.pose)))}}, robot, one));
   put_solutions(context, std::move(solutions));
 }
 
@@ -51,7 +52,7 @@ void put_all_inverses(Context& context, ChainLegs<Space> robot, const AnyPose& p
   for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, max_inverses); ++k)
     modes.mode(twin.robot, k, ways.emplace_back(twin.work.inputs.size()));
   ChainWork& work = work_of(context);
-  std::vector<std::pair<double, Json>> found;
+  std::vector<std::pair<double, Value>> found;
   for (const std::vector<double>& way : ways) {
     if (work.stop.stop_requested()) break;
     FoundChains<Space> one;
@@ -62,14 +63,14 @@ void put_all_inverses(Context& context, ChainLegs<Space> robot, const AnyPose& p
     one.stability = check_stability(robot, one.state, work);
     one.potential = potential(robot, one.state);
     found.emplace_back(one.potential,
-                       solution_json({{"inputs", to_json(inputs_of(twin, robot, one.state))}}, robot, one));
+                       solution_value({{"inputs", Value(inputs_of(twin, robot, one.state))}}, robot, one));
   }
   std::ranges::stable_sort(found, {},
                            [](const auto& one) { return std::isfinite(one.first) ? one.first : 0; });
   if (modes.count > max_inverses)
     context.answer["message"] =
         fmt::format("{:.0f} branches exist; the first {:.0f} were tried", modes.count, max_inverses);
-  Json solutions = Json::array();
+  Value solutions = Value::list();
   for (auto& [energy, one] : found) solutions.push_back(std::move(one));
   put_solutions(context, std::move(solutions));
 }

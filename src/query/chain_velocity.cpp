@@ -16,28 +16,28 @@ namespace {
 using namespace chains;
 
 template <class Space>
-Json K_json(const ChainRates<Space>& rates) {
-  Json rows = Json::array();
+Value K_value(const ChainRates<Space>& rates) {
+  Value rows = Value::list();
   const auto all = std::accumulate(rates.columns.begin(), rates.columns.end(), std::size_t{0});
   std::size_t first = 0;
   for (std::size_t i = 0; i < rates.legs(); ++i) {
     std::vector<double> row(all);
     std::copy_n(rates.K[i].begin(), rates.columns[i], row.begin() + static_cast<std::ptrdiff_t>(first));
     first += static_cast<std::size_t>(rates.columns[i]);
-    rows.push_back(to_json(row));
+    rows.push_back(Value(row));
   }
   return rows;
 }
 
 template <class Space>
-Json U_json(const ChainVelocity<Space>& velocity) {
-  Json rows = Json::array();
+Value U_value(const ChainVelocity<Space>& velocity) {
+  Value rows = Value::list();
   for (int k = 0; k < Space::dof; ++k) {
     std::vector<double> row;
     for (std::size_t i = 0; i < velocity.rates.legs(); ++i)
       for (std::size_t j = 0; j < static_cast<std::size_t>(velocity.rates.columns[i]); ++j)
         row.push_back(velocity.inverse(k, static_cast<Eigen::Index>(i)) * velocity.rates.K[i][j]);
-    rows.push_back(to_json(row));
+    rows.push_back(Value(row));
   }
   return rows;
 }
@@ -45,20 +45,20 @@ Json U_json(const ChainVelocity<Space>& velocity) {
 template <class Space>
 void put_velocity(Context& context, const ChainLegs<Space>& robot, const ChainVelocity<Space>& velocity,
                   const std::vector<ChainLegState>& legs, std::span<const double> twist) {
-  Json& answer = context.answer;
+  Value& answer = context.answer;
   context.report(velocity.report);
   const Eigen::Matrix<double, Eigen::Dynamic, Space::dof, Eigen::RowMajor> J = velocity.rates.J;
-  answer["J"] = to_json(MatrixView(J.data(), J.rows(), Space::dof));
-  answer["K"] = K_json(velocity.rates);
-  if (velocity.has_inverse) answer["U"] = U_json(velocity);
+  answer["J"] = Value(MatrixView(J.data(), J.rows(), Space::dof));
+  answer["K"] = K_value(velocity.rates);
+  if (velocity.has_inverse) answer["U"] = U_value(velocity);
   put_number(answer, "determinant", velocity.determinant);
-  answer["indices"] = to_json(velocity.indices);
-  answer["type_1"] = std::vector<int>(velocity.type_1().begin(), velocity.type_1().end());
-  answer["type_2"] = type_two_json(velocity.type_2, Space::dimension == 2);
+  answer["indices"] = indices_value(velocity.indices);
+  answer["type_1"] = Value(velocity.type_1());
+  answer["type_2"] = type_two_value(velocity.type_2, Space::dimension == 2);
   answer["residual"] = velocity.report.residual;
   if (!twist.empty()) {
     if (velocity.type_1_count == 0)
-      answer["rates"] = to_json(least_norm_rates(velocity, Vec<double, Space::dof>(twist.data())));
+      answer["rates"] = Value(least_norm_rates(velocity, Vec<double, Space::dof>(twist.data())));
     else if (velocity.report.ok()) {
       Report report;
       report.status = Status::singular;
@@ -66,8 +66,8 @@ void put_velocity(Context& context, const ChainLegs<Space>& robot, const ChainVe
       context.report(report);
     }
   }
-  Json list = Json::array();
-  for (Json& angles : angles_json(robot, legs)) list.push_back({{"angles", std::move(angles)}});
+  Value list = Value::list();
+  for (Value& angles : angles_value(robot, legs)) list.push_back({{"angles", std::move(angles)}});
   answer["legs"] = std::move(list);
 }
 
@@ -86,19 +86,18 @@ void answer_velocity_of(Context& context, ChainLegs<Space>& robot) {
   const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
   refuse_open_legs(context, velocity.rates.closure_error);
   if (!context.errors.empty()) return;
-  context.answer["pose"] = to_json(pose);
+  context.answer["pose"] = pose_value(pose);
   put_velocity(context, robot, velocity, legs, twist);
 }
 
 template <class Space>
-Json row_json(const ChainLegs<Space>& robot, const AnyPose& pose, std::span<const ChainLegState> legs) {
+Value row_value(const ChainLegs<Space>& robot, const AnyPose& pose, std::span<const ChainLegState> legs) {
   const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
-  Json row{{"pose", to_json(pose)},
-           {"angles", angles_json(robot, legs)},
-           {"closure_error", velocity.rates.closure_error},
-           {"indices", to_json(velocity.indices)}};
-  if (velocity.type_1_count > 0)
-    row["type_1"] = std::vector<int>(velocity.type_1().begin(), velocity.type_1().end());
+  Value row{{"pose", pose_value(pose)},
+            {"angles", angles_value(robot, legs)},
+            {"closure_error", velocity.rates.closure_error},
+            {"indices", indices_value(velocity.indices)}};
+  if (velocity.type_1_count > 0) row["type_1"] = Value(velocity.type_1());
   if (velocity.type_2.singular) row["singular"] = true;
   return row;
 }
@@ -126,15 +125,15 @@ void answer_track_of(Context& context, ChainLegs<Space>& robot) {
   if (!context.ready()) return;
   std::vector<ChainLegState> legs;
   Report report = joints.at(context, robot, poses.front(), legs);
-  Json rows = Json::array();
+  Value rows = Value::list();
   double worst = 0;
   for (std::size_t k = 0; k < poses.size() && report.ok(); ++k) {
     const auto& pose = std::get<typename Space::Pose>(poses[k]);
     if (k > 0)
       report = follow_least_norm(robot, std::get<typename Space::Pose>(poses[k - 1]), pose, legs, options);
     if (!report.ok() || note_stop(context.work.stop, report)) break;
-    rows.push_back(row_json(robot, poses[k], legs));
-    worst = std::max(worst, rows.back()["closure_error"].get<double>());
+    rows.push_back(row_value(robot, poses[k], legs));
+    worst = std::max(worst, rows.back()["closure_error"].number().value_or(0));
     if (k == 0 && !(worst <= 1e-9))
       return query.fail("not_closed",
                         fmt::format("the first pose and the angles contradict each other: a leg misses "

@@ -167,7 +167,7 @@ void answer_inverse_of(Context& context, ChainLegs<Space>& robot) {
   ChainWork& work = work_of(context);
   if (report.ok()) report = inverse_statics(robot, load.wrench, state, work, load.options);
   put_equilibrium<Space>(context, robot, state, report, nullptr, load, work);
-  if (is_solved(report)) context.answer["inputs"] = to_json(inputs_of(twin_of(context), robot, state));
+  if (is_solved(report)) context.answer["inputs"] = Value(inputs_of(twin_of(context), robot, state));
   if (wants_all) put_all_inverses(context, robot, at, branch, load);
 }
 

@@ -41,13 +41,13 @@ std::vector<ChainLegState> read_angles(const Reader& list, ChainLegs<Space>& rob
 
 /// The same of an answer.
 template <class Space>
-Json angles_json(const ChainLegs<Space>& robot, std::span<const ChainLegState> legs) {
-  Json list = Json::array();
+Value::List angles_value(const ChainLegs<Space>& robot, std::span<const ChainLegState> legs) {
+  Value::List list;
   for (std::size_t i = 0; i < legs.size(); ++i) {
-    Json angles = to_json(legs[i].of(robot.legs[i].chain));
+    Value angles = legs[i].of(robot.legs[i].chain);
     if constexpr (Space::dimension == 2)
       if (robot.has_base_motors)
-        angles.insert(angles.begin(), wrap_angle(robot.legs[i].base.angle() + std::numbers::pi / 2));
+        angles.push_front(wrap_angle(robot.legs[i].base.angle() + std::numbers::pi / 2));
     list.push_back(std::move(angles));
   }
   return list;

@@ -158,7 +158,7 @@ Solved solve_configuration(Context& context, const Configuration& given) {
   return solved;
 }
 
-Json to_json(const AnyPose& pose) {
+Value pose_value(const AnyPose& pose) {
   if (const auto* planar = std::get_if<PlanarPose>(&pose))
     return {{"x", planar->x}, {"y", planar->y}, {"phi", wrap_angle(planar->phi)}};
   const auto& spatial = std::get<SpatialPose>(pose);
@@ -168,11 +168,11 @@ Json to_json(const AnyPose& pose) {
 
 namespace {
 
-/// Of what has a quaternion, if it is there.
-void add_tilt_of(Json& object, const char* key) {
-  const auto pose = object.find(key);
-  if (pose == object.end() || !pose->is_object() || !pose->contains("quaternion")) return;
-  const auto q = (*pose)["quaternion"].get<std::array<double, 4>>();
+/// Of what has a quaternion.
+void add_tilt_of(Value* pose) {
+  const Value* quaternion = pose ? pose->find("quaternion") : nullptr;
+  if (!quaternion) return;
+  const std::vector<double>& q = quaternion->block()->numbers;
   const TiltTorsion angles = tilt_torsion({q[0], Vec3<double>(q[1], q[2], q[3])});
   (*pose)["tilt"] = angles.tilt;
   (*pose)["azimuth"] = angles.azimuth;
@@ -181,33 +181,19 @@ void add_tilt_of(Json& object, const char* key) {
 
 }  // namespace
 
-void add_tilt(Json& answer) {
-  add_tilt_of(answer, "pose");
-  add_tilt_of(answer, "tip");
-  if (const auto solutions = answer.find("solutions"); solutions != answer.end())
-    for (Json& solution : *solutions) add_tilt_of(solution, "pose");
+void add_tilt(Value& answer) {
+  add_tilt_of(answer.find("pose"));
+  add_tilt_of(answer.find("tip"));
+  if (Value* solutions = answer.find("solutions"))
+    for (std::size_t k = 0; k < solutions->size(); ++k) add_tilt_of((*solutions)[k].find("pose"));
 }
 
-Json to_json(std::span<const double> values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(value);
-  return list;
-}
-
-Json to_json(const MatrixView& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    rows.push_back(
-        to_json(std::span(matrix.data() + i * matrix.cols(), static_cast<std::size_t>(matrix.cols()))));
-  return rows;
-}
-
-void put_number(Json& object, const char* key, double value) {
+void put_number(Value& object, Value::Key key, double value) {
   if (std::isfinite(value)) object[key] = value;
 }
 
-Json to_json(const Indices& indices) {
-  Json object = Json::object();
+Value indices_value(const Indices& indices) {
+  Value object = Value::map();
   put_number(object, "condition", indices.condition);
   put_number(object, "condition_homogenised", indices.condition_homogenised);
   put_number(object, "position", indices.position);
@@ -215,20 +201,20 @@ Json to_json(const Indices& indices) {
   return object;
 }
 
-Json legs_json(const Robot& robot, const AnyPose& pose, std::span<const double> coordinates,
-               Workspace& work) {
+Value legs_value(const Robot& robot, const AnyPose& pose, std::span<const double> coordinates,
+                 Workspace& work) {
   const bool is_planar = std::holds_alternative<PlanarPose>(pose);
-  Json legs = Json::array();
+  Value legs = Value::list();
   for (const LegState& leg : leg_states(robot, pose, coordinates, work)) {
-    Json object = Json::object();
+    Value object = Value::map();
     if (std::isnan(leg.curvature)) {
-      object = {{"slide", leg.slide}, {"carriage", to_json(leg.carriage)}, {"hinge_angle", leg.hinge_angle}};
+      object = {{"slide", leg.slide}, {"carriage", Value(leg.carriage)}, {"hinge_angle", leg.hinge_angle}};
     } else {
       object = {{"curvature", leg.curvature}, {"chord", leg.chord}, {"tendon_lengths", leg.tendon_lengths}};
       if (is_planar)
         object["base_tangent"] = wrap_angle(std::atan2(leg.base_tangent.y(), leg.base_tangent.x()));
       else
-        object["base_tangent"] = to_json(leg.base_tangent);
+        object["base_tangent"] = Value(leg.base_tangent);
       if (!is_planar) object["joint_angles"] = leg.joint_angles;
     }
     if (leg.elbow != 0) object["elbow"] = leg.elbow;

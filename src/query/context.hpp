@@ -2,9 +2,9 @@
 /// What the handlers of queries share: the robot, the reader of the query and the answer being written.
 #pragma once
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "query/answer/value.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/analysis/velocity.hpp"
 #include "sinew/io/reader.hpp"
@@ -12,8 +12,6 @@
 #include "sinew/robot/workspace.hpp"
 
 namespace sinew::inline v1 {
-
-using Json = nlohmann::ordered_json;
 
 /// When the search for a pose begins where the last one ended.
 enum class Continues { always, where_asked };
@@ -23,7 +21,7 @@ enum class Continues { always, where_asked };
 struct Question {
   Reader& query;
   Errors& errors;
-  Json& answer;
+  Value& answer;
   std::optional<int> max_iterations;
   /// The pose last answered, where a search may begin. Null for a question by itself.
   std::optional<AnyPose>* last = nullptr;
@@ -106,19 +104,14 @@ Configuration read_configuration(Context& context);
 /// other.
 Solved solve_configuration(Context& context, const Configuration& configuration);
 
-Json to_json(const AnyPose& pose);
+Value pose_value(const AnyPose& pose);
 /// `tilt`, `azimuth` and `torsion` beside the quaternions of `pose`, `tip` and the poses of `solutions`.
-void add_tilt(Json& answer);
-Json to_json(std::span<const double> values);
-Json to_json(const MatrixView& matrix);
-Json to_json(const Indices& indices);
-Json type_two_json(const TypeTwo& type, bool is_planar);
-template <int D>
-Json to_json(const Vec<double, D>& point) {
-  return to_json(std::span<const double>(point.data(), D));
-}
-void put_number(Json& object, const char* key, double value);  ///< leaves out NaN and infinity
-Json legs_json(const Robot& robot, const AnyPose& pose, std::span<const double> coordinates, Workspace& work);
+void add_tilt(Value& answer);
+Value indices_value(const Indices& indices);
+Value type_two_value(const TypeTwo& type, bool is_planar);
+void put_number(Value& object, Value::Key key, double value);  ///< leaves out NaN and infinity
+Value legs_value(const Robot& robot, const AnyPose& pose, std::span<const double> coordinates,
+                 Workspace& work);
 
 /// The field `along` of a velocity query, with its `limit`: a direction to look for type II in.
 struct Along {
@@ -136,7 +129,7 @@ std::vector<AnyPose> read_path(Context& context);
 Objective read_objective(Reader& query);
 std::string in_words(const AnyPose& pose);
 
-void put_shape(Json& answer, const AnyShape& picture);
+void put_shape(Value& answer, const AnyShape& picture);
 
 void answer_forward(Context& context);
 void answer_inverse(Context& context);

@@ -35,21 +35,21 @@ std::string curve_in_words(CurveEnd end, const double* fold);
 void note_stopped_curve(Context& context);
 
 template <class Point>
-void put_stability(Json& row, const Point& point) {
+void put_stability(Value& row, const Point& point) {
   row["stable"] = point.unstable_directions == 0;
   row["unstable_directions"] = point.unstable_directions;
 }
 
 /// @param where_of(point) pose and inputs of a point, as they are answered
 template <class Curve, class WhereOf>
-Json curve_json(const Curve& curve, WhereOf&& where_of) {
-  Json answer;
+Value curve_value(const Curve& curve, WhereOf&& where_of) {
+  Value answer;
   if (curve.from_curve >= 0) answer["from"] = {{"curve", curve.from_curve}, {"row", curve.from_point}};
   answer["why"] = to_string(curve.end);
-  Json rows = Json::array();
+  Value rows = Value::list();
   for (const auto& point : curve.points) {
-    Json row{{"parameter", point.parameter}};
-    row.update(where_of(point));
+    Value row{{"parameter", point.parameter}};
+    row.merge(where_of(point));
     put_stability(row, point);
     row["residual"] = point.residual;
     put_number(row, "potential", point.potential);
@@ -63,7 +63,7 @@ Json curve_json(const Curve& curve, WhereOf&& where_of) {
 /// All curves, and every equilibrium on them at the target.
 template <class Curve, class WhereOf>
 void put_curves(Context& context, const std::vector<Curve>& curves, WhereOf&& where_of) {
-  Json &answer = context.answer, equilibria = Json::array(), list = Json::array();
+  Value &answer = context.answer, equilibria = Value::list(), list = Value::list();
   bool arrives = false, is_stopped = false;
   double worst = 0;
   for (std::size_t c = 0; c < curves.size(); ++c) {
@@ -73,12 +73,12 @@ void put_curves(Context& context, const std::vector<Curve>& curves, WhereOf&& wh
       worst = std::max(worst, point.residual);
       if (point.event != CurveEvent::target) continue;
       arrives = arrives || c == 0;
-      Json one{{"curve", c}, {"row", k}};
-      one.update(where_of(point));
+      Value one{{"curve", c}, {"row", k}};
+      one.merge(where_of(point));
       put_stability(one, point);
       equilibria.push_back(std::move(one));
     }
-    list.push_back(curve_json(curves[c], where_of));
+    list.push_back(curve_value(curves[c], where_of));
   }
   answer["status"] = to_string(arrives ? Status::converged : Status::singular);
   answer.erase("message");

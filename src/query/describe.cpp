@@ -9,25 +9,24 @@ namespace {
 
 /// Writes the fields of a part into a JSON object, in SI.
 struct FieldWriter {
-  Json& object;
+  Value& object;
   template <class T>
-  void operator()(std::string_view key, const T& value, Dimension, Range, std::string_view) const {
-    object[std::string(key)] = value;
+  void operator()(Value::Key key, const T& value, Dimension, Range, std::string_view) const {
+    object[key] = value;
   }
   template <class T>
-  void operator()(std::string_view key, const std::optional<T>& value, Dimension, Range,
-                  std::string_view) const {
-    if (value) object[std::string(key)] = *value;
+  void operator()(Value::Key key, const std::optional<T>& value, Dimension, Range, std::string_view) const {
+    if (value) object[key] = *value;
   }
 };
 
 template <class LegT>
-Json base_json(const LegT& leg) {
-  Json base{{"point", to_json(leg.base.p)}};
+Value base_value(const LegT& leg) {
+  Value base{{"point", Value(leg.base.p)}};
   if constexpr (LegT::dimension == 3) {
     base[HasSlide<typename LegT::Link> ? "hinge_axis" : "first_axis"] =
-        to_json(leg.base.rotate(Vec3<double>(1, 0, 0)));
-    base["direction"] = to_json(leg.base.rotate(Vec3<double>(0, 1, 0)));
+        Value(leg.base.rotate(Vec3<double>(1, 0, 0)));
+    base["direction"] = Value(leg.base.rotate(Vec3<double>(0, 1, 0)));
   } else if constexpr (LegT::is_clamped) {
     base["direction"] = wrap_angle(leg.base.angle() + std::numbers::pi / 2);
   }
@@ -35,8 +34,8 @@ Json base_json(const LegT& leg) {
 }
 
 template <class LegT>
-Json leg_json(const LegT& leg, const LegPlace& place) {
-  Json link{{"type", LegT::Link::name}}, closure{{"type", LegT::Closure::name}}, actuated = Json::array();
+Value leg_value(const LegT& leg, const LegPlace& place) {
+  Value link{{"type", LegT::Link::name}}, closure{{"type", LegT::Closure::name}}, actuated = Value::list();
   LegT::Link::fields(leg.link, FieldWriter{link});
   LegT::Drive::fields(leg.drive, FieldWriter{link});
   if constexpr (requires { leg.drive.theta_is; })
@@ -45,41 +44,41 @@ Json leg_json(const LegT& leg, const LegPlace& place) {
   if (leg.backbone.youngs_modulus) link["material"] = {{"E", *leg.backbone.youngs_modulus}};
   LegT::Closure::fields(leg.closure, FieldWriter{closure});
   for (const InputKind& kind : LegT::Drive::input_kinds) actuated.push_back(kind.name);
-  return {{"base", base_json(leg)}, {"link", link},
-          {"closure", closure},     {"platform_point", to_json(leg.platform_point)},
-          {"actuated", actuated},   {"input", place.input}};
+  return {{"base", base_value(leg)}, {"link", link},
+          {"closure", closure},      {"platform_point", Value(leg.platform_point)},
+          {"actuated", actuated},    {"input", place.input}};
 }
 
-Json leg_json(const RodLeg& leg, const LegPlace& place) {
-  Json link{{"type", Rod::name}};
+Value leg_value(const RodLeg& leg, const LegPlace& place) {
+  Value link{{"type", Rod::name}};
   Rod::fields(leg.link, FieldWriter{link});
   if (!leg.link.is_round()) link["section"] = {{"width", leg.link.width}, {"height", leg.link.height}};
-  if (!leg.link.precurvature.isZero(0)) link["precurvature"] = to_json(leg.link.precurvature);
-  if (!leg.link.load.isZero(0)) link["load"] = to_json(leg.link.load);
+  if (!leg.link.precurvature.isZero(0)) link["precurvature"] = Value(leg.link.precurvature);
+  if (!leg.link.load.isZero(0)) link["load"] = Value(leg.link.load);
   link["material"] = {{"E", leg.link.youngs_modulus}};
   if (leg.link.shear_modulus > 0) link["material"]["G"] = leg.link.shear_modulus;
   if (leg.link.density > 0) link["material"]["density"] = leg.link.density;
   link["law"] = leg.link.is_cosserat ? "cosserat" : "kirchhoff";
-  Json closure{{"type", leg.is_clamped ? Clamp::name : Ball::name}};
-  if (leg.is_clamped) closure["direction"] = to_json(leg.platform_tangent);
-  Json base{{"point", to_json(leg.base.p)}, {"direction", to_json(leg.tangent())}};
+  Value closure{{"type", leg.is_clamped ? Clamp::name : Ball::name}};
+  if (leg.is_clamped) closure["direction"] = Value(leg.platform_tangent);
+  Value base{{"point", Value(leg.base.p)}, {"direction", Value(leg.tangent())}};
   if (leg.is_spin_held) base["spin"] = "held";
   if (leg.is_tip_spin_free) closure["spin"] = "free";
   if (!leg.is_torque_free()) {  // how the section lies counts
-    base["section_x"] = to_json(leg.base.rotate(Vec3<double>(1, 0, 0)));
-    if (leg.is_clamped) closure["section_x"] = to_json(leg.platform_across);
+    base["section_x"] = Value(leg.base.rotate(Vec3<double>(1, 0, 0)));
+    if (leg.is_clamped) closure["section_x"] = Value(leg.platform_across);
   }
   return {{"base", base},
           {"link", link},
           {"closure", closure},
-          {"platform_point", to_json(leg.platform_point)},
-          {"actuated", {RodLengthDrive::input_kinds[0].name}},
+          {"platform_point", Value(leg.platform_point)},
+          {"actuated", Value::list({RodLengthDrive::input_kinds[0].name})},
           {"input", place.input}};
 }
 
 /// Name, unit and, of tendons, limits: the ends of the curvature's domain. A rail has none.
 template <class LegT>
-void add_inputs(Json& inputs, const LegT& leg, std::size_t index) {
+void add_inputs(Value& inputs, const LegT& leg, std::size_t index) {
   const double end = leg.domain();
   auto q = LegT::Coordinates::Zero().eval();
   q[LegT::coordinates - 1] = -end;
@@ -87,24 +86,24 @@ void add_inputs(Json& inputs, const LegT& leg, std::size_t index) {
   q[LegT::coordinates - 1] = end;
   const double b = leg.inputs_of(q)[LegT::inputs - 1];
   for (const InputKind& kind : LegT::Drive::input_kinds) {
-    Json input{{"name", joined(joined("legs", index), kind.name)}, {"unit", unit(kind.dimension)}};
+    Value input{{"name", joined(joined("legs", index), kind.name)}, {"unit", unit(kind.dimension)}};
     if (HasArc<typename LegT::Link> && kind.dimension == Dimension::length)
       input["limits"] = {std::min(a, b), std::max(a, b)};
     inputs.push_back(std::move(input));
   }
 }
 
-void add_inputs(Json& inputs, const RodLeg&, std::size_t index) {
+void add_inputs(Value& inputs, const RodLeg&, std::size_t index) {
   inputs.push_back(
       {{"name", joined(joined("legs", index), RodLengthDrive::input_kinds[0].name)}, {"unit", "m"}});
 }
 
-Json pose_json(bool is_planar) {
+Value pose_coordinates(bool is_planar) {
   if (is_planar)
-    return {
-        {{"name", "x"}, {"unit", "m"}}, {{"name", "y"}, {"unit", "m"}}, {{"name", "phi"}, {"unit", "rad"}}};
-  return {{{"name", "position"}, {"unit", "m"}, {"size", 3}},
-          {{"name", "quaternion"}, {"unit", ""}, {"size", 4}}};
+    return Value::list(
+        {{{"name", "x"}, {"unit", "m"}}, {{"name", "y"}, {"unit", "m"}}, {{"name", "phi"}, {"unit", "rad"}}});
+  return Value::list({{{"name", "position"}, {"unit", "m"}, {"size", 3}},
+                      {{"name", "quaternion"}, {"unit", ""}, {"size", 4}}});
 }
 
 }  // namespace
@@ -112,32 +111,32 @@ Json pose_json(bool is_planar) {
 void answer_describe(Context& context) {
   if (context.robot.serial()) return answer_serial_describe(SerialContext(context));
   if (!context.ready()) return;
-  Json inputs = Json::array(), legs = Json::array();
+  Value inputs = Value::list(), legs = Value::list();
   with_legs(context.robot, [&](const auto& robot) {
     robot.for_each_leg([&](const auto& leg, const LegPlace& place, int i) {
       if (!place.is_tied) add_inputs(inputs, leg, static_cast<std::size_t>(i));
-      legs.push_back(leg_json(leg, place));
+      legs.push_back(leg_value(leg, place));
     });
   });
-  Json& answer = context.answer;
+  Value& answer = context.answer;
   const bool is_planar = std::holds_alternative<PlanarPose>(home(context.robot));
   answer["status"] = "converged";
   answer["kind"] = "parallel";
   answer["space"] = is_planar ? "planar" : "spatial";
   answer["inputs"] = inputs;
-  answer["pose"] = pose_json(is_planar);
-  answer["home"] = to_json(home(context.robot));
+  answer["pose"] = pose_coordinates(is_planar);
+  answer["home"] = pose_value(home(context.robot));
   answer["platform"] = {{"radius", platform_radius(context.robot)}};
   if (has_rods(context.robot)) {
     answer["platform"]["mass"] = context.robot.weight().platform_mass;
-    answer["gravity"] = to_json(context.robot.weight().gravity);
+    answer["gravity"] = Value(context.robot.weight().gravity);
   }
   answer["freedoms"] = {{"platform", dof(context.robot)},
                         {"constraints", row_count(context.robot)},
                         {"actuators", input_count(context.robot)}};
   answer["legs"] = legs;
   const bool has_arcs = context.robot.model() == Model::cc || context.robot.model() == Model::prb;
-  Json models = Json::array({to_string(has_arcs ? Model::cc : context.robot.model())});
+  Value models = Value::list({to_string(has_arcs ? Model::cc : context.robot.model())});
   if (has_arcs && context.robot.as(Model::prb)) models.push_back("prb");
   answer["models"] = std::move(models);
   answer["model"] = to_string(context.robot.model());

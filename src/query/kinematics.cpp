@@ -27,16 +27,16 @@ std::string_view no_load(const Context& context) {
              : "this robot's legs bear no load; leave it out";
 }
 
-Json all_working_modes(Context& context, const AnyPose& pose, const Branch& branch) {
+Value all_working_modes(Context& context, const AnyPose& pose, const Branch& branch) {
   const WorkingModes modes = working_modes(context.robot, pose, branch.options(), context.work);
-  Json solutions = Json::array();
+  Value solutions = Value::list();
   std::vector<double> inputs(context.work.inputs.size());
   for (std::size_t k = 0; static_cast<double>(k) < std::min(modes.count, max_solutions); ++k) {
     modes.mode(context.robot, k, inputs);
     coordinates_from_inputs(context.robot, inputs, context.work);
     const std::vector<double> coordinates = context.work.coordinates;
     solutions.push_back(
-        {{"inputs", to_json(inputs)}, {"legs", legs_json(context.robot, pose, coordinates, context.work)}});
+        {{"inputs", Value(inputs)}, {"legs", legs_value(context.robot, pose, coordinates, context.work)}});
   }
   if (modes.count > max_solutions)
     context.answer["message"] =
@@ -48,8 +48,8 @@ Json all_working_modes(Context& context, const AnyPose& pose, const Branch& bran
   return solutions;
 }
 
-Json trace_json(std::span<const TraceStep> trace, int iterations) {
-  Json list = Json::array();
+Value trace_value(std::span<const TraceStep> trace, int iterations) {
+  Value list = Value::list();
   for (const TraceStep& step : trace.first(std::min(trace.size(), static_cast<std::size_t>(iterations) + 1)))
     list.push_back({{"iteration", step.iteration}, {"residual", step.residual}, {"step", step.step}});
   return list;
@@ -58,24 +58,25 @@ Json trace_json(std::span<const TraceStep> trace, int iterations) {
 void put_rates(Context& context, const Velocity& result, std::span<const double> twist) {
   const Report found = rates(result, twist, context.work);
   if (found.ok())
-    context.answer["rates"] = to_json(context.work.rates);
+    context.answer["rates"] = Value(context.work.rates);
   else
     context.report(found);
 }
 
 template <int D>
-Json polyline(const PolylineOf<D>& line) {
-  Json points = Json::array();
-  for (const auto& point : line) points.push_back(to_json(point));
+Value polyline(const PolylineOf<D>& line) {
+  Value points = Value::list();
+  for (const auto& point : line) points.push_back(Value(point));
   return points;
 }
 
 template <int D>
-void put_shape_of(Json& answer, const ShapeOf<D>& picture) {
-  Json backbones = Json::array(), tendons = Json::array(), lines = Json::array();
+void put_shape_of(Value& answer, const ShapeOf<D>& picture) {
+  Value backbones = Value::list(), tendons = Value::list(), lines = Value::list();
   for (const auto& line : picture.backbones) backbones.push_back(polyline<D>(line));
-  for (const auto& pair : picture.tendons) tendons.push_back({polyline<D>(pair[0]), polyline<D>(pair[1])});
-  for (const auto& line : picture.lines) lines.push_back({to_json(line[0]), to_json(line[1])});
+  for (const auto& pair : picture.tendons)
+    tendons.push_back(Value::list({polyline<D>(pair[0]), polyline<D>(pair[1])}));
+  for (const auto& line : picture.lines) lines.push_back(Value::list({Value(line[0]), Value(line[1])}));
   answer["backbones"] = backbones;
   answer["tendons"] = tendons;
   answer["lines"] = lines;
@@ -89,18 +90,19 @@ void answer_all_modes(Context& context, const std::vector<double>& inputs, const
   context.report(modes.report);
   context.remember({});
   if (modes.report.status == Status::left_domain || modes.report.status == Status::unsupported) return;
-  Json solutions = Json::array();
+  Value solutions = Value::list();
   for (std::size_t k = 0; k < modes.poses.size(); ++k)
-    solutions.push_back({{"pose", to_json(modes.poses[k])},
-                         {"legs", legs_json(context.robot, modes.poses[k], modes.coordinates, context.work)},
+    solutions.push_back({{"pose", pose_value(modes.poses[k])},
+                         {"legs", legs_value(context.robot, modes.poses[k], modes.coordinates, context.work)},
                          {"residual", modes.residual[k]}});
   for (std::size_t k = 0; k < modes.poses.size(); ++k)
     if (modes.is_double[k]) solutions[k]["double"] = true;  // two modes merge: a type II singularity
   if (!modes.poses.empty()) {
     const std::size_t chosen = nearest_pose(context.robot, modes.poses, start);
     context.remember(modes.poses[chosen]);
-    const Json& nearest = solutions[chosen];
-    for (const char* key : {"pose", "legs", "residual"}) context.answer[key] = nearest[key];
+    const Value& nearest = solutions[chosen];
+    for (const Value::Key key : {Value::Key("pose"), Value::Key("legs"), Value::Key("residual")})
+      context.answer[key] = *nearest.find(key.name());
   }
   context.answer["count"] = modes.poses.size();
   context.answer["complete"] = modes.is_complete;
@@ -109,18 +111,18 @@ void answer_all_modes(Context& context, const std::vector<double>& inputs, const
 
 }  // namespace
 
-Json type_two_json(const TypeTwo& type, bool is_planar) {
-  Json object{{"singular", type.singular}, {"class", to_string(type.kind)}, {"rank", type.rank}};
+Value type_two_value(const TypeTwo& type, bool is_planar) {
+  Value object{{"singular", type.singular}, {"class", to_string(type.kind)}, {"rank", type.rank}};
   if (type.point)
-    object["point"] = is_planar ? to_json(Vec2<double>(type.point->head<2>())) : to_json(*type.point);
+    object["point"] = is_planar ? Value(Vec2<double>(type.point->head<2>())) : Value(*type.point);
   if (type.screw) {
     put_number(object, "pitch", type.screw->pitch);
-    object["axis"] = {{"point", to_json(type.screw->point)}, {"direction", to_json(type.screw->direction)}};
+    object["axis"] = {{"point", Value(type.screw->point)}, {"direction", Value(type.screw->direction)}};
   }
   return object;
 }
 
-void put_shape(Json& answer, const AnyShape& picture) {
+void put_shape(Value& answer, const AnyShape& picture) {
   std::visit([&](const auto& one) { put_shape_of(answer, one); }, picture);
 }
 
@@ -149,13 +151,13 @@ void answer_forward(Context& context) {
   context.report(result.report);
   context.remember(result.ok() ? std::optional(result.pose) : std::nullopt);
   if (result.ok()) {
-    context.answer["pose"] = to_json(result.pose);
-    context.answer["legs"] = legs_json(context.robot, result.pose, result.coordinates, context.work);
+    context.answer["pose"] = pose_value(result.pose);
+    context.answer["legs"] = legs_value(context.robot, result.pose, result.coordinates, context.work);
   }
   if (result.report.status == Status::left_domain) return;  // nothing was solved
   context.answer["residual"] = result.report.residual;
   context.answer["iterations"] = result.report.iterations;
-  if (!trace.empty()) context.answer["trace"] = trace_json(trace, result.report.iterations);
+  if (!trace.empty()) context.answer["trace"] = trace_value(trace, result.report.iterations);
 }
 
 void answer_inverse(Context& context) {
@@ -182,10 +184,10 @@ void answer_inverse(Context& context) {
   const Inverse result = inverse(context.robot, pose, options, context.work);
   context.report(result.report);
   if (!result.ok()) return;
-  context.answer["inputs"] = to_json(result.inputs);
+  context.answer["inputs"] = Value(result.inputs);
   const std::vector<double> coordinates(result.coordinates.begin(), result.coordinates.end());
-  context.answer["legs"] = legs_json(context.robot, pose, coordinates, context.work);
-  context.answer["pose"] = to_json(pose);
+  context.answer["legs"] = legs_value(context.robot, pose, coordinates, context.work);
+  context.answer["pose"] = pose_value(pose);
   context.answer["residual"] = result.report.residual;
   if (want_all) context.answer["solutions"] = all_working_modes(context, pose, branch);
 }
@@ -210,17 +212,17 @@ void answer_velocity(Context& context) {
 
   const Velocity result = velocity(context.robot, at.pose, at.coordinates, context.work);
   context.report(result.report);
-  context.answer["pose"] = to_json(at.pose);
-  context.answer["J"] = to_json(result.J);
-  context.answer["K"] = to_json(result.K);
-  if (result.U.rows() > 0) context.answer["U"] = to_json(result.U);
+  context.answer["pose"] = pose_value(at.pose);
+  context.answer["J"] = Value(result.J);
+  context.answer["K"] = Value(result.K);
+  if (result.U.rows() > 0) context.answer["U"] = Value(result.U);
   put_number(context.answer, "determinant", result.determinant);
-  context.answer["indices"] = to_json(result.indices);
-  context.answer["type_1"] = std::vector<int>(result.type_1.begin(), result.type_1.end());
-  context.answer["type_2"] = type_two_json(result.type_2, std::holds_alternative<PlanarPose>(at.pose));
+  context.answer["indices"] = indices_value(result.indices);
+  context.answer["type_1"] = std::span<const int>(result.type_1);
+  context.answer["type_2"] = type_two_value(result.type_2, std::holds_alternative<PlanarPose>(at.pose));
   context.answer["residual"] = result.report.residual;
   if (!twist.empty()) put_rates(context, result, twist);
-  context.answer["legs"] = legs_json(context.robot, at.pose, at.coordinates, context.work);
+  context.answer["legs"] = legs_value(context.robot, at.pose, at.coordinates, context.work);
   if (along) put_type_2_distance(context, *along, given, at.pose);
 }
 
@@ -237,9 +239,9 @@ void answer_shape(Context& context) {
   context.report(at.report);
   if (!at.report.ok()) return;
 
-  context.answer["pose"] = to_json(at.pose);
+  context.answer["pose"] = pose_value(at.pose);
   put_shape(context.answer, any_shape(context.robot, at.pose, at.coordinates, count));
-  context.answer["frames"] = Json::array({to_json(at.pose)});
+  context.answer["frames"] = Value::list({pose_value(at.pose)});
 }
 
 }  // namespace sinew::inline v1

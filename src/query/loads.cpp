@@ -35,7 +35,7 @@ bool read_all(Context& context) {
   return all && all->boolean();
 }
 
-void put_solutions(Context& context, Json solutions) {
+void put_solutions(Context& context, Value solutions) {
   if (Report stopped; note_stop(context.work.stop, stopped)) context.report(stopped);
   context.answer["count"] = solutions.size();
   context.answer["complete"] = false;

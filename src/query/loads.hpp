@@ -49,6 +49,6 @@ std::vector<double> read_forces(const Reader& given, std::size_t count, const Ra
 
 bool read_all(Context& context);
 /// `solutions` that were found by many starts, without proof.
-void put_solutions(Context& context, Json solutions);
+void put_solutions(Context& context, Value solutions);
 
 }  // namespace sinew::inline v1

@@ -70,7 +70,7 @@ void answer_rods_track(Context& context) {
     return;
   }
   put_curves(context, curves, [](const CurvePoint& point) {
-    return Json{{"pose", to_json(point.pose)}, {"inputs", to_json(std::span<const double>(point.inputs))}};
+    return Value{{"pose", pose_value(point.pose)}, {"inputs", Value(std::span<const double>(point.inputs))}};
   });
 }
 

@@ -33,7 +33,7 @@ SensingQuery read_sensing(Context& context) {
   return asked;
 }
 
-Json rows_json(const std::array<double, 36>& numbers) { return to_json(MatrixView(numbers.data(), 6, 6)); }
+Value rows_value(const std::array<double, 36>& numbers) { return Value(MatrixView(numbers.data(), 6, 6)); }
 
 }  // namespace
 
@@ -48,15 +48,15 @@ void answer_rods_statics(Context& context) {
   const bool is_solved = sensed.report.is_solved();
   remember_held(context, is_solved ? std::optional(sensed.pose) : std::nullopt);
   if (!is_solved) return;
-  Json& answer = context.answer;
+  Value& answer = context.answer;
   answer["iterations"] = sensed.report.iterations;
   answer["residual"] = sensed.report.residual;
-  answer["pose"] = to_json(sensed.pose);
-  answer["wrench"] = to_json(std::span<const double>(sensed.wrench.data(), 6));
-  answer["wrench_sensitivity"] = rows_json(sensed.sensitivity);
+  answer["pose"] = pose_value(sensed.pose);
+  answer["wrench"] = Value(std::span<const double>(sensed.wrench.data(), 6));
+  answer["wrench_sensitivity"] = rows_value(sensed.sensitivity);
   if (asked.has_deviations &&
       std::ranges::all_of(sensed.covariance, [](double part) { return std::isfinite(part); }))  // of squares
-    answer["covariance"] = rows_json(sensed.covariance);
+    answer["covariance"] = rows_value(sensed.covariance);
 }
 
 }  // namespace sinew::inline v1

@@ -108,16 +108,16 @@ Equilibrium follow_to(Context& context, const Held& from, const Held& to, Equili
   return hold(context, to, options);
 }
 
-Json rod_row_json(const Equilibrium& found, const RodAnalysis& analysis) {
-  Json row{{"pose", to_json(found.pose)},
-           {"inputs", to_json(found.inputs)},
-           {"status", to_string(found.report.status)},
-           {"residual", found.report.residual},
-           {"stable", analysis.unstable_directions == 0},
-           {"unstable_directions", analysis.unstable_directions}};
+Value rod_row_value(const Equilibrium& found, const RodAnalysis& analysis) {
+  Value row{{"pose", pose_value(found.pose)},
+            {"inputs", Value(found.inputs)},
+            {"status", to_string(found.report.status)},
+            {"residual", found.report.residual},
+            {"stable", analysis.unstable_directions == 0},
+            {"unstable_directions", analysis.unstable_directions}};
   put_number(row, "potential", analysis.potential);
   row["margins"] = {{"fold", analysis.smallest_pivot}, {"strain", analysis.largest_strain}};
-  row["indices"] = indices_json(analysis);
+  row["indices"] = indices_value(analysis);
   if (analysis.is_singular()) row["singular"] = true;
   return row;
 }
@@ -140,7 +140,7 @@ double part_of(const Held& from, const Held& to, const SpatialPose& here) {
 }
 
 void put_rod_end(Context& context, const PathQuery& asked, const Equilibrium& found, std::size_t rows) {
-  Json& answer = context.answer;
+  Value& answer = context.answer;
   context.report(found.report);
   const std::string why(found.report.message.view());
   if (rows == 0) {
@@ -152,7 +152,7 @@ void put_rod_end(Context& context, const PathQuery& asked, const Equilibrium& fo
                part = (static_cast<double>(rows - 1) + beyond) / static_cast<double>(asked.path.size() - 1);
   answer["message"] = fmt::format("the path ends between poses {} and {} of {}, {:.4g} % along it, at {}: {}",
                                   rows, rows + 1, asked.path.size(), 100 * part, in_words(found.pose), why);
-  answer["reached"] = {{"rows", rows}, {"part", part}, {"pose", to_json(found.pose)}};
+  answer["reached"] = {{"rows", rows}, {"part", part}, {"pose", pose_value(found.pose)}};
 }
 
 }  // namespace
@@ -160,7 +160,7 @@ void put_rod_end(Context& context, const PathQuery& asked, const Equilibrium& fo
 void answer_rods_path(Context& context) {
   const PathQuery asked = read_rod_path(context);
   if (!context.ready()) return;
-  Json rows = Json::array();
+  Value rows = Value::list();
   double worst = 0, length = 0;
   std::size_t unstable = 0, first_unstable = 0;
   Equilibrium found;
@@ -181,7 +181,7 @@ void answer_rods_path(Context& context) {
     length = analysis.rods.front().length;
     worst = std::max(worst, found.report.residual);
     if (analysis.unstable_directions > 0 && unstable++ == 0) first_unstable = k + 1;
-    rows.push_back(rod_row_json(found, analysis));
+    rows.push_back(rod_row_value(found, analysis));
   }
   const bool arrives = rows.size() == asked.path.size();
   remember_held(context, arrives ? std::optional(found.pose) : std::nullopt);

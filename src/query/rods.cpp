@@ -49,17 +49,17 @@ IndependentPose read_independent(const Context& context, Reader& asked) {
 
 namespace {
 
-Json rods_json(std::span<const RodResult> rods) {
-  Json legs = Json::array();
+Value rods_value(std::span<const RodResult> rods) {
+  Value legs = Value::list();
   for (const RodResult& rod : rods) {
     legs.push_back({{"length", rod.length},
                     {"chord", rod.chord},
-                    {"force", to_json(rod.force)},
-                    {"force_0", to_json(rod.force_0)},
-                    {"moment", to_json(rod.moment)},
-                    {"moment_0", to_json(rod.moment_0)},
+                    {"force", Value(rod.force)},
+                    {"force_0", Value(rod.force_0)},
+                    {"moment", Value(rod.moment)},
+                    {"moment_0", Value(rod.moment_0)},
                     {"curvature_0", {rod.curvature_0.x(), rod.curvature_0.y()}},
-                    {"tip", to_json(rod.tip)},
+                    {"tip", Value(rod.tip)},
                     {"tip_angle", rod.tip_angle},
                     {"energy", rod.energy}});
   }
@@ -67,41 +67,41 @@ Json rods_json(std::span<const RodResult> rods) {
 }
 
 /// All legs in order: rods, and what closes beside them.
-Json legs_of(Context& context, const Equilibrium& found, const RodAnalysis& analysis) {
-  Json legs = rods_json(analysis.rods);
+Value legs_of(Context& context, const Equilibrium& found, const RodAnalysis& analysis) {
+  Value legs = rods_value(analysis.rods);
   if (analysis.closing_forces.empty()) return legs;
-  Json all = legs_json(context.robot, found.pose, found.coordinates, context.work);
+  Value all = legs_value(context.robot, found.pose, found.coordinates, context.work);
   std::vector<bool> is_rod(all.size(), false);
   for_each_rod(context.robot, [&, k = std::size_t{0}](const RodLeg&, const LegPlace&, int i) mutable {
     all[static_cast<std::size_t>(i)] = legs[k++];
     is_rod[static_cast<std::size_t>(i)] = true;
   });
   for (std::size_t i = 0, k = 0; i < all.size(); ++i)
-    if (!is_rod[i]) all[i]["force"] = to_json(analysis.closing_forces[k++]);
+    if (!is_rod[i]) all[i]["force"] = Value(analysis.closing_forces[k++]);
   return all;
 }
 
-Json rows_json(std::span<const double> numbers, std::size_t columns) {
-  return to_json(MatrixView(numbers.data(), static_cast<Eigen::Index>(numbers.size() / columns),
-                            static_cast<Eigen::Index>(columns)));
+Value rows_value(std::span<const double> numbers, std::size_t columns) {
+  return Value(MatrixView(numbers.data(), static_cast<Eigen::Index>(numbers.size() / columns),
+                          static_cast<Eigen::Index>(columns)));
 }
 
 /// Left out where the platform is not held, and they say nothing.
-void put_rows(Json& answer, const char* key, std::span<const double> numbers, std::size_t columns) {
+void put_rows(Value& answer, Value::Key key, std::span<const double> numbers, std::size_t columns) {
   const auto is_number = [](double x) { return std::isfinite(x); };
-  if (std::ranges::all_of(numbers, is_number)) answer[key] = rows_json(numbers, columns);
+  if (std::ranges::all_of(numbers, is_number)) answer[key] = rows_value(numbers, columns);
 }
 
 void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analysis) {
-  Json& answer = context.answer;
-  if (wanted.stiffness) answer["stiffness"] = rows_json(analysis.stiffness, 6);
+  Value& answer = context.answer;
+  if (wanted.stiffness) answer["stiffness"] = rows_value(analysis.stiffness, 6);
   if (wanted.stability) {
     answer["stable"] = analysis.unstable_directions == 0;
     answer["unstable_directions"] = analysis.unstable_directions;
-    Json twists = Json::array();
-    for (const auto& twist : analysis.unstable) twists.push_back(to_json(std::span<const double>(twist)));
+    Value twists = Value::list();
+    for (const auto& twist : analysis.unstable) twists.push_back(Value(std::span<const double>(twist)));
     answer["unstable"] = std::move(twists);
-    Json legs = Json::array();
+    Value legs = Value::list();
     for_each_rod(context.robot, [&, k = std::size_t{0}](const RodLeg&, const LegPlace&, int i) mutable {
       const auto [in_plane, aside] = analysis.unstable_rods[k++];
       if (in_plane + aside > 0) legs.push_back(i);
@@ -138,10 +138,10 @@ std::optional<SpatialPose> read_held_pose(const Context& context) {
 
 }  // namespace
 
-Json indices_json(const RodAnalysis& analysis) {
-  Json indices = Json::object();
-  put_number(indices, "position", analysis.position_index);
-  put_number(indices, "rotation", analysis.rotation_index);
+Value indices_value(const RodAnalysis& analysis) {
+  Value indices = Value::map();
+  put_number(indices, "position", analysis.position_index());
+  put_number(indices, "rotation", analysis.rotation_index());
   return indices;
 }
 
@@ -219,8 +219,8 @@ void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& w
   }
   if (!found.is_solved()) return;
   const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
-  context.answer["pose"] = to_json(found.pose);
-  context.answer["inputs"] = to_json(found.inputs);
+  context.answer["pose"] = pose_value(found.pose);
+  context.answer["inputs"] = Value(found.inputs);
   context.answer["legs"] = legs_of(context, found, analysis);
   context.answer["energy"] = analysis.energy;
   put_number(context.answer, "potential", analysis.potential);
@@ -228,32 +228,32 @@ void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& w
 }
 
 /// What `equilibria` and `inverse_equilibria` tell of one of them beside where it is.
-void put_found(Json& solution, const FoundEquilibrium& one, const Robot& robot) {
+void put_found(Value& solution, const FoundEquilibrium& one, const Robot& robot) {
   solution["residual"] = one.residual;
   solution["stable"] = one.unstable_directions == 0;
   solution["unstable_directions"] = one.unstable_directions;
   put_number(solution, "potential", one.potential);
-  if (robot.rod_count() == leg_count(robot)) solution["legs"] = rods_json(one.rods);
+  if (robot.rod_count() == leg_count(robot)) solution["legs"] = rods_value(one.rods);
 }
 
 void put_all(Context& context, std::span<const double> inputs, const EquilibriumOptions& options) {
-  Json solutions = Json::array();
+  Value solutions = Value::list();
   for (const FoundEquilibrium& one : equilibria(context.robot, inputs, options, context.work)) {
-    solutions.push_back({{"pose", to_json(one.pose)}});
+    solutions.push_back({{"pose", pose_value(one.pose)}});
     put_found(solutions.back(), one, context.robot);
   }
   put_solutions(context, std::move(solutions));
 }
 
 void put_all_lengths(Context& context, const SpatialPose& pose, const EquilibriumOptions& options) {
-  Json solutions = Json::array();
+  Value solutions = Value::list();
   for (const FoundEquilibrium& one : inverse_equilibria(context.robot, pose, options, context.work)) {
-    solutions.push_back({{"inputs", to_json(one.inputs)}});
+    solutions.push_back({{"inputs", Value(one.inputs)}});
     put_found(solutions.back(), one, context.robot);
   }
-  if (!solutions.empty() && !context.answer.contains("inputs"))
+  if (solutions.size() > 0 && !context.answer.contains("inputs"))
     context.answer["message"] =
-        context.answer.value("message", "") + "; by other ways it is held: see solutions";
+        std::string(context.answer.text_at("message")) + "; by other ways it is held: see solutions";
   put_solutions(context, std::move(solutions));
 }
 
@@ -402,12 +402,12 @@ void put_motion(Context& context, const AskedMotion& asked, const Report& equili
   if (!asked.twist.empty()) {
     rates.resize(static_cast<std::size_t>(input_count(context.robot)));
     if (!is_known(rod_rates(analysis, asked.twist, rates))) return;
-    context.answer["rates"] = to_json(rates);
+    context.answer["rates"] = Value(rates);
   }
   if (rates.empty() || asked.twist.size() == 6) return;
   std::array<double, 6> twist;
   if (!is_known(rod_twist(analysis, rates, twist))) return;
-  context.answer["twist"] = to_json(std::span<const double>(twist));
+  context.answer["twist"] = Value(std::span<const double>(twist));
 }
 
 }  // namespace
@@ -423,14 +423,14 @@ void answer_rods_velocity(Context& context) {
   context.report(found.report);
   if (!found.is_solved()) return;
   const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
-  Json& answer = context.answer;
+  Value& answer = context.answer;
   const std::size_t columns = found.inputs.size();
-  answer["pose"] = to_json(found.pose);
-  answer["inputs"] = to_json(found.inputs);
-  answer["J"] = rows_json(analysis.stiffness, 6);
-  answer["K"] = rows_json(analysis.feed, columns);
+  answer["pose"] = pose_value(found.pose);
+  answer["inputs"] = Value(found.inputs);
+  answer["J"] = rows_value(analysis.stiffness, 6);
+  answer["K"] = rows_value(analysis.feed, columns);
   put_rows(answer, "U", analysis.sensitivity, columns);
-  answer["indices"] = indices_json(analysis);
+  answer["indices"] = indices_value(analysis);
   answer["type_2"] = {{"singular", analysis.is_singular()}};
   answer["residual"] = found.report.residual;
   put_motion(context, motion, found.report, analysis);
@@ -445,12 +445,12 @@ void answer_rods_shape(Context& context) {
   const Equilibrium found = solve(context, asked);
   context.report(found.report);
   if (!found.is_solved()) return;
-  context.answer["pose"] = to_json(found.pose);
+  context.answer["pose"] = pose_value(found.pose);
   Weight weight = context.robot.weight();  // rods that bear torque are drawn from their bases, under theirs
   weight.gravity = asked.options.gravity.value_or(weight.gravity);
   const Robot seen = context.robot.under(weight);
   put_shape(context.answer, any_shape(seen, found.pose, found.coordinates, count));
-  context.answer["frames"] = Json::array({to_json(found.pose)});
+  context.answer["frames"] = Value::list({pose_value(found.pose)});
 }
 
 }  // namespace sinew::inline v1

@@ -37,7 +37,7 @@ void answer_rods_track(Context& context);
 void answer_rods_path(Context& context);
 
 /// Of position and rotation; one that is infinite, where the platform is not held, is left out.
-Json indices_json(const RodAnalysis& analysis);
+Value indices_value(const RodAnalysis& analysis);
 
 /// `{z, e1, e2}` of robots with three inputs.
 IndependentPose read_independent(const Context& context, Reader& asked);

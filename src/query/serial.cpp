@@ -44,12 +44,12 @@ std::array<double, 2> configuration_of(const Section& section, const Bend& bend,
 
 /// The same per section, as the protocol has it.
 template <class Values>
-Json by_section(const SerialRobot& robot, const Values& values) {
-  Json list = Json::array();
+Value by_section(const SerialRobot& robot, const Values& values) {
+  Value list = Value::list();
   std::size_t first = 0;
   for (const Section& section : robot.sections) {
     const auto count = static_cast<std::size_t>(section.tendons);
-    list.push_back(to_json(std::span<const double>(values.data() + first, count)));
+    list.push_back(Value(std::span<const double>(values.data() + first, count)));
     first += count;
   }
   return list;
@@ -79,27 +79,27 @@ SerialConfiguration read_configuration(SerialContext& context, const Reader& lis
   return shape;
 }
 
-Json configuration_json(const SerialContext& context, std::span<const Bend> bends,
-                        std::span<const double> straight) {
-  Json list = Json::array();
+Value configuration_value(const SerialContext& context, std::span<const Bend> bends,
+                          std::span<const double> straight) {
+  Value list = Value::list();
   for (std::size_t m = 0; m < bends.size(); ++m) {
     const Section& section = context.robot.sections[m];
-    Json one = configuration_of(section, bends[m], straight.empty() ? 0 : straight[m]);
+    Value one = configuration_of(section, bends[m], straight.empty() ? 0 : straight[m]);
     if (section.is_extensible()) one.push_back(context.work.extensions[m]);
     list.push_back(std::move(one));
   }
   return list;
 }
 
-Json changes_json(SerialContext& context, std::span<const Bend> bends, kernel::Model model) {
+Value changes_value(SerialContext& context, std::span<const Bend> bends, kernel::Model model) {
   tendon_changes(bends, model, context.work);
   return by_section(context.robot, context.work.changes);
 }
 
 void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
                        std::span<const double> more, std::span<const double> given) {
-  Json& answer = context.answer;
-  answer["configuration"] = configuration_json(context, bends);
+  Value& answer = context.answer;
+  answer["configuration"] = configuration_value(context, bends);
   tendon_changes(bends, model, context.work);
   if (!more.empty()) add_slack(more, context.work);
   std::copy(given.begin(), given.end(), context.work.changes.begin());
@@ -110,8 +110,8 @@ void put_configuration(SerialContext& context, std::span<const Bend> bends, kern
     for (double& count : counts) count *= context.robot.motor->counts_per_length();
     answer["motors"] = by_section(context.robot, counts);
   }
-  Json sections = Json::array();
-  for (const SE3<double>& end : context.work.ends) sections.push_back(to_json(AnyPose(spatial_pose(end))));
+  Value sections = Value::list();
+  for (const SE3<double>& end : context.work.ends) sections.push_back(pose_value(AnyPose(spatial_pose(end))));
   answer["tip"] = sections.back();
   answer["sections"] = std::move(sections);
 }
@@ -238,7 +238,7 @@ std::pair<double, double> largest_and_ratio(const Rows& matrix) {
 
 /// σmax/σmin, and the largest speeds of the tip for rates of unit norm: of bends in rad, not of [θ, φ], and
 /// of extensions as shares of the robot's length.
-Json indices_json(const SerialContext& context) {
+Value indices_value(const SerialContext& context) {
   const SerialWorkspace& work = context.work;
   const double length = context.robot.length();
   Rows J = work.jacobian();
@@ -249,8 +249,8 @@ Json indices_json(const SerialContext& context) {
   }
   Rows scaled = J;
   scaled.topRows<3>() /= length;
-  Json indices = Json::object();
-  const auto put = [&](const char* key, double value) {
+  Value indices = Value::map();
+  const auto put = [&](Value::Key key, double value) {
     if (value < 1e15) indices[key] = value;  // beyond, it says how the matrix was rounded
   };
   put("condition", largest_and_ratio(J).second);
@@ -262,9 +262,9 @@ Json indices_json(const SerialContext& context) {
 
 /// Rates of [θ, φ] or [β₁, β₂] and of the extension, from those of bends. A straight section starts towards
 /// where its bend goes: that is its φ.
-Json rates_json(const SerialContext& context, std::span<const Bend> bends, const ResolvedRate& found,
-                std::span<double> straight) {
-  Json list = Json::array();
+Value rates_value(const SerialContext& context, std::span<const Bend> bends, const ResolvedRate& found,
+                  std::span<double> straight) {
+  Value list = Value::list();
   for (std::size_t m = 0; m < bends.size(); ++m) {
     const Section& section = context.robot.sections[m];
     Bend rate(found.bends[2 * m], found.bends[2 * m + 1]);
@@ -276,7 +276,7 @@ Json rates_json(const SerialContext& context, std::span<const Bend> bends, const
       const Bend along = bends[m] / theta;
       rate = {along.dot(rate), (along.x() * rate.y() - along.y() * rate.x()) / theta};
     }
-    Json one{rate.x(), rate.y()};
+    Value one{rate.x(), rate.y()};
     if (section.is_extensible()) one.push_back(found.extensions[m]);
     list.push_back(std::move(one));
   }
@@ -324,13 +324,13 @@ void answer_serial_velocity(SerialContext context) {
   solve_shape(context, model, shape);
   context.report(shape.report);
   std::vector<double> straight(shape.bends.size(), 0.0);
-  Json rates;
+  Value rates;
   if (!twist.empty()) {
     const TipTwist wanted{{twist[0], twist[1], twist[2]}, {twist[3], twist[4], twist[5]}};
     const ResolvedRate found =
         resolved_rate(context.robot, shape.bends, wanted, {.model = model}, context.work);
     if (found.ok())
-      rates = rates_json(context, shape.bends, found, straight);
+      rates = rates_value(context, shape.bends, found, straight);
     else
       context.report(found.report);
   }
@@ -338,14 +338,14 @@ void answer_serial_velocity(SerialContext context) {
   tendon_rates(shape.bends, model, context.work);
   extension_motion(shape.bends, model, context.work);
   const auto [J, K] = by_configuration(context, shape.bends, straight);
-  context.answer["configuration"] = configuration_json(context, shape.bends, straight);
-  context.answer["tip"] = to_json(AnyPose(spatial_pose(context.work.ends.back())));
-  context.answer["J"] = to_json(MatrixView(J.data(), J.rows(), J.cols()));
-  context.answer["K"] = to_json(MatrixView(K.data(), K.rows(), K.cols()));
-  context.answer["indices"] = indices_json(context);
+  context.answer["configuration"] = configuration_value(context, shape.bends, straight);
+  context.answer["tip"] = pose_value(AnyPose(spatial_pose(context.work.ends.back())));
+  context.answer["J"] = Value(MatrixView(J.data(), J.rows(), J.cols()));
+  context.answer["K"] = Value(MatrixView(K.data(), K.rows(), K.cols()));
+  context.answer["indices"] = indices_value(context);
   if (const auto steering = tip_steering(context.work))
-    context.answer["steering"] = {{(*steering)(0, 0), (*steering)(0, 1)},
-                                  {(*steering)(1, 0), (*steering)(1, 1)}};
+    context.answer["steering"] =
+        Value(std::array{(*steering)(0, 0), (*steering)(0, 1), (*steering)(1, 0), (*steering)(1, 1)}, 2);
   if (!rates.is_null()) context.answer["rates"] = std::move(rates);
 }
 
@@ -360,23 +360,23 @@ void answer_serial_shape(SerialContext context) {
   context.report(given.report);
   const SerialShape shape = serial_shape(context.robot.extended(given.extensions), given.bends, count);
   const auto polyline = [](const std::vector<Vec3<double>>& line) {
-    Json points = Json::array();
-    for (const auto& point : line) points.push_back(to_json(point));
+    Value points = Value::list();
+    for (const auto& point : line) points.push_back(Value(point));
     return points;
   };
-  Json backbones = Json::array(), tendons = Json::array(), discs = Json::array(), frames = Json::array();
+  Value backbones = Value::list(), tendons = Value::list(), discs = Value::list(), frames = Value::list();
   for (const auto& line : shape.backbones) backbones.push_back(polyline(line));
   for (const auto& section : shape.tendons) {
-    Json lines = Json::array();
+    Value lines = Value::list();
     for (const auto& line : section) lines.push_back(polyline(line));
     tendons.push_back(std::move(lines));
   }
   for (const DiscShape& disc : shape.discs)
-    discs.push_back({{"pose", to_json(AnyPose(spatial_pose(disc.base)))},
+    discs.push_back({{"pose", pose_value(AnyPose(spatial_pose(disc.base)))},
                      {"height", disc.height},
                      {"radius", disc.radius}});
-  for (const SE3<double>& end : shape.ends) frames.push_back(to_json(AnyPose(spatial_pose(end))));
-  context.answer["configuration"] = configuration_json(context, given.bends);
+  for (const SE3<double>& end : shape.ends) frames.push_back(pose_value(AnyPose(spatial_pose(end))));
+  context.answer["configuration"] = configuration_value(context, given.bends);
   context.answer["tip"] = frames.back();
   context.answer["backbones"] = std::move(backbones);
   context.answer["tendons"] = std::move(tendons);
@@ -386,11 +386,11 @@ void answer_serial_shape(SerialContext context) {
 
 void answer_serial_describe(SerialContext context) {
   if (!context.ready()) return;
-  Json sections = Json::array(), coordinates = Json::array(), inputs = Json::array();
+  Value sections = Value::list(), coordinates = Value::list(), inputs = Value::list();
   for (std::size_t m = 0; m < context.robot.sections.size(); ++m) {
     const Section& section = context.robot.sections[m];
     const std::string place = joined("sections", m);
-    Json one{
+    Value one{
         {"type", section.is_twin() ? "tpcj" : "neutral"},
         {"segments", section.segments},
         {"joint", section.joint},
@@ -409,7 +409,7 @@ void answer_serial_describe(SerialContext context) {
       inputs.push_back(
           {{"name", joined(joined(place, "tendons"), static_cast<std::size_t>(i))}, {"unit", "m"}});
   }
-  Json& answer = context.answer;
+  Value& answer = context.answer;
   answer["status"] = "converged";
   answer["kind"] = "serial";
   answer["space"] = "spatial";
@@ -422,7 +422,7 @@ void answer_serial_describe(SerialContext context) {
     answer["motor"] = {{"lead", motor->lead}, {"counts", motor->counts}, {"gear", motor->gear}};
   if (const auto& stretch = context.robot.stretch)
     answer["stretch"] = {{"stiffness", stretch->stiffness}, {"outside", stretch->outside}};
-  answer["models"] = {"pcc", "lsk"};
+  answer["models"] = Value::list({"pcc", "lsk"});
   answer["model"] = "pcc";
   answer["geometry"] = context.robot.geometry_inferred ? "inferred" : "given";
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};

@@ -43,10 +43,10 @@ struct SerialConfiguration {
 SerialConfiguration read_configuration(SerialContext& context, const Reader& list);
 /// As long as the sections of the workspace are.
 /// @param straight φ of each section that is straight; empty: 0
-Json configuration_json(const SerialContext& context, std::span<const Bend> bends,
-                        std::span<const double> straight = {});
+Value configuration_value(const SerialContext& context, std::span<const Bend> bends,
+                          std::span<const double> straight = {});
 /// What the bends ask of the tendons, per section. Uses the workspace.
-Json changes_json(SerialContext& context, std::span<const Bend> bends, kernel::Model model);
+Value changes_value(SerialContext& context, std::span<const Bend> bends, kernel::Model model);
 /// Writes configuration, changes, motors, sections and tip, as long as the sections of the workspace are.
 /// @param more what every tendon of a section is paid out beyond that [m]; empty: nothing
 /// @param given changes of the first tendons, where they are known; the others are those of the bends

@@ -65,9 +65,9 @@ Envelope read_envelope(SerialContext& context, const Section& section) {
 
 constexpr std::string_view names[] = {"exact", "indeterminate", "inconsistent", "unreachable"};
 
-Json points_json(const std::vector<Vec2<double>>& points) {
-  Json list = Json::array();
-  for (const auto& point : points) list.push_back(to_json(point));
+Value points_value(const std::vector<Vec2<double>>& points) {
+  Value list = Value::list();
+  for (const auto& point : points) list.push_back(Value(point));
   return list;
 }
 
@@ -108,7 +108,7 @@ void take_extension(Asked& asked, const TendonsTo& tendons, const SerialRobot& r
   asked.question.earlier.common += asked.own_extension;
 }
 
-void put_state(Json& answer, const DiagramQuestion& question, const SectionDiagram& diagram) {
+void put_state(Value& answer, const DiagramQuestion& question, const SectionDiagram& diagram) {
   const StateWords state = state_words(question, diagram);
   answer["class"] = names[static_cast<std::size_t>(diagram.agree)];
   answer["partial"] = diagram.partial;
@@ -116,21 +116,21 @@ void put_state(Json& answer, const DiagramQuestion& question, const SectionDiagr
   put_number(answer, "amount", state.amount);
   answer["near_limit"] = state.is_near_limit;
   answer["advice"] = state.advice;
-  answer["point"] = to_json(diagram.point);
-  answer["slack"] = to_json(diagram.slack);
+  answer["point"] = Value(diagram.point);
+  answer["slack"] = Value(diagram.slack);
   put_number(answer, "margin", diagram.margin);
   put_number(answer, "over_tension", diagram.over_tension);
 }
 
-void put_diagram(Json& answer, const DiagramQuestion& question, const SectionDiagram& diagram) {
+void put_diagram(Value& answer, const DiagramQuestion& question, const SectionDiagram& diagram) {
   put_state(answer, question, diagram);
-  Json frontiers = Json::array();
+  Value frontiers = Value::list();
   for (const HalfPlane& plane : diagram.frontiers)
-    frontiers.push_back({{"normal", to_json(plane.normal)}, {"offset", plane.offset}});
-  for (const Curve& curve : diagram.curves) frontiers.push_back({{"curve", points_json(curve)}});
+    frontiers.push_back({{"normal", Value(plane.normal)}, {"offset", plane.offset}});
+  for (const Curve& curve : diagram.curves) frontiers.push_back({{"curve", points_value(curve)}});
   answer["frontiers"] = std::move(frontiers);
-  if (diagram.free) answer["polygon"] = points_json(*diagram.free);
-  answer["boundary"] = points_json(diagram.boundary);
+  if (diagram.free) answer["polygon"] = points_value(*diagram.free);
+  answer["boundary"] = points_value(diagram.boundary);
   put_number(answer, "area", diagram.area);
 }
 
@@ -156,7 +156,7 @@ void put_outline(SerialContext& context, const Asked& asked, const TendonsTo& co
   if (!outline.report.ok()) return;
   constexpr std::string_view reasons[] = {"", "previous_over_tensioned", "over_tensioned", "beyond_envelope"};
   if (outline.missing == SectionOutline::Missing::none)
-    context.answer["outline"] = points_json(outline.boundary);
+    context.answer["outline"] = points_value(outline.boundary);
   else
     context.answer["no_outline"] = reasons[static_cast<std::size_t>(outline.missing)];
 }
@@ -207,7 +207,7 @@ void answer_diagram(Context& of_robot) {
   if (asked.is_conditional) put_outline(context, asked, commanded, m);
   if (measured) {
     Asked of_encoders(context, m);
-    Json state = Json::object();
+    Value state = Value::map();
     const SectionDiagram read = ask(*measured, of_encoders);
     if (read.report.status == Status::left_domain)
       state = {{"status", "left_domain"}, {"message", std::string(read.report.message.view())}};

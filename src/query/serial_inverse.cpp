@@ -58,14 +58,14 @@ std::optional<ThreeArcs> three_arcs(const SerialRobot& robot) {
 void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& target, kernel::Model model) {
   const SE3<double> tip{target.position, *target.rotation};
   const ThreeArcSolutions found = all_bends(arcs, spatial_pose(tip), context.work.stop);
-  Json solutions = Json::array();
+  Value solutions = Value::list();
   std::optional<std::size_t> first;
   for (std::size_t k = 0; k < found.solutions.size(); ++k) {
     const std::span<const Bend> bends = found.solutions[k];
     if (!check_limits(context.robot, bends).ok()) continue;
     if (!first) first = k;
-    solutions.push_back({{"configuration", configuration_json(context, bends)},
-                         {"changes", changes_json(context, bends, model)},
+    solutions.push_back({{"configuration", configuration_value(context, bends)},
+                         {"changes", changes_value(context, bends, model)},
                          {"residual", found.residual[k]}});
   }
   Report report = found.report;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
@@ -48,15 +49,16 @@ const Kind& read_kind(Reader& query, bool is_serial) {
 }
 
 /// The query's id, which every answer repeats.
-Json read_id(Reader& query) {
+Value read_id(Reader& query) {
   const auto id = query.optional("id");
   if (!id) return {};
   if (!id->is(Node::Kind::number) && !id->is(Node::Kind::string)) {
     id->refuse("wrong_type", "give text or a number");
     return {};
   }
-  if (id->is(Node::Kind::number)) return Json::parse(id->node()->text, nullptr, false);
-  return id->text();
+  if (!id->is(Node::Kind::number)) return id->text();
+  if (nlohmann::json::accept(id->node()->text)) return Value::Written{id->node()->text};
+  return id->number();
 }
 
 std::string_view meaning_of(Model model) {
@@ -96,43 +98,14 @@ bool has_key(const Document& robot, std::string_view key) {
   return value && value->kind != Node::Kind::null;
 }
 
-Json error_answer(const Json& id, const Errors& errors) {
-  Json answer = Json::object();
+Value error_answer(const Value& id, const Errors& errors) {
+  Value answer = Value::map();
   if (!id.is_null()) answer["id"] = id;
   std::string message = errors.front().message;
   for (std::size_t i = 1; i < errors.size(); ++i)
     message += (message.ends_with('.') ? " " : "; ") + errors[i].message;
   answer["error"] = {{"code", errors.front().code}, {"where", errors.front().where}, {"message", message}};
   return answer;
-}
-
-/// The tree that reading the answer's text would give; what is converted is freed.
-Node node_of(Json&& json) {
-  Node node;
-  switch (json.type()) {
-    case Json::value_t::boolean:
-      return make_node(json.get<bool>());
-    case Json::value_t::string:
-      return make_node(std::string_view(json.get_ref<const std::string&>()));
-    case Json::value_t::array:
-      node.kind = Node::Kind::list;
-      node.items.reserve(json.size());
-      for (Json& item : json) node.items.push_back(node_of(std::move(item)));
-      break;
-    case Json::value_t::object:
-      node.kind = Node::Kind::map;
-      node.members.reserve(json.size());
-      for (auto& [key, value] : json.get_ref<Json::object_t&>())
-        node.members.push_back({.key = key, .value = node_of(std::move(value))});
-      break;
-    case Json::value_t::null:
-      break;
-    default:
-      node = make_node(json.get<double>());
-      node.text = json.dump();
-  }
-  json = nullptr;
-  return node;
 }
 
 /// A robot, and the memory for questions to it.
@@ -265,10 +238,10 @@ Expected<TreeSession> TreeSession::open(Document robot) {
   return TreeSession(std::make_unique<State>(State{std::move(robot), std::move(*opened)}));
 }
 
-Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last, Continues continues) {
+Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last, Continues continues) {
   Errors errors;
   Reader query(document, errors);
-  const Json id = read_id(query);
+  const Value id = read_id(query);
   const bool is_serial = state_->opened.robot.serial() != nullptr;
   const Kind& kind = read_kind(query, is_serial);
   if (!errors.empty()) return error_answer(id, errors);
@@ -279,7 +252,7 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
   if (!is_serial) opened = opened->by(read_model(query, model, opened->robot, kind), errors);
   if (!errors.empty()) return error_answer(id, errors);
 
-  Json answer = Json::object();
+  Value answer = Value::map();
   if (!id.is_null()) answer["id"] = id;
   answer["query"] = kind.name;
   answer["robot"] = opened->robot.name();
@@ -293,14 +266,14 @@ Json TreeSession::answer(const Document& document, std::optional<AnyPose>* last,
   kind.handler(context);
   if (!errors.empty()) return error_answer(id, errors);
   if (wants_tilt) add_tilt(answer);
-  if (is_serial && answer.value("status", "") == "slack" && !has_key(state_->document, "tolerance"))
+  if (is_serial && answer.text_at("status") == "slack" && !has_key(state_->document, "tolerance"))
     answer["message"] =
-        fmt::format("{}; the file gives no tolerance of its tendons: {} counts", answer.value("message", ""),
+        fmt::format("{}; the file gives no tolerance of its tendons: {} counts", answer.text_at("message"),
                     human(opened->robot.serial()->tolerance, Dimension::length));
   const Opened& own = state_->opened;  // the robot as its file has it
   const std::string hint = unit_hint(document.root, answer, own.scale, state_->document.root, own.inputs);
   if (!hint.empty()) {
-    std::string said = answer.value("message", "");
+    std::string said(answer.text_at("message"));
     while (said.ends_with('.')) said.pop_back();
     answer["message"] = said.empty() ? hint : said + ". " + hint;
   }
@@ -327,14 +300,13 @@ Expected<Session> Session::open(const std::string& path) {
 
 std::string Session::answer(std::string_view text) {
   const auto document = parse_json(text, "query");
-  const Json answer = document ? state_->session.answer(*document, &state_->last, Continues::where_asked)
-                               : error_answer({}, document.error());
-  return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const Value answer = document ? state_->session.answer(*document, &state_->last, Continues::where_asked)
+                                : error_answer({}, document.error());
+  return answer.json();
 }
 
 Document Session::answer(const Document& query) {
-  Json answer = state_->session.answer(query, &state_->last, Continues::where_asked);
-  return {"answer", node_of(std::move(answer))};
+  return {"answer", state_->session.answer(query, &state_->last, Continues::where_asked).node()};
 }
 
 void Session::stop_on(StopToken stop) { state_->session.stop_on(stop); }

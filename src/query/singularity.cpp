@@ -28,17 +28,17 @@ void put_type_2_distance(Context& context, const Along& along, const Configurati
                                                 {.branch = branch, .limit = along.limit}, context.work);
   if (found.report.status == Status::stopped)
     context.report(found.report);  // before: it may move all members
-  Json& answer = context.answer["type_2_distance"];
+  Value& answer = context.answer["type_2_distance"];
   answer["found"] = found.found;
   if (found.found) {
     answer["distance"] = found.distance;
-    answer["pose"] = to_json(found.pose);
+    answer["pose"] = pose_value(found.pose);
     answer["class"] = to_string(found.type_2.kind);
     return;
   }
   answer["why"] = found.report.ok() ? "there is none up to the limit" : found.report.message.view();
   answer["reached"] = found.distance;
-  answer["pose"] = to_json(found.pose);
+  answer["pose"] = pose_value(found.pose);
 }
 
 }  // namespace sinew::inline v1

@@ -80,17 +80,19 @@ std::string in_words(const AnyPose& pose) {
 
 namespace {
 
-Json row_json(Context& context, const Track& track) {
-  Json row{{"pose", to_json(track.pose())},
-           {"inputs", to_json(track.inputs())},
-           {"curvature", Json::array()},
-           {"closure_error", track.closure_error()}};
+Value row_value(Context& context, const Track& track) {
+  Value row{{"pose", pose_value(track.pose())},
+            {"inputs", Value(track.inputs())},
+            {"curvature", Value::Block()},
+            {"closure_error", track.closure_error()}};
   const std::vector<double> coordinates(track.coordinates().begin(), track.coordinates().end());
+  std::vector<double> curvature;
   for (const LegState& leg : leg_states(context.robot, track.pose(), coordinates, context.work))
-    if (!std::isnan(leg.curvature)) row["curvature"].push_back(leg.curvature);
+    if (!std::isnan(leg.curvature)) curvature.push_back(leg.curvature);
+  row["curvature"] = curvature;
   const Velocity at = velocity(context.robot, track.pose(), coordinates, context.work);
-  row["indices"] = to_json(at.indices);
-  if (!at.type_1.empty()) row["type_1"] = std::vector<int>(at.type_1.begin(), at.type_1.end());
+  row["indices"] = indices_value(at.indices);
+  if (!at.type_1.empty()) row["type_1"] = std::span<const int>(at.type_1);
   if (at.type_2.singular) row["singular"] = true;
   return row;
 }
@@ -108,7 +110,7 @@ void put_end(Context& context, const Track& track, std::size_t rows, std::size_t
   context.answer["message"] =
       fmt::format("the path ends between poses {} and {} of {}, {:.4g} % along it, at {}: {}", rows, rows + 1,
                   samples, 100 * part, in_words(track.pose()), report.message.view());
-  context.answer["reached"] = {{"rows", rows}, {"part", part}, {"pose", to_json(track.pose())}};
+  context.answer["reached"] = {{"rows", rows}, {"part", part}, {"pose", pose_value(track.pose())}};
 }
 
 }  // namespace
@@ -125,7 +127,7 @@ void answer_track(Context& context) {
   if (!context.ready()) return;
 
   Track track(context.robot, options, context.work);
-  Json rows = Json::array();
+  Value rows = Value::list();
   Report report;
   double worst = 0;
   for (const AnyPose& pose : poses) {
@@ -133,7 +135,7 @@ void answer_track(Context& context) {
     note_stop(context.work.stop, report);
     if (!report.ok()) break;
     worst = std::max(worst, track.closure_error());
-    rows.push_back(row_json(context, track));
+    rows.push_back(row_value(context, track));
   }
   context.report(report);
   if (!report.ok()) put_end(context, track, rows.size(), poses.size(), report);

@@ -14,8 +14,8 @@ class SINEW_API TreeSession {
   static Expected<TreeSession> open(Document robot);
 
   /// @param last where the search of a question may begin, see Question; it is kept up to date
-  Json answer(const Document& query, std::optional<AnyPose>* last = nullptr,
-              Continues continues = Continues::always);
+  Value answer(const Document& query, std::optional<AnyPose>* last = nullptr,
+               Continues continues = Continues::always);
 
   /// As Session's.
   void stop_on(StopToken stop);

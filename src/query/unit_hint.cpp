@@ -206,15 +206,15 @@ void Search::settings(const Node& query, const Node& robot) {
 }
 
 /// Where the answer says the robot is.
-std::string far_answer(const Json& answer, const RobotScale& scale) {
+std::string far_answer(const Value& answer, const RobotScale& scale) {
   for (const char* key : {"pose", "tip"}) {
-    const auto pose = answer.find(key);
-    if (pose == answer.end() || !pose->is_object()) continue;
+    const Value* pose = answer.find(key);
+    if (!pose || !pose->members()) continue;
     double square = 0;
-    if (const auto position = pose->find("position"); position != pose->end())
-      for (const Json& part : *position) square += part.get<double>() * part.get<double>();
+    if (const Value* position = pose->find("position"))
+      for (const double part : position->block()->numbers) square += part * part;
     else
-      for (const char* axis : {"x", "y"}) square += std::pow(pose->value(axis, 0.0), 2);
+      for (const char* axis : {"x", "y"}) square += std::pow(pose->find(axis)->number().value_or(0), 2);
     const double distance = std::sqrt(square);
     if (distance > far_length * scale.length)
       return fmt::format("the answer is {:.6g} m away, {:.3g} times the robot's size ({})", distance,
@@ -253,7 +253,7 @@ RobotScale scale_of(const Robot& robot) {
   return scale;
 }
 
-std::string unit_hint(const Node& query, const Json& answer, const RobotScale& scale, const Node& robot,
+std::string unit_hint(const Node& query, const Value& answer, const RobotScale& scale, const Node& robot,
                       std::span<const InputOfLeg> inputs) {
   Search search(scale, inputs);
   search.query(query);

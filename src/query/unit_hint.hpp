@@ -22,7 +22,7 @@ RobotScale scale_of(const Robot& robot);
 /// "10 mm"?`
 /// @param robot its file: what `set` changes
 /// @param inputs of a robot with a platform; of others none
-std::string unit_hint(const Node& query, const Json& answer, const RobotScale& scale, const Node& robot,
+std::string unit_hint(const Node& query, const Value& answer, const RobotScale& scale, const Node& robot,
                       std::span<const InputOfLeg> inputs);
 
 }  // namespace sinew::inline v1

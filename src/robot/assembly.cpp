@@ -32,7 +32,8 @@ Report wrong_count(std::size_t found, std::size_t needed) {
   RodGroup& system = *work.rods->system;
   system.set_platform(SE3<double>::from(pose));
   system.set_rods(coordinates);
-  work.rods->is_solved = work.rods->knows_stability = false;
+  work.rods->is_solved = false;
+  work.rods->signs.reset();
   system.evaluate();
   system.linearise();
   const int inputs = system.inputs();

@@ -3,8 +3,10 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "robot/limb_signs.hpp"
 #include "robot/rod_group.hpp"
 #include "sinew/robot/workspace.hpp"
 
@@ -32,14 +34,16 @@ struct RodWork {
   /// Of each rod, its tip held: counted once for an answer, since rods that bear torque take long to count.
   std::vector<std::array<int, 2>> unstable_rods =
       std::vector<std::array<int, 2>>(static_cast<std::size_t>(system->limbs()));
-  bool knows_stability = false;  ///< `unstable_rods` are those of the state `system` is in
-  bool holds_last = false;       ///< `system` is in the equilibrium that a session calls `last`
+  /// Of the state that `system` is in, and is linearised at, once they are counted.
+  std::optional<LimbSigns> signs;
+  bool holds_last = false;  ///< `system` is in the equilibrium that a session calls `last`
 };
 
 /// Those of a workspace, which stop as it does, for a question that may move them.
 inline RodWork& rods_of(Workspace& work) {
   work.rods->stop = work.stop;
-  work.rods->knows_stability = work.rods->holds_last = false;
+  work.rods->signs.reset();
+  work.rods->holds_last = false;
   return *work.rods;
 }
 

@@ -163,7 +163,7 @@ TEST(RodStability, IsCountedOnceAnAnswer) {
   EXPECT_EQ(counted.unstable_rods, analyse_equilibrium(robot, work).unstable_rods);
   EXPECT_EQ(system.asked, 6);
   const RodAnalysis anew = [&] {
-    work.rods->knows_stability = false;
+    work.rods->signs.reset();
     return analyse_equilibrium(robot, work);
   }();
   EXPECT_EQ(system.asked, 12);

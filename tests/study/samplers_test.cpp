@@ -280,13 +280,19 @@ axes: {x: {from: 0, to: 10 mm, count: 2}, l: [-0.1, 0.2, 0.21]}
 }
 
 TEST(AnswerPath, FindsNumbersAndLengths) {
-  const auto answer = AnswerPath::Json::parse(
-      R"({"a": {"b": [[1, 2], [3, 4.5]]}, "c": true, "d": [1, 2, 3], "e": "x", "f": null})");
+  const std::array numbers{1.0, 2.0, 3.0, 4.5};
+  Value answer{{"a", {{"b", Value(numbers, 2)}}}, {"c", true}, {"d", {1, 2, 3}}, {"e", "x"}, {"f", Value()}};
+  answer["g"] = Value::list({{{"h", 7}}, numbers});
   EXPECT_EQ(AnswerPath("a.b[1][1]").number(answer), 4.5);
   EXPECT_EQ(AnswerPath("c").number(answer), 1.0);
+  EXPECT_EQ(AnswerPath("d[2]").number(answer), 3.0);
   EXPECT_EQ(AnswerPath("d.count").number(answer), 3.0);
-  for (const char* path :
-       {"a", "a.b", "a.b[2]", "a.b[1][7]", "e", "f", "d[9x]", "", "c.count", "d[1].x", "..", "[0]"})
+  EXPECT_EQ(AnswerPath("a.b.count").number(answer), 2.0);
+  EXPECT_EQ(AnswerPath("a.b[0].count").number(answer), 2.0);
+  EXPECT_EQ(AnswerPath("g[0].h").number(answer), 7.0);
+  EXPECT_EQ(AnswerPath("g[1][3]").number(answer), 4.5);
+  for (const char* path : {"a", "a.b", "a.b[2]", "a.b[1]", "a.b[1][7]", "a.b[1][0][0]", "a.b.x", "e", "f",
+                           "d[9x]", "", "c.count", "d[1].x", "d[1].count", "..", "[0]", "g[2]", "g[0].i"})
     EXPECT_FALSE(AnswerPath(path).number(answer)) << path;
 }
 

@@ -126,10 +126,12 @@ class NodeBuilder {
  private:
   struct Level {
     Node node;
-    std::unordered_map<std::string, int>
-        lines;    // of the keys so far: a search of `members` would be quadratic
     Member next;  // its key is known, its value is to come
     bool has_key = false;
+    std::unordered_map<std::string, int> lines;  // of the first `indexed` members, once there are many
+    std::size_t indexed = 0;
+
+    std::optional<int> line_of(std::string_view key);  // where the key was given before, if it was
   };
   bool count(int line, int column);
   bool attach(Node node);

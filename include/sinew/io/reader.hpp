@@ -54,6 +54,7 @@ class SINEW_API Reader {
   /// @}
 
   /// @name Down into a map or a list
+  /// Keys are literals, or outlive the reader: it remembers them.
   /// @{
   /// The value of a key; `missing_key` if there is none. `meaning` says what it would be: `backbone length`.
   Reader required(std::string_view key, std::string_view meaning = {});
@@ -116,6 +117,7 @@ class SINEW_API Reader {
   bool is_full() const { return sink_->size() > error_limit; }
   std::optional<double> value(Dimension dimension, const Range& range) const;
   bool expect(Node::Kind kind, std::string_view advice) const;
+  void expect_size(std::size_t size) const;
   void unsuitable(std::string_view advice) const;
   void unknown(const Member& member) const;
   std::string name(const Node& node, const std::string& path) const;
@@ -127,7 +129,7 @@ class SINEW_API Reader {
   Errors* sink_;
   const Node* node_;
   std::string path_;
-  std::vector<std::string> known_;  // keys asked for
+  std::vector<std::string_view> known_;  // keys asked for
 };
 
 /// Fills the fields of a parameter struct that names them once:

@@ -93,11 +93,12 @@ struct RodAnalysis {
   double potential = 0;       ///< of rods and load [J]; with a moment on the platform there is none: NaN
   double smallest_pivot = 0;  ///< of the platform's stiffness, over the largest: 0 at a fold
   double largest_strain = 0;  ///< of bending, anywhere on a rod: κ d/2, of a strip at a corner
-  /// Kinematic sensitivities: 2-norms of the blocks of `sensitivity`, position [m/m], rotation [rad/m].
-  double position_index = 0, rotation_index = 0;
-
   /// The platform can move with all lengths held.
   bool is_singular() const { return !(smallest_pivot >= 1e-10); }
+
+  /// Kinematic sensitivities: 2-norms of the blocks of `sensitivity`, position [m/m], rotation [rad/m].
+  SINEW_API double position_index() const;
+  SINEW_API double rotation_index() const;
 };
 
 /// Where it holds none, the lists are empty. Allocates.

@@ -243,7 +243,7 @@ Report finish(RodWork& work, const SE3<double>& wanted, Report report, double tr
 Report hold_rods(RodWork& work, const SE3<double>& home, const SE3<double>& wanted,
                  const RodQuestion& question) {
   RodGroup& system = *work.system;
-  work.knows_stability = false;
+  work.signs.reset();
   if (const Report checked = check(system, wanted, question); !checked.ok()) return checked;
   Report report;
   if (note_stop(work.stop, report)) return report;

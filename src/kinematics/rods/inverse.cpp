@@ -95,7 +95,8 @@ class Inverse {
 Report solve_rods_at(RodWork& work, const SE3<double>& home, const IndependentPose& wanted,
                      const RodQuestion& question) {
   RodGroup& system = *work.system;
-  work.knows_feeding = work.knows_stability = false;
+  work.knows_feeding = false;
+  work.signs.reset();
   Report report;
   if (system.inputs() != 3) {
     report = failed(Status::unsupported);

@@ -148,7 +148,8 @@ bool jump(RodWork& work, Numbers inputs, const RodQuestion& question, Report& re
 }  // namespace
 
 Report solve_rods(RodWork& work, const SE3<double>& home, Numbers inputs, const RodQuestion& asked) {
-  work.knows_feeding = work.knows_stability = false;
+  work.knows_feeding = false;
+  work.signs.reset();
   RodQuestion question = asked;
   question.warm_start = asked.warm_start && work.is_solved;  // else it begins like any other
   if (const Report checked = check_inputs(*work.system, inputs); !checked.ok()) return checked;

@@ -135,18 +135,15 @@ bool resolve(RodGroup& system, Report& report, double truncation) {
 
 LimbSigns count_unstable_rods(RodWork& work) {
   const RodGroup& system = *work.system;
-  const auto count = [&](int rod) {
-    auto& known = work.unstable_rods[at(rod)];
-    return work.knows_stability ? known : known = system.unstable_with_tip_held(rod);
-  };
-  const LimbSigns signs = signs_of(system, count);
-  work.knows_stability = true;
-  return signs;
+  if (!work.signs)
+    work.signs = signs_of(
+        system, [&](int rod) { return work.unstable_rods[at(rod)] = system.unstable_with_tip_held(rod); });
+  return *work.signs;
 }
 
 Report settle(RodWork& work, Report report, double truncation) {
   RodGroup& system = *work.system;
-  work.knows_stability = false;
+  work.signs.reset();
   if (!is_in_domain(system, report) || !resolve(system, report, truncation)) return report;
   system.linearise();
   const int unstable = count_unstable_rods(work).unstable;

@@ -28,30 +28,39 @@ AnswerPath::AnswerPath(std::string_view path) {
   }
 }
 
-const AnswerPath::Json* AnswerPath::find(const Json& answer) const {
-  const Json* node = &answer;
+std::optional<double> AnswerPath::number(const Value& answer) const {
+  const Value* node = &answer;
+  std::span<const double> numbers;  // of a row of a block, once a step has led there
+  std::optional<double> entry;
   for (const auto& step : steps_) {
+    if (entry) return {};
     if (const auto* key = std::get_if<std::string>(&step)) {
-      if (!node->is_object()) return nullptr;
-      const auto found = node->find(*key);
-      if (found == node->end()) return nullptr;
-      node = &*found;
+      node = node ? node->find(*key) : nullptr;
+      if (!node) return {};
+      continue;
+    }
+    const std::size_t index = std::get<std::size_t>(step);
+    if (node && node->block() && node->block()->columns > 0) {
+      if (index >= node->size()) return {};
+      numbers = node->block()->row(index);
+      node = nullptr;
+    } else if (node && node->items()) {
+      if (index >= node->size()) return {};
+      node = &(*node->items())[index];
     } else {
-      const std::size_t index = std::get<std::size_t>(step);
-      if (!node->is_array() || index >= node->size()) return nullptr;
-      node = &(*node)[index];
+      if (node && node->block()) numbers = node->block()->numbers;
+      node = nullptr;
+      if (index >= numbers.size()) return {};
+      entry = numbers[index];
     }
   }
-  return node;
-}
-
-std::optional<double> AnswerPath::number(const Json& answer) const {
-  const Json* node = find(answer);
-  if (!node) return {};
-  if (counts_) return node->is_array() ? std::optional<double>(node->size()) : std::nullopt;
-  if (node->is_boolean()) return node->get<bool>() ? 1 : 0;
-  if (node->is_number()) return node->get<double>();
-  return {};
+  if (counts_) {
+    if (node) return node->is_list() ? std::optional<double>(node->size()) : std::nullopt;
+    return entry ? std::nullopt : std::optional<double>(numbers.size());
+  }
+  if (!node) return entry;
+  if (const bool* is = node->boolean()) return *is ? 1 : 0;
+  return node->number();
 }
 
 std::string_view unit_of_answer(std::string_view path) {

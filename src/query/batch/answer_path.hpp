@@ -1,30 +1,25 @@
 /// @file answer_path.hpp
 /// Places in the trees of answers, `legs[0].tendon_lengths[1]`, taken apart once.
 #pragma once
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "sinew/base/export.hpp"
+#include "query/answer/value.hpp"
 
 namespace sinew::inline v1 {
 
 class SINEW_API AnswerPath {
  public:
-  using Json = nlohmann::ordered_json;
-
   explicit AnswerPath(std::string_view path);
 
   /// The number there; 1 and 0 for true and false; of a list under `.count` its length. Nothing where there
   /// is none.
-  std::optional<double> number(const Json& answer) const;
+  std::optional<double> number(const Value& answer) const;
 
  private:
-  const Json* find(const Json& answer) const;
-
   std::vector<std::variant<std::string, std::size_t>> steps_;
   bool counts_ = false;
 };

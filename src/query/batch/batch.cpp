@@ -194,8 +194,7 @@ std::string Batch::answer(std::span<const double> inputs) const {
   for (const Placeholder& place : placeholders(query.root, state_->question.inputs))
     if (*place.input < inputs.size()) put(*place.node, inputs[*place.input]);
   auto session = TreeSession::open(state_->question.robot);
-  return session ? session->answer(query).dump(-1, ' ', false, Json::error_handler_t::replace)
-                 : std::string();
+  return session ? session->answer(query).json() : std::string();
 }
 
 }  // namespace sinew::inline v1

@@ -37,7 +37,7 @@ class QuerySampler {
     for (std::size_t o = 0; o < paths_.size(); ++o) block.output(o, k) = not_a_number;
     try {
       const bool continues = last_.has_value();
-      Json answer = session.answer(query_, question_->is_path ? &last_ : nullptr);
+      Value answer = session.answer(query_, question_->is_path ? &last_ : nullptr);
       if (continues && !last_) answer = session.answer(query_, &last_);  // lost on the way: anew
       if (continues && last_ && status_of(answer) == unstable) settle(session, answer);
       if (answer.contains("error")) return refused;
@@ -51,18 +51,17 @@ class QuerySampler {
   }
 
   /// A path that leads to what does not hold by itself has missed a fold: home may lead to what does.
-  void settle(TreeSession& session, Json& answer) {
+  void settle(TreeSession& session, Value& answer) {
     std::optional<AnyPose> from_home;
-    Json other = session.answer(query_, &from_home);
+    Value other = session.answer(query_, &from_home);
     if (!from_home || status_of(other) != converged) return;
     answer = std::move(other);
     last_ = from_home;
   }
 
-  static SampleStatus status_of(const Json& answer) {
-    const auto found = answer.find("status");
-    if (found == answer.end() || !found->is_string()) return converged;  // a question that is always answered
-    const auto& text = found->get_ref<const std::string&>();
+  static SampleStatus status_of(const Value& answer) {
+    const std::string_view text = answer.text_at("status");
+    if (text.empty()) return converged;  // a question that is always answered
     if (text == to_string(Status::stopped)) return not_computed;
     if (text == to_string(Status::bad_input) || text == to_string(Status::unsupported)) return refused;
     for (SampleStatus s = 0; s < sample_statuses; ++s)

@@ -22,20 +22,16 @@ constexpr std::size_t max_left_out = 20'000;        ///< passed over in search o
 constexpr std::size_t max_looked_at = 100'000'000;  ///< where few are kept: some seconds
 
 /// Places of all numbers of a tree.
-void collect(const Json& node, const std::string& path, std::vector<std::string>& paths) {
+void collect(const Node& node, const std::string& path, std::vector<std::string>& paths) {
   if (paths.size() >= max_paths) return;
-  if (node.is_object()) {
-    for (const auto& [key, value] : node.items()) collect(value, joined(path, key), paths);
-  } else if (node.is_array()) {
-    for (std::size_t i = 0; i < node.size(); ++i) collect(node[i], joined(path, i), paths);
-  } else if (node.is_number() || node.is_boolean()) {
-    paths.push_back(path);
-  }
+  if (node.kind == Node::Kind::number || node.kind == Node::Kind::boolean) paths.push_back(path);
+  for (const Member& member : node.members) collect(member.value, joined(path, member.key), paths);
+  for (std::size_t i = 0; i < node.items.size(); ++i) collect(node.items[i], joined(path, i), paths);
 }
 
-bool is_solved(const Json& answer) {
-  const auto status = answer.find("status");
-  return status == answer.end() || *status == "converged" || *status == "unstable";
+bool is_solved(const Value& answer) {
+  const std::string_view status = answer.text_at("status");
+  return status.empty() || status == "converged" || status == "unstable";
 }
 
 /// `pose.position[2]` as the name of a column: `z`; `legs[0].curvature`: `legs_0_curvature`.
@@ -110,11 +106,11 @@ class Trial {
       axis_values(study_, {sample, 1}, false, values_);
       for (const Placeholder& place : places)
         put(*place.node, values_[*place.input], study_.column_unit(*place.input));
-      Json answer = session.answer(query);
-      if (const auto error = answer.find("error"); error != answer.end()) {
+      Value answer = session.answer(query);
+      if (const Value* error = answer.find("error")) {
         if (errors_.empty())
-          errors_ = {
-              {error->value("code", ""), place_of(error->value("where", "")), error->value("message", "")}};
+          errors_ = {{std::string(error->text_at("code")), place_of(std::string(error->text_at("where"))),
+                      std::string(error->text_at("message"))}};
         continue;
       }
       solved_ += is_solved(answer);
@@ -179,8 +175,8 @@ class Trial {
     const auto solved = std::ranges::find_if(answers_, is_solved);
     if (solved == answers_.end()) return;
     std::vector<std::string> paths;
-    collect(*solved, "", paths);
-    const std::string query = solved->value("query", "");
+    collect(solved->node(), "", paths);
+    const std::string query(solved->text_at("query"));
     for (const std::string& path : paths) {
       const std::string name = column_of(path);
       if (is_usual(path, query) && !study_.find_variable(name))
@@ -192,12 +188,12 @@ class Trial {
     Errors errors;
     if (solved_ == 0) return errors;
     std::vector<std::string> known;
-    for (const Json& answer : answers_)
-      if (is_solved(answer) && known.empty()) collect(answer, "", known);
+    for (const Value& answer : answers_)
+      if (is_solved(answer) && known.empty()) collect(answer.node(), "", known);
     for (const StudyOutput& output : study_.outputs) {
       const AnswerPath path(output.path);
       if (output.is_sometimes ||
-          std::ranges::any_of(answers_, [&](const Json& a) { return path.number(a).has_value(); }))
+          std::ranges::any_of(answers_, [&](const Value& a) { return path.number(a).has_value(); }))
         continue;
       const std::vector<std::string_view> names(known.begin(), known.end());
       const std::string_view hint = closest(output.path, names);
@@ -215,21 +211,21 @@ class Trial {
     Document describe{"query", {}};
     describe.root.kind = Node::Kind::map;
     describe.root.members.push_back({.key = "query", .value = make_node("describe")});
-    const Json description = session.answer(describe);
+    const Value description = session.answer(describe);
     for (StudyOutput& output : study_.outputs) {
       if (!output.unit.empty()) continue;
       output.unit = unit_of_answer(output.path);
       if (!output.path.starts_with("inputs[") || !description.contains("inputs")) continue;
-      const Json& inputs = description["inputs"];
+      const Value::List& inputs = *description.find("inputs")->items();
       const auto index = static_cast<std::size_t>(std::atoi(output.path.c_str() + 7));
-      if (index < inputs.size()) output.unit = inputs[index].value("unit", "");
+      if (index < inputs.size()) output.unit = inputs[index].text_at("unit");
     }
   }
 
   Study& study_;
   mutable std::vector<double> values_;  ///< of one sample
   Errors errors_;
-  std::vector<Json> answers_;
+  std::vector<Value> answers_;
   int solved_ = 0;
 };
 

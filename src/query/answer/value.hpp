@@ -1,0 +1,148 @@
+/// @file value.hpp
+/// An answer: a tree of maps, lists, texts and blocks of numbers. A block lies in one piece, a list of
+/// numbers or the rows of a matrix, so that it can be read as a column and written quickly.
+#pragma once
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <ranges>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "sinew/base/export.hpp"
+#include "sinew/io/node.hpp"
+#include "sinew/math/linalg.hpp"
+
+namespace sinew::inline v1 {
+
+class SINEW_API Value {
+ public:
+  /// A name within a map: a literal, which outlives every answer.
+  class Key {
+   public:
+    template <std::size_t size>
+    consteval Key(const char (&literal)[size])
+        : name_(literal, size - 1) {}  // implicit: keys are written as texts
+    std::string_view name() const { return name_; }
+
+   private:
+    std::string_view name_;
+  };
+  struct Member;
+  struct Entry;
+  using List = std::vector<Value>;
+  using Map = std::vector<Member>;
+  /// Numbers row by row; `columns` of a plain list is 0.
+  struct Block {
+    std::vector<double> numbers;
+    std::size_t columns = 0;
+
+    std::size_t size() const { return columns > 0 ? numbers.size() / columns : numbers.size(); }
+    std::span<const double> row(std::size_t i) const {
+      return std::span(numbers).subspan(i * columns, columns);
+    }
+  };
+
+  /// A number as somebody wrote it, who gets it back so.
+  struct Written {
+    std::string text;
+  };
+
+  Value() = default;
+  static Value map();
+  static Value list() { return Value(List()); }
+  static Value list(std::initializer_list<Value> items) { return Value(List(items)); }
+
+  /// @name Of what it is made from
+  /// @{
+  Value(bool value) : is_(value) {}
+  Value(double value) : is_(value) {}
+  template <class Whole>
+  requires std::is_integral_v<Whole> &&(!std::is_same_v<Whole, bool>)Value(Whole value)
+      : is_(static_cast<std::int64_t>(value)) {}
+  Value(std::string value) : is_(std::move(value)) {}
+  Value(std::string_view value) : is_(std::string(value)) {}
+  Value(const char* value) : is_(std::string(value)) {}
+  Value(Written value) : is_(std::move(value)) {}
+  Value(List value) : is_(std::move(value)) {}
+  Value(Block value) : is_(std::move(value)) {}
+  template <class Numbers>  // a span, vector or array of doubles
+  requires std::convertible_to<const Numbers&, std::span<const double>> Value(const Numbers& numbers)
+      : Value(std::span<const double>(numbers), 0) {}
+  Value(std::span<const int> whole_numbers) : is_(List(whole_numbers.begin(), whole_numbers.end())) {}
+  Value(std::initializer_list<double> numbers) : is_(Block{numbers}) {}
+  Value(const MatrixView& matrix);
+  /// Row by row.
+  Value(std::span<const double> numbers, std::size_t columns)
+      : is_(Block{{numbers.begin(), numbers.end()}, columns}) {}
+  template <int size>
+  Value(const Eigen::Matrix<double, size, 1>& vector)
+      : Value(std::span<const double>(vector.data(), static_cast<std::size_t>(size)), 0) {}
+  Value(std::initializer_list<Entry> members);
+  /// @}
+
+  /// @name What it is
+  /// @{
+  bool is_null() const { return std::holds_alternative<std::monostate>(is_); }
+  const bool* boolean() const { return std::get_if<bool>(&is_); }
+  const std::string* text() const { return std::get_if<std::string>(&is_); }
+  const List* items() const { return std::get_if<List>(&is_); }
+  const Block* block() const { return std::get_if<Block>(&is_); }
+  const Map* members() const { return std::get_if<Map>(&is_); }
+  std::optional<double> number() const;  ///< also of a whole number
+  bool is_whole() const { return std::holds_alternative<std::int64_t>(is_); }
+  bool is_list() const { return items() || block(); }
+  /// Of a list or a map.
+  std::size_t size() const;
+  /// @}
+
+  /// @name Maps
+  /// @{
+  Value& operator[](Key key);  ///< added where it is missing; a null becomes a map
+  Value* find(std::string_view name);
+  const Value* find(std::string_view name) const { return const_cast<Value*>(this)->find(name); }
+  bool contains(std::string_view name) const { return find(name) != nullptr; }
+  std::string_view text_at(std::string_view name) const;  ///< empty where there is no such text
+  void erase(std::string_view name);
+  void merge(Value&& other);  ///< all members of another map, which replace those of their names
+  /// @}
+
+  /// @name Lists
+  /// @{
+  /// A null becomes a list; a block of numbers takes a number.
+  void push_back(Value value);
+  Value& back() { return std::get<List>(is_).back(); }
+  Value& operator[](std::size_t i) { return std::get<List>(is_)[i]; }
+  void push_front(double number);  ///< of a block
+  /// @}
+
+  /// On one line, as JSON has it. A number reads back to the same double; one that is none is null.
+  std::string json() const;
+  void append_json(std::string& text) const;
+  /// The tree that reading that gives.
+  Node node() const;
+
+ private:
+  std::variant<std::monostate, bool, std::int64_t, double, std::string, Written, Block, List, Map> is_;
+};
+
+struct Value::Member {
+  std::string_view name;
+  Value value;
+};
+
+/// What a map is written with: `{{"x", 1.0}, {"y", 2.0}}`.
+struct Value::Entry {
+  Key key;
+  mutable Value value;  ///< moved into the map, which an initializer list forbids otherwise
+  template <class T>
+  Entry(Key name, T&& of) : key(name),
+                            value(std::forward<T>(of)) {}
+  Entry(Key name, std::initializer_list<double> numbers) : key(name), value(numbers) {}
+  Entry(Key name, std::initializer_list<Entry> members) : key(name), value(members) {}
+};
+
+}  // namespace sinew::inline v1
