@@ -206,6 +206,13 @@ double RodAnalysis::rotation_index() const {
   return largest_singular_value(std::span(sensitivity).last(sensitivity.size() / 2));
 }
 
+Equilibrium held_equilibrium(const Robot& robot, Workspace& work) {
+  if (!has_rods(robot)) return refused();
+  if (const Report fits = check_workspace(robot, work); !fits.ok()) return refused(fits);
+  if (!work.rods->is_solved) return refused();
+  return answer_of({}, *work.rods->system, work, true);
+}
+
 RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work) {
   if (!has_rods(robot) || !check_workspace(robot, work).ok() || !work.rods->is_solved) return {};
   work.rods->stop = work.stop;

@@ -3,6 +3,8 @@
 #pragma once
 #include <cmath>
 
+#include "analysis/chain_shape.hpp"
+#include "query/chain_velocity.hpp"
 #include "query/chains.hpp"
 
 namespace sinew::inline v1::chains {
@@ -12,7 +14,8 @@ template <class Space>
 struct Load {
   Wrench<Space> wrench = Wrench<Space>::Zero();
   std::optional<Until<Space>> until;
-  Wanted wanted;
+  Wants wanted;
+  std::vector<double> twist;        ///< with `velocity`
   std::optional<double> threshold;  ///< of joints, beyond which the linear model is not to be trusted [rad]
   ChainOptions options;
 };
@@ -22,7 +25,8 @@ Load<Space> read_load(Context& context) {
   Load<Space> load;
   if (const auto wrench = context.query.optional("wrench")) load.wrench = read_wrench<Space>(*wrench);
   load.until = read_until<Space>(context);
-  load.wanted = read_want(context);
+  load.wanted = read_wants_of_loads(context);
+  if (load.wanted.has(Want::velocity)) load.twist = read_twist<Space>(context);
   if (const auto threshold = context.query.optional("posture_threshold"))
     load.threshold = threshold->quantity(Dimension::angle, Range::positive());
   if (context.max_iterations) load.options.max_iterations = *context.max_iterations;
@@ -102,21 +106,28 @@ void put_simpler_models(Context& context, const ChainLegs<Space>& robot, const C
 
 template <class Space>
 void put_wanted(Context& context, const ChainLegs<Space>& robot, const ChainState<Space>& state,
-                const ChainStability<Space>& stability, const Wanted& wanted, ChainWork& work) {
+                const ChainStability<Space>& stability, const Load<Space>& load, ChainWork& work) {
   Value& answer = context.answer;
-  if (wanted.stability) {
+  const Wants wanted = load.wanted;
+  if (wanted.has(Want::velocity))
+    put_velocity(context, chain_velocity(robot, state.pose, state.legs), load.twist);
+  if (wanted.has(Want::shape)) {
+    put_shape(answer, chain_shape(robot, state.pose, state.legs));
+    answer["frames"] = Value::list({pose_value(AnyPose(Space::tidy(state.pose)))});
+  }
+  if (wanted.has(Want::stability)) {
     Value twists = Value::list();
     for (const auto& twist : stability.unstable) twists.push_back(Value(twist));
     answer["unstable"] = std::move(twists);
     answer["unstable_legs"] = std::span<const int>(stability.unstable_legs);
   }
-  if (wanted.margins) {
+  if (wanted.has(Want::margins)) {
     const ChainMargins found = margins(robot, state, work);
     answer["margins"] = Value::map();
     put_number(answer["margins"], "fold", found.fold);
     put_number(answer["margins"], "strain", found.strain);
   }
-  if (wanted.sensitivity)
+  if (wanted.has(Want::sensitivity))
     if (const auto rows = sensitivity_to_inputs(twin_of(context), robot, state, work); rows.allFinite())
       answer["sensitivity"] = Value(MatrixView(rows.data(), Space::dof, rows.cols()));
 }
@@ -136,17 +147,20 @@ void put_equilibrium(Context& context, const ChainLegs<Space>& robot, const Chai
   if (!is_found) return;
   const AnyPose pose = Space::tidy(state.pose);
   context.remember(pose);
-  answer["pose"] = pose_value(pose);
-  answer["legs"] = chain_legs_value(robot, state);
+  const bool in_full = load.wanted.has(Want::legs);
+  if (load.wanted.has(Want::pose)) answer["pose"] = pose_value(pose);
+  if (in_full) answer["legs"] = chain_legs_value(robot, state);
   answer["wrench"] = Value(state.wrench);
-  put_matrix<Space>(answer, "stiffness", stiffness(robot, state, work));
-  put_matrix<Space>(answer, "compliance", compliance(robot, state, work));
+  if (in_full || load.wanted.has(Want::stiffness)) {
+    put_matrix<Space>(answer, "stiffness", stiffness(robot, state, work));
+    put_matrix<Space>(answer, "compliance", compliance(robot, state, work));
+  }
   answer["stable"] = stability.is_stable();
   answer["unstable_directions"] = stability.unstable_directions;
   put_number(answer, "smallest_eigenvalue", stability.smallest_eigenvalue);
   put_number(answer, "potential", potential(robot, state));
-  put_wanted(context, robot, state, stability, load.wanted, work);
-  if (unloaded) put_simpler_models(context, robot, *unloaded, state, load, work);
+  put_wanted(context, robot, state, stability, load, work);
+  if (unloaded && in_full) put_simpler_models(context, robot, *unloaded, state, load, work);
 }
 
 }  // namespace sinew::inline v1::chains

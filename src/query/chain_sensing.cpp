@@ -73,7 +73,8 @@ void answer_sensing(Context& context, ChainLegs<Space>& robot) {
   constexpr auto freedoms = static_cast<std::size_t>(Space::dof);
   const SensingQuery asked = read_sensing(context, robot.legs.size(), freedoms);
   Load<Space> load;
-  load.wanted = read_want(context);
+  load.wanted = read_wants_of_loads(context);
+  if (load.wanted.has(Want::velocity)) load.twist = read_twist<Space>(context);
   if (context.max_iterations) load.options.max_iterations = *context.max_iterations;
   if (!context.ready()) return;
   ChainState<Space> state;

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/chain_velocity.hpp"
+#include "analysis/chain_shape.hpp"
 #include "kinematics/chain_motion.hpp"
 #include "query/chain_curves.hpp"
+#include "query/chain_velocity.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {
+namespace chains {
 namespace {
-
-using namespace chains;
 
 template <class Space>
 Value K_value(const ChainRates<Space>& rates) {
@@ -42,11 +42,12 @@ Value U_value(const ChainVelocity<Space>& velocity) {
   return rows;
 }
 
+}  // namespace
+
 template <class Space>
-void put_velocity(Context& context, const ChainLegs<Space>& robot, const ChainVelocity<Space>& velocity,
-                  const std::vector<ChainLegState>& legs, std::span<const double> twist) {
+void put_velocity(Context& context, const ChainVelocity<Space>& velocity, std::span<const double> twist) {
   Value& answer = context.answer;
-  context.report(velocity.report);
+  if (!velocity.report.ok()) context.report(velocity.report);
   const Eigen::Matrix<double, Eigen::Dynamic, Space::dof, Eigen::RowMajor> J = velocity.rates.J;
   answer["J"] = Value(MatrixView(J.data(), J.rows(), Space::dof));
   answer["K"] = K_value(velocity.rates);
@@ -55,7 +56,6 @@ void put_velocity(Context& context, const ChainLegs<Space>& robot, const ChainVe
   answer["indices"] = indices_value(velocity.indices);
   answer["type_1"] = Value(velocity.type_1());
   answer["type_2"] = type_two_value(velocity.type_2, Space::dimension == 2);
-  answer["residual"] = velocity.report.residual;
   if (!twist.empty()) {
     if (velocity.type_1_count == 0)
       answer["rates"] = Value(least_norm_rates(velocity, Vec<double, Space::dof>(twist.data())));
@@ -66,9 +66,22 @@ void put_velocity(Context& context, const ChainLegs<Space>& robot, const ChainVe
       context.report(report);
     }
   }
+}
+
+template void put_velocity(Context&, const ChainVelocity<Planar>&, std::span<const double>);
+template void put_velocity(Context&, const ChainVelocity<Spatial>&, std::span<const double>);
+
+}  // namespace chains
+
+namespace {
+
+using namespace chains;
+
+template <class Space>
+Value legs_of(const ChainLegs<Space>& robot, std::span<const ChainLegState> legs) {
   Value list = Value::list();
   for (Value& angles : angles_value(robot, legs)) list.push_back({{"angles", std::move(angles)}});
-  answer["legs"] = std::move(list);
+  return list;
 }
 
 template <class Space>
@@ -76,9 +89,9 @@ void answer_velocity_of(Context& context, ChainLegs<Space>& robot) {
   Reader& query = context.query;
   const AnyPose pose = read_pose(context, query.required("pose", "pose of the platform"));
   const Joints joints(context, robot, read_branch(context));
-  std::vector<double> twist;
-  if (const auto asked = query.optional("twist"))
-    twist = asked->quantities(Dimension::number, {}, static_cast<std::size_t>(Space::dof));
+  const Wants wanted = read_wants(context, usual_wants | Wants{Want::velocity},
+                                  usual_wants | Wants{Want::velocity, Want::shape});
+  const std::vector<double> twist = read_twist<Space>(context);
   if (!context.ready()) return;
   std::vector<ChainLegState> legs;
   const Report report = joints.at(context, robot, pose, legs);
@@ -86,8 +99,14 @@ void answer_velocity_of(Context& context, ChainLegs<Space>& robot) {
   const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
   refuse_open_legs(context, velocity.rates.closure_error);
   if (!context.errors.empty()) return;
-  context.answer["pose"] = pose_value(pose);
-  put_velocity(context, robot, velocity, legs, twist);
+  context.report(velocity.report);
+  if (wanted.has(Want::pose)) context.answer["pose"] = pose_value(pose);
+  put_velocity(context, velocity, twist);
+  context.answer["residual"] = velocity.report.residual;
+  if (wanted.has(Want::legs)) context.answer["legs"] = legs_of(robot, legs);
+  if (!wanted.has(Want::shape)) return;
+  put_shape(context.answer, chain_shape(robot, std::get<typename Space::Pose>(pose), legs));
+  context.answer["frames"] = Value::list({pose_value(pose)});
 }
 
 template <class Space>

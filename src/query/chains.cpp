@@ -5,7 +5,6 @@
 
 #include "query/chain_sensing.hpp"
 #include "query/chain_solutions.hpp"
-#include "query/rods.hpp"
 
 namespace sinew::inline v1 {
 namespace chains {
@@ -173,8 +172,7 @@ void answer_inverse_of(Context& context, ChainLegs<Space>& robot) {
 
 }  // namespace
 
-void answer_statics(Context& context) {
-  if (has_rods(context.robot)) return answer_rods_statics(context);
+void answer_chains_statics(Context& context) {
   on_chains(context, [&](auto& robot) { answer_statics_of(context, robot); });
 }
 

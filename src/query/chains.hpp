@@ -1,18 +1,12 @@
 /// @file chains.hpp
-/// Handlers of queries put to robots by the pseudo-rigid model.
+/// What handlers of questions to pseudo-rigid chains share.
 #pragma once
 #include "kinematics/chain_analysis.hpp"
 #include "kinematics/chains/arcs.hpp"
+#include "query/handlers.hpp"
 #include "query/loads.hpp"
 
 namespace sinew::inline v1 {
-
-void answer_chains_forward(Context& context);
-void answer_chains_inverse(Context& context);
-void answer_chains_velocity(Context& context);
-void answer_chains_shape(Context& context);
-void answer_chains_track(Context& context);
-void answer_statics(Context& context);
 
 /// What the handlers share.
 namespace chains {

@@ -131,11 +131,4 @@ std::string in_words(const AnyPose& pose);
 
 void put_shape(Value& answer, const AnyShape& picture);
 
-void answer_forward(Context& context);
-void answer_inverse(Context& context);
-void answer_velocity(Context& context);
-void answer_shape(Context& context);
-void answer_track(Context& context);
-void answer_describe(Context& context);
-
 }  // namespace sinew::inline v1

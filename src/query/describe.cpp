@@ -1,7 +1,7 @@
 /// Handler of `describe`: what a robot has.
 #include "io/quantity.hpp"
 #include "query/context.hpp"
-#include "query/serial.hpp"
+#include "query/handlers.hpp"
 #include "robot/parallel.hpp"
 
 namespace sinew::inline v1 {
@@ -109,7 +109,6 @@ Value pose_coordinates(bool is_planar) {
 }  // namespace
 
 void answer_describe(Context& context) {
-  if (context.robot.serial()) return answer_serial_describe(SerialContext(context));
   if (!context.ready()) return;
   Value inputs = Value::list(), legs = Value::list();
   with_legs(context.robot, [&](const auto& robot) {

@@ -3,10 +3,8 @@
 
 #include <cmath>
 
-#include "query/chains.hpp"
-#include "query/context.hpp"
-#include "query/rods.hpp"
-#include "query/serial.hpp"
+#include "query/handlers.hpp"
+#include "query/loads.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/kinematics/assembly_modes.hpp"
 #include "sinew/kinematics/forward.hpp"
@@ -55,6 +53,29 @@ Value trace_value(std::span<const TraceStep> trace, int iterations) {
   return list;
 }
 
+/// What legs that bear no load can tell, with the fields of its words.
+struct KinematicWants {
+  Wants words;
+  std::vector<double> twist;   ///< of `velocity`
+  std::optional<Along> along;  ///< likewise
+  int samples = 0;             ///< of `shape`
+};
+
+KinematicWants read_kinematic_wants(Context& context, Wants usual) {
+  constexpr Wants known = usual_wants | Wants{Want::velocity, Want::shape, Want::sensitivity, Want::lines};
+  KinematicWants wanted{read_wants(context, usual, known), {}, {}, 0};
+  if (wanted.words.has(Want::velocity)) {
+    if (const auto asked = context.query.optional("twist"))
+      wanted.twist = asked->quantities(Dimension::number, {}, static_cast<std::size_t>(dof(context.robot)));
+    wanted.along = read_along(context);
+    refuse_if_asked(
+        context, "angles",
+        "a constant-curvature model has no joint angles; add model: prb, or give inputs or a branch");
+  }
+  if (wanted.words.has(Want::shape)) wanted.samples = read_samples(context, 33, 2000);
+  return wanted;
+}
+
 void put_rates(Context& context, const Velocity& result, std::span<const double> twist) {
   const Report found = rates(result, twist, context.work);
   if (found.ok())
@@ -70,43 +91,91 @@ Value polyline(const PolylineOf<D>& line) {
   return points;
 }
 
+template <class Lines>
+void put_lines(Value& answer, const Lines& lines) {
+  Value list = Value::list();
+  for (const auto& line : lines) list.push_back(Value::list({Value(line[0]), Value(line[1])}));
+  answer["lines"] = std::move(list);
+}
+
 template <int D>
 void put_shape_of(Value& answer, const ShapeOf<D>& picture) {
-  Value backbones = Value::list(), tendons = Value::list(), lines = Value::list();
+  Value backbones = Value::list(), tendons = Value::list();
   for (const auto& line : picture.backbones) backbones.push_back(polyline<D>(line));
   for (const auto& pair : picture.tendons)
     tendons.push_back(Value::list({polyline<D>(pair[0]), polyline<D>(pair[1])}));
-  for (const auto& line : picture.lines) lines.push_back(Value::list({Value(line[0]), Value(line[1])}));
   answer["backbones"] = backbones;
   answer["tendons"] = tendons;
-  answer["lines"] = lines;
+  put_lines(answer, picture.lines);
   answer["platform"] = polyline<D>(picture.platform);
   answer["base"] = polyline<D>(picture.base);
 }
 
-/// Every assembly mode of the inputs; the one nearest to the start stands for the answer.
-void answer_all_modes(Context& context, const std::vector<double>& inputs, const AnyPose& start) {
+void put_velocity(Context& context, const AnyPose& pose, const Velocity& result,
+                  std::span<const double> twist) {
+  Value& answer = context.answer;
+  if (!result.report.ok() || !result.report.message.empty()) context.report(result.report);
+  answer["J"] = result.J;
+  answer["K"] = result.K;
+  if (result.U.rows() > 0) answer["U"] = result.U;
+  put_number(answer, "determinant", result.determinant);
+  answer["indices"] = indices_value(result.indices);
+  answer["type_1"] = std::span<const int>(result.type_1);
+  answer["type_2"] = type_two_value(result.type_2, std::holds_alternative<PlanarPose>(pose));
+  answer["residual"] = result.report.residual;
+  if (!twist.empty()) put_rates(context, result, twist);
+}
+
+/// All that is wanted of a configuration, which is solved.
+void put_wanted(Context& context, const KinematicWants& wanted, const Configuration& given,
+                const Solved& at) {
+  const Wants words = wanted.words;
+  Value& answer = context.answer;
+  if (words.has(Want::pose)) answer["pose"] = pose_value(at.pose);
+  if (!(words & Wants{Want::velocity, Want::sensitivity}).is_empty()) {
+    const Velocity result = velocity(context.robot, at.pose, at.coordinates, context.work);
+    if (words.has(Want::velocity)) put_velocity(context, at.pose, result, wanted.twist);
+    if (words.has(Want::sensitivity) && result.U.rows() > 0) answer["sensitivity"] = result.U;
+  }
+  if (words.has(Want::legs))
+    answer["legs"] = legs_value(context.robot, at.pose, at.coordinates, context.work);
+  if (!(words & Wants{Want::shape, Want::lines}).is_empty()) {
+    const AnyShape picture = any_shape(context.robot, at.pose, at.coordinates, std::max(2, wanted.samples));
+    if (words.has(Want::shape)) {
+      put_shape(answer, picture);
+      answer["frames"] = Value::list({pose_value(at.pose)});
+    } else {
+      std::visit([&](const auto& one) { put_lines(answer, one.lines); }, picture);
+    }
+  }
+  if (wanted.along) put_type_2_distance(context, *wanted.along, given, at.pose);
+}
+
+/// Every assembly mode of the inputs; the one nearest to the start stands for the answer, which is returned.
+std::optional<Solved> put_all_modes(Context& context, const std::vector<double>& inputs,
+                                    const AnyPose& start) {
   const AssemblyModes modes = assembly_modes(context.robot, inputs, context.work);
   context.report(modes.report);
   context.remember({});
-  if (modes.report.status == Status::left_domain || modes.report.status == Status::unsupported) return;
+  if (modes.report.status == Status::left_domain || modes.report.status == Status::unsupported) return {};
   Value solutions = Value::list();
-  for (std::size_t k = 0; k < modes.poses.size(); ++k)
+  for (std::size_t k = 0; k < modes.poses.size(); ++k) {
     solutions.push_back({{"pose", pose_value(modes.poses[k])},
                          {"legs", legs_value(context.robot, modes.poses[k], modes.coordinates, context.work)},
                          {"residual", modes.residual[k]}});
-  for (std::size_t k = 0; k < modes.poses.size(); ++k)
-    if (modes.is_double[k]) solutions[k]["double"] = true;  // two modes merge: a type II singularity
+    if (modes.is_double[k]) solutions.back()["double"] = true;  // two modes merge: a type II singularity
+  }
+  std::optional<Solved> nearest;
   if (!modes.poses.empty()) {
     const std::size_t chosen = nearest_pose(context.robot, modes.poses, start);
     context.remember(modes.poses[chosen]);
-    const Value& nearest = solutions[chosen];
-    for (const Value::Key key : {Value::Key("pose"), Value::Key("legs"), Value::Key("residual")})
-      context.answer[key] = *nearest.find(key.name());
+    nearest = Solved{{}, modes.poses[chosen], {modes.coordinates.begin(), modes.coordinates.end()}};
+    nearest->report.residual = modes.residual[chosen];
   }
   context.answer["count"] = modes.poses.size();
   context.answer["complete"] = modes.is_complete;
   context.answer["solutions"] = std::move(solutions);
+  return nearest;
 }
 
 }  // namespace
@@ -126,122 +195,90 @@ void put_shape(Value& answer, const AnyShape& picture) {
   std::visit([&](const auto& one) { put_shape_of(answer, one); }, picture);
 }
 
-void answer_forward(Context& context) {
-  if (context.robot.serial()) return answer_serial_forward(SerialContext(context));
-  if (has_rods(context.robot)) return answer_rods_forward(context);
-  if (context.robot.model() == Model::prb) return answer_chains_forward(context);
-  const auto inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
+void answer_kinematic_forward(Context& context) {
+  Configuration given;
+  given.inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
   ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
   options.start = read_start(context);
   std::vector<TraceStep> trace;
   if (const auto wanted = context.query.optional("trace"))
     if (wanted->boolean()) trace.resize(max_trace);
   options.trace = trace;
-  const auto all = context.query.optional("all");
-  const bool want_all = all && all->boolean();
-  refuse_if_asked(context, "want",
-                  "this robot's legs bear no load; velocity has its indices, leave want out");
+  const bool want_all = read_all(context);
+  const KinematicWants wanted = read_kinematic_wants(context, usual_wants);
   refuse_if_asked(context, "wrench", no_load(context));
   refuse_if_asked(context, "until", no_load(context));
   if (!context.ready()) return;
 
-  if (want_all) return answer_all_modes(context, inputs, options.start.value_or(home(context.robot)));
+  if (want_all) {
+    const auto nearest = put_all_modes(context, *given.inputs, options.start.value_or(home(context.robot)));
+    if (!nearest) return;
+    put_wanted(context, wanted, given, *nearest);
+    context.answer["residual"] = nearest->report.residual;
+    return;
+  }
   if (!options.start) options.start = context.path_start();
-  const Forward result = forward(context.robot, inputs, options, context.work);
+  const Forward result = forward(context.robot, *given.inputs, options, context.work);
   context.report(result.report);
   context.remember(result.ok() ? std::optional(result.pose) : std::nullopt);
-  if (result.ok()) {
-    context.answer["pose"] = pose_value(result.pose);
-    context.answer["legs"] = legs_value(context.robot, result.pose, result.coordinates, context.work);
-  }
   if (result.report.status == Status::left_domain) return;  // nothing was solved
   context.answer["residual"] = result.report.residual;
   context.answer["iterations"] = result.report.iterations;
+  if (result.ok())
+    put_wanted(context, wanted, given,
+               {result.report, result.pose, {result.coordinates.begin(), result.coordinates.end()}});
   if (!trace.empty()) context.answer["trace"] = trace_value(trace, result.report.iterations);
 }
 
-void answer_inverse(Context& context) {
-  if (context.robot.serial()) return answer_serial_inverse(SerialContext(context));
-  if (has_rods(context.robot)) return answer_rods_inverse(context);
-  if (context.robot.model() == Model::prb) return answer_chains_inverse(context);
+void answer_kinematic_inverse(Context& context) {
   const AskedPose asked = read_asked_pose(context);
   if (!asked.pose && !context.query.has("independent"))
     context.query.required("pose", "pose of the platform");
-  const Branch branch = read_branch(context);
-  const auto all = context.query.optional("all");
-  const bool want_all = all && all->boolean();
-  refuse_if_asked(context, "want",
-                  "this robot's legs bear no load; velocity has its indices, leave want out");
+  Configuration given;
+  given.branch = read_branch(context);
+  const bool want_all = read_all(context);
+  const KinematicWants wanted = read_kinematic_wants(context, usual_wants);
   refuse_if_asked(context, "wrench", no_load(context));
   std::vector<double> start;
-  if (const auto given = context.query.optional("start")) start = read_inputs(context, *given);
+  if (const auto inputs = context.query.optional("start")) start = read_inputs(context, *inputs);
   if (!context.ready()) return;
 
-  InverseOptions options = branch.options();
+  InverseOptions options = given.branch.options();
   options.start = start;
   if (!asked.report.ok()) return context.report(asked.report);
   const AnyPose& pose = *asked.pose;
   const Inverse result = inverse(context.robot, pose, options, context.work);
   context.report(result.report);
   if (!result.ok()) return;
-  context.answer["inputs"] = Value(result.inputs);
-  const std::vector<double> coordinates(result.coordinates.begin(), result.coordinates.end());
-  context.answer["legs"] = legs_value(context.robot, pose, coordinates, context.work);
-  context.answer["pose"] = pose_value(pose);
+  context.answer["inputs"] = result.inputs;
   context.answer["residual"] = result.report.residual;
-  if (want_all) context.answer["solutions"] = all_working_modes(context, pose, branch);
+  given.inputs.emplace(result.inputs.begin(), result.inputs.end());
+  put_wanted(context, wanted, given,
+             {result.report, pose, {result.coordinates.begin(), result.coordinates.end()}});
+  if (want_all) context.answer["solutions"] = all_working_modes(context, pose, given.branch);
 }
 
-void answer_velocity(Context& context) {
-  if (context.robot.serial()) return answer_serial_velocity(SerialContext(context));
-  if (has_rods(context.robot)) return answer_rods_velocity(context);
-  if (context.robot.model() == Model::prb) return answer_chains_velocity(context);
+namespace {
+
+/// Of a configuration that a question gives in whatever way.
+void answer_configuration(Context& context, Wants usual) {
   const Configuration given = read_configuration(context);
-  std::vector<double> twist;
-  if (const auto asked = context.query.optional("twist"))
-    twist = asked->quantities(Dimension::number, {}, static_cast<std::size_t>(dof(context.robot)));
-  const std::optional<Along> along = read_along(context);
-  refuse_if_asked(
-      context, "angles",
-      "a constant-curvature model has no joint angles; add model: prb, or give inputs or a branch");
+  const KinematicWants wanted = read_kinematic_wants(context, usual);
   if (!context.ready()) return;
   const Solved at = solve_configuration(context, given);
   if (!context.errors.empty()) return;
   context.report(at.report);
   if (!at.report.ok()) return;
-
-  const Velocity result = velocity(context.robot, at.pose, at.coordinates, context.work);
-  context.report(result.report);
-  context.answer["pose"] = pose_value(at.pose);
-  context.answer["J"] = Value(result.J);
-  context.answer["K"] = Value(result.K);
-  if (result.U.rows() > 0) context.answer["U"] = Value(result.U);
-  put_number(context.answer, "determinant", result.determinant);
-  context.answer["indices"] = indices_value(result.indices);
-  context.answer["type_1"] = std::span<const int>(result.type_1);
-  context.answer["type_2"] = type_two_value(result.type_2, std::holds_alternative<PlanarPose>(at.pose));
-  context.answer["residual"] = result.report.residual;
-  if (!twist.empty()) put_rates(context, result, twist);
-  context.answer["legs"] = legs_value(context.robot, at.pose, at.coordinates, context.work);
-  if (along) put_type_2_distance(context, *along, given, at.pose);
+  context.answer["residual"] = at.report.residual;
+  put_wanted(context, wanted, given, at);
 }
 
-void answer_shape(Context& context) {
-  if (context.robot.serial()) return answer_serial_shape(SerialContext(context));
-  if (has_rods(context.robot)) return answer_rods_shape(context);
-  if (context.robot.model() == Model::prb) return answer_chains_shape(context);
-  const Configuration given = read_configuration(context);
-  const auto samples = context.query.optional("samples");
-  const int count = samples ? samples->integer(Range::between(2, 2000)) : 33;
-  if (!context.ready()) return;
-  const Solved at = solve_configuration(context, given);
-  if (!context.errors.empty()) return;
-  context.report(at.report);
-  if (!at.report.ok()) return;
+}  // namespace
 
-  context.answer["pose"] = pose_value(at.pose);
-  put_shape(context.answer, any_shape(context.robot, at.pose, at.coordinates, count));
-  context.answer["frames"] = Value::list({pose_value(at.pose)});
+void answer_kinematic_velocity(Context& context) {
+  answer_configuration(context, usual_wants | Wants{Want::velocity});
 }
+
+void answer_kinematic_shape(Context& context) { answer_configuration(context, {Want::pose, Want::shape}); }
 
 }  // namespace sinew::inline v1

@@ -4,21 +4,11 @@
 
 namespace sinew::inline v1 {
 
-Wanted read_want(Context& context) {
-  Wanted wanted;
-  const auto list = context.query.optional("want");
-  if (!list) return wanted;
-  for (const Reader& word : list->items()) {
-    const std::string name = word.choice({"stiffness", "stability", "margins", "sensitivity", "lines"});
-    if (name == "lines") word.refuse("not_available", "legs that bear load have no lines; ask for stiffness");
-    wanted.stiffness = wanted.stiffness || name == "stiffness";
-    wanted.stability = wanted.stability || name == "stability";
-    wanted.margins = wanted.margins || name == "margins";
-    wanted.sensitivity = wanted.sensitivity || name == "sensitivity";
-  }
+Wants read_wants_of_loads(Context& context, Wants usual) {
+  const Wants wants = read_wants(context, usual, equilibrium_wants);
   if (const auto of = context.query.optional("with_respect_to"))
     of->fail("not_available", "sensitivity is by the inputs in this version; leave this out");
-  return wanted;
+  return wants;
 }
 
 std::vector<double> read_forces(const Reader& given, std::size_t count, const Range& range,

@@ -2,15 +2,14 @@
 /// What questions about loads may say, whatever bears them, and what is answered of many equilibria.
 #pragma once
 #include "leg/space.hpp"
-#include "query/context.hpp"
+#include "query/wants.hpp"
 
 namespace sinew::inline v1 {
 
-/// What is asked of an equilibrium beside it.
-struct Wanted {
-  bool stiffness = false, stability = false, margins = false, sensitivity = false;
-};
-Wanted read_want(Context& context);
+/// What an equilibrium can tell.
+constexpr Wants equilibrium_wants = usual_wants | Wants{Want::velocity,  Want::shape,   Want::stiffness,
+                                                        Want::stability, Want::margins, Want::sensitivity};
+Wants read_wants_of_loads(Context& context, Wants usual = usual_wants);
 
 /// Forces, then moments.
 template <class Space>

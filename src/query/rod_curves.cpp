@@ -9,14 +9,14 @@
 namespace sinew::inline v1 {
 namespace {
 
-struct CurveQuery {
+struct RodCurveQuery {
   RodQuery begin;
   CurveOptions how;
   std::optional<SpatialWrench> wrench;  ///< at the target
 };
 
 /// What changes: `to`.
-void read_target(Context& context, CurveQuery& asked) {
+void read_target(Context& context, RodCurveQuery& asked) {
   Reader to = context.query.required("to", "{inputs, or pose, and wrench}: what changes along the curve");
   const auto inputs = to.optional("inputs"), wrench = to.optional("wrench");
   auto pose = to.optional("pose");
@@ -33,8 +33,8 @@ void read_target(Context& context, CurveQuery& asked) {
   }
 }
 
-CurveQuery read_curve(Context& context) {
-  CurveQuery asked;
+RodCurveQuery read_rod_curve(Context& context) {
+  RodCurveQuery asked;
   asked.begin = read_configuration_of_rods(context);
   read_target(context, asked);
   read_extent(context, asked.how);
@@ -55,7 +55,7 @@ void note_stopped_curve(Context& context) {
 
 void answer_rods_track(Context& context) {
   if (context.query.has("from") || context.query.has("poses")) return answer_rods_path(context);
-  CurveQuery asked = read_curve(context);
+  RodCurveQuery asked = read_rod_curve(context);
   if (!context.ready()) return;
   const Equilibrium begin = solve(context, asked.begin);
   context.report(begin.report);

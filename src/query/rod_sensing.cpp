@@ -13,6 +13,7 @@ struct SensingQuery {
   std::vector<double> inputs, axial, deviations;
   EquilibriumOptions options;
   bool has_deviations = false;
+  RodWants wanted;
 };
 
 SensingQuery read_sensing(Context& context) {
@@ -30,6 +31,7 @@ SensingQuery read_sensing(Context& context) {
   asked.options.gravity = read_gravity_of(context);
   asked.options.start = read_spatial_start(context);
   if (context.max_iterations) asked.options.max_iterations = *context.max_iterations;
+  asked.wanted = read_rod_wants(context, {Want::pose});
   return asked;
 }
 
@@ -51,7 +53,7 @@ void answer_rods_statics(Context& context) {
   Value& answer = context.answer;
   answer["iterations"] = sensed.report.iterations;
   answer["residual"] = sensed.report.residual;
-  answer["pose"] = pose_value(sensed.pose);
+  put_rod_wants(context, held_equilibrium(context.robot, context.work), asked.wanted, options.gravity);
   answer["wrench"] = Value(std::span<const double>(sensed.wrench.data(), 6));
   answer["wrench_sensitivity"] = rows_value(sensed.sensitivity);
   if (asked.has_deviations &&

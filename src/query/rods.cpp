@@ -92,25 +92,71 @@ void put_rows(Value& answer, Value::Key key, std::span<const double> numbers, st
   if (std::ranges::all_of(numbers, is_number)) answer[key] = rows_value(numbers, columns);
 }
 
-void put_wanted(Context& context, const Wanted& wanted, const RodAnalysis& analysis) {
+void put_stability(Context& context, const RodAnalysis& analysis) {
   Value& answer = context.answer;
-  if (wanted.stiffness) answer["stiffness"] = rows_value(analysis.stiffness, 6);
-  if (wanted.stability) {
-    answer["stable"] = analysis.unstable_directions == 0;
-    answer["unstable_directions"] = analysis.unstable_directions;
-    Value twists = Value::list();
-    for (const auto& twist : analysis.unstable) twists.push_back(Value(std::span<const double>(twist)));
-    answer["unstable"] = std::move(twists);
-    Value legs = Value::list();
-    for_each_rod(context.robot, [&, k = std::size_t{0}](const RodLeg&, const LegPlace&, int i) mutable {
-      const auto [in_plane, aside] = analysis.unstable_rods[k++];
-      if (in_plane + aside > 0) legs.push_back(i);
-    });
-    answer["unstable_legs"] = std::move(legs);
+  answer["stable"] = analysis.unstable_directions == 0;
+  answer["unstable_directions"] = analysis.unstable_directions;
+  Value twists = Value::list();
+  for (const auto& twist : analysis.unstable) twists.push_back(twist);
+  answer["unstable"] = std::move(twists);
+  Value legs = Value::list();
+  for_each_rod(context.robot, [&, k = std::size_t{0}](const RodLeg&, const LegPlace&, int i) mutable {
+    const auto [in_plane, aside] = analysis.unstable_rods[k++];
+    if (in_plane + aside > 0) legs.push_back(i);
+  });
+  answer["unstable_legs"] = std::move(legs);
+}
+
+RodMotion read_motion(Context& context) {
+  RodMotion asked;
+  const auto inputs = static_cast<std::size_t>(input_count(context.robot));
+  const auto twist = context.query.optional("twist"), rates = context.query.optional("rates");
+  if (twist) {
+    const bool is_short = inputs == 3 && twist->is(Node::Kind::list) && twist->node()->items.size() == 3;
+    asked.twist = twist->quantities(Dimension::number, {}, is_short ? 3 : 6);
   }
-  if (wanted.margins)
-    answer["margins"] = {{"fold", analysis.smallest_pivot}, {"strain", analysis.largest_strain}};
-  if (wanted.sensitivity) put_rows(answer, "sensitivity", analysis.sensitivity, context.work.inputs.size());
+  if (rates) asked.rates = rates->quantities(Dimension::number, {}, inputs);
+  if (twist && rates) rates->fail("ambiguous", "twist and rates both say how the robot moves; keep one");
+  return asked;
+}
+
+/// The one of the other; of a short twist also the whole of it.
+void put_motion(Context& context, const RodMotion& asked, const Report& equilibrium,
+                const RodAnalysis& analysis) {
+  const auto is_known = [&](const Report& found) {
+    if (!found.ok() && equilibrium.ok()) context.report(found);
+    return found.ok();
+  };
+  std::vector<double> rates = asked.rates;
+  if (!asked.twist.empty()) {
+    rates.resize(static_cast<std::size_t>(input_count(context.robot)));
+    if (!is_known(rod_rates(analysis, asked.twist, rates))) return;
+    context.answer["rates"] = Value(rates);
+  }
+  if (rates.empty() || asked.twist.size() == 6) return;
+  std::array<double, 6> twist;
+  if (!is_known(rod_twist(analysis, rates, twist))) return;
+  context.answer["twist"] = Value(std::span<const double>(twist));
+}
+
+void put_velocity(Context& context, const RodMotion& motion, const Report& equilibrium,
+                  const RodAnalysis& analysis) {
+  Value& answer = context.answer;
+  const auto columns = static_cast<std::size_t>(input_count(context.robot));
+  answer["J"] = rows_value(analysis.stiffness, 6);
+  answer["K"] = rows_value(analysis.feed, columns);
+  put_rows(answer, "U", analysis.sensitivity, columns);
+  answer["indices"] = indices_value(analysis);
+  answer["type_2"] = {{"singular", analysis.is_singular()}};
+  put_motion(context, motion, equilibrium, analysis);
+}
+
+void put_shape_of(Context& context, const Equilibrium& found, int samples,
+                  const std::optional<Vec3<double>>& gravity) {
+  Weight weight = context.robot.weight();  // rods that bear torque are drawn from their bases, under theirs
+  weight.gravity = gravity.value_or(weight.gravity);
+  put_shape(context.answer, any_shape(context.robot.under(weight), found.pose, found.coordinates, samples));
+  context.answer["frames"] = Value::list({pose_value(found.pose)});
 }
 
 constexpr int pose_inputs = 6;  ///< so many lengths hold a pose
@@ -137,6 +183,42 @@ std::optional<SpatialPose> read_held_pose(const Context& context) {
 }
 
 }  // namespace
+
+RodWants read_rod_wants(Context& context, Wants usual) {
+  RodWants wanted{read_wants_of_loads(context, usual), {}, 0};
+  if (wanted.words.has(Want::velocity)) {
+    wanted.motion = read_motion(context);
+    for (const char* key : {"along", "limit"})
+      if (const auto given = context.query.optional(key))
+        given->fail("not_available", "robots of rods have no search for type II; leave it out");
+  }
+  if (wanted.words.has(Want::shape)) wanted.samples = read_samples(context, 33, 2000);
+  return wanted;
+}
+
+void put_rod_wants(Context& context, const Equilibrium& found, const RodWants& wanted,
+                   const std::optional<Vec3<double>>& gravity) {
+  const Wants words = wanted.words;
+  Value& answer = context.answer;
+  if (words.has(Want::pose)) answer["pose"] = pose_value(found.pose);
+  if (!(words - Wants{Want::pose, Want::shape}).is_empty()) {
+    const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
+    answer["inputs"] = found.inputs;
+    if (words.has(Want::legs)) {
+      answer["legs"] = legs_of(context, found, analysis);
+      answer["energy"] = analysis.energy;
+      put_number(answer, "potential", analysis.potential);
+    }
+    if (words.has(Want::velocity)) put_velocity(context, wanted.motion, found.report, analysis);
+    if (words.has(Want::stiffness)) answer["stiffness"] = rows_value(analysis.stiffness, 6);
+    if (words.has(Want::stability)) put_stability(context, analysis);
+    if (words.has(Want::margins))
+      answer["margins"] = {{"fold", analysis.smallest_pivot}, {"strain", analysis.largest_strain}};
+    if (words.has(Want::sensitivity))
+      put_rows(answer, "sensitivity", analysis.sensitivity, context.work.inputs.size());
+  }
+  if (words.has(Want::shape)) put_shape_of(context, found, wanted.samples, gravity);
+}
 
 Value indices_value(const RodAnalysis& analysis) {
   Value indices = Value::map();
@@ -210,21 +292,15 @@ Equilibrium solve(Context& context, const RodQuery& asked) {
 
 namespace {
 
-/// The equilibrium the workspace holds, as both questions answer it.
-void put_equilibrium(Context& context, const Equilibrium& found, const Wanted& wanted) {
+/// The equilibrium the workspace holds, as all questions answer it.
+void put_equilibrium(Context& context, const Equilibrium& found, const RodWants& wanted,
+                     const std::optional<Vec3<double>>& gravity) {
   context.report(found.report);
   if (found.report.iterations > 0 || found.is_solved()) {
     context.answer["iterations"] = found.report.iterations;
     put_number(context.answer, "residual", found.report.residual);
   }
-  if (!found.is_solved()) return;
-  const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
-  context.answer["pose"] = pose_value(found.pose);
-  context.answer["inputs"] = Value(found.inputs);
-  context.answer["legs"] = legs_of(context, found, analysis);
-  context.answer["energy"] = analysis.energy;
-  put_number(context.answer, "potential", analysis.potential);
-  put_wanted(context, wanted, analysis);
+  if (found.is_solved()) put_rod_wants(context, found, wanted, gravity);
 }
 
 /// What `equilibria` and `inverse_equilibria` tell of one of them beside where it is.
@@ -268,7 +344,7 @@ void answer_rods_forward(Context& context) {
     trace->fail("not_available", "the iterates of rods are not recorded; leave it out");
   asked.options = read_equilibrium_options(context);
   asked.options.start = read_spatial_start(context);
-  const Wanted wanted = read_want(context);
+  const RodWants wanted = read_rod_wants(context, usual_wants);
   const auto until = read_until<Spatial>(context);
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
@@ -278,14 +354,16 @@ void answer_rods_forward(Context& context) {
   Equilibrium found = solve(context, asked);
   if (until && found.is_solved()) {
     if (note_stop(context.work.stop, found.report)) {
-      put_equilibrium(context, found, wanted);
+      put_equilibrium(context, found, wanted, asked.options.gravity);
       return;
     }
     const LoadPath path = follow_load(context.robot, until->direction, until->limit, context.work);
     context.answer["load"] = path.load;
     context.answer["why"] = to_string(path.end);
     if (path.definite_until >= 0) context.answer["definite_until"] = path.definite_until;
-    found.pose = path.pose;
+    const Report report = found.report;
+    found = held_equilibrium(context.robot, context.work);
+    found.report = report;
     remember_held(context, path.pose);
     found.report.residual = path.residual;
     if (path.end == LoadEnd::stopped) note_stop(context.work.stop, found.report);
@@ -294,7 +372,7 @@ void answer_rods_forward(Context& context) {
       found.report.message = std::string_view("at this load the robot does not hold by itself");
     }
   }
-  put_equilibrium(context, found, wanted);
+  put_equilibrium(context, found, wanted, asked.options.gravity);
   if (want_all) put_all(context, asked.inputs, asked.options);
 }
 
@@ -349,7 +427,7 @@ void answer_rods_inverse(Context& context) {
     asked.independent = read_independent(context, independent);
   }
   asked.options = read_equilibrium_options(context);
-  const Wanted wanted = read_want(context);
+  const RodWants wanted = read_rod_wants(context, usual_wants);
   const RodStart start = read_start_of_inverse(context);
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
@@ -364,93 +442,23 @@ void answer_rods_inverse(Context& context) {
     remember_held(context, {});
     return;
   }
-  put_equilibrium(context, solve(context, asked), wanted);
+  put_equilibrium(context, solve(context, asked), wanted, asked.options.gravity);
   if (want_all)
     put_all_lengths(context, *asked.pose, asked.options);
   else if (asked.pose && context.answer.contains("inputs"))
     context.answer["complete"] = false;  // other lengths may hold it too
 }
 
-namespace {
-
-/// A twist that is wanted, or rates of the inputs.
-struct AskedMotion {
-  std::vector<double> twist, rates;
-};
-
-AskedMotion read_motion(Context& context) {
-  AskedMotion asked;
-  const auto inputs = static_cast<std::size_t>(input_count(context.robot));
-  const auto twist = context.query.optional("twist"), rates = context.query.optional("rates");
-  if (twist) {
-    const bool is_short = inputs == 3 && twist->is(Node::Kind::list) && twist->node()->items.size() == 3;
-    asked.twist = twist->quantities(Dimension::number, {}, is_short ? 3 : 6);
-  }
-  if (rates) asked.rates = rates->quantities(Dimension::number, {}, inputs);
-  if (twist && rates) rates->fail("ambiguous", "twist and rates both say how the robot moves; keep one");
-  return asked;
-}
-
-/// The one of the other; of a short twist also the whole of it.
-void put_motion(Context& context, const AskedMotion& asked, const Report& equilibrium,
-                const RodAnalysis& analysis) {
-  const auto is_known = [&](const Report& found) {
-    if (!found.ok() && equilibrium.ok()) context.report(found);
-    return found.ok();
-  };
-  std::vector<double> rates = asked.rates;
-  if (!asked.twist.empty()) {
-    rates.resize(static_cast<std::size_t>(input_count(context.robot)));
-    if (!is_known(rod_rates(analysis, asked.twist, rates))) return;
-    context.answer["rates"] = Value(rates);
-  }
-  if (rates.empty() || asked.twist.size() == 6) return;
-  std::array<double, 6> twist;
-  if (!is_known(rod_twist(analysis, rates, twist))) return;
-  context.answer["twist"] = Value(std::span<const double>(twist));
-}
-
-}  // namespace
-
 void answer_rods_velocity(Context& context) {
   const RodQuery asked = read_configuration_of_rods(context);
-  const AskedMotion motion = read_motion(context);
-  for (const char* key : {"along", "limit"})
-    if (const auto given = context.query.optional(key))
-      given->fail("not_available", "robots of rods have no search for type II; leave it out");
-  if (!context.ready()) return;
-  const Equilibrium found = solve(context, asked);
-  context.report(found.report);
-  if (!found.is_solved()) return;
-  const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
-  Value& answer = context.answer;
-  const std::size_t columns = found.inputs.size();
-  answer["pose"] = pose_value(found.pose);
-  answer["inputs"] = Value(found.inputs);
-  answer["J"] = rows_value(analysis.stiffness, 6);
-  answer["K"] = rows_value(analysis.feed, columns);
-  put_rows(answer, "U", analysis.sensitivity, columns);
-  answer["indices"] = indices_value(analysis);
-  answer["type_2"] = {{"singular", analysis.is_singular()}};
-  answer["residual"] = found.report.residual;
-  put_motion(context, motion, found.report, analysis);
-  answer["legs"] = legs_of(context, found, analysis);
+  const RodWants wanted = read_rod_wants(context, usual_wants | Wants{Want::velocity});
+  if (context.ready()) put_equilibrium(context, solve(context, asked), wanted, asked.options.gravity);
 }
 
 void answer_rods_shape(Context& context) {
   const RodQuery asked = read_configuration_of_rods(context);
-  const auto samples = context.query.optional("samples");
-  const int count = samples ? samples->integer(Range::between(2, 2000)) : 33;
-  if (!context.ready()) return;
-  const Equilibrium found = solve(context, asked);
-  context.report(found.report);
-  if (!found.is_solved()) return;
-  context.answer["pose"] = pose_value(found.pose);
-  Weight weight = context.robot.weight();  // rods that bear torque are drawn from their bases, under theirs
-  weight.gravity = asked.options.gravity.value_or(weight.gravity);
-  const Robot seen = context.robot.under(weight);
-  put_shape(context.answer, any_shape(seen, found.pose, found.coordinates, count));
-  context.answer["frames"] = Value::list({pose_value(found.pose)});
+  const RodWants wanted = read_rod_wants(context, {Want::pose, Want::shape});
+  if (context.ready()) put_equilibrium(context, solve(context, asked), wanted, asked.options.gravity);
 }
 
 }  // namespace sinew::inline v1

@@ -1,6 +1,7 @@
 /// @file rods.hpp
-/// Handlers of the queries put to robots whose legs bear load.
+/// What handlers of questions to robots on rods share.
 #pragma once
+#include "query/handlers.hpp"
 #include "query/loads.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 
@@ -27,14 +28,23 @@ bool holds_last(const Context& context);
 /// As Question's, of an equilibrium that the workspace holds.
 void remember_held(Context& context, const std::optional<SpatialPose>& found);
 
-void answer_rods_forward(Context& context);
-void answer_rods_inverse(Context& context);
-void answer_rods_velocity(Context& context);
-void answer_rods_shape(Context& context);
-void answer_rods_statics(Context& context);
-void answer_rods_track(Context& context);
 /// `track` along poses, or along coordinates that three inputs hold: `poses`, or `from` and `to`.
 void answer_rods_path(Context& context);
+
+/// A twist that is wanted, or rates of the inputs.
+struct RodMotion {
+  std::vector<double> twist, rates;
+};
+/// What a question wants of an equilibrium, with the fields of its words.
+struct RodWants {
+  Wants words;
+  RodMotion motion;  ///< of `velocity`
+  int samples = 0;   ///< of `shape`
+};
+RodWants read_rod_wants(Context& context, Wants usual);
+/// Of the equilibrium that the workspace holds, under this gravity.
+void put_rod_wants(Context& context, const Equilibrium& found, const RodWants& wanted,
+                   const std::optional<Vec3<double>>& gravity);
 
 /// Of position and rotation; one that is infinite, where the platform is not held, is left out.
 Value indices_value(const RodAnalysis& analysis);

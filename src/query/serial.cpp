@@ -1,4 +1,4 @@
-/// Handlers of queries to serial robots: forward, velocity, describe.
+/// Handlers of queries to serial robots: forward, velocity, shape.
 #include "query/serial.hpp"
 
 #include <fmt/format.h>
@@ -300,70 +300,43 @@ void refuse_many_points(SerialContext& context, int samples) {
                     points, most));
 }
 
-}  // namespace
-
-void answer_serial_forward(SerialContext context) {
-  const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
-  Shaped shape = read_shape(context);
-  const std::vector<double> more = read_pay_out(context, shape);
-  if (!context.ready()) return;
-  solve_shape(context, model, shape);
-  context.report(shape.report);
-  put_configuration(context, shape.bends, model, more,
-                    shape.changes ? std::span<const double>(*shape.changes) : std::span<const double>());
-  if (shape.changes) context.answer["slack"] = by_section(context.robot, shape.slack);
-}
-
-void answer_serial_velocity(SerialContext context) {
-  const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
-  Shaped shape = read_shape(context);
-  std::vector<double> twist;
-  if (const auto asked = context.query.optional("twist"))
-    twist = asked->quantities(Dimension::number, Range::place(), 6);
-  if (!context.ready()) return;
-  solve_shape(context, model, shape);
-  context.report(shape.report);
-  std::vector<double> straight(shape.bends.size(), 0.0);
+void put_velocity(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
+                  std::span<const double> twist) {
+  std::vector<double> straight(bends.size(), 0.0);
   Value rates;
   if (!twist.empty()) {
     const TipTwist wanted{{twist[0], twist[1], twist[2]}, {twist[3], twist[4], twist[5]}};
-    const ResolvedRate found =
-        resolved_rate(context.robot, shape.bends, wanted, {.model = model}, context.work);
+    const ResolvedRate found = resolved_rate(context.robot, bends, wanted, {.model = model}, context.work);
     if (found.ok())
-      rates = rates_value(context, shape.bends, found, straight);
+      rates = rates_value(context, bends, found, straight);
     else
       context.report(found.report);
   }
-  tip_motion(shape.bends, context.work);
-  tendon_rates(shape.bends, model, context.work);
-  extension_motion(shape.bends, model, context.work);
-  const auto [J, K] = by_configuration(context, shape.bends, straight);
-  context.answer["configuration"] = configuration_value(context, shape.bends, straight);
-  context.answer["tip"] = pose_value(AnyPose(spatial_pose(context.work.ends.back())));
-  context.answer["J"] = Value(MatrixView(J.data(), J.rows(), J.cols()));
-  context.answer["K"] = Value(MatrixView(K.data(), K.rows(), K.cols()));
-  context.answer["indices"] = indices_value(context);
+  tip_motion(bends, context.work);
+  tendon_rates(bends, model, context.work);
+  extension_motion(bends, model, context.work);
+  const auto [J, K] = by_configuration(context, bends, straight);
+  Value& answer = context.answer;
+  answer["configuration"] = configuration_value(context, bends, straight);
+  answer["tip"] = pose_value(AnyPose(spatial_pose(context.work.ends.back())));
+  answer["J"] = Value(MatrixView(J.data(), J.rows(), J.cols()));
+  answer["K"] = Value(MatrixView(K.data(), K.rows(), K.cols()));
+  answer["indices"] = indices_value(context);
   if (const auto steering = tip_steering(context.work))
-    context.answer["steering"] =
+    answer["steering"] =
         Value(std::array{(*steering)(0, 0), (*steering)(0, 1), (*steering)(1, 0), (*steering)(1, 1)}, 2);
-  if (!rates.is_null()) context.answer["rates"] = std::move(rates);
+  if (!rates.is_null()) answer["rates"] = std::move(rates);
 }
 
-void answer_serial_shape(SerialContext context) {
-  const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
-  Shaped given = read_shape(context);
-  const auto samples = context.query.optional("samples");
-  const int count = samples ? samples->integer(Range::between(2, 200)) : 5;
-  refuse_many_points(context, count);
-  if (!context.ready()) return;
-  solve_shape(context, model, given);
-  context.report(given.report);
-  const SerialShape shape = serial_shape(context.robot.extended(given.extensions), given.bends, count);
-  const auto polyline = [](const std::vector<Vec3<double>>& line) {
-    Value points = Value::list();
-    for (const auto& point : line) points.push_back(Value(point));
-    return points;
-  };
+Value polyline(const std::vector<Vec3<double>>& line) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * line.size());
+  for (const auto& point : line) numbers.insert(numbers.end(), point.begin(), point.end());
+  return {numbers, 3};
+}
+
+void put_shape_of(SerialContext& context, std::span<const Bend> bends, int samples) {
+  const SerialShape shape = serial_shape(context.robot.extended(context.work.extensions), bends, samples);
   Value backbones = Value::list(), tendons = Value::list(), discs = Value::list(), frames = Value::list();
   for (const auto& line : shape.backbones) backbones.push_back(polyline(line));
   for (const auto& section : shape.tendons) {
@@ -376,56 +349,68 @@ void answer_serial_shape(SerialContext context) {
                      {"height", disc.height},
                      {"radius", disc.radius}});
   for (const SE3<double>& end : shape.ends) frames.push_back(pose_value(AnyPose(spatial_pose(end))));
-  context.answer["configuration"] = configuration_value(context, given.bends);
-  context.answer["tip"] = frames.back();
-  context.answer["backbones"] = std::move(backbones);
-  context.answer["tendons"] = std::move(tendons);
-  context.answer["discs"] = std::move(discs);
-  context.answer["frames"] = std::move(frames);
+  Value& answer = context.answer;
+  answer["configuration"] = configuration_value(context, bends);
+  answer["tip"] = frames.back();
+  answer["backbones"] = std::move(backbones);
+  answer["tendons"] = std::move(tendons);
+  answer["discs"] = std::move(discs);
+  answer["frames"] = std::move(frames);
 }
 
-void answer_serial_describe(SerialContext context) {
-  if (!context.ready()) return;
-  Value sections = Value::list(), coordinates = Value::list(), inputs = Value::list();
-  for (std::size_t m = 0; m < context.robot.sections.size(); ++m) {
-    const Section& section = context.robot.sections[m];
-    const std::string place = joined("sections", m);
-    Value one{
-        {"type", section.is_twin() ? "tpcj" : "neutral"},
-        {"segments", section.segments},
-        {"joint", section.joint},
-        {"tendons",
-         {{"count", section.tendons}, {"radius", section.tendon_radius}, {"angle", section.tendon_angle}}},
-        {"length", section.length()}};
-    if (section.disc_radius > 0)
-      one["disc"] = {{"height", section.disc_height}, {"radius", section.disc_radius}};
-    if (std::isfinite(section.limit)) one["limit"] = section.limit;
-    if (section.is_extensible()) one["extension"] = {section.min_extension, section.max_extension};
-    sections.push_back(std::move(one));
-    for (const char* name : section.is_twin() ? std::array{"beta_1", "beta_2"} : std::array{"theta", "phi"})
-      coordinates.push_back({{"name", joined(place, name)}, {"unit", "rad"}});
-    if (section.is_extensible()) coordinates.push_back({{"name", joined(place, "extension")}, {"unit", "m"}});
-    for (int i = 0; i < section.tendons; ++i)
-      inputs.push_back(
-          {{"name", joined(joined(place, "tendons"), static_cast<std::size_t>(i))}, {"unit", "m"}});
+}  // namespace
+
+SerialWants read_serial_wants(SerialContext& context, Wants usual) {
+  SerialWants wanted{read_wants(context, usual, {Want::pose, Want::velocity, Want::shape}), {}, 0};
+  if (wanted.words.has(Want::velocity))
+    if (const auto asked = context.query.optional("twist"))
+      wanted.twist = asked->quantities(Dimension::number, Range::place(), 6);
+  if (wanted.words.has(Want::shape)) {
+    wanted.samples = read_samples(context, 5, 200);
+    refuse_many_points(context, wanted.samples);
   }
-  Value& answer = context.answer;
-  answer["status"] = "converged";
-  answer["kind"] = "serial";
-  answer["space"] = "spatial";
-  answer["inputs"] = inputs;
-  answer["configuration"] = coordinates;
-  answer["sections"] = sections;
-  answer["length"] = context.robot.length();
-  answer["tolerance"] = context.robot.tolerance;
-  if (const auto& motor = context.robot.motor)
-    answer["motor"] = {{"lead", motor->lead}, {"counts", motor->counts}, {"gear", motor->gear}};
-  if (const auto& stretch = context.robot.stretch)
-    answer["stretch"] = {{"stiffness", stretch->stiffness}, {"outside", stretch->outside}};
-  answer["models"] = Value::list({"pcc", "lsk"});
-  answer["model"] = "pcc";
-  answer["geometry"] = context.robot.geometry_inferred ? "inferred" : "given";
-  answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
+  return wanted;
 }
+
+void put_serial_wants(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
+                      const SerialWants& wanted) {
+  if (wanted.words.has(Want::velocity)) put_velocity(context, bends, model, wanted.twist);
+  if (wanted.words.has(Want::shape)) put_shape_of(context, bends, wanted.samples);
+}
+
+void answer_serial_forward(Context& asked) {
+  SerialContext context(asked);
+  const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
+  Shaped shape = read_shape(context);
+  const std::vector<double> more = read_pay_out(context, shape);
+  const SerialWants wanted = read_serial_wants(context, {Want::pose});
+  if (!context.ready()) return;
+  solve_shape(context, model, shape);
+  context.report(shape.report);
+  put_configuration(context, shape.bends, model, more,
+                    shape.changes ? std::span<const double>(*shape.changes) : std::span<const double>());
+  if (shape.changes) context.answer["slack"] = by_section(context.robot, shape.slack);
+  put_serial_wants(context, shape.bends, model, wanted);
+}
+
+namespace {
+
+/// Of a configuration, or of changes, alone what is wanted.
+void answer_serial_configuration(Context& asked, Want usual) {
+  SerialContext context(asked);
+  const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
+  Shaped shape = read_shape(context);
+  const SerialWants wanted = read_serial_wants(context, {usual});
+  if (!context.ready()) return;
+  solve_shape(context, model, shape);
+  context.report(shape.report);
+  put_serial_wants(context, shape.bends, model, wanted);
+}
+
+}  // namespace
+
+void answer_serial_velocity(Context& context) { answer_serial_configuration(context, Want::velocity); }
+
+void answer_serial_shape(Context& context) { answer_serial_configuration(context, Want::shape); }
 
 }  // namespace sinew::inline v1

@@ -1,10 +1,11 @@
 /// @file serial.hpp
-/// Handlers of queries to serial robots.
+/// What handlers of questions to serial robots share.
 #pragma once
 #include <array>
 #include <cmath>
 
-#include "query/context.hpp"
+#include "query/handlers.hpp"
+#include "query/wants.hpp"
 #include "sinew/kinematics/serial.hpp"
 
 namespace sinew::inline v1 {
@@ -53,11 +54,15 @@ Value changes_value(SerialContext& context, std::span<const Bend> bends, kernel:
 void put_configuration(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
                        std::span<const double> more = {}, std::span<const double> given = {});
 
-void answer_serial_forward(SerialContext context);
-void answer_serial_inverse(SerialContext context);
-void answer_serial_velocity(SerialContext context);
-void answer_serial_shape(SerialContext context);
-void answer_serial_describe(SerialContext context);
-void answer_diagram(Context& context);  ///< of a serial robot
+/// What a question wants of the shape, with the fields of its words.
+struct SerialWants {
+  Wants words;
+  std::vector<double> twist;  ///< of `velocity`
+  int samples = 0;            ///< of `shape`
+};
+SerialWants read_serial_wants(SerialContext& context, Wants usual);
+/// Of these bends; the workspace has the sections' lengths.
+void put_serial_wants(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
+                      const SerialWants& wanted);
 
 }  // namespace sinew::inline v1

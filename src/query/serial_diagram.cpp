@@ -163,7 +163,7 @@ void put_outline(SerialContext& context, const Asked& asked, const TendonsTo& co
 
 }  // namespace
 
-void answer_diagram(Context& of_robot) {
+void answer_serial_diagram(Context& of_robot) {
   SerialContext context(of_robot);
   const Reader which = context.query.required("section", "0-based");
   const auto m =

@@ -55,7 +55,8 @@ std::optional<ThreeArcs> three_arcs(const SerialRobot& robot) {
 }
 
 /// Every solution within the limits; the one that bends least stands for the answer.
-void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& target, kernel::Model model) {
+void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& target, kernel::Model model,
+                const SerialWants& wanted) {
   const SE3<double> tip{target.position, *target.rotation};
   const ThreeArcSolutions found = all_bends(arcs, spatial_pose(tip), context.work.stop);
   Value solutions = Value::list();
@@ -81,6 +82,7 @@ void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& 
   if (report.status == Status::left_domain) return;
   if (first) {
     put_configuration(context, found.solutions[*first], model);
+    put_serial_wants(context, found.solutions[*first], model, wanted);
     context.answer["residual"] = found.residual[*first];
   }
   context.answer["count"] = solutions.size();
@@ -90,7 +92,8 @@ void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& 
 
 }  // namespace
 
-void answer_serial_inverse(SerialContext context) {
+void answer_serial_inverse(Context& asked) {
+  SerialContext context(asked);
   const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
   const TipTarget target = read_target(context);
   SerialConfiguration start;
@@ -107,8 +110,9 @@ void answer_serial_inverse(SerialContext context) {
   for (const char* key : {"start", "max_iterations"})
     if (const auto given = context.query.optional(key); given && want_all)
       given->refuse("no_effect", "has no effect where all solutions are asked for; remove it");
+  const SerialWants wanted = read_serial_wants(context, {Want::pose});
   if (!context.ready()) return;
-  if (want_all) return answer_all(context, *arcs, target, model);
+  if (want_all) return answer_all(context, *arcs, target, model, wanted);
 
   SerialInverseOptions options{.start = start.bends, .start_extensions = start.extensions};
   if (context.max_iterations) options.max_iterations = *context.max_iterations;
@@ -118,6 +122,7 @@ void answer_serial_inverse(SerialContext context) {
   put_configuration(context, bends, model);
   context.answer["residual"] = found.report.residual;
   context.answer["iterations"] = found.report.iterations;
+  put_serial_wants(context, bends, model, wanted);
 }
 
 }  // namespace sinew::inline v1

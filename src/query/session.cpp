@@ -8,9 +8,7 @@
 
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
-#include "query/chains.hpp"
-#include "query/context.hpp"
-#include "query/serial.hpp"
+#include "query/handlers.hpp"
 #include "query/tree_session.hpp"
 #include "query/unit_hint.hpp"
 #include "robot/parallel.hpp"
@@ -19,30 +17,46 @@
 namespace sinew::inline v1 {
 namespace {
 
+using Handler = void (*)(Context&);
+
+/// A kind of question, and who answers it; null: nobody does in this version.
 struct Kind {
   std::string_view name;
-  void (*handler)(Context&);
-  bool is_of_platforms = true, is_of_serial = true;  ///< whether this version answers it of such robots
+  Handler of_kinematic, of_chains, of_rods, of_serial;
+
+  Handler handler(const Robot& robot) const {
+    if (robot.serial()) return of_serial;
+    if (has_rods(robot)) return of_rods;
+    return robot.model() == Model::prb ? of_chains : of_kinematic;
+  }
+  bool is_of_loads() const { return of_chains && !of_kinematic; }
+  bool is_of_serial_alone() const { return !of_chains && !of_kinematic && !of_rods; }
 };
 
 constexpr std::array kinds{
-    Kind{"forward", answer_forward},
-    Kind{"inverse", answer_inverse},
-    Kind{"velocity", answer_velocity},
-    Kind{"shape", answer_shape},
-    Kind{"describe", answer_describe},
-    Kind{.name = "statics", .handler = answer_statics, .is_of_serial = false},
-    Kind{.name = "track", .handler = answer_track, .is_of_serial = false},
-    Kind{.name = "diagram", .handler = answer_diagram, .is_of_platforms = false},
+    Kind{"forward", answer_kinematic_forward, answer_chains_forward, answer_rods_forward,
+         answer_serial_forward},
+    Kind{"inverse", answer_kinematic_inverse, answer_chains_inverse, answer_rods_inverse,
+         answer_serial_inverse},
+    Kind{"velocity", answer_kinematic_velocity, answer_chains_velocity, answer_rods_velocity,
+         answer_serial_velocity},
+    Kind{"shape", answer_kinematic_shape, answer_chains_shape, answer_rods_shape, answer_serial_shape},
+    Kind{"describe", answer_describe, answer_describe, answer_describe, answer_serial_describe},
+    Kind{"statics", nullptr, answer_chains_statics, answer_rods_statics, nullptr},
+    Kind{"track", answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr},
+    Kind{"diagram", nullptr, nullptr, nullptr, answer_serial_diagram},
 };
+constexpr auto kind_names = [] {
+  std::array<std::string_view, kinds.size()> names;
+  for (std::size_t k = 0; k < kinds.size(); ++k) names[k] = kinds[k].name;
+  return names;
+}();
 
 const Kind& read_kind(Reader& query, bool is_serial) {
-  std::vector<std::string_view> names;
-  for (const Kind& kind : kinds) names.push_back(kind.name);
   const Reader word = query.required(
       "query", "what is asked: forward, inverse, velocity, statics, track, diagram, shape or describe");
-  const Kind& kind = kinds[word.choice_index(names)];
-  if (!(is_serial ? kind.is_of_serial : kind.is_of_platforms))
+  const Kind& kind = kinds[word.choice_index(kind_names)];
+  if (is_serial ? !kind.of_serial : kind.is_of_serial_alone())
     word.fail("not_available", std::string(kind.name) + " is not available " +
                                    (is_serial ? "of serial robots " : "") + "in this version");
   return kind;
@@ -75,7 +89,7 @@ struct ModelQuery {
 };
 ModelQuery read_model(Reader& query, const std::optional<Reader>& word, const Robot& robot,
                       const Kind& kind) {
-  const bool needs_load = kind.handler == answer_statics && !bears_load(robot);
+  const bool needs_load = kind.is_of_loads() && !bears_load(robot);
   ModelQuery asked{needs_load ? Model::prb : robot.model()};
   if (word) {
     asked.model = word->choice_of<Model>(
@@ -263,7 +277,7 @@ Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last
   opened->work.stop = state_->stop;
   if (is_serial) refuse_loads(query, document.root);
   Context context{question, opened->robot, opened->work};
-  kind.handler(context);
+  kind.handler(opened->robot)(context);
   if (!errors.empty()) return error_answer(id, errors);
   if (wants_tilt) add_tilt(answer);
   if (is_serial && answer.text_at("status") == "slack" && !has_key(state_->document, "tolerance"))

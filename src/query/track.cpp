@@ -115,9 +115,7 @@ void put_end(Context& context, const Track& track, std::size_t rows, std::size_t
 
 }  // namespace
 
-void answer_track(Context& context) {
-  if (has_rods(context.robot)) return answer_rods_track(context);
-  if (context.robot.model() == Model::prb) return answer_chains_track(context);
+void answer_kinematic_track(Context& context) {
   const std::vector<AnyPose> poses = read_path(context);
   const Branch branch = read_branch(context);
   TrackOptions options{.branch = branch.options(), .objective = read_objective(context.query)};

@@ -1,7 +1,7 @@
 // What the picture is compared with: a pose that was kept, or another robot at the same inputs.
 import {type Json, Robot, robotText} from './client';
 import {describe, type Described} from './described';
-import {forward, isSolved, shape} from './questions';
+import {everything, isSolved, told} from './questions';
 import {type State, stateOf} from './state';
 
 export interface Ghost { says: string; answer: Json; shape: Json }
@@ -23,7 +23,7 @@ export class Rival {
       ...own, ...(isAlike('inputs') && {inputs: state.inputs}), ...(isAlike('load') && {load: state.load}), gravity: state.gravity,
       ...(described.models.includes(state.model) && {model: state.model}),
     };
-    const answers = await this.robot.ask([forward(described, at), shape(described, at)]) as [Json, Json];
-    return isSolved(answers[0]) && answers[1].backbones ? {says: isAlike('inputs') ? name : `${name} at home`, answer: answers[0], shape: answers[1]} : null;
+    const [found] = await this.robot.ask([everything(described, {...at, asked: 'inputs'})]) as [Json], answer = told(found);
+    return isSolved(answer) && answer.backbones ? {says: isAlike('inputs') ? name : `${name} at home`, answer, shape: answer} : null;
   }
 }

@@ -13,7 +13,7 @@ import {Rival} from './ghost';
 import {fillHelp, type Key, listen} from './keys';
 import {byId} from './make';
 import {margins, startOf} from './margins';
-import {forward, hasVelocity, inputsOf, inverse, isSolved, plain, poseOf, shape, velocity} from './questions';
+import {everything, inputsOf, isSolved, plain, poseOf, told} from './questions';
 import {type ScreenName, Screens} from './screens';
 import {findDevice} from './operate/device';
 import type {DeviceInfo} from './operate/frame';
@@ -577,21 +577,12 @@ class Page {
     const {robot, described, question, leaps} = this, state = structuredClone(this.state), begin = performance.now();
     if (!robot || !described) return;
     this.wait();
-    let start = state.start ?? undefined;
-    if (state.asked === 'pose') {
-      const [found] = await robot.ask([inverse(described, state)]) as [Json], inputs = inputsOf(described, found);
-      if (robot !== this.robot) return;
-      if (!isSolved(found) || !inputs) return this.unsolved(found, question, begin);
-      state.inputs = inputs;
-      start = found.pose;
-    }
-    // Where the first of them ended. Rods come to rest in more ways than a pose can tell: they go the same way again.
-    const there = start && (state.model === 'rod' ? start : 'last');
-    const queries = [forward(described, state, start), shape(described, state, there), ...(hasVelocity(state) ? [velocity(described, state, there)] : [])];
-    const [answer, picture, speed] = await robot.ask(queries) as [Json, Json, Json?];
+    const [found] = await robot.ask([everything(described, state, state.start ?? undefined)]) as [Json], answer = told(found);
     if (robot !== this.robot) return;
-    if (!isSolved(answer) || !picture.backbones) return this.unsolved(isSolved(answer) ? picture : answer, question, begin);
-    this.solved({...answer, ...(speed && !speed.error && {velocity: speed})}, picture, state, question, leaps === this.leaps, begin);
+    const inputs = state.asked === 'pose' ? inputsOf(described, answer) : state.inputs;
+    if (!isSolved(answer) || !answer.backbones || !inputs) return this.unsolved(answer, question, begin);
+    state.inputs = inputs;
+    this.solved(answer, answer, state, question, leaps === this.leaps, begin);
   }
 
   /** @param isNear whether what is asked by now goes on from here */

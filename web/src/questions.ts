@@ -58,6 +58,20 @@ export function velocity(described: Described, state: State, start?: Json | stri
   return {query: 'velocity', ...given(described, state, start), ...withTilt(described)};
 }
 
+/** What is drawn and told of a configuration, asked with it: it is solved once. */
+function inFull(described: Described, state: State): Json {
+  const samples = samplesOf(described, state);
+  return {
+    ...withTilt(described), ...(samples > 0 && state.model !== 'prb' && {samples}),
+    want: ['shape', ...(hasVelocity(state) ? ['velocity'] : []), ...(state.model === 'rod' ? ['stability', 'margins'] : [])],
+  };
+}
+
+/** All that is shown of the side that is given. */
+export function everything(described: Described, state: State, start?: Json | string): Json {
+  return {...(state.asked === 'pose' ? inverse(described, state) : forward(described, state, start)), ...inFull(described, state)};
+}
+
 function poseField(described: Described, values: number[]): Json {
   const byName = Object.fromEntries(described.pose.map((row, i) => [row.path, values[i]!]));
   if (described.isSerial) return {position: values};
@@ -103,6 +117,11 @@ export function changed(state: State, side: Side | 'load', index: number, value:
 
 /** An answer that may be drawn and walked on from. `unstable` and `slack` are solved too, and their words say what is wrong. */
 export const isSolved = (answer: Json) => !answer.error && ['converged', 'unstable', 'slack'].includes(answer.status);
+
+/** An answer to `everything`, with its velocity equations by themselves: at a singularity these are what has no answer, and the pose is solved. */
+export function told(answer: Json): Json {
+  return answer.J ? {...answer, ...(answer.status === 'singular' && {status: 'converged', message: undefined}), velocity: answer} : answer;
+}
 
 /** A pose as a question takes it: its orientation once. */
 export function plain(pose: Json): Json {

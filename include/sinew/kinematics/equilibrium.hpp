@@ -77,6 +77,9 @@ SINEW_API void equilibrium_batch(const Robot& robot, Numbers rows, const Spatial
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
                                  bool check_stability = false);
 
+/// The equilibrium that the workspace holds now: also after a load was followed, or a wrench sensed.
+SINEW_API Equilibrium held_equilibrium(const Robot& robot, Workspace& work);
+
 /// What is known of the equilibrium a workspace holds.
 struct RodAnalysis {
   /// ∂(F, M)/∂(p, φ) at fixed inputs, rows first, twist order; 0 for motions that closing legs forbid.

@@ -1,0 +1,42 @@
+#include "query/wants.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace sinew::inline v1 {
+namespace {
+
+constexpr std::array<std::string_view, 10> want_names{"pose",      "legs",      "velocity", "shape",
+                                                      "stiffness", "stability", "margins",  "sensitivity",
+                                                      "lines",     "modes"};
+constexpr Wants places{Want::pose, Want::legs};
+
+std::string names_of(Wants wants) {
+  std::vector<std::string_view> known;
+  for (std::size_t k = 0; k < want_names.size(); ++k)
+    if (wants.has(static_cast<Want>(k))) known.push_back(want_names[k]);
+  return fmt::format("{}", fmt::join(known, ", "));
+}
+
+}  // namespace
+
+Wants read_wants(Question& question, Wants usual, Wants known) {
+  const auto list = question.query.optional("want");
+  if (!list) return usual;
+  Wants named;
+  for (const Reader& word : list->items()) {
+    const auto want = static_cast<Want>(word.choice_index(want_names));
+    if (word.is(Node::Kind::string) && !known.has(want))
+      word.refuse("not_available", fmt::format("of this robot and model there are {}", names_of(known)));
+    named = named | Wants{want};
+  }
+  return (named & places).is_empty() ? usual | named : (usual - places) | named;
+}
+
+int read_samples(Question& question, int usual, int most) {
+  const auto samples = question.query.optional("samples");
+  return samples ? samples->integer(Range::between(2, most)) : usual;
+}
+
+}  // namespace sinew::inline v1
