@@ -63,6 +63,10 @@ if(TARGET sinew_command)
   set_tests_properties(schema.study PROPERTIES LABELS tools TIMEOUT 300)
 endif()
 
+# The reference of the C++ and C interface is made without a warning, and says all.
+add_test(NAME docs.api COMMAND Python3::Interpreter ${tools_dir}/reference.py ${PROJECT_BINARY_DIR}/api)
+set_tests_properties(docs.api PROPERTIES LABELS tools TIMEOUT 120 SKIP_RETURN_CODE 77)
+
 # Every public header compiles alone.
 find_package(Eigen3 REQUIRED NO_MODULE)
 get_target_property(eigen_include Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
