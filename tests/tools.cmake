@@ -63,9 +63,10 @@ if(TARGET sinew_command)
   set_tests_properties(schema.study PROPERTIES LABELS tools TIMEOUT 300)
 endif()
 
-# The reference of the C++ and C interface is made without a warning, and says all.
+# The reference of the C++ and C interface, and the site of all pages, are made without a warning.
 add_test(NAME docs.api COMMAND Python3::Interpreter ${tools_dir}/reference.py ${PROJECT_BINARY_DIR}/api)
-set_tests_properties(docs.api PROPERTIES LABELS tools TIMEOUT 120 SKIP_RETURN_CODE 77)
+add_test(NAME docs.site COMMAND Python3::Interpreter ${tools_dir}/site.py ${PROJECT_BINARY_DIR}/site)
+set_tests_properties(docs.api docs.site PROPERTIES LABELS tools TIMEOUT 180 SKIP_RETURN_CODE 77)
 
 # Every public header compiles alone.
 find_package(Eigen3 REQUIRED NO_MODULE)
