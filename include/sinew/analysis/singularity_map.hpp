@@ -59,7 +59,7 @@ struct MapSample {
   bool is_type_2 = false;
   LineClass kind = LineClass::undefined;  ///< of the legs' lines
   std::uint32_t type_1 = 0;               ///< bit i: leg i
-  /// of J in the units of its rows ([m⁴] of a 3-RFR); absent too where J is not square
+  /// Of J in the units of its rows ([m⁴] of a 3-RFR); absent too where J is not square
   double determinant = absent;
   double inverse_condition = absent;  ///< σmin/σmax of J as the paper has it, mixing units; 0 below 1e-15
   double inverse_condition_homogenised = absent;  ///< of unit lines, moments divided by the platform radius

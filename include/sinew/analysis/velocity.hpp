@@ -37,7 +37,7 @@ struct Velocity {
 inline constexpr double type_1_tolerance = 1e-6;
 
 /// Velocity analysis at a pose and link coordinates [1/m], [rad], [m] that close the legs (as `forward` and
-/// `inverse` answer them). `bad_input` where they do not fit the robot. No heap, no throw.
+/// `inverse` answer them). `bad_input` where they do not fit the robot. No heap.
 SINEW_API Velocity velocity(const Robot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
 
 /// Input rates [m/s], [rad/s] for a platform twist [m/s, rad/s, base axes], into `work.rates`, at the

@@ -2,9 +2,9 @@
 /// Version, symbol visibility and the inline namespace every public name lives in.
 #pragma once
 
-#define SINEW_VERSION_MAJOR 0         ///< breaks what was there
-#define SINEW_VERSION_MINOR 1         ///< adds to it
-#define SINEW_VERSION_PATCH 0         ///< mends it
+#define SINEW_VERSION_MAJOR 0         ///< grows where what was there changes
+#define SINEW_VERSION_MINOR 1         ///< grows where something is added
+#define SINEW_VERSION_PATCH 0         ///< grows where something is mended
 #define SINEW_VERSION_STRING "0.1.0"  ///< of these headers
 
 /// @def SINEW_API

@@ -87,7 +87,7 @@ struct RodAnalysis {
   std::vector<double> feed;  ///< −∂(F, M)/∂inputs at a resting platform, 6 × inputs, rows first [N/m, N]
   std::vector<double> sensitivity;  ///< ∂(p, φ)/∂inputs at fixed load, 6 × inputs, rows first [1, 1/m]
   int unstable_directions = 0;      ///< of the second variation, all rods free to move
-  /// twists [m, rad], of norm 1, along which the platform's stiffness is negative
+  /// Twists [m, rad], of norm 1, along which the platform's stiffness is negative
   std::vector<std::array<double, 6>> unstable;
   std::vector<std::array<int, 2>> unstable_rods;  ///< tip held: in the rod's plane, out of it
   std::vector<RodResult> rods;                    ///< in the order of the legs

@@ -12,7 +12,7 @@ struct SensedWrench {
   SpatialPose pose;
   SpatialWrench wrench;  ///< of the world on the platform [N, N m], base axes; what gravity does is taken off
   std::array<double, 36> sensitivity;  ///< ∂wrench/∂axial, 6 × 6, rows first: forces [1], moments [m]
-  /// of the wrench, 6 × 6, rows first [N², N² m, N² m²], by that of the measured forces
+  /// Of the wrench, 6 × 6, rows first [N², N² m, N² m²], by that of the measured forces
   std::array<double, 36> covariance;
 };
 

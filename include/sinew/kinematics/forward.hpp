@@ -19,7 +19,7 @@ struct ForwardOptions {
 struct Forward {
   Report report;
   AnyPose pose;
-  /// of the links (κ [1/m], θ [rad], slide [m]), leg by leg; view into the workspace
+  /// Of the links (κ [1/m], θ [rad], slide [m]), leg by leg; view into the workspace
   std::span<const double> coordinates;
 
   /// `report.ok()`: converged.

@@ -39,7 +39,7 @@ SINEW_API Inverse inverse(const Robot& robot, const AnyPose& pose, const Inverse
 /// for. The working modes of the robot are their combinations.
 struct WorkingModes {
   Report report;  ///< unreachable where a leg has no solution
-  /// inputs [m], [rad] of each leg's solutions, read by `mode`; view into the workspace
+  /// Inputs [m], [rad] of each leg's solutions, read by `mode`; view into the workspace
   std::span<const double> solutions;
   std::span<const int> solution_count;  ///< a leg
   double count;                         ///< number of modes: product of the counts; exact up to 2^53
@@ -50,7 +50,7 @@ struct WorkingModes {
   SINEW_API void mode(const Robot& robot, std::size_t k, std::span<double> inputs) const;
 };
 
-/// All working modes at a pose. `unreachable` names the leg that has no solution. No heap, no throw.
+/// All working modes at a pose. `unreachable` names the leg that has no solution. No heap.
 SINEW_API WorkingModes working_modes(const Robot& robot, const AnyPose& pose, const InverseOptions& options,
                                      Workspace& work);
 

@@ -19,7 +19,7 @@ struct TipTarget {
 struct SerialInverseOptions {
   /// [rad], tried first, brought within the limits; empty: the straight robot
   std::span<const Bend> start = {};
-  /// of the sections [m], with it; empty: their lengths at rest
+  /// Of the sections [m], with it; empty: their lengths at rest
   std::span<const double> start_extensions = {};
   int starts = 128;          ///< others tried after it, at most: a fixed set spread over the limits
   int max_iterations = 100;  ///< of each start

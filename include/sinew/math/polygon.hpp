@@ -52,7 +52,7 @@ struct DiscCut {
   Polygon corners;          ///< counter-clockwise
   std::vector<double> arc;  ///< of each corner [rad]
 };
-/// Cuts it.
+/// The polygon cut with the disc |x| ≤ radius.
 SINEW_API DiscCut cut_with_disc(const Polygon& polygon, double radius);
 
 /// Area, circular segments included.
