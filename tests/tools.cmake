@@ -9,14 +9,24 @@ add_test(NAME tools.selftest COMMAND Python3::Interpreter ${packaging_dir}/tools
 set_tests_properties(tools.layers tools.equations tools.selftest PROPERTIES LABELS tools TIMEOUT 60)
 
 # The README and the pages show what happens.
-if(TARGET sinew_command AND TARGET example_first)
+if(TARGET sinew_command AND TARGET example_01_first_answer)
   add_test(NAME readme COMMAND Python3::Interpreter ${tools_dir}/readme.py --command $<TARGET_FILE_DIR:sinew_command>
-    --examples ${PROJECT_SOURCE_DIR}/examples --programs $<TARGET_FILE_DIR:example_first>
+    --examples ${PROJECT_SOURCE_DIR}/examples/cpp --programs $<TARGET_FILE_DIR:example_01_first_answer>
     README.md docs/tour.md docs/cpp.md docs/robot-files.md docs/protocol.md WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   add_test(NAME tools.facts COMMAND Python3::Interpreter ${tools_dir}/facts.py $<TARGET_FILE:sinew_command>)
   set_tests_properties(tools.facts PROPERTIES LABELS tools TIMEOUT 60)
   set_tests_properties(readme PROPERTIES LABELS tools TIMEOUT 120)
 endif()
+
+# Every example prints what its last comment says.
+file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/cpp/*.cpp)
+foreach(source IN LISTS examples)
+  cmake_path(GET source STEM name)
+  if(TARGET example_${name})
+    add_test(NAME example.${name} COMMAND Python3::Interpreter ${tools_dir}/example.py ${source} $<TARGET_FILE:example_${name}>)
+    set_tests_properties(example.${name} PROPERTIES LABELS tools TIMEOUT 60)
+  endif()
+endforeach()
 
 # The kernel's headers need no standard library.
 find_program(CLANGXX NAMES clang++)
@@ -52,6 +62,11 @@ if(TARGET sinew_command)
     $<TARGET_FILE:sinew_command> $<TARGET_FILE:schema_study_judge>)
   set_tests_properties(schema.study PROPERTIES LABELS tools TIMEOUT 300)
 endif()
+
+# The reference of the C++ and C interface, and the site of all pages, are made without a warning.
+add_test(NAME docs.api COMMAND Python3::Interpreter ${tools_dir}/reference.py ${PROJECT_BINARY_DIR}/api)
+add_test(NAME docs.site COMMAND Python3::Interpreter ${tools_dir}/site.py ${PROJECT_BINARY_DIR}/site)
+set_tests_properties(docs.api docs.site PROPERTIES LABELS tools TIMEOUT 180 SKIP_RETURN_CODE 77)
 
 # Every public header compiles alone.
 find_package(Eigen3 REQUIRED NO_MODULE)

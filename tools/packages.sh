@@ -15,10 +15,11 @@ sanitizer_packages=(clang lld libclang-rt-14-dev)
 # shellcheck disable=SC2034
 plan_packages=(libfcl-dev libassimp-dev)
 # ... and what the tests and benchmarks need beside it. ccache saves compiling the library again for the packaging tests.
-# Last, what builds and runs the firmware: the cross compilers of ATmega2560 and Cortex-M with their simulators, the
-# tools of the Verilog core, and a browser.
+# Doxygen and Sphinx make the reference of the C++ interface and the site. Last, what builds and runs the firmware: the cross
+# compilers of ATmega2560 and Cortex-M with their simulators, the tools of the Verilog core, and a browser.
 # shellcheck disable=SC2034
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
+               doxygen python3-sphinx python3-myst-parser
                python3-yaml python3-h5py ccache libopenmpi-dev openmpi-bin
                gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys "${web_packages[@]}" chromium-headless-shell)
 

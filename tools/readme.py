@@ -85,8 +85,9 @@ class Page:
         if name is None:
             self.wrong.append(f"{self.path}: no program of {self.options.examples} has these lines:\n{code}")
         elif printed is not None:
-            program = os.path.join(self.options.programs, "example_" + name)
-            now = subprocess.run([program], capture_output=True, text=True, check=True, timeout=60).stdout
+            program = os.path.abspath(os.path.join(self.options.programs, "example_" + name))
+            with tempfile.TemporaryDirectory() as here:
+                now = subprocess.run([program], capture_output=True, text=True, check=True, timeout=60, cwd=here).stdout
             if not agrees(printed, now):
                 self.differs(program, printed, now)
 

@@ -4,8 +4,11 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree as tree
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+sys.path.append(str(TOOLS))
+import reference  # noqa: E402
 
 
 class Tree(unittest.TestCase):
@@ -23,6 +26,26 @@ class Tree(unittest.TestCase):
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.stderr, "")
         return done.returncode, done.stdout
+
+
+class Reference(unittest.TestCase):
+    """What a comment of a public header must say."""
+
+    def lacks(self, kind, type_, said, where="sinew/robot/robot.hpp", around=""):
+        member = tree.fromstring(f'<memberdef kind="{kind}" static="no"><type>{type_}</type><name>x</name><argsstring>()</argsstring>'
+                                 f"<briefdescription>{said}</briefdescription></memberdef>")
+        return reference.wants(member, around, where, "sinew::A")
+
+    def test_functions_and_numbers_need_a_sentence(self):
+        self.assertEqual(self.lacks("function", "bool", ""), "has no sentence")
+        self.assertEqual(self.lacks("variable", "double", ""), "has no sentence")
+        self.assertIsNone(self.lacks("variable", "std::string", ""))
+
+    def test_numbers_need_a_unit(self):
+        self.assertEqual(self.lacks("function", "double", "Length of it."), "has numbers without a unit")
+        self.assertIsNone(self.lacks("function", "double", "Length of it [m]."))
+        self.assertIsNone(self.lacks("variable", "Vec3&lt;double&gt;", "Where it is.", around="Base frame [m]."))
+        self.assertIsNone(self.lacks("function", "double", "sin(x)/x", where="sinew/math/entire.hpp"))
 
 
 class Layers(Tree):

@@ -40,6 +40,7 @@ enum class LineClass {
   special_complex,        ///< 5b: meet one line: leave a rotation or (line at infinity) a translation free
 };
 
+/// In words, for people: `concurrent`, `5a general linear complex`.
 SINEW_API std::string_view to_string(LineClass kind) noexcept;
 
 /// The one motion that lines of rank 5 leave free, base frame.
@@ -61,13 +62,15 @@ struct TypeTwo {
   std::optional<Screw> screw;         ///< rank 5 in space
 };
 
+/// A singular value of the homogenised rows counts as 0 up to this share of the largest.
 inline constexpr double type_2_tolerance = 1e-10;
 
-/// Homogenised rows (fx, fy, m/radius), up to 24, of lines in the plane; `reference` is O′ in the base frame.
-/// No heap. Rows of zeros (a leg without a line) count as absent.
+/// Homogenised rows (fx, fy, m/radius), without unit and up to 24, of lines in the plane; `reference` is O′
+/// in the base frame [m], `radius` that by which moments were divided [m]. No heap. Rows of zeros (a leg
+/// without a line) count as absent.
 SINEW_API TypeTwo classify(const MatrixView& lines, const Vec2<double>& reference, double radius);
 
-/// The same in space: rows (f, m/radius).
+/// The same in space: rows (f, m/radius) of six numbers, without unit; `reference` and `radius` [m].
 SINEW_API TypeTwo classify(const MatrixView& lines, const Vec3<double>& reference, double radius);
 
 }  // namespace sinew::inline v1

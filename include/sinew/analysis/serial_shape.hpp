@@ -12,8 +12,9 @@ namespace sinew::inline v1 {
 
 /// A disc of a segment: it stands on the frame, its axis along z.
 struct DiscShape {
-  SE3<double> base;       ///< of its proximal face
-  double height, radius;  ///< [m]
+  SE3<double> base;  ///< of its proximal face, in the robot's base frame [m]
+  double height;     ///< [m]
+  double radius;     ///< [m]
 };
 
 /// Base frame [m].

@@ -8,6 +8,7 @@ namespace sinew::inline v1 {
 template <int D>
 using PolylineOf = std::vector<Vec<double, D>>;  ///< base frame [m]
 
+/// Points in the base frame [m].
 /// @tparam D dimension of the robot's space
 template <int D>
 struct ShapeOf {
@@ -18,16 +19,19 @@ struct ShapeOf {
   PolylineOf<D> base;                                 ///< base points, in leg order
 };
 
-using Polyline = PolylineOf<2>;
-using PlanarShape = ShapeOf<2>;
-using SpatialShape = ShapeOf<3>;
+using Polyline = PolylineOf<2>;   ///< points in the plane, base frame [m]
+using PlanarShape = ShapeOf<2>;   ///< of a planar robot
+using SpatialShape = ShapeOf<3>;  ///< of a spatial one
+/// The shape in the robot's space.
 using AnyShape = std::variant<PlanarShape, SpatialShape>;
 
-/// Of a robot of either space.
+/// Of a robot of either space [m], its legs in file order. Empty where pose or coordinates are not those of
+/// this robot, and by the model prb.
+/// @param coordinates of the links at this pose, as `forward`, `inverse` and `equilibrium` answer them
 /// @param samples points of each backbone, at least 2
 SINEW_API AnyShape any_shape(const Robot& robot, const AnyPose& pose, Numbers coordinates, int samples);
 
-/// Of a planar robot.
+/// Of a planar robot [m]; empty of a spatial one.
 inline PlanarShape shape(const Robot& robot, const AnyPose& pose, Numbers coordinates, int samples) {
   const AnyShape any = any_shape(robot, pose, coordinates, samples);
   const auto* planar = std::get_if<PlanarShape>(&any);

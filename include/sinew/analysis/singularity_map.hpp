@@ -14,10 +14,12 @@
 
 namespace sinew::inline v1 {
 
-/// One coordinate of a pose: a value that stays (count 1), or `count` values from … to, both included.
+/// One coordinate of a pose [m] or [rad]: a value that stays (count 1), or `count` values from … to, both
+/// included.
 struct MapAxis {
-  double from = 0, to = 0;
-  int count = 1;
+  double from = 0;  ///< the first value
+  double to = 0;    ///< the last value
+  int count = 1;    ///< ≥ 1
 
   /// Value k < count. From both ends alike, so that −a … a is symmetric and 0 is 0.
   double at(int k) const {
@@ -36,25 +38,30 @@ struct PoseGrid {
   /// The grid of one pose.
   SINEW_API static PoseGrid at(const AnyPose& pose);
 
+  /// Coordinates of a pose: 3 in the plane, 6 in space.
   std::size_t axis_count() const { return is_spatial ? 6 : 3; }
+  /// Number of poses: the product of the counts of the axes.
   SINEW_API std::size_t size() const;
-  /// Coordinates of pose k < size(), as the axes say.
+  /// Coordinates of pose k < size() [m], [rad], as the axes say.
   SINEW_API std::array<double, 6> coordinates(std::size_t k) const;
+  /// Pose k < size().
   AnyPose pose(std::size_t k) const { return pose(coordinates(k)); }
-  /// The pose of any coordinates.
+  /// The pose of any coordinates [m], [rad].
   SINEW_API AnyPose pose(const std::array<double, 6>& coordinates) const;
 };
 
 /// One pose of a map. Numbers are absent (NaN) where the pose is not reachable.
 struct MapSample {
+  /// NaN, of whatever unit: what stands for a number that there is not.
   static constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
   bool is_reachable = false;
   bool is_type_2 = false;
-  LineClass kind = LineClass::undefined;          ///< of the legs' lines
-  std::uint32_t type_1 = 0;                       ///< bit i: leg i
-  double determinant = absent;                    ///< of J; absent too where J is not square
-  double inverse_condition = absent;              ///< σmin/σmax of J as the paper has it; 0 below 1e-15
+  LineClass kind = LineClass::undefined;  ///< of the legs' lines
+  std::uint32_t type_1 = 0;               ///< bit i: leg i
+  /// Of J in the units of its rows ([m⁴] of a 3-RFR); absent too where J is not square
+  double determinant = absent;
+  double inverse_condition = absent;  ///< σmin/σmax of J as the paper has it, mixing units; 0 below 1e-15
   double inverse_condition_homogenised = absent;  ///< of unit lines, moments divided by the platform radius
 };
 
@@ -63,6 +70,7 @@ struct SingularityMap {
   PoseGrid grid;
   std::vector<MapSample> samples;
 
+  /// Whether the caller let it finish.
   bool is_complete() const { return samples.size() == grid.size(); }
 };
 

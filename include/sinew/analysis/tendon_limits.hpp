@@ -16,8 +16,9 @@ SINEW_API double bend_per_length(const Section& section);
 
 /// Between which changes a tendon moves while all sections it passes go everywhere within their limits.
 struct TendonTravel {
-  double least = 0, most = 0;                   ///< Δl [m], > 0 pays out
-  double span() const { return most - least; }  ///< what its drive needs
+  double least = 0;                             ///< smallest Δl [m], ≤ 0: drawn in most
+  double most = 0;                              ///< largest Δl [m], ≥ 0: paid out most
+  double span() const { return most - least; }  ///< what its drive needs [m]
 };
 
 /// Of every tendon, section by section. Sections bend independently, so that extremes add up; those of one
@@ -63,7 +64,7 @@ struct ToleranceParts {
   double step = 0;      ///< one count of the encoder; 0: the robot has no motor
   double stretch = 0;   ///< by the tension; 0: the robot has no stiffness
   double friction = 0;  ///< by the friction, either way
-  double sum() const { return step + stretch + friction; }
+  double sum() const { return step + stretch + friction; }  ///< all of them
 };
 
 /// What `SerialRobot::tolerance` should at least be for the tendons of that section.

@@ -9,17 +9,20 @@
 
 namespace sinew::inline v1 {
 
+/// How a direction is searched.
 struct TypeTwoSearch {
   InverseOptions branch = {};  ///< of the first pose; it is followed from there
-  /// Largest distance s looked at. Default: a full turn; for a direction without rotation there is none, as
-  /// the legs end it.
+  /// Largest s looked at, a factor of the direction. Default: a full turn; for a direction without rotation
+  /// there is none, as the legs end it.
   double limit = std::numeric_limits<double>::quiet_NaN();
   bool both_ways = false;  ///< also against the direction; the nearer one is answered
 };
 
+/// What the search found.
 struct TypeTwoDistance {
-  bool found = false;
-  /// s of the type II, negative where it lies against the direction; not found: how far the search came.
+  bool found = false;  ///< a type II singularity lies in that direction
+  /// s of the type II, a multiple of the direction (metres where its linear part has unit length), negative
+  /// where it lies against the direction; not found: how far the search came.
   double distance = 0;
   AnyPose pose;    ///< there
   TypeTwo type_2;  ///< there
@@ -32,7 +35,8 @@ struct TypeTwoDistance {
 /// exp(s·ω)·R, of a platform that hinges hold in planes the nearest pose in these. The distance is the
 /// multiple of the direction given, exact to 1e-10 for directions of a length near one. A pose that is itself
 /// singular has the distance 0.
-/// @param direction a twist (v, ω) in base axes
+/// @param direction a twist in base axes: (vx, vy, ω) or (v, ω) [m], [rad] per unit of s. `bad_input` where
+/// it, or the pose, does not fit the robot
 SINEW_API TypeTwoDistance type_2_distance(const Robot& robot, const AnyPose& pose, Numbers direction,
                                           const TypeTwoSearch& search, Workspace& work);
 

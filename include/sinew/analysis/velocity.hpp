@@ -17,10 +17,14 @@ struct Indices {
   double rotation;               ///< [rad per unit of input]
 };
 
+/// Velocity equations at one configuration: views into the workspace. Rows leg by leg, those of planes last;
+/// columns of J the twist (vx, vy, ω) or (v, ω) of the platform, those of K the inputs in leg order.
 struct Velocity {
-  Report report;       ///< singular where J is; residual: closure error of the configuration [m]
-  MatrixView J, K, U;  ///< J·t = K·ȧ, t = U·ȧ; U has no rows where J is singular
-  double determinant;  ///< of J where it is square, else NaN
+  Report report;  ///< singular where J is; residual: closure error of the configuration [m]
+  MatrixView J;  ///< rows × freedoms, J·t = K·ȧ: linear columns [m], angular ones [m²], of planes [1] and [m]
+  MatrixView K;  ///< rows × inputs: [m] for inputs that are lengths, [m²] for angles, of planes [1] and [m]
+  MatrixView U;  ///< freedoms × inputs, t = U·ȧ [m or rad per unit of input]; no rows where J is singular
+  double determinant;  ///< of J where it is square, in the units of its rows, else NaN
   Indices indices;
   std::span<const int>
       type_1;  ///< legs whose inputs cannot follow every motion (a row of K is zero): the workspace boundary
@@ -32,12 +36,14 @@ struct Velocity {
 /// 1e-8.
 inline constexpr double type_1_tolerance = 1e-6;
 
-/// Velocity analysis at a pose and link coordinates that close the legs. No heap.
+/// Velocity analysis at a pose and link coordinates [1/m], [rad], [m] that close the legs (as `forward` and
+/// `inverse` answer them). `bad_input` where they do not fit the robot. No heap.
 SINEW_API Velocity velocity(const Robot& robot, const AnyPose& pose, Numbers coordinates, Workspace& work);
 
-/// Input rates for a platform twist, into `work.rates`, at the configuration last put to `velocity` with this
-/// workspace; the shortest where there are many. `singular` where a leg at a type I singularity cannot
-/// follow, or legs that are tied would need different rates.  @implements TDPCR (41)
+/// Input rates [m/s], [rad/s] for a platform twist [m/s, rad/s, base axes], into `work.rates`, at the
+/// configuration last put to `velocity` with this workspace; the shortest where there are many. `singular`
+/// where a leg at a type I singularity cannot follow, or legs that are tied would need different rates.
+/// @implements TDPCR (41)
 SINEW_API Report rates(const Velocity& velocity, Numbers twist, Workspace& work);
 
 }  // namespace sinew::inline v1

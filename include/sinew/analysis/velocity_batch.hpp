@@ -26,13 +26,17 @@ struct VelocityBatch {
   /// Of `constrained_pose` or `inverse` where one has no solution, else of `velocity`: converged,
   /// unreachable, singular (type II), stalled, or left_domain where the pose is not finite.
   std::span<Status> status = {};
-  std::span<double> poses = {};       ///< seven numbers a pose: those of `independent` coordinates
-  std::span<double> inputs = {};      ///< tendon 1 of each leg, or its slide [m]
-  std::span<double> curvatures = {};  ///< of each leg [1/m]; of a rail absent
-  std::span<double> determinant = {};
-  std::span<double> condition = {}, condition_homogenised = {}, position = {}, rotation = {};  ///< `Indices`
-  std::span<std::uint8_t> type_1 = {};     ///< number of legs at a type I singularity
-  std::span<std::uint8_t> is_type_2 = {};  ///< 1 at a type II singularity
+  /// [m] and quaternion, seven numbers a pose: those of `independent` coordinates
+  std::span<double> poses = {};
+  std::span<double> inputs = {};       ///< tendon 1 of each leg, or its slide [m]
+  std::span<double> curvatures = {};   ///< of each leg [1/m]; of a rail absent
+  std::span<double> determinant = {};  ///< of J, in the units of `Velocity`
+  std::span<double> condition = {};    ///< as `Indices`, units mixed as J's, and so are the next three
+  std::span<double> condition_homogenised = {};  ///< no unit
+  std::span<double> position = {};               ///< [m per unit of input]
+  std::span<double> rotation = {};               ///< [rad per unit of input]
+  std::span<std::uint8_t> type_1 = {};           ///< number of legs at a type I singularity
+  std::span<std::uint8_t> is_type_2 = {};        ///< 1 at a type II singularity
 };
 
 /// Whether `velocity_batch` serves this robot: chord legs of arcs with tendons of their own, as many as the

@@ -3,4 +3,5 @@
 #pragma once
 #include <cassert>
 
+/// What a caller in C++ has to see to; checked where NDEBUG is not defined.
 #define SINEW_EXPECTS(condition) assert(condition)

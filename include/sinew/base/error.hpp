@@ -21,6 +21,7 @@ struct Error {
 /// Everything wrong with an input, in the order of the input. Never empty inside an `Expected`.
 using Errors = std::vector<Error>;
 
+/// A value, or everything that was wrong with the input: `if (!x) … x.error()`, `x.value()`, `*x`.
 template <class T>
 using Expected = tl::expected<T, Errors>;
 

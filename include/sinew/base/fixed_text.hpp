@@ -12,12 +12,14 @@
 
 namespace sinew::inline v1 {
 
+/// At most so many bytes of UTF-8 text, without the heap; what does not fit is cut off.
 template <std::size_t Capacity>
 class FixedText {
  public:
   using value_type = char;
 
   FixedText() = default;
+  /// As much of the text as fits.
   FixedText(std::string_view text) { append(text); }  // NOLINT(google-explicit-constructor): a text is a text
 
   /// Only what there is, mostly nothing, is copied: every answer of a solver carries a text.
@@ -32,11 +34,13 @@ class FixedText {
   void append(std::string_view text) {
     for (const char c : text) push_back(c);
   }
-  void push_back(char c) {  // so that fmt can write through a back inserter
+  /// One more byte, if it fits; fmt can so write through a back inserter.
+  void push_back(char c) {
     if (size_ < Capacity) text_[size_++] = c;
   }
 
-  bool empty() const { return size_ == 0; }
+  bool empty() const { return size_ == 0; }  ///< without text
+  /// The text; not ended by 0. It holds as long as this.
   std::string_view view() const { return {text_.data(), size_}; }
 
  private:
@@ -48,24 +52,27 @@ class FixedText {
   std::array<char, Capacity> text_;  // not initialised: only the first size_ characters are ever read
 };
 
-/// The length as people read it, "12.5 mm", written into `buffer` without the heap.
+/// A length given in metres as people read it, "12.5 mm", written into `buffer` without the heap.
 SINEW_API std::string_view format_mm(double metres, std::span<char> buffer) noexcept;
 
+/// Appends a length given in metres, "12.5 mm".
 template <std::size_t Capacity>
 void append_mm(FixedText<Capacity>& text, double metres) {
   std::array<char, 32> buffer;
   text.append(format_mm(metres, buffer));
 }
 
-/// The angle as people read it, "12.5 deg".
+/// An angle given in radians as people read it, "12.5 deg", written into `buffer` without the heap.
 SINEW_API std::string_view format_degrees(double radians, std::span<char> buffer) noexcept;
 
+/// Appends an angle given in radians, "12.5 deg".
 template <std::size_t Capacity>
 void append_degrees(FixedText<Capacity>& text, double radians) {
   std::array<char, 32> buffer;
   text.append(format_degrees(radians, buffer));
 }
 
+/// Appends a whole number.
 template <std::size_t Capacity>
 void append_number(FixedText<Capacity>& text, int number) {
   std::array<char, 12> buffer;

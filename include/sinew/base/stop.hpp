@@ -12,6 +12,7 @@ class StopToken {
  public:
   StopToken() = default;
   explicit StopToken(const std::atomic<bool>& flag) : flag_(&flag) {}  ///< the flag must outlive the token
+  /// Whether the flag is set; from any thread.
   bool stop_requested() const noexcept { return flag_ && flag_->load(std::memory_order_relaxed); }
 
  private:

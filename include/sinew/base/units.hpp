@@ -29,26 +29,28 @@ enum class Dimension {
   angular_acceleration,  // the last: who goes through all ends here
 };
 
-/// An interval of allowed values; a bound may be excluded.
+/// An interval of allowed values, in the SI unit of what they measure; a bound may be excluded.
 struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
+  double low = -std::numeric_limits<double>::infinity();  ///< the lower bound
+  double high = std::numeric_limits<double>::infinity();  ///< the upper bound
   bool low_excluded = false;
   bool high_excluded = false;
 
-  constexpr bool contains(double value) const {  // NaN is in no range
+  /// Whether the value is allowed; NaN is in no range.
+  constexpr bool contains(double value) const {
     return (low_excluded ? value > low : value >= low) && (high_excluded ? value < high : value <= high);
   }
 
-  static constexpr Range any() { return {}; }
-  static constexpr Range positive() { return {.low = 0, .low_excluded = true}; }
-  static constexpr Range not_negative() { return {.low = 0}; }
+  static constexpr Range any() { return {}; }                                     ///< every number
+  static constexpr Range positive() { return {.low = 0, .low_excluded = true}; }  ///< > 0
+  static constexpr Range not_negative() { return {.low = 0}; }                    ///< ≥ 0
   /// Sizes of parts [m]: a nanometre to a million kilometres, so that no square over- or underflows.
   static constexpr Range size() { return {.low = 1e-9, .high = 1e9}; }
   /// Coordinates of points [m].
   static constexpr Range place() { return {.low = -1e9, .high = 1e9}; }
   /// Angles [rad] that still have a sine in doubles.
   static constexpr Range turn() { return {.low = -1e6, .high = 1e6}; }
+  /// Both bounds included.
   static constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
 };
 

@@ -20,11 +20,12 @@ struct Member;
 
 /// One value of a document. Only the fields of its kind mean something.
 struct Node {
+  /// What a value is.
   enum class Kind { null, boolean, number, string, list, map };
 
   Kind kind = Kind::null;
   bool boolean = false;
-  double number = 0;
+  double number = 0;            ///< of a number, as written, without unit
   std::string text;             ///< a scalar as it was written (without its quotes)
   std::vector<Node> items;      ///< of a list
   std::vector<Member> members;  ///< of a map, in the order of the file
@@ -36,6 +37,7 @@ struct Node {
   SINEW_API Node* find(std::string_view key);
 };
 
+/// A key of a map and its value.
 struct Member {
   std::string key;
   int line = 0;  ///< of the key
@@ -51,6 +53,8 @@ struct Document {
 
 /// @name Making nodes without a place
 /// @{
+
+/// A scalar: true or false, a number in SI, or text such as `180 mm`.
 SINEW_API Node make_node(bool value);
 SINEW_API Node make_node(double value);
 SINEW_API Node make_node(std::string_view text);
@@ -101,14 +105,19 @@ SINEW_API std::string_view closest(std::string_view word, std::span<const std::s
 /// Every function answers whether to go on; what was wrong is in `errors`.
 class NodeBuilder {
  public:
-  static constexpr std::size_t depth_limit = 64;
-  static constexpr std::size_t node_limit = 200'000;
+  static constexpr std::size_t depth_limit = 64;      ///< most lists and maps within each other
+  static constexpr std::size_t node_limit = 200'000;  ///< most nodes of a document
 
+  /// @param source what errors call the text
   explicit NodeBuilder(std::string source) { document_.source = std::move(source); }
 
+  /// A list or a map begins, at its place in the text.
   SINEW_API bool open(Node::Kind list_or_map, int line = 0, int column = 0);
+  /// The innermost list or map ends.
   SINEW_API bool close();
+  /// A key of the innermost map, whose value comes next. Codes: `duplicate_key`.
   SINEW_API bool key(std::string_view key, int line = 0, int column = 0);
+  /// A value that is neither list nor map.
   SINEW_API bool scalar(Node node);
   /// Notes an error at a place; always false.
   SINEW_API bool stop(std::string_view code, int line, int column, std::string_view message);
@@ -119,6 +128,7 @@ class NodeBuilder {
   }
   /// Place of the key whose value comes next; {0, 0} outside a map.
   std::pair<int, int> key_place() const;
+  /// What was wrong so far.
   const Errors& errors() const { return errors_; }
   /// The document, or everything that was wrong. The builder is empty afterwards.
   SINEW_API Expected<Document> finish();

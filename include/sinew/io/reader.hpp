@@ -35,6 +35,7 @@ class SINEW_API Reader {
   /// Errors beyond this many are not collected; the last one says so.
   static constexpr std::size_t error_limit = 100;
 
+  /// At the root of a document.
   Reader(const Document& document, Errors& sink) : Reader(&document, &sink, &document.root, "") {}
   Reader(Document&& document, Errors& sink) = delete;
   Reader(Reader&&) noexcept = default;
@@ -50,12 +51,14 @@ class SINEW_API Reader {
   std::string place() const;  ///< `file.yaml:14:11`; the path where the line is unknown
   /// The node; null where a required key is missing: every read then answers its fallback and stays silent.
   const Node* node() const { return node_; }
+  /// Whether it is of this kind.
   bool is(Node::Kind kind) const { return node_ && node_->kind == kind; }
   /// @}
 
   /// @name Down into a map or a list
   /// Keys are literals, or outlive the reader: it remembers them.
   /// @{
+
   /// The value of a key; `missing_key` if there is none. `meaning` says what it would be: `backbone length`.
   Reader required(std::string_view key, std::string_view meaning = {});
   /// The value of a key, if there is one that is not null.
@@ -64,6 +67,8 @@ class SINEW_API Reader {
   bool has(std::string_view key);
   std::vector<std::pair<std::string, Reader>> members()
       const;  ///< of a map with free keys; it needs no `close`
+  /// The entries of a list, none of what is no list. `wrong_length` where they are not as many as `size`
+  /// says.
   std::vector<Reader> items(std::optional<std::size_t> size = {}) const;
   /// Notes every key nobody asked for as `unknown_key`. Call it when the map is read.
   void close();
@@ -71,15 +76,20 @@ class SINEW_API Reader {
 
   /// @name Values
   /// @{
+
+  /// A number in SI: a bare one is taken for SI, a text has a unit, whose dimension is checked
+  /// (`wrong_dimension`, `out_of_range`, ...).
   double quantity(Dimension dimension, Range range = {}) const;
+  /// A number without unit.
   double number(Range range = {}) const { return quantity(Dimension::number, range); }
-  int integer(Range range = {}) const;
-  std::string text() const;
-  bool boolean() const;
+  int integer(Range range = {}) const;  ///< a whole number
+  std::string text() const;             ///< a text
+  bool boolean() const;                 ///< true or false
   /// One of the words; the first of them after an error.
   std::string choice(std::initializer_list<std::string_view> words) const {
     return std::string(words.begin()[choice_index({words.begin(), words.size()})]);
   }
+  /// The index of the word that is there; 0 after an error.
   std::size_t choice_index(std::span<const std::string_view> words) const;
   /// One of `{{"arc", Law::arc}, {"rod", Law::rod}}`.
   template <class T>
@@ -88,9 +98,10 @@ class SINEW_API Reader {
     for (const auto& word : words) names.push_back(word.first);
     return words.begin()[choice_index(names)].second;
   }
-  /// A list of quantities; it has the asked size also after an error.
+  /// A list of quantities in SI; it has the asked size also after an error.
   std::vector<double> quantities(Dimension dimension, Range range = {},
                                  std::optional<std::size_t> size = {}) const;
+  /// The same, in SI, of a size that is known when it is compiled.
   template <std::size_t size>
   std::array<double, size> array(Dimension dimension, Range range = {}) const {
     std::array<double, size> result{};
@@ -102,6 +113,7 @@ class SINEW_API Reader {
 
   /// @name What only the caller can see
   /// @{
+
   /// Notes `path: message`.
   void fail(std::string_view code, std::string_view message) const;
   /// Notes `path = value as written; rule`.
@@ -142,6 +154,7 @@ class SINEW_API Reader {
 /// A plain field is required, a `std::optional` one may be absent (it then keeps what it holds).
 class FieldReader {
  public:
+  /// Of the fields of this map.
   explicit FieldReader(Reader& map) : map_(&map) {}
 
   void operator()(std::string_view key, double& field, Dimension dimension, Range range = {},

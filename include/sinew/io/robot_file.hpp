@@ -28,6 +28,7 @@ SINEW_API std::vector<std::string_view> builtin_robot_names();
 /// Text of a commented robot file to start from, `four-legged`: one of examples/robots/*.yaml, without
 /// `.yaml`. Empty if there is none of that name.
 SINEW_API std::string_view robot_template(std::string_view name);
+/// Names of the robot files to start from.
 SINEW_API std::vector<std::string_view> robot_template_names();
 
 /// Text of a commented scene file to start from: examples/scenes/wall.yaml. Format: docs/scenes.md

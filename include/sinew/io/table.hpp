@@ -22,9 +22,9 @@ namespace sinew::inline v1 {
 
 /// One column. A value that is not finite is missing.
 struct Column {
-  std::string name;  ///< without brackets
-  std::string unit;  ///< `m`, `rad/m`; empty for a plain number
-  std::vector<double> values;
+  std::string name;            ///< without brackets
+  std::string unit;            ///< `m`, `rad/m`; empty for a plain number
+  std::vector<double> values;  ///< one a row, in `unit`
 
   /// `x[m]`, or the name alone where there is no unit.
   SINEW_API std::string heading() const;
@@ -42,6 +42,7 @@ struct Table {
   /// @param headings `{"k", "x[m]"}`
   SINEW_API explicit Table(std::initializer_list<std::string_view> headings);
 
+  /// Rows, as many as the first column has values.
   std::size_t row_count() const { return columns.empty() ? 0 : columns.front().values.size(); }
 
   /// @param row a value for every column
@@ -51,9 +52,11 @@ struct Table {
   SINEW_API const Column* find(std::string_view name) const;
 };
 
+/// The table as CSV text.
 SINEW_API std::string to_csv(const Table& table);
 
-/// Appends one row, as `to_csv` writes it: for tables that are longer than memory.
+/// Appends one row, a number in the unit of each column, as `to_csv` writes it: for tables that are longer
+/// than memory.
 SINEW_API void append_csv_row(std::string& text, Numbers row);
 
 /// The table in a CSV text. A comment is a line that starts with `#`; empty lines are skipped.

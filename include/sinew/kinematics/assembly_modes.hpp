@@ -9,16 +9,20 @@
 
 namespace sinew::inline v1 {
 
+/// Poses of one robot at the same inputs, each with its residual.
 struct AssemblyModes {
   Report report;  ///< unreachable where there is none; singular where there is a continuum
   std::vector<AnyPose> poses;
   std::vector<double> residual;  ///< largest closure error of each pose [m]
   std::vector<bool> is_double;   ///< of planar and of hinged legs: two modes merge in this pose, see there
   bool is_complete = true;       ///< otherwise their number is a lower bound
-  std::span<const double> coordinates;  ///< of the links, the same in every mode; view into the workspace
+  /// Of the links [1/m], [rad], [m], the same in every mode; view into the workspace
+  std::span<const double> coordinates;
 };
 
-/// All solutions of TDPCR (42); `forward` finds the one a start leads to.
+/// All solutions of TDPCR (42); `forward` finds the one a start leads to. Of a robot on rods `unsupported`:
+/// see `equilibria`.
+/// @param inputs in leg order: lengths of tendons, slides [m], before them angles of base motors [rad]
 SINEW_API AssemblyModes assembly_modes(const Robot& robot, Numbers inputs, Workspace& work);
 
 /// Index of the pose nearest to `start`, turns counted by what they move a point at the platform's radius.

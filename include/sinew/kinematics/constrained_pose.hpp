@@ -9,8 +9,9 @@ namespace sinew::inline v1 {
 /// What can be chosen of the pose of a tripod, or of a spatial robot with three inputs: a height and two
 /// components of the quaternion (e₀, e₁, e₂, e₃); the others are parasitic.
 struct IndependentPose {
-  double z = 0;           ///< [m]
-  double e1 = 0, e2 = 0;  ///< e₁² + e₂² ≤ 1
+  double z = 0;   ///< [m]
+  double e1 = 0;  ///< component of the unit quaternion
+  double e2 = 0;  ///< component of the unit quaternion, e₁² + e₂² ≤ 1
 };
 
 /// A 3PRS moves in one of two ways: e₃ = 0, the platform tilts; or e₀ = 0, it is turned over by half a turn.
@@ -21,6 +22,7 @@ struct ConstrainedPose {
   Report report;     ///< residual: largest distance of a platform point from its plane [m]
   SpatialPose pose;  ///< its e₁ and e₂ are those given
 
+  /// `report.ok()`: converged.
   bool ok() const noexcept { return report.ok(); }
 };
 

@@ -14,15 +14,17 @@ namespace sinew::inline v1 {
 /// platform.
 using SpatialWrench = Vec<double, 6>;
 
+/// Load, start and bounds of a search.
 struct EquilibriumOptions {
-  SpatialWrench wrench = SpatialWrench::Zero();
-  std::optional<Vec3<double>> gravity = {};  ///< [m/s²]; default: the robot's
+  SpatialWrench wrench = SpatialWrench::Zero();  ///< of the world on the platform [N, N m], base axes
+  std::optional<Vec3<double>> gravity = {};      ///< [m/s²]; default: the robot's
   /// Where the search begins: the rods are laid to this pose, then let go. Default: the robot's home.
   std::optional<SpatialPose> start = {};
   /// Begin from the equilibrium the workspace holds, as a controller does whose inputs change a little. What
   /// is found then depends on what was solved before. Where it holds none the search begins at `start`.
   bool warm_start = false;
-  /// Newton steps of the whole path; default 4000, of rods that bear torque 400.
+  /// No further step of the path is begun after so many Newton steps; a step takes a few. Default 4000, of
+  /// rods that bear torque 400.
   std::optional<int> max_iterations = {};
   /// A warm answer too is asked for stability and resolution. Without, no answer hands out coordinates, and a
   /// warm one is as quick as it can be: shapes to an estimated 1e-10 of the length, of rods that do not bend
@@ -36,13 +38,13 @@ struct Equilibrium {
   Report report;  ///< `unstable` where the equilibrium does not hold by itself; all fields are then valid
   SpatialPose pose;
   std::span<const double> inputs;       ///< rod lengths [m]
-  std::span<const double> coordinates;  ///< of the legs, see RodLeg
+  std::span<const double> coordinates;  ///< of the legs' states, whose units are their own: for `any_shape`
 
   /// Solved, stable or not.
   bool is_solved() const noexcept { return report.is_solved(); }
 };
 
-/// The platform on rods of these lengths, under a wrench. One Newton iteration on pose and rods together,
+/// The platform on rods of these lengths [m], under a wrench. One Newton iteration on pose and rods together,
 /// along a path from the start: first the lengths, then the load. Residual: the largest of closure error over
 /// leg length, of force error over EI/L² of the stiffest rod, and of the rods' own equations. Where the path
 /// ends early the report says why: rods pulled straight, a fold of the inputs, buckling under the load. No
@@ -64,12 +66,12 @@ SINEW_API Equilibrium inverse_equilibrium(const Robot& robot, const SpatialPose&
 /// each.
 SINEW_API bool has_equilibrium_batch(const Robot& robot);
 
-/// Many equilibria under one wrench: `rows` holds the inputs of each, one after the other, `poses` and
-/// `statuses` have one entry each. Neighbouring rows should be near each other: eight stretches of them are
-/// walked at once in SIMD lanes, and a row that does not come at once, or whose rods bend more sharply than
-/// the lanes resolve, is solved alone; rods that do not bend in one plane go row by row. Shapes to the
-/// estimate of quick resumed answers. Gravity is the robot's. Where a status is neither `converged` nor
-/// `unstable` the pose is not one. Allocates once a call.
+/// Many equilibria under one wrench [N, N m]: `rows` holds the inputs of each [m], one after the other,
+/// `poses` and `statuses` have one entry each. Neighbouring rows should be near each other: eight stretches
+/// of them are walked at once in SIMD lanes, and a row that does not come at once, or whose rods bend more
+/// sharply than the lanes resolve, is solved alone; rods that do not bend in one plane go row by row. Shapes
+/// to the estimate of quick resumed answers. Gravity is the robot's. Where a status is neither `converged`
+/// nor `unstable` the pose is not one. Allocates once a call.
 /// @param check_stability whether it is asked if equilibria hold by themselves, and where they do not whether
 /// home leads
 ///     to one that does; else they are all `converged`
@@ -77,25 +79,29 @@ SINEW_API void equilibrium_batch(const Robot& robot, Numbers rows, const Spatial
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
                                  bool check_stability = false);
 
-/// The equilibrium that the workspace holds now: also after a load was followed, or a wrench sensed.
+/// The equilibrium that the workspace holds now: also after a load was followed, or a wrench sensed. Where it
+/// holds none the report is not one of success.
 SINEW_API Equilibrium held_equilibrium(const Robot& robot, Workspace& work);
 
 /// What is known of the equilibrium a workspace holds.
 struct RodAnalysis {
-  /// ∂(F, M)/∂(p, φ) at fixed inputs, rows first, twist order; 0 for motions that closing legs forbid.
+  /// ∂(F, M)/∂(p, φ) at fixed inputs, 6 × 6, rows first [N/m, N; N, N m]; 0 for motions that closing legs
+  /// forbid.
   std::array<double, 36> stiffness{};
-  std::vector<double> feed;         ///< −∂(F, M)/∂inputs at a resting platform, 6 × inputs, rows first
-  std::vector<double> sensitivity;  ///< ∂(p, φ)/∂inputs at fixed load, 6 × inputs, rows first
+  std::vector<double> feed;  ///< −∂(F, M)/∂inputs at a resting platform, 6 × inputs, rows first [N/m, N]
+  std::vector<double> sensitivity;  ///< ∂(p, φ)/∂inputs at fixed load, 6 × inputs, rows first [1, 1/m]
   int unstable_directions = 0;      ///< of the second variation, all rods free to move
-  std::vector<std::array<double, 6>> unstable;    ///< twists along which the platform's stiffness is negative
+  /// Twists [m, rad], of norm 1, along which the platform's stiffness is negative
+  std::vector<std::array<double, 6>> unstable;
   std::vector<std::array<int, 2>> unstable_rods;  ///< tip held: in the rod's plane, out of it
   std::vector<RodResult> rods;                    ///< in the order of the legs
   std::vector<Vec3<double>>
       closing_forces;         ///< of the platform on each closing leg, at its point, base axes [N]
   double energy = 0;          ///< of all rods [J]
   double potential = 0;       ///< of rods and load [J]; with a moment on the platform there is none: NaN
-  double smallest_pivot = 0;  ///< of the platform's stiffness, over the largest: 0 at a fold
-  double largest_strain = 0;  ///< of bending, anywhere on a rod: κ d/2, of a strip at a corner
+  double smallest_pivot = 0;  ///< of the platform's stiffness, as a share of the largest: 0 at a fold
+  double largest_strain = 0;  ///< of bending, anywhere on a rod: κ d/2, of a strip at a corner [1]
+
   /// The platform can move with all lengths held.
   bool is_singular() const { return !(smallest_pivot >= 1e-10); }
 
@@ -104,7 +110,8 @@ struct RodAnalysis {
   SINEW_API double rotation_index() const;
 };
 
-/// Where it holds none, the lists are empty. Allocates.
+/// Of robots on rods. Where the workspace holds no equilibrium, and of other robots, the lists are empty.
+/// Allocates.
 SINEW_API RodAnalysis analyse_equilibrium(const Robot& robot, Workspace& work);
 
 /// Why a load path ended.
@@ -119,15 +126,18 @@ enum class LoadEnd {
   stopped,      ///< on request
   stalled,      ///< none of these, and no step however short succeeds
 };
+/// Its name: `bifurcation`.
 SINEW_API std::string_view to_string(LoadEnd end) noexcept;
 
+/// The last equilibrium of a growing load.
 struct LoadPath {
-  double load = 0;  ///< factor of the direction that was reached
+  double load = 0;  ///< factor of the direction that was reached, no unit
   LoadEnd end = LoadEnd::limit;
-  SpatialPose pose;  ///< there
-  double residual = 0;
-  /// With a moment the stiffness is not symmetric: from here on, before `load`, its symmetric part is not
-  /// definite, and what the load does depends on the way the platform moves. Below 0 where that is not so.
+  SpatialPose pose;     ///< there
+  double residual = 0;  ///< there, as that of `equilibrium`, no unit
+  /// With a moment the stiffness is not symmetric: from this factor on, before `load`, its symmetric part is
+  /// not definite, and what the load does depends on the way the platform moves. Below 0 where that is not
+  /// so.
   double definite_until = -1;
   int unstable_directions = 0;  ///< there, as RodAnalysis
 };
@@ -143,13 +153,14 @@ struct FoundEquilibrium {
   SpatialPose pose;
   std::vector<double> inputs;  ///< rod lengths [m]
   std::vector<RodResult> rods;
-  double residual = 0, potential = 0;
+  double residual = 0;   ///< as that of `equilibrium`, no unit
+  double potential = 0;  ///< of rods and load [J]
   int unstable_directions = 0;
 };
 
-/// Equilibria found from many starts around home, in ascending order of energy: a lower bound of their
-/// number, never proven to be all. Allocates; takes tens of milliseconds, of rods that bear torque, with
-/// fewer starts, seconds.
+/// Equilibria at these rod lengths [m] found from many starts around home, in ascending order of energy: a
+/// lower bound of their number, never proven to be all. Allocates; takes tens of milliseconds, of rods that
+/// bear torque, with fewer starts, seconds.
 /// @param options of every search; its start is not asked
 SINEW_API std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
                                                    const EquilibriumOptions& options, Workspace& work);

@@ -15,13 +15,14 @@ namespace sinew::inline v1 {
 /// that is 0 at its beginning and 1 here.
 struct CurveOptions {
   std::vector<double> inputs = {};                     ///< rod lengths [m], at 1; none: as at the beginning
-  SpatialWrench added_wrench = SpatialWrench::Zero();  ///< at 1, to that of the beginning
+  SpatialWrench added_wrench = SpatialWrench::Zero();  ///< [N, N m] at 1, to that of the beginning
   /// At 1, instead of inputs: the platform is moved there, on a straight line and about one axis, and the
   /// inputs follow. For robots of six inputs.
   std::optional<SpatialPose> pose = {};
-  double lowest = 0, highest = 1;  ///< the curve ends where its parameter leaves this range, which holds 0
-  int max_points = 500;            ///< on each curve
-  bool is_backward = false;        ///< begins with a falling parameter
+  double lowest = 0;         ///< the curve ends where its parameter, a ratio, falls below this, ≤ 0 ...
+  double highest = 1;        ///< ... or rises above this ratio, ≥ 0
+  int max_points = 500;      ///< on each curve
+  bool is_backward = false;  ///< begins with a falling parameter
   /// The curves that leave a bifurcation are followed too; those that leave these are not.
   bool follows_branches = false;
 };
@@ -36,15 +37,18 @@ enum class CurveEvent {
   rod_bifurcation,  ///< a rod buckles by itself, which the platform does not feel at first
   stability,        ///< the equilibrium gains or loses stability at fixed inputs, with neither
 };
+/// Its name: `fold`.
 SINEW_API std::string_view to_string(CurveEvent event) noexcept;
 
+/// An equilibrium on a curve.
 struct CurvePoint {
-  double parameter = 0;
+  double parameter = 0;  ///< ratio of the change that is asked for: 0 at the beginning, 1 at the target
   CurveEvent event = CurveEvent::none;
   SpatialPose pose;
-  std::vector<double> inputs;          ///< [m]
-  int unstable_directions = 0;         ///< at fixed inputs and load; at a fold or bifurcation those before it
-  double residual = 0, potential = 0;  ///< as FoundEquilibrium
+  std::vector<double> inputs;   ///< [m]
+  int unstable_directions = 0;  ///< at fixed inputs and load; at a fold or bifurcation those before it
+  double residual = 0;          ///< as that of `equilibrium`, no unit
+  double potential = 0;         ///< of rods and load [J]
 };
 
 /// Why a curve ended.
@@ -58,6 +62,7 @@ enum class CurveEnd {
   stalled,   ///< none of these, and no step however short succeeds
   stopped,   ///< on request
 };
+/// Its name: `left_range`.
 SINEW_API std::string_view to_string(CurveEnd end) noexcept;
 
 /// Points in the order of the curve.

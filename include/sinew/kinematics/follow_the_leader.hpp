@@ -14,6 +14,7 @@ namespace sinew::inline v1 {
 /// at its base, it leaves it there. Extensible sections stay at rest length.
 class SINEW_API FollowTheLeader {
  public:
+  /// Without a curve: `begin` comes before `advance`.
   explicit FollowTheLeader(const SerialRobot& robot);
 
   /// The curve is where the robot is.

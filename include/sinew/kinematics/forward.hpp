@@ -8,6 +8,7 @@
 
 namespace sinew::inline v1 {
 
+/// Where the search begins and ends.
 struct ForwardOptions {
   std::optional<AnyPose> start = {};  ///< default: the robot's home. Newton answers with the mode it leads to
   int max_iterations = 100;
@@ -18,8 +19,10 @@ struct ForwardOptions {
 struct Forward {
   Report report;
   AnyPose pose;
-  std::span<const double> coordinates;  ///< of the links, view into the workspace
+  /// Of the links (κ [1/m], θ [rad], slide [m]), leg by leg; view into the workspace
+  std::span<const double> coordinates;
 
+  /// `report.ok()`: converged.
   bool ok() const noexcept { return report.ok(); }
 };
 
@@ -29,7 +32,8 @@ struct Forward {
 /// robot on which Newton's method fails is answered by all of its assembly modes: the one nearest to the
 /// start, or proof that there is none; with more constraints than freedoms they count as closed up to 1e-9 of
 /// the size. Where the legs hold fewer freedoms than the platform has, the pose is one of a continuum, and
-/// the message says so. No heap, no throw, bounded work.
+/// the message says so. Robots on rods, or by the model prb, are answered by `equilibrium` without wrench.
+/// No heap, no throw, bounded work.
 /// @implements TDPCR (42)
 SINEW_API Forward forward(const Robot& robot, Numbers inputs, const ForwardOptions& options, Workspace& work);
 

@@ -10,16 +10,16 @@ namespace sinew::inline v1 {
 
 /// Motion of the tip: velocity of its origin [m/s] and angular velocity [rad/s].
 struct TipTwist {
-  Vec3<double> linear = Vec3<double>(0, 0, 0), angular = Vec3<double>(0, 0, 0);
+  Vec3<double> linear = Vec3<double>(0, 0, 0);   ///< [m/s]
+  Vec3<double> angular = Vec3<double>(0, 0, 0);  ///< [rad/s]
 };
 
-enum class TipFrame { base, tip };  ///< whose axes the twist is given in; always of the tip's origin
-enum class TipTask {
-  position,
-  axis,
-  whole
-};  ///< what of the twist counts: linear; turns of the tip's axis too; all
+/// Whose axes the twist is given in; it is always that of the tip's origin.
+enum class TipFrame { base, tip };
+/// What of the twist counts: the linear part; turns of the tip's axis too; all.
+enum class TipTask { position, axis, whole };
 
+/// What counts, and what the robot may do.
 struct ResolvedRateOptions {
   TipFrame frame = TipFrame::base;
   TipTask task = TipTask::whole;
@@ -31,22 +31,25 @@ struct ResolvedRateOptions {
   kernel::Model model = kernel::Model::exact;  ///< of the tendons
 };
 
+/// Rates that move the tip, section by section.
 struct ResolvedRate {
   /// `left_domain` where limits, or `fastest`, keep the tip from following; `singular` where the shape does;
   /// the rates are then those that come nearest. Residual: what is missed, the larger of velocity and, times
   /// the robot's length, angular velocity [m/s]. Its iterations are 0.
   Report report;
-  std::span<const double> bends;       ///< view of `work.bend_rates`
-  std::span<const double> extensions;  ///< view of `work.extension_rates`
-  std::span<const double> tendons;     ///< view of `work.tendon_rates`
+  std::span<const double> bends;       ///< [rad/s], two a section; view of `work.bend_rates`
+  std::span<const double> extensions;  ///< [m/s], one a section; view of `work.extension_rates`
+  std::span<const double> tendons;     ///< of Δl [m/s], > 0 pays out; view of `work.tendon_rates`
   int held = 0;  ///< bends' components, and extensions, that a limit, or `fastest`, holds
 
+  /// `report.ok()`: converged.
   bool ok() const noexcept { return report.ok(); }
 };
 
 /// The slowest rates that give the tip this twist, in least squares; a section at its limit does not turn
-/// further outwards, nor lengthen. `bends`, and the extensions in `work`, are within the limits. Leaves the
-/// tip's Jacobian in `work.J`, the tendons' in `work.K`. No heap, no throw. At most `max_sections` sections.
+/// further outwards, nor lengthen. `bends` [rad], one a section, and the extensions in `work`, are within the
+/// limits. Leaves the tip's Jacobian in `work.J`, the tendons' in `work.K`. No heap, no throw. At most
+/// `max_sections` sections.
 SINEW_API ResolvedRate resolved_rate(const SerialRobot& robot, std::span<const Bend> bends,
                                      const TipTwist& twist, const ResolvedRateOptions& options,
                                      SerialWorkspace& work);

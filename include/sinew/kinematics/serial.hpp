@@ -19,16 +19,19 @@ namespace sinew::inline v1 {
 SINEW_API void set_extensions(const SerialRobot& robot, std::span<const double> extensions,
                               SerialWorkspace& work);
 
-/// Changes of all tendons into `work.changes`, in one pass over the sections (LSK (5), (12)).
+/// Changes of all tendons [m], > 0 pays out, at these bends [rad], one a section, into `work.changes`, in one
+/// pass over the sections (LSK (5), (12)).
 SINEW_API void tendon_changes(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
 
-/// The same of many poses at once, in SIMD lanes: `bends` is 2M rows, `changes` a row for each tendon, both
-/// with one number a pose. Bends that are not finite give changes that are not. The last bits of a pose may
-/// depend on those computed beside it, and on the processor.
+/// The same of many poses at once, in SIMD lanes: `bends` [rad] is 2M rows (x of section 0, its y, x of
+/// section 1, ...), `changes` [m] a row for each tendon, both with one number a pose. Bends that are not
+/// finite give changes that are not. The last bits of a pose may depend on those computed beside it, and on
+/// the processor.
 SINEW_API void tendon_changes_batch(std::span<const double> bends, kernel::Model model,
                                     std::span<double> changes, const SerialWorkspace& work);
 
-/// What all sections of the workspace ask of a tendon that passes them.
+/// What all sections of the workspace ask of a tendon that passes them, at these bends [rad]: pull towards x
+/// and y, and what all have in common [m].
 SINEW_API kernel::Pull<double> pull_of_all(std::span<const Bend> bends, kernel::Model model,
                                            const SerialWorkspace& work);
 
@@ -49,8 +52,8 @@ SINEW_API void add_slack(std::span<const double> more, SerialWorkspace& work);
 SINEW_API Report bends_of_changes(const SerialRobot& robot, Numbers changes, kernel::Model model,
                                   SerialWorkspace& work);
 
-/// `left_domain` and which section it is, where a bend, or an extension if they are given, is beyond its
-/// section's limit by more than rounding.
+/// `left_domain` and which section it is, where a bend [rad], or an extension [m] if they are given, is
+/// beyond its section's limit by more than rounding.
 SINEW_API Report check_limits(const SerialRobot& robot, std::span<const Bend> bends,
                               std::span<const double> extensions = {});
 
@@ -58,10 +61,10 @@ SINEW_API Report check_limits(const SerialRobot& robot, std::span<const Bend> be
 /// rounding.
 SINEW_API double tendon_tolerance(const SerialRobot& robot);
 
-/// Pose of every section's end into `work.ends`.
+/// Pose of every section's end in the base's frame [m], z distal, into `work.ends`, at these bends [rad].
 SINEW_API void section_ends(std::span<const Bend> bends, SerialWorkspace& work);
 
-/// The same with the tip's Jacobian in `work.J`.
+/// The same with the tip's Jacobian in `work.J`: 6 × 2M, twist in base axes per bend rate [m], [1].
 SINEW_API void tip_motion(std::span<const Bend> bends, SerialWorkspace& work);
 
 /// How the last section has to bend so that the tip's axis turns towards the tip's own x and y, as one steers
@@ -70,11 +73,11 @@ SINEW_API void tip_motion(std::span<const Bend> bends, SerialWorkspace& work);
 /// @return nothing where no bend turns the axis some way, as of a section bent by half a turn
 SINEW_API std::optional<Mat<double, 2, 2>> tip_steering(const SerialWorkspace& work);
 
-/// ∂(changes)/∂(bends) into `work.K`.
+/// ∂(changes)/∂(bends) [m/rad] into `work.K`: tendons × 2M.
 SINEW_API void tendon_rates(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
 
-/// What extensions do, into `work.extension_jacobians`; after `section_ends` or `tip_motion` of the same
-/// bends.
+/// What extensions do [m/m], into `work.extension_jacobians`; after `section_ends` or `tip_motion` of the
+/// same bends.
 SINEW_API void extension_motion(std::span<const Bend> bends, kernel::Model model, SerialWorkspace& work);
 
 }  // namespace sinew::inline v1

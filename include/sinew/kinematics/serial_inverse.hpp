@@ -11,13 +11,16 @@ namespace sinew::inline v1 {
 /// Where the tip is wanted, in the base's frame. Of `direction` and `rotation` at most one.
 struct TipTarget {
   Vec3<double> position;                       ///< [m]
-  std::optional<Vec3<double>> direction = {};  ///< of the tip's z axis, of any length but 0
+  std::optional<Vec3<double>> direction = {};  ///< of the tip's z axis, of any length but 0: no unit
   std::optional<SO3<double>> rotation = {};    ///< of the tip, a unit quaternion
 };
 
+/// Where the search begins and ends.
 struct SerialInverseOptions {
-  std::span<const Bend> start = {};  ///< tried first, brought within the limits; empty: the straight robot
-  std::span<const double> start_extensions = {};  ///< of the sections, with it; empty: their lengths at rest
+  /// [rad], tried first, brought within the limits; empty: the straight robot
+  std::span<const Bend> start = {};
+  /// Of the sections [m], with it; empty: their lengths at rest
+  std::span<const double> start_extensions = {};
   int starts = 128;          ///< others tried after it, at most: a fixed set spread over the limits
   int max_iterations = 100;  ///< of each start
   double tolerance = 1e-12;  ///< on the residual, as a share of the robot's length
@@ -28,12 +31,13 @@ struct SerialInverseOptions {
 struct SerialInverse {
   /// Residual: the larger of position error and, times the robot's length, angle error [m].
   Report report;
-  std::span<const Bend> bends;         ///< within the limits, view into the workspace
+  std::span<const Bend> bends;         ///< [rad], within the limits, view into the workspace
   std::span<const double> extensions;  ///< of the sections [m], within the limits, view into the workspace
   double position_error = 0;           ///< [m]
   double angle_error = 0;              ///< of the direction or the rotation, where one was wanted [rad]
   int start = 0;                       ///< which start led here: 0 the first, k the k-th of the fixed set
 
+  /// `report.ok()`: converged.
   bool ok() const noexcept { return report.ok(); }
 };
 

@@ -15,6 +15,7 @@ enum class Objective {
   smooth,       ///< changes the velocities of the links as little as the path allows, pose by pose
 };
 
+/// On which branch, and what for.
 struct TrackOptions {
   InverseOptions branch = {};  ///< of the first pose
   Objective objective = Objective::none;
@@ -32,11 +33,12 @@ class SINEW_API Track {
   /// poses a platform that hinges hold in planes stays in them; the poses themselves must lie in them.
   Report advance(const AnyPose& next);
 
+  /// The last pose reached.
   const AnyPose& pose() const { return pose_; }
-  Numbers inputs() const { return inputs_; }               ///< at the last pose reached
-  Numbers coordinates() const { return coordinates_; }     ///< of the links there
+  Numbers inputs() const { return inputs_; }            ///< at the last pose reached [m], [rad], in leg order
+  Numbers coordinates() const { return coordinates_; }  ///< of the links there [1/m], [rad], [m]
   double closure_error() const { return closure_error_; }  ///< largest of all legs there [m]
-  /// Of the way from the last pose to the next that was made, 1 after a success.
+  /// Share of the way from the last pose to the next that was made, 1 after a success.
   double progress() const { return progress_; }
 
  private:
@@ -53,11 +55,12 @@ class SINEW_API Track {
   double closure_error_ = 0, progress_ = 0;
 };
 
-/// A pose part of the way from one to another: positions on the straight line, rotations in space the
-/// shortest way, φ in the plane as the numbers say (so that a path may turn by more than half a turn).
+/// A pose a share `part` of the way from one to another: positions on the straight line, rotations in space
+/// the shortest way, φ in the plane as the numbers say (so that a path may turn by more than half a turn).
 SINEW_API AnyPose between(const AnyPose& from, const AnyPose& to, double part);
 
-/// The constant twist that leads from one to the other in unit time, base axes.
+/// The constant twist that leads from one to the other in unit time, base axes: (x, y, φ) in the plane, (v,
+/// ω) in space [m], [rad].
 SINEW_API Vec<double, 3> twist_between(const PlanarPose& from, const PlanarPose& to);
 SINEW_API Vec<double, 6> twist_between(const SpatialPose& from, const SpatialPose& to);
 

@@ -30,10 +30,13 @@ struct TrajectoryLimits {
 struct TrajectoryPoint {
   double time = 0;  ///< [s]
   SerialPosture posture;
-  double stage_speed = 0, stage_acceleration = 0;     ///< [m/s], [m/s²]
-  std::vector<Bend> bend_speeds, bend_accelerations;  ///< [rad/s], [rad/s²]
+  double stage_speed = 0;                ///< [m/s]
+  double stage_acceleration = 0;         ///< [m/s²]
+  std::vector<Bend> bend_speeds;         ///< of every section [rad/s]
+  std::vector<Bend> bend_accelerations;  ///< of every section [rad/s²]
 };
 
+/// A motion from rest to rest.
 struct Trajectory {
   /// `converged`; `bad_input`; `left_domain`: a posture, or the way to it, is beyond the robot's limits, or
   /// the stage below 0; the message says which.

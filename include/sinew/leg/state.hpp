@@ -11,6 +11,7 @@ namespace sinew::inline v1 {
 /// What a person wants to know of a leg in an answer: first of one with an arc, then of one on a rail; what
 /// the leg has not is NaN or 0.
 struct LegState {
+  /// NaN, of whatever unit: what stands for a number that the leg has not.
   static constexpr double absent = std::numeric_limits<double>::quiet_NaN();
 
   double curvature = absent;                                ///< κ [1/m], signed

@@ -64,6 +64,7 @@ struct PivotMotion {
   S sine, cosine;            ///< of the bend
 };
 
+/// Joints that bend alike, each with its disc.
 struct BentJoint {
   double length;    ///< arc length L [m], > 0
   double disc = 0;  ///< height h of the disc after it [m], ≥ 0

@@ -74,6 +74,7 @@ template <Scalar S>
 struct BentPose {
   S w = S(1), v[3] = {S(0), S(0), S(0)}, p[3] = {S(0), S(0), S(0)};
 
+  /// The same as a rigid motion.
   SE3<S> rigid() const { return {Vec3<S>(p[0], p[1], p[2]), {w, Vec3<S>(v[0], v[1], v[2])}}; }
 
   /// This pose, then `next`.

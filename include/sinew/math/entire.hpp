@@ -85,6 +85,7 @@ struct SincPair {
   S value, rate, sin, cos;
 };
 
+/// All four at x [rad], for the price of one sine and one cosine.
 template <Scalar S>
 SincPair<S> sinc_pair(const S& x) {
   using std::cos, std::sin;

@@ -20,13 +20,16 @@ using MatrixView = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen:
 /// on span the null space of A, those of U that of Aᵀ.
 struct Svd {
   int rows = 0, columns = 0;
-  std::array<double, max_rows> sigma_data;
-  std::array<double, max_rows * max_rows> u_data, v_data;
+  std::array<double, max_rows> sigma_data;         ///< read by `sigma`
+  std::array<double, max_rows * max_rows> u_data;  ///< read by `u`
+  std::array<double, max_rows * max_rows> v_data;  ///< read by `v`
 
+  /// Number of singular values.
   int count() const { return rows < columns ? rows : columns; }
+  /// The singular values, descending.
   std::span<const double> sigma() const { return {sigma_data.data(), static_cast<std::size_t>(count())}; }
-  MatrixView u() const { return {u_data.data(), rows, rows}; }
-  MatrixView v() const { return {v_data.data(), columns, columns}; }
+  MatrixView u() const { return {u_data.data(), rows, rows}; }        ///< U, rows × rows
+  MatrixView v() const { return {v_data.data(), columns, columns}; }  ///< V, columns × columns
 };
 
 /// min(rows, columns) singular values into `out`, descending. Those of a 3×3 matrix each to 1e-13 of itself,
@@ -34,6 +37,7 @@ struct Svd {
 /// max_rows.
 SINEW_API void singular_values(const MatrixView& a, std::span<double> out);
 
+/// The decomposition of a matrix of at most `max_rows` rows and columns.
 SINEW_API Svd svd(const MatrixView& a);
 
 /// How many singular values exceed tolerance·(the largest); 0 for a matrix of zeros.
@@ -56,6 +60,7 @@ SINEW_API void symmetric_eigenvalues(const MatrixView& a, std::span<double> valu
 /// How many eigenvalues of a square matrix have a real part below 0; none where an entry is not finite.
 SINEW_API int count_left_of_zero(const MatrixView& a);
 
+/// Of a square matrix.
 SINEW_API double determinant(const MatrixView& a);
 
 }  // namespace sinew::inline v1

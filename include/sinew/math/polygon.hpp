@@ -20,8 +20,8 @@ using Polygon = std::vector<Vec2<double>>;
 
 /// The points x with normal·x ≥ offset; the normal is a unit vector.
 struct HalfPlane {
-  Vec2<double> normal;
-  double offset;
+  Vec2<double> normal;  ///< unit vector, inwards
+  double offset;        ///< distance of the line from the origin, < 0: the origin is inside
 
   /// How deep inside x lies, < 0: outside.
   double depth(const Vec2<double>& x) const { return dot(normal, x) - offset; }
@@ -48,10 +48,11 @@ SINEW_API Polygon difference(const Polygon& a, const Polygon& b);
 /// is 0, else an arc of the circle over that angle [rad], counter-clockwise. A whole disc is one corner with
 /// an arc of 2π.
 struct DiscCut {
-  double radius = 0;
-  Polygon corners;
-  std::vector<double> arc;
+  double radius = 0;        ///< of the disc
+  Polygon corners;          ///< counter-clockwise
+  std::vector<double> arc;  ///< of each corner [rad]
 };
+/// The polygon cut with the disc |x| ≤ radius.
 SINEW_API DiscCut cut_with_disc(const Polygon& polygon, double radius);
 
 /// Area, circular segments included.

@@ -19,7 +19,9 @@ inline double wrap_angle(double angle) {
 
 /// Platform pose as people write it; `phi` in (−π, π].
 struct PlanarPose {
-  double x = 0, y = 0, phi = 0;
+  double x = 0;    ///< of the reference point, base frame [m]
+  double y = 0;    ///< [m]
+  double phi = 0;  ///< of the platform against the base, counter-clockwise [rad]
 };
 
 /// The angle whose sine and cosine are (s, c) up to a factor, in (−π, π]. On derivative types the analytic
@@ -36,13 +38,16 @@ S angle_of(const S& s, const S& c) {
   }
 }
 
+/// A rigid motion of the plane: x ↦ p + R x.
 template <Scalar S>
 struct SE2 {
-  Vec2<S> p = Vec2<S>(S(0), S(0));
-  S c = S(1), s = S(0);  ///< cosine and sine of the angle
+  Vec2<S> p = Vec2<S>(S(0), S(0));  ///< where the origin goes [m]
+  S c = S(1), s = S(0);             ///< cosine and sine of the angle
 
+  /// The motion that moves nothing.
   static SE2 identity() { return {}; }
 
+  /// By coordinates [m] and angle [rad].
   static SE2 from(const S& x, const S& y, const S& angle) {
     using std::cos, std::sin;
     return {Vec2<S>(x, y), cos(angle), sin(angle)};
@@ -51,16 +56,21 @@ struct SE2 {
     return from(static_cast<S>(pose.x), static_cast<S>(pose.y), static_cast<S>(pose.phi));
   }
 
+  /// In (−π, π].
   S angle() const { return angle_of(s, c); }
+  /// R v.
   Vec2<S> rotate(const Vec2<S>& v) const { return {c * v[0] - s * v[1], s * v[0] + c * v[1]}; }
+  /// Rᵀ v.
   Vec2<S> rotate_back(const Vec2<S>& v) const { return {c * v[0] + s * v[1], c * v[1] - s * v[0]}; }
 
   /// p + R b: where the body-fixed point b is.
   Vec2<S> point(const Vec2<S>& b) const { return p + rotate(b); }
 
+  /// This motion after `next`: `next` is given in the axes of this one.
   SE2 compose(const SE2& next) const {
     return {point(next.p), c * next.c - s * next.s, s * next.c + c * next.s};
   }
+  /// The motion back.
   SE2 inverse() const { return {-rotate_back(p), c, -s}; }
 
   /// This pose after the small motion (δx, δy, δφ) in base axes about the reference point.
@@ -72,6 +82,7 @@ struct SE2 {
     return {p + Vec2<S>(motion[0], motion[1]), x * keep, y * keep};
   }
 
+  /// The motion by a constant twist (vx, vy, ω) in its own axes for unit time.
   static SE2 exp(const Vec3<S>& twist) {
     const auto turn = sinc_pair(twist[2]);
     const S lift = twist[2] * cosc(twist[2]);
@@ -103,6 +114,7 @@ struct SE2 {
   }
 };
 
+/// As people write it.
 inline PlanarPose planar_pose(const SE2<double>& pose) {
   return {pose.p[0], pose.p[1], wrap_angle(pose.angle())};
 }

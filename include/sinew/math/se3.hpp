@@ -10,15 +10,17 @@ namespace sinew::inline v1 {
 
 /// Platform pose as people write it; quaternion [w, x, y, z], w ≥ 0, platform → base.
 struct SpatialPose {
-  Vec3<double> position = Vec3<double>(0, 0, 0);
-  std::array<double, 4> quaternion = {1, 0, 0, 0};
+  Vec3<double> position = Vec3<double>(0, 0, 0);    ///< of the reference point, base frame [m]
+  std::array<double, 4> quaternion = {1, 0, 0, 0};  ///< [w, x, y, z]
 };
 
+/// A rigid motion in space: x ↦ p + R x.
 template <Scalar S>
 struct SE3 {
-  Vec3<S> p = Vec3<S>(S(0), S(0), S(0));
-  SO3<S> R;
+  Vec3<S> p = Vec3<S>(S(0), S(0), S(0));  ///< where the origin goes [m]
+  SO3<S> R;                               ///< how it turns
 
+  /// The motion that moves nothing.
   static SE3 identity() { return {}; }
 
   /// The quaternion need not be normalised, but must not be 0.
@@ -28,13 +30,17 @@ struct SE3 {
     return {pose.position.cast<S>(), {static_cast<S>(turn.w), turn.v.cast<S>()}};
   }
 
+  /// R u.
   [[gnu::always_inline]] Vec3<S> rotate(const Vec3<S>& u) const { return R.rotate(u); }
+  /// Rᵀ u.
   [[gnu::always_inline]] Vec3<S> rotate_back(const Vec3<S>& u) const { return R.rotate_back(u); }
 
   /// p + R b: where the body-fixed point b is.
   [[gnu::always_inline]] Vec3<S> point(const Vec3<S>& b) const { return p + R.rotate(b); }
 
+  /// This motion after `next`: `next` is given in the axes of this one.
   SE3 compose(const SE3& next) const { return {point(next.p), R.compose(next.R)}; }
+  /// The motion back.
   SE3 inverse() const { return {-R.rotate_back(p), R.inverse()}; }
 
   /// This pose after the small motion (δp, δθ) in base axes about the reference point.
@@ -43,6 +49,7 @@ struct SE3 {
     return {p + shift, SO3<S>::exp(turn).compose(R).normalised()};
   }
 
+  /// The motion by a constant twist (v, ω) in its own axes for unit time.
   static SE3 exp(const Vec<S, 6>& twist) {
     const Vec3<S> v = twist.template head<3>(), turn = twist.template tail<3>();
     return {SO3<S>::left_jacobian(turn) * v, SO3<S>::exp(turn)};
@@ -80,6 +87,7 @@ struct SE3 {
   }
 };
 
+/// As people write it: w ≥ 0.
 inline SpatialPose spatial_pose(const SE3<double>& pose) {
   const SO3<double> q = pose.R.normalised().canonical();
   return {pose.p, {q.w, q.v[0], q.v[1], q.v[2]}};

@@ -30,13 +30,16 @@ S angle_norm(const Vec3<S>& v) {
 }
 }  // namespace detail
 
+/// A rotation as the unit quaternion w + v: half the angle's cosine, the axis times its sine.
 template <Scalar S>
 struct SO3 {
-  S w = S(1);
-  Vec3<S> v = Vec3<S>(S(0), S(0), S(0));
+  S w = S(1);                             ///< real part
+  Vec3<S> v = Vec3<S>(S(0), S(0), S(0));  ///< vector part
 
+  /// The rotation that turns nothing.
   static SO3 identity() { return {}; }
 
+  /// By a rotation vector [rad].
   static SO3 exp(const Vec3<S>& turn) {
     using std::cos;
     const S half = detail::angle_norm(turn) * S(0.5);
@@ -50,20 +53,25 @@ struct SO3 {
     return v * (S(2) * sign / sinc(half));
   }
 
+  /// This rotation after `next`.
   SO3 compose(const SO3& next) const {
     return {w * next.w - dot(v, next.v), Vec3<S>(next.v * w + v * next.w + cross(v, next.v))};
   }
+  /// The rotation back.
   SO3 inverse() const { return {w, -v}; }
 
+  /// R u.
   [[gnu::always_inline]] Vec3<S> rotate(const Vec3<S>& u) const {
     const Vec3<S> side = cross(v, u) * S(2);
     return u + side * w + cross(v, side);
   }
+  /// Rᵀ u.
   [[gnu::always_inline]] Vec3<S> rotate_back(const Vec3<S>& u) const { return inverse().rotate(u); }
 
   /// Ad: R·exp(ω)·R⁻¹ = exp(Ad ω); the rotation matrix itself.
   Mat<S, 3, 3> adjoint() const { return matrix(); }
 
+  /// R.
   Mat<S, 3, 3> matrix() const {
     const Mat<S, 3, 3> k = skew<S>(v);
     return Mat<S, 3, 3>::Identity() + k * (S(2) * w) + (k * k) * S(2);
@@ -90,6 +98,7 @@ struct SO3 {
     return q.normalised().canonical();
   }
 
+  /// Of length 1 again; not of 0.
   SO3 normalised() const {
     using std::sqrt;
     const S factor = S(1) / S(sqrt(S(w * w + squared_norm(v))));

@@ -55,10 +55,13 @@ concept Scalar =
 /// An R×C matrix with the layout of S[R*C], columns first (a row: its elements).
 template <class S, int R, int C = 1>
 using Mat = Eigen::Matrix<S, R, C, Eigen::DontAlign | (R == 1 && C != 1 ? Eigen::RowMajor : Eigen::ColMajor)>;
+/// A column of N numbers.
 template <class S, int N>
 using Vec = Mat<S, N>;
+/// A vector of the plane.
 template <class S>
 using Vec2 = Mat<S, 2>;
+/// A vector in space.
 template <class S>
 using Vec3 = Mat<S, 3>;
 

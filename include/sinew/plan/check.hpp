@@ -14,12 +14,14 @@
 
 namespace sinew::inline v1 {
 
+/// Whether a robot touches anything.
 enum class InsertionVerdict {
   clear = 0,      ///< also where the robot is as far off as it may be
   clear_if_taut,  ///< as planned, but not where it is as far off as it may be
   touches         ///< as planned, or the proof failed
 };
 
+/// Its name: `clear_if_taut`.
 SINEW_API std::string_view to_string(InsertionVerdict verdict) noexcept;
 
 /// Where robot and solids are nearest.
@@ -31,6 +33,7 @@ struct TightSpot {
   Vec3<double> on_solid{0, 0, 0};  ///< [m]
 };
 
+/// A step, with where it is tightest.
 struct CheckedStep {
   double stage = 0;  ///< [m]
   TightSpot spot;
@@ -41,10 +44,11 @@ struct CheckedStep {
 struct InsertionOff {
   double tendons = 0;  ///< what their tolerance leaves free, and what tension stretches them by
   double sag = 0;      ///< by the robot's weight
-  double model = 0;
-  double sum() const { return tendons + sag + model; }
+  double model = 0;    ///< what its kinematics are off
+  double sum() const { return tendons + sag + model; }  ///< all of them
 };
 
+/// The verdict on a way in, with its evidence.
 struct InsertionCheck {
   InsertionVerdict verdict = InsertionVerdict::touches;
   std::vector<CheckedStep> steps;  ///< as many as were asked about
@@ -57,6 +61,7 @@ struct InsertionCheck {
   bool is_stopped = false;  ///< not all was looked at
 };
 
+/// Bounds of a check.
 struct InsertionCheckOptions {
   double reach = 10e-3;      ///< distances beyond this are not told apart [m]
   double min_motion = 1e-6;  ///< the proof gives up where steps move the robot by less [m]

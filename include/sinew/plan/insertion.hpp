@@ -22,11 +22,13 @@ struct Blocked {
   double missing = 0;           ///< clearance that the best attempt lacks there [m]
 };
 
+/// How far a search is.
 struct InsertionProgress {
   std::string_view phase;  ///< `final pose`, `way out`, `smoothing`, `check`
-  double share = 0;        ///< of this phase, 0 to 1
+  double share = 0;        ///< share of this phase that is done, 0 to 1
 };
 
+/// Bounds of a search.
 struct InsertionOptions {
   std::uint64_t seed = 1;  ///< one seed, one answer
   int starts = 960;        ///< of the search for the final pose, at most
@@ -37,6 +39,7 @@ struct InsertionOptions {
   StopToken stop;
 };
 
+/// A way in, checked, or why there is none.
 struct InsertionPlan {
   /// `converged`; `unreachable`: no final pose or no way to it was found, `blocked` says why; `stopped`.
   Report report;
@@ -45,9 +48,11 @@ struct InsertionPlan {
   Blocked blocked;
   double tip_error = 0;      ///< at the end [m]
   int starts = 0, ways = 0;  ///< final poses tried, and ways out of them
-  double seconds = 0;
+  double seconds = 0;        ///< that it took [s]
 };
 
+/// Searches a way in and checks it; lengths in m, in scene axes. One scene and one seed have one answer,
+/// where the time limit does not end the search.
 SINEW_API InsertionPlan plan_insertion(const InsertionScene& scene, const InsertionOptions& options = {});
 
 }  // namespace sinew::inline v1

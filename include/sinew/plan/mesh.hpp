@@ -16,7 +16,7 @@ namespace sinew::inline v1 {
 /// Triangles that bound a solid, counter-clockwise seen from outside. [m]
 struct Mesh {
   std::string name;
-  std::vector<Vec3<double>> vertices;
+  std::vector<Vec3<double>> vertices;         ///< [m]
   std::vector<std::array<int, 3>> triangles;  ///< indices of vertices
 
   /// Of the solid [m³]; < 0 where it is inside out.
@@ -44,11 +44,13 @@ SINEW_API Expected<void> write_stl(const Mesh& mesh, const std::filesystem::path
 /// Curved ones circumscribe the exact solid, by at most `deviation` [m], so none is smaller than it should
 /// be.
 /// @{
-SINEW_API Mesh box_mesh(const Vec3<double>& size);  ///< about the origin
-SINEW_API Mesh sphere_mesh(double radius, double deviation);
-SINEW_API Mesh cylinder_mesh(double radius, double length, double deviation);  ///< along z, about the origin
+SINEW_API Mesh box_mesh(const Vec3<double>& size);            ///< edges [m], about the origin
+SINEW_API Mesh sphere_mesh(double radius, double deviation);  ///< radius [m], about the origin
+SINEW_API Mesh cylinder_mesh(double radius, double length,
+                             double deviation);  ///< [m], along z, about the origin
 /// @}
 
+/// The mesh elsewhere: every vertex is `pose.point(vertex)` [m].
 SINEW_API Mesh moved(Mesh mesh, const SE3<double>& pose);
 
 }  // namespace sinew::inline v1

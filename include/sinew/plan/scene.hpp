@@ -33,11 +33,12 @@ struct InsertionWeight {
   double stiffness = 0;  ///< EI of the round backbone in its joints [N m²], > 0
 };
 
+/// The whole task, in scene axes.
 struct InsertionScene {
   std::string name;
   std::string robot_name;  ///< as the scene writes it
   SerialRobot robot;
-  SE3<double> base;            ///< of the robot where its stage is at 0, in scene axes
+  SE3<double> base;            ///< of the robot where its stage is at 0, in scene axes [m]
   Vec3<double> axis{0, 0, 1};  ///< unit vector in which the stage moves the base
   double stage_limit = 0;      ///< most that the stage moves it [m], > 0
   std::optional<InsertionPort> port;

@@ -10,6 +10,7 @@
 
 namespace sinew::inline v1 {
 
+/// A posture on the way in, with what is nearest to the robot.
 struct InsertionStep : SerialPosture {
   double clearance = 0;         ///< least distance between robot and solids [m]; < 0: they overlap
   int solid = -1;               ///< where it is; −1: none is near

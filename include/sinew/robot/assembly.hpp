@@ -34,23 +34,25 @@ SINEW_API Reduced assemble(const Robot& robot, const AnyPose& pose, Numbers coor
 /// becomes 0. View of `work.unit_J`.
 SINEW_API MatrixView homogenise(const Robot& robot, const Reduced& reduced, Workspace& work);
 
-/// Link coordinates that the inputs command, in `work.coordinates`; the view returned is of them.
-/// The report says which input is missing, not finite or outside the link's domain.
+/// Link coordinates that the inputs ([m], [rad], in leg order) command, into `work.coordinates`. The report
+/// says which input is missing, not finite or outside the link's domain.
 SINEW_API Report coordinates_from_inputs(const Robot& robot, Numbers inputs, Workspace& work);
 
-/// What people want to know of each leg that closes; those of rods are left as they were. View of
-/// `work.legs`; empty where the arguments do not fit the robot, and by the model prb.
+/// What people want to know of each leg that closes, in SI, at a pose and link coordinates as `assemble`
+/// takes them; those of rods are left as they were. View of `work.legs`; empty where the arguments do not fit
+/// the robot, and by the model prb.
 SINEW_API std::span<const LegState> leg_states(const Robot& robot, const AnyPose& pose, Numbers coordinates,
                                                Workspace& work);
 
 SINEW_API AnyPose home(const Robot& robot);            ///< where solvers start when told nothing else
 SINEW_API double platform_radius(const Robot& robot);  ///< homogenises moments in the indices [m]
-SINEW_API int leg_count(const Robot& robot);
-SINEW_API int input_count(const Robot& robot);
-SINEW_API bool has_ties(const Robot& robot);  ///< legs share inputs
+SINEW_API int leg_count(const Robot& robot);           ///< in file order; 0 of a serial robot
+SINEW_API int input_count(const Robot& robot);         ///< motors: what `forward` takes
+SINEW_API bool has_ties(const Robot& robot);           ///< legs share inputs
+/// Numbers that describe all links: what `assemble` takes.
 SINEW_API int coordinate_count(const Robot& robot);
-SINEW_API int row_count(const Robot& robot);
-SINEW_API int dof(const Robot& robot);
+SINEW_API int row_count(const Robot& robot);  ///< of J and K
+SINEW_API int dof(const Robot& robot);        ///< freedoms of a free platform: 3 in the plane, 6 in space
 /// A leg can move while the platform stands still.
 SINEW_API bool has_redundant_leg(const Robot& robot);
 SINEW_API bool has_elbow(const Robot& robot);   ///< a leg's strut may lead to either side
@@ -62,6 +64,7 @@ struct InputOfLeg {
   int leg;
   InputKind kind;
 };
+/// The inputs in their order; where legs share one, that of the first.
 SINEW_API std::vector<InputOfLeg> inputs_of(const Robot& robot);
 
 }  // namespace sinew::inline v1

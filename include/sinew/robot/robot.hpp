@@ -14,11 +14,13 @@
 
 namespace sinew::inline v1 {
 
+/// Legs of one kind and a platform: robot/parallel.hpp.
 template <class LegT>
 struct ParallelRobot;
 struct PlanarRobot;
 struct SpatialRobot;
 struct SerialRobot;
+/// Legs as chains of rigid links: robot/chains.hpp.
 template <class Space>
 struct ChainLegs;
 struct Planar;
@@ -58,10 +60,11 @@ class Robot {
   Robot(const Robot&) = default;
   Robot& operator=(const Robot&) = default;
 
-  SINEW_API const std::string& name() const;
-  SINEW_API const Weight& weight() const;
-  SINEW_API bool geometry_inferred() const;
+  SINEW_API const std::string& name() const;  ///< as its file says
+  SINEW_API const Weight& weight() const;     ///< what weighs on it
+  SINEW_API bool geometry_inferred() const;   ///< not printed in its source but inferred from results
 
+  /// What its links are taken for.
   Model model() const { return model_; }
   /// The same robot by another model, which is again a robot: every question that the model can answer may be
   /// put to it. Its file's model and, where its links are arcs, prb. An error names what a leg lacks for
@@ -74,15 +77,16 @@ class Robot {
 
   /// Its legs; null of a robot of the other space.
   const PlanarRobot* planar() const { return planar_; }
-  const SpatialRobot* spatial() const { return spatial_; }
+  const SpatialRobot* spatial() const { return spatial_; }  ///< see `planar`
 
   /// Its legs by the model prb; null of a robot of the other space or by another model.
   SINEW_API const ChainLegs<Planar>* planar_chains() const;
-  SINEW_API const ChainLegs<Spatial>* spatial_chains() const;
+  SINEW_API const ChainLegs<Spatial>* spatial_chains() const;  ///< see `planar_chains`
 
   /// The robot with another weight: one of its own.
   SINEW_API Robot under(const Weight& weight) const;
 
+  /// Elastic rods among its legs.
   int rod_count() const { return rods_; }
   /// Whether it has no more rows, inputs and rods than this build carries (base/limits.hpp); of one that has
   /// more every question is answered by `bad_input`.
@@ -106,6 +110,7 @@ class Robot {
   bool is_within_limits_ = true;
 };
 
+/// Whether legs of this robot are elastic rods.
 inline bool has_rods(const Robot& robot) { return robot.rod_count() > 0; }
 /// Whether legs of this robot bear load: it then has equilibria (kinematics/equilibrium.hpp).
 inline bool bears_load(const Robot& robot) {

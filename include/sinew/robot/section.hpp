@@ -15,6 +15,7 @@ namespace sinew::inline v1 {
 /// one.
 using Bend = Vec2<double>;
 
+/// Sizes of a section, and its kinematics: pose of its end, derivatives, directions of tendons.
 struct Section {
   kernel::Backbone backbone = kernel::Backbone::twin_pivot;
   int segments = 8;          ///< N ≥ 1; of twin pivots even: they bend about two axes in turn
@@ -28,16 +29,17 @@ struct Section {
   double limit = std::numeric_limits<double>::infinity();
   /// How much longer than at rest its backbone can be made [m], evenly over its joints: least ≤ 0 ≤
   /// most. The third coordinate of a neutral backbone; 0 and 0: the length is fixed.
-  double min_extension = 0, max_extension = 0;
+  double min_extension = 0;
+  double max_extension = 0;  ///< [m], see `min_extension`
 
-  bool is_extensible() const { return min_extension < max_extension; }
+  bool is_extensible() const { return min_extension < max_extension; }  ///< its length varies
   /// The section made longer by so much [m].
   Section extended(double extension) const {
     Section longer = *this;
     longer.joint += extension / segments;
     return longer;
   }
-  /// How fast its end moves when it is made longer, in its base's frame.
+  /// How fast its end moves when it is made longer [m/m], in its base's frame, at this bend [rad].
   Vec3<double> extension_motion(const Bend& bend) const {
     Section chords = *this;  // the end is linear in the length of the joints
     chords.joint = 1.0 / segments;
@@ -45,11 +47,12 @@ struct Section {
     return chords.pose(bend).rigid().p;
   }
 
-  bool is_twin() const { return backbone == kernel::Backbone::twin_pivot; }
-  double arc_length() const { return segments * joint; }              ///< N L [m]
-  double length() const { return segments * (joint + disc_height); }  ///< of the whole section [m]
+  bool is_twin() const { return backbone == kernel::Backbone::twin_pivot; }  ///< a twin-pivot backbone
+  double arc_length() const { return segments * joint; }                     ///< N L [m]
+  double length() const { return segments * (joint + disc_height); }         ///< of the whole section [m]
 
-  /// Of a section's bend what its k-th joint has; of twin pivots the proximal one of a pair bends by β₂.
+  /// Of a section's bend [rad] what its k-th joint has; of twin pivots the proximal one of a pair bends by
+  /// β₂.
   Bend joint_bend(const Bend& bend, int k) const {
     if (!is_twin()) return bend / segments;
     return k % 2 == 0 ? Bend(0, bend.y()) : Bend(bend.x(), 0);
@@ -57,21 +60,23 @@ struct Section {
   /// Of the tube that holds discs and tendons [m].
   double outer_radius() const { return disc_radius > tendon_radius ? disc_radius : tendon_radius; }
 
+  /// What the kernel needs of it to map bends and tendons [m].
   kernel::Section<double> map() const {
     return kernel::make_section<double>(backbone, segments, joint, tendon_radius);
   }
   /// Of a tendon around the disc, from +x [rad].
   double angle_of(int tendon) const { return tendon_angle + 2 * std::numbers::pi * tendon / tendons; }
+  /// Cosine and sine of `angle_of` [1].
   kernel::Direction<double> direction(int tendon) const {
     return kernel::direction<double>(angle_of(tendon));
   }
 
-  /// Pose of the section's end on its base, z distal.  @implements LSK (3), (4)
+  /// Pose of the section's end on its base [m], z distal, at this bend [rad].  @implements LSK (3), (4)
   template <Scalar S>
   [[gnu::always_inline]] BentPose<S> pose(const Vec2<S>& bend) const {
     return motion(bend).pose;  // inlined: rates not asked for are not computed
   }
-  /// The same with its derivatives by the bend.
+  /// The same with its derivatives by the bend [m/rad], [rad/rad].
   template <Scalar S>
   [[gnu::always_inline]] BentMotion<S> motion(const Vec2<S>& bend) const {
     const BentJoint one{joint, disc_height, is_twin() ? 1 : segments};

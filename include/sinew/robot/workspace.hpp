@@ -20,10 +20,12 @@ struct ChainWork {
   std::shared_ptr<void> planar = {}, spatial = {};  ///< the solvers' own; a copy of it is for the same thread
 };
 
+/// Memory for questions to one robot and its copies; answers are views into it. Not for two threads at once.
 struct Workspace {
   /// Most solutions of one leg that are kept; an arc within a full turn either way has fewer.
   static constexpr int max_solutions = 8;
 
+  /// Allocates all that solves of this robot need.
   SINEW_API explicit Workspace(const Robot& robot);
   SINEW_API ~Workspace();
   SINEW_API Workspace(Workspace&&) noexcept;
@@ -31,14 +33,18 @@ struct Workspace {
 
   std::shared_ptr<const void> robot;  ///< identity of the robot it is for, and of that robot's copies
   StopToken stop;  ///< solves that use this workspace end with `stopped` once it is requested
-  std::vector<double> coordinates;  ///< link coordinates, leg by leg
-  std::vector<double> inputs;
-  std::vector<double> J, K, U, s;      ///< row-major: rows × dof, rows × inputs, dof × inputs, rows
-  std::vector<double> unit_J, unit_K;  ///< J and K with rows scaled to unit lines
-  std::vector<double> rates;           ///< inputs
-  std::vector<double> solutions;       ///< of each leg max_solutions times its inputs
-  std::vector<int> solution_count;     ///< a leg; 1 for a leg whose inputs are another's
-  std::vector<int> type_1;             ///< legs
+  std::vector<double> coordinates;  ///< of the links, leg by leg [1/m], [rad], [m]
+  std::vector<double> inputs;       ///< in leg order [m], [rad]
+  std::vector<double> J;            ///< rows × dof, rows first, as all of these; units: `Reduced`
+  std::vector<double> K;            ///< rows × inputs; units: `Reduced`
+  std::vector<double> U;            ///< dof × inputs [m or rad per unit of input]
+  std::vector<double> s;            ///< rows; units: `Reduced`
+  std::vector<double> unit_J;       ///< J with rows scaled to unit lines, moments over the platform radius
+  std::vector<double> unit_K;       ///< K scaled alike: units of J are gone
+  std::vector<double> rates;        ///< of the inputs [m/s], [rad/s]
+  std::vector<double> solutions;    ///< of each leg max_solutions times its inputs
+  std::vector<int> solution_count;  ///< a leg; 1 for a leg whose inputs are another's
+  std::vector<int> type_1;          ///< legs
   std::vector<LegState> legs;
   std::unique_ptr<RodWork> rods;            ///< of a robot on rods; else null
   std::unique_ptr<SerialWorkspace> serial;  ///< of a serial robot; else null

@@ -26,6 +26,7 @@ enum class Status {
   unsupported = 10,  ///< this question is not for this kind of robot, or not for this model of its links
 };
 
+/// Its name: `iteration_limit`.
 SINEW_API std::string_view to_string(Status status) noexcept;
 
 /// Status with its evidence. `residual` is that of the best iterate, which is always handed back.
@@ -35,6 +36,7 @@ struct Report {
   double residual = 0;     ///< largest closure error of a leg [m]; of rods the error over their size, no unit
   FixedText<240> message;  ///< why not converged, in words; empty otherwise
 
+  /// Solved; of loaded robots also stable, where that was asked.
   bool ok() const noexcept { return status == Status::converged; }
   /// Of loaded robots: whether there is an equilibrium, which may be unstable.
   bool is_solved() const noexcept { return ok() || status == Status::unstable; }

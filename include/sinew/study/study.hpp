@@ -18,6 +18,7 @@ namespace sinew::inline v1 {
 
 /// What varies from sample to sample; it stands in the query as `$name`.
 struct StudyAxis {
+  /// Where its values come from.
   enum class Kind {
     values,   ///< of a grid, or a column of a list
     uniform,  ///< random, from `low` to `high`
@@ -26,8 +27,9 @@ struct StudyAxis {
   std::string name;
   std::string unit;  ///< SI; empty for a plain number
   Kind kind = Kind::values;
-  std::vector<double> values;
-  double low = 0, high = 0;
+  std::vector<double> values;  ///< in `unit`
+  double low = 0;              ///< least value, or mean, in `unit`
+  double high = 0;             ///< largest value, or standard deviation, in `unit`
 };
 
 /// A column of the results: a number of the answer.
@@ -40,7 +42,8 @@ struct StudyOutput {
 
 /// What becomes of a column when axes are left out.
 struct StudyReduction {
-  enum class Kind { max, min, mean, rms, part };  ///< `part`: of those not left out that converged, no column
+  /// `part`: the share of those not left out that converged; it has no column.
+  enum class Kind { max, min, mean, rms, part };
   std::string name;
   Kind kind = Kind::max;
   std::size_t output = 0;  ///< index of the column
@@ -48,7 +51,7 @@ struct StudyReduction {
 
 /// A product of powers of columns, with a factor.
 struct Monomial {
-  double factor = 1;
+  double factor = 1;                 ///< in SI
   std::vector<std::size_t> columns;  ///< one entry a power; numbers of columns, see Study
 };
 
@@ -57,8 +60,8 @@ struct StudyDerived {
   std::string name;
   std::string unit;                                       ///< SI; empty for a plain number
   std::vector<Monomial> is;                               ///< of axes and of derived values above
-  double low = -std::numeric_limits<double>::infinity();  ///< below it a sample is left out
-  double high = std::numeric_limits<double>::infinity();  ///< above it as well
+  double low = -std::numeric_limits<double>::infinity();  ///< in `unit`; below it a sample is left out
+  double high = std::numeric_limits<double>::infinity();  ///< in `unit`; above it as well
 };
 
 /// A column as a sum of terms, each with a coefficient of its fit.
@@ -72,11 +75,13 @@ struct FitEquation {
 struct StudyFit {
   std::string name;
   std::vector<std::string> coefficients;  ///< names, or where there is one column its terms: `e1^2 - e2^2`
-  std::vector<double> known;              ///< their values where they are given; empty where they are fitted
-  std::vector<FitEquation> equations;     ///< one a column
+  std::vector<double> known;  ///< their values in SI where they are given; empty where they are fitted
+  std::vector<FitEquation> equations;  ///< one a column
 };
 
+/// A study file, read.
 struct Study {
+  /// How samples are chosen: all of a grid, at random, or those of a table.
   enum class Sampling { grid, random, listed };
 
   std::string title;
@@ -103,12 +108,14 @@ struct Study {
 
   /// @name Columns by their numbers: axes, then derived values, then outputs
   /// @{
+
   /// Axes and derived values: what `$name` may stand for.
   std::size_t variable_count() const { return axes.size() + derived.size(); }
-  SINEW_API std::vector<std::string> variable_names() const;
+  SINEW_API std::vector<std::string> variable_names() const;  ///< theirs, in order
+  /// All columns.
   std::size_t column_count() const { return variable_count() + outputs.size(); }
-  SINEW_API const std::string& column_name(std::size_t column) const;
-  SINEW_API const std::string& column_unit(std::size_t column) const;
+  SINEW_API const std::string& column_name(std::size_t column) const;  ///< column < column_count()
+  SINEW_API const std::string& column_unit(std::size_t column) const;  ///< SI; empty for a plain number
   /// The axis or derived value of this name.
   SINEW_API std::optional<std::size_t> find_variable(std::string_view name) const;
   /// @}

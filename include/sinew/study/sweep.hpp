@@ -15,12 +15,14 @@ namespace sinew::inline v1 {
 
 class Ranks;
 
+/// How far a sweep is.
 struct SweepProgress {
   std::size_t done = 0, total = 0;  ///< samples
   std::size_t resumed = 0;          ///< of them, those of an earlier run
-  double seconds = 0;               ///< since this run began
+  double seconds = 0;               ///< since this run began [s]
 };
 
+/// Where results go, and who computes.
 struct SweepOptions {
   std::filesystem::path output = {};  ///< `.h5` or `.csv`; the chunks are in `output.log` until it is written
   bool resume = false;                ///< go on with the chunks of an earlier run; without any, begin
@@ -36,22 +38,26 @@ struct SweepOptions {
 /// What a fit leaves of one of its columns.
 struct FittedColumn {
   std::string name, unit;
-  std::string text;             ///< what it was taken for; empty where the terms say all
-  double rms = 0, largest = 0;  ///< residuals
-  double relative = 0;          ///< `rms` over the root mean square of the column itself
+  std::string text;     ///< what it was taken for; empty where the terms say all
+  double rms = 0;       ///< root mean square of the residuals, in `unit`
+  double largest = 0;   ///< the largest of them, in `unit`
+  double relative = 0;  ///< ratio: `rms` over the root mean square of the column itself
 };
 
 /// A fit, done.
 struct FittedTerms {
   std::string name, unit;  ///< of the columns fitted; empty where they differ
   std::vector<std::string> terms;
-  std::vector<double> coefficients, deviations;  ///< standard deviations; NaN where coefficients were given
-  bool is_given = false;                         ///< coefficients of the study, nothing fitted
-  double rms = 0, largest = 0;                   ///< residuals of all columns
-  std::size_t samples = 0;                       ///< with all columns
+  std::vector<double> coefficients;  ///< one a term, in SI
+  std::vector<double> deviations;    ///< standard deviations, in SI; NaN where coefficients were given
+  bool is_given = false;             ///< coefficients of the study, nothing fitted
+  double rms = 0;                    ///< root mean square of the residuals of all columns, in `unit`
+  double largest = 0;                ///< the largest of them, in `unit`
+  std::size_t samples = 0;           ///< with all columns
   std::vector<FittedColumn> columns;
 };
 
+/// What a sweep did, and what its fits are.
 struct SweepSummary {
   bool is_complete = false;   ///< else it was stopped; `resume` goes on
   bool was_complete = false;  ///< there was nothing left to do
@@ -80,6 +86,7 @@ struct SweepColumns {
   std::size_t chunk = 0, chunks = 0;
   std::string warning;
 };
+/// What a sweep of this study will write, without running it but for a trial. Codes: those of `sweep`.
 SINEW_API Expected<SweepColumns> sweep_columns(Study study);
 
 /// Runs a study. Errors of the study, its file of results and its log; samples that fail are no errors but
@@ -90,6 +97,7 @@ SINEW_API Expected<SweepSummary> sweep(Study study, const SweepOptions& options)
 /// Chooses the instruction set of all that runs in lanes: `baseline` (SSSE3), `avx2`, `avx512` or `native`.
 /// False where this machine has not got it. To be called before anything is computed.
 SINEW_API bool use_instruction_set(std::string_view name);
+/// Its name: `AVX2`, `AVX-512`, ...
 SINEW_API std::string_view instruction_set_in_use();
 
 }  // namespace sinew::inline v1

@@ -23,12 +23,13 @@ namespace sinew::inline v1 {
 
 /// Tendons that end at one section, spread evenly around its discs, at least 3. One direction a change.
 struct SectionTendons {
-  std::span<const kernel::Direction<double>> at;
-  std::span<const double> changes;  ///< Δl [m], > 0 pays out
+  std::span<const kernel::Direction<double>> at;  ///< cosine and sine of each tendon's angle, no unit
+  std::span<const double> changes;                ///< Δl [m], > 0 pays out
 };
 
 /// Bends a section is allowed.
 struct Envelope {
+  /// Its form.
   enum class Kind {
     square,   ///< |x|, |y| ≤ limit [rad]
     disc,     ///< |(x, y)| ≤ limit [rad]
@@ -38,8 +39,9 @@ struct Envelope {
   double limit = 0;  ///< ≥ 0
 };
 
+/// A section, its tendons, and what it is allowed.
 struct DiagramQuestion {
-  kernel::Section<double> section;
+  kernel::Section<double> section;  ///< its sizes [m]: `Section::map`
   SectionTendons tendons;
   Envelope envelope;
   double tolerance = 0;                   ///< of a tendon [m]: encoder step, friction, stretch
@@ -48,6 +50,7 @@ struct DiagramQuestion {
   double deviation = 1e-4;  ///< arcs are sampled so that no chord is farther from them [rad]
 };
 
+/// What tendons together leave a section.
 enum class TendonConsistency {
   exact,          ///< taut within the tolerance: one bend
   indeterminate,  ///< no tendon too short, some slack: a set of bends
@@ -55,9 +58,10 @@ enum class TendonConsistency {
   unreachable     ///< they agree on bends outside the envelope only
 };
 
-/// Points on one frontier.
+/// Points on one frontier [rad].
 using Curve = std::vector<Vec2<double>>;
 
+/// The answer to a DiagramQuestion.
 struct SectionDiagram {
   /// - `converged`: all is known.
   /// - `left_domain`: nothing is; the message says what was wrong with the question.
@@ -99,6 +103,7 @@ SINEW_API SectionDiagram section_diagram(const DiagramQuestion& question);
 /// Tendons that no bend satisfies stretch, and where they then hold a section is a matter of forces: an
 /// over-tensioned section has no polygon, so it has no outline and hands none on.
 struct SectionOutline {
+  /// Why there is no outline.
   enum class Missing { none, previous_over_tensioned, over_tensioned, beyond_envelope };
   Report report;     ///< `converged` or `left_domain`
   Polygon boundary;  ///< [rad], cut with the envelope; empty where it is missing

@@ -9,12 +9,14 @@ namespace sinew {
 namespace kernel {
 
 /// Bounds of w = (β/2)²: `few` terms of the series do up to 24.3°, `most` up to half a turn.
-constexpr double few_below = 0.045, max_below = 2.4675;
+constexpr double few_below = 0.045;
+constexpr double max_below = 2.4675;  ///< see `few_below`
 
 /// How many terms of the series a scalar needs.
 template <class S>
 struct Terms {
-  static constexpr int few = 4, most = 6;
+  static constexpr int few = 4;   ///< up to `few_below`
+  static constexpr int most = 6;  ///< up to `max_below`
 };
 template <>
 struct Terms<float> {

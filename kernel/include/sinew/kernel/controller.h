@@ -17,6 +17,7 @@ struct BendLimits {
   Backbone backbone[Sections];
   typename Stored<Angle>::type limit[Sections];  ///< [rad], ≥ 0
 
+  /// Whether all bends are within the limits.
   constexpr bool hold(const Bend<Angle> (&bends)[Sections]) const {
     for (decltype(sizeof(0)) m = 0; m < Sections; ++m) {
       const Angle most = Stored<Angle>::load(limit[m]);

@@ -31,6 +31,7 @@ template <class T>
 constexpr Crc32Rows Crc32Table<T>::rows;
 }  // namespace detail
 
+/// The sum of bytes that come one by one.
 class Crc32 {
  public:
   /// A byte at once, so that a small controller shifts nothing: 1 KiB for a third of the time that a table of
@@ -43,10 +44,12 @@ class Crc32 {
     state_[2] = static_cast<unsigned char>(state_[3] ^ rows[2][i]);
     state_[3] = rows[3][i];
   }
+  /// All bytes of a text.
   template <class Text>
   constexpr void add_text(const Text& text) {
     for (const char c : text) add(static_cast<unsigned char>(c));
   }
+  /// The sum of all bytes so far.
   constexpr __UINT32_TYPE__ value() const {
     return ~(static_cast<__UINT32_TYPE__>(state_[0]) | static_cast<__UINT32_TYPE__>(state_[1]) << 8 |
              static_cast<__UINT32_TYPE__>(state_[2]) << 16 | static_cast<__UINT32_TYPE__>(state_[3]) << 24);

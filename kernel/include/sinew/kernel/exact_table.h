@@ -60,6 +60,7 @@ struct Chords {
   }
 };
 
+/// Nothing to be done between sections.
 struct NoPause {
   constexpr void operator()() const {}
 };
@@ -74,6 +75,7 @@ struct ExactTable {
   LinearTable<Sections, Tendons, Format, Alike> linear;
   Chords<Format, Terms> chords[Alike ? 1 : Sections];
 
+  /// What every tendon has to do, Δl > 0 pays out.
   constexpr void changes(const Bend<Angle> (&bends)[Sections], Length (&changes)[Sections][Tendons]) const {
     Bend<Angle> sum{Angle(0.0), Angle(0.0)};
     Length common = Length(0.0);

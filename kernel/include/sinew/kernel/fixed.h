@@ -56,8 +56,11 @@ template <int Bits, int Fraction>
 struct Fixed {
   static_assert(Fraction >= 0 && Fraction < 2 * Bits && Fraction < 63, "steps of at most 1");
   using Raw = typename Integer<Bits>::type;
-  static constexpr int bits = Bits, fraction = Fraction;
+  static constexpr int bits = Bits;          ///< of the integer, with the sign
+  static constexpr int fraction = Fraction;  ///< of them behind the point
+  /// The integer of the largest number, and that of the smallest.
   static constexpr Raw largest = static_cast<Raw>(~(static_cast<Raw>(1) << (Bits - 1)));
+  /// See `largest`.
   static constexpr Raw smallest = static_cast<Raw>(-largest - 1);
 
   Raw raw;
@@ -69,6 +72,7 @@ struct Fixed {
   template <int OtherBits, int OtherFraction>
   explicit constexpr Fixed(Fixed<OtherBits, OtherFraction> other) : raw(rounded(other)) {}
 
+  /// raw_value / 2^Fraction.
   static constexpr Fixed from_raw(Raw raw_value) {
     Fixed result;
     result.raw = raw_value;

@@ -14,6 +14,7 @@ namespace kernel {
 template <class S>
 struct Stored {
   using type = S;
+  /// The number that is kept so.
   static constexpr S load(S value) { return value; }
 };
 template <int Bits, int Fraction>
@@ -40,6 +41,7 @@ template <int Bits, int Fraction>
 constexpr Fixed<Bits, Fraction> wrapped_sum(Fixed<Bits, Fraction> a, Fixed<Bits, Fraction> b) {
   return Fixed<Bits, Fraction>::from_raw(detail::wrapped(a.raw, b.raw));
 }
+/// a − b, of integers modulo 2ⁿ.
 template <class S>
 constexpr S wrapped_difference(S a, S b) {
   return a - b;
@@ -56,7 +58,9 @@ template <class A, class S>
 class Products {
  public:
   constexpr Products() : sum_(0) {}
+  /// Adds a x.
   constexpr void add(A a, S x) { sum_ += a * x; }
+  /// What was added up.
   constexpr S sum() const { return sum_; }
 
  private:
@@ -129,8 +133,10 @@ struct AvrInstructions : Portable {
     return Result::from_raw(high);
   }
 };
+/// The quickest way on this machine.
 using Native = AvrInstructions;
 #else
+/// The quickest way on this machine.
 using Native = Portable;
 #endif
 

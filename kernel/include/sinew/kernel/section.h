@@ -18,8 +18,10 @@
 namespace sinew {
 namespace kernel {
 
+/// What bends: one backbone in the middle, or pairs of pivots that bend about two axes in turn.
 enum class Backbone : unsigned char { neutral, twin_pivot };
-enum class Model : unsigned char { exact, linear };  ///< PCC, LSK
+/// PCC, LSK.
+enum class Model : unsigned char { exact, linear };
 
 /// @tparam Angle scalar of angles and ratios, at least −4 to 4
 /// @tparam Length scalar of lengths
@@ -32,6 +34,9 @@ struct Section {
   Angle half;      ///< half of what one joint has of the bend: 1/2 twin-pivot, 1/(2N) neutral
 };
 
+/// @param joints N, of twin pivots even
+/// @param joint_length arc length of one joint
+/// @param radius of the tendons about the backbone, in the same unit
 template <class Angle, class Length = Angle>
 constexpr Section<Angle, Length> make_section(Backbone backbone, int joints, double joint_length,
                                               double radius) {
@@ -75,6 +80,7 @@ template <class Angle>
 struct ChordLoss {
   Angle x, y, length;
 };
+/// Of a section at this bend.
 template <class Angle, class Length>
 constexpr ChordLoss<Angle> chord_loss_of(const Section<Angle, Length>& section, const Bend<Angle>& bend) {
   const Angle x = Angle(section.half * bend.x), y = Angle(section.half * bend.y);
@@ -168,6 +174,7 @@ constexpr Bend<Angle> exact_bend(const Section<Angle, Length>& section, Length x
   return {Angle(chord.x * arc_over_chord(y_x)), Angle(chord.y * arc_over_chord(y_y))};
 }
 
+/// Bend of a section from its own share of a pull, by either model.
 template <Model model, class Angle, class Length>
 constexpr Bend<Angle> bend(const Section<Angle, Length>& section, Length x, Length y) {
   return model == Model::exact ? exact_bend(section, x, y) : linear_bend(section, x, y);

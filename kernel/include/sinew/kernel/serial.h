@@ -14,8 +14,10 @@
 namespace sinew {
 namespace kernel {
 
+/// Number of sections, tendons, ...
 using Count = decltype(sizeof(0));
 
+/// Sections and directions of their tendons: bends and changes of tendons by either model.
 template <Count Sections, Count Tendons, class Angle, class Length = Angle>
 struct Serial {
   static_assert(Sections >= 1 && Tendons >= 3, "at least one section, and three tendons each");

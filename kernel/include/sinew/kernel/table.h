@@ -51,10 +51,12 @@ struct ShortFormat {
 /// Gains of the sections as shares of the greatest, where they are not alike.
 template <Count Sections, class Format, bool Alike>
 struct Shares {
+  /// A component of section m's bend as its share in the sums of the table.
   template <class Angle>
   static constexpr Angle shared(Count, Angle own) {
     return own;
   }
+  /// And back.
   template <class Angle>
   static constexpr Angle own(Count, Angle shared) {
     return shared;
@@ -89,6 +91,7 @@ struct LinearTable {
   typename Stored<Row>::type rows[Sections][Tendons][2];   ///< −g (cos d, sin d), g the greatest
   typename Stored<Back>::type back[Sections][Tendons][2];  ///< −2/(n g) (cos d, sin d)
 
+  /// What every tendon has to do, Δl > 0 pays out.
   constexpr void changes(const Bend<Angle> (&bends)[Sections], Length (&changes)[Sections][Tendons]) const {
     Bend<Angle> sum{Angle(0.0), Angle(0.0)};
     for (Count m = 0; m < Sections; ++m) {

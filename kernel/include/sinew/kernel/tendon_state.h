@@ -9,6 +9,7 @@
 namespace sinew {
 namespace kernel {
 
+/// What a tendon is at a bend, within its tolerance.
 enum class TendonState : unsigned char { exact, slack, over_tensioned };
 
 /// @param slack what a tendon has beyond what the shape needs, < 0: it is too short

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sinew/kinematics/force_sensing.hpp"
 #include "sinew/sinew.hpp"
 
 int main() {
@@ -19,3 +18,11 @@ int main() {
     std::printf("%s %9.5f +- %.5f\n", names[i], sensed.wrench[i],
                 std::sqrt(sensed.covariance[std::size_t(7 * i)]));
 }
+
+// Prints:
+//   fx [N]    -0.28583 +- 0.00336
+//   fy [N]    -0.03158 +- 0.00320
+//   fz [N]     0.10000 +- 0.02449
+//   mx [N m]  -0.01445 +- 0.00155
+//   my [N m]   0.05585 +- 0.00156
+//   mz [N m]  -0.00804 +- 0.00037

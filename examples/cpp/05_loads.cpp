@@ -1,7 +1,6 @@
 /// A flexible tripod under a load: where it comes to rest, how stiff it is, and how much it bears.
 #include <cstdio>
 
-#include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/sinew.hpp"
 
 int main() {
@@ -27,3 +26,8 @@ int main() {
   const sinew::LoadPath path = sinew::follow_load(robot, newton, 200, work);
   std::printf("%s at %.1f N\n", std::string(sinew::to_string(path.end)).c_str(), path.load);
 }
+
+// Prints:
+//   at rest at x 0.515 mm, z 399.811 mm, stable
+//   stiffness in x 2938.6 N/m, in z 25545.3 N/m; largest strain 0.39 %
+//   bifurcation at 110.9 N

@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Makes the site: all pages by Sphinx and MyST, and under api/ the C++ and C reference by Doxygen.
+
+    tools/site.py FOLDER        writes FOLDER/html/index.html
+
+Nothing may be warned of: links and anchors between pages hold, and every page is in the table of contents. Pages stay readable
+on their own; here they are copied, with what they link to. Without these programs the exit status is 77.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PYTHON = "/usr/bin/python3" if os.access("/usr/bin/python3", os.X_OK) else sys.executable  # Debian's own has Debian's Sphinx
+PAGES = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "LICENSE", "docs", "examples", "robots", "studies",
+         *(str(page.relative_to(ROOT)) for page in ROOT.glob("firmware/**/*.md"))]
+PACKAGES = "doxygen python3-sphinx python3-myst-parser"
+
+
+def is_there():
+    modules = [PYTHON, "-c", "import sphinx, myst_parser"]
+    return shutil.which("doxygen") and subprocess.run(modules, capture_output=True, check=False).returncode == 0
+
+
+def lay_out(source):
+    shutil.rmtree(source, ignore_errors=True)
+    source.mkdir(parents=True)
+    for name in PAGES:
+        (source / name).parent.mkdir(parents=True, exist_ok=True)
+        (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, source / name)
+    shutil.copy(ROOT / "docs/site/index.md", source)
+    readme = source / "README.md"
+    readme.write_text(re.sub(r"\]\((docs/theory|docs/adr)\)", r"](\1/README.md)", readme.read_text()))
+    if not (source / "docs/adr/README.md").exists():
+        (source / "docs/adr/README.md").write_text("# Decisions\n\n```{toctree}\n:glob:\n\n0*\n```\n")
+
+
+def main():
+    if not is_there():
+        print(f"skipped: one of these Debian packages is not installed: {PACKAGES}")
+        return 77
+    folder = pathlib.Path(sys.argv[1]).resolve()
+    lay_out(folder / "source")
+    (folder / "reference").mkdir(exist_ok=True)
+    shutil.rmtree(folder / "html", ignore_errors=True)
+    sphinx = [PYTHON, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", ROOT / "docs/site", "-d", folder / "doctrees",
+              folder / "source", folder / "html"]
+    done = subprocess.run(sphinx, check=False)
+    subprocess.run(["doxygen", "docs/api/Doxyfile"], cwd=ROOT, env={**os.environ, "SINEW_API_FOLDER": str(folder / "reference")}, check=True)
+    shutil.copytree(folder / "reference/html", folder / "html/api")
+    print(f"{folder}/html/index.html")
+    return done.returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())
