@@ -33,8 +33,19 @@ bool batch_read_fields(object* prepared, const json_node* fields) {
   return prepared->inputs && prepared->outputs;
 }
 
-/* The numbers of a real array as doubles: where they lie, or a copy of another class. */
+/* Numbers of a row lie row after row in the library's fields, the other way in pages of the host. */
+static mxArray* turned_pages(mxArray* array) {
+  mxArray* arguments[2] = {array, mxCreateDoubleMatrix(1, 3, mxREAL)};
+  mxArray* turned = NULL;
+  const double order[3] = {1, 3, 2};
+  memcpy(mxGetPr(arguments[1]), order, sizeof order);
+  mexCallMATLAB(1, &turned, 2, arguments, "permute");
+  return turned;
+}
+
+/* The numbers of a real array as doubles: where they lie, or a copy of another class or order. */
 static const double* numbers_of(const mxArray* array) {
+  if (mxGetNumberOfDimensions(array) == 3) array = turned_pages((mxArray*)array);
   if (mxIsDouble(array)) return mxGetPr(array);
   const size_t count = mxGetNumberOfElements(array);
   double* copy = mxMalloc(count * sizeof *copy + 1);
@@ -42,18 +53,31 @@ static const double* numbers_of(const mxArray* array) {
   return copy;
 }
 
+static const char* class_of(const mxArray* array) {
+  if (mxIsNumeric(array) && mxIsSparse(array)) return "sparse matrix";
+  return mxIsNumeric(array) && mxIsComplex(array) ? "complex matrix" : mxGetClassName(array);
+}
+
+/* Whether it is an array of n x rows x columns, as outputs are that have a matrix a row. */
+static bool has_pages(const field_shape* field, const mxArray* array) {
+  const mwSize* sizes = mxGetDimensions(array);
+  return field->rank == 2 && mxGetNumberOfDimensions(array) == 3 && (size_t)sizes[1] == field->shape[0] &&
+         (size_t)sizes[2] == field->shape[1];
+}
+
 /* What is wrong with the array of an input, or NULL. A vector serves where a row has one number. */
 static const char* misfit(const field_shape* field, const mxArray* array, size_t* rows) {
   static char why[200];
-  if (!mxIsNumeric(array) || mxIsComplex(array) || mxIsSparse(array) || mxGetNumberOfDimensions(array) > 2) {
+  if (!mxIsNumeric(array) || mxIsComplex(array) || mxIsSparse(array)) {
     snprintf(why, sizeof why, "%s is a %s; give a full matrix of real numbers, one row a configuration.", field->name,
-             mxIsSparse(array) ? "sparse matrix" : mxIsNumeric(array) && mxIsComplex(array) ? "complex matrix" : mxGetClassName(array));
+             class_of(array));
     return why;
   }
   const bool is_row = field->size == 1 && mxGetM(array) == 1;
-  const size_t columns = is_row ? 1 : mxGetN(array);
+  const size_t columns = is_row ? 1 : mxGetN(array); /* of all pages */
   *rows = is_row ? mxGetN(array) : mxGetM(array);
-  if (columns == field->size || mxGetNumberOfElements(array) + *rows == 0) return NULL;
+  if (has_pages(field, array)) return NULL;
+  if (mxGetNumberOfDimensions(array) == 2 && (columns == field->size || columns + *rows == 0)) return NULL;
   snprintf(why, sizeof why, "%s has %zu column%s, a row has %zu number%s; give one row a configuration.", field->name,
            columns, columns == 1 ? "" : "s", field->size, field->size == 1 ? "" : "s");
   return why;
@@ -76,17 +100,6 @@ static bool read_inputs(const object* prepared, const mxArray* const* arrays, si
     inputs[i].step = (ptrdiff_t)(here * sizeof(double));
   }
   return true;
-}
-
-/* Matrices of rows come with the last index before the one but last; the host has them the other way. */
-static mxArray* with_axes_in_order(mxArray* array, const field_shape* field) {
-  if (field->rank < 2) return array;
-  mxArray* arguments[2] = {array, mxCreateDoubleMatrix(1, 3, mxREAL)};
-  mxArray* turned = NULL;
-  const double order[3] = {1, 3, 2};
-  memcpy(mxGetPr(arguments[1]), order, sizeof order);
-  mexCallMATLAB(1, &turned, 2, arguments, "permute");
-  return turned;
 }
 
 static mxArray* output_array(const field_shape* field, size_t rows) {
@@ -151,6 +164,6 @@ mxArray* batch_run(object* prepared, const mxArray* const* arrays, size_t input_
   put_field(answer, "status", statuses);
   put_field(answer, "message", message_of(error));
   for (size_t o = 0; o < prepared->output_count; ++o)
-    put_field(answer, prepared->outputs[o].name, with_axes_in_order(columns[o], &prepared->outputs[o]));
+    put_field(answer, prepared->outputs[o].name, prepared->outputs[o].rank < 2 ? columns[o] : turned_pages(columns[o]));
   return answer;
 }

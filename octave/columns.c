@@ -34,6 +34,7 @@ static bool has_rows(const json_writer* out, const char* place, enum field_kind 
   const size_t rows = mxGetM(array), columns = mxGetN(array);
   const bool may_be_one = out->is_batch && out->column_count == 0; /* a batch of one */
   if (!out->takes_columns || columns == 0) return false;
+  if (mxGetNumberOfDimensions(array) == 3) return true; /* a row, or a page of rows, a configuration */
   switch (kind) {
     case FIELD_NUMBER: return rows * columns != 1 || may_be_one;
     case FIELD_VECTOR: /* vectors are lists, whichever way they lie */

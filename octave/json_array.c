@@ -55,31 +55,56 @@ static mxArray* cell_row(const json_node* list) {
   return row;
 }
 
-/* Puts the members of an object into element k of a struct array, adding fields that it lacks. */
-static void put_members(mxArray* structs, size_t k, const json_node* object) {
-  int guess = 0; /* objects of a list mostly have the same members in the same order */
-  for (const json_node* member = object->first; member; member = member->next, ++guess) {
-    const char* name = guess < mxGetNumberOfFields(structs) ? mxGetFieldNameByNumber(structs, guess) : NULL;
-    int field = name && strcmp(name, member->key) == 0 ? guess : mxGetFieldNumber(structs, member->key);
-    if (field < 0) field = mxAddField(structs, member->key);
-    if (field >= 0) mxSetFieldByNumber(structs, k, field, json_to_array(member));
-  }
+/* Names of fields that objects have between them. Those of a list mostly have the same in the same order. */
+typedef struct {
+  const char** names;
+  int count, room;
+} field_names;
+
+static int field_of(const field_names* fields, const char* key, int guess) {
+  if (guess < fields->count && strcmp(fields->names[guess], key) == 0) return guess;
+  for (int k = 0; k < fields->count; ++k)
+    if (strcmp(fields->names[k], key) == 0) return k;
+  return -1;
 }
 
-/* Fields that some elements lack are [], not nothing. */
-static void fill_gaps(mxArray* structs, size_t size) {
-  const int fields = mxGetNumberOfFields(structs);
-  for (size_t k = 0; k < size; ++k)
-    for (int field = 0; field < fields; ++field)
-      if (!mxGetFieldByNumber(structs, k, field))
-        mxSetFieldByNumber(structs, k, field, mxCreateDoubleMatrix(0, 0, mxREAL));
+static void add_field(field_names* fields, const char* key) {
+  if (fields->count == fields->room) {
+    fields->room = 2 * fields->room + 8;
+    fields->names = mxRealloc(fields->names, (size_t)fields->room * sizeof *fields->names);
+  }
+  fields->names[fields->count++] = key;
+}
+
+static void add_members(field_names* fields, const json_node* object) {
+  int guess = 0;
+  for (const json_node* member = object->first; member; member = member->next, ++guess)
+    if (field_of(fields, member->key, guess) < 0) add_field(fields, member->key);
+}
+
+static void put_members(mxArray* structs, const field_names* fields, size_t k, const json_node* object) {
+  int guess = 0;
+  for (const json_node* member = object->first; member; member = member->next, ++guess)
+    mxSetFieldByNumber(structs, k, field_of(fields, member->key, guess), json_to_array(member));
+}
+
+/* Fields that an element lacks are [], not nothing. */
+static void fill_gaps(mxArray* structs, const field_names* fields, size_t k) {
+  for (int field = 0; field < fields->count; ++field)
+    if (!mxGetFieldByNumber(structs, k, field))
+      mxSetFieldByNumber(structs, k, field, mxCreateDoubleMatrix(0, 0, mxREAL));
 }
 
 static mxArray* struct_row(const json_node* first, size_t size) {
-  mxArray* structs = mxCreateStructMatrix(1, size, 0, NULL);
-  size_t k = 0;
-  for (const json_node* object = first; k < size; object = object->next) put_members(structs, k++, object);
-  fill_gaps(structs, size);
+  field_names fields = {0};
+  const json_node* object = first;
+  for (size_t k = 0; k < size; ++k, object = object->next) add_members(&fields, object);
+  mxArray* structs = mxCreateStructMatrix(1, size, fields.count, fields.names);
+  object = first;
+  for (size_t k = 0; k < size; ++k, object = object->next) {
+    put_members(structs, &fields, k, object);
+    if (size > 1) fill_gaps(structs, &fields, k);
+  }
   return structs;
 }
 
@@ -92,9 +117,13 @@ static mxArray* list_to_array(const json_node* list) {
 }
 
 mxArray* json_to_answer(const json_node* answer) {
-  static const char* first[] = {"ok", "status", "message"};
-  mxArray* value = mxCreateStructMatrix(1, 1, 3, first);
-  put_members(value, 0, answer);
+  field_names fields = {0};
+  add_field(&fields, "ok");
+  add_field(&fields, "status");
+  add_field(&fields, "message");
+  add_members(&fields, answer);
+  mxArray* value = mxCreateStructMatrix(1, 1, fields.count, fields.names);
+  put_members(value, &fields, 0, answer);
   mxSetFieldByNumber(value, 0, 0, mxCreateLogicalScalar(strcmp(json_member_text(answer, "status"), "converged") == 0));
   if (!json_member(answer, "message")) mxSetFieldByNumber(value, 0, 2, text_to_array("", 0));
   return value;

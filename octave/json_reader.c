@@ -7,13 +7,26 @@
 
 #include "text.h"
 
-enum { MAX_DEPTH = 128 };
+enum { MAX_DEPTH = 128, CHUNK_SIZE = 32768 };
 
 typedef struct {
   const char *at, *end;
   int depth;
   bool failed;
+  char* chunk; /* of memory for nodes and texts: each mxMalloc takes the host its time */
+  size_t used;
 } reader;
+
+static void* memory(reader* in, size_t size) {
+  size = (size + 7) / 8 * 8;
+  if (size > CHUNK_SIZE / 4) return mxMalloc(size);
+  if (!in->chunk || in->used + size > CHUNK_SIZE) {
+    in->chunk = mxMalloc(CHUNK_SIZE);
+    in->used = 0;
+  }
+  in->used += size;
+  return in->chunk + in->used - size;
+}
 
 static json_node* value(reader* in);
 
@@ -33,8 +46,9 @@ static bool take(reader* in, char wanted) {
   return true;
 }
 
-static json_node* new_node(enum json_type type) {
-  json_node* node = mxCalloc(1, sizeof *node);
+static json_node* new_node(reader* in, enum json_type type) {
+  json_node* node = memory(in, sizeof *node);
+  memset(node, 0, sizeof *node);
   node->type = type;
   return node;
 }
@@ -68,11 +82,11 @@ static char* put_escape(reader* in, char* to) {
 }
 
 static json_node* text(reader* in) { /* behind its quote */
-  json_node* node = new_node(JSON_TEXT);
+  json_node* node = new_node(in, JSON_TEXT);
   const char* close = in->at;
   while (close < in->end && *close != '"') close += *close == '\\' ? 2 : 1;
   if (close >= in->end) return fail(in);
-  char* copy = mxMalloc((size_t)(close - in->at) + 1);
+  char* copy = memory(in, (size_t)(close - in->at) + 1);
   char* to = copy;
   while (in->at < close && !in->failed) {
     if (*in->at == '\\') {
@@ -98,7 +112,7 @@ static json_node* number(reader* in) {
   char* point = strchr(digits, '.');
   if (point) *point = *localeconv()->decimal_point; /* what strtod reads */
   char* end;
-  json_node* node = new_node(JSON_NUMBER);
+  json_node* node = new_node(in, JSON_NUMBER);
   node->number = strtod(digits, &end);
   return size == 0 || *end ? fail(in) : node;
 }
@@ -107,7 +121,7 @@ static json_node* word(reader* in, const char* wanted, enum json_type type, doub
   const size_t size = strlen(wanted);
   if ((size_t)(in->end - in->at) < size || memcmp(in->at, wanted, size) != 0) return fail(in);
   in->at += size;
-  json_node* node = new_node(type);
+  json_node* node = new_node(in, type);
   node->number = number;
   return node;
 }
@@ -121,7 +135,7 @@ static const char* field_name(json_node* key) {
 }
 
 static json_node* list(reader* in, char close, enum json_type type) {
-  json_node* node = new_node(type);
+  json_node* node = new_node(in, type);
   json_node** last = &node->first;
   if (take(in, close)) return node;
   do {
@@ -160,7 +174,7 @@ static json_node* value(reader* in) {
 }
 
 json_node* json_parse(const char* text, size_t size) {
-  reader in = {text, text + size, 0, false};
+  reader in = {.at = text, .end = text + size};
   json_node* root = value(&in);
   skip_space(&in);
   return in.at == in.end ? root : NULL;

@@ -109,19 +109,20 @@ static void put_rows(json_writer* out, const char* place, const mxArray* array) 
   put(out, "]");
 }
 
-static bool is_plain_array(json_writer* out, const char* place, const mxArray* array) {
+static bool is_plain_array(json_writer* out, const char* place, enum field_kind kind, const mxArray* array) {
+  const bool has_pages = out->takes_columns && (kind == FIELD_ROWS || kind == FIELD_SECTIONS);
   if (mxIsSparse(array))
     json_problem(out, "%s is sparse; give full(...) of it.", place);
   else if (mxIsComplex(array))
     json_problem(out, "%s is complex; give real numbers.", place);
-  else if (mxGetNumberOfDimensions(array) > 2)
+  else if (mxGetNumberOfDimensions(array) > (has_pages ? 3 : 2))
     json_problem(out, "%s has %d dimensions; give a vector or a matrix.", place,
                  (int)mxGetNumberOfDimensions(array));
   return !out->problem[0];
 }
 
 static void put_numbers(json_writer* out, const char* place, enum field_kind kind, const mxArray* array) {
-  if (!is_plain_array(out, place, array) || put_as_column(out, place, kind, array)) return;
+  if (!is_plain_array(out, place, kind, array) || put_as_column(out, place, kind, array)) return;
   const size_t count = mxGetNumberOfElements(array);
   const bool is_vector = mxGetM(array) == 1 || mxGetN(array) == 1;
   if (kind == FIELD_SECTIONS && put_sections(out, place, array)) return;
@@ -134,7 +135,7 @@ static void put_numbers(json_writer* out, const char* place, enum field_kind kin
 }
 
 static void put_booleans(json_writer* out, const char* place, enum field_kind kind, const mxArray* array) {
-  if (!is_plain_array(out, place, array)) return;
+  if (!is_plain_array(out, place, kind, array)) return;
   const mxLogical* values = mxGetLogicals(array);
   const size_t count = mxGetNumberOfElements(array);
   const bool is_list = count != 1 || kind == FIELD_LIST || kind == FIELD_VECTOR;

@@ -12,7 +12,7 @@ static const char* name_at(json_writer* out, const mxArray* pairs, size_t k, con
   const mxArray* name = mxGetCell(pairs, k);
   const char* text = name ? array_to_text(name, &size) : NULL;
   if (!text || size == 0 || strlen(text) != size) {
-    json_problem(out, "argument %zu is a %s where the name of %s should be; names and values come in turn.", k + 1,
+    json_problem(out, "found a %s where the name of %s should be; names and values come in turn.",
                  name ? mxGetClassName(name) : "double", what);
     return NULL;
   }

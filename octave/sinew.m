@@ -148,10 +148,11 @@ classdef sinew < handle
       elseif ~ isempty (fields) && ~ ischar (fields{1})
         error ('sinew:bad_input', '%s: names and values come in turn after the first argument; the last name has no value.', query);
       end
-      at = find (strcmp (fields(1:2:end), 'set'));
-      for k = fliplr (at)
-        settings = [settings, sinew.paths(fields(2 * k))]; %#ok<AGROW>
-        fields(2 * k - 1 : 2 * k) = [];
+      is_set = strcmp (fields(1:2:end), 'set');
+      if any (is_set)
+        k = 2 * find (is_set, 1);
+        settings = [settings, sinew.paths(fields(k))];
+        fields(k - 1 : k) = [];
       end
     end
 
@@ -190,11 +191,11 @@ classdef sinew < handle
 
     function pairs = paths (given)
       % Paths and values in turn, of such a list, a map or nested structs.
-      if numel (given) ~= 1
+      if mod (numel (given), 2) == 0
         pairs = given(:).';
-      elseif isstruct (given{1})
+      elseif numel (given) == 1 && isstruct (given{1})
         pairs = sinew.leaves ('', given{1});
-      elseif isa (given{1}, 'containers.Map')
+      elseif numel (given) == 1 && isa (given{1}, 'containers.Map')
         pairs = reshape ([given{1}.keys(); given{1}.values()], 1, []);
       else
         error ('sinew:bad_input', 'set: give paths and values in turn, a struct, or a containers.Map.');
