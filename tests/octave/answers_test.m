@@ -35,10 +35,10 @@ function found = texts_of (value)
 end
 
 function [numbers, texts] = leaves_of_json (json)
-  [texts, bare] = regexp (json, '"((?:[^"\\]|\\.)*)"(?!:)', 'tokens', 'split');
-  texts = cellfun (@(t) do_string_escapes (t{1}), texts, 'UniformOutput', false);
-  bare = regexprep (strjoin (bare, ' '), '"[^"]*":', ' ');
-  bare = strrep (strrep (bare, 'true', '1'), 'false', '0');
+  [quoted, bare] = regexp (json, '"((?:[^"\\]|\\.)*)"(:?)', 'tokens', 'split');
+  is_text = cellfun (@(t) isempty (t{2}), quoted);
+  texts = cellfun (@(t) do_string_escapes (t{1}), quoted(is_text), 'UniformOutput', false);
+  bare = strrep (strrep (strjoin (bare, ' '), 'true', '1'), 'false', '0');
   numbers = str2double (regexp (bare, '-?\d[-+.eE\d]*', 'match'));
 end
 
@@ -73,8 +73,8 @@ function questions = questions_of (r)
                  ask('inverse', 'position', f.tip.position), ask('inverse', 'pose', f.tip), ...
                  ask('velocity', 'configuration', bends, 'twist', [1 2 3 4 5 6] * 1e-3), ...
                  ask('shape', 'configuration', bends, 'samples', 3), ...
-                 ask('diagram', 'section', 0, 'changes', f.changes(1, :)), ...
-                 ask('diagram', 'section', 1, 'changes', f.changes(1:2, :), 'model', 'pcc'), ...
+                 ask('diagram', 'section', 0, 'changes', f.changes(1, :), 'limit', 1), ...
+                 ask('diagram', 'section', 1, 'changes', f.changes(1:2, :), 'model', 'pcc', 'limit', 1), ...
                  ask('track', 'from', f.tip, 'to', f.tip), ask('statics')};
     return
   end
@@ -85,21 +85,29 @@ function questions = questions_of (r)
     beyond = setfield (pose, 'position', pose.position + [0 0 0.002]);
     wrench = [0.1 0 -0.2 0 0.01 0];
   end
-  inputs = r.velocity (pose);
-  three = numel (d.inputs) == 3 && any (strcmp (d.models, 'rod'));
-  if three || ~ isfield (inputs, 'legs')
+  if numel (d.inputs) == 3 && any (ismember (d.models, {'rod', 'rigid'}))
     pose = struct ('z', d.home.position(3), 'e1', 0, 'e2', 0.05);
     beyond = setfield (pose, 'e1', 0.02);
     questions = {ask('inverse', 'independent', pose), ask('velocity', 'independent', pose)};
     i = r.inverse ('independent', pose);
   else
     questions = {ask('inverse', 'pose', pose), ask('inverse', 'pose', beyond), ask('velocity', 'pose', pose), ...
-                 ask('shape', 'pose', pose, 'samples', 4), ask('inverse', 'pose', pose, 'tilt', true)};
+                 ask('shape', 'pose', pose, 'samples', 4)};
     i = r.inverse (beyond);
   end
   if isfield (i, 'inputs')
-    questions = [questions, {ask('forward', 'inputs', i.inputs), ask('forward', 'inputs', i.inputs, 'all', true), ...
+    questions = [questions, {ask('forward', 'inputs', i.inputs), ask('statics', 'inputs', i.inputs, 'axial_forces', 0.01 * (1:6)), ...
                              ask('shape', 'inputs', i.inputs, 'samples', 2), ask('velocity', 'inputs', i.inputs)}];
+  end
+  if numel (d.inputs) == 3  % of six rods that bear torque it takes seconds
+    questions{end+1} = ask ('forward', 'inputs', i.inputs, 'all', true);
+  end
+  if any (strcmp (d.models, 'rigid'))  % its path is of whole poses
+    pose = i.pose;
+    beyond = i.pose;
+  end
+  if isfield (pose, 'position')
+    questions{end+1} = ask ('velocity', 'pose', pose, 'tilt', true);
   end
   questions = [questions, {ask('track', 'from', pose, 'to', beyond, 'samples', 3), ask('diagram', 'section', 0), ...
                            ask('statics', 'set_at', pose, 'wrench', wrench)}];
