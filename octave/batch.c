@@ -69,8 +69,8 @@ static bool has_pages(const field_shape* field, const mxArray* array) {
 static const char* misfit(const field_shape* field, const mxArray* array, size_t* rows) {
   static char why[200];
   if (!mxIsNumeric(array) || mxIsComplex(array) || mxIsSparse(array)) {
-    snprintf(why, sizeof why, "%s is a %s; give a full matrix of real numbers, one row a configuration.", field->name,
-             class_of(array));
+    snprintf(why, sizeof why, "%s is a %s; give a full matrix of real numbers, one row a configuration.",
+             field->name, class_of(array));
     return why;
   }
   const bool is_row = field->size == 1 && mxGetM(array) == 1;
@@ -78,20 +78,20 @@ static const char* misfit(const field_shape* field, const mxArray* array, size_t
   *rows = is_row ? mxGetN(array) : mxGetM(array);
   if (has_pages(field, array)) return NULL;
   if (mxGetNumberOfDimensions(array) == 2 && (columns == field->size || columns + *rows == 0)) return NULL;
-  snprintf(why, sizeof why, "%s has %zu column%s, a row has %zu number%s; give one row a configuration.", field->name,
-           columns, columns == 1 ? "" : "s", field->size, field->size == 1 ? "" : "s");
+  snprintf(why, sizeof why, "%s has %zu column%s, a row has %zu number%s; give one row a configuration.",
+           field->name, columns, columns == 1 ? "" : "s", field->size, field->size == 1 ? "" : "s");
   return why;
 }
 
-static bool read_inputs(const object* prepared, const mxArray* const* arrays, sinew_input* inputs, size_t* rows,
-                        char* problem, size_t problem_size) {
+static bool read_inputs(const object* prepared, const mxArray* const* arrays, sinew_input* inputs,
+                        size_t* rows, char* problem, size_t problem_size) {
   for (size_t i = 0; i < prepared->input_count; ++i) {
     size_t here = 0;
     const char* why = misfit(&prepared->inputs[i], arrays[i], &here);
     if (why) return snprintf(problem, problem_size, "%s", why), false;
     if (i > 0 && here != *rows) {
-      snprintf(problem, problem_size, "%s has %zu rows and %s has %zu; give as many.", prepared->inputs[i].name, here,
-               prepared->inputs[0].name, *rows);
+      snprintf(problem, problem_size, "%s has %zu rows and %s has %zu; give as many.",
+               prepared->inputs[i].name, here, prepared->inputs[0].name, *rows);
       return false;
     }
     *rows = here;
@@ -131,8 +131,8 @@ static mxArray* message_of(char* error) {
   return array;
 }
 
-mxArray* batch_run(object* prepared, const mxArray* const* arrays, size_t input_count, int threads, char* problem,
-                   size_t problem_size) {
+mxArray* batch_run(object* prepared, const mxArray* const* arrays, size_t input_count, int threads,
+                   char* problem, size_t problem_size) {
   if (input_count != prepared->input_count) {
     snprintf(problem, problem_size, "%zu arrays were given for %zu fields; give one for each.", input_count,
              prepared->input_count);
@@ -152,7 +152,8 @@ mxArray* batch_run(object* prepared, const mxArray* const* arrays, size_t input_
   mxArray* statuses = mxCreateNumericMatrix(rows, 1, mxUINT8_CLASS, mxREAL);
   char* error = NULL;
   interrupt_begin(prepared->batch);
-  const int32_t code = sinew_run(prepared->batch, rows, inputs, outputs, mxGetData(statuses), threads, &error);
+  const int32_t code =
+      sinew_run(prepared->batch, rows, inputs, outputs, mxGetData(statuses), threads, &error);
   interrupt_end();
   if (code != SINEW_OK) {
     snprintf(problem, problem_size, "%s", error ? error : "an error of the library; please report it");
@@ -164,6 +165,7 @@ mxArray* batch_run(object* prepared, const mxArray* const* arrays, size_t input_
   put_field(answer, "status", statuses);
   put_field(answer, "message", message_of(error));
   for (size_t o = 0; o < prepared->output_count; ++o)
-    put_field(answer, prepared->outputs[o].name, prepared->outputs[o].rank < 2 ? columns[o] : turned_pages(columns[o]));
+    put_field(answer, prepared->outputs[o].name,
+              prepared->outputs[o].rank < 2 ? columns[o] : turned_pages(columns[o]));
   return answer;
 }

@@ -7,16 +7,26 @@
 double array_number(const mxArray* array, size_t k) {
   const void* data = mxGetData(array);
   switch (mxGetClassID(array)) {
-    case mxSINGLE_CLASS: return (double)((const float*)data)[k];
-    case mxINT8_CLASS: return ((const int8_t*)data)[k];
-    case mxUINT8_CLASS: return ((const uint8_t*)data)[k];
-    case mxINT16_CLASS: return ((const int16_t*)data)[k];
-    case mxUINT16_CLASS: return ((const uint16_t*)data)[k];
-    case mxINT32_CLASS: return ((const int32_t*)data)[k];
-    case mxUINT32_CLASS: return ((const uint32_t*)data)[k];
-    case mxINT64_CLASS: return (double)((const int64_t*)data)[k];
-    case mxUINT64_CLASS: return (double)((const uint64_t*)data)[k];
-    default: return ((const double*)data)[k];
+    case mxSINGLE_CLASS:
+      return (double)((const float*)data)[k];
+    case mxINT8_CLASS:
+      return ((const int8_t*)data)[k];
+    case mxUINT8_CLASS:
+      return ((const uint8_t*)data)[k];
+    case mxINT16_CLASS:
+      return ((const int16_t*)data)[k];
+    case mxUINT16_CLASS:
+      return ((const uint16_t*)data)[k];
+    case mxINT32_CLASS:
+      return ((const int32_t*)data)[k];
+    case mxUINT32_CLASS:
+      return ((const uint32_t*)data)[k];
+    case mxINT64_CLASS:
+      return (double)((const int64_t*)data)[k];
+    case mxUINT64_CLASS:
+      return (double)((const uint64_t*)data)[k];
+    default:
+      return ((const double*)data)[k];
   }
 }
 
@@ -36,11 +46,14 @@ static bool has_rows(const json_writer* out, const char* place, enum field_kind 
   if (!out->takes_columns || columns == 0) return false;
   if (mxGetNumberOfDimensions(array) == 3) return true; /* a row, or a page of rows, a configuration */
   switch (kind) {
-    case FIELD_NUMBER: return rows * columns != 1 || may_be_one;
+    case FIELD_NUMBER:
+      return rows * columns != 1 || may_be_one;
     case FIELD_VECTOR: /* vectors are lists, whichever way they lie */
       return columns == 1 && out->facts->input_count != 1 && rows > 1 ? false : rows != 1 || may_be_one;
-    case FIELD_SECTIONS: return columns == whole_robot(out, place) && (rows != 1 || may_be_one);
-    default: return false;
+    case FIELD_SECTIONS:
+      return columns == whole_robot(out, place) && (rows != 1 || may_be_one);
+    default:
+      return false;
   }
 }
 

@@ -1,6 +1,6 @@
-/* The MEX interface has no way to ask for Ctrl-C, so the signal is taken while the library works. That is enough
- * where Ctrl-C is a signal: in Octave, and in MATLAB without its desktop. Octave blocks it in all threads but one of
- * its own, which waits for it; one that does not block it comes first. */
+/* The MEX interface has no way to ask for Ctrl-C, so the signal is taken while the library works. That is
+ * enough where Ctrl-C is a signal: in Octave, and in MATLAB without its desktop. Octave blocks it in all
+ * threads but one of its own, which waits for it; one that does not block it comes first. */
 #ifndef _WIN32
 #define _POSIX_C_SOURCE 200809L
 #endif

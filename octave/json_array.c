@@ -1,6 +1,6 @@
 /* What Octave and MATLAB have for JSON: a number or a boolean is a scalar, a list of numbers a row, a list of
- * such lists of one length a matrix, a list of objects a struct array with the fields of all of them ([] where
- * one lacks a field), a list of anything else a cell row. null among numbers is NaN, alone []. */
+ * such lists of one length a matrix, a list of objects a struct array with the fields of all of them ([]
+ * where one lacks a field), a list of anything else a cell row. null among numbers is NaN, alone []. */
 #include <string.h>
 
 #include "json_reader.h"
@@ -22,8 +22,7 @@ static mxArray* number_row(const json_node* list) {
 static mxArray* boolean_row(const json_node* list) {
   mxArray* row = mxCreateLogicalMatrix(1, list->size);
   mxLogical* to = mxGetLogicals(row);
-  for (const json_node* element = list->first; element; element = element->next)
-    *to++ = element->number != 0;
+  for (const json_node* element = list->first; element; element = element->next) *to++ = element->number != 0;
   return row;
 }
 
@@ -124,18 +123,25 @@ mxArray* json_to_answer(const json_node* answer) {
   add_members(&fields, answer);
   mxArray* value = mxCreateStructMatrix(1, 1, fields.count, fields.names);
   put_members(value, &fields, 0, answer);
-  mxSetFieldByNumber(value, 0, 0, mxCreateLogicalScalar(strcmp(json_member_text(answer, "status"), "converged") == 0));
+  mxSetFieldByNumber(value, 0, 0,
+                     mxCreateLogicalScalar(strcmp(json_member_text(answer, "status"), "converged") == 0));
   if (!json_member(answer, "message")) mxSetFieldByNumber(value, 0, 2, text_to_array("", 0));
   return value;
 }
 
 mxArray* json_to_array(const json_node* node) {
   switch (node->type) {
-    case JSON_BOOLEAN: return mxCreateLogicalScalar(node->number != 0);
-    case JSON_NUMBER: return mxCreateDoubleScalar(node->number);
-    case JSON_TEXT: return text_to_array(node->text, node->size);
-    case JSON_LIST: return list_to_array(node);
-    case JSON_OBJECT: return struct_row(node, 1);
-    default: return mxCreateDoubleMatrix(0, 0, mxREAL);
+    case JSON_BOOLEAN:
+      return mxCreateLogicalScalar(node->number != 0);
+    case JSON_NUMBER:
+      return mxCreateDoubleScalar(node->number);
+    case JSON_TEXT:
+      return text_to_array(node->text, node->size);
+    case JSON_LIST:
+      return list_to_array(node);
+    case JSON_OBJECT:
+      return struct_row(node, 1);
+    default:
+      return mxCreateDoubleMatrix(0, 0, mxREAL);
   }
 }

@@ -161,13 +161,26 @@ static json_node* value(reader* in) {
   ++in->depth;
   json_node* node;
   switch (*in->at) {
-    case '{': ++in->at, node = list(in, '}', JSON_OBJECT); break;
-    case '[': ++in->at, node = list(in, ']', JSON_LIST); break;
-    case '"': ++in->at, node = text(in); break;
-    case 't': node = word(in, "true", JSON_BOOLEAN, 1); break;
-    case 'f': node = word(in, "false", JSON_BOOLEAN, 0); break;
-    case 'n': node = word(in, "null", JSON_NULL, mxGetNaN()); break;
-    default: node = number(in);
+    case '{':
+      ++in->at, node = list(in, '}', JSON_OBJECT);
+      break;
+    case '[':
+      ++in->at, node = list(in, ']', JSON_LIST);
+      break;
+    case '"':
+      ++in->at, node = text(in);
+      break;
+    case 't':
+      node = word(in, "true", JSON_BOOLEAN, 1);
+      break;
+    case 'f':
+      node = word(in, "false", JSON_BOOLEAN, 0);
+      break;
+    case 'n':
+      node = word(in, "null", JSON_NULL, mxGetNaN());
+      break;
+    default:
+      node = number(in);
   }
   --in->depth;
   return in->failed ? NULL : node;

@@ -33,7 +33,8 @@ const char* json_member_text(const json_node* object, const char* key);
 
 mxArray* json_to_array(const json_node* node);
 
-/* An answer, an object, which begins with ok (status is converged), status and message ('' where there is none). */
+/* An answer, an object, which begins with ok (status is converged), status and message ('' where there is
+ * none). */
 mxArray* json_to_answer(const json_node* answer);
 
 #endif

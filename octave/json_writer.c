@@ -140,7 +140,8 @@ static void put_booleans(json_writer* out, const char* place, enum field_kind ki
   const size_t count = mxGetNumberOfElements(array);
   const bool is_list = count != 1 || kind == FIELD_LIST || kind == FIELD_VECTOR;
   if (is_list) put(out, "[");
-  for (size_t k = 0; k < count; ++k) put(out, k > 0 ? values[k] ? ",true" : ",false" : values[k] ? "true" : "false");
+  for (size_t k = 0; k < count; ++k)
+    put(out, k > 0 ? values[k] ? ",true" : ",false" : values[k] ? "true" : "false");
   if (is_list) put(out, "]");
 }
 
@@ -211,7 +212,8 @@ void json_put_value(json_writer* out, const char* place, enum field_kind kind, c
   } else if (mxIsStruct(array) || mxIsCell(array)) {
     put_elements(out, place, kind, array);
   } else {
-    json_problem(out, "%s is a %s; give numbers, text, a cell array or a struct.", place, mxGetClassName(array));
+    json_problem(out, "%s is a %s; give numbers, text, a cell array or a struct.", place,
+                 mxGetClassName(array));
   }
   --out->depth;
 }

@@ -1,8 +1,9 @@
 /* Octave's and MATLAB's arrays as the JSON of a question.
  *
- * A matrix where a field has one list, or a vector where it has one number, holds a row a configuration: a text
- * "$name" stands in the question in its place, and the array is kept as a column for sinew_run, which reads it
- * where it lies. */
+ * A matrix where a field has one list, or a vector where it has one number, holds a row a configuration: a
+ * text
+ * "$name" stands in the question in its place, and the array is kept as a column for sinew_run, which reads
+ * it where it lies. */
 #ifndef SINEW_OCTAVE_JSON_WRITER_H
 #define SINEW_OCTAVE_JSON_WRITER_H
 

@@ -1,4 +1,5 @@
-/* What is open: robots with their sessions, and prepared questions, each under a number that is given once. */
+/* What is open: robots with their sessions, and prepared questions, each under a number that is given once.
+ */
 #ifndef SINEW_OCTAVE_OBJECTS_H
 #define SINEW_OCTAVE_OBJECTS_H
 
@@ -28,7 +29,8 @@ typedef struct object {
   struct object* next;
 } object;
 
-/* A new object that uses this robot; NULL where there is no memory. While there is one, the MEX file stays. */
+/* A new object that uses this robot; NULL where there is no memory. While there is one, the MEX file stays.
+ */
 object* object_new(shared_robot* shared);
 object* object_find(double number); /* or NULL */
 void object_close(object* closed);

@@ -51,7 +51,8 @@ static void put_outputs(json_writer* out, const mxArray* places) {
 }
 
 static void read_threads(json_writer* out, const mxArray* value, int* threads) {
-  const double number = mxIsDouble(value) && !mxIsSparse(value) && mxGetNumberOfElements(value) == 1 ? mxGetScalar(value) : -1;
+  const double number =
+      mxIsDouble(value) && !mxIsSparse(value) && mxGetNumberOfElements(value) == 1 ? mxGetScalar(value) : -1;
   if (!(number >= 0 && number <= 1000 && number == (int)number))
     json_problem(out, "threads: give a whole number, 0 (as many as there are cores) to 1000.");
   else

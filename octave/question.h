@@ -4,8 +4,8 @@
 
 #include "json_writer.h"
 
-/* Writes the question, with `settings` (paths and values in turn) as its `set`. `threads` becomes what a field of
- * that name says. */
+/* Writes the question, with `settings` (paths and values in turn) as its `set`. `threads` becomes what a
+ * field of that name says. */
 void question_write(json_writer* out, const mxArray* query, const mxArray* fields, const mxArray* settings,
                     int* threads);
 

@@ -112,7 +112,8 @@ static result open_text(const char* source, size_t size, int32_t kind) {
 static result open_robot(int count, const mxArray* const* in) {
   size_t size, kind_size;
   const char* kind = count == 2 ? array_to_text(in[1], &kind_size) : NULL;
-  if (sinew_abi() != SINEW_ABI) return failed("failed", "sinew_mex and the library are of different versions");
+  if (sinew_abi() != SINEW_ABI)
+    return failed("failed", "sinew_mex and the library are of different versions");
   if (kind && strcmp(kind, "struct") == 0) {
     json_writer out;
     json_begin(&out, NULL, "robot");
@@ -233,8 +234,9 @@ static result close_object(int count, const mxArray* const* in) {
 static const struct {
   const char* name;
   result (*call)(int count, const mxArray* const* in);
-} commands[] = {{"open", open_robot}, {"share", share},   {"ask", ask_fields}, {"ask_text", ask_text}, {"json", ask_json},
-                {"prepare", prepare}, {"fields", fields}, {"run", run},        {"close", close_object}};
+} commands[] = {{"open", open_robot},   {"share", share},   {"ask", ask_fields},
+                {"ask_text", ask_text}, {"json", ask_json}, {"prepare", prepare},
+                {"fields", fields},     {"run", run},       {"close", close_object}};
 
 static result called(int count, const mxArray* const* in) {
   size_t size;

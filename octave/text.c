@@ -58,7 +58,8 @@ size_t utf8_from_code(char* to, uint32_t code) {
 
 char* array_to_text(const mxArray* array, size_t* size) {
   const size_t count = mxGetNumberOfElements(array);
-  if (!mxIsChar(array) || mxGetNumberOfDimensions(array) > 2 || (count > 0 && mxGetM(array) != 1)) return NULL;
+  if (!mxIsChar(array) || mxGetNumberOfDimensions(array) > 2 || (count > 0 && mxGetM(array) != 1))
+    return NULL;
   char* text = mxMalloc(3 * count + 1);
   const mxChar* from = count > 0 ? mxGetChars(array) : NULL;
   size_t length = 0;

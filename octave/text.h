@@ -1,4 +1,5 @@
-/* Text between the library, which has UTF-8, and the host: Octave's characters are its bytes, MATLAB's UTF-16. */
+/* Text between the library, which has UTF-8, and the host: Octave's characters are its bytes, MATLAB's
+ * UTF-16. */
 #ifndef SINEW_OCTAVE_TEXT_H
 #define SINEW_OCTAVE_TEXT_H
 
