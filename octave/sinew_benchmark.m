@@ -20,8 +20,9 @@ function sinew_benchmark ()
   sinew_mex ('close', number);
 
   rows = 200000;
-  lengths = 0.42 + 0.02 * rand (rows, 3);
-  many = rod.prepare ('forward', 'inputs', '$L');
+  angle = 2 * pi * (1:rows).' / 1000;  % a walk of small steps
+  lengths = 0.42 + 0.01 * [sin(angle), cos(angle), sin(2 * angle)];
+  many = rod.prepare ('forward', 'inputs', '$L', 'path', 'continue');
   fprintf ('forward of 3PFS-G2, %d rows (%s)\n', rows, many.method);
   for threads = [1 0]
     tic;

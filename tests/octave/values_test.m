@@ -38,6 +38,11 @@ t = r.track ('from', struct ('z', 0.39, 'e1', 0, 'e2', 0), 'to', struct ('z', 0.
 assert (size (t.rows), [1 3]);
 assert (size (vertcat (t.rows.inputs)), [3 3]);
 
+p = sinew ('3-rfr').track ('poses', struct ('x', {0, 0.01, 0.02}, 'y', 0, 'phi', 0));
+assert (size (p.rows), [1 3]);
+assert (isequal (sinew ('3-rfr').track ('poses', [p.rows.pose]).rows, p.rows));
+assert (size (sinew ('3-rfr').track ('poses', p.rows(1).pose).rows), [1 1]);
+
 % Lists of one, texts for lists, logicals, integers, singles, columns for rows.
 assert (isfield (r.forward ([0.44 0.42 0.41], 'want', 'stiffness'), 'stiffness'));
 assert (isfield (r.forward ([0.44 0.42 0.41], 'want', {'stiffness'}), 'stiffness'));
