@@ -116,7 +116,8 @@ static mxArray* status_ok(const mxArray* statuses) {
 }
 
 static void put_field(mxArray* answer, const char* name, mxArray* value) {
-  const int field = mxAddField(answer, name);
+  int field = mxGetFieldNumber(answer, name);
+  if (field < 0) field = mxAddField(answer, name);
   if (field >= 0) mxSetFieldByNumber(answer, 0, field, value);
 }
 
@@ -129,6 +130,17 @@ static mxArray* message_of(char* error) {
   mxArray* array = text_to_array(message, strlen(message));
   sinew_free(error);
   return array;
+}
+
+static mxArray* answer_of(const object* prepared, mxArray** columns, mxArray* statuses, char* error) {
+  mxArray* answer = mxCreateStructMatrix(1, 1, 0, NULL);
+  put_field(answer, "ok", status_ok(statuses));
+  put_field(answer, "status", statuses);
+  put_field(answer, "message", message_of(error));
+  for (size_t o = 0; o < prepared->output_count; ++o)
+    put_field(answer, prepared->outputs[o].name,
+              prepared->outputs[o].rank < 2 ? columns[o] : turned_pages(columns[o]));
+  return answer;
 }
 
 mxArray* batch_run(object* prepared, const mxArray* const* arrays, size_t input_count, int threads,
@@ -145,9 +157,7 @@ mxArray* batch_run(object* prepared, const mxArray* const* arrays, size_t input_
   if (!read_inputs(prepared, arrays, inputs, &rows, problem, problem_size)) return NULL;
   for (size_t o = 0; o < prepared->output_count; ++o) {
     columns[o] = output_array(&prepared->outputs[o], rows);
-    outputs[o].data = mxGetPr(columns[o]);
-    outputs[o].stride = sizeof(double);
-    outputs[o].step = (ptrdiff_t)(rows * sizeof(double));
+    outputs[o] = (sinew_output){mxGetPr(columns[o]), sizeof(double), (ptrdiff_t)(rows * sizeof(double))};
   }
   mxArray* statuses = mxCreateNumericMatrix(rows, 1, mxUINT8_CLASS, mxREAL);
   char* error = NULL;
@@ -155,17 +165,8 @@ mxArray* batch_run(object* prepared, const mxArray* const* arrays, size_t input_
   const int32_t code =
       sinew_run(prepared->batch, rows, inputs, outputs, mxGetData(statuses), threads, &error);
   interrupt_end();
-  if (code != SINEW_OK) {
-    snprintf(problem, problem_size, "%s", error ? error : "an error of the library; please report it");
-    sinew_free(error);
-    return NULL;
-  }
-  mxArray* answer = mxCreateStructMatrix(1, 1, 0, NULL);
-  put_field(answer, "ok", status_ok(statuses));
-  put_field(answer, "status", statuses);
-  put_field(answer, "message", message_of(error));
-  for (size_t o = 0; o < prepared->output_count; ++o)
-    put_field(answer, prepared->outputs[o].name,
-              prepared->outputs[o].rank < 2 ? columns[o] : turned_pages(columns[o]));
-  return answer;
+  if (code == SINEW_OK) return answer_of(prepared, columns, statuses, error);
+  snprintf(problem, problem_size, "%s", error ? error : "an error of the library; please report it");
+  sinew_free(error);
+  return NULL;
 }

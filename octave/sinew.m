@@ -180,7 +180,9 @@ classdef sinew < handle
       known(256) = {'failed'};
       names = reshape (known(double (codes) + 1), size (codes));
     end
+  end
 
+  methods (Static, Hidden)
     function value = checked (varargin)
       % What sinew_mex gives, or its error.
       [value, id, message] = sinew_mex (varargin{:});

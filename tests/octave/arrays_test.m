@@ -56,6 +56,8 @@ assert (r.forward (L, 'outputs', struct ('z', 'pose.position[2]')).z, c.position
 k = r.velocity (L, 'outputs', {'K'}).K;
 assert (squeeze (k(4, :, :)), v.K, 1e-6);
 
+assert (size (r.forward (L, 'outputs', struct ('ok', 'pose.position[2]')).ok), [n 1]);  % what was asked for
+
 % A batch of one and of none.
 assert (size (r.forward (L(1, :), 'threads', 1).position), [1 3]);
 assert (size (r.forward (zeros (0, 3)).position), [0 3]);
