@@ -4,6 +4,7 @@
 #   ./run.sh                 inverse kinematics of a robot and a figure of a paper, into out/
 #   ./run.sh ARGUMENTS...    the sinew command, e.g. ./run.sh forward ROBOT --json
 #   ./run.sh serve ROBOT     the viewer in a browser; installs Node where it is missing
+#   ./run.sh octave          the module of Octave, into build/octave; installs Octave where it is missing
 #   ./run.sh --yes ...       the same, and installs packages without asking
 set -euo pipefail
 caller=$PWD
@@ -19,6 +20,7 @@ if [[ ${1-} == --yes ]]; then
 fi
 
 with_page=0
+with_octave=0
 sinew=build/release/bin/sinew
 stamp=build/release/.built  # as old as the start of the last build that succeeded
 
@@ -27,7 +29,8 @@ up_to_date() {
   local input
   [[ -x $sinew && -e $stamp ]] || return 1
   ((!with_page)) || grep -q '^SINEW_WEB:BOOL=ON' build/release/CMakeCache.txt || return 1
-  for input in CMakeLists.txt CMakePresets.json cmake kernel include src server cli robots studies \
+  ((!with_octave)) || grep -q '^SINEW_OCTAVE:STRING=ON' build/release/CMakeCache.txt || return 1
+  for input in CMakeLists.txt CMakePresets.json cmake kernel include src server cli robots studies octave \
     web/src web/index.html web/build.mjs web/package-lock.json; do
     if [[ -e $input ]]; then inputs+=("$input"); fi
   done
@@ -39,6 +42,10 @@ if [[ ${1-} == serve ]]; then  # the page needs more to be built; once built it 
   need_packages "$yes" "${web_packages[@]}"
   with_page=1
 fi
+if [[ ${1-} == octave ]]; then
+  need_packages "$yes" "${octave_packages[@]}"
+  with_octave=1
+fi
 if ! up_to_date; then
   mkdir -p build/release
   exec 9>build/release/.lock
@@ -46,12 +53,22 @@ if ! up_to_date; then
   if ! up_to_date; then  # another run may just have built it
     touch build/release/.started
     # shellcheck disable=SC2086
-    build_preset release ${SINEW_CMAKE_ARGUMENTS-} $( ((with_page)) && echo -D SINEW_WEB=ON)
+    build_preset release ${SINEW_CMAKE_ARGUMENTS-} $( ((with_page)) && echo -D SINEW_WEB=ON) \
+      $( ((with_octave)) && echo -D SINEW_OCTAVE=ON)
     mv build/release/.started "$stamp"
   fi
   exec 9>&-
 fi
 
+if ((with_octave)); then
+  mkdir -p build/octave
+  cp build/release/octave/*.m build/release/octave/sinew_mex.mex build/octave/
+  echo "In Octave, or in ~/.octaverc for every session:"
+  echo "  addpath (\"$root/build/octave\")"
+  echo "Then for example:"
+  echo "  r = sinew (\"3pfs-g2\"); a = r.forward ([0.44 0.42 0.41]); a.pose.position"
+  exit
+fi
 if (($#)); then
   cd -- "$caller"
   exec "$root/$sinew" "$@"

@@ -13,7 +13,7 @@ import sys
 # Top to bottom. A layer includes itself and everything in the rows below it; layers in one row do not include
 # each other, but for the pairs in SIBLINGS.
 ROWS = [
-    ["cli", "server", "python", "firmware"],
+    ["cli", "server", "python", "octave", "firmware"],
     ["study", "abi"],
     ["query"],
     ["plan"],

@@ -14,6 +14,8 @@ sanitizer_packages=(clang lld libclang-rt-14-dev)
 # ... what planning needs (sinew::plan, which is left out without it), ...
 # shellcheck disable=SC2034
 plan_packages=(libfcl-dev libassimp-dev)
+# ... what the module of Octave needs, ...
+octave_packages=(octave octave-dev)
 # ... and what the tests and benchmarks need beside it. ccache saves compiling the library again for the packaging tests.
 # Doxygen and Sphinx make the reference of the C++ interface and the site. Last, what builds and runs the firmware: the cross
 # compilers of ATmega2560 and Cortex-M with their simulators, the tools of the Verilog core, and a browser.
@@ -21,7 +23,7 @@ plan_packages=(libfcl-dev libassimp-dev)
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
                doxygen python3-sphinx python3-myst-parser
                python3-yaml python3-h5py ccache libopenmpi-dev openmpi-bin
-               gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys "${web_packages[@]}" chromium-headless-shell)
+               gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys "${octave_packages[@]}" "${web_packages[@]}" chromium-headless-shell)
 
 say() { printf '%s\n' "$*" >&2; }
 

@@ -1,7 +1,5 @@
 #include "sinew/query/batch.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -9,138 +7,90 @@
 #include <thread>
 #include <vector>
 
-#include "io/quantity.hpp"
-#include "query/batch/answer_path.hpp"
+#include "query/batch/batch_state.hpp"
 #include "query/batch/placeholders.hpp"
-#include "query/batch/sampler.hpp"
 #include "query/tree_session.hpp"
 #include "sinew/base/numbers.hpp"
-#include "sinew/io/robot_file.hpp"
-#include "sinew/robot/serial.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-/// Where a number stands: `pose.position[2]`.
-void collect(const Node& node, const std::string& path,
-             std::vector<std::pair<std::string, std::string>>& found) {
-  if (node.kind == Node::Kind::string && node.text.starts_with('$')) {
-    const std::string name = node.text.substr(1);
-    if (std::ranges::find(found, name, &std::pair<std::string, std::string>::first) == found.end())
-      found.emplace_back(name, path);
-  }
-  for (std::size_t i = 0; i < node.items.size(); ++i)
-    collect(node.items[i], fmt::format("{}[{}]", path, i), found);
-  for (const Member& member : node.members)
-    collect(member.value, path.empty() ? member.key : path + '.' + member.key, found);
+/// Each number of each field by itself.
+template <class Number>
+void place_columns(std::span<const Batch::Field> fields, std::span<const Batch::Strided<Number>> arrays,
+                   std::vector<SampleColumn<Number>>& columns) {
+  columns.clear();
+  for (std::size_t f = 0; f < fields.size(); ++f)
+    for (std::size_t i = 0, count = fields[f].size(); i < count; ++i)
+      columns.push_back({&arrays[f](0, i), arrays[f].stride});
 }
-
-/// Of a place of a question or an answer; of inputs it is the robot's.
-std::string unit_of_place(const Robot& robot, std::string_view path) {
-  if (path.starts_with("inputs[") && !robot.serial()) {
-    const auto inputs = inputs_of(robot);
-    const auto index = static_cast<std::size_t>(std::atoi(path.data() + 7));
-    return index < inputs.size() ? std::string(unit(inputs[index].kind.dimension)) : std::string();
-  }
-  if (path.starts_with("wrench[") || path.starts_with("until.wrench[")) {
-    const int index = std::atoi(path.data() + path.rfind('[') + 1);
-    return index < (robot.planar() ? 2 : 3) ? "N" : "N m";
-  }
-  return std::string(unit_of_answer(path));
-}
-
-/// What people ask a question for.
-std::vector<std::pair<std::string, std::string>> usual_outputs(const Robot& robot, std::string_view query) {
-  std::vector<std::pair<std::string, std::string>> usual;
-  const auto add_pose = [&](const std::string& place) {
-    constexpr std::string_view axes[] = {"x", "y", "z"};
-    for (int i = 0; i < 3; ++i)
-      usual.emplace_back(axes[i], robot.planar() ? fmt::format("{}.{}", place, i == 2 ? "phi" : axes[i])
-                                                 : fmt::format("{}.position[{}]", place, i));
-    if (robot.planar()) usual.back().first = "phi";
-    for (int i = 0; i < 4 && !robot.planar(); ++i)
-      usual.emplace_back(fmt::format("e{}", i), fmt::format("{}.quaternion[{}]", place, i));
-  };
-  if (const SerialRobot* serial = robot.serial()) {
-    add_pose("tip");
-    for (std::size_t m = 0; m < serial->sections.size(); ++m)
-      for (int i = 0; i < serial->sections[m].tendons; ++i)
-        usual.emplace_back(fmt::format("changes_{}_{}", m, i), fmt::format("changes[{}][{}]", m, i));
-  } else if (query == "velocity") {
-    if (!has_rods(robot)) usual.emplace_back("determinant", "determinant");
-    for (const char* index : {"position", "rotation"})
-      usual.emplace_back(index, fmt::format("indices.{}", index));
-  } else if (query == "inverse") {
-    for (int k = 0; k < input_count(robot); ++k)
-      usual.emplace_back(fmt::format("inputs_{}", k), fmt::format("inputs[{}]", k));
-  } else {
-    add_pose("pose");
-  }
-  return usual;
-}
-
-/// What a thread computes a chunk in.
-struct Memory {
-  std::vector<double> inputs, outputs;
-  std::vector<SampleStatus> statuses;
-};
 
 std::uint8_t status_of(SampleStatus status) {
+  if (status <= converged) return status;
   if (status == not_computed) return static_cast<std::uint8_t>(Status::stopped);
-  if (status == refused) return static_cast<std::uint8_t>(Status::bad_input);
-  if (status == failed_inside) return Batch::failed;
-  return status;
+  return status == refused ? static_cast<std::uint8_t>(Status::bad_input) : Batch::failed;
+}
+
+/// Rows, and where they lie.
+struct Rows {
+  std::size_t count, chunk;
+  std::span<const SampleColumn<const double>> inputs;
+  std::span<const SampleColumn<double>> outputs;
+  std::span<std::uint8_t> statuses;  ///< may be empty
+  const std::atomic<bool>* stop;
+
+  std::size_t chunks() const { return (count + chunk - 1) / chunk; }
+
+  void compute(std::size_t number, BatchMemory& memory) const {
+    const std::size_t first = number * chunk, size = std::min(chunk, count - first);
+    if (statuses.empty()) memory.statuses.resize(size);
+    const auto own = statuses.empty() ? std::span(memory.statuses) : statuses.subspan(first, size);
+    std::ranges::fill(own, not_computed);
+    std::atomic<std::size_t> done{0};
+    if (!*stop) memory.sample({size, inputs, outputs, own, &done, stop, first});
+    for (std::size_t k = 0; k < size; ++k) {
+      if (own[k] == not_computed)
+        for (const auto& column : outputs) column[first + k] = not_a_number;
+      own[k] = status_of(own[k]);
+    }
+  }
+};
+
+/// On threads of their own; throws what one of them throws.
+void compute_on_threads(const Rows& rows, std::size_t threads, BatchMemories& memories,
+                        const SamplerKind& kind) {
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> thrown(threads);
+  const auto work = [&](std::size_t thread) {
+    try {
+      const BatchMemories::Lent memory(memories, kind);
+      for (std::size_t c = next++; c < rows.chunks(); c = next++) rows.compute(c, *memory);
+    } catch (...) {
+      thrown[thread] = std::current_exception();
+      next = rows.chunks();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t t = 1; t < threads; ++t) others.emplace_back(work, t);
+    work(0);
+  }
+  for (const std::exception_ptr& one : thrown)
+    if (one) std::rethrow_exception(one);
 }
 
 }  // namespace
 
-struct Batch::State {
-  BatchQuestion question;
-  std::vector<Column> inputs, outputs;
-  SamplerKind kind;
-};
+std::size_t Batch::Field::size() const {
+  std::size_t numbers = 1;
+  for (const std::size_t length : shape) numbers *= length;
+  return numbers;
+}
 
 Batch::Batch(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
-Expected<Batch> Batch::prepare(const Document& robot, const Document& asked) {
-  const auto read = read_robot(robot);
-  if (!read) return tl::unexpected(read.error());
-  State state{
-      {.robot = robot, .query = {"query", {}}, .inputs = {}, .outputs = {}, .is_path = false}, {}, {}, {}};
-  Errors errors;
-  Reader reader(asked, errors);
-  if (!reader.is(Node::Kind::map))
-    return failure("wrong_type", "query", "give the fields of a query as a map");
-  if (const auto path = reader.optional("path"))
-    state.question.is_path = path->choice({"continue", "anew"}) == "continue";
-  std::vector<std::pair<std::string, std::string>> outputs;
-  if (const auto named = reader.optional("outputs"))
-    for (auto& [name, place] : named->members()) outputs.emplace_back(name, place.text());
-  if (!errors.empty()) return tl::unexpected(std::move(errors));
-  state.question.query.root.kind = Node::Kind::map;
-  for (const Member& field : asked.root.members)
-    if (field.key != "path" && field.key != "outputs") state.question.query.root.members.push_back(field);
-  std::vector<std::pair<std::string, std::string>> inputs;
-  collect(state.question.query.root, "", inputs);
-  if (inputs.empty())
-    return failure("no_inputs", "query", "no column goes in: write texts like \"$x\" where its numbers go");
-  for (const auto& [name, place] : inputs) {
-    state.question.inputs.push_back(name);
-    state.inputs.push_back({name, unit_of_place(*read, place)});
-  }
-  const Node* query = state.question.query.root.find("query");
-  if (outputs.empty())
-    outputs = usual_outputs(*read, query ? std::string_view(query->text) : std::string_view());
-  for (const auto& [name, place] : outputs) {
-    state.question.outputs.push_back(place);
-    state.outputs.push_back({name, unit_of_place(*read, place)});
-  }
-  state.kind = choose_sampler(state.question);
-  return Batch(std::make_shared<const State>(std::move(state)));
-}
-
-std::span<const Batch::Column> Batch::inputs() const { return state_->inputs; }
-std::span<const Batch::Column> Batch::outputs() const { return state_->outputs; }
+std::span<const Batch::Field> Batch::inputs() const { return state_->inputs; }
+std::span<const Batch::Field> Batch::outputs() const { return state_->outputs; }
 std::string_view Batch::method() const { return state_->kind.name; }
 
 void Batch::run(std::size_t rows, std::span<const Strided<const double>> inputs,
@@ -149,44 +99,18 @@ void Batch::run(std::size_t rows, std::span<const Strided<const double>> inputs,
   if (inputs.size() != state_->inputs.size() || outputs.size() != state_->outputs.size() ||
       (!statuses.empty() && statuses.size() != rows) || rows == 0)
     return;
-  const std::size_t size = chunk_size(state_->kind, rows), chunks = (rows + size - 1) / size;
-  const std::atomic<bool> never{false};
-  const std::atomic<bool>& stop = options.stop ? *options.stop : never;
-  std::atomic<std::size_t> next{0}, done{0};
-  const auto compute = [&](const Sampler& sample, std::size_t first, std::size_t count, Memory& memory) {
-    memory.inputs.resize(inputs.size() * count);
-    memory.outputs.assign(outputs.size() * count, not_a_number);
-    memory.statuses.assign(count, not_computed);
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-      for (std::size_t k = 0; k < count; ++k) memory.inputs[i * count + k] = inputs[i][first + k];
-    if (!stop) sample({count, memory.inputs, memory.outputs, memory.statuses, &done, &stop});
-    for (std::size_t o = 0; o < outputs.size(); ++o)
-      for (std::size_t k = 0; k < count; ++k) outputs[o][first + k] = memory.outputs[o * count + k];
-    for (std::size_t k = 0; k < count && !statuses.empty(); ++k)
-      statuses[first + k] = status_of(memory.statuses[k]);
-  };
-  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  const std::size_t wanted =
-      std::min(options.threads > 0 ? static_cast<std::size_t>(options.threads) : cores, chunks);
-  std::vector<std::exception_ptr> thrown(wanted);
-  const auto work = [&](std::size_t thread) {
-    try {
-      const Sampler sample = state_->kind.make();
-      Memory memory;
-      for (std::size_t c = next++; c < chunks; c = next++)
-        compute(sample, c * size, std::min(size, rows - c * size), memory);
-    } catch (...) {
-      thrown[thread] = std::current_exception();
-      next = chunks;
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t t = 1; t < wanted; ++t) others.emplace_back(work, t);
-    work(0);
-  }
-  for (const std::exception_ptr& one : thrown)
-    if (one) std::rethrow_exception(one);
+  static constexpr std::atomic<bool> never{false};
+  constexpr std::size_t most_chunks = 64;  // to share; each begins anew
+  const BatchMemories::Lent memory(state_->memories, state_->kind);
+  place_columns<const double>(state_->inputs, inputs, memory->inputs);
+  place_columns<double>(state_->outputs, outputs, memory->outputs);
+  const Rows all{rows,     chunk_size(state_->kind, rows, most_chunks), memory->inputs, memory->outputs,
+                 statuses, options.stop ? options.stop : &never};
+  std::size_t threads = options.threads > 0 ? static_cast<std::size_t>(options.threads) : 0;
+  if (threads == 0 && all.chunks() > 1) threads = std::max(1U, std::thread::hardware_concurrency());
+  threads = std::min(threads, all.chunks());
+  if (threads > 1) return compute_on_threads(all, threads, state_->memories, state_->kind);
+  for (std::size_t c = 0; c < all.chunks(); ++c) all.compute(c, *memory);
 }
 
 std::string Batch::answer(std::span<const double> inputs) const {
