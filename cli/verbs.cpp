@@ -7,174 +7,12 @@
 namespace sinew::cli {
 namespace {
 
-constexpr std::array options{
-    Option{"inputs", "\"A, B, ...\"",
-           "in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its length; where the "
-           "leg "
-           "has a motor, theta, an angle, before it"},
-    Option{
-        "pose", "\"X, Y, PHI\"",
-        "pose of the platform; in space X, Y, Z and rotation vector, or X, Y, Z and quaternion W, X, Y, Z"},
-    Option{"independent", "\"Z, E1, E2\"",
-           "in place of --pose where hinges hold the platform in planes, or rods hold it: height and two "
-           "components of its quaternion; a fourth value, half_turn, is the mode with E0 = 0 of hinges"},
-    Option{"configuration", "\"A, B; ...\"",
-           "of a serial robot two angles a section: theta, phi of a neutral backbone, beta_1, beta_2 of twin "
-           "pivots; and, where its length varies, its extension; sections not given are straight"},
-    Option{"position", "\"X, Y, Z\"", "of a serial robot's tip"},
-    Option{"direction", "\"X, Y, Z\"", "in which a serial robot's tip points"},
-    Option{"changes", "\"A, B, C; ...\"",
-           "of a serial robot the change of each tendon, > 0 pays out, section after section"},
-    Option{
-        "slack", "\"A, B, ...\"",
-        "of a serial robot's configuration what each section's tendons are paid out beyond it; < 0 stiffens"},
-    Option{"measured", "\"A, B, C; ...\"", "changes that encoders read, beside those commanded"},
-    Option{"section", "N", "which section, from 0"},
-    Option{"tolerance", "LENGTH", "of a tendon before it counts as slack or too short; default the file's"},
-    Option{"envelope", "NAME", "bends a section is allowed: square, disc or actuator; default its limit"},
-    Option{"from", "\"X, Y, PHI\"",
-           "first pose of a path, written like --pose, of rods with three inputs like --independent"},
-    Option{"to", "\"X, Y, PHI\"|LANGUAGE", "last pose of a path; of export the language: c-header, verilog"},
-    Option{"to-inputs", "\"A, B, ...\"", "of branches the inputs where the curve leads"},
-    Option{"to-tensions", "\"A, B; ...\"", "of branches on chains the tensions where the curve leads"},
-    Option{"to-lengths", "\"A, -; ...\"", "of branches on chains the tendon lengths where the curve leads"},
-    Option{"to-wrench", "\"FX, FY, FZ, MX, MY, MZ\"", "of branches the wrench where the curve leads"},
-    Option{"range", "\"LOW, HIGH\"",
-           "of branches how far: 0 is the beginning, 1 what is led to; default \"0, 1\""},
-    Option{"backward", "", "of branches: set out the other way"},
-    Option{"poses", "FILE", "the path as a table: a .csv file of poses"},
-    Option{"samples", "N",
-           "poses on a path; default 60; of branches points on a curve, at most; default 500"},
-    Option{"objective", "NAME",
-           "what redundant legs do with their freedom: limits, singularity, smooth or none"},
-    Option{"start", "\"A, B, ...\"",
-           "where the search begins: a pose, of inverse and track inputs; default the robot's home"},
-    Option{"bending", "\"+,-,+\"", "sign of each leg's curvature"},
-    Option{"elbow", "\"+,-,+\"",
-           "side to which the strut of each leg turns, where the leg has a motor or a rail"},
-    Option{"curvature", "\"A, B, ...\"", "a curvature for each leg; the nearest solution is taken"},
-    Option{"theta-is", "NAME", "what an input theta is the angle of: tangent (default) or chord"},
-    Option{"twist", "\"VX, VY, W\"",
-           "velocity and turning rate of the platform, in space three each, of rods with three inputs VZ, "
-           "WX, WY "
-           "alone, too; answers the rates of the inputs"},
-    Option{"wrench", "\"FX, FY, FZ, MX, MY, MZ\"",
-           "force and moment on the platform, about its reference point, in base axes (in the plane FX, FY, "
-           "M); of rods and of pseudo-rigid chains"},
-    Option{"gravity", "\"X, Y, Z\"", "of rods and platforms that have a mass [m/s2]; default the file's"},
-    Option{"set-at", "\"X, Y, PHI\"",
-           "of statics, and of branches on chains, the pose at which the tendons are set without load, the "
-           "outer ones loose"},
-    Option{"hold", "NAME", "what stays after --set-at or with --pose: tension (default) or length"},
-    Option{"tensions", "\"A, B; ...\"", "of statics, of both tendons of each leg"},
-    Option{"lengths", "\"A, -; ...\"", "of statics, the tendon of each leg whose length is held; - is loose"},
-    Option{"axial-forces", "\"A, B, ...\"",
-           "of statics, what each of six rods pulls at its guide; answers the wrench on the platform"},
-    Option{"measured-tensions", "\"A, B, ...\"",
-           "of statics, what the tendons at --lengths pull, a leg each; answers the wrench on the platform"},
-    Option{"deviation", "FORCE", "standard deviation of these; answers how well the wrench is known"},
-    Option{"law", "NAME",
-           "of chains: M0w (default, ends weighted), M0 (the paper's), M1 (tendons straight between discs)"},
-    Option{"posture-threshold", "ANGLE", "turn of a joint up to which the linear model counts as valid"},
-    Option{"rk4-steps", "N",
-           "of track with --model prb: Runge-Kutta steps between poses; default the flow itself"},
-    Option{"want", "NAME,NAME", "of a robot that bears load: stiffness, stability, margins, sensitivity"},
-    Option{"until", "\"FX, FY, FZ, MX, MY, MZ\"",
-           "add this wrench again and again until the robot buckles, or --limit is reached"},
-    Option{"limit", "N", "how many times --until adds its wrench at most; of diagram the envelope's size"},
-    Option{"all", "", "every solution, not only the one wanted"},
-    Option{"max-iterations", "N", "most iterations of the solver; default 100, of rods 4000"},
-    Option{"model", "NAME",
-           "model of the legs: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, "
-           "rigid, "
-           "rod (Kirchhoff). Of the tendons of a serial robot: pcc (exact) or lsk (linearised)"},
-    Option{"set", "PATH=VALUE", "change the robot, e.g. \"legs[0].link.length=180 mm\"; may be repeated", 0,
-           true},
-    Option{"output", "FILE",
-           "where to write: a folder for reproduce (default: out), a figure for plot, a .csv for track; of "
-           "export a file, or the folder of several",
-           'o'},
-    Option{
-        "host", "ADDRESS",
-        "of serve where it listens; default 127.0.0.1, this machine alone. Any other one asks for the token "
-        "that is printed with the address"},
-    Option{"scene", "SCENE", "of serve the scene that its plans are of"},
-    Option{"plan", "FILE",
-           "of serve a way into the scene, as sinew plan writes it; more than one may be given", 0, true},
-    Option{"port", "PORT", "of serve; default 8765, 0 is any that is free"},
-    Option{"demo", "", "of serve: a simulated device, moved by the panel's firmware"},
-    Option{"device", "PATH", "of serve the serial port of the robot's controller, as /dev/ttyACM0"},
-    Option{"baud", "RATE", "of the device; default 1000000"},
-    Option{"record", "FOLDER",
-           "of serve where recordings of devices go, and are shown from; default sinew-recordings"},
-    Option{"resume", "", "go on with what an interrupted run left; without it, begin"},
-    Option{"force", "",
-           "replace results that are there, or of a figure its script that was changed by hand; without it "
-           "both are "
-           "kept and the command refuses"},
-    Option{"threads", "N", "threads of this process; default one a core"},
-    Option{
-        "isa", "NAME",
-        "instruction set: native (default), avx512, avx2, or baseline, whose results are the same bytes on "
-        "every machine"},
-    Option{"seed", "N",
-           "of random numbers; one seed, one answer; default 1, of scene the dimensions as they are"},
-    Option{"time-limit", "TIME", "after which plan gives up; default 60 s"},
-    Option{"check", "PLAN", "no new plan: whether this one, an .h5 or .csv file, holds in the scene"},
-    Option{"along", "FILE",
-           "the plan of drive, or of plot with a scene: .h5 or .csv, or any table with its columns"},
-    Option{"limits", "\"NAME=VALUE, ...\"",
-           "of drive: stage_speed, stage_acceleration, bend_speed, bend_acceleration, tendon_speed, "
-           "tendon_acceleration; may be repeated",
-           0, true},
-    Option{"rate", "HZ", "of drive: points a second; default 50"},
-    Option{"reverse", "", "of drive: from the last posture to the first, out again"},
-    Option{"stage-motor", "\"{lead: L, counts: N}\"",
-           "of drive, serve: the motor of the linear stage, as `motor` of a robot"},
-    Option{"compress", "LEVEL", "of HDF5, 0 (none, default) to 9"},
-    Option{"list", "", "only list what there is; of sweep what it would do"},
-    Option{"as", "NAME",
-           "the kind of figure: of a table line, points, map or contour; of a robot sides, 3d or diagram; "
-           "default what suits"},
-    Option{"x", "COLUMN|AXIS",
-           "of plot the column along x, default the first; of map a value, or FROM : TO : COUNT, default the "
-           "home's"},
-    Option{"y", "COLUMNS|AXIS",
-           "of plot the columns to draw, default all the others, of a map the one upwards; of map as --x"},
-    Option{"value", "COLUMN", "what a map or contours show; default the first column that is no axis"},
-    Option{"at", "\"COLUMN=VALUE, ...\"",
-           "only the rows there, or nearest to it: where a map cuts further axes; may be repeated", 0, true},
-    Option{"colour", "COLUMN", "what colours the points"},
-    Option{"log-value", "", "logarithmic colours"},
-    Option{"view", "\"TILT, TURN\"",
-           "angles from which a robot is seen in space: from straight above, and about z; default \"60 deg, "
-           "30 deg\""},
-    Option{"z", "AXIS", "a value, or FROM : TO : COUNT; default the home's"},
-    Option{"phi", "AXIS", "angle of the platform: a value, or FROM : TO : COUNT; default the home's"},
-    Option{"rx", "AXIS",
-           "x of the platform's rotation vector: a value, or FROM : TO : COUNT; default the home's"},
-    Option{"ry", "AXIS", "y of it"},
-    Option{"rz", "AXIS", "z of it"},
-    Option{"log-y", "", "logarithmic y axis"},
-    Option{"all-statuses", "",
-           "draw samples of a sweep that did not converge, too; without it they are left out and counted"},
-    Option{"title", "TEXT", "title of the figure"},
-    Option{"width", "LENGTH",
-           "of the figure on paper: 85 mm is one column of a journal, 180 mm two; text then has 8 points"},
-    Option{"font", "NAME,SIZE", "of the figure's texts; the size in points may be left out: \"Times,9\""},
-    Option{"json", "", "the answer as one line of JSON, SI and radians"},
-    Option{"quiet", "", "only data on stdout and errors on stderr", 'q'},
-    Option{"man", "", "all verbs and options as a page for man, on stdout"},
-    Option{"help", "", "this text", 'h'},
-};
-
 const std::array table{
     Verb{
         "forward",
         "ROBOT",
         "pose of the platform from the inputs",
-        {"inputs", "configuration", "changes", "slack", "start", "wrench", "gravity", "want", "until",
-         "limit", "all", "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
+        options_of("forward", {"along"}, {"limit", "json", "quiet", "help"}),
         {"inputs", "configuration", "changes"},
         "Newton's method from the start; --all finds the other assembly modes too. Exit code 3 where the\n"
         "legs do not close, 4 where the iterations ran out. A platform on rods comes to rest under a load:\n"
@@ -192,8 +30,7 @@ const std::array table{
         "inverse",
         "ROBOT",
         "inputs from the pose of the platform",
-        {"pose", "independent", "position", "direction", "bending", "elbow", "curvature", "start", "wrench",
-         "gravity", "want", "all", "theta-is", "max-iterations", "model", "set", "json", "quiet", "help"},
+        options_of("inverse", {"along", "limit"}, {"json", "quiet", "help"}),
         {"pose", "independent", "position"},
         "Of several solutions the one that bends least is taken, positive where both signs do; with --start "
         "the "
@@ -212,31 +49,7 @@ const std::array table{
     Verb{"statics",
          "ROBOT",
          "a tendon-driven robot under a load, its links pseudo-rigid chains; the load on rods, sensed",
-         {"set-at",
-          "hold",
-          "tensions",
-          "lengths",
-          "pose",
-          "bending",
-          "elbow",
-          "curvature",
-          "start",
-          "wrench",
-          "gravity",
-          "until",
-          "limit",
-          "law",
-          "posture-threshold",
-          "inputs",
-          "axial-forces",
-          "deviation",
-          "measured-tensions",
-          "want",
-          "max-iterations",
-          "set",
-          "json",
-          "quiet",
-          "help"},
+         options_of("statics", {"inverse"}, {"limit", "json", "quiet", "help"}),
          {"set-at", "tensions", "lengths", "pose", "axial-forces"},
          "Tendons are set at a pose, or their tensions or lengths given; or --pose is held under the load, "
          "and "
@@ -254,9 +67,7 @@ const std::array table{
     Verb{"analyse",
          "ROBOT",
          "velocity equations, sensitivities and singularities at a configuration",
-         {"pose",           "independent", "bending", "elbow",   "curvature", "inputs", "configuration",
-          "changes",        "start",       "wrench",  "gravity", "twist",     "law",    "theta-is",
-          "max-iterations", "model",       "set",     "json",    "quiet",     "help"},
+         options_of("velocity", {"along", "limit"}, {"json", "quiet", "help"}),
          {"pose", "independent", "inputs", "configuration", "changes"},
          "Give a pose, or inputs, or both. J·(platform velocity) = K·(input rates) is printed in SI as in "
          "the paper,\n"
@@ -270,8 +81,8 @@ const std::array table{
     Verb{"diagram",
          "ROBOT",
          "what the tendons of one section of a serial robot leave it free to do",
-         {"section", "changes", "measured", "model", "tolerance", "envelope", "limit", "output", "width",
-          "font", "force", "set", "json", "quiet", "help"},
+         options_of("diagram", {"tilt", "max-iterations", "theta-is"},
+                    {"output", "width", "font", "force", "json", "quiet", "help"}),
          {"changes"},
          "Exact: the tendons agree on one bend. Indeterminate: some are slack, the section can be anywhere "
          "in the "
@@ -286,9 +97,10 @@ const std::array table{
         "track",
         "ROBOT",
         "inputs along a path of the platform",
-        {"from",           "to",     "samples",  "poses",  "objective", "bending", "elbow",
-         "curvature",      "start",  "theta-is", "wrench", "gravity",   "law",     "rk4-steps",
-         "max-iterations", "output", "model",    "set",    "json",      "quiet",   "help"},
+        options_of("track",
+                   {"inputs", "pose", "independent", "set-at", "tensions", "lengths", "range", "backward",
+                    "branches"},
+                   {"output", "json", "quiet", "help"}),
         {"from", "poses"},
         "The path is straight, or that of a .csv file with the columns x[m], y[m], phi[rad] (in space x[m], "
         "y[m], "
@@ -303,11 +115,9 @@ const std::array table{
         "branches",
         "ROBOT",
         "the curve of equilibria of a loaded robot along inputs, a load or a pose, through folds",
-        {"inputs",      "pose",       "independent",    "set-at", "hold",    "tensions", "lengths",
-         "bending",     "elbow",      "curvature",      "wrench", "gravity", "start",    "to-inputs",
-         "to-tensions", "to-lengths", "to-wrench",      "to",     "range",   "backward", "samples",
-         "all",         "law",        "max-iterations", "model",  "output",  "width",    "font",
-         "force",       "set",        "json",           "quiet",  "help"},
+        options_of("track", {"from", "poses", "angles", "objective", "rk4-steps", "branches"},
+                   {"hold", "to-inputs", "to-tensions", "to-lengths", "to-wrench", "all", "output", "width",
+                    "font", "force", "json", "quiet", "help"}),
         {"to-inputs", "to-tensions", "to-lengths", "to-wrench", "to"},
         "The curve begins at the inputs, pose or independent coordinates given, and is followed by its arc\n"
         "length: where the load or the inputs cannot go further, a fold, it turns back, on another branch.\n"
@@ -513,9 +323,9 @@ const std::array table{
          "sinew completion bash > sinew.bash",
          run_completion},
     Verb{"help",
-         "[VERB|units]",
-         "this text, that of a verb, or the units that numbers may carry",
-         {"man", "help"},
+         "[VERB|units|fields]",
+         "this text, that of a verb, the units that numbers may carry, or the fields of questions",
+         {"man", "json", "help"},
          {},
          "All of it as one page: sinew help --man | man -l -",
          "sinew help units",
@@ -529,14 +339,6 @@ std::span<const Verb> verbs() { return table; }
 const Verb* find_verb(std::string_view name) {
   const auto found = std::ranges::find(table, name, &Verb::name);
   return found == table.end() ? nullptr : &*found;
-}
-
-std::span<const Option> all_options() { return options; }
-
-const Option& option(std::string_view name) {
-  const auto found = std::ranges::find(options, name, &Option::name);
-  if (found == options.end()) throw std::logic_error("an option without a description: " + std::string(name));
-  return *found;
 }
 
 }  // namespace sinew::cli

@@ -2,6 +2,7 @@
 /// The verbs of the command, written down once: the parser, the help and the completion all read these
 /// tables.
 #pragma once
+#include <initializer_list>
 #include <map>
 #include <span>
 #include <string>
@@ -49,6 +50,11 @@ std::span<const Verb> verbs();
 const Verb* find_verb(std::string_view name);
 const Option& option(std::string_view name);
 std::span<const Option> all_options();
+/// Options that are fields of a kind of question, and others.
+/// @param without fields that the verb does not take, or spells otherwise
+std::vector<std::string_view> options_of(std::string_view query,
+                                         std::initializer_list<std::string_view> without,
+                                         std::initializer_list<std::string_view> with);
 
 /// @name Texts
 /// @{
@@ -56,6 +62,8 @@ std::vector<std::string_view> study_names();  ///< papers and their items
 std::string help();
 std::string help(const Verb& verb);
 std::string help_units();
+std::string help_fields();                   ///< of questions
+std::string fields_json();                   ///< the same for what is made of them
 std::vector<std::string_view> kind_names();  ///< what `new` makes
 std::vector<std::string> unit_advice();      ///< a line for each kind of quantity
 std::string manual();                        ///< a page for man, of all verbs and options

@@ -14,7 +14,8 @@ if(TARGET sinew_command AND TARGET example_01_first_answer)
     --examples ${PROJECT_SOURCE_DIR}/examples/cpp --programs $<TARGET_FILE_DIR:example_01_first_answer>
     README.md docs/tour.md docs/cpp.md docs/robot-files.md docs/protocol.md WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   add_test(NAME tools.facts COMMAND Python3::Interpreter ${tools_dir}/facts.py $<TARGET_FILE:sinew_command>)
-  set_tests_properties(tools.facts PROPERTIES LABELS tools TIMEOUT 60)
+  add_test(NAME tools.fields COMMAND Python3::Interpreter ${tools_dir}/fields.py $<TARGET_FILE:sinew_command> --check)
+  set_tests_properties(tools.facts tools.fields PROPERTIES LABELS tools TIMEOUT 60)
   set_tests_properties(readme PROPERTIES LABELS tools TIMEOUT 120)
 endif()
 
@@ -61,6 +62,9 @@ if(TARGET sinew_command)
   add_test(NAME schema.study COMMAND ${SYSTEM_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/schema/study_schema_test.py
     $<TARGET_FILE:sinew_command> $<TARGET_FILE:schema_study_judge>)
   set_tests_properties(schema.study PROPERTIES LABELS tools TIMEOUT 300)
+  add_test(NAME schema.query COMMAND ${SYSTEM_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/schema/query_schema_test.py
+    $<TARGET_FILE:sinew_command>)
+  set_tests_properties(schema.query PROPERTIES LABELS tools TIMEOUT 120)
 endif()
 
 # The reference of the C++ and C interface, and the site of all pages, are made without a warning.

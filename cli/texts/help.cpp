@@ -89,12 +89,15 @@ int run_help(const Arguments& arguments) {
     print(help());
   } else if (topic == "units") {
     print(help_units());
+  } else if (topic == "fields") {
+    print(arguments.has("json") ? fields_json() + '\n' : help_fields());
   } else if (const Verb* verb = find_verb(topic)) {
     print(help(*verb));
   } else {
-    return refuse("help",
-                  {{"unknown_topic", in_quotes(topic),
-                    fmt::format("no such topic; there are units and the verbs {}.", joined_names(' '))}});
+    return refuse(
+        "help",
+        {{"unknown_topic", in_quotes(topic),
+          fmt::format("no such topic; there are units, fields and the verbs {}.", joined_names(' '))}});
   }
   return solved;
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "io/quantity.hpp"
+#include "query/fields/fields.hpp"
 #include "robot/parallel.hpp"
 
 namespace sinew::inline v1 {
@@ -43,6 +44,9 @@ class Search {
   void inputs(const std::string& path, const Node& list);
   void wrench(const std::string& path, const Node& list);
   void configuration(const std::string& path, const Node& list);
+  void field(const Field& field, const std::string& path, const Node& node);
+  void numbers(const Field& field, const std::string& path, const Node& node);
+  void twist(const std::string& path, const Node& list);
 
   RobotScale scale_;
   std::span<const InputOfLeg> inputs_;
@@ -136,46 +140,86 @@ void Search::configuration(const std::string& path, const Node& list) {
 }
 
 void Search::query(const Node& query) {
-  using Kind = Node::Kind;
-  for (const Member& member : query.members) {
-    const auto& [key, line, column, node] = member;
-    if (key == "poses" && node.kind == Kind::list) {
-      for (std::size_t k = 0; k < node.items.size() && found_.empty(); ++k)
-        pose(joined(key, k), node.items[k]);
-    } else if (node.kind == Kind::map && (key == "pose" || key == "from" || key == "start" ||
-                                          key == "set_at" || key == "independent" || key == "to")) {
-      pose(key, node);
-      if (key != "to") continue;
-      if (const Node* target = node.find("pose")) pose("to.pose", *target);
-      if (const Node* target = node.find("inputs")) inputs("to.inputs", *target);
-      if (const Node* target = node.find("wrench")) wrench("to.wrench", *target);
-    } else if (key == "inputs" || (key == "start" && !inputs_.empty())) {
-      inputs(key, node);
-    } else if (key == "configuration" || key == "start") {
-      configuration(key, node);
-    } else if (key == "position") {
-      each(key, node, [&](const std::string& at, const Node& one) { length(at, one, far_length); });
-    } else if (key == "changes" || key == "measured" || key == "slack" || key == "tolerance") {
-      each(key, node, [&](const std::string& at, const Node& one) { length(at, one, far_change); });
-    } else if (key == "lengths") {
-      each(key, node, [&](const std::string& at, const Node& one) { length(at, one, far_length); });
-    } else if (key == "wrench") {
-      wrench(key, node);
-    } else if (key == "until") {
-      if (const Node* step = node.find("wrench")) wrench("until.wrench", *step);
-    } else if (key == "axial_forces" ||
-               key == "tensions") {  // a tendon has a short arm: it pulls more than it bends
-      each(key, node, [&](const std::string& at, const Node& one) { force(at, one, Dimension::force, 100); });
-    } else if (key == "twist" && node.kind == Kind::list) {
-      const bool is_on_rods =
-          std::ranges::any_of(inputs_, [](const InputOfLeg& input) { return input.kind.name == "length"; });
-      const std::size_t shifts = node.items.size() != 3 ? 3
-                                 : is_on_rods           ? 1
-                                                        : 2;  // of three inputs vz, wx, wy
-      for (std::size_t k = 0; k < std::min(shifts, node.items.size()); ++k)
-        length(joined(key, k), node.items[k], far_length);  // a second
-    }
+  for (const Member& member : query.members)
+    if (const Field* known = find_field(member.key)) field(*known, member.key, member.value);
+}
+
+/// By the shape of the field.
+void Search::field(const Field& field, const std::string& path, const Node& node) {
+  using Shape = FieldShape;
+  switch (field.shape) {
+    case Shape::inputs:
+      if (field.dimension == Dimension::length) inputs(path, node);
+      break;
+    case Shape::start:
+      if (node.kind == Node::Kind::map)
+        pose(path, node);
+      else if (inputs_.empty())
+        configuration(path, node);
+      else
+        inputs(path, node);
+      break;
+    case Shape::pose:
+    case Shape::place:
+    case Shape::independent:
+      pose(path, node);
+      break;
+    case Shape::places:
+      for (std::size_t k = 0; k < node.items.size(); ++k) pose(joined(path, k), node.items[k]);
+      break;
+    case Shape::target:
+      pose(path, node);
+      if (const Node* target = node.find("pose")) pose(joined(path, "pose"), *target);
+      if (const Node* target = node.find("inputs")) inputs(joined(path, "inputs"), *target);
+      if (const Node* target = node.find("wrench")) wrench(joined(path, "wrench"), *target);
+      break;
+    case Shape::wrench:
+      wrench(path, node);
+      break;
+    case Shape::growing_load:
+      if (const Node* step = node.find("wrench")) wrench(joined(path, "wrench"), *step);
+      break;
+    case Shape::twist:
+      if (field.name == "twist" && node.kind == Node::Kind::list) twist(path, node);
+      break;
+    case Shape::lists:
+      if (field.dimension == Dimension::angle && field.uses.forward == of_serial)
+        configuration(path, node);
+      else
+        numbers(field, path, node);
+      break;
+    case Shape::point:
+    case Shape::numbers:
+    case Shape::per_leg:
+    case Shape::pairs:
+    case Shape::quantity:
+      numbers(field, path, node);
+      break;
+    default:
+      break;
   }
+}
+
+/// What has one dimension: lengths, and changes of tendons; forces, of which a tendon's has a short arm: it
+/// pulls more than it bends.
+void Search::numbers(const Field& field, const std::string& path, const Node& node) {
+  const bool is_change =
+      field.shape != FieldShape::point && (field.uses.diagram | field.uses.forward) == of_serial;
+  each(path, node, [&](const std::string& at, const Node& one) {
+    if (field.dimension == Dimension::length)
+      length(at, one, is_change ? far_change : far_length);
+    else if (field.dimension == Dimension::force)
+      force(at, one, Dimension::force, 100);
+  });
+}
+
+/// Velocities of the platform: of as much as its size a second.
+void Search::twist(const std::string& path, const Node& list) {
+  const bool is_on_rods =
+      std::ranges::any_of(inputs_, [](const InputOfLeg& input) { return input.kind.name == "length"; });
+  const std::size_t shifts = list.items.size() != 3 ? 3 : is_on_rods ? 1 : 2;  // of three inputs vz, wx, wy
+  for (std::size_t k = 0; k < std::min(shifts, list.items.size()); ++k)
+    length(joined(path, k), list.items[k], far_length);
 }
 
 /// A plain number in place of a length or an angle that is two hundred times smaller.

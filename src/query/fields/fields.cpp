@@ -1,0 +1,147 @@
+#include "query/fields/fields.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace sinew::inline v1 {
+namespace {
+
+using Words = std::string_view[];
+
+constexpr std::array<std::string_view, 8> kinds{"forward", "inverse", "velocity", "shape",
+                                                "statics", "track",   "diagram",  "describe"};
+
+constexpr unsigned of_loads = of_chains | of_rods;
+constexpr FieldUses always{.forward = of_all,
+                           .inverse = of_all,
+                           .velocity = of_all,
+                           .shape = of_all,
+                           .statics = of_loads,
+                           .track = of_platforms,
+                           .diagram = of_serial,
+                           .describe = of_all};
+
+constexpr Words models = {"cc", "prb", "rigid", "rod", "pcc", "lsk"}, thetas = {"tangent", "chord"},
+                laws = {"M0w", "M0", "M1"}, holds = {"tension", "length"},
+                objectives = {"limits", "singularity", "smooth", "none"},
+                envelopes = {"square", "disc", "actuator"},
+                wants = {"pose",      "legs",    "velocity",    "shape", "stiffness",
+                         "stability", "margins", "sensitivity", "lines", "modes"};
+
+constexpr FieldUses of_models = [] {
+  FieldUses uses = always;
+  uses.describe = of_platforms;
+  return uses;
+}();
+constexpr FieldUses branches{.inverse = of_kinematic | of_chains,
+                             .velocity = of_kinematic | of_chains,
+                             .shape = of_kinematic | of_chains,
+                             .statics = of_chains,
+                             .track = of_kinematic | of_chains};
+
+// clang-format off
+constexpr auto table = [] {
+using enum FieldShape;
+using enum Dimension;
+return std::array{
+    Field{"query", word, number, always, "the kind of question", kinds},
+    Field{"id", text_or_number, number, always, "repeated in the answer"},
+    Field{"model", word, number, of_models,
+          "how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or lsk (linearised)", models},
+    Field{"set", settings, number, always, "changes the robot for this question alone: values by their paths in its file, such as legs[0].link.length"},
+    Field{"theta_is", word, number, always, "what an input theta is the angle of: tangent (default) or chord", thetas},
+    Field{"law", word, number,
+          {.forward = of_chains, .inverse = of_chains, .velocity = of_chains, .shape = of_chains, .statics = of_chains, .track = of_chains, .describe = of_chains},
+          "how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1 (tendons straight between discs)", laws},
+    Field{"max_iterations", whole, count, always, "most iterations of the solver; default 100, of rods 4000, of rods that bear torque 400"},
+    Field{"tilt", flag, number, always, "poses of the answer have tilt, azimuth and torsion, too; in space alone"},
+
+    Field{"inputs", FieldShape::inputs, length, {.forward = of_platforms, .velocity = of_kinematic | of_rods, .shape = of_platforms, .statics = of_loads, .track = of_rods},
+          "in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its length; where the leg has a motor, theta, an angle, before it"},
+    Field{"pose", FieldShape::pose, length, {.inverse = of_all, .velocity = of_platforms, .shape = of_platforms, .statics = of_chains, .track = of_rods},
+          "of the platform, of a serial robot of its tip"},
+    Field{"independent", FieldShape::independent, length, {.inverse = of_kinematic | of_rods, .velocity = of_kinematic | of_rods, .shape = of_platforms, .track = of_rods},
+          "in place of `pose` where hinges hold the platform in planes, or three rods hold it: height and two components of its quaternion; of hinges `mode`, too"},
+    Field{"bending", signs, number, branches, "sign of each leg's curvature"},
+    Field{"elbow", signs, number, branches, "side to which the strut of each leg turns, where the leg has a motor or a rail"},
+    Field{"curvature", per_leg, Dimension::curvature, branches, "a curvature for each leg; the nearest solution is taken"},
+    Field{"angles", lists, angle, {.velocity = of_chains, .shape = of_chains, .track = of_chains},
+          "of the joints of each chain, from the first sprung one; before them the direction of a first link that a motor turns"},
+    Field{"start", FieldShape::start, length,
+          {.forward = of_platforms, .inverse = of_kinematic | of_rods | of_serial, .velocity = of_kinematic | of_rods, .shape = of_platforms, .statics = of_loads, .track = of_platforms},
+          "where the search begins: a pose, of inverse and track inputs, of a serial robot its configuration, or last, where the last question with a start ended; default the robot's home"},
+    Field{"set_at", FieldShape::pose, length, {.statics = of_chains, .track = of_chains},
+          "the pose at which the tendons are set without load, the outer ones loose"},
+    Field{"hold", word, number, {.statics = of_chains, .track = of_chains}, "what stays after `set_at` or with `pose`: tension (default) or length", holds},
+    Field{"tensions", pairs, force, {.statics = of_chains, .track = of_chains}, "of both tendons of each leg"},
+    Field{"lengths", pairs, length, {.statics = of_chains, .track = of_chains}, "of the tendon of each leg whose length is held; the other one is null and loose"},
+    Field{"inverse", flag, number, {.statics = of_chains}, "`pose` is held under the load, and the tensions for it answered"},
+    Field{"axial_forces", numbers, force, {.statics = of_rods}, "what each of six rods pulls at its guide; answers the wrench on the platform"},
+    Field{"measured_tensions", per_leg, force, {.statics = of_chains}, "what the tendons at `lengths` pull, a leg each; answers the wrench on the platform"},
+    Field{"deviation", quantity, force, {.statics = of_loads}, "standard deviation of what is measured, one for all or one each; answers how well the wrench is known"},
+
+    Field{"wrench", FieldShape::wrench, force, {.forward = of_loads, .inverse = of_loads, .velocity = of_rods, .shape = of_loads, .statics = of_chains, .track = of_loads},
+          "force and moment on the platform, about its reference point, in base axes"},
+    Field{"gravity", point, acceleration, {.forward = of_rods, .inverse = of_rods, .velocity = of_rods, .shape = of_rods, .statics = of_rods, .track = of_rods},
+          "of rods and platforms that have a mass [m/s2]; default the file's"},
+    Field{"until", growing_load, force, {.forward = of_loads, .statics = of_chains},
+          "a wrench that is added again and again until the robot buckles, at most so many times as its limit"},
+    Field{"posture_threshold", quantity, angle, {.forward = of_chains, .statics = of_chains}, "turn of a joint up to which the linear model counts as valid"},
+
+    Field{"want", words, number, {.forward = of_all, .inverse = of_all, .velocity = of_all, .shape = of_kinematic | of_rods | of_serial, .statics = of_loads},
+          "what is answered beside pose and legs, or without them where one of the two is named: velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has them", wants},
+    Field{"all", flag, number, {.forward = of_platforms, .inverse = of_all}, "every solution, not only the one wanted"},
+    Field{"trace", flag, number, {.forward = of_kinematic}, "the iterates, too"},
+    Field{"twist", FieldShape::twist, number, {.forward = of_all, .inverse = of_all, .velocity = of_all, .shape = of_kinematic | of_rods | of_serial, .statics = of_loads},
+          "velocity and turning rate of the platform or the tip, in space three each, of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs; with the want velocity"},
+    Field{"rates", FieldShape::inputs, number, {.forward = of_rods, .inverse = of_rods, .velocity = of_rods, .shape = of_rods, .statics = of_rods},
+          "of the inputs, in place of `twist`; answers the twist of the platform"},
+    Field{"along", FieldShape::twist, number, {.forward = of_kinematic, .inverse = of_kinematic, .velocity = of_kinematic, .shape = of_kinematic},
+          "a direction in which the nearest type II is looked for; with the want velocity"},
+    Field{"limit", quantity, number, {.forward = of_kinematic, .inverse = of_kinematic, .velocity = of_kinematic, .shape = of_kinematic, .diagram = of_serial},
+          "how far to look `along` its direction; of a diagram the envelope's size"},
+    Field{"samples", whole, count, {.forward = of_kinematic | of_rods | of_serial, .inverse = of_kinematic | of_rods | of_serial, .velocity = of_kinematic | of_rods | of_serial, .shape = of_kinematic | of_rods | of_serial, .statics = of_rods, .track = of_platforms},
+          "points of each backbone of a shape; poses on a path, default 60; points on a curve, at most, default 500"},
+
+    Field{"configuration", lists, angle, {.forward = of_serial, .velocity = of_serial, .shape = of_serial},
+          "of a serial robot two angles a section: theta, phi of a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its extension; sections not given are straight"},
+    Field{"changes", lists, length, {.forward = of_serial, .velocity = of_serial, .shape = of_serial, .diagram = of_serial},
+          "of a serial robot the change of each tendon, > 0 pays out, section after section"},
+    Field{"slack", numbers, length, {.forward = of_serial},
+          "what the tendons of each section are paid out beyond its configuration; < 0 stiffens"},
+    Field{"position", point, length, {.inverse = of_serial}, "of a serial robot's tip"},
+    Field{"direction", point, number, {.inverse = of_serial}, "in which a serial robot's tip points"},
+    Field{"section", whole, count, {.diagram = of_serial}, "which section, from 0"},
+    Field{"measured", lists, length, {.diagram = of_serial}, "changes that encoders read, beside those commanded"},
+    Field{"tolerance", quantity, length, {.diagram = of_serial}, "of a tendon before it counts as slack or too short; default the file's"},
+    Field{"envelope", word, number, {.diagram = of_serial}, "bends that a section is allowed: square, disc or actuator; default its limit", envelopes},
+
+    Field{"poses", places, length, {.track = of_platforms}, "the path, pose by pose"},
+    Field{"from", place, length, {.track = of_platforms}, "first pose of a path, of rods with three inputs z, e1 and e2"},
+    Field{"to", target, length, {.track = of_platforms}, "last pose of a path; of a curve of equilibria what changes along it: inputs, tensions, lengths, wrench, pose"},
+    Field{"objective", word, number, {.track = of_kinematic | of_chains}, "what redundant legs do with their freedom: limits, singularity, smooth or none", objectives},
+    Field{"rk4_steps", whole, count, {.track = of_chains}, "Runge-Kutta steps between poses; default the flow itself"},
+    Field{"range", FieldShape::range, number, {.track = of_loads}, "how far a curve goes: 0 is its beginning, 1 what it leads to; default [0, 1]"},
+    Field{"backward", flag, number, {.track = of_loads}, "a curve sets out the other way"},
+    Field{"branches", flag, number, {.track = of_loads}, "curves that leave it at bifurcations are followed, too"},
+};
+}();
+// clang-format on
+
+}  // namespace
+
+unsigned FieldUses::of(std::string_view query) const {
+  const unsigned uses[] = {forward, inverse, velocity, shape, statics, track, diagram, describe};
+  const auto kind = std::ranges::find(kinds, query);
+  return kind == kinds.end() ? 0 : uses[kind - kinds.begin()];
+}
+
+std::span<const std::string_view> question_kinds() { return kinds; }
+std::span<const Field> question_fields() { return table; }
+
+const Field* find_field(std::string_view name) {
+  const auto found = std::ranges::find(table, name, &Field::name);
+  return found == table.end() ? nullptr : &*found;
+}
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+"""Writes what is made of the table of fields (src/query/fields/fields.cpp): the schema of queries, and the table of the
+protocol page between its markers.
+
+    tools/fields.py SINEW            write them
+    tools/fields.py SINEW --check    say what is out of date, and end with 1
+
+SINEW is the command, whose `help fields --json` is the table."""
+import json
+import pathlib
+import subprocess
+import sys
+
+root = pathlib.Path(__file__).resolve().parent.parent
+
+QUANTITY = {"description": "SI, or text with a unit.", "anyOf": [{"type": "number"}, {"type": "string", "pattern": "^\\s*[-+]?[.0-9]"}]}
+NUMBERS = {"type": "array", "items": {"$ref": "#/definitions/quantity"}}
+LISTS = {"type": "array", "items": {"anyOf": [{"$ref": "#/definitions/quantity"}, {"type": "null"}, NUMBERS,
+         {"type": "array", "items": {"anyOf": [{"$ref": "#/definitions/quantity"}, {"type": "null"}]}}]}}
+
+
+def keyed(*names):
+    return {"type": "object", "properties": {name: {"$ref": "#/definitions/quantity"} for name in names},
+            "additionalProperties": False}
+
+
+DEFINITIONS = {
+    "quantity": QUANTITY,
+    "pose": {"anyOf": [
+        {**keyed("x", "y", "phi"), "required": ["x", "y", "phi"]},
+        {"type": "object", "required": ["position"], "additionalProperties": False, "properties": {
+            "position": {**NUMBERS, "minItems": 3, "maxItems": 3},
+            "quaternion": {**NUMBERS, "minItems": 4, "maxItems": 4},
+            **{angle: {"$ref": "#/definitions/quantity"} for angle in ("tilt", "azimuth", "torsion")}}}]},
+    "independent": {"type": "object", "required": ["z", "e1", "e2"], "additionalProperties": False, "properties": {
+        **keyed("z", "e1", "e2")["properties"], "mode": {"enum": ["tilt", "half_turn"]}}},
+    "place": {"anyOf": [{"$ref": "#/definitions/pose"}, {"$ref": "#/definitions/independent"}]},
+}
+SHAPES = {
+    "flag": {"type": "boolean"},
+    "whole": {"$ref": "#/definitions/quantity"},
+    "quantity": {"$ref": "#/definitions/quantity"},
+    "words": {"type": "array"},
+    "point": {**NUMBERS, "minItems": 3, "maxItems": 3},
+    "numbers": NUMBERS,
+    "inputs": NUMBERS,
+    "per_leg": NUMBERS,
+    "signs": {"type": "array", "items": {"enum": [1, -1]}},
+    "pairs": LISTS,
+    "lists": LISTS,
+    "pose": {"$ref": "#/definitions/pose"},
+    "independent": {"$ref": "#/definitions/independent"},
+    "start": {"anyOf": [{"$ref": "#/definitions/place"}, LISTS, {"const": "last"}]},
+    "place": {"$ref": "#/definitions/place"},
+    "places": {"type": "array", "items": {"$ref": "#/definitions/place"}},
+    "target": {"anyOf": [{"$ref": "#/definitions/place"}, {
+        "type": "object", "additionalProperties": False,
+        "properties": {"inputs": NUMBERS, "tensions": LISTS, "lengths": LISTS, "wrench": NUMBERS,
+                       "pose": {"$ref": "#/definitions/pose"}}}]},
+    "wrench": NUMBERS,
+    "twist": NUMBERS,
+    "growing_load": {"type": "object", "required": ["wrench", "limit"], "additionalProperties": False,
+                     "properties": {"wrench": NUMBERS, "limit": {"$ref": "#/definitions/quantity"}}},
+    "range": {**NUMBERS, "minItems": 2, "maxItems": 2},
+    "text_or_number": {"type": ["string", "number"]},
+    "settings": {"type": "object"},
+}
+
+
+def schema_of(field):
+    schema = dict(SHAPES.get(field["shape"], {}))
+    if field["shape"] == "word":
+        schema = {"enum": field["words"]}
+    if field["shape"] == "words":
+        schema["items"] = {"enum": field["words"]}
+    if field["name"] == "deviation":  # one for all, or one each
+        schema = {"anyOf": [{"$ref": "#/definitions/quantity"}, NUMBERS]}
+    unit = f' [{field["unit"]}]' if field["unit"] and field["shape"] in ("quantity", "point", "numbers", "per_leg") else ""
+    value = {"anyOf": [schema, {"type": "null"}]} if field["name"] != "query" else schema
+    return {"description": plain(field["meaning"]) + unit, **value}
+
+
+def plain(meaning):
+    return meaning.replace("`", "")
+
+
+def schema(fields):
+    kinds = next(field for field in fields if field["name"] == "query")["words"]
+    of_kind = [{
+        "if": {"properties": {"query": {"const": kind}}, "required": ["query"]},
+        "then": {"propertyNames": {"enum": [field["name"] for field in fields if kind in field["uses"]]}},
+    } for kind in kinds]
+    return json.dumps({
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "sinew query, version 1",
+        "description": "One question to a robot. Made by tools/fields.py of the table of fields; what the values mean and "
+                       "which robots take them: docs/protocol.md.",
+        "definitions": DEFINITIONS,
+        "type": "object",
+        "properties": {field["name"]: schema_of(field) for field in fields},
+        "required": ["query"],
+        "allOf": of_kind,
+    }, indent=2, ensure_ascii=False) + "\n"
+
+
+def shown(field):
+    words = {"flag": "true or false", "whole": "a whole number", "word": "a word", "words": "a list of words",
+             "per_leg": "a number a leg", "inputs": "a number an input", "pairs": "two numbers a leg",
+             "lists": "a list a leg or section", "growing_load": "`{\"wrench\", \"limit\"}`", "settings": "`{path: value}`",
+             "text_or_number": "text or a number", "independent": "`{\"z\", \"e1\", \"e2\"}`", "places": "a list of places",
+             "target": "a place, or a map", "place": "a pose, or `{\"z\", \"e1\", \"e2\"}`", "quantity": "a number",
+             "point": "three numbers", "range": "two numbers", "numbers": "numbers"}
+    return words.get(field["shape"], field["shape"])
+
+
+def table(fields):
+    everyone = {"kinematic", "chains", "rods", "serial"}
+    lines = ["| field | value | of | meaning |", "|---|---|---|---|"]
+    for field in fields:
+        uses = field["uses"]
+        if uses == fields[0]["uses"]:
+            of = "all"
+        else:
+            of = "; ".join(f'`{kind}`' + ("" if set(takers) == everyone else f' ({", ".join(takers)})')
+                           for kind, takers in uses.items())
+        unit = f' [{field["unit"]}]' if field["unit"] and field["shape"] in ("quantity", "point", "numbers", "per_leg") else ""
+        lines.append(f'| `{field["name"]}` | {shown(field)}{unit} | {of} | {field["meaning"]} |')
+    return "\n".join(lines) + "\n"
+
+
+def between(text, name, made):
+    begin, end = f"<!-- {name}: made by tools/fields.py -->\n", f"<!-- end of {name} -->\n"
+    if begin not in text or end not in text:
+        sys.exit(f"no markers of {name}")
+    return text[:text.index(begin) + len(begin)] + "\n" + made + "\n" + text[text.index(end):]
+
+
+def main():
+    arguments = [argument for argument in sys.argv[1:] if argument != "--check"]
+    if len(arguments) != 1:
+        sys.exit(__doc__)
+    fields = json.loads(subprocess.run([arguments[0], "help", "fields", "--json"], check=True, capture_output=True).stdout)
+    page = root / "docs/protocol.md"
+    made = {root / "schema/query.schema.json": schema(fields),
+            page: between(page.read_text(), "fields", table(fields))}
+    old = [path for path, text in made.items() if not path.exists() or path.read_text() != text]
+    if "--check" in sys.argv:
+        for path in old:
+            print(f"{path.relative_to(root)} is not what the table of fields gives; run tools/fields.py SINEW")
+        sys.exit(bool(old))
+    for path in old:
+        path.write_text(made[path])
+
+
+main()
