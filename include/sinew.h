@@ -70,33 +70,39 @@ SINEW_C_API sinew_session* sinew_session_new(const sinew_robot* robot);
  * is no memory for it. */
 SINEW_C_API char* sinew_ask(sinew_session* session, const char* question, size_t size, size_t* length);
 
-/* Prepares a question for many rows: a query in which texts "$name" stand where the numbers of a column go,
- * with "outputs": {"name": "place in the answer"} (left out: the usual ones), and "path": "continue" or
- * "anew" (the default).
+/* Prepares a question for many rows: a query in which texts "$name" stand for numbers, or for whole lists
+ * whose length the robot knows, with "outputs": {"name": "place in the answer"} (numbers, lists or matrices;
+ * left out: the usual ones), and "path": "continue" or "anew" (the default).
  *
- *     {"query": "forward", "inputs": ["$L1", "$L2", "$L3"], "outputs": {"z": "pose.position[2]"},
- *      "path": "continue"}
+ *     {"query": "forward", "inputs": "$inputs", "outputs": {"position": "pose.position"}, "path": "continue"}
+ *     {"query": "forward", "inputs": ["$L1", 0.42, "$L3"], "outputs": {"z": "pose.position[2]"}}
  *
  * Where that fails *batch is NULL and *error says what is wrong. A batch may be run by several threads at
  * once. */
 SINEW_C_API int32_t sinew_prepare(const sinew_robot* robot, const char* question, size_t size,
                                   sinew_batch** batch, char** error);
 
-/* The columns that go in and come out, in their order, in JSON:
+/* What goes in and comes out of every row, in this order, in JSON:
  *
- *     {"inputs": [{"name": "L1", "unit": "m"}, ...], "outputs": [...], "method": "rods in lanes"}
+ *     {"inputs": [{"name": "inputs", "unit": "m", "rank": 1, "shape": [3]}],
+ *      "outputs": [{"name": "position", "unit": "m", "rank": 1, "shape": [3]}], "method": "rods in lanes"}
  *
- * Units are SI, "" for plain numbers. NULL where there is no memory for it. */
+ * Single numbers have rank 0 and shape []. Units are SI, "" of plain numbers, "N, N m" where those of a field
+ * differ. NULL where there is no memory for it. */
 SINEW_C_API char* sinew_fields(const sinew_batch* batch);
 
-/* A column as it lies in memory: its first number, and how many bytes further the next one is. */
+/* A field of all rows as it lies in memory: its first number; how many bytes further the next row's is; and
+ * how many bytes the next number of the same row, of a matrix row after row. Of single numbers `step` is not
+ * used. */
 typedef struct sinew_input {
   const double* data;
   ptrdiff_t stride;
+  ptrdiff_t step;
 } sinew_input;
 typedef struct sinew_output {
   double* data;
   ptrdiff_t stride;
+  ptrdiff_t step;
 } sinew_output;
 
 /* Computes all rows on so many threads, 0 for as many as there are cores; the bytes do not depend on how
@@ -105,7 +111,7 @@ typedef struct sinew_output {
  * NULL, becomes a status a row: 0 unreachable, 1 left_domain, 2 slack, 3 singular, 4 stalled, 5
  * iteration_limit, 6 unstable, 7 converged, 8 stopped, 9 bad_input (the question does not take these
  * numbers), 255 an error of the library. SINEW_OK also where rows have no solution; *error then has the
- * answer to the first row that is bad input, or names a column that has a number in no row that is solved. */
+ * answer to the first row that is bad input, or names a field that has a number in no row that is solved. */
 SINEW_C_API int32_t sinew_run(sinew_batch* batch, size_t rows, const sinew_input* inputs,
                               const sinew_output* outputs, uint8_t* statuses, int32_t threads, char** error);
 

@@ -170,13 +170,14 @@ std::int32_t sinew_prepare(const sinew_robot* robot, const char* question, std::
 char* sinew_fields(const sinew_batch* batch) {
   if (!batch) return nullptr;
   try {
-    const auto columns = [](std::span<const sinew::Batch::Column> all) {
+    const auto fields = [](std::span<const sinew::Batch::Field> all) {
       nlohmann::ordered_json list = nlohmann::ordered_json::array();
-      for (const auto& column : all) list.push_back({{"name", column.name}, {"unit", column.unit}});
+      for (const auto& [name, unit, shape] : all)
+        list.push_back({{"name", name}, {"unit", unit}, {"rank", shape.size()}, {"shape", shape}});
       return list;
     };
-    return given(nlohmann::ordered_json{{"inputs", columns(batch->batch.inputs())},
-                                        {"outputs", columns(batch->batch.outputs())},
+    return given(nlohmann::ordered_json{{"inputs", fields(batch->batch.inputs())},
+                                        {"outputs", fields(batch->batch.outputs())},
                                         {"method", batch->batch.method()}}
                      .dump());
   } catch (const std::exception&) {
@@ -186,23 +187,32 @@ char* sinew_fields(const sinew_batch* batch) {
 
 namespace {
 
+using In = std::vector<sinew::Batch::Strided<const double>>;
+using Out = std::vector<sinew::Batch::Strided<double>>;
+
 /// What whoever called should know of rows that were computed; mostly nothing.
-std::string oddity(const sinew::Batch& batch, std::span<const sinew::Batch::Strided<const double>> in,
-                   std::span<const sinew::Batch::Strided<double>> out,
+std::string oddity(const sinew::Batch& batch, const In& in, const Out& out,
                    std::span<const std::uint8_t> statuses) {
   const auto bad = std::ranges::find(statuses, static_cast<std::uint8_t>(sinew::Status::bad_input));
   if (bad != statuses.end()) {
     std::vector<double> numbers;
-    for (const auto& column : in) numbers.push_back(column[static_cast<std::size_t>(bad - statuses.begin())]);
+    for (std::size_t f = 0; f < in.size(); ++f)
+      for (std::size_t i = 0; i < batch.inputs()[f].size(); ++i)
+        numbers.push_back(in[f](static_cast<std::size_t>(bad - statuses.begin()), i));
     return batch.answer(numbers);
   }
   const auto solved = static_cast<std::uint8_t>(sinew::Status::converged);
   if (std::ranges::find(statuses, solved) == statuses.end()) return {};
-  for (std::size_t o = 0; o < out.size(); ++o) {
-    bool is_there = false;
-    for (std::size_t k = 0; k < statuses.size() && !is_there; ++k)
-      is_there = statuses[k] == solved && !std::isnan(out[o][k]);
-    if (!is_there) return "outputs." + batch.outputs()[o].name + ": no row that is solved has a number there";
+  for (std::size_t f = 0; f < out.size(); ++f) {
+    const auto is_there = [&](std::size_t row) {
+      for (std::size_t i = 0; i < batch.outputs()[f].size(); ++i)
+        if (!std::isnan(out[f](row, i))) return true;
+      return false;
+    };
+    std::size_t row = 0;
+    while (row < statuses.size() && (statuses[row] != solved || !is_there(row))) ++row;
+    if (row == statuses.size())
+      return "outputs." + batch.outputs()[f].name + ": no row that is solved has a number there";
   }
   return {};
 }
@@ -217,15 +227,15 @@ std::int32_t sinew_run(sinew_batch* batch, std::size_t rows, const sinew_input* 
       why = "batch, inputs and outputs must not be NULL";
       return SINEW_BAD_INPUT;
     }
-    std::vector<sinew::Batch::Strided<const double>> in;
-    std::vector<sinew::Batch::Strided<double>> out;
+    In in;
+    Out out;
     for (std::size_t i = 0; i < batch->batch.inputs().size(); ++i)
-      in.push_back({inputs[i].data, inputs[i].stride});
+      in.push_back({inputs[i].data, inputs[i].stride, inputs[i].step});
     for (std::size_t o = 0; o < batch->batch.outputs().size(); ++o)
-      out.push_back({outputs[o].data, outputs[o].stride});
-    const auto is_null = [](const auto& column) { return !column.data; };
+      out.push_back({outputs[o].data, outputs[o].stride, outputs[o].step});
+    const auto is_null = [](const auto& field) { return !field.data; };
     if (rows > 0 && (std::ranges::any_of(in, is_null) || std::ranges::any_of(out, is_null))) {
-      why = "a column is NULL";
+      why = "the data of a field is NULL";
       return SINEW_BAD_INPUT;
     }
     std::vector<std::uint8_t> own(statuses ? 0 : rows);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -154,15 +155,24 @@ struct Rows {
   Rows& operator=(const Rows&) = delete;
   ~Rows() { sinew_release(batch); }
 
-  /// Of an array of n × k.
-  std::string run(std::size_t rows, std::size_t inputs, std::size_t outputs, std::int32_t threads = 0) {
-    out.assign(rows * outputs, -1);
+  /// Of arrays whose rows have all fields side by side, as many numbers of each as these.
+  std::string run(std::size_t rows, const std::vector<std::size_t>& inputs,
+                  const std::vector<std::size_t>& outputs, std::int32_t threads = 0) {
+    const auto total = [](const std::vector<std::size_t>& sizes) {
+      return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+    };
+    out.assign(rows * total(outputs), -1);
     statuses.assign(rows, 99);
     std::vector<sinew_input> from;
     std::vector<sinew_output> to;
-    const auto stride = [](std::size_t n) { return static_cast<std::ptrdiff_t>(n * sizeof(double)); };
-    for (std::size_t i = 0; i < inputs; ++i) from.push_back({in.data() + i, stride(inputs)});
-    for (std::size_t o = 0; o < outputs; ++o) to.push_back({out.data() + o, stride(outputs)});
+    const auto place = [&](auto& list, auto* data, const std::vector<std::size_t>& sizes) {
+      for (const std::size_t size : sizes) {
+        list.push_back({data, static_cast<std::ptrdiff_t>(total(sizes) * sizeof(double)), sizeof(double)});
+        data += size;
+      }
+    };
+    place(from, in.data(), inputs);
+    place(to, out.data(), outputs);
     char* error = nullptr;
     EXPECT_EQ(sinew_run(batch, rows, from.data(), to.data(), statuses.data(), threads, &error), SINEW_OK);
     const std::string said = error ? error : "";
@@ -176,12 +186,12 @@ TEST(CAbi, RunsRowsOfColumns) {
   char* fields = sinew_fields(rows.batch);
   const Json told = Json::parse(fields);
   sinew_free(fields);
-  EXPECT_EQ(told["inputs"][1], (Json{{"name", "b"}, {"unit", "m"}}));
-  EXPECT_EQ(told["outputs"].size(), 7U);
+  EXPECT_EQ(told["inputs"][1], (Json{{"name", "b"}, {"unit", "m"}, {"rank", 0}, {"shape", Json::array()}}));
+  EXPECT_EQ(told["outputs"][1], (Json{{"name", "quaternion"}, {"unit", ""}, {"rank", 1}, {"shape", {4}}}));
   EXPECT_EQ(told["method"], "rods in lanes");
   for (int k = 0; k < 100; ++k)
     for (const double length : {0.43, 0.43 + 1e-4 * k, 0.43 - 1e-4 * k}) rows.in.push_back(length);
-  EXPECT_EQ(rows.run(100, 3, 7), "");
+  EXPECT_EQ(rows.run(100, {1, 1, 1}, {3, 4}), "");
   EXPECT_EQ(rows.statuses, std::vector<std::uint8_t>(100, 7));
   sinew_robot* robot = opened("3pfs-g2");
   sinew_session* session = sinew_session_new(robot);
@@ -193,17 +203,41 @@ TEST(CAbi, RunsRowsOfColumns) {
   sinew_release(robot);
 }
 
+TEST(CAbi, RunsListsAndMatrices) {
+  Rows rows(
+      "3pfs-g2",
+      R"({"query": "velocity", "inputs": "$L", "wrench": "$w", "outputs": {"K": "K", "fx": "legs[0].force[0]"}})");
+  char* fields = sinew_fields(rows.batch);
+  const Json told = Json::parse(fields);
+  sinew_free(fields);
+  EXPECT_EQ(told["inputs"], (Json{{{"name", "L"}, {"unit", "m"}, {"rank", 1}, {"shape", {3}}},
+                                  {{"name", "w"}, {"unit", "N, N m"}, {"rank", 1}, {"shape", {6}}}}));
+  EXPECT_EQ(told["outputs"][0]["shape"], (Json{6, 3}));
+  rows.in = {0.43, 0.43, 0.43, 0, 0, -1, 0, 0, 0, 0.44, 0.42, 0.41, 0, 0, 0, 0, 0, 0.1};
+  EXPECT_EQ(rows.run(2, {3, 6}, {18, 1}), "");
+  sinew_robot* robot = opened("3pfs-g2");
+  sinew_session* session = sinew_session_new(robot);
+  const Json alone = Json::parse(asked(
+      session, R"({"query": "velocity", "inputs": [0.44, 0.42, 0.41], "wrench": [0, 0, 0, 0, 0, 0.1]})"));
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      EXPECT_NEAR(rows.out[19 + 3 * i + j], alone["K"][i][j].get<double>(), 1e-6);
+  EXPECT_NEAR(rows.out[19 + 18], alone["legs"][0]["force"][0].get<double>(), 1e-9);
+  sinew_release(session);
+  sinew_release(robot);
+}
+
 TEST(CAbi, SaysWhatIsOddAboutRows) {
   Rows rows("3-rfr",
             R"({"query": "inverse", "pose": {"x": "$x", "y": 0, "phi": 0}, "outputs": {"l": "inputs[0]"}})");
   rows.in = {0, NAN, 0.01};
-  EXPECT_EQ(Json::parse(rows.run(3, 1, 1))["error"]["where"], "pose.x");
+  EXPECT_EQ(Json::parse(rows.run(3, {1}, {1}))["error"]["where"], "pose.x");
   EXPECT_EQ(rows.statuses, (std::vector<std::uint8_t>{7, 9, 7}));
   EXPECT_TRUE(std::isnan(rows.out[1]));
   Rows wrong("3-rfr",
              R"({"query": "inverse", "pose": {"x": "$x", "y": 0, "phi": 0}, "outputs": {"l": "input[0]"}})");
   wrong.in = {0, 0.01};
-  EXPECT_NE(wrong.run(2, 1, 1).find("outputs.l"), std::string::npos);
+  EXPECT_NE(wrong.run(2, {1}, {1}).find("outputs.l"), std::string::npos);
 }
 
 TEST(CAbi, PreparesNothingOfNothing) {
@@ -225,8 +259,8 @@ TEST(CAbi, PreparesNothingOfNothing) {
   EXPECT_EQ(sinew_run(nullptr, 1, nullptr, nullptr, nullptr, 0, nullptr), SINEW_BAD_INPUT);
   Rows rows("3-rfr",
             R"({"query": "inverse", "pose": {"x": "$x", "y": 0, "phi": 0}, "outputs": {"l": "inputs[0]"}})");
-  const sinew_input in{nullptr, 8};
-  const sinew_output out{nullptr, 8};
+  const sinew_input in{nullptr, 8, 8};
+  const sinew_output out{nullptr, 8, 8};
   EXPECT_EQ(sinew_run(rows.batch, 1, &in, &out, nullptr, 0, &error), SINEW_BAD_INPUT);
   sinew_free(error);
   EXPECT_EQ(sinew_run(rows.batch, 0, &in, &out, nullptr, 0, nullptr), SINEW_OK);
@@ -243,7 +277,7 @@ TEST(CAbi, StopsRows) {
       sinew_stop(rows.batch);
     }
   });
-  rows.run(64, 1, 7);
+  rows.run(64, {1}, {3, 4});
   is_done = true;
   stopper.join();
   EXPECT_EQ(rows.statuses, std::vector<std::uint8_t>(64, 8));

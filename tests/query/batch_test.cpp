@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "io/parse.hpp"
-#include "query/batch/answer_path.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/query/session.hpp"
 #include "sinew/solve/report.hpp"
@@ -30,18 +29,29 @@ struct Rows {
   std::vector<std::uint8_t> statuses;
 };
 
-/// Rows as they lie in an array of n × k.
+std::size_t width(std::span<const Batch::Field> fields) {
+  std::size_t numbers = 0;
+  for (const Batch::Field& field : fields) numbers += field.size();
+  return numbers;
+}
+
+/// Rows as they lie in an array of n × k, all numbers of all fields side by side.
+template <class Number>
+std::vector<Batch::Strided<Number>> side_by_side(std::span<const Batch::Field> fields, Number* data) {
+  const auto stride = static_cast<std::ptrdiff_t>(width(fields) * sizeof(double));
+  std::vector<Batch::Strided<Number>> all;
+  for (const Batch::Field& field : fields) {
+    all.push_back({data, stride});
+    data += field.size();
+  }
+  return all;
+}
+
 Rows run(const Batch& batch, const std::vector<double>& numbers, Batch::Options options = {}) {
-  const std::size_t in = batch.inputs().size(), out = batch.outputs().size(), rows = numbers.size() / in;
+  const std::size_t in = width(batch.inputs()), out = width(batch.outputs()), rows = numbers.size() / in;
   Rows done{std::vector<double>(rows * out, -1), std::vector<std::uint8_t>(rows, 99)};
-  std::vector<Batch::Strided<const double>> inputs;
-  std::vector<Batch::Strided<double>> outputs;
-  const auto stride = [](std::size_t columns) {
-    return static_cast<std::ptrdiff_t>(columns * sizeof(double));
-  };
-  for (std::size_t i = 0; i < in; ++i) inputs.push_back({numbers.data() + i, stride(in)});
-  for (std::size_t o = 0; o < out; ++o) outputs.push_back({done.outputs.data() + o, stride(out)});
-  batch.run(rows, inputs, outputs, done.statuses, options);
+  batch.run(rows, side_by_side(batch.inputs(), numbers.data()),
+            side_by_side(batch.outputs(), done.outputs.data()), done.statuses, options);
   return done;
 }
 
@@ -62,6 +72,22 @@ struct Case {
   const char* method;
 };
 
+/// All numbers of an answer's number, list or lists.
+std::vector<double> flat(const Json& value) {
+  if (!value.is_array()) return {value.get<double>()};
+  std::vector<double> numbers;
+  for (const Json& one : value)
+    for (const double x : flat(one)) numbers.push_back(x);
+  return numbers;
+}
+/// `legs[0].force` as `/legs/0/force`.
+Json::json_pointer pointer(std::string place) {
+  std::erase(place, ']');
+  for (char& c : place)
+    if (c == '.' || c == '[') c = '/';
+  return Json::json_pointer('/' + place);
+}
+
 class BatchOf : public testing::TestWithParam<Case> {};
 
 TEST_P(BatchOf, SaysWhatQuestionsSay) {
@@ -70,7 +96,7 @@ TEST_P(BatchOf, SaysWhatQuestionsSay) {
   EXPECT_EQ(batch.method(), one.method);
   const std::vector<double> numbers = around(one.middle, one.reach, 40);
   const Rows found = run(batch, numbers);
-  const std::size_t in = batch.inputs().size(), out = batch.outputs().size();
+  const std::size_t in = width(batch.inputs()), out = width(batch.outputs());
   std::size_t solved = 0;
   for (std::size_t k = 0; k < 40; ++k) {
     const Json answer = Json::parse(batch.answer(std::span(numbers).subspan(k * in, in)));
@@ -78,14 +104,14 @@ TEST_P(BatchOf, SaysWhatQuestionsSay) {
     EXPECT_EQ(to_string(static_cast<Status>(found.statuses[k])), answer["status"]) << k;
     if (answer["status"] != "converged") continue;
     ++solved;
-    const Json asked = parse_json(one.question, "").has_value() ? Json::parse(one.question) : Json();
-    for (std::size_t o = 0; o < out; ++o) {
-      const std::string name = batch.outputs()[o].name;
-      const std::string place = asked.contains("outputs") ? asked["outputs"][name].get<std::string>() : "";
-      if (place.empty()) continue;
-      const auto expected = AnswerPath(place).number(answer);
-      ASSERT_TRUE(expected) << place;
-      EXPECT_NEAR(found.outputs[k * out + o], *expected, 1e-9 * std::max(1.0, std::abs(*expected))) << place;
+    const Json outputs = Json::parse(one.question)["outputs"];
+    std::size_t column = k * out;
+    for (const Batch::Field& field : batch.outputs()) {
+      const auto place = outputs[field.name].get<std::string>();
+      const auto expected = flat(answer.at(pointer(place)));
+      ASSERT_EQ(expected.size(), field.size()) << place;
+      for (const double x : expected)
+        EXPECT_NEAR(found.outputs[column++], x, 1e-9 * std::max(1.0, std::abs(x))) << place;
     }
   }
   EXPECT_GT(solved, 20U);
@@ -115,6 +141,18 @@ INSTANTIATE_TEST_SUITE_P(
             "rods in lanes"},
         Case{
             "3pfs-g2",
+            R"({"query":"forward","inputs":"$l","path":"continue","outputs":{"p":"pose.position","q":"pose.quaternion"}})",
+            {0.43, 0.43, 0.43},
+            0.005,
+            "rods in lanes"},
+        Case{
+            "3pfs-g2",
+            R"({"query":"velocity","inputs":"$l","wrench":"$w","outputs":{"J":"J","K":"K","U":"U","force":"legs[1].force","d":"J[1]"}})",
+            {0.43, 0.43, 0.43, 0, 0, -1, 0, 0, 0},
+            0.005,
+            "query by query"},
+        Case{
+            "3pfs-g2",
             R"({"query":"forward","inputs":["$a",0.43,"$a"],"wrench":[0,0,"$f",0,0,0],"outputs":{"z":"pose.position[2]","energy":"energy"}})",
             {0.43, -2},
             0.005,
@@ -124,6 +162,29 @@ INSTANTIATE_TEST_SUITE_P(
              {0, 0},
              0.02,
              "poses in lanes"},
+        Case{"3-rfr",
+             R"({"query":"inverse","pose":{"x":"$x","y":"$y","phi":0.1},"outputs":{"l":"inputs"}})",
+             {0, 0},
+             0.02,
+             "poses in lanes"},
+        Case{
+            "3-rfr",
+            R"({"query":"velocity","model":"prb","pose":{"x":"$x","y":0,"phi":0.1},"twist":"$v","outputs":{"J":"J","K":"K","U":"U","a":"legs[2].angles","rates":"rates"}})",
+            {0, 0, 0, 0},
+            0.01,
+            "query by query"},
+        Case{
+            "3-rfr",
+            R"({"query":"statics","tensions":"$t","wrench":"$w","outputs":{"C":"compliance","T":"legs[0].tensions","w":"legs[0].tip_wrench"}})",
+            {0.6, 0.02, 0.6, 0.02, 0.6, 0.02, 0, 0, 0},
+            0.001,
+            "query by query"},
+        Case{
+            "6-ufs",
+            R"({"query":"inverse","pose":{"position":"$p","quaternion":"$q"},"outputs":{"l":"inputs","e":"legs[3].base_tangent"}})",
+            {0, 0, 0.2, 1, 0, 0, 0},
+            0.005,
+            "query by query"},
         Case{
             "3-rfr",
             R"({"query":"statics","tensions":[["$t",0],["$t",0],["$t",0]],"outputs":{"phi":"pose.phi","T":"legs[0].tensions[0]"}})",
@@ -135,23 +196,55 @@ INSTANTIATE_TEST_SUITE_P(
             R"({"query":"forward","configuration":[["$a","$b"]],"outputs":{"l":"changes[0][1]","z":"tip.position[2]"}})",
             {0.1, 0.1},
             0.1,
-            "ends of sections"}));
+            "ends of sections"},
+        Case{
+            "nottingham-tpcj",
+            R"({"query":"forward","configuration":"$c","outputs":{"l":"changes","p":"tip.position","q":"sections[1].quaternion"}})",
+            std::vector<double>(10, 0.05), 0.05, "ends of sections"},
+        Case{
+            "nottingham-neutral",
+            R"({"query":"velocity","configuration":"$c","twist":"$v","outputs":{"J":"J","K":"K","rates":"rates","c":"configuration"}})",
+            {0.3, 0.1, 0.2, 0.4, 0.2, 0.1, 0.3, 0.2, 0.2, 0.3, 0, 0, 0, 0, 0, 0},
+            0.01,
+            "query by query"}));
 
 TEST(Batch, ChoosesUsualOutputsAndUnits) {
   const auto names = [](const Batch& batch) {
     std::string all;
-    for (const auto& [name, unit] : batch.outputs()) all += name + "[" + unit + "] ";
+    for (const auto& [name, unit, shape] : batch.outputs()) {
+      all += name + "[" + unit + "]";
+      for (const std::size_t length : shape) all += std::to_string(length) + ",";
+      all += " ";
+    }
     return all;
   };
   EXPECT_EQ(names(prepared("3-rfr", R"({"query":"forward","inputs":["$a","$b","$c"]})").value()),
             "x[m] y[m] phi[rad] ");
   EXPECT_EQ(names(prepared("3pfs-g2", R"({"query":"forward","inputs":["$a","$a","$a"]})").value()),
-            "x[m] y[m] z[m] e0[] e1[] e2[] e3[] ");
+            "position[m]3, quaternion[]4, ");
   const Batch inverse =
       prepared("3-rfr", R"({"query":"inverse","pose":{"x":"$x","y":0,"phi":"$phi"}})").value();
-  EXPECT_EQ(names(inverse), "inputs_0[m] inputs_1[m] inputs_2[m] ");
+  EXPECT_EQ(names(inverse), "inputs[m]3, ");
   EXPECT_EQ(inverse.inputs()[0].unit, "m");
   EXPECT_EQ(inverse.inputs()[1].unit, "rad");
+  EXPECT_EQ(names(prepared("nottingham-tpcj", R"({"query":"forward","changes":"$c"})").value()),
+            "position[m]3, quaternion[]4, changes[m]15, ");
+  const auto shape = [](const char* robot, const char* question) {
+    return prepared(robot, question).value().inputs()[0].shape;
+  };
+  using Shape = std::vector<std::size_t>;
+  EXPECT_EQ(shape("3-rfrr", R"({"query":"forward","inputs":"$a"})"), Shape{6});
+  EXPECT_EQ(prepared("3-rfrr", R"({"query":"forward","inputs":"$a"})").value().inputs()[0].unit, "rad, m");
+  EXPECT_EQ(shape("nottingham-tpcj", R"({"query":"forward","configuration":"$c"})"), (Shape{5, 2}));
+  EXPECT_EQ(shape("3-rfr", R"({"query":"statics","tensions":"$t"})"), (Shape{3, 2}));
+  EXPECT_EQ(
+      shape("3-rfr", R"({"query":"velocity","model":"prb","pose":{"x":0,"y":0,"phi":0},"angles":"$t"})"),
+      (Shape{3, 5}));
+  EXPECT_EQ(
+      shape(
+          "3-rfr",
+          R"({"query":"velocity","model":"prb","set":{"defaults.link.joints":8},"pose":{"x":0,"y":0,"phi":0},"angles":"$t"})"),
+      (Shape{3, 7}));
 }
 
 TEST(Batch, SaysWhatIsWrong) {
@@ -160,6 +253,8 @@ TEST(Batch, SaysWhatIsWrong) {
     return batch ? std::string() : batch.error().front().code;
   };
   EXPECT_EQ(code(R"({"query":"forward","inputs":[0.2,0.2,0.2]})"), "no_inputs");
+  EXPECT_EQ(code(R"({"query":"forward","inputs":"$a","wrench":["$a",0,0]})"), "ambiguous");
+  EXPECT_EQ(code(R"({"query":"forward","inputs":"$a","max_iterations":"$a[1]"})"), "ambiguous");
   EXPECT_EQ(code(R"([1])"), "wrong_type");
   EXPECT_EQ(code(R"({"query":"forward","inputs":["$a"],"path":"home"})"), "unknown_choice");
   EXPECT_FALSE(Batch::prepare(parse_yaml("legs: 3", "robot").value(), parse_json("{}", "query").value()));
@@ -178,7 +273,7 @@ TEST(Batch, RefusesRowsWhoseNumbersAreNone) {
       EXPECT_TRUE(found.statuses[k] == static_cast<std::uint8_t>(Status::bad_input) ||
                   (k > 0 && found.statuses[k] == static_cast<std::uint8_t>(Status::left_domain)))
           << question << k;
-      EXPECT_TRUE(std::isnan(found.outputs[k * batch.outputs().size()]));
+      EXPECT_TRUE(std::isnan(found.outputs[k * width(batch.outputs())]));
     }
     EXPECT_TRUE(Json::parse(batch.answer(std::vector{nan})).contains("error"));
   }
@@ -206,10 +301,37 @@ TEST(Batch, OfNoRowsOrOfOtherColumnsDoesNothing) {
   const double x[] = {0, 0, 0};
   double found[9] = {-1};
   const Batch::Strided<const double> in{x};
-  const std::vector<Batch::Strided<double>> out{{found}, {found + 3}, {found + 6}};
-  batch.run(2, {&in, 1}, out, statuses, {});  // statuses of three rows
+  const Batch::Strided<double> out{found, 24};
+  batch.run(2, {&in, 1}, {&out, 1}, statuses, {});  // statuses of three rows
   EXPECT_EQ(statuses, std::vector<std::uint8_t>(3, 99));
   EXPECT_EQ(found[0], -1);
+}
+
+TEST(Batch, TakesArraysAsTheyLie) {
+  const Batch batch =
+      prepared(
+          "nottingham-tpcj",
+          R"({"query":"forward","configuration":"$c","outputs":{"p":"tip.position","l":"changes","z":"tip.position[2]"}})")
+          .value();
+  constexpr std::ptrdiff_t number = sizeof(double);
+  constexpr std::size_t rows = 7;
+  const std::vector<double> side_by_side = around(std::vector<double>(10, 0.05), 0.05, rows);
+  const Rows expected = run(batch, side_by_side);
+  std::vector<double> transposed(10 * rows), positions(3 * rows), changes(15 * rows), z(rows);
+  for (std::size_t k = 0; k < rows; ++k)
+    for (std::size_t i = 0; i < 10; ++i) transposed[i * rows + k] = side_by_side[k * 10 + i];
+  const Batch::Strided<const double> in{transposed.data(), number, rows * number};
+  const std::vector<Batch::Strided<double>> out{
+      {positions.data(), number, rows * number},                // column after column
+      {changes.data() + 15 * rows - 1, -15 * number, -number},  // all backwards
+      {z.data(), number, 0}};
+  batch.run(rows, {&in, 1}, out, {}, {});
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(positions[i * rows + k], expected.outputs[19 * k + i]);
+    for (std::size_t i = 0; i < 15; ++i)
+      EXPECT_EQ(changes[15 * rows - 1 - 15 * k - i], expected.outputs[19 * k + 3 + i]);
+    EXPECT_EQ(z[k], positions[2 * rows + k]);
+  }
 }
 
 }  // namespace batch_test

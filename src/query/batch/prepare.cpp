@@ -1,0 +1,216 @@
+/// A question with names in it as fields, and as the single numbers that samplers know.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/quantity.hpp"
+#include "query/batch/answer_path.hpp"
+#include "query/batch/batch_state.hpp"
+#include "query/batch/field_layout.hpp"
+#include "sinew/io/reader.hpp"
+#include "sinew/io/robot_file.hpp"
+#include "sinew/robot/assembly.hpp"
+#include "sinew/robot/serial.hpp"
+
+namespace sinew::inline v1 {
+namespace {
+
+using Outputs = std::vector<std::pair<std::string, std::string>>;  ///< names, places in the answer
+
+std::string_view word(const Node& query, std::string_view key) {
+  const Node* found = query.find(key);
+  return found ? std::string_view(found->text) : std::string_view();
+}
+
+/// As the question has it: changed by the constants of its `set`, by its `model`. What does not go is told by
+/// its answers.
+Robot as_asked(const Document& document, const Robot& robot, const Node& query) {
+  Robot asked = robot;
+  if (const Node* settings = query.find("set")) {
+    std::vector<Member> constants;
+    for (const Member& one : settings->members)
+      if (!one.value.text.starts_with('$')) constants.push_back(one);
+    const auto changed = with(document, constants);
+    if (const auto other = changed ? read_robot(*changed) : tl::unexpected(changed.error())) asked = *other;
+  }
+  const bool is_on_chains =
+      word(query, "model") == "prb" || (word(query, "query") == "statics" && !bears_load(asked));
+  if (is_on_chains && asked.model() == Model::cc)
+    if (const auto chains = asked.as(Model::prb)) asked = *chains;
+  return asked;
+}
+
+/// Of a number of a question or an answer; of inputs it is the robot's.
+std::string unit_of_number(const Robot& robot, std::string_view place) {
+  const std::string_view field = place.substr(0, place.find('['));
+  const int index = field.size() < place.size() ? std::atoi(place.data() + field.size() + 1) : 0;
+  const bool is_linear = index < (robot.planar() ? 2 : 3);
+  if (field == "inputs" && !robot.serial()) {
+    const auto inputs = inputs_of(robot);
+    const auto one = static_cast<std::size_t>(index);
+    return one < inputs.size() ? std::string(unit(inputs[one].kind.dimension)) : std::string();
+  }
+  if (field == "wrench" || field == "until.wrench" || field == "to.wrench") return is_linear ? "N" : "N m";
+  if (field == "twist") return is_linear ? "m/s" : "rad/s";
+  if (field == "gravity") return "m/s^2";
+  if (field == "lengths") return "m";
+  if (field == "angles") return "rad";
+  if (field == "axial_forces" || field == "measured_tensions") return "N";
+  return std::string(unit_of_answer(place));
+}
+
+Batch::Field field_of(const Robot& robot, std::string name, const std::string& place,
+                      const FieldLayout& layout) {
+  Batch::Field field{std::move(name), {}, layout.shape};
+  std::vector<std::string> units;
+  for (std::size_t i = 0; i < layout.size(); ++i) {
+    std::string one = unit_of_number(robot, place + layout.suffix(i));
+    if (std::ranges::find(units, one) == units.end()) units.push_back(std::move(one));
+  }
+  field.unit = fmt::format("{}", fmt::join(units, ", "));
+  return field;
+}
+
+/// Texts for single numbers, `$name[1]`, in place of one for a list.
+Node single_numbers(const std::string& text, const FieldLayout& layout) {
+  Node list;
+  list.kind = Node::Kind::list;
+  std::size_t next = 0;
+  const auto fill = [&](Node& one, std::size_t count) {
+    one.kind = Node::Kind::list;
+    for (std::size_t i = 0; i < count; ++i, ++next)
+      one.items.push_back(make_node(std::string_view(text + layout.suffix(next))));
+  };
+  if (layout.lists.empty()) fill(list, layout.size());
+  for (const std::size_t count : layout.lists) fill(list.items.emplace_back(), count);
+  return list;
+}
+
+/// A name in a question.
+struct Named {
+  std::string name, place;
+  FieldLayout layout;
+};
+
+/// Finds names, and puts single numbers in place of lists.
+class NameReader {
+ public:
+  NameReader(const FieldLayouts& layouts, Errors& errors) : layouts_(layouts), errors_(errors) {}
+
+  std::vector<Named> read(Node& query) {
+    read(query, "");
+    return std::move(found_);
+  }
+
+ private:
+  void read(Node& node, const std::string& place) {
+    if (node.kind == Node::Kind::string && node.text.starts_with('$')) return read_name(node, place);
+    for (std::size_t i = 0; i < node.items.size(); ++i) read(node.items[i], joined(place, i));
+    for (Member& member : node.members) read(member.value, joined(place, member.key));
+  }
+
+  void read_name(Node& node, const std::string& place) {
+    const std::string name = node.text.substr(1);
+    const FieldLayout layout = layouts_.input(place);
+    const auto before = std::ranges::find(found_, name, &Named::name);
+    if (before == found_.end())
+      found_.push_back({name, place, layout});
+    else if (before->layout.shape != layout.shape)
+      errors_.push_back(
+          {"ambiguous", place,
+           fmt::format("{} = \"${}\" stands for {} numbers here and for {} at {}; give two names", place,
+                       name, layout.size(), before->layout.size(), before->place)});
+    if (!layout.shape.empty()) node = single_numbers(node.text, layout);
+  }
+
+  const FieldLayouts& layouts_;
+  Errors& errors_;
+  std::vector<Named> found_;
+};
+
+/// What people ask a question for.
+Outputs usual_outputs(const Robot& robot, std::string_view query) {
+  if (query == "diagram") return {{"margin", "margin"}, {"over_tension", "over_tension"}};
+  if (robot.serial()) {
+    if (query == "velocity") return {{"J", "J"}, {"K", "K"}};
+    Outputs usual{{"position", "tip.position"}, {"quaternion", "tip.quaternion"}, {"changes", "changes"}};
+    if (query == "inverse") usual.emplace_back("configuration", "configuration");
+    return usual;
+  }
+  if (query == "inverse") return {{"inputs", "inputs"}};
+  if (query == "velocity") {
+    Outputs usual{{"position_index", "indices.position"}, {"rotation_index", "indices.rotation"}};
+    if (!has_rods(robot)) usual.insert(usual.begin(), {"determinant", "determinant"});
+    return usual;
+  }
+  if (robot.planar()) return {{"x", "pose.x"}, {"y", "pose.y"}, {"phi", "pose.phi"}};
+  return {{"position", "pose.position"}, {"quaternion", "pose.quaternion"}};
+}
+
+/// The fields of a batch that are not its query's.
+struct Told {
+  bool is_path = false;
+  Outputs outputs;
+};
+Told read_told(const Document& asked, Errors& errors) {
+  Told told;
+  Reader reader(asked, errors);
+  if (!reader.is(Node::Kind::map)) {
+    reader.fail("wrong_type", "give the fields of a query as a map");
+    return told;
+  }
+  if (const auto path = reader.optional("path"))
+    told.is_path = path->choice({"continue", "anew"}) == "continue";
+  if (const auto named = reader.optional("outputs"))
+    for (auto& [name, place] : named->members()) told.outputs.emplace_back(name, place.text());
+  return told;
+}
+
+Node query_of(const Node& asked) {
+  Node query;
+  query.kind = Node::Kind::map;
+  for (const Member& field : asked.members)
+    if (field.key != "path" && field.key != "outputs") query.members.push_back(field);
+  return query;
+}
+
+}  // namespace
+
+std::size_t Batch::Field::size() const { return FieldLayout{shape, {}}.size(); }
+
+Expected<Batch> Batch::prepare(const Document& document, const Document& asked) {
+  const auto robot = read_robot(document);
+  if (!robot) return tl::unexpected(robot.error());
+  Errors errors;
+  Told told = read_told(asked, errors);
+  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  auto state = std::make_shared<State>();
+  BatchQuestion& question = state->question;
+  question = {document, {"query", query_of(asked.root)}, {}, {}, told.is_path};
+  const Robot as_it_is = as_asked(document, *robot, question.query.root);
+  const std::string kind(word(question.query.root, "query"));
+  const FieldLayouts layouts(as_it_is, kind);
+  for (const auto& [name, place, layout] : NameReader(layouts, errors).read(question.query.root)) {
+    state->inputs.push_back(field_of(as_it_is, name, place, layout));
+    for (std::size_t i = 0; i < layout.size(); ++i) {
+      question.inputs.push_back(name + layout.suffix(i));
+      if (std::ranges::count(question.inputs, question.inputs.back()) > 1)
+        errors.push_back(
+            {"ambiguous", place,
+             "\"$" + question.inputs.back() + "\" is a name and a number of a list; give another"});
+    }
+  }
+  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  if (state->inputs.empty())
+    return failure("no_inputs", "query", "nothing goes in: write texts like \"$x\" where its numbers go");
+  if (told.outputs.empty()) told.outputs = usual_outputs(as_it_is, kind);
+  for (auto& [name, place] : told.outputs) {
+    const FieldLayout layout = layouts.output(place);
+    state->outputs.push_back(field_of(as_it_is, name, place, layout));
+    for (std::size_t i = 0; i < layout.size(); ++i) question.outputs.push_back(place + layout.suffix(i));
+  }
+  state->kind = choose_sampler(question);
+  return Batch(std::move(state));
+}
+
+}  // namespace sinew::inline v1
