@@ -19,15 +19,15 @@ static int read_number(PyObject* value, double* number) {
   return 1;
 }
 
-static int read_list(PyObject* list, const Field* field, Py_ssize_t level, double* numbers) {
-  if (level == field->rank) return read_number(list, numbers);
+static int read_list(PyObject* list, const Py_ssize_t* shape, Py_ssize_t rank, double* numbers) {
+  if (rank == 0) return read_number(list, numbers);
   const int is_list = PyList_Check(list);
   if (!is_list && !PyTuple_Check(list)) return 1;
-  const Py_ssize_t size = field->shape[level], stride = level + 1 < field->rank ? field->shape[level + 1] : 1;
+  const Py_ssize_t size = shape[0], stride = rank > 1 ? shape[1] : 1;
   if ((is_list ? PyList_Size(list) : PyTuple_Size(list)) != size) return 1;
   for (Py_ssize_t i = 0; i < size; ++i) {
     PyObject* item = is_list ? PyList_GetItem(list, i) : PyTuple_GetItem(list, i);
-    if (!item || read_list(item, field, level + 1, numbers + i * stride) != 0) return 1;
+    if (!item || read_list(item, shape + 1, rank - 1, numbers + i * stride) != 0) return 1;
   }
   return 0;
 }
@@ -53,7 +53,7 @@ static int read_row(const Question* self, PyObject* args, PyObject* keywords, do
   for (Py_ssize_t i = 0; i < self->inputs_count; ++i) {
     const Field* field = &self->in[i];
     PyObject* value = i < places ? PyTuple_GetItem(args, i) : PyDict_GetItem(keywords, field->name);
-    if (!value || (read_list(value, field, 0, numbers) != 0 && read_vector(value, field, numbers) != 0)) return 1;
+    if (!value || (read_list(value, field->shape, field->rank, numbers) != 0 && read_vector(value, field, numbers) != 0)) return 1;
     numbers += field->count;
   }
   return 0;
@@ -132,12 +132,12 @@ static void free_row(PyObject* self) {
   Py_DECREF(type);
 }
 
-static PyObject* list_of(const double* numbers, const Field* field, Py_ssize_t level) {
-  if (level == field->rank) return PyFloat_FromDouble(*numbers);
-  const Py_ssize_t size = field->shape[level], stride = level + 1 < field->rank ? field->shape[level + 1] : 1;
+static PyObject* list_of(const double* numbers, const Py_ssize_t* shape, Py_ssize_t rank) {
+  if (rank == 0) return PyFloat_FromDouble(*numbers);
+  const Py_ssize_t size = shape[0], stride = rank > 1 ? shape[1] : 1;
   PyObject* list = PyList_New(size);
   for (Py_ssize_t i = 0; list && i < size; ++i) {
-    PyObject* item = list_of(numbers + i * stride, field, level + 1);
+    PyObject* item = list_of(numbers + i * stride, shape + 1, rank - 1);
     if (!item || PyList_SetItem(list, i, item) < 0) {
       Py_DECREF(list);
       return NULL;
@@ -153,7 +153,7 @@ static PyObject* get_row(PyObject* object, PyObject* name) {
   const Py_ssize_t index = PyLong_AsSsize_t(place);
   const double* numbers = self->numbers + self->question->in_numbers;
   for (Py_ssize_t o = 0; o < index; ++o) numbers += self->question->out[o].count;
-  PyObject* value = list_of(numbers, &self->question->out[index], 0);
+  PyObject* value = list_of(numbers, self->question->out[index].shape, self->question->out[index].rank);
   if (!value || self->question->out[index].rank == 0) return value;
   PyObject* array = PyObject_CallFunctionObjArgs(to_array, value, NULL);
   Py_DECREF(value);
@@ -184,7 +184,7 @@ static PyObject* row_inputs(PyObject* object, PyObject* nothing) {
   const double* numbers = self->numbers;
   for (Py_ssize_t i = 0; all && self->question && i < self->question->inputs_count; ++i) {
     const Field* field = &self->question->in[i];
-    PyObject* value = list_of(numbers, field, 0);
+    PyObject* value = list_of(numbers, field->shape, field->rank);
     if (!value || PyDict_SetItem(all, field->name, value) < 0) {
       Py_DECREF(all);
       all = NULL;
