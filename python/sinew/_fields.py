@@ -94,7 +94,7 @@ FIELDS = _fields(
 
 _COMMON = ("model", "law", "theta_is", "max_iterations", "tilt", "set")
 _BRANCH = ("bending", "curvature", "elbow")
-_WHERE = ("inputs", "pose", "independent", "configuration", "changes", *_BRANCH, "angles", "start", "wrench", "gravity")
+_WHERE = ("pose", "inputs", "independent", "configuration", "changes", *_BRANCH, "angles", "start", "wrench", "gravity")
 
 
 class Verb(NamedTuple):

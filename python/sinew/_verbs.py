@@ -7,7 +7,7 @@ import inspect
 import textwrap
 from typing import Any
 
-from ._fields import FIELDS, KINDS, VERBS
+from ._fields import FIELDS, VERBS
 
 BATCH = ("outputs", "path", "threads", "out")
 _BATCH_HELP = """\
@@ -36,9 +36,8 @@ def _signature(name: str) -> inspect.Signature:
     parameters = [kinds("self", kinds.POSITIONAL_ONLY)]
     for index, field in enumerate((*VERBS[name].fields, *(BATCH if name != "describe" else ()))):
         place = kinds.POSITIONAL_OR_KEYWORD if index == 0 else kinds.KEYWORD_ONLY
-        hint = KINDS[FIELDS[field].kind].type if field in FIELDS else "Any"
-        parameters.append(kinds(field, place, default=None, annotation=hint))
-    return inspect.Signature(parameters, return_annotation="Answer")
+        parameters.append(kinds(field, place, default=None))
+    return inspect.Signature(parameters)
 
 
 def _method(name: str) -> Any:

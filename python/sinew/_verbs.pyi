@@ -133,9 +133,9 @@ class Verbs:
 
     def velocity(
         self,
-        inputs: Numbers | None = None,
-        *,
         pose: Pose | None = None,
+        *,
+        inputs: Numbers | None = None,
         independent: Mapping[str, Any] | None = None,
         configuration: Lists | None = None,
         changes: Lists | None = None,
@@ -164,10 +164,10 @@ class Verbs:
         """Velocity equations J (twist) = K (input rates), sensitivities, singularities.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            inputs [m, rad]: what the motors command, in the order of robot.inputs: (k,), or (n, k) for n
-                rows
             pose [m, rad]: of the platform in the base frame: {x, y, phi}, or {position (3,), quaternion
                 (4,) [w, x, y, z]}
+            inputs [m, rad]: what the motors command, in the order of robot.inputs: (k,), or (n, k) for n
+                rows
             independent [m]: in place of `pose` where three legs hold the platform: {z, e1, e2}
             configuration [rad, m]: of serial robots: the bend of each section, [theta, phi] or [beta_1,
                 beta_2]
@@ -416,9 +416,9 @@ class Verbs:
 
     def shape(
         self,
-        inputs: Numbers | None = None,
-        *,
         pose: Pose | None = None,
+        *,
+        inputs: Numbers | None = None,
         independent: Mapping[str, Any] | None = None,
         configuration: Lists | None = None,
         changes: Lists | None = None,
@@ -444,10 +444,10 @@ class Verbs:
         """Polylines for a picture.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            inputs [m, rad]: what the motors command, in the order of robot.inputs: (k,), or (n, k) for n
-                rows
             pose [m, rad]: of the platform in the base frame: {x, y, phi}, or {position (3,), quaternion
                 (4,) [w, x, y, z]}
+            inputs [m, rad]: what the motors command, in the order of robot.inputs: (k,), or (n, k) for n
+                rows
             independent [m]: in place of `pose` where three legs hold the platform: {z, e1, e2}
             configuration [rad, m]: of serial robots: the bend of each section, [theta, phi] or [beta_1,
                 beta_2]

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from .answer import Answer
     from .robot import Robot
 
+_OF_TENDONS = ("changes", "measured")  # of all tendons in order in columns, a list a section in questions
+
 
 class Row(_sinew.Row):
     """What a prepared question answers of one row: its outputs, as attributes; `ok`, `status`.
@@ -96,7 +98,7 @@ class Prepared(_sinew.Question):
     def answer(self, values: Sequence[Any]) -> Answer:
         """The whole answer to one row."""
         named = {field["name"]: value for field, value in zip(self.layout["inputs"], values)}
-        answer: Answer = self.robot._ask(self.query, _filled(self._made_of[2], named))
+        answer: Answer = self.robot._ask(self.query, _filled(self._made_of[2], named, self.robot, ""))
         return answer
 
     def _columns(self, args: tuple[Any, ...], named: dict[str, Any], is_many: bool = False) -> Any:
@@ -152,12 +154,13 @@ def _named(outputs: Any) -> Mapping[str, str]:
     return {str(place).rsplit(".", 1)[-1]: place for place in places}
 
 
-def _filled(value: Any, named: Mapping[str, Any]) -> Any:
+def _filled(value: Any, named: Mapping[str, Any], robot: Robot, key: str) -> Any:
     """The fields with the numbers where "$name" stood."""
     if isinstance(value, str) and value.startswith("$"):
-        return named.get(value[1:], value)
+        numbers = named.get(value[1:], value)
+        return robot._by_sections(numbers) if key in _OF_TENDONS else numbers
     if isinstance(value, Mapping):
-        return {name: _filled(item, named) for name, item in value.items()}
+        return {name: _filled(item, named, robot, name) for name, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_filled(item, named) for item in value]
+        return [_filled(item, named, robot, "") for item in value]
     return value

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import importlib.resources
+import itertools
 import json
 import os
 import threading
@@ -121,6 +122,11 @@ class Robot(Verbs):
 
     def _input_units(self) -> list[str]:
         return [entry["unit"] for entry in self._about()._plain()["inputs"]]
+
+    def _by_sections(self, numbers: list[float]) -> list[list[float]]:
+        """Numbers of all tendons, in order, as a list a section."""
+        left = iter(numbers)
+        return [list(itertools.islice(left, section["tendons"]["count"])) for section in self._about()._plain()["sections"]]
 
     def plot(self, answer: Any = None, ax: Any = None) -> Any:
         """Draws the robot at an answer's pose (None: at home) by matplotlib; returns the axes. Lengths in mm."""
