@@ -48,8 +48,11 @@ static PyObject* path_of(const Place* place) {
   PyObject* outer = path_of(place->outer);
   if (!outer) return NULL;
   const int is_first = PyUnicode_GetLength(outer) == 0;
+  const int is_text = place->key && PyUnicode_Check(place->key) && PyUnicode_AsUTF8AndSize(place->key, NULL);
+  PyErr_Clear();
   PyObject* path = !place->key ? PyUnicode_FromFormat("%U[%zd]", outer, place->index)
-                               : PyUnicode_FromFormat(is_first ? "%U%S" : "%U.%S", outer, place->key);
+                   : is_text   ? PyUnicode_FromFormat(is_first ? "%U%U" : "%U.%U", outer, place->key)
+                               : PyUnicode_FromFormat(is_first ? "%U%A" : "%U.%A", outer, place->key);
   Py_DECREF(outer);
   return path;
 }
@@ -68,7 +71,7 @@ static int add_string(Text* text, PyObject* string, const Place* place) {
   if (!bytes) {
     if (!PyErr_ExceptionMatches(PyExc_UnicodeError)) return -1;
     PyErr_Clear();
-    return refuse(place, "not_utf8", "%U: %R has half of a surrogate pair; give text of whole characters.", string);
+    return refuse(place, "not_utf8", "%U: %A has half of a surrogate pair; give text of whole characters.", string);
   }
   if (add(text, "\"", 1) < 0) return -1;
   for (Py_ssize_t i = 0, begin = 0; i <= size; ++i) {

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _arrays, _sinew
-from ._errors import InputError
+from ._errors import InputError, from_text
 from .columns import Columns, Status
 
 if TYPE_CHECKING:
@@ -143,6 +143,8 @@ class Prepared(_sinew.Question):
         outputs = _arrays.outputs(self.layout["outputs"], rows, out, inputs)
         status = _arrays.bytes_of(rows)
         said = self.run(rows, [_arrays.as_it_lies(array) for array in inputs], list(outputs.values()), status, threads)
+        if said and said.startswith('{"error"') and _arrays.counts(status) == [(Status.bad_input, rows)]:
+            raise from_text(said)  # no row is input: it is the question that is wrong
         return Columns(self, inputs, outputs, status, said)
 
 

@@ -41,12 +41,12 @@ class Questions(unittest.TestCase):
         self.refused("complex", "wrong_type", inputs=[1j, 0.19, 0.19])
         self.refused("bytes", "wrong_type", inputs=b"abc")
         self.refused("object", "wrong_type", inputs=[object(), 0.19, 0.19])
-        self.refused("is text", inputs="abc") if False else self.refused("inputs", inputs="abc")
+        self.refused("inputs", inputs="abc")
         self.refused("inputs", inputs=[True, 0.19, 0.19])
         self.refused("inputs", inputs={})
         self.refused("inputs", inputs=[])
-        self.refused("not a mapping|map|type set", start={1, 2}, inputs=LENGTHS)
-        self.refused("wrong|no text|1 is", inputs=LENGTHS, start={1: 2})
+        self.refused("start", start={1, 2}, inputs=LENGTHS)
+        self.refused("1 is no text|no text", inputs=LENGTHS, start={1: 2})
 
     def test_recursion(self):
         deep = []
@@ -76,10 +76,10 @@ class Questions(unittest.TestCase):
             with self.assertRaises((sinew.InputError, UnicodeEncodeError)):
                 sinew.load(text + "\n" + text)
             with self.assertRaises(sinew.InputError):
-                self.robot.prepare("forward", inputs="$a", **{text: 1})
+                self.robot.prepare("forward", inputs="$a", **{text: 1})(LENGTHS)
 
     def test_huge_lists(self):
-        self.refused("too_large|too large|values|1 MiB|list", inputs=[0.19] * 3_000_000)
+        self.refused("larger than 4 MiB", inputs=[0.19] * 3_000_000)
 
     def test_no_robots(self):
         for source in ("", "no-such", "/", "/dev/null", "sinew: 1\nlegs: 3\n", {}, {"legs": float("nan")}, {1: 2}):
@@ -118,7 +118,7 @@ class Questions(unittest.TestCase):
 
         class Asks:
             def tolist(inner):
-                return self.robot.forward(LENGTHS).inputs if False else float(self.robot.forward(LENGTHS).ok) * 0.19
+                return 0.19 * self.robot.forward(LENGTHS).ok
 
         self.assertTrue(self.robot.forward(inputs=[Asks(), 0.19, 0.19]).ok)
 
@@ -246,7 +246,7 @@ class Memory(unittest.TestCase):
 
         def refused():
             for call in (lambda: robot.forward(inputs=[float("nan")] * 3), lambda: robot.forward(inputs=[1]), lambda: prepared([1]),
-                         lambda: prepared(inputs, out=inputs), lambda: sinew.load("none"), lambda: robot.prepare("x", y="$z")):
+                         lambda: prepared(inputs, out=inputs), lambda: sinew.load("none"), lambda: robot.prepare("x", y="$z")(1.0)):
                 try:
                     call()
                 except sinew.InputError:

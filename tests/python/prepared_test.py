@@ -62,12 +62,19 @@ class Prepared(unittest.TestCase):
     def test_refuses_what_cannot_be_prepared(self):
         with self.assertRaisesRegex(sinew.InputError, "nothing goes in"):
             self.robot.prepare("forward", inputs=[0.19, 0.19, 0.19])
-        with self.assertRaises(sinew.InputError):
-            self.robot.prepare("forward", inputs="$x", outputs={"z": ""})
-        with self.assertRaises(sinew.InputError):
+        with self.assertRaisesRegex(sinew.InputError, "sideways"):
             self.robot.prepare("forward", inputs="$x", path="sideways")
-        with self.assertRaises(sinew.InputError):
-            self.robot.prepare("nothing", inputs="$x")
+
+    def test_refuses_a_question_that_is_wrong_whatever_the_numbers(self):
+        for question, why in (({"inputs": "$x", "mode": "cc"}, 'did you mean "model"'), ({"inputs": ["$x"]}, "it must have 3")):
+            with self.assertRaisesRegex(sinew.InputError, why):
+                prepared = self.robot.prepare("forward", **question)
+                prepared(0.19 if isinstance(question["inputs"], list) else [0.19] * 3)
+            with self.assertRaisesRegex(sinew.InputError, why):
+                prepared = self.robot.prepare("forward", **question)
+                prepared(np.full(5, 0.19) if isinstance(question["inputs"], list) else np.full((5, 3), 0.19))
+        with self.assertRaisesRegex(sinew.InputError, "did you mean"):
+            self.robot.forward(inputs=np.full((5, 3), 0.19), mode="cc")
 
     def test_of_a_changed_robot(self):
         changed = self.robot.set({"legs[0].link.length": "180 mm"})
