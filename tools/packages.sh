@@ -19,7 +19,7 @@ plan_packages=(libfcl-dev libassimp-dev)
 # tools of the Verilog core, and a browser.
 # shellcheck disable=SC2034
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
-               python3-yaml python3-h5py ccache libopenmpi-dev openmpi-bin
+               python3-yaml python3-h5py python3-numpy libpython3-dev mypy ccache libopenmpi-dev openmpi-bin
                gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys "${web_packages[@]}" chromium-headless-shell)
 
 say() { printf '%s\n' "$*" >&2; }

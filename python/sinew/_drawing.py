@@ -26,6 +26,9 @@ def _questions(answer: Answer) -> Iterator[dict[str, Any]]:
     if inputs and "pose" in found:
         yield {**loads, "inputs": inputs, "start": found["pose"]}
         yield {**loads, "inputs": inputs}
+    if "pose" in found and all("angles" in leg for leg in found.get("legs") or [{}]):  # chains, as they are
+        law = {"law": shared["law"]} if "law" in shared else {}
+        yield {**law, "model": "prb", "pose": found["pose"], "angles": [leg["angles"] for leg in found["legs"]]}
     yield shared
     if "pose" in found:
         branch = {name: shared[name] for name in ("bending", "curvature", "elbow") if name in shared}

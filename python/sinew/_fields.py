@@ -106,9 +106,11 @@ class Verb(NamedTuple):
 VERBS = {
     "forward": Verb("Pose of the platform or tip from the inputs.",
                     "pose (or tip), legs (or sections), residual, iterations; of rods and chains energy, potential, and what `want` asks for",
-                    ("inputs", "configuration", "changes", "slack", "wrench", "gravity", "start", "want", "until", "all", "trace", *_COMMON)),
+                    ("inputs", "configuration", "changes", "slack", "wrench", "gravity", "start", "want", "until", "posture_threshold",
+                     "all", "trace", *_COMMON)),
     "inverse": Verb("Inputs from the pose.", "inputs (or configuration and changes), legs, pose, residual",
-                    ("pose", "independent", "position", "direction", *_BRANCH, "start", "wrench", "gravity", "want", "all", "hold", *_COMMON)),
+                    ("pose", "independent", "position", "direction", *_BRANCH, "start", "wrench", "gravity", "want",
+                     "posture_threshold", "until", "all", *_COMMON)),
     "velocity": Verb("Velocity equations J (twist) = K (input rates), sensitivities, singularities.",
                      "pose, J, K, U = J^-1 K, determinant, indices, type_1, type_2; with `twist` rates",
                      (*_WHERE, "twist", "rates", "along", "limit", *_COMMON)),
@@ -119,13 +121,13 @@ VERBS = {
     "track": Verb("Inputs along a path of poses; of rods and chains also a curve of equilibria.",
                   "rows, residual, reached; of a curve curves and equilibria",
                   ("poses", "from_", "to", "samples", "inputs", "pose", "independent", *_BRANCH, "angles", "start", "wrench", "gravity",
-                   "objective", "rk4_steps", "set_at", "hold", "tensions", "lengths", "range", "backward", "branches", *_COMMON)),
+                   "objective", "rk4_steps", "set_at", "tensions", "lengths", "range", "backward", "branches", *_COMMON)),
     "diagram": Verb("What the tendons of one section of a serial robot leave it free to do.",
                     "class_, word, amount, advice, point, slack, margin, over_tension, frontiers, polygon, boundary, area",
-                    ("section", "changes", "measured", "tolerance", "envelope", "limit", *_COMMON)),
+                    ("section", "changes", "measured", "tolerance", "envelope", "limit", *(name for name in _COMMON if name != "law"))),
     "shape": Verb("Polylines for a picture.", "pose, backbones, tendons, lines, platform, base, frames; points in the base frame [m]",
                   (*_WHERE, "samples", *_COMMON)),
-    "describe": Verb("What the robot has.", "kind, space, inputs, pose, home, legs or sections, models, versions", ("set",)),
+    "describe": Verb("What the robot has.", "kind, space, inputs, pose, home, legs or sections, models, versions", _COMMON[::-1]),
 }
 
 RANKS = {name: KINDS[field.kind].rank for name, field in FIELDS.items()}

@@ -1,6 +1,7 @@
 """Pictures by matplotlib."""
 from __future__ import annotations
 
+import importlib
 from typing import TYPE_CHECKING, Any
 
 from ._drawing import polylines, shape_of
@@ -17,7 +18,7 @@ STYLES = {
 
 
 def plot(robot: Robot, answer: Any, ax: Any) -> Any:
-    import matplotlib.pyplot as plt
+    plt: Any = importlib.import_module("matplotlib.pyplot")
     lines = polylines(shape_of(robot, answer))
     is_planar = all(len(point) == 2 for _, line in lines for point in line)
     if ax is None:

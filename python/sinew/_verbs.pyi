@@ -18,6 +18,7 @@ class Verbs:
         start: Any | None = None,
         want: Sequence[str] | None = None,
         until: Mapping[str, Any] | None = None,
+        posture_threshold: Number | None = None,
         all: bool | None = None,
         trace: bool | None = None,
         model: str | None = None,
@@ -46,6 +47,7 @@ class Verbs:
             start: where the search begins: a pose, inputs, or "last", the last answer to this thread
             want: more to be answered: stiffness, stability, margins, sensitivity
             until: {wrench, limit}: this load is added, up to `limit` times
+            posture_threshold [rad]: largest turn of a joint for which the linear model counts as valid
             all: every solution: `solutions`
             trace: the iterates, too
             model: of the links: cc, prb; of serial robots pcc, lsk
@@ -81,8 +83,9 @@ class Verbs:
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
         want: Sequence[str] | None = None,
+        posture_threshold: Number | None = None,
+        until: Mapping[str, Any] | None = None,
         all: bool | None = None,
-        hold: str | None = None,
         model: str | None = None,
         law: str | None = None,
         theta_is: str | None = None,
@@ -110,8 +113,9 @@ class Verbs:
                 m) or (6,)
             gravity [m/s^2]: in place of the robot's, in base axes, (3,)
             want: more to be answered: stiffness, stability, margins, sensitivity
+            posture_threshold [rad]: largest turn of a joint for which the linear model counts as valid
+            until: {wrench, limit}: this load is added, up to `limit` times
             all: every solution: `solutions`
-            hold: what then stays of the inner tendon: tension or length
             model: of the links: cc, prb; of serial robots pcc, lsk
             law: of chains: M0w, M0, M1
             theta_is: what an input theta is the angle of: tangent, chord
@@ -301,7 +305,6 @@ class Verbs:
         objective: str | None = None,
         rk4_steps: int | None = None,
         set_at: Pose | None = None,
-        hold: str | None = None,
         tensions: Lists | None = None,
         lengths: Lists | None = None,
         range: Numbers | None = None,
@@ -341,7 +344,6 @@ class Verbs:
             objective: what redundant legs do with their freedom: limits, singularity, smooth, none
             rk4_steps: of chains: Runge-Kutta steps between poses
             set_at [m, rad]: pose at which the tendons are set without load
-            hold: what then stays of the inner tendon: tension or length
             tensions [N]: [T1, T2] a leg, in place of `set_at`
             lengths [m]: [l1 or None, l2 or None] a leg, in place of `set_at`
             range: of a curve: [lowest, highest] of the parameter, (2,)
@@ -376,7 +378,6 @@ class Verbs:
         envelope: str | None = None,
         limit: Number | None = None,
         model: str | None = None,
-        law: str | None = None,
         theta_is: str | None = None,
         max_iterations: int | None = None,
         tilt: bool | None = None,
@@ -396,7 +397,6 @@ class Verbs:
             envelope: of a diagram: square, disc or actuator
             limit: how far to look `along`; of a diagram the envelope's size [rad, m]
             model: of the links: cc, prb; of serial robots pcc, lsk
-            law: of chains: M0w, M0, M1
             theta_is: what an input theta is the angle of: tangent, chord
             max_iterations: the solve's bound
             tilt: poses in space have tilt, azimuth and torsion, too
@@ -483,11 +483,22 @@ class Verbs:
     def describe(
         self,
         set: Mapping[str, Any] | None = None,
+        *,
+        tilt: bool | None = None,
+        max_iterations: int | None = None,
+        theta_is: str | None = None,
+        law: str | None = None,
+        model: str | None = None,
     ) -> Answer:
         """What the robot has.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
             set: {path in the robot file: value}: changes the robot for this question alone
+            tilt: poses in space have tilt, azimuth and torsion, too
+            max_iterations: the solve's bound
+            theta_is: what an input theta is the angle of: tangent, chord
+            law: of chains: M0w, M0, M1
+            model: of the links: cc, prb; of serial robots pcc, lsk
 
         The answer has `ok`, `status`, `message`, and kind, space, inputs, pose, home, legs or sections,
         models, versions.

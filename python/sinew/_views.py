@@ -7,12 +7,10 @@ from collections.abc import Callable
 from typing import Any
 
 
-def empty(shape: tuple[int, ...]) -> memoryview:
+def empty(shape: tuple[int, ...]) -> Any:
     size = math.prod(shape)
-    flat = memoryview(bytearray(8 * max(size, 1)))[:8 * size]
-    if size == 0 or len(shape) == 1:
-        return flat.cast("d") if len(shape) == 1 or size == 0 else flat.cast("d", list(shape))
-    return flat.cast("d", list(shape))
+    flat: Any = memoryview(bytearray(8 * size))
+    return flat.cast("d", list(shape)) if size else flat.cast("d")  # views of nothing have one dimension
 
 
 def _flat(value: Any) -> tuple[list[Any], list[int]]:
@@ -25,11 +23,14 @@ def _flat(value: Any) -> tuple[list[Any], list[int]]:
     return [number for part in parts for number in part[0]], [len(parts), *(parts[0][1] if parts else [])]
 
 
-def column(value: Any, field: dict[str, Any], refuse: Callable[[dict[str, Any], str], Exception]) -> memoryview:
+def column(value: Any, field: dict[str, Any], refuse: Callable[[dict[str, Any], str], Exception]) -> Any:
+    view: Any = None
+    if isinstance(value, (bytes, bytearray)):
+        raise refuse(field, "is no array of numbers")
     try:
         view = memoryview(value)
     except TypeError:
-        view = None
+        pass
     if view is not None and view.format not in tuple("bBhHiIlLqQfd"):
         raise refuse(field, f"has numbers of format {view.format!r}")
     if view is None or view.format != "d":
@@ -45,13 +46,13 @@ def column(value: Any, field: dict[str, Any], refuse: Callable[[dict[str, Any], 
     return view
 
 
-def repeated(view: memoryview, rows: int) -> memoryview:
+def repeated(view: Any, rows: int) -> Any:
     numbers = _flat(view.tolist() if view.ndim else [view[()]])[0]
     data = memoryview(array.array("d", numbers * rows)).cast("B")
     return data.cast("d", [rows, *view.shape]) if rows else view
 
 
-def row_of(view: memoryview, row: int) -> Any:
+def row_of(view: Any, row: int) -> Any:
     if view.ndim == 1:
         return view[row]
     if view.ndim == 2:

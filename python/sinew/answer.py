@@ -55,7 +55,7 @@ class Record(Mapping[str, Any]):
         return len(self._plain())
 
     def __eq__(self, other: object) -> bool:
-        return self._plain() == other._plain() if isinstance(other, Record) else NotImplemented
+        return isinstance(other, Record) and bool(self._plain() == other._plain())
 
     def __hash__(self) -> int:
         return hash(json.dumps(self._plain(), sort_keys=True))

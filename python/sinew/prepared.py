@@ -66,6 +66,7 @@ class Prepared(_sinew.Question):
 
     robot: Robot
     query: str
+    _made_of: tuple[Robot, str, dict[str, Any], Any, str | None]
 
     def __new__(cls, robot: Robot, query: str, fields: dict[str, Any], outputs: Any, path: str | None) -> Prepared:
         asked = dict(fields)

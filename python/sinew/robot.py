@@ -27,8 +27,14 @@ class Robot(Verbs):
     dimension more than one value needs holds n rows: the answer then has arrays, see `Columns`.
     """
 
+    _kind: int
+    _source: str
+    _copy: str
+    _settings: dict[str, Any]
+    _handle: _sinew.Handle
+
     def __init__(self, source: Source) -> None:
-        self._settings: dict[str, Any] = {}
+        self._settings = {}
         if isinstance(source, Robot):
             self._kind, self._source, self._handle = source._kind, source._source, source._handle
             self._copy, self._settings = source._copy, source._settings
@@ -53,6 +59,7 @@ class Robot(Verbs):
 
     def _session(self) -> _sinew.Session:
         """This thread's; another one where a handler asks while this one computes."""
+        session: _sinew.Session
         try:
             session = self._local.session
         except AttributeError:
@@ -151,7 +158,7 @@ class Robot(Verbs):
         return self._copy, json.dumps(self._settings, sort_keys=True)
 
     def __eq__(self, other: object) -> bool:
-        return self._key() == other._key() if isinstance(other, Robot) else NotImplemented
+        return isinstance(other, Robot) and self._key() == other._key()
 
     def __hash__(self) -> int:
         return hash(self._key())

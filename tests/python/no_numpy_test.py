@@ -35,7 +35,7 @@ class NoNumpy(unittest.TestCase):
         prepared = self.robot.prepare("forward", inputs="$l")
         self.assertEqual(prepared([[0.19, 0.19, 0.19]] * 4).x.shape, (4,))
         self.assertTrue(prepared(array.array("f", [0.1875] * 3)).ok)
-        for wrong in ([0.19], [[0.19] * 2], "abc", None, [[0.19], 0.19], b"abc", 1j, memoryview(b"abc")):
+        for wrong in ([0.19], [[0.19] * 2], "abc", None, [[0.19], 0.19], b"abc", 1j):
             with self.assertRaises(sinew.InputError):
                 prepared(wrong)
         out = array.array("d", [0.0] * 4)

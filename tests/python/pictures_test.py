@@ -18,6 +18,10 @@ except ImportError:
     matplotlib = None
 
 
+ARM = {"sinew": 1, "name": "mine", "kind": "serial", "sections": [
+    {"type": "neutral", "segments": 1, "joint": 0.06, "tendons": {"count": 3, "radius": 0.004, "angle": 0}}]}
+
+
 def some_answers():
     """One of each kind, by what was asked."""
     home = {"x": 0.01, "y": 0, "phi": 0.1}
@@ -31,8 +35,8 @@ def some_answers():
     rods = sinew.load("3pfs-g2")
     yield rods.forward([0.44, 0.42, 0.41], wrench=[0, 0, -5, 0, 0, 0])
     yield rods.inverse(independent={"z": 0.39, "e1": 0.1, "e2": 0.05})
-    yield sinew.load("3prs").inverse(independent={"z": 0.4, "e1": 0.05, "e2": 0}) if False else sinew.load("6-ufs").inverse(
-        sinew.load("6-ufs").describe().home)
+    spatial = sinew.load("6-ufs")
+    yield spatial.inverse(spatial.describe().home)
     yield sinew.load("nottingham-tpcj").forward(changes=[[-0.001, 0.0005, 0.0005]])
 
 
@@ -63,9 +67,7 @@ class Html(unittest.TestCase):
         self.assertIn("(4,)", robot.forward(inputs=np.full((4, 3), 0.19))._repr_html_())
 
     def test_escapes_names(self):
-        robot = sinew.load("3-rfr").set({"name": "</script><b>&"}) if False else sinew.load(
-            {"sinew": 1, "name": "</script><b>&", "kind": "serial", "sections": [
-                {"type": "neutral", "segments": 1, "joint": 0.06, "tendons": {"count": 3, "radius": 0.004, "angle": 0}}]})
+        robot = sinew.load({**ARM, "name": "</script><b>&"})
         page = robot.forward(configuration=[[0.1, 0.1]])._repr_html_()
         self.assertNotIn("<b>", page)
 
@@ -109,8 +111,7 @@ class Viewer(unittest.TestCase):
             _view.command()
         except sinew.InputError as error:
             self.skipTest(str(error))
-        for robot in (sinew.load("3-rfr"), sinew.load({"sinew": 1, "name": "mine", "kind": "serial", "sections": [
-                {"type": "neutral", "segments": 1, "joint": 0.06, "tendons": {"count": 3, "radius": 0.004, "angle": 0}}]})):
+        for robot in (sinew.load("3-rfr"), sinew.load(ARM)):
             with robot.view(open_browser=False) as view:
                 with urllib.request.urlopen(view.url) as reply:
                     self.assertEqual(reply.status, 200)
