@@ -21,6 +21,8 @@ struct Row {
   std::string accuracy;                     ///< what was reached, in words and numbers
   double items = 1;                         ///< in one operation of ours; times are of one of them
   std::string published = {};               ///< what a public code takes for it, of docs/performance.md
+  double baseline_items = 1;                ///< in one operation of the baseline
+  bool has_threads = false;                 ///< then times are those of the clock, not of the processor
 };
 
 inline std::vector<Row>& rows() {
@@ -37,7 +39,9 @@ class Medians : public benchmark::BenchmarkReporter {
   bool ReportContext(const Context&) override { return true; }
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs)
-      if (run.aggregate_name == "median") nanoseconds[run.run_name.function_name] = run.GetAdjustedCPUTime();
+      if (run.aggregate_name == "median")
+        nanoseconds[run.run_name.function_name] =
+            run.run_name.time_type == "real_time" ? run.GetAdjustedRealTime() : run.GetAdjustedCPUTime();
   }
   std::map<std::string, double> nanoseconds;
 };
@@ -62,18 +66,19 @@ inline double slowest_of_1000(const std::function<void()>& run, double typical) 
 /// Runs all and prints the table.
 inline int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  const auto add = [](const std::string& name, const std::function<void()>& run) {
-    benchmark::RegisterBenchmark(name.c_str(),
-                                 [&run](benchmark::State& state) {
-                                   for (auto _ : state) run();
-                                 })
-        ->MinTime(0.05)
-        ->Repetitions(9)
-        ->ReportAggregatesOnly(true);
+  const auto add = [](const Row& row, const std::string& name, const std::function<void()>& run) {
+    auto* added = benchmark::RegisterBenchmark(name.c_str(),
+                                               [&run](benchmark::State& state) {
+                                                 for (auto _ : state) run();
+                                               })
+                      ->MinTime(0.05)
+                      ->Repetitions(9)
+                      ->ReportAggregatesOnly(true);
+    if (row.has_threads) added->UseRealTime();
   };
   for (const Row& row : rows()) {
-    add(row.what, row.run);
-    add(row.what + " / " + row.baseline, row.run_baseline);
+    add(row, row.what, row.run);
+    add(row, row.what + " / " + row.baseline, row.run_baseline);
   }
   Medians medians;
   benchmark::RunSpecifiedBenchmarks(&medians);
@@ -81,13 +86,14 @@ inline int main(int argc, char** argv) {
               "ratio", "baseline; accuracy");
   for (const Row& row : rows()) {
     const double operation = medians.nanoseconds[row.what], ours = operation / row.items,
-                 theirs = medians.nanoseconds[row.what + " / " + row.baseline];
+                 theirs = medians.nanoseconds[row.what + " / " + row.baseline] / row.baseline_items;
     if (ours == 0) continue;  // filtered out
     const double slow = slowest_of_1000(row.run, operation);
-    std::printf("%-44s %10.0f %10s %12.0f %7.1f  %s; %s%s%s\n", row.what.c_str(), ours,
-                slow > 0 ? std::to_string(std::lround(slow / row.items)).c_str() : "-", theirs, theirs / ours,
-                row.baseline.c_str(), row.accuracy.c_str(), row.published.empty() ? "" : "; ",
-                row.published.c_str());
+    const double ratio = theirs / ours;
+    std::printf("%-44s %10.0f %10s %12.0f %7.*f  %s; %s%s%s\n", row.what.c_str(), ours,
+                slow > 0 ? std::to_string(std::lround(slow / row.items)).c_str() : "-", theirs,
+                ratio < 2 ? 2 : 1, ratio, row.baseline.c_str(), row.accuracy.c_str(),
+                row.published.empty() ? "" : "; ", row.published.c_str());
   }
   std::printf("Baselines are what one writes first from a paper. Public codes: docs/performance.md\n");
   return 0;

@@ -2,11 +2,13 @@
 #include "sinew.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <memory_resource>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -187,8 +189,8 @@ char* sinew_fields(const sinew_batch* batch) {
 
 namespace {
 
-using In = std::vector<sinew::Batch::Strided<const double>>;
-using Out = std::vector<sinew::Batch::Strided<double>>;
+using In = std::pmr::vector<sinew::Batch::Strided<const double>>;
+using Out = std::pmr::vector<sinew::Batch::Strided<double>>;
 
 /// What whoever called should know of rows that were computed; mostly nothing.
 std::string oddity(const sinew::Batch& batch, const In& in, const Out& out,
@@ -227,8 +229,10 @@ std::int32_t sinew_run(sinew_batch* batch, std::size_t rows, const sinew_input* 
       why = "batch, inputs and outputs must not be NULL";
       return SINEW_BAD_INPUT;
     }
-    In in;
-    Out out;
+    std::array<std::byte, 1024> room;  // of a few fields, so that a row by itself allocates nothing
+    std::pmr::monotonic_buffer_resource fields(room.data(), room.size());
+    In in(&fields);
+    Out out(&fields);
     for (std::size_t i = 0; i < batch->batch.inputs().size(); ++i)
       in.push_back({inputs[i].data, inputs[i].stride, inputs[i].step});
     for (std::size_t o = 0; o < batch->batch.outputs().size(); ++o)
@@ -238,8 +242,8 @@ std::int32_t sinew_run(sinew_batch* batch, std::size_t rows, const sinew_input* 
       why = "the data of a field is NULL";
       return SINEW_BAD_INPUT;
     }
-    std::vector<std::uint8_t> own(statuses ? 0 : rows);
-    const std::span<std::uint8_t> all(statuses ? statuses : own.data(), rows);
+    std::vector<std::uint8_t> own(statuses || !error ? 0 : rows);
+    const std::span<std::uint8_t> all = statuses ? std::span(statuses, rows) : own;
     if (batch->running++ == 0) batch->is_to_stop = false;
     const auto end = [&] { --batch->running; };
     try {

@@ -10,6 +10,7 @@
 #include "kinematics/rods/hold.hpp"
 #include "kinematics/rods/inverse.hpp"
 #include "kinematics/rods/question.hpp"
+#include "kinematics/rods/start.hpp"
 #include "kinematics/rods/trace.hpp"
 #include "kinematics/rods/verdict.hpp"
 #include "kinematics/spread.hpp"
@@ -104,10 +105,9 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
       rows.size() != poses.size() * inputs)
     return;
   if (RodWork& rods = rods_of(work); rods.system->elastica()) {
-    std::vector<SE3<double>> found(poses.size());
     const SpatialWrench whole = question_of(robot, {.wrench = wrench}, rods).wrench;
-    RodBatch(rods, home_of(robot)).solve(rows, whole, check_stability, found, statuses);
-    std::transform(found.begin(), found.end(), poses.begin(), spatial_pose);
+    go_home(rods, home_of(robot));  // whatever was solved before does not show
+    RodBatch(rods, home_of(robot)).solve(rows, whole, check_stability, poses, statuses);
     return;
   }
   for (std::size_t k = 0; k < poses.size(); ++k) {  // one after the other

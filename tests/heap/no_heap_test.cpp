@@ -8,6 +8,7 @@
 
 #include "every_robot.hpp"
 #include "serial_robots.hpp"
+#include "sinew.h"
 #include "sinew/analysis/velocity_batch.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/kinematics/resolved_rate.hpp"
@@ -108,6 +109,27 @@ TEST(NoHeapInBatches, InLanesOrOneByOne) {
 
 INSTANTIATE_TEST_SUITE_P(Builtin, NoHeap, testing::ValuesIn(builtin_robots(false)),
                          [](const auto& robot) { return "robot_" + std::to_string(robot.index); });
+
+/// The first run makes the memory, the others find it.
+TEST(NoHeapOfC, ARowByItself) {
+  constexpr std::string_view name = "3-rfr",
+                             question = R"({"query": "inverse", "pose": {"x": "$x", "y": "$x", "phi": 0}})";
+  sinew_robot* robot = nullptr;
+  sinew_batch* batch = nullptr;
+  ASSERT_EQ(sinew_open(name.data(), name.size(), SINEW_FILE, &robot, nullptr), SINEW_OK);
+  ASSERT_EQ(sinew_prepare(robot, question.data(), question.size(), &batch, nullptr), SINEW_OK);
+  const double x = 0.01;
+  std::array<double, 3> found{};
+  std::uint8_t status = 0;
+  const sinew_input in{&x, 8, 8};
+  const sinew_output out{found.data(), 24, 8};
+  const auto run = [&] { sinew_run(batch, 1, &in, &out, &status, 1, nullptr); };
+  run();
+  EXPECT_EQ(allocations_of(run), 0);
+  EXPECT_EQ(status, 7);
+  sinew_release(batch);
+  sinew_release(robot);
+}
 
 TEST(NoHeapOfRods, ThatBearTorque) {
   auto rods = legs_of<RodLeg>(load("hexapod").value());

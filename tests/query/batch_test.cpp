@@ -130,6 +130,20 @@ TEST_P(BatchOf, HasTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST_P(BatchOf, RemembersNothingOfRowsBefore) {
+  const Case& one = GetParam();
+  const std::vector<double> numbers = around(one.middle, one.reach, 20, 3),
+                            others = around(one.middle, 2 * one.reach, 50, 4);
+  const Batch fresh = prepared(one.robot, one.question).value(),
+              used = prepared(one.robot, one.question).value();
+  run(used, others);
+  run(used, std::vector(others.size(), std::nan("")));
+  const Rows first = run(fresh, numbers), second = run(used, numbers);
+  EXPECT_EQ(first.statuses, second.statuses);
+  EXPECT_EQ(0,
+            std::memcmp(first.outputs.data(), second.outputs.data(), first.outputs.size() * sizeof(double)));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Questions, BatchOf,
     testing::Values(

@@ -29,7 +29,11 @@ Computed compute(const SamplerKind& kind, const Study& study) {
   axis_values(study, all, study.is_path, axes);
   std::atomic<std::size_t> count{0};
   const std::atomic<bool> stop{false};
-  kind.make()({all.count, axes, done.outputs, done.statuses, &count, &stop});
+  InputColumns inputs;
+  OutputColumns outputs;
+  place_columns<const double>(axes, all.count, inputs);
+  place_columns<double>(done.outputs, all.count, outputs);
+  kind.make()({all.count, inputs, outputs, done.statuses, &count, &stop});
   EXPECT_EQ(count, all.count);
   return done;
 }

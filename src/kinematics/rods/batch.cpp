@@ -15,6 +15,10 @@ RodBatch::RodBatch(RodWork& work, const SE3<double>& home)
       before_(rods_.size()) {
   for (int k = 0; k < system_->limbs(); ++k)
     for (int lane = 0; lane < rod_lanes; ++lane) system_->copy_rod(k, rods_[at(k)], lane);
+  for (CoarseRods& rods : rods_) {  // as if nothing had been solved before: lanes without rows stay so
+    static_cast<CoarseRods::State&>(rods) = {};
+    std::fill_n(rods.length, rod_lanes, 1.0);
+  }
 }
 
 void RodBatch::set_lengths(int lane, Numbers inputs) {
@@ -108,7 +112,7 @@ void RodBatch::walk() {
 }
 
 void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
-                     std::span<SE3<double>> poses, std::span<Status> statuses) {
+                     std::span<SpatialPose> poses, std::span<Status> statuses) {
   const std::size_t inputs = at(system_->inputs()), count = poses.size();
   if (count == 0) return;
   const std::size_t stretch = (count + rod_lanes - 1) / rod_lanes;
@@ -152,8 +156,8 @@ void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrenc
       }
       const auto& p = poses_.position;
       const auto& q = poses_.quaternion;
-      poses[row(lane)] = {Vec3<double>(p[0][lane], p[1][lane], p[2][lane]),
-                          {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}};
+      poses[row(lane)] = spatial_pose({Vec3<double>(p[0][lane], p[1][lane], p[2][lane]),
+                                       {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}});
       statuses[row(lane)] = status;
     }
     if (is_renewed) {  // factors of the lanes that were solved alone

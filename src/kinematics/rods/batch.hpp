@@ -16,7 +16,7 @@ class RodBatch {
   /// @param judges whether it is asked if they hold by themselves
   /// Poses as those of a quick resumed answer.
   void solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
-             std::span<SE3<double>> poses, std::span<Status> statuses);
+             std::span<SpatialPose> poses, std::span<Status> statuses);
 
  private:
   void set_lengths(int lane, Numbers inputs);

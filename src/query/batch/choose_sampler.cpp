@@ -4,8 +4,7 @@
 
 namespace sinew::inline v1 {
 
-std::size_t chunk_size(const SamplerKind& kind, std::size_t samples) {
-  constexpr std::size_t chunks = 256;  // to share, to show progress by, and to lose one of
+std::size_t chunk_size(const SamplerKind& kind, std::size_t samples, std::size_t chunks) {
   return std::clamp(samples / chunks, kind.chunks.least, kind.chunks.most);
 }
 

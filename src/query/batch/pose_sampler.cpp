@@ -245,8 +245,7 @@ class PoseSampler {
   }
 
   SampleStatus status(Status found) const {
-    return static_cast<SampleStatus>(asked_.is_inverse && found == Status::singular ? Status::converged
-                                                                                    : found);
+    return sample_status(asked_.is_inverse && found == Status::singular ? Status::converged : found);
   }
 
   void put(std::size_t o, const SampleBlock& block) {

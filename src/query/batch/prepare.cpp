@@ -176,8 +176,6 @@ Node query_of(const Node& asked) {
 
 }  // namespace
 
-std::size_t Batch::Field::size() const { return FieldLayout{shape, {}}.size(); }
-
 Expected<Batch> Batch::prepare(const Document& document, const Document& asked) {
   const auto robot = read_robot(document);
   if (!robot) return tl::unexpected(robot.error());

@@ -20,6 +20,8 @@ struct AskedRods {
   std::vector<QueryEntry> inputs;
   SpatialWrench wrench = SpatialWrench::Zero();
   std::vector<std::size_t> outputs;  ///< which of the pose's numbers
+
+  std::size_t first_input() const { return static_cast<std::size_t>(inputs.front().input); }
 };
 
 std::optional<AskedRods> asked_of_rods(const BatchQuestion& question) {
@@ -50,22 +52,37 @@ std::optional<AskedRods> asked_of_rods(const BatchQuestion& question) {
 
 class RodSampler {
  public:
-  RodSampler(const Robot& robot, const AskedRods& asked) : robot_(robot), asked_(asked) {}
+  RodSampler(const Robot& robot, const AskedRods& asked) : robot_(robot), asked_(asked), work_(robot) {}
 
   void operator()(const SampleBlock& block) {
-    const std::size_t inputs = asked_.inputs.size();
-    rows_.resize(block.count * inputs);
     poses_.resize(block.count);
     statuses_.resize(block.count);
-    for (std::size_t k = 0; k < block.count; ++k)
-      for (std::size_t i = 0; i < inputs; ++i) rows_[k * inputs + i] = asked_.inputs[i].at(block, k);
-    Workspace work(robot_);  // of this block alone: what was solved before must not show in the last digits
-    equilibrium_batch(robot_, rows_, asked_.wrench, poses_, statuses_, work, true);
+    work_.stop = StopToken(*block.stop);
+    equilibrium_batch(robot_, rows_of(block), asked_.wrench, poses_, statuses_, work_, true);
     for (std::size_t k = 0; k < block.count; ++k) put(block, k);
     *block.done += block.count;
   }
 
  private:
+  /// As they lie in memory where the inputs of a row do, one after the other.
+  Numbers rows_of(const SampleBlock& block) {
+    const std::size_t inputs = asked_.inputs.size();
+    if (is_in_rows(block)) return {&block.inputs[asked_.first_input()][block.first], block.count * inputs};
+    rows_.resize(block.count * inputs);
+    for (std::size_t k = 0; k < block.count; ++k)
+      for (std::size_t i = 0; i < inputs; ++i) rows_[k * inputs + i] = asked_.inputs[i].at(block, k);
+    return rows_;
+  }
+  bool is_in_rows(const SampleBlock& block) const {
+    const auto stride = static_cast<std::ptrdiff_t>(asked_.inputs.size() * sizeof(double));
+    for (std::size_t i = 0; i < asked_.inputs.size(); ++i) {
+      if (asked_.inputs[i].input < 0) return false;
+      const auto& column = block.inputs[static_cast<std::size_t>(asked_.inputs[i].input)];
+      if (column.stride != stride || column.data != block.inputs[asked_.first_input()].data + i) return false;
+    }
+    return true;
+  }
+
   void put(const SampleBlock& block, std::size_t k) {
     const SpatialPose& pose = poses_[k];
     const bool is_solved = statuses_[k] == Status::converged || statuses_[k] == Status::unstable;
@@ -75,11 +92,12 @@ class RodSampler {
                            : which < 3 ? pose.position[static_cast<Eigen::Index>(which)]
                                        : pose.quaternion[which - 3];
     }
-    block.statuses[k] = static_cast<SampleStatus>(statuses_[k]);
+    block.statuses[k] = sample_status(statuses_[k]);
   }
 
   const Robot& robot_;
   const AskedRods& asked_;
+  Workspace work_;
   std::vector<double> rows_;
   std::vector<SpatialPose> poses_;
   std::vector<Status> statuses_;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "query/batch/batch_question.hpp"
@@ -25,20 +26,52 @@ inline constexpr SampleStatus unstable = static_cast<SampleStatus>(Status::unsta
 SINEW_API std::string_view name_of(SampleStatus status);
 inline constexpr int sample_statuses = 11;
 
-/// Samples of one chunk, column after column.
+/// Of a solver. Numbers above the first eight mean other things in files of results than in a Report.
+inline SampleStatus sample_status(Status status) {
+  if (status == Status::stopped) return not_computed;
+  return status <= Status::converged ? static_cast<SampleStatus>(status) : refused;
+}
+
+/// One number of every row, as it lies in memory.
+template <class Number>
+struct SampleColumn {
+  Number* data = nullptr;
+  std::ptrdiff_t stride = sizeof(double);  ///< bytes from row to row
+
+  Number& operator[](std::size_t row) const {
+    using Byte = std::conditional_t<std::is_const_v<Number>, const char, char>;
+    return *reinterpret_cast<Number*>(reinterpret_cast<Byte*>(data) +
+                                      static_cast<std::ptrdiff_t>(row) * stride);
+  }
+};
+using InputColumns = std::vector<SampleColumn<const double>>;
+using OutputColumns = std::vector<SampleColumn<double>>;
+
+/// Those of `count` rows, column after column.
+template <class Number>
+void place_columns(std::span<Number> values, std::size_t count, std::vector<SampleColumn<Number>>& columns) {
+  columns.clear();
+  for (std::size_t first = 0; first + count <= values.size() && count > 0; first += count)
+    columns.push_back({values.data() + first});
+}
+
+/// Samples of one chunk: some rows of all columns.
 struct SampleBlock {
   std::size_t count = 0;
-  std::span<const double> inputs;
-  std::span<double> outputs;  ///< NaN where there is no value
-  std::span<SampleStatus> statuses;
+  std::span<const SampleColumn<const double>> inputs;
+  std::span<const SampleColumn<double>>
+      outputs;                               ///< a sampler writes all of them, NaN where there is no value
+  std::span<SampleStatus> statuses;          ///< of these rows alone
   std::atomic<std::size_t>* done = nullptr;  ///< counts samples, for the progress
   const std::atomic<bool>* stop = nullptr;   ///< true: the block is of no more use
+  std::size_t first = 0;                     ///< row of the columns
 
-  double input(std::size_t i, std::size_t k) const { return inputs[i * count + k]; }
-  double& output(std::size_t o, std::size_t k) const { return outputs[o * count + k]; }
+  double input(std::size_t i, std::size_t k) const { return inputs[i][first + k]; }
+  double& output(std::size_t o, std::size_t k) const { return outputs[o][first + k]; }
 };
 
-/// Computes a block, in its order. Not for two threads at once.
+/// Computes a block, in its order. Not for two threads at once. Nothing of earlier blocks shows in the bytes
+/// of a later one.
 using Sampler = std::function<void(const SampleBlock&)>;
 
 /// Makes samplers, one a thread, and says how large chunks should be.
@@ -50,8 +83,8 @@ struct SamplerKind {
   std::function<Sampler()> make;
 };
 
-/// Samples of a chunk, about: so many that there are some hundred chunks, within the bounds.
-SINEW_API std::size_t chunk_size(const SamplerKind& kind, std::size_t samples);
+/// Samples of a chunk, about: so many that there are this many chunks, within the bounds.
+SINEW_API std::size_t chunk_size(const SamplerKind& kind, std::size_t samples, std::size_t chunks = 256);
 
 /// Each sample by its own query: any robot, any query, any output.
 SINEW_API SamplerKind query_sampler(const BatchQuestion& question);

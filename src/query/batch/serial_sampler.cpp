@@ -124,15 +124,13 @@ class SerialSampler {
         for (std::size_t c = 0; c < 2; ++c)
           bends_[(2 * m + c) * n + k] = work_.bends[m][static_cast<Eigen::Index>(c)];
       }
-      block.statuses[k] =
-          static_cast<SampleStatus>(check_limits(asked_->robot, work_.bends, work_.extensions).status);
+      block.statuses[k] = sample_status(check_limits(asked_->robot, work_.bends, work_.extensions).status);
       if (has_ends_) put_ends(block, k);
     }
     tendon_changes_batch(bends_, asked_->model, changes_, work_);
     for (std::size_t o = 0; o < asked_->outputs.size(); ++o)
       if (const auto* tendon = std::get_if<std::size_t>(&asked_->outputs[o]))
-        std::copy_n(changes_.begin() + static_cast<std::ptrdiff_t>(*tendon * n), n,
-                    block.outputs.begin() + static_cast<std::ptrdiff_t>(o * n));
+        for (std::size_t k = 0; k < n; ++k) block.output(o, k) = changes_[*tendon * n + k];
     *block.done += n;
   }
 

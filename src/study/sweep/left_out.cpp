@@ -29,14 +29,17 @@ class Sieve {
     if (n == block.count) return sampler_(block);
     *block.done += block.count - n;
     std::ranges::fill(block.statuses, left_out);
-    std::ranges::fill(block.outputs, not_a_number);
+    for (std::size_t o = 0; o < block.outputs.size(); ++o)
+      for (std::size_t k = 0; k < block.count; ++k) block.output(o, k) = not_a_number;
     if (n == 0) return;
     axes_.resize(one_.size() * n);
     outputs_.resize(study_.outputs.size() * n);
     statuses_.assign(n, converged);
     for (std::size_t a = 0; a < one_.size(); ++a)
       for (std::size_t k = 0; k < n; ++k) axes_[a * n + k] = block.input(a, kept_[k]);
-    sampler_({n, axes_, outputs_, statuses_, block.done, block.stop});
+    place_columns<const double>(axes_, n, inputs_of_kept_);
+    place_columns<double>(outputs_, n, outputs_of_kept_);
+    sampler_({n, inputs_of_kept_, outputs_of_kept_, statuses_, block.done, block.stop});
     for (std::size_t k = 0; k < n; ++k) block.statuses[kept_[k]] = statuses_[k];
     for (std::size_t o = 0; o < study_.outputs.size(); ++o)
       for (std::size_t k = 0; k < n; ++k) block.output(o, kept_[k]) = outputs_[o * n + k];
@@ -56,6 +59,8 @@ class Sieve {
   std::vector<double> one_;  ///< sample
   std::vector<std::size_t> kept_;
   std::vector<double> axes_, outputs_;  ///< of what is kept
+  InputColumns inputs_of_kept_;
+  OutputColumns outputs_of_kept_;
   std::vector<SampleStatus> statuses_;
 };
 

@@ -33,10 +33,11 @@ CellSum sum_of(const StudyReduction& reduction, const SampleBlock& block, std::s
 
 }  // namespace
 
-void pack_samples(const SampleBlock& block, std::vector<std::byte>& bytes) {
+void pack_samples(std::span<const double> outputs, std::span<const SampleStatus> statuses,
+                  std::vector<std::byte>& bytes) {
   bytes.clear();
-  append<double>(block.outputs, bytes);
-  append<SampleStatus>(block.statuses, bytes);
+  append<double>(outputs, bytes);
+  append<SampleStatus>(statuses, bytes);
 }
 
 void pack_cells(const Study& study, const SampleBlock& block, std::vector<std::byte>& bytes) {

@@ -10,7 +10,8 @@
 namespace sinew::inline v1 {
 
 /// The samples of a chunk as bytes: outputs column after column, then statuses.
-void pack_samples(const SampleBlock& block, std::vector<std::byte>& bytes);
+void pack_samples(std::span<const double> outputs, std::span<const SampleStatus> statuses,
+                  std::vector<std::byte>& bytes);
 
 /// Sums of one reduction over some samples of a cell.
 struct CellSum {

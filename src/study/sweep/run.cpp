@@ -57,14 +57,17 @@ class Worker {
     outputs_.resize(study.outputs.size() * chunk.count);
     statuses_.assign(chunk.count, converged);
     axis_values(study, chunk, plan_.snakes(), axes_);
-    const SampleBlock block{chunk.count, axes_, outputs_, statuses_, &pulse_.samples, &pulse_.stop};
+    place_columns<const double>(axes_, chunk.count, input_columns_);
+    place_columns<double>(outputs_, chunk.count, output_columns_);
+    const SampleBlock block{chunk.count, input_columns_,  output_columns_,
+                            statuses_,   &pulse_.samples, &pulse_.stop};
     sample_(block);
     if (pulse_.stop) return;  // broken off
     if (plan_.snakes()) straighten(chunk);
     if (plan_.reduces())
       pack_cells(study, block, bytes);
     else
-      pack_samples(block, bytes);
+      pack_samples(outputs_, statuses_, bytes);
     const std::scoped_lock lock(pulse_.mutex);
     for (const SampleStatus status : statuses_) ++pulse_.statuses[status];
     pulse_.computing += seconds_since(begin);
@@ -82,6 +85,8 @@ class Worker {
   Pulse& pulse_;
   Sampler sample_;
   std::vector<double> axes_, outputs_;
+  InputColumns input_columns_;
+  OutputColumns output_columns_;
   std::vector<SampleStatus> statuses_;
 };
 
