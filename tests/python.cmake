@@ -11,3 +11,8 @@ foreach(file IN LISTS files)
   set_tests_properties(python.${name} PROPERTIES LABELS python TIMEOUT 300 ENVIRONMENT "PYTHONPATH=${CMAKE_BINARY_DIR}/python"
     ENVIRONMENT_MODIFICATION "PATH=path_list_prepend:$<TARGET_FILE_DIR:sinew_command>")
 endforeach()
+
+# It is built anew, from objects that ccache has.
+add_test(NAME python.wheel COMMAND ${CMAKE_CURRENT_LIST_DIR}/python/wheel.sh ${PROJECT_SOURCE_DIR}
+  ${CMAKE_CURRENT_BINARY_DIR}/wheel ${SYSTEM_PYTHON})
+set_tests_properties(python.wheel PROPERTIES LABELS python TIMEOUT 1500 PROCESSORS 2 COST 800)

@@ -44,17 +44,23 @@ class View:
     """The viewer that was started: `url`; `close()` ends it, as does the end of this program."""
 
     def __init__(self, robot: Robot, port: int, open_browser: bool) -> None:
+        if robot._settings:
+            raise InputError("the viewer shows robots as their files have them; this one was changed by set(): write a file of it",
+                             "not_available", "set")
+        program = command()
         self._folder = tempfile.TemporaryDirectory(prefix="sinew-")
-        self._process = subprocess.Popen([command(), "serve", _source(robot, self._folder.name), "--port", str(port)],
+        self._process = subprocess.Popen([program, "serve", _source(robot, self._folder.name), "--port", str(port)],
                                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         assert self._process.stdout and self._process.stderr
         self.url = self._process.stdout.readline().strip()
+        self._readers: list[threading.Thread] = []
         if not self.url:
             told = self._process.stderr.read().strip()
             self.close()
             raise InputError(told or "the viewer did not start", "program_failed", "sinew serve")
         for stream in (self._process.stdout, self._process.stderr):  # read, so that the server never waits for a reader
-            threading.Thread(target=stream.read, daemon=True).start()
+            self._readers.append(threading.Thread(target=stream.read, daemon=True))
+            self._readers[-1].start()
         self._is_frame = _in_notebook()
         if open_browser and not self._is_frame:
             import webbrowser
@@ -65,6 +71,11 @@ class View:
         if self._process.poll() is None:
             self._process.terminate()
             self._process.wait()
+        for reader in self._readers:
+            reader.join()
+        for stream in (self._process.stdout, self._process.stderr):
+            if stream:
+                stream.close()
         self._folder.cleanup()
 
     def __enter__(self) -> View:
@@ -74,7 +85,7 @@ class View:
         self.close()
 
     def __del__(self) -> None:
-        if hasattr(self, "_process"):
+        if hasattr(self, "_readers"):
             self.close()
 
     def __repr__(self) -> str:
@@ -86,9 +97,6 @@ class View:
 
 def _source(robot: Robot, folder: str) -> str:
     """The robot as an argument of the command: its name, or a file of it."""
-    if robot._settings:
-        raise InputError("the viewer shows robots as their files have them; this one was changed by set(): write a file of it",
-                         "not_available", "set")
     if robot._copy == robot._source and "\n" not in robot._copy and not robot._copy.startswith("{"):
         return robot._copy
     path = os.path.join(folder, "robot.yaml")

@@ -149,8 +149,8 @@ def ask_columns(robot: Robot, query: str, fields: dict[str, Any]) -> Columns:
     prepared = robot._planned.get(key)
     if prepared is None:
         prepared = Prepared(robot, query, pattern, options["outputs"], options["path"])
-        while len(robot._planned) >= _MOST_PLANS:
-            robot._planned.pop(next(iter(robot._planned)), None)
+        for old in list(robot._planned)[:-_MOST_PLANS]:  # the list is of one moment, whatever other threads do
+            robot._planned.pop(old, None)
         robot._planned[key] = prepared
     answer: Columns = prepared._columns((), {**columns, "threads": options["threads"], "out": options["out"]}, is_many=True)
     return answer
