@@ -7,7 +7,7 @@ source=$1 work=$2 python=$3
 cd -- "$source"
 fail() { printf 'FAILED: %s\n' "$*" >&2; exit 1; }
 
-wheel=$(./run.sh wheel | tail -n 1)
+wheel=$source/$(./run.sh wheel | tail -n 1)
 [[ $wheel =~ /sinew-[0-9.]+-cp311-abi3-manylinux_2_[0-9]+_[a-z0-9_]+\.whl$ ]] || fail "the wheel's name is $wheel"
 symbols=$(nm -D --defined-only build/wheel/python/sinew/_sinew.abi3.so | awk '{print $3}')
 [[ $symbols == PyInit__sinew ]] || fail "the extension shows more than its entry: $symbols"
