@@ -1,4 +1,5 @@
-/* What calls.py asks in Python, asked in C: prints nanoseconds a question, or a row. Processor time but with two threads.
+/* What calls.py asks in Python, asked in C: prints nanoseconds a question, or a row. Processor time but with
+ * two threads.
  *
  *     bench_python_calls one ROBOT QUESTION COUNT MIDDLE RADIUS           rows one by one
  *     bench_python_calls many ROBOT QUESTION COUNT MIDDLE RADIUS THREADS  rows at once
@@ -22,7 +23,8 @@ static double now(int threads) {
 static double* walk(size_t rows, double middle, double radius) {
   double* numbers = malloc(rows * 3 * sizeof(double));
   for (size_t i = 0; i < 3 * rows; ++i)
-    numbers[i] = middle + radius * sin(6.283185307179586 * (double)(i / 3) / (double)rows + 2.0943951 * (double)(i % 3));
+    numbers[i] = middle + radius * sin(6.283185307179586 * (double)(i / 3) / (double)rows +
+                                       2.0943951 * (double)(i % 3));
   return numbers;
 }
 
@@ -67,9 +69,11 @@ int main(int argc, char** argv) {
   if (strcmp(mode, "ask") == 0) {
     printf("%.1f\n", ask(robot, question, count) / (double)count);
   } else {
-    if (argc < 7 || sinew_prepare(robot, question, strlen(question), &batch, &error) != SINEW_OK) return puts(error ? error : "?"), 1;
+    if (argc < 7 || sinew_prepare(robot, question, strlen(question), &batch, &error) != SINEW_OK)
+      return puts(error ? error : "?"), 1;
     double* in = walk(count, atof(argv[5]), atof(argv[6]));
-    printf("%.1f\n", run(batch, in, count, argc > 7 ? atoi(argv[7]) : 1, strcmp(mode, "one") == 0) / (double)count);
+    printf("%.1f\n",
+           run(batch, in, count, argc > 7 ? atoi(argv[7]) : 1, strcmp(mode, "one") == 0) / (double)count);
     free(in);
     sinew_release(batch);
   }

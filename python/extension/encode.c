@@ -1,4 +1,5 @@
-/* A question's fields as JSON, from what Python's users have: numbers, texts, lists, dicts, arrays, answers. */
+/* A question's fields as JSON, from what Python's users have: numbers, texts, lists, dicts, arrays, answers.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -71,7 +72,8 @@ static int add_string(Text* text, PyObject* string, const Place* place) {
   if (!bytes) {
     if (!PyErr_ExceptionMatches(PyExc_UnicodeError)) return -1;
     PyErr_Clear();
-    return refuse(place, "not_utf8", "%U: %A has half of a surrogate pair; give text of whole characters.", string);
+    return refuse(place, "not_utf8", "%U: %A has half of a surrogate pair; give text of whole characters.",
+                  string);
   }
   if (add(text, "\"", 1) < 0) return -1;
   for (Py_ssize_t i = 0, begin = 0; i <= size; ++i) {
@@ -171,7 +173,8 @@ static long rank_at(const Encoder* encoder, const Place* place) {
 static int refuse_type(PyObject* value, const Place* place) {
   PyErr_Clear();
   PyObject* name = PyType_GetName(Py_TYPE(value));
-  if (name) refuse(place, "wrong_type", "%U is of type %U; give numbers, texts, lists, dicts or arrays.", name);
+  if (name)
+    refuse(place, "wrong_type", "%U is of type %U; give numbers, texts, lists, dicts or arrays.", name);
   Py_XDECREF(name);
   return -1;
 }

@@ -3,8 +3,8 @@
 
 #include "sinew_module.h"
 
-static PyObject* input_error;      /* the class: InputError(message, code, where) */
-static PyObject* input_error_of;   /* makes one of a text of the library */
+static PyObject* input_error;    /* the class: InputError(message, code, where) */
+static PyObject* input_error_of; /* makes one of a text of the library */
 
 int prepare_errors(void) {
   PyObject* errors = PyImport_ImportModule("sinew._errors");

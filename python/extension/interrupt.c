@@ -1,12 +1,12 @@
-/* Ctrl-C while the library computes. Python's own handler only notes that it happened, and looks at the note between
- * instructions; for as long as one of them is a solve, a handler before it stops the solve. */
+/* Ctrl-C while the library computes. Python's own handler only notes that it happened, and looks at the note
+ * between instructions; for as long as one of them is a solve, a handler before it stops the solve. */
 #include <pthread.h>
 #include <stdatomic.h>
 
 #include "sinew_module.h"
 
 static unsigned long main_thread;
-static _Atomic(void*) computing;    /* by the main thread: there is one at a time */
+static _Atomic(void*) computing; /* by the main thread: there is one at a time */
 static atomic_int was_interrupted;
 static struct sigaction python_handler;
 

@@ -12,11 +12,11 @@ static sinew_batch* prepare(const Question* self) {
   sinew_batch* batch = NULL;
   char* error = NULL;
   int32_t code;
-  Py_BEGIN_ALLOW_THREADS
-  code = sinew_prepare(((Handle*)self->handle)->robot, text, (size_t)size, &batch, &error);
-  Py_END_ALLOW_THREADS
-  if (code == SINEW_NO_MEMORY) PyErr_NoMemory();
-  else if (code == SINEW_FAILED) PyErr_SetString(PyExc_RuntimeError, error ? error : "an error of the library");
+  Py_BEGIN_ALLOW_THREADS code =
+      sinew_prepare(((Handle*)self->handle)->robot, text, (size_t)size, &batch, &error);
+  Py_END_ALLOW_THREADS if (code == SINEW_NO_MEMORY) PyErr_NoMemory();
+  else if (code == SINEW_FAILED)
+      PyErr_SetString(PyExc_RuntimeError, error ? error : "an error of the library");
   else if (code != SINEW_OK) raise_text(error);
   sinew_free(error);
   return batch;
@@ -34,8 +34,10 @@ sinew_batch* take_batch(Question* self, int* slot) {
 }
 
 void put_batch(Question* self, sinew_batch* batch, int slot) {
-  if (slot < most_kept) self->kept[slot].is_busy = 0;
-  else sinew_release(batch);
+  if (slot < most_kept)
+    self->kept[slot].is_busy = 0;
+  else
+    sinew_release(batch);
 }
 
 static int read_field(PyObject* item, Field* field) {
@@ -87,7 +89,8 @@ static int read_layout(Question* self, sinew_batch* batch) {
   self->outputs = self->layout ? PyDict_New() : NULL;
   if (!self->outputs) return -1;
   self->in = read_fields(self->layout, "inputs", &self->inputs_count, &self->in_numbers);
-  self->out = self->in ? read_fields(self->layout, "outputs", &self->outputs_count, &self->out_numbers) : NULL;
+  self->out =
+      self->in ? read_fields(self->layout, "outputs", &self->outputs_count, &self->out_numbers) : NULL;
   for (Py_ssize_t i = 0; self->out && i < self->outputs_count; ++i) {
     PyObject* index = PyLong_FromSsize_t(i);
     const int failed = !index || PyDict_SetItem(self->outputs, self->out[i].name, index) < 0;
@@ -100,11 +103,13 @@ static int read_layout(Question* self, sinew_batch* batch) {
 /* Question(handle, query, fields, row_type): `fields` with "$name" where columns go. */
 static PyObject* new_question(PyTypeObject* type, PyObject* args, PyObject* keywords) {
   PyObject *handle, *query, *fields, *rows;
-  if (keywords && PyDict_Size(keywords) > 0) return PyErr_Format(PyExc_TypeError, "Question takes no keywords");
-  if (!PyArg_ParseTuple(args, "O!O!O!O!:Question", handle_type, &handle, &PyUnicode_Type, &query, &PyDict_Type, &fields,
-                        &PyType_Type, &rows))
+  if (keywords && PyDict_Size(keywords) > 0)
+    return PyErr_Format(PyExc_TypeError, "Question takes no keywords");
+  if (!PyArg_ParseTuple(args, "O!O!O!O!:Question", handle_type, &handle, &PyUnicode_Type, &query,
+                        &PyDict_Type, &fields, &PyType_Type, &rows))
     return NULL;
-  if (!PyType_IsSubtype((PyTypeObject*)rows, row_type)) return PyErr_Format(PyExc_TypeError, "rows are of type Row");
+  if (!PyType_IsSubtype((PyTypeObject*)rows, row_type))
+    return PyErr_Format(PyExc_TypeError, "rows are of type Row");
   Text text = {NULL, 0, 0};
   const int code = encode_question(&text, query, fields, NULL);
   PyObject* bytes = code == 0 ? PyBytes_FromStringAndSize(text.data, (Py_ssize_t)text.size) : NULL;
@@ -146,7 +151,8 @@ static void free_question(PyObject* object) {
 static const char* misfit(const Py_buffer* buffer, const Field* field, size_t rows) {
   const char* format = buffer->format ? buffer->format : "B";
   if (strchr("@=<", *format) && *format) ++format;
-  if (strcmp(format, "d") != 0 || buffer->itemsize != sizeof(double)) return "its numbers are no native doubles";
+  if (strcmp(format, "d") != 0 || buffer->itemsize != sizeof(double))
+    return "its numbers are no native doubles";
   if (buffer->ndim != field->rank + 1 || (size_t)buffer->shape[0] != rows) return "it has another shape";
   if ((uintptr_t)buffer->buf % sizeof(double) != 0) return "its numbers are not aligned";
   for (int i = 0; i < buffer->ndim; ++i) {
@@ -159,12 +165,14 @@ static const char* misfit(const Py_buffer* buffer, const Field* field, size_t ro
 }
 
 /* A column of the question: its buffer is to be released where this gives 0. -1 with an exception. */
-static int read_column(PyObject* array, const Field* field, size_t rows, int flags, Py_buffer* buffer, sinew_output* column) {
+static int read_column(PyObject* array, const Field* field, size_t rows, int flags, Py_buffer* buffer,
+                       sinew_output* column) {
   if (PyObject_GetBuffer(array, buffer, flags) < 0) return -1;
   const char* lacks = misfit(buffer, field, rows);
   if (lacks) {
     PyBuffer_Release(buffer);
-    raise_input_error("wrong_array", field->name, "%U: the array cannot be used where it lies: %s.", field->name, lacks);
+    raise_input_error("wrong_array", field->name, "%U: the array cannot be used where it lies: %s.",
+                      field->name, lacks);
     return -1;
   }
   column->data = buffer->buf;
@@ -212,7 +220,8 @@ static int hold_columns(Columns* all, const Question* self, PyObject* const* arg
     return -1;
   }
   if (hold_list(all, args[1], self->in, self->inputs_count, PyBUF_STRIDES | PyBUF_FORMAT) < 0 ||
-      hold_list(all, args[2], self->out, self->outputs_count, PyBUF_STRIDES | PyBUF_FORMAT | PyBUF_WRITABLE) < 0 ||
+      hold_list(all, args[2], self->out, self->outputs_count, PyBUF_STRIDES | PyBUF_FORMAT | PyBUF_WRITABLE) <
+          0 ||
       PyObject_GetBuffer(args[3], &all->statuses, PyBUF_WRITABLE) < 0)
     return -1;
   for (Py_ssize_t i = 0; i < self->inputs_count; ++i)
@@ -237,16 +246,19 @@ static PyObject* question_run(PyObject* object, PyObject* const* args, Py_ssize_
     char* error = NULL;
     int32_t code;
     begin_interruptible(&interrupt, batch);
-    Py_BEGIN_ALLOW_THREADS
-    code = sinew_run(batch, all.rows, all.inputs, all.columns + self->inputs_count,
-                     all.statuses.buf, (int32_t)threads, &error);
-    Py_END_ALLOW_THREADS
-    const int again = end_interruptible(&interrupt) && PyErr_CheckSignals() == 0; /* the handler wants us to go on */
+    Py_BEGIN_ALLOW_THREADS code = sinew_run(batch, all.rows, all.inputs, all.columns + self->inputs_count,
+                                            all.statuses.buf, (int32_t)threads, &error);
+    Py_END_ALLOW_THREADS const int again =
+        end_interruptible(&interrupt) && PyErr_CheckSignals() == 0; /* the handler wants us to go on */
     if (PyErr_Occurred() || again) {
-    } else if (code == SINEW_NO_MEMORY) PyErr_NoMemory();
-    else if (code == SINEW_FAILED) PyErr_SetString(PyExc_RuntimeError, error ? error : "an error of the library");
-    else if (code != SINEW_OK) raise_text(error);
-    else result = error ? PyUnicode_FromString(error) : Py_NewRef(Py_None);
+    } else if (code == SINEW_NO_MEMORY)
+      PyErr_NoMemory();
+    else if (code == SINEW_FAILED)
+      PyErr_SetString(PyExc_RuntimeError, error ? error : "an error of the library");
+    else if (code != SINEW_OK)
+      raise_text(error);
+    else
+      result = error ? PyUnicode_FromString(error) : Py_NewRef(Py_None);
     sinew_free(error);
   }
   if (batch) put_batch(self, batch, slot);
@@ -268,13 +280,16 @@ static PyObject* question_layout(PyObject* self, void* nothing) {
 }
 
 static PyMethodDef question_methods[] = {
-    {"run", (PyCFunction)(void (*)(void))question_run, METH_FASTCALL, "run(rows, inputs, outputs, statuses, threads)"},
-    {"stop", question_stop, METH_NOARGS, "Ends what other threads compute by this question; rows not yet computed are `stopped`."},
+    {"run", (PyCFunction)(void (*)(void))question_run, METH_FASTCALL,
+     "run(rows, inputs, outputs, statuses, threads)"},
+    {"stop", question_stop, METH_NOARGS,
+     "Ends what other threads compute by this question; rows not yet computed are `stopped`."},
     {NULL, NULL, 0, NULL}};
-static PyGetSetDef question_fields[] = {{"layout", question_layout, NULL, "Columns that go in and come out.", NULL},
-                                        {NULL, NULL, NULL, NULL, NULL}};
-static PyType_Slot question_slots[] = {{Py_tp_new, new_question},         {Py_tp_dealloc, free_question},
-                                       {Py_tp_call, call_question},       {Py_tp_methods, question_methods},
-                                       {Py_tp_getset, question_fields},   {0, NULL}};
-PyType_Spec question_spec = {"sinew._sinew.Question", sizeof(Question), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE,
-                             question_slots};
+static PyGetSetDef question_fields[] = {
+    {"layout", question_layout, NULL, "Columns that go in and come out.", NULL},
+    {NULL, NULL, NULL, NULL, NULL}};
+static PyType_Slot question_slots[] = {{Py_tp_new, new_question},       {Py_tp_dealloc, free_question},
+                                       {Py_tp_call, call_question},     {Py_tp_methods, question_methods},
+                                       {Py_tp_getset, question_fields}, {0, NULL}};
+PyType_Spec question_spec = {"sinew._sinew.Question", sizeof(Question), 0,
+                             Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE, question_slots};

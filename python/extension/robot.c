@@ -22,23 +22,27 @@ PyObject* open_robot(PyObject* module, PyObject* const* args, Py_ssize_t count) 
   const char* source = utf8_of(args[0], &size);
   if (!source) return NULL;
   if (kind == SINEW_FILE && memchr(source, '\0', (size_t)size))
-    return raise_input_error("file_missing", args[0], "%R: a path has no zero bytes; check the path.", args[0]);
+    return raise_input_error("file_missing", args[0], "%R: a path has no zero bytes; check the path.",
+                             args[0]);
   sinew_robot* robot = NULL;
   char* error = NULL;
   int32_t code;
-  Py_BEGIN_ALLOW_THREADS
-  code = sinew_open(source, (size_t)size, (int32_t)kind, &robot, &error);
-  Py_END_ALLOW_THREADS
-  if (code != SINEW_OK) {
-    if (code == SINEW_NO_MEMORY) PyErr_NoMemory();
-    else if (code == SINEW_FAILED) PyErr_SetString(PyExc_RuntimeError, error ? error : "an error of the library");
-    else raise_text(error);
+  Py_BEGIN_ALLOW_THREADS code = sinew_open(source, (size_t)size, (int32_t)kind, &robot, &error);
+  Py_END_ALLOW_THREADS if (code != SINEW_OK) {
+    if (code == SINEW_NO_MEMORY)
+      PyErr_NoMemory();
+    else if (code == SINEW_FAILED)
+      PyErr_SetString(PyExc_RuntimeError, error ? error : "an error of the library");
+    else
+      raise_text(error);
     sinew_free(error);
     return NULL;
   }
   Handle* handle = PyObject_New(Handle, handle_type);
-  if (!handle) sinew_release(robot);
-  else handle->robot = robot;
+  if (!handle)
+    sinew_release(robot);
+  else
+    handle->robot = robot;
   return (PyObject*)handle;
 }
 
@@ -50,8 +54,7 @@ static void free_handle(PyObject* self) {
 }
 
 typedef struct {
-  PyObject_HEAD
-  sinew_session* session;
+  PyObject_HEAD sinew_session* session;
   int is_busy;
 } Session;
 
@@ -80,10 +83,8 @@ static char* answer_of(Session* self, const char* question, size_t size, size_t*
     char* answer;
     self->is_busy = 1;
     begin_interruptible(&interrupt, self->session);
-    Py_BEGIN_ALLOW_THREADS
-    answer = sinew_ask(self->session, question, size, length);
-    Py_END_ALLOW_THREADS
-    const int is_interrupted = end_interruptible(&interrupt);
+    Py_BEGIN_ALLOW_THREADS answer = sinew_ask(self->session, question, size, length);
+    Py_END_ALLOW_THREADS const int is_interrupted = end_interruptible(&interrupt);
     self->is_busy = 0;
     if (!answer) PyErr_NoMemory();
     if (!answer || !is_interrupted) return answer;
@@ -142,10 +143,10 @@ static PyObject* session_is_busy(PyObject* self, void* nothing) {
   return PyBool_FromLong(((Session*)self)->is_busy);
 }
 
-static PyMethodDef handle_methods[] = {
-    {"session", new_session, METH_NOARGS, "A session to ask with."},
-    {NULL, NULL, 0, NULL}};
-static PyType_Slot handle_slots[] = {{Py_tp_dealloc, free_handle}, {Py_tp_methods, handle_methods}, {0, NULL}};
+static PyMethodDef handle_methods[] = {{"session", new_session, METH_NOARGS, "A session to ask with."},
+                                       {NULL, NULL, 0, NULL}};
+static PyType_Slot handle_slots[] = {
+    {Py_tp_dealloc, free_handle}, {Py_tp_methods, handle_methods}, {0, NULL}};
 PyType_Spec handle_spec = {"sinew._sinew.Handle", sizeof(Handle), 0,
                            Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, handle_slots};
 
@@ -154,7 +155,8 @@ static PyMethodDef session_methods[] = {
     {"ask_text", session_ask_text, METH_O, "ask_text(question): both are JSON"},
     {"stop", session_stop, METH_NOARGS, "Stops what another thread asks."},
     {NULL, NULL, 0, NULL}};
-static PyGetSetDef session_fields[] = {{"is_busy", session_is_busy, NULL, NULL, NULL}, {NULL, NULL, NULL, NULL, NULL}};
+static PyGetSetDef session_fields[] = {{"is_busy", session_is_busy, NULL, NULL, NULL},
+                                       {NULL, NULL, NULL, NULL, NULL}};
 static PyType_Slot session_slots[] = {{Py_tp_dealloc, free_session},
                                       {Py_tp_methods, session_methods},
                                       {Py_tp_getset, session_fields},

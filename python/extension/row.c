@@ -1,4 +1,5 @@
-/* A prepared question put to one row of numbers, and what it answers: numbers, read when they are asked for. */
+/* A prepared question put to one row of numbers, and what it answers: numbers, read when they are asked for.
+ */
 #include <string.h>
 
 #include "sinew_module.h"
@@ -39,7 +40,8 @@ static int read_vector(PyObject* array, const Field* field, double* numbers) {
     PyErr_Clear();
     return 1;
   }
-  const int is_vector = buffer.ndim == 1 && buffer.shape[0] == field->count && buffer.format && strcmp(buffer.format, "d") == 0;
+  const int is_vector =
+      buffer.ndim == 1 && buffer.shape[0] == field->count && buffer.format && strcmp(buffer.format, "d") == 0;
   for (Py_ssize_t i = 0; is_vector && i < field->count; ++i)
     memcpy(&numbers[i], (const char*)buffer.buf + i * buffer.strides[0], sizeof(double));
   PyBuffer_Release(&buffer);
@@ -53,7 +55,9 @@ static int read_row(const Question* self, PyObject* args, PyObject* keywords, do
   for (Py_ssize_t i = 0; i < self->inputs_count; ++i) {
     const Field* field = &self->in[i];
     PyObject* value = i < places ? PyTuple_GetItem(args, i) : PyDict_GetItem(keywords, field->name);
-    if (!value || (read_list(value, field->shape, field->rank, numbers) != 0 && read_vector(value, field, numbers) != 0)) return 1;
+    if (!value || (read_list(value, field->shape, field->rank, numbers) != 0 &&
+                   read_vector(value, field, numbers) != 0))
+      return 1;
     numbers += field->count;
   }
   return 0;
@@ -91,15 +95,16 @@ static int run_row(Question* self, Row* row) {
     uint8_t status = 255;
     int32_t code;
     begin_interruptible(&interrupt, batch);
-    Py_BEGIN_ALLOW_THREADS
-    code = sinew_run(batch, 1, places.in, places.out, &status, 1, &error);
-    Py_END_ALLOW_THREADS
-    again = end_interruptible(&interrupt) && PyErr_CheckSignals() == 0;
+    Py_BEGIN_ALLOW_THREADS code = sinew_run(batch, 1, places.in, places.out, &status, 1, &error);
+    Py_END_ALLOW_THREADS again = end_interruptible(&interrupt) && PyErr_CheckSignals() == 0;
     row->status = status;
     if (PyErr_Occurred() || again) {
-    } else if (code == SINEW_NO_MEMORY) PyErr_NoMemory();
-    else if (code == SINEW_FAILED) PyErr_SetString(PyExc_RuntimeError, error ? error : "an error of the library");
-    else if (code != SINEW_OK || status == bad_input) raise_text(error);
+    } else if (code == SINEW_NO_MEMORY)
+      PyErr_NoMemory();
+    else if (code == SINEW_FAILED)
+      PyErr_SetString(PyExc_RuntimeError, error ? error : "an error of the library");
+    else if (code != SINEW_OK || status == bad_input)
+      raise_text(error);
     sinew_free(error);
   }
   if (batch) put_batch(self, batch, slot);
@@ -207,7 +212,11 @@ static PyGetSetDef row_fields[] = {{"ok", row_ok, NULL, "Whether the row is solv
                                    {"_code", row_code, NULL, NULL, NULL},
                                    {"_question", row_question, NULL, NULL, NULL},
                                    {NULL, NULL, NULL, NULL, NULL}};
-static PyType_Slot row_slots[] = {{Py_tp_dealloc, free_row}, {Py_tp_getattro, get_row}, {Py_tp_methods, row_methods},
-                                  {Py_tp_getset, row_fields}, {0, NULL}};
+static PyType_Slot row_slots[] = {{Py_tp_dealloc, free_row},
+                                  {Py_tp_getattro, get_row},
+                                  {Py_tp_methods, row_methods},
+                                  {Py_tp_getset, row_fields},
+                                  {0, NULL}};
 PyType_Spec row_spec = {"sinew._sinew.Row", sizeof(Row), sizeof(double),
-                        Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_DISALLOW_INSTANTIATION, row_slots};
+                        Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_DISALLOW_INSTANTIATION,
+                        row_slots};

@@ -1,7 +1,9 @@
-/* What the files of the extension share. The extension holds the C interface for Python and no more: texts go in
- * and out, columns stay where they are. What answers mean is said in Python, sinew/answer.py and its neighbours.
+/* What the files of the extension share. The extension holds the C interface for Python and no more: texts go
+ * in and out, columns stay where they are. What answers mean is said in Python, sinew/answer.py and its
+ * neighbours.
  *
- * Limited API of Python 3.11: one binary for every later Python. The extension is loaded by one interpreter. */
+ * Limited API of Python 3.11: one binary for every later Python. The extension is loaded by one interpreter.
+ */
 #ifndef SINEW_PYTHON_MODULE_H
 #define SINEW_PYTHON_MODULE_H
 
@@ -25,15 +27,14 @@ typedef struct Text {
   char* data;
   size_t size, room;
 } Text;
-/* 0, or -1 with an exception; 1 where an array has more dimensions than its field: it holds columns. `ranks`, a
- * dict of dimensions by name (1 where a name is not in it), may be NULL: then every array is one value. */
+/* 0, or -1 with an exception; 1 where an array has more dimensions than its field: it holds columns. `ranks`,
+ * a dict of dimensions by name (1 where a name is not in it), may be NULL: then every array is one value. */
 int encode_question(Text* text, PyObject* query, PyObject* fields, PyObject* ranks);
 void free_text(Text* text);
 
 /* robot.c: a robot that is open, and sessions. */
 typedef struct {
-  PyObject_HEAD
-  sinew_robot* robot;
+  PyObject_HEAD sinew_robot* robot;
 } Handle;
 extern PyType_Spec handle_spec, session_spec;
 extern PyTypeObject *handle_type, *session_type;
@@ -46,8 +47,7 @@ typedef struct {
 } Field;
 enum { most_kept = 16 };
 typedef struct {
-  PyObject_HEAD
-  PyObject *handle, *text, *layout, *row_type, *outputs; /* outputs: index by name */
+  PyObject_HEAD PyObject *handle, *text, *layout, *row_type, *outputs; /* outputs: index by name */
   struct {
     sinew_batch* batch;
     int is_busy;
@@ -56,8 +56,7 @@ typedef struct {
   Py_ssize_t inputs_count, outputs_count, in_numbers, out_numbers;
 } Question;
 typedef struct {
-  PyObject_VAR_HEAD
-  Question* question;
+  PyObject_VAR_HEAD Question* question;
   int status;
   double numbers[]; /* what went in, what came out */
 } Row;
