@@ -82,7 +82,8 @@ FIELDS = _fields(
     ("tolerance", "number", "m", "of a diagram: in place of the robot's"),
     ("envelope", "word", "", "of a diagram: square, disc or actuator"),
     ("all", "flag", "", "every solution: `solutions`"),
-    ("want", "words", "", "more to be answered: stiffness, stability, margins, sensitivity"),
+    ("want", "words", "", "more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ..."),
+    ("with_respect_to", "words", "", "paths of the robot's numbers by which `sensitivity` is taken, too"),
     ("trace", "flag", "", "the iterates, too"),
     ("model", "word", "", "of the links: cc, prb; of serial robots pcc, lsk"),
     ("law", "word", "", "of chains: M0w, M0, M1"),
@@ -93,6 +94,7 @@ FIELDS = _fields(
 )
 
 _COMMON = ("model", "law", "theta_is", "max_iterations", "tilt", "set")
+_WANT = ("want", "with_respect_to")
 _BRANCH = ("bending", "curvature", "elbow")
 _WHERE = ("pose", "inputs", "independent", "configuration", "changes", *_BRANCH, "angles", "start", "wrench", "gravity")
 
@@ -106,18 +108,18 @@ class Verb(NamedTuple):
 VERBS = {
     "forward": Verb("Pose of the platform or tip from the inputs.",
                     "pose (or tip), legs (or sections), residual, iterations; of rods and chains energy, potential, and what `want` asks for",
-                    ("inputs", "configuration", "changes", "slack", "wrench", "gravity", "start", "want", "until", "posture_threshold",
-                     "all", "trace", *_COMMON)),
+                    ("inputs", "configuration", "changes", "slack", "wrench", "gravity", "start", "want", "with_respect_to", "until",
+                     "posture_threshold", "all", "trace", *_COMMON)),
     "inverse": Verb("Inputs from the pose.", "inputs (or configuration and changes), legs, pose, residual",
                     ("pose", "independent", "position", "direction", *_BRANCH, "start", "wrench", "gravity", "want",
-                     "posture_threshold", "until", "all", *_COMMON)),
+                     "with_respect_to", "posture_threshold", "until", "all", *_COMMON)),
     "velocity": Verb("Velocity equations J (twist) = K (input rates), sensitivities, singularities.",
                      "pose, J, K, U = J^-1 K, determinant, indices, type_1, type_2; with `twist` rates",
-                     (*_WHERE, "twist", "rates", "along", "limit", *_COMMON)),
+                     (*_WHERE, "twist", "rates", "along", "limit", *_WANT, *_COMMON)),
     "statics": Verb("A tendon-driven robot under a load, or the wrench on it sensed from forces.",
                     "pose, legs with tensions and forces, wrench, stiffness, compliance, stable, potential, residual",
                     ("pose", "set_at", "hold", "tensions", "lengths", "inputs", "measured_tensions", "axial_forces", "deviation",
-                     "inverse", *_BRANCH, "start", "wrench", "gravity", "want", "until", "posture_threshold", *_COMMON)),
+                     "inverse", *_BRANCH, "start", "wrench", "gravity", *_WANT, "until", "posture_threshold", *_COMMON)),
     "track": Verb("Inputs along a path of poses; of rods and chains also a curve of equilibria.",
                   "rows, residual, reached; of a curve curves and equilibria",
                   ("poses", "from_", "to", "samples", "inputs", "pose", "independent", *_BRANCH, "angles", "start", "wrench", "gravity",
@@ -126,7 +128,7 @@ VERBS = {
                     "class_, word, amount, advice, point, slack, margin, over_tension, frontiers, polygon, boundary, area",
                     ("section", "changes", "measured", "tolerance", "envelope", "limit", *(name for name in _COMMON if name != "law"))),
     "shape": Verb("Polylines for a picture.", "pose, backbones, tendons, lines, platform, base, frames; points in the base frame [m]",
-                  (*_WHERE, "samples", *_COMMON)),
+                  (*_WHERE, "samples", *_WANT, *_COMMON)),
     "describe": Verb("What the robot has.", "kind, space, inputs, pose, home, legs or sections, models, versions", _COMMON[::-1]),
 }
 

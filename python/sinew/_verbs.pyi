@@ -17,6 +17,7 @@ class Verbs:
         gravity: Numbers | None = None,
         start: Any | None = None,
         want: Sequence[str] | None = None,
+        with_respect_to: Sequence[str] | None = None,
         until: Mapping[str, Any] | None = None,
         posture_threshold: Number | None = None,
         all: bool | None = None,
@@ -45,7 +46,8 @@ class Verbs:
                 m) or (6,)
             gravity [m/s^2]: in place of the robot's, in base axes, (3,)
             start: where the search begins: a pose, inputs, or "last", the last answer to this thread
-            want: more to be answered: stiffness, stability, margins, sensitivity
+            want: more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ...
+            with_respect_to: paths of the robot's numbers by which `sensitivity` is taken, too
             until: {wrench, limit}: this load is added, up to `limit` times
             posture_threshold [rad]: largest turn of a joint for which the linear model counts as valid
             all: every solution: `solutions`
@@ -83,6 +85,7 @@ class Verbs:
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
         want: Sequence[str] | None = None,
+        with_respect_to: Sequence[str] | None = None,
         posture_threshold: Number | None = None,
         until: Mapping[str, Any] | None = None,
         all: bool | None = None,
@@ -112,7 +115,8 @@ class Verbs:
             wrench [N, N m]: of the world on the platform, about its reference point, in base axes: (fx, fy,
                 m) or (6,)
             gravity [m/s^2]: in place of the robot's, in base axes, (3,)
-            want: more to be answered: stiffness, stability, margins, sensitivity
+            want: more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ...
+            with_respect_to: paths of the robot's numbers by which `sensitivity` is taken, too
             posture_threshold [rad]: largest turn of a joint for which the linear model counts as valid
             until: {wrench, limit}: this load is added, up to `limit` times
             all: every solution: `solutions`
@@ -154,6 +158,8 @@ class Verbs:
         rates: Numbers | None = None,
         along: Numbers | None = None,
         limit: Number | None = None,
+        want: Sequence[str] | None = None,
+        with_respect_to: Sequence[str] | None = None,
         model: str | None = None,
         law: str | None = None,
         theta_is: str | None = None,
@@ -189,6 +195,8 @@ class Verbs:
             rates [m/s]: of the inputs, in place of `twist`, (k,)
             along: a direction, as a twist, along which the nearest type II singularity is sought
             limit: how far to look `along`; of a diagram the envelope's size [rad, m]
+            want: more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ...
+            with_respect_to: paths of the robot's numbers by which `sensitivity` is taken, too
             model: of the links: cc, prb; of serial robots pcc, lsk
             law: of chains: M0w, M0, M1
             theta_is: what an input theta is the angle of: tangent, chord
@@ -228,6 +236,7 @@ class Verbs:
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
         want: Sequence[str] | None = None,
+        with_respect_to: Sequence[str] | None = None,
         until: Mapping[str, Any] | None = None,
         posture_threshold: Number | None = None,
         model: str | None = None,
@@ -263,7 +272,8 @@ class Verbs:
             wrench [N, N m]: of the world on the platform, about its reference point, in base axes: (fx, fy,
                 m) or (6,)
             gravity [m/s^2]: in place of the robot's, in base axes, (3,)
-            want: more to be answered: stiffness, stability, margins, sensitivity
+            want: more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ...
+            with_respect_to: paths of the robot's numbers by which `sensitivity` is taken, too
             until: {wrench, limit}: this load is added, up to `limit` times
             posture_threshold [rad]: largest turn of a joint for which the linear model counts as valid
             model: of the links: cc, prb; of serial robots pcc, lsk
@@ -430,6 +440,8 @@ class Verbs:
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
         samples: int | None = None,
+        want: Sequence[str] | None = None,
+        with_respect_to: Sequence[str] | None = None,
         model: str | None = None,
         law: str | None = None,
         theta_is: str | None = None,
@@ -461,6 +473,8 @@ class Verbs:
                 m) or (6,)
             gravity [m/s^2]: in place of the robot's, in base axes, (3,)
             samples: number of points, or of poses on the way
+            want: more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ...
+            with_respect_to: paths of the robot's numbers by which `sensitivity` is taken, too
             model: of the links: cc, prb; of serial robots pcc, lsk
             law: of chains: M0w, M0, M1
             theta_is: what an input theta is the angle of: tangent, chord
