@@ -1,6 +1,7 @@
 """What is to be drawn of a robot at a pose: the lines of the question `shape`."""
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -78,7 +79,7 @@ def shape_at_home(robot: Robot) -> dict[str, Any]:
 
 
 def polylines(shape: dict[str, Any]) -> list[tuple[str, list[list[float]]]]:
-    """Kind and points [m] of each line, farthest kinds first: base, platform, tendon, backbone, disc."""
+    """Kind and points [m] of each line: base, platform, tendon, backbone, strut."""
     lines: list[tuple[str, list[list[float]]]] = []
     for kind in ("base", "platform"):
         points = shape.get(kind) or []
@@ -86,5 +87,9 @@ def polylines(shape: dict[str, Any]) -> list[tuple[str, list[list[float]]]]:
             lines.append((kind, [*points, points[0]]))
     for group in shape.get("tendons") or []:
         lines += [("tendon", line) for line in group if len(line) > 1]
-    lines += [("backbone", line) for line in shape.get("backbones") or [] if len(line) > 1]
+    backbones = shape.get("backbones") or []
+    lines += [("backbone", line) for line in backbones if len(line) > 1]
+    ends = shape.get("platform") or []
+    if len(ends) == len(backbones):  # a leg whose link ends before the platform has a rigid strut from there
+        lines += [("strut", [line[-1], end]) for line, end in zip(backbones, ends) if math.dist(line[-1], end) > 1e-6]
     return lines

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from .answer import Answer
     from .robot import Robot
 
-COLORS = {"base": "#999999", "platform": "#1f5fa8", "tendon": "#c8642c", "backbone": "#222222"}
-WIDTHS = {"base": 1.0, "platform": 2.0, "tendon": 0.8, "backbone": 2.2}
+COLORS = {"base": "#999999", "platform": "#1f5fa8", "tendon": "#c8642c", "backbone": "#222222", "strut": "#7a7a7a"}
+WIDTHS = {"base": 1.0, "platform": 2.0, "tendon": 0.8, "backbone": 2.2, "strut": 2.2}
 _AZIMUTH, _HEIGHT = math.radians(35), math.radians(20)
 
 

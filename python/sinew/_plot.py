@@ -14,6 +14,7 @@ STYLES = {
     "platform": {"color": "#1f5fa8", "linewidth": 2.0},
     "tendon": {"color": "#c8642c", "linewidth": 0.8},
     "backbone": {"color": "#222222", "linewidth": 2.2},
+    "strut": {"color": "#7a7a7a", "linewidth": 2.2},
 }
 
 

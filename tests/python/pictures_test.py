@@ -60,6 +60,11 @@ class Html(unittest.TestCase):
         for name in sinew.robots():
             self.assertTrue(_drawing.polylines(_drawing.shape_of(sinew.load(name), None)), name)
 
+    def test_struts_reach_from_links_to_the_platform(self):
+        for name, struts in (("3-rfr", 0), ("3pfs-g2", 0), ("3-frr", 3), ("3-rfrr", 3), ("3prs", 3), ("2prs-1pfs", 2)):
+            kinds = [kind for kind, _ in _drawing.polylines(_drawing.shape_of(sinew.load(name), None))]
+            self.assertEqual(kinds.count("strut"), struts, name)
+
     def test_of_rows_and_of_columns(self):
         robot = sinew.load("3-rfr")
         self.assertIn("<svg", robot.prepare("forward", inputs="$l")([0.19, 0.19, 0.188])._repr_html_())
