@@ -5,6 +5,7 @@
 #   ./run.sh ARGUMENTS...    the sinew command, e.g. ./run.sh forward ROBOT --json
 #   ./run.sh serve ROBOT     the viewer in a browser; installs Node where it is missing
 #   ./run.sh octave          the module of Octave, into build/octave; installs Octave where it is missing
+#   ./run.sh wheel           the Python module with the command, a wheel in build/wheel: pip install build/wheel/*.whl
 #   ./run.sh --yes ...       the same, and installs packages without asking
 set -euo pipefail
 caller=$PWD
@@ -45,6 +46,17 @@ fi
 if [[ ${1-} == octave ]]; then
   need_packages "$yes" "${octave_packages[@]}"
   with_octave=1
+fi
+if [[ ${1-} == wheel ]]; then
+  need_packages "$yes" "${python_packages[@]}"
+  page=ON
+  if [[ ! -e web/node_modules/.package-lock.json ]] || ! command -v node >/dev/null; then
+    page=OFF
+    say "The wheel's command is without the viewer's page; for it, run ./run.sh serve once before."
+  fi
+  build_preset wheel -D SINEW_WEB=$page
+  python3 tools/wheel.py build/wheel build/wheel
+  exit
 fi
 if ! up_to_date; then
   mkdir -p build/release

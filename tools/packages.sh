@@ -8,6 +8,9 @@ build_packages=(build-essential cmake ninja-build pkgconf libeigen3-dev libyaml-
                 libfmt-dev libexpected-dev libhwy-dev libtbb-dev libhdf5-dev libmd-dev libxxhash-dev libcpp-httplib-dev gnuplot-nox)
 # ... what building the page of the viewer needs, ...
 web_packages=(nodejs npm)
+# ... what the Python module needs beside the first, ...
+# shellcheck disable=SC2034
+python_packages=(python3 libpython3-dev)
 # ... what the tests under sanitizers need: clang compiles instrumented code in half of GCC's time, ...
 # shellcheck disable=SC2034
 sanitizer_packages=(clang lld libclang-rt-14-dev)
@@ -22,7 +25,7 @@ octave_packages=(octave octave-dev)
 # shellcheck disable=SC2034
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
                doxygen python3-sphinx python3-myst-parser
-               python3-yaml python3-h5py ccache libopenmpi-dev openmpi-bin
+               python3-yaml python3-h5py python3-numpy libpython3-dev python3-venv mypy ccache libopenmpi-dev openmpi-bin
                gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys "${octave_packages[@]}" "${web_packages[@]}" chromium-headless-shell)
 
 say() { printf '%s\n' "$*" >&2; }

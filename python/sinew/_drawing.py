@@ -1,0 +1,95 @@
+"""What is to be drawn of a robot at a pose: the lines of the question `shape`."""
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from ._errors import InputError
+from ._fields import VERBS
+from .answer import Answer
+
+if TYPE_CHECKING:
+    from .robot import Robot
+
+_OF_ANSWERS = ("configuration", "inputs", "pose")
+
+
+def _questions(answer: Answer) -> Iterator[dict[str, Any]]:
+    """Questions that may have the answer's shape: as it was asked; as it was found."""
+    asked = answer.question._plain()
+    found = answer._plain()
+    shared = {name: value for name, value in asked.items() if name in VERBS["shape"].fields}
+    loads = {name: shared[name] for name in ("model", "law", "theta_is", "set", "wrench", "gravity") if name in shared}
+    if "configuration" in found:
+        yield {**loads, "configuration": found["configuration"]}
+    inputs = found.get("inputs", asked.get("inputs"))
+    if inputs and "pose" in found:
+        yield {**loads, "inputs": inputs, "start": found["pose"]}
+        yield {**loads, "inputs": inputs}
+    if "pose" in found and all("angles" in leg for leg in found.get("legs") or [{}]):  # chains, as they are
+        law = {"law": shared["law"]} if "law" in shared else {}
+        yield {**law, "model": "prb", "pose": found["pose"], "angles": [leg["angles"] for leg in found["legs"]]}
+    yield shared
+    if "pose" in found:
+        branch = {name: shared[name] for name in ("bending", "curvature", "elbow") if name in shared}
+        yield {**loads, **branch, "pose": found["pose"]}
+
+
+def shape_of(robot: Robot, answer: Any) -> dict[str, Any]:
+    """Fields of the shape at an answer's pose, or at home where there is none."""
+    if answer is None:
+        return shape_at_home(robot)
+    plain: dict[str, Any]
+    if hasattr(answer, "answer"):
+        answer = answer.answer  # of a prepared question
+    if not isinstance(answer, Answer) or type(answer) is not Answer:
+        raise InputError(f"a picture is of one answer, not of {type(answer).__name__}: give answers[i]", "wrong_type", "answer")
+    if "backbones" in answer:
+        return answer._plain()
+    for fields in _questions(answer):
+        try:
+            plain = robot._ask("shape", fields)._plain()
+        except InputError:
+            continue
+        if "backbones" in plain:
+            return plain
+    raise InputError(f"there is no shape to draw: {answer.status}{': ' + answer.message if answer.message else ''}", "no_shape", "answer")
+
+
+def shape_at_home(robot: Robot) -> dict[str, Any]:
+    about = robot._about()._plain()
+    candidates: list[dict[str, Any]] = [{"configuration": [[0.0, 0.0] for _ in about["sections"]]}] if "sections" in about else []
+    home = about.get("home")
+    if home:
+        candidates.append({"pose": home})
+        for limits in [entry.get("limits") for entry in about["inputs"]][:1]:
+            if limits:
+                candidates.append({"inputs": [sum(entry["limits"]) / 2 for entry in about["inputs"]]})
+        if "position" in home:
+            candidates.append({"independent": {"z": home["position"][2], "e1": 0.0, "e2": 0.0}})
+    for fields in candidates:
+        try:
+            plain: dict[str, Any] = robot._ask("shape", fields)._plain()
+        except InputError:
+            continue
+        if "backbones" in plain:
+            return plain
+    raise InputError("no shape of this robot at home: give an answer to draw", "no_shape", "answer")
+
+
+def polylines(shape: dict[str, Any]) -> list[tuple[str, list[list[float]]]]:
+    """Kind and points [m] of each line: base, platform, tendon, backbone, strut."""
+    lines: list[tuple[str, list[list[float]]]] = []
+    for kind in ("base", "platform"):
+        points = shape.get(kind) or []
+        if len(points) > 1:
+            lines.append((kind, [*points, points[0]]))
+    for group in shape.get("tendons") or []:
+        lines += [("tendon", line) for line in group if len(line) > 1]
+    backbones = shape.get("backbones") or []
+    lines += [("backbone", line) for line in backbones if len(line) > 1]
+    ends = shape.get("platform") or []
+    if len(ends) == len(backbones):  # a leg whose link ends before the platform has a rigid strut from there
+        lines += [("strut", [line[-1], end]) for line, end in zip(backbones, ends) if math.dist(line[-1], end) > 1e-6]
+    return lines

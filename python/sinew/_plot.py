@@ -1,0 +1,49 @@
+"""Pictures by matplotlib."""
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from ._drawing import polylines, shape_of
+
+if TYPE_CHECKING:
+    from .robot import Robot
+
+STYLES = {
+    "base": {"color": "0.6", "linewidth": 1.0, "linestyle": "--"},
+    "platform": {"color": "#1f5fa8", "linewidth": 2.0},
+    "tendon": {"color": "#c8642c", "linewidth": 0.8},
+    "backbone": {"color": "#222222", "linewidth": 2.2},
+    "strut": {"color": "#7a7a7a", "linewidth": 2.2},
+}
+
+
+def plot(robot: Robot, answer: Any, ax: Any) -> Any:
+    plt: Any = importlib.import_module("matplotlib.pyplot")
+    lines = polylines(shape_of(robot, answer))
+    is_planar = all(len(point) == 2 for _, line in lines for point in line)
+    if ax is None:
+        ax = plt.figure().add_subplot(projection=None if is_planar else "3d")
+    elif not is_planar and not hasattr(ax, "set_zlim"):
+        raise ValueError('this robot is in space: give axes made with projection="3d"')
+    for kind, line in lines:
+        ax.plot(*([1000.0 * point[axis] for point in line] for axis in range(2 if is_planar else 3)), **STYLES[kind])
+    ax.set_xlabel("x [mm]")
+    ax.set_ylabel("y [mm]")
+    ax.set_title(robot.name)
+    if is_planar:
+        ax.set_aspect("equal", adjustable="datalim")
+    else:
+        ax.set_zlabel("z [mm]")
+        _equal_axes(ax, [point for _, line in lines for point in line])
+    return ax
+
+
+def _equal_axes(ax: Any, points: list[list[float]]) -> None:
+    """A cube around all points: a millimetre is as long along each axis."""
+    lowest = [1000.0 * min(point[axis] for point in points) for axis in range(3)]
+    highest = [1000.0 * max(point[axis] for point in points) for axis in range(3)]
+    half = max(high - low for low, high in zip(lowest, highest)) / 2 or 1.0
+    for name, low, high in zip("xyz", lowest, highest):
+        getattr(ax, f"set_{name}lim")((low + high) / 2 - half, (low + high) / 2 + half)
+    ax.set_box_aspect((1, 1, 1))

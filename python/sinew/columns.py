@@ -1,0 +1,174 @@
+"""Answers to many rows: arrays, computed on all cores where they lie."""
+from __future__ import annotations
+
+import enum
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from . import _arrays
+from ._errors import InputError
+from ._fields import RANKS
+from .answer import Answer
+
+if TYPE_CHECKING:
+    from .prepared import Prepared
+    from .robot import Robot
+
+_MOST_PLANS = 16
+
+
+class Status(enum.IntEnum):
+    """What came of a row; its numbers are those of `Columns.status`."""
+
+    unreachable = 0
+    left_domain = 1
+    slack = 2
+    singular = 3
+    stalled = 4
+    iteration_limit = 5
+    unstable = 6
+    converged = 7
+    stopped = 8
+    bad_input = 9
+    failed = 255
+
+
+class Columns(Answer):
+    """Answers to n rows: of each field an array (n, ...), as attributes and as of a dict.
+
+    `ok` is an array of n booleans, `status` one of n numbers of `Status`; numbers that a row does not have are NaN.
+    `columns[i]` is the whole answer to one row.
+    """
+
+    __slots__ = ("_prepared", "_inputs", "_values", "_status", "_said")
+
+    def __init__(self, prepared: Prepared, inputs: list[Any], values: dict[str, Any], status: Any, said: str | None) -> None:
+        self._prepared, self._inputs, self._values, self._status, self._said = prepared, inputs, values, status, said
+        self._robot, self._made = prepared.robot, {}
+
+    def _plain(self) -> dict[str, Any]:
+        return self._values
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, str):
+            return self._values[key]
+        row = range(len(self))[key]  # an IndexError where there is no such row
+        return self._prepared.answer([_arrays.row_of(column, row) for column in self._inputs])
+
+    def __iter__(self) -> Iterator[Any]:
+        return (self[row] for row in range(len(self)))
+
+    def keys(self) -> Any:
+        """Names of the fields."""
+        return self._values.keys()
+
+    def items(self) -> Any:
+        """Names and arrays."""
+        return self._values.items()
+
+    def values(self) -> Any:
+        """The arrays."""
+        return self._values.values()
+
+    def __len__(self) -> int:
+        return len(self._status)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._values
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __hash__(self) -> int:
+        return id(self)
+
+    @property
+    def ok(self) -> Any:
+        return _arrays.equal(self._status, Status.converged)
+
+    @property
+    def status(self) -> Any:
+        return self._status
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many rows have which status."""
+        return {Status(code).name: count for code, count in _arrays.counts(self._status)}
+
+    @property
+    def message(self) -> str:
+        """How many rows were not solved, and what is wrong with the first that is no input at all."""
+        unsolved = [f"{count} {name}" for name, count in self.counts.items() if name != "converged"]
+        told = f"{', '.join(unsolved)} of {len(self)} rows" if unsolved else ""
+        if self._said:
+            from ._errors import from_text
+            said = from_text(self._said).message if '"error"' in self._said[:10] else self._said
+            told = f"{told}: {said}" if told else said
+        return told
+
+    @property
+    def units(self) -> dict[str, str]:
+        return {field["name"]: field["unit"] for field in self._prepared.layout["outputs"]}
+
+    @property
+    def method(self) -> str:
+        """How the rows were computed: `rods in lanes`, `query by query`, ..."""
+        return str(self._prepared.layout["method"])
+
+    def to_dict(self) -> dict[str, Any]:
+        return {**self._values, "status": self._status}
+
+    def __repr__(self) -> str:
+        shapes = ", ".join(f"{name} {_arrays.shape(value)}" for name, value in self._values.items())
+        return f"<{self._prepared.query} of {self._robot.name}: {len(self)} rows{', ' + self.message if self.message else ''} ({shapes})>"
+
+    def __str__(self) -> str:
+        return repr(self)
+
+    def _repr_html_(self) -> str:
+        from ._html import table
+        units = self.units
+        return table(repr(self), [(name, str(_arrays.shape(value)), units[name]) for name, value in self._values.items()])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self._prepared, self._inputs, self._values, self._status, self._said)
+
+
+def _restored(prepared: Prepared, *rest: Any) -> Columns:
+    return Columns(prepared, *rest)
+
+
+def ask_columns(robot: Robot, query: str, fields: dict[str, Any]) -> Columns:
+    """The question of a verb's keywords, arrays of which hold columns. Questions that differ in arrays alone are prepared once."""
+    from .prepared import Prepared
+    fields = {name: value for name, value in fields.items() if value is not None}
+    options = {name: fields.pop(name, None) for name in ("outputs", "path", "threads", "out")}
+    columns: dict[str, Any] = {}
+    pattern = _with_names(fields, "", "", columns)
+    key = (query, repr(pattern), repr(options["outputs"]), options["path"])
+    prepared = robot._planned.get(key)
+    if prepared is None:
+        prepared = Prepared(robot, query, pattern, options["outputs"], options["path"])
+        for old in list(robot._planned)[:-_MOST_PLANS]:  # the list is of one moment, whatever other threads do
+            robot._planned.pop(old, None)
+        robot._planned[key] = prepared
+    answer: Columns = prepared._columns((), {**columns, "threads": options["threads"], "out": options["out"]}, is_many=True)
+    return answer
+
+
+def _with_names(value: Any, place: str, key: str, columns: dict[str, Any]) -> Any:
+    """The fields with "$place" where an array holds a column, which `columns` then has."""
+    dimensions = getattr(value, "ndim", None)
+    if isinstance(dimensions, int):
+        if dimensions <= RANKS.get(key, 1):
+            return value
+        if dimensions != RANKS.get(key, 1) + 1:
+            raise InputError(f"{place} has shape {_arrays.shape(value)}; give an array of {RANKS.get(key, 1)} dimensions for one "
+                             f"value, of one more for a row each", "wrong_length", place)
+        columns[place] = _arrays.flat_rows(value) if key == "changes" else value
+        return "$" + place
+    if isinstance(value, Mapping):
+        return {name: _with_names(item, f"{place}.{name}" if place else str(name), str(name), columns) for name, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_with_names(item, f"{place}[{index}]", key, columns) for index, item in enumerate(value)]
+    return value

@@ -1,0 +1,169 @@
+"""Questions prepared once and put many times."""
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from . import _arrays, _sinew
+from ._errors import InputError, from_text
+from .columns import Columns, Status
+
+if TYPE_CHECKING:
+    from .answer import Answer
+    from .robot import Robot
+
+_OF_TENDONS = ("changes", "measured")  # of all tendons in order in columns, a list a section in questions
+
+
+class Row(_sinew.Row):
+    """What a prepared question answers of one row: its outputs, as attributes; `ok`, `status`.
+
+    A number that the row does not have is NaN.
+    """
+
+    __slots__ = ()
+
+    @property
+    def status(self) -> str:
+        """One word: `converged`, or why not."""
+        return Status(self._code).name
+
+    @property
+    def answer(self) -> Answer:
+        """The whole answer to the same question, asked again."""
+        question: Prepared = self._question
+        return question.answer(list(self._inputs().values()))
+
+    @property
+    def message(self) -> str:
+        """Why it is not solved; empty where it is."""
+        return "" if self.ok else self.answer.message
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of the outputs."""
+        return {field["name"]: field["unit"] for field in self._question.layout["outputs"]}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Outputs by name."""
+        return {field["name"]: getattr(self, field["name"]) for field in self._question.layout["outputs"]}
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}: {value!r}" for name, value in self.to_dict().items())
+        return f"<{self._question.query} of {self._question.robot.name}: {self.status} ({values})>"
+
+    def _repr_html_(self) -> str:
+        return self.answer._repr_html_()
+
+
+class Prepared(_sinew.Question):
+    """A function of what stands as "$name" in the fields of a question; see `Robot.prepare`.
+
+    Arguments are in the order in which the names stand in the question, or by name. Numbers, lists or (k,) arrays are
+    one row and give a `Row`; arrays (n,) or (n, k) are n rows and give `Columns`. `threads` and `out` are as of the
+    robot's methods. Any number of threads may call it; `stop()` ends what others compute.
+    """
+
+    robot: Robot
+    query: str
+    _made_of: tuple[Robot, str, dict[str, Any], Any, str | None]
+
+    def __new__(cls, robot: Robot, query: str, fields: dict[str, Any], outputs: Any, path: str | None) -> Prepared:
+        asked = dict(fields)
+        if robot._settings:
+            asked["set"] = {**robot._settings, **(asked.get("set") or {})}
+        if outputs is not None:
+            asked["outputs"] = _named(outputs)
+        self: Prepared = super().__new__(cls, robot._handle, query, {**asked, "path": path}, Row)
+        self.robot, self.query = robot, query
+        self._made_of = (robot, query, fields, outputs, path)
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Prepared, self._made_of
+
+    def __repr__(self) -> str:
+        names = ", ".join(f"{field['name']} {_arrays.shape_text(field['shape'])}" for field in self.layout["inputs"])
+        return f"<{self.query} of {self.robot.name}, a function of {names}>"
+
+    @property
+    def inputs(self) -> list[dict[str, Any]]:
+        """What goes in: `name`, `unit`, `rank`, `shape`."""
+        return [dict(field) for field in self.layout["inputs"]]
+
+    @property
+    def outputs(self) -> list[dict[str, Any]]:
+        """What comes out: `name`, `unit`, `rank`, `shape`."""
+        return [dict(field) for field in self.layout["outputs"]]
+
+    def answer(self, values: Sequence[Any]) -> Answer:
+        """The whole answer to one row."""
+        named = {field["name"]: value for field, value in zip(self.layout["inputs"], values)}
+        answer: Answer = self.robot._ask(self.query, _filled(self._made_of[2], named, self.robot, ""))
+        return answer
+
+    def _columns(self, args: tuple[Any, ...], named: dict[str, Any], is_many: bool = False) -> Any:
+        """What is not plainly one row of numbers."""
+        named = dict(named)
+        threads, out = named.pop("threads", None), named.pop("out", None)
+        fields = self.layout["inputs"]
+        values = self._arguments(args, named)
+        columns = [_arrays.column(value, field) for value, field in zip(values, fields)]
+        ranks = [array.ndim - len(field["shape"]) for array, field in zip(columns, fields)]
+        if not is_many and out is None and not any(ranks):  # one row, of numbers of another kind
+            return _sinew.Question.__call__(self, *(array.tolist() for array in columns))
+        return self._run(columns, ranks, threads, out)
+
+    def _arguments(self, args: tuple[Any, ...], named: dict[str, Any]) -> list[Any]:
+        names = [field["name"] for field in self.layout["inputs"]]
+        known = f"it takes {', '.join(names)}, threads, out"
+        if len(args) > len(names):
+            raise TypeError(f"{len(args)} arguments are too many: {known}")
+        given = dict(zip(names, args))
+        for name, value in named.items():
+            if name not in names:
+                raise TypeError(f"there is no argument {name!r}: {known}")
+            if name in given:
+                raise TypeError(f"{name!r} is given twice: {known}")
+            given[name] = value
+        missing = [name for name in names if name not in given]
+        if missing:
+            raise TypeError(f"{', '.join(missing)} missing: {known}")
+        return [given[name] for name in names]
+
+    def _run(self, columns: list[Any], ranks: list[int], threads: Any, out: Any) -> Columns:
+        sizes = {len(array) for array, rank in zip(columns, ranks) if rank}
+        if len(sizes) > 1:
+            told = ", ".join(f"{field['name']} {_arrays.shape(array)}" for array, field in zip(columns, self.layout["inputs"]))
+            raise InputError(f"arrays of different lengths: {told}; give as many rows of each", "wrong_length", self.query)
+        rows = sizes.pop() if sizes else 1
+        threads = 0 if threads is None else threads
+        if not isinstance(threads, int) or not 0 <= threads < 2**31:
+            raise InputError(f"threads = {threads!r}; give a number, 0 for as many as there are cores", "out_of_range", "threads")
+        inputs = [array if rank else _arrays.repeated(array, rows) for array, rank in zip(columns, ranks)]
+        outputs = _arrays.outputs(self.layout["outputs"], rows, out, inputs)
+        status = _arrays.bytes_of(rows)
+        said = self.run(rows, [_arrays.as_it_lies(array) for array in inputs], list(outputs.values()), status, threads)
+        if said and said.startswith('{"error"') and _arrays.counts(status) == [(Status.bad_input, rows)]:
+            raise from_text(said)  # no row is input: it is the question that is wrong
+        return Columns(self, inputs, outputs, status, said)
+
+
+def _named(outputs: Any) -> Mapping[str, str]:
+    """`["pose.position"]` is `{"position": "pose.position"}`."""
+    if isinstance(outputs, Mapping):
+        return outputs
+    places = [outputs] if isinstance(outputs, str) else list(outputs)
+    return {str(place).rsplit(".", 1)[-1]: place for place in places}
+
+
+def _filled(value: Any, named: Mapping[str, Any], robot: Robot, key: str) -> Any:
+    """The fields with the numbers where "$name" stood."""
+    if isinstance(value, str) and value.startswith("$"):
+        numbers = named.get(value[1:], value)
+        return robot._by_sections(numbers) if key in _OF_TENDONS else numbers
+    if isinstance(value, Mapping):
+        return {name: _filled(item, named, robot, name) for name, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_filled(item, named, robot, "") for item in value]
+    return value

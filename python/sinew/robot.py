@@ -1,0 +1,205 @@
+"""Robots, and the questions that can be put to them."""
+from __future__ import annotations
+
+import importlib.resources
+import itertools
+import json
+import os
+import threading
+from collections.abc import Mapping
+from typing import Any, Union
+
+from . import _sinew
+from ._errors import InputError, from_text
+from ._fields import RANKS
+from ._verbs import Verbs
+from .answer import Answer, Record
+
+Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Robot"]
+_FILE, _TEXT = 0, 1
+
+
+class Robot(Verbs):
+    """A robot. It never changes, and any number of threads may use it.
+
+    Questions are methods: `forward`, `inverse`, `velocity`, `statics`, `track`, `diagram`, `shape`, `describe`. Their
+    fields are keywords; numbers are SI and radians, or text with a unit ("10 mm"). A field that is an array with one
+    dimension more than one value needs holds n rows: the answer then has arrays, see `Columns`.
+    """
+
+    _kind: int
+    _source: str
+    _copy: str
+    _settings: dict[str, Any]
+    _handle: _sinew.Handle
+
+    def __init__(self, source: Source) -> None:
+        self._settings = {}
+        if isinstance(source, Robot):
+            self._kind, self._source, self._handle = source._kind, source._source, source._handle
+            self._copy, self._settings = source._copy, source._settings
+        elif isinstance(source, Mapping):
+            self._kind, self._source = _TEXT, json.dumps(_plain(source))
+        elif isinstance(source, (str, os.PathLike)):
+            self._source = os.fspath(source)
+            self._kind = _TEXT if isinstance(source, str) and "\n" in source else _FILE
+        else:
+            raise InputError(f"a robot is a name, a path, the text of a robot file, or a dict; found {type(source).__name__}",
+                             "wrong_type", "source")
+        self._open()
+
+    def _open(self) -> None:
+        if not hasattr(self, "_handle"):
+            self._handle = _sinew.open(self._source, self._kind)
+        if not hasattr(self, "_copy"):  # to be opened elsewhere, and to be compared by
+            self._copy = self._source if self._kind == _TEXT or self._source in robots() else _read(self._source)
+        self._local = threading.local()
+        self._planned: dict[Any, Any] = {}
+        self._described: Answer | None = None
+
+    def _session(self) -> _sinew.Session:
+        """This thread's; another one where a handler asks while this one computes."""
+        session: _sinew.Session
+        try:
+            session = self._local.session
+        except AttributeError:
+            session = self._local.session = self._handle.session()
+        return self._handle.session() if session.is_busy else session
+
+    def _ask(self, query: str, fields: dict[str, Any]) -> Any:
+        if self._settings:
+            fields = {**fields, "set": {**self._settings, **(fields.get("set") or {})}}
+        asked = self._session().ask(query, fields, RANKS)
+        if asked is None:
+            from .columns import ask_columns
+            return ask_columns(self, query, fields)
+        question, text = asked
+        if text.startswith('{"error"'):
+            raise from_text(text)
+        return Answer(self, question, text)
+
+    def ask(self, question: Mapping[str, Any] | str) -> Answer:
+        """A question as the protocol has it (docs/protocol.md): a dict, or JSON."""
+        if not isinstance(question, str):
+            fields = dict(question)
+            answer: Answer = self._ask(fields.pop("query", ""), fields)
+            return answer
+        text = self._session().ask_text(question)
+        plain = json.loads(text)
+        if "error" in plain:
+            raise from_text(text)
+        return Answer(self, question, text)
+
+    def prepare(self, query: str, *, outputs: Any = None, path: str | None = None, **fields: Any) -> Any:
+        """A question to be put many times: a function of what stands as "$name" in its fields.
+
+            forward = robot.prepare("forward", inputs="$lengths")
+            forward([0.44, 0.42, 0.41]).position          # one row
+            forward(numpy.full((1000, 3), 0.42)).position  # (1000, 3)
+
+        `outputs` names what comes out, `{"z": "pose.position[2]"}` or a list of places; left out, what the question is
+        mostly asked for. `path="continue"`: each row begins where the one before it ended, as along a trajectory.
+        """
+        from .prepared import Prepared
+        return Prepared(self, query, fields, outputs, path)
+
+    def set(self, values: Mapping[str, Any]) -> Robot:
+        """Another robot, like this one but for these values: `robot.set({"legs[0].link.length": "180 mm"})`."""
+        if not isinstance(values, Mapping):
+            raise InputError(f"set takes a dict of paths and values, not {type(values).__name__}", "wrong_type", "set")
+        changed = Robot(self)
+        changed._settings = {**self._settings, **_plain(values)}
+        changed.describe()  # whether there is such a robot
+        return changed
+
+    def _about(self) -> Answer:
+        if self._described is None:
+            self._described = self.describe()
+        return self._described
+
+    @property
+    def name(self) -> str:
+        """As its file has it."""
+        return str(self._about()._plain()["robot"])
+
+    @property
+    def inputs(self) -> list[Record]:
+        """What the motors command, in order: `name`, `unit` and, of tendons, `limits`."""
+        return [Record(entry) for entry in self._about()._plain()["inputs"]]
+
+    def _input_units(self) -> list[str]:
+        return [entry["unit"] for entry in self._about()._plain()["inputs"]]
+
+    def _by_sections(self, numbers: list[float]) -> list[list[float]]:
+        """Numbers of all tendons, in order, as a list a section."""
+        left = iter(numbers)
+        return [list(itertools.islice(left, section["tendons"]["count"])) for section in self._about()._plain()["sections"]]
+
+    def plot(self, answer: Any = None, ax: Any = None) -> Any:
+        """Draws the robot at an answer's pose (None: at home) by matplotlib; returns the axes. Lengths in mm."""
+        from ._plot import plot
+        return plot(self, answer, ax)
+
+    def save_html(self, answer: Any, path: str | os.PathLike[str]) -> None:
+        """One file for a browser that shows an answer and its pose, to be turned by the mouse. It loads nothing."""
+        from ._html import save
+        save(self, answer, path)
+
+    def view(self, *, port: int = 0, open_browser: bool = True) -> Any:
+        """Starts `sinew serve` and opens the viewer: in a notebook in a frame, else in a browser. Returns a `View`."""
+        from ._view import View
+        return View(self, port, open_browser)
+
+    def __repr__(self) -> str:
+        known = f"sinew.load({self._source!r})" if self._kind == _FILE else f"<sinew.Robot {self.name!r}>"
+        return known + (f".set({self._settings!r})" if self._settings else "")
+
+    def _key(self) -> tuple[str, str]:
+        return self._copy, json.dumps(self._settings, sort_keys=True)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Robot) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def __copy__(self) -> Robot:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Robot:
+        return self
+
+    def __getstate__(self) -> dict[str, Any]:
+        is_name = self._kind == _FILE and self._copy == self._source
+        return {"source": self._copy, "kind": _FILE if is_name else _TEXT, "settings": self._settings}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._source, self._kind, self._settings = state["source"], state["kind"], state["settings"]
+        self._open()
+
+
+def robots() -> list[str]:
+    """Names of the robots that come with sinew."""
+    folder = importlib.resources.files("sinew") / "robots"
+    return sorted(entry.name[:-len(".yaml")] for entry in folder.iterdir() if entry.name.endswith(".yaml"))
+
+
+def _read(path: str) -> str:
+    with open(path, encoding="utf-8", errors="replace") as file:
+        return file.read()
+
+
+def _plain(values: Mapping[str, Any]) -> dict[str, Any]:
+    """A copy that JSON can write: arrays as lists."""
+    try:
+        copied: dict[str, Any] = json.loads(json.dumps(values, default=_convert, allow_nan=False))
+    except (TypeError, ValueError, RecursionError) as error:
+        raise InputError(f"this is no robot or change of one: {error}", "wrong_type", "set") from None
+    return copied
+
+
+def _convert(value: Any) -> Any:
+    for method in ("tolist", "to_dict", "keys"):
+        if hasattr(value, method):
+            return dict(value) if method == "keys" else getattr(value, method)()
+    raise TypeError(f"{type(value).__name__} is no number, text, list or dict")

@@ -1,0 +1,177 @@
+"""Arrays in, arrays out."""
+import pickle
+import tracemalloc
+import unittest
+
+import numpy as np
+
+import sinew
+
+RNG = np.random.default_rng(7)
+
+
+def rows(n):
+    return RNG.uniform(0.185, 0.195, (n, 3))
+
+
+class Columns(unittest.TestCase):
+    def setUp(self):
+        self.robot = sinew.load("3-rfr")
+
+    def test_are_the_answers_of_rows(self):
+        inputs = rows(20)
+        found = self.robot.forward(inputs=inputs)
+        self.assertIsInstance(found, sinew.Columns)
+        self.assertEqual(len(found), 20)
+        self.assertTrue(found.ok.all())
+        self.assertEqual(found.units["x"], "m")
+        for index, row in enumerate(inputs):
+            one = self.robot.forward(row)
+            self.assertAlmostEqual(found.x[index], one.pose.x, 12)
+            self.assertAlmostEqual(found["phi"][index], one.pose.phi, 12)
+        self.assertAlmostEqual(found[3].pose.x, found.x[3], 12)
+        self.assertEqual([answer.status for answer in found], ["converged"] * 20)
+        with self.assertRaises(IndexError):
+            found[20]
+
+    def check_no_copies(self, prepared, *columns):
+        prepared(*(column[:10] for column in columns))  # what is allocated once
+        tracemalloc.start()
+        found = prepared(*columns)
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        wanted = sum(found[field["name"]].nbytes for field in prepared.outputs) + found.status.nbytes
+        self.assertLess(most, wanted + 100_000)
+        for held, column in zip(found._inputs, columns):
+            self.assertTrue(np.shares_memory(held, column))
+        self.assertTrue(found.ok.all())
+
+    def test_are_read_and_written_where_they_lie(self):
+        """Of a million rows nothing is allocated but what is answered."""
+        walk = sinew.load("3pfs-g2").prepare("forward", inputs="$lengths", path="continue")
+        self.check_no_copies(walk, np.full((10**6, 3), 0.42))
+        poses = np.zeros((10**6, 3))
+        inverse = self.robot.prepare("inverse", pose={"x": "$x", "y": "$y", "phi": "$phi"})
+        self.check_no_copies(inverse, poses[:, 0], poses[:, 1], poses[:, 2])
+
+    def test_any_strides(self):
+        inputs = rows(30)
+        wanted = self.robot.forward(inputs=inputs).x
+        wide = np.zeros((30, 9))
+        wide[:, 1:7:2] = inputs
+        for same in (np.asfortranarray(inputs), wide[:, 1:7:2], inputs[::-1][::-1], inputs.T.copy().T):
+            np.testing.assert_array_equal(self.robot.forward(inputs=same).x, wanted)
+        np.testing.assert_array_equal(self.robot.forward(inputs=inputs[::-1]).x, wanted[::-1])
+        np.testing.assert_array_equal(self.robot.forward(inputs=inputs[::2]).x, wanted[::2])
+        np.testing.assert_array_equal(self.robot.forward(inputs=np.broadcast_to(inputs[0], (5, 3))).x, wanted[[0] * 5])
+        one = self.robot.forward(inputs=inputs[:1])
+        self.assertEqual(one.x.shape, (1,))
+        none = self.robot.forward(inputs=inputs[:0])
+        self.assertEqual((none.x.shape, none.message), ((0,), ""))
+
+    def test_other_numbers_are_converted_where_nothing_is_lost(self):
+        wanted = self.robot.forward(inputs=np.full((4, 3), 0.1875)).x
+        exact = np.full((4, 3), 0.1875)
+        unaligned = np.frombuffer(b"\0" + exact.tobytes(), np.uint8)[1:].view(np.float64).reshape(4, 3)
+        read_only = exact.copy()
+        read_only.flags.writeable = False
+        for same in (exact.astype(np.float32), exact.astype(np.float16), exact.astype(">f8"), exact.astype("<f8"), unaligned,
+                     read_only, exact.astype(np.longdouble), np.ma.masked_array(exact)):
+            np.testing.assert_array_equal(self.robot.forward(inputs=same).x, wanted)
+        whole = self.robot.inverse(pose={"x": np.zeros(3, int), "y": 0, "phi": np.zeros(3, np.int8)})
+        self.assertTrue(whole.ok.all())
+
+    def test_other_numbers_are_refused_where_something_would_be(self):
+        exact = np.full((4, 3), 0.19)
+        masked = np.ma.masked_array(exact, exact > 1)
+        masked[0, 0] = np.ma.masked
+        for wrong, why in ((exact.astype(complex), "complex128"), (exact.astype(object), "object"), (exact.astype(str), "<U"),
+                           (exact > 0, "bool"), (masked, "masked"), (np.zeros((4, 2)), r"shape \(4, 2\)"),
+                           (np.zeros((4, 3, 1)), r"shape \(4, 3, 1\)"), (np.zeros((0, 4)), r"shape \(0, 4\)")):
+            with self.assertRaisesRegex(sinew.InputError, why):
+                self.robot.forward(inputs=wrong)
+
+    def test_rows_that_are_no_input_say_so_by_themselves(self):
+        inputs = rows(5)
+        inputs[2, 1] = np.nan
+        inputs[3, 0] = np.inf
+        found = self.robot.forward(inputs=inputs)
+        self.assertEqual(found.ok.tolist(), [True, True, False, False, True])
+        self.assertEqual(found.status[2], sinew.Status.bad_input)
+        self.assertTrue(np.isnan(found.x[2]))
+        self.assertIn("1 bad_input of 5 rows", found.message)
+        self.assertEqual(found.counts, {"left_domain": 1, "converged": 3, "bad_input": 1})
+
+    def test_constants_and_columns_mix(self):
+        robot = sinew.load("3pfs-g2")
+        inputs = RNG.uniform(0.41, 0.43, (6, 3))
+        loads = np.zeros((6, 6))
+        loads[:, 2] = -np.arange(6)
+        found = robot.forward(inputs=inputs, wrench=loads)
+        self.assertEqual(found.position.shape, (6, 3))
+        np.testing.assert_allclose(found.position[4], robot.forward(inputs[4], wrench=loads[4]).pose.position, atol=1e-9)
+        same = robot.forward(inputs=[0.42, 0.42, 0.42], wrench=loads)
+        np.testing.assert_allclose(same.position[0], robot.forward([0.42, 0.42, 0.42]).pose.position, atol=1e-9)
+        with self.assertRaisesRegex(sinew.InputError, "different lengths"):
+            robot.forward(inputs=inputs, wrench=loads[:3])
+
+    def test_of_poses_in_space(self):
+        robot = sinew.load("6-ufs")
+        position = RNG.uniform(-0.005, 0.005, (4, 3)) + robot.describe().home.position
+        found = robot.inverse(pose={"position": position})
+        self.assertEqual(found.inputs.shape, (4, 6))
+        self.assertTrue(found.ok.all(), found.message)
+
+    def test_of_serial_robots(self):
+        arm = sinew.load("nottingham-tpcj")
+        bends = RNG.uniform(-0.1, 0.1, (3, 5, 2))
+        found = arm.forward(configuration=bends)
+        self.assertEqual(found.changes.shape, (3, 15))
+        np.testing.assert_allclose(found.position[1], arm.forward(configuration=bends[1]).tip.position, atol=1e-12)
+        back = arm.forward(changes=found.changes.reshape(3, 5, 3))
+        np.testing.assert_allclose(back.position, found.position, atol=1e-9)
+        self.assertEqual(back[0].status, "converged")
+
+    def test_bytes_do_not_depend_on_threads(self):
+        inputs = rows(3000)
+        one, two = (self.robot.forward(inputs=inputs, threads=threads).x for threads in (1, 2))
+        self.assertEqual(one.tobytes(), two.tobytes())
+        for wrong in (-1, 1.5, "2", 2**40):
+            with self.assertRaisesRegex(sinew.InputError, "threads"):
+                self.robot.forward(inputs=inputs, threads=wrong)
+
+    def test_out_is_filled(self):
+        inputs = rows(8)
+        x = np.zeros(8)
+        found = self.robot.forward(inputs=inputs, out={"x": x})
+        self.assertIs(found.x, x)
+        np.testing.assert_array_equal(x, self.robot.forward(inputs=inputs).x)
+        whole = np.zeros((8, 5))
+        self.robot.forward(inputs=inputs, outputs={"phi": "pose.phi"}, out=whole[:, 2])
+        self.assertTrue((whole[:, 2] != 0).any() and not whole[:, [0, 1, 3, 4]].any())
+
+    def test_out_that_does_not_fit_is_refused(self):
+        inputs = rows(8)
+        read_only = np.zeros(8)
+        read_only.flags.writeable = False
+        for wrong in (np.zeros(7), np.zeros(8, np.float32), np.zeros(8, ">f8"), np.zeros((8, 1)), read_only, [0.0] * 8, inputs[:, 0]):
+            with self.assertRaises(sinew.InputError):
+                self.robot.forward(inputs=inputs, out={"x": wrong})
+        shared = np.zeros(8)
+        with self.assertRaisesRegex(sinew.InputError, "shares memory"):
+            self.robot.forward(inputs=inputs, out={"x": shared, "y": shared})
+        with self.assertRaisesRegex(sinew.InputError, "there is no 'z'"):
+            self.robot.forward(inputs=inputs, out={"z": shared})
+        with self.assertRaisesRegex(sinew.InputError, "give a dict"):
+            self.robot.forward(inputs=inputs, out=shared)
+
+    def test_pickle(self):
+        found = self.robot.forward(inputs=rows(4))
+        again = pickle.loads(pickle.dumps(found))
+        np.testing.assert_array_equal(again.x, found.x)
+        self.assertEqual(again[2].pose.x, found[2].pose.x)
+        self.assertIn("4 rows", repr(again))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,138 @@
+"""Pictures of answers: in a notebook, in a file, by matplotlib, in the viewer."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import urllib.request
+import xml.etree.ElementTree
+
+import sinew
+from sinew import _drawing, _view
+
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+except ImportError:
+    matplotlib = None
+
+
+ARM = {"sinew": 1, "name": "mine", "kind": "serial", "sections": [
+    {"type": "neutral", "segments": 1, "joint": 0.06, "tendons": {"count": 3, "radius": 0.004, "angle": 0}}]}
+
+
+def some_answers():
+    """One of each kind, by what was asked."""
+    home = {"x": 0.01, "y": 0, "phi": 0.1}
+    planar = sinew.load("3-rfr")
+    yield planar.forward([0.19, 0.19, 0.188])
+    yield planar.inverse(home, bending=[1, -1, 1])
+    yield planar.velocity(home)
+    yield planar.statics(set_at=home, wrench=[0.01, 0, 0])
+    yield planar.shape(home)
+    yield planar.forward([0.19, 0.19, 0.188], model="prb", wrench=[0.01, 0, 0])
+    rods = sinew.load("3pfs-g2")
+    yield rods.forward([0.44, 0.42, 0.41], wrench=[0, 0, -5, 0, 0, 0])
+    yield rods.inverse(independent={"z": 0.39, "e1": 0.1, "e2": 0.05})
+    spatial = sinew.load("6-ufs")
+    yield spatial.inverse(spatial.describe().home)
+    yield sinew.load("nottingham-tpcj").forward(changes=[[-0.001, 0.0005, 0.0005]])
+
+
+class Html(unittest.TestCase):
+    def test_of_answers_has_a_picture_and_a_table(self):
+        for answer in some_answers():
+            page = answer._repr_html_()
+            picture = re.search(r"<svg.*?</svg>", page)
+            self.assertTrue(picture, answer)
+            lines = xml.etree.ElementTree.fromstring(picture.group()).findall("{http://www.w3.org/2000/svg}polyline")
+            self.assertGreater(len(lines), 3, answer)
+            xml.etree.ElementTree.fromstring(page)
+            self.assertNotIn("nan", picture.group())
+
+    def test_of_what_has_no_shape_is_a_table(self):
+        page = sinew.load("3-rfr").inverse({"x": 0.31, "y": 0, "phi": 0})._repr_html_()
+        self.assertIn("needs a chord", page)
+        self.assertNotIn("<svg", page)
+
+    def test_of_every_robot_at_home(self):
+        for name in sinew.robots():
+            self.assertTrue(_drawing.polylines(_drawing.shape_of(sinew.load(name), None)), name)
+
+    def test_struts_reach_from_links_to_the_platform(self):
+        for name, struts in (("3-rfr", 0), ("3pfs-g2", 0), ("3-frr", 3), ("3-rfrr", 3), ("3prs", 3), ("2prs-1pfs", 2)):
+            kinds = [kind for kind, _ in _drawing.polylines(_drawing.shape_of(sinew.load(name), None))]
+            self.assertEqual(kinds.count("strut"), struts, name)
+
+    def test_of_rows_and_of_columns(self):
+        robot = sinew.load("3-rfr")
+        self.assertIn("<svg", robot.prepare("forward", inputs="$l")([0.19, 0.19, 0.188])._repr_html_())
+        import numpy as np
+        self.assertIn("(4,)", robot.forward(inputs=np.full((4, 3), 0.19))._repr_html_())
+
+    def test_escapes_names(self):
+        robot = sinew.load({**ARM, "name": "</script><b>&"})
+        page = robot.forward(configuration=[[0.1, 0.1]])._repr_html_()
+        self.assertNotIn("<b>", page)
+
+    def test_one_file_that_loads_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for answer in (*some_answers(), None):
+                robot = answer.robot if answer is not None else sinew.load("3pfs-g2")
+                path = os.path.join(folder, "pose.html")
+                robot.save_html(answer, path)
+                with open(path, encoding="utf-8") as file:
+                    page = file.read()
+                self.assertIn("<canvas", page)
+                self.assertNotRegex(page, r"https?://|@\w+@")
+
+
+@unittest.skipUnless(matplotlib, "matplotlib is not installed")
+class Plots(unittest.TestCase):
+    def test_have_equal_axes_and_units(self):
+        for answer in some_answers():
+            ax = answer.robot.plot(answer)
+            self.assertEqual(ax.get_xlabel(), "x [mm]")
+            if hasattr(ax, "get_zlim"):
+                sizes = [high - low for low, high in (ax.get_xlim(), ax.get_ylim(), ax.get_zlim())]
+                self.assertAlmostEqual(min(sizes), max(sizes))
+            else:
+                self.assertEqual(ax.get_aspect(), 1.0)
+            ax.figure.canvas.draw()
+            matplotlib.pyplot.close(ax.figure)
+
+    def test_into_axes_of_one_s_own(self):
+        figure, ax = matplotlib.pyplot.subplots()
+        self.assertIs(sinew.load("3-rfr").plot(ax=ax), ax)
+        with self.assertRaisesRegex(ValueError, "3d"):
+            sinew.load("3pfs-g2").plot(ax=ax)
+        matplotlib.pyplot.close(figure)
+
+
+class Viewer(unittest.TestCase):
+    def test_serves_the_robot_and_ends(self):
+        try:
+            _view.command()
+        except sinew.InputError as error:
+            self.skipTest(str(error))
+        for robot in (sinew.load("3-rfr"), sinew.load(ARM)):
+            with robot.view(open_browser=False) as view:
+                with urllib.request.urlopen(view.url) as reply:
+                    self.assertEqual(reply.status, 200)
+                self.assertIn(view.url, view._repr_html_())
+            self.assertIsNotNone(view._process.poll())
+        with self.assertRaisesRegex(sinew.InputError, "set"):
+            sinew.load("3-rfr").set({"legs[0].link.length": 0.18}).view()
+
+    def test_without_the_command_says_so(self):
+        code = "import sinew._view\ntry: sinew._view.command()\nexcept sinew.InputError as e: print(e.code)\n"
+        environment = {**os.environ, "PATH": "/nowhere"}
+        if os.path.exists(os.path.join(os.path.dirname(sinew.__file__), "bin", "sinew")):
+            self.skipTest("the command is within the package")
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True)
+        self.assertEqual(done.stdout, "program_missing\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
