@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes what is made of the table of fields (src/query/fields/fields.cpp): the schema of queries, and the table of the
-protocol page between its markers.
+"""Writes what is made of the table of fields (src/query/fields/fields.cpp): the schema of queries, the table of the
+protocol page between its markers, and that of the Python module, of which tools/python_stubs.py makes stubs.
 
     tools/fields.py SINEW            write them
     tools/fields.py SINEW --check    say what is out of date, and end with 1
@@ -128,6 +128,51 @@ def table(fields):
     return "\n".join(lines) + "\n"
 
 
+# Of the Python module: what a field is as a type, what its numbers measure, and how an array of them lies.
+PYTHON_KINDS = {
+    "flag": "flag", "whole": "count", "quantity": "number", "word": "word", "words": "words", "point": "numbers",
+    "numbers": "numbers", "inputs": "numbers", "per_leg": "numbers", "signs": "numbers", "wrench": "numbers",
+    "twist": "numbers", "range": "numbers", "pairs": "lists", "lists": "lists", "pose": "pose", "independent": "map",
+    "start": "any", "place": "any", "places": "poses", "target": "map", "growing_load": "map", "settings": "map",
+    "text_or_number": "any",
+}
+PYTHON_UNITS = {"inputs": "m, rad", "pose": "m, rad", "independent": "m", "wrench": "N, N m", "twist": "m/s, rad/s",
+                "places": "m, rad", "place": "m, rad", "start": "", "target": ""}
+PYTHON_ARRAYS = {"inputs": "(k,), or (n, k) for n rows", "point": "(3,)", "per_leg": "(legs,)", "signs": "(legs,)",
+                 "pairs": "(legs, 2)", "wrench": "(3,) in the plane, (6,) in space", "twist": "(3,) in the plane, (6,) in space",
+                 "range": "(2,)"}
+PYTHON_FIRST = {"forward": "inputs", "inverse": "pose", "velocity": "pose", "shape": "pose", "statics": "pose", "track": "poses",
+                "diagram": "section", "describe": "set"}
+
+
+def python_table(fields, answers):
+    def name_of(field):
+        return "from_" if field["name"] == "from" else field["name"]
+
+    fields = [field for field in fields if field["name"] not in ("query", "id")]
+    lines = ['"""Fields of questions, and which questions take them. Made by tools/fields.py of the table of fields."""', "", "FIELDS = ("]
+    for field in fields:
+        shape = field["shape"]
+        kind = "any" if field["name"] in ("measured", "deviation") else PYTHON_KINDS[shape]
+        unit = "m/s" if field["name"] == "rates" else "rad, m" if field["name"] == "configuration" else PYTHON_UNITS.get(shape, field["unit"])
+        array = f'; {PYTHON_ARRAYS[shape]}' if shape in PYTHON_ARRAYS else ""
+        lines.append(f"    {(name_of(field), kind, unit, field['meaning'] + array)!r},")
+    lines += [")", "", "QUESTIONS = {"]
+    for kind, first in PYTHON_FIRST.items():
+        names = [name_of(field) for field in fields if kind in field["uses"]]
+        names.remove(first)
+        lines.append(f"    {kind!r}: {(first, *names)!r},")
+    lines += ["}", "", "UNITS = {"]
+    lines += [f"    {answer['name']!r}: {answer['unit']!r}," for answer in answers if answer["unit"] and "." not in answer["name"]]
+    return "\n".join(lines) + "\n}\n"
+
+
+def answer_table(answers):
+    lines = ["| field | unit | meaning |", "|---|---|---|"]
+    lines += [f"| `{answer['name']}` | {answer['unit']} | {answer['meaning']} |" for answer in answers]
+    return "\n".join(lines) + "\n"
+
+
 def between(text, name, made):
     begin, end = f"<!-- {name}: made by tools/fields.py -->\n", f"<!-- end of {name} -->\n"
     if begin not in text or end not in text:
@@ -139,10 +184,12 @@ def main():
     arguments = [argument for argument in sys.argv[1:] if argument != "--check"]
     if len(arguments) != 1:
         sys.exit(__doc__)
-    fields = json.loads(subprocess.run([arguments[0], "help", "fields", "--json"], check=True, capture_output=True).stdout)
+    tables = json.loads(subprocess.run([arguments[0], "help", "fields", "--json"], check=True, capture_output=True).stdout)
+    fields, answers = tables["questions"], tables["answers"]
     page = root / "docs/protocol.md"
     made = {root / "schema/query.schema.json": schema(fields),
-            page: between(page.read_text(), "fields", table(fields))}
+            root / "python/sinew/_table.py": python_table(fields, answers),
+            page: between(between(page.read_text(), "fields", table(fields)), "numbers of answers", answer_table(answers))}
     old = [path for path, text in made.items() if not path.exists() or path.read_text() != text]
     if "--check" in sys.argv:
         for path in old:

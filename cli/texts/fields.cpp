@@ -5,6 +5,7 @@
 
 #include "answer.hpp"
 #include "io/quantity.hpp"
+#include "query/fields/answer_fields.hpp"
 #include "query/fields/fields.hpp"
 #include "text_table.hpp"
 #include "verbs.hpp"
@@ -71,7 +72,13 @@ std::string fields_json() {
                            {.key = "uses", .value = uses_of(field)},
                            {.key = "meaning", .value = make_node(field.meaning)},
                            {.key = "words", .value = texts(field.words)}}));
-  return as_json(list_of(std::move(list)));
+  std::vector<Node> answers;
+  for (const AnswerField& field : answer_fields())
+    answers.push_back(map_of({{.key = "name", .value = make_node(field.name)},
+                              {.key = "unit", .value = make_node(field.unit)},
+                              {.key = "meaning", .value = make_node(field.meaning)}}));
+  return as_json(map_of({{.key = "questions", .value = list_of(std::move(list))},
+                         {.key = "answers", .value = list_of(std::move(answers))}}));
 }
 
 }  // namespace sinew::cli

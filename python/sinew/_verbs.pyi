@@ -10,24 +10,28 @@ class Verbs:
         self,
         inputs: Numbers | None = None,
         *,
+        model: str | None = None,
+        set: Mapping[str, Any] | None = None,
+        theta_is: str | None = None,
+        law: str | None = None,
+        max_iterations: int | None = None,
+        tilt: bool | None = None,
+        start: Any | None = None,
+        wrench: Numbers | None = None,
+        gravity: Numbers | None = None,
+        until: Mapping[str, Any] | None = None,
+        posture_threshold: Number | None = None,
+        want: Sequence[str] | None = None,
+        all: bool | None = None,
+        trace: bool | None = None,
+        twist: Numbers | None = None,
+        rates: Numbers | None = None,
+        along: Numbers | None = None,
+        limit: Number | None = None,
+        samples: int | None = None,
         configuration: Lists | None = None,
         changes: Lists | None = None,
         slack: Numbers | None = None,
-        wrench: Numbers | None = None,
-        gravity: Numbers | None = None,
-        start: Any | None = None,
-        want: Sequence[str] | None = None,
-        with_respect_to: Sequence[str] | None = None,
-        until: Mapping[str, Any] | None = None,
-        posture_threshold: Number | None = None,
-        all: bool | None = None,
-        trace: bool | None = None,
-        model: str | None = None,
-        law: str | None = None,
-        theta_is: str | None = None,
-        max_iterations: int | None = None,
-        tilt: bool | None = None,
-        set: Mapping[str, Any] | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -36,28 +40,47 @@ class Verbs:
         """Pose of the platform or tip from the inputs.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            inputs [m, rad]: what the motors command, in the order of robot.inputs: (k,), or (n, k) for n
-                rows
-            configuration [rad, m]: of serial robots: the bend of each section, [theta, phi] or [beta_1,
-                beta_2]
-            changes [m]: of serial robots: length paid out, a list a section, a value a tendon
-            slack [m]: beside `configuration`: a length a section, paid out to all its tendons
-            wrench [N, N m]: of the world on the platform, about its reference point, in base axes: (fx, fy,
-                m) or (6,)
-            gravity [m/s^2]: in place of the robot's, in base axes, (3,)
-            start: where the search begins: a pose, inputs, or "last", the last answer to this thread
-            want: more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ...
-            with_respect_to: paths of the robot's numbers by which `sensitivity` is taken, too
-            until: {wrench, limit}: this load is added, up to `limit` times
-            posture_threshold [rad]: largest turn of a joint for which the linear model counts as valid
-            all: every solution: `solutions`
+            inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
+                length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
+            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
+                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
+                lsk (linearised)
+            set: changes the robot for this question alone: values by their paths in its file, such as
+                legs[0].link.length
+            theta_is: what an input theta is the angle of: tangent (default) or chord
+            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
+                (tendons straight between discs)
+            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
+                torque 400
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
+                configuration, or last, where the last question with a start ended; default the robot's home
+            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
+                in the plane, (6,) in space
+            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
+            until [N]: a wrench that is added again and again until the robot buckles, at most so many times
+                as its limit
+            posture_threshold [rad]: turn of a joint up to which the linear model counts as valid
+            want: what is answered beside pose and legs, or without them where one of the two is named:
+                velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has
+                them
+            all: every solution, not only the one wanted
             trace: the iterates, too
-            model: of the links: cc, prb; of serial robots pcc, lsk
-            law: of chains: M0w, M0, M1
-            theta_is: what an input theta is the angle of: tangent, chord
-            max_iterations: the solve's bound
-            tilt: poses in space have tilt, azimuth and torsion, too
-            set: {path in the robot file: value}: changes the robot for this question alone
+            twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
+                of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
+                with the want velocity; (3,) in the plane, (6,) in space
+            rates [m/s]: of the inputs, in place of `twist`; answers the twist of the platform; (k,), or (n,
+                k) for n rows
+            along [m/s, rad/s]: a direction in which the nearest type II is looked for; with the want
+                velocity; (3,) in the plane, (6,) in space
+            limit: how far to look `along` its direction; of a diagram the envelope's size
+            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
+                most, default 500
+            configuration [rad, m]: of a serial robot two angles a section: theta, phi of a neutral
+                backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its extension;
+                sections not given are straight
+            changes [m]: of a serial robot the change of each tendon, > 0 pays out, section after section
+            slack [m]: what the tendons of each section are paid out beyond its configuration; < 0 stiffens
 
         The answer has `ok`, `status`, `message`, and pose (or tip), legs (or sections), residual,
         iterations; of rods and chains energy, potential, and what `want` asks for.
@@ -75,26 +98,28 @@ class Verbs:
         self,
         pose: Pose | None = None,
         *,
+        model: str | None = None,
+        set: Mapping[str, Any] | None = None,
+        theta_is: str | None = None,
+        law: str | None = None,
+        max_iterations: int | None = None,
+        tilt: bool | None = None,
         independent: Mapping[str, Any] | None = None,
-        position: Numbers | None = None,
-        direction: Numbers | None = None,
         bending: Numbers | None = None,
-        curvature: Numbers | None = None,
         elbow: Numbers | None = None,
+        curvature: Numbers | None = None,
         start: Any | None = None,
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
         want: Sequence[str] | None = None,
-        with_respect_to: Sequence[str] | None = None,
-        posture_threshold: Number | None = None,
-        until: Mapping[str, Any] | None = None,
         all: bool | None = None,
-        model: str | None = None,
-        law: str | None = None,
-        theta_is: str | None = None,
-        max_iterations: int | None = None,
-        tilt: bool | None = None,
-        set: Mapping[str, Any] | None = None,
+        twist: Numbers | None = None,
+        rates: Numbers | None = None,
+        along: Numbers | None = None,
+        limit: Number | None = None,
+        samples: int | None = None,
+        position: Numbers | None = None,
+        direction: Numbers | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -103,29 +128,44 @@ class Verbs:
         """Inputs from the pose.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform in the base frame: {x, y, phi}, or {position (3,), quaternion
-                (4,) [w, x, y, z]}
-            independent [m]: in place of `pose` where three legs hold the platform: {z, e1, e2}
-            position [m]: of serial robots: the tip's place in the base frame, (3,)
-            direction: of serial robots: the tip's axis in the base frame, (3,)
-            bending: branch: +1 or -1 a leg, the sign of its curvature, (legs,)
-            curvature [1/m]: branch: the solution nearest to these, (legs,)
-            elbow: branch: +1 or -1 a leg, (legs,)
-            start: where the search begins: a pose, inputs, or "last", the last answer to this thread
-            wrench [N, N m]: of the world on the platform, about its reference point, in base axes: (fx, fy,
-                m) or (6,)
-            gravity [m/s^2]: in place of the robot's, in base axes, (3,)
-            want: more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ...
-            with_respect_to: paths of the robot's numbers by which `sensitivity` is taken, too
-            posture_threshold [rad]: largest turn of a joint for which the linear model counts as valid
-            until: {wrench, limit}: this load is added, up to `limit` times
-            all: every solution: `solutions`
-            model: of the links: cc, prb; of serial robots pcc, lsk
-            law: of chains: M0w, M0, M1
-            theta_is: what an input theta is the angle of: tangent, chord
-            max_iterations: the solve's bound
-            tilt: poses in space have tilt, azimuth and torsion, too
-            set: {path in the robot file: value}: changes the robot for this question alone
+            pose [m, rad]: of the platform, of a serial robot of its tip
+            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
+                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
+                lsk (linearised)
+            set: changes the robot for this question alone: values by their paths in its file, such as
+                legs[0].link.length
+            theta_is: what an input theta is the angle of: tangent (default) or chord
+            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
+                (tendons straight between discs)
+            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
+                torque 400
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
+                it: height and two components of its quaternion; of hinges `mode`, too
+            bending: sign of each leg's curvature; (legs,)
+            elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
+            curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
+            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
+                configuration, or last, where the last question with a start ended; default the robot's home
+            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
+                in the plane, (6,) in space
+            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
+            want: what is answered beside pose and legs, or without them where one of the two is named:
+                velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has
+                them
+            all: every solution, not only the one wanted
+            twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
+                of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
+                with the want velocity; (3,) in the plane, (6,) in space
+            rates [m/s]: of the inputs, in place of `twist`; answers the twist of the platform; (k,), or (n,
+                k) for n rows
+            along [m/s, rad/s]: a direction in which the nearest type II is looked for; with the want
+                velocity; (3,) in the plane, (6,) in space
+            limit: how far to look `along` its direction; of a diagram the envelope's size
+            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
+                most, default 500
+            position [m]: of a serial robot's tip; (3,)
+            direction: in which a serial robot's tip points; (3,)
 
         The answer has `ok`, `status`, `message`, and inputs (or configuration and changes), legs, pose,
         residual.
@@ -143,29 +183,29 @@ class Verbs:
         self,
         pose: Pose | None = None,
         *,
+        model: str | None = None,
+        set: Mapping[str, Any] | None = None,
+        theta_is: str | None = None,
+        law: str | None = None,
+        max_iterations: int | None = None,
+        tilt: bool | None = None,
         inputs: Numbers | None = None,
         independent: Mapping[str, Any] | None = None,
-        configuration: Lists | None = None,
-        changes: Lists | None = None,
         bending: Numbers | None = None,
-        curvature: Numbers | None = None,
         elbow: Numbers | None = None,
+        curvature: Numbers | None = None,
         angles: Lists | None = None,
         start: Any | None = None,
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
+        want: Sequence[str] | None = None,
         twist: Numbers | None = None,
         rates: Numbers | None = None,
         along: Numbers | None = None,
         limit: Number | None = None,
-        want: Sequence[str] | None = None,
-        with_respect_to: Sequence[str] | None = None,
-        model: str | None = None,
-        law: str | None = None,
-        theta_is: str | None = None,
-        max_iterations: int | None = None,
-        tilt: bool | None = None,
-        set: Mapping[str, Any] | None = None,
+        samples: int | None = None,
+        configuration: Lists | None = None,
+        changes: Lists | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -174,35 +214,49 @@ class Verbs:
         """Velocity equations J (twist) = K (input rates), sensitivities, singularities.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform in the base frame: {x, y, phi}, or {position (3,), quaternion
-                (4,) [w, x, y, z]}
-            inputs [m, rad]: what the motors command, in the order of robot.inputs: (k,), or (n, k) for n
-                rows
-            independent [m]: in place of `pose` where three legs hold the platform: {z, e1, e2}
-            configuration [rad, m]: of serial robots: the bend of each section, [theta, phi] or [beta_1,
-                beta_2]
-            changes [m]: of serial robots: length paid out, a list a section, a value a tendon
-            bending: branch: +1 or -1 a leg, the sign of its curvature, (legs,)
-            curvature [1/m]: branch: the solution nearest to these, (legs,)
-            elbow: branch: +1 or -1 a leg, (legs,)
-            angles [rad]: of pseudo-rigid chains: joints leg by leg
-            start: where the search begins: a pose, inputs, or "last", the last answer to this thread
-            wrench [N, N m]: of the world on the platform, about its reference point, in base axes: (fx, fy,
-                m) or (6,)
-            gravity [m/s^2]: in place of the robot's, in base axes, (3,)
-            twist [m/s, rad/s]: of the platform's reference point, linear then angular, in base axes: (3,)
-                or (6,)
-            rates [m/s]: of the inputs, in place of `twist`, (k,)
-            along: a direction, as a twist, along which the nearest type II singularity is sought
-            limit: how far to look `along`; of a diagram the envelope's size [rad, m]
-            want: more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ...
-            with_respect_to: paths of the robot's numbers by which `sensitivity` is taken, too
-            model: of the links: cc, prb; of serial robots pcc, lsk
-            law: of chains: M0w, M0, M1
-            theta_is: what an input theta is the angle of: tangent, chord
-            max_iterations: the solve's bound
-            tilt: poses in space have tilt, azimuth and torsion, too
-            set: {path in the robot file: value}: changes the robot for this question alone
+            pose [m, rad]: of the platform, of a serial robot of its tip
+            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
+                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
+                lsk (linearised)
+            set: changes the robot for this question alone: values by their paths in its file, such as
+                legs[0].link.length
+            theta_is: what an input theta is the angle of: tangent (default) or chord
+            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
+                (tendons straight between discs)
+            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
+                torque 400
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
+                length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
+            independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
+                it: height and two components of its quaternion; of hinges `mode`, too
+            bending: sign of each leg's curvature; (legs,)
+            elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
+            curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
+            angles [rad]: of the joints of each chain, from the first sprung one; before them the direction
+                of a first link that a motor turns
+            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
+                configuration, or last, where the last question with a start ended; default the robot's home
+            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
+                in the plane, (6,) in space
+            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
+            want: what is answered beside pose and legs, or without them where one of the two is named:
+                velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has
+                them
+            twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
+                of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
+                with the want velocity; (3,) in the plane, (6,) in space
+            rates [m/s]: of the inputs, in place of `twist`; answers the twist of the platform; (k,), or (n,
+                k) for n rows
+            along [m/s, rad/s]: a direction in which the nearest type II is looked for; with the want
+                velocity; (3,) in the plane, (6,) in space
+            limit: how far to look `along` its direction; of a diagram the envelope's size
+            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
+                most, default 500
+            configuration [rad, m]: of a serial robot two angles a section: theta, phi of a neutral
+                backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its extension;
+                sections not given are straight
+            changes [m]: of a serial robot the change of each tendon, > 0 pays out, section after section
 
         The answer has `ok`, `status`, `message`, and pose, J, K, U = J^-1 K, determinant, indices, type_1,
         type_2; with `twist` rates.
@@ -220,31 +274,33 @@ class Verbs:
         self,
         pose: Pose | None = None,
         *,
+        model: str | None = None,
+        set: Mapping[str, Any] | None = None,
+        theta_is: str | None = None,
+        law: str | None = None,
+        max_iterations: int | None = None,
+        tilt: bool | None = None,
+        inputs: Numbers | None = None,
+        bending: Numbers | None = None,
+        elbow: Numbers | None = None,
+        curvature: Numbers | None = None,
+        start: Any | None = None,
         set_at: Pose | None = None,
         hold: str | None = None,
         tensions: Lists | None = None,
         lengths: Lists | None = None,
-        inputs: Numbers | None = None,
-        measured_tensions: Numbers | None = None,
-        axial_forces: Numbers | None = None,
-        deviation: Any | None = None,
         inverse: bool | None = None,
-        bending: Numbers | None = None,
-        curvature: Numbers | None = None,
-        elbow: Numbers | None = None,
-        start: Any | None = None,
+        axial_forces: Numbers | None = None,
+        measured_tensions: Numbers | None = None,
+        deviation: Any | None = None,
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
-        want: Sequence[str] | None = None,
-        with_respect_to: Sequence[str] | None = None,
         until: Mapping[str, Any] | None = None,
         posture_threshold: Number | None = None,
-        model: str | None = None,
-        law: str | None = None,
-        theta_is: str | None = None,
-        max_iterations: int | None = None,
-        tilt: bool | None = None,
-        set: Mapping[str, Any] | None = None,
+        want: Sequence[str] | None = None,
+        twist: Numbers | None = None,
+        rates: Numbers | None = None,
+        samples: int | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -253,35 +309,52 @@ class Verbs:
         """A tendon-driven robot under a load, or the wrench on it sensed from forces.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform in the base frame: {x, y, phi}, or {position (3,), quaternion
-                (4,) [w, x, y, z]}
-            set_at [m, rad]: pose at which the tendons are set without load
-            hold: what then stays of the inner tendon: tension or length
-            tensions [N]: [T1, T2] a leg, in place of `set_at`
-            lengths [m]: [l1 or None, l2 or None] a leg, in place of `set_at`
-            inputs [m, rad]: what the motors command, in the order of robot.inputs: (k,), or (n, k) for n
-                rows
-            measured_tensions [N]: [T or None a leg]: what held tendons pull; the wrench is sensed
-            axial_forces [N]: what each rod pulls at its guide, (6,); the wrench is sensed
-            deviation [N]: standard deviation of the measured forces, one for all or one each
-            inverse: with `pose`: it is held under the load, its tensions are answered
-            bending: branch: +1 or -1 a leg, the sign of its curvature, (legs,)
-            curvature [1/m]: branch: the solution nearest to these, (legs,)
-            elbow: branch: +1 or -1 a leg, (legs,)
-            start: where the search begins: a pose, inputs, or "last", the last answer to this thread
-            wrench [N, N m]: of the world on the platform, about its reference point, in base axes: (fx, fy,
-                m) or (6,)
-            gravity [m/s^2]: in place of the robot's, in base axes, (3,)
-            want: more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ...
-            with_respect_to: paths of the robot's numbers by which `sensitivity` is taken, too
-            until: {wrench, limit}: this load is added, up to `limit` times
-            posture_threshold [rad]: largest turn of a joint for which the linear model counts as valid
-            model: of the links: cc, prb; of serial robots pcc, lsk
-            law: of chains: M0w, M0, M1
-            theta_is: what an input theta is the angle of: tangent, chord
-            max_iterations: the solve's bound
-            tilt: poses in space have tilt, azimuth and torsion, too
-            set: {path in the robot file: value}: changes the robot for this question alone
+            pose [m, rad]: of the platform, of a serial robot of its tip
+            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
+                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
+                lsk (linearised)
+            set: changes the robot for this question alone: values by their paths in its file, such as
+                legs[0].link.length
+            theta_is: what an input theta is the angle of: tangent (default) or chord
+            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
+                (tendons straight between discs)
+            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
+                torque 400
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
+                length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
+            bending: sign of each leg's curvature; (legs,)
+            elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
+            curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
+            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
+                configuration, or last, where the last question with a start ended; default the robot's home
+            set_at [m, rad]: the pose at which the tendons are set without load, the outer ones loose
+            hold: what stays after `set_at` or with `pose`: tension (default) or length
+            tensions [N]: of both tendons of each leg; (legs, 2)
+            lengths [m]: of the tendon of each leg whose length is held; the other one is null and loose;
+                (legs, 2)
+            inverse: `pose` is held under the load, and the tensions for it answered
+            axial_forces [N]: what each of six rods pulls at its guide; answers the wrench on the platform
+            measured_tensions [N]: what the tendons at `lengths` pull, a leg each; answers the wrench on the
+                platform; (legs,)
+            deviation [N]: standard deviation of what is measured, one for all or one each; answers how well
+                the wrench is known
+            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
+                in the plane, (6,) in space
+            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
+            until [N]: a wrench that is added again and again until the robot buckles, at most so many times
+                as its limit
+            posture_threshold [rad]: turn of a joint up to which the linear model counts as valid
+            want: what is answered beside pose and legs, or without them where one of the two is named:
+                velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has
+                them
+            twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
+                of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
+                with the want velocity; (3,) in the plane, (6,) in space
+            rates [m/s]: of the inputs, in place of `twist`; answers the twist of the platform; (k,), or (n,
+                k) for n rows
+            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
+                most, default 500
 
         The answer has `ok`, `status`, `message`, and pose, legs with tensions and forces, wrench,
         stiffness, compliance, stable, potential, residual.
@@ -299,33 +372,34 @@ class Verbs:
         self,
         poses: Sequence[Pose] | None = None,
         *,
-        from_: Pose | None = None,
-        to: Mapping[str, Any] | None = None,
-        samples: int | None = None,
+        model: str | None = None,
+        set: Mapping[str, Any] | None = None,
+        theta_is: str | None = None,
+        law: str | None = None,
+        max_iterations: int | None = None,
+        tilt: bool | None = None,
         inputs: Numbers | None = None,
         pose: Pose | None = None,
         independent: Mapping[str, Any] | None = None,
         bending: Numbers | None = None,
-        curvature: Numbers | None = None,
         elbow: Numbers | None = None,
+        curvature: Numbers | None = None,
         angles: Lists | None = None,
         start: Any | None = None,
-        wrench: Numbers | None = None,
-        gravity: Numbers | None = None,
-        objective: str | None = None,
-        rk4_steps: int | None = None,
         set_at: Pose | None = None,
+        hold: str | None = None,
         tensions: Lists | None = None,
         lengths: Lists | None = None,
+        wrench: Numbers | None = None,
+        gravity: Numbers | None = None,
+        samples: int | None = None,
+        from_: Any | None = None,
+        to: Mapping[str, Any] | None = None,
+        objective: str | None = None,
+        rk4_steps: int | None = None,
         range: Numbers | None = None,
         backward: bool | None = None,
         branches: bool | None = None,
-        model: str | None = None,
-        law: str | None = None,
-        theta_is: str | None = None,
-        max_iterations: int | None = None,
-        tilt: bool | None = None,
-        set: Mapping[str, Any] | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -334,37 +408,48 @@ class Verbs:
         """Inputs along a path of poses; of rods and chains also a curve of equilibria.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            poses [m, rad]: path: the poses on the way
-            from_ [m, rad]: path: the first pose
-            to: path: the last pose; of a curve of equilibria what changes: {inputs or pose, wrench}
-            samples: number of points, or of poses on the way
-            inputs [m, rad]: what the motors command, in the order of robot.inputs: (k,), or (n, k) for n
-                rows
-            pose [m, rad]: of the platform in the base frame: {x, y, phi}, or {position (3,), quaternion
-                (4,) [w, x, y, z]}
-            independent [m]: in place of `pose` where three legs hold the platform: {z, e1, e2}
-            bending: branch: +1 or -1 a leg, the sign of its curvature, (legs,)
-            curvature [1/m]: branch: the solution nearest to these, (legs,)
-            elbow: branch: +1 or -1 a leg, (legs,)
-            angles [rad]: of pseudo-rigid chains: joints leg by leg
-            start: where the search begins: a pose, inputs, or "last", the last answer to this thread
-            wrench [N, N m]: of the world on the platform, about its reference point, in base axes: (fx, fy,
-                m) or (6,)
-            gravity [m/s^2]: in place of the robot's, in base axes, (3,)
-            objective: what redundant legs do with their freedom: limits, singularity, smooth, none
-            rk4_steps: of chains: Runge-Kutta steps between poses
-            set_at [m, rad]: pose at which the tendons are set without load
-            tensions [N]: [T1, T2] a leg, in place of `set_at`
-            lengths [m]: [l1 or None, l2 or None] a leg, in place of `set_at`
-            range: of a curve: [lowest, highest] of the parameter, (2,)
-            backward: of a curve: set out with a falling parameter
-            branches: of a curve: also the curves that leave its bifurcations
-            model: of the links: cc, prb; of serial robots pcc, lsk
-            law: of chains: M0w, M0, M1
-            theta_is: what an input theta is the angle of: tangent, chord
-            max_iterations: the solve's bound
-            tilt: poses in space have tilt, azimuth and torsion, too
-            set: {path in the robot file: value}: changes the robot for this question alone
+            poses [m, rad]: the path, pose by pose
+            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
+                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
+                lsk (linearised)
+            set: changes the robot for this question alone: values by their paths in its file, such as
+                legs[0].link.length
+            theta_is: what an input theta is the angle of: tangent (default) or chord
+            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
+                (tendons straight between discs)
+            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
+                torque 400
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
+                length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
+            pose [m, rad]: of the platform, of a serial robot of its tip
+            independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
+                it: height and two components of its quaternion; of hinges `mode`, too
+            bending: sign of each leg's curvature; (legs,)
+            elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
+            curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
+            angles [rad]: of the joints of each chain, from the first sprung one; before them the direction
+                of a first link that a motor turns
+            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
+                configuration, or last, where the last question with a start ended; default the robot's home
+            set_at [m, rad]: the pose at which the tendons are set without load, the outer ones loose
+            hold: what stays after `set_at` or with `pose`: tension (default) or length
+            tensions [N]: of both tendons of each leg; (legs, 2)
+            lengths [m]: of the tendon of each leg whose length is held; the other one is null and loose;
+                (legs, 2)
+            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
+                in the plane, (6,) in space
+            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
+            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
+                most, default 500
+            from_ [m, rad]: first pose of a path, of rods with three inputs z, e1 and e2
+            to: last pose of a path; of a curve of equilibria what changes along it: inputs, tensions,
+                lengths, wrench, pose
+            objective: what redundant legs do with their freedom: limits, singularity, smooth or none
+            rk4_steps: Runge-Kutta steps between poses; default the flow itself
+            range: how far a curve goes: 0 is its beginning, 1 what it leads to; default [0, 1]; (2,)
+            backward: a curve sets out the other way
+            branches: curves that leave it at bifurcations are followed, too
 
         The answer has `ok`, `status`, `message`, and rows, residual, reached; of a curve curves and
         equilibria.
@@ -382,16 +467,16 @@ class Verbs:
         self,
         section: int | None = None,
         *,
+        model: str | None = None,
+        set: Mapping[str, Any] | None = None,
+        theta_is: str | None = None,
+        max_iterations: int | None = None,
+        tilt: bool | None = None,
+        limit: Number | None = None,
         changes: Lists | None = None,
         measured: Any | None = None,
         tolerance: Number | None = None,
         envelope: str | None = None,
-        limit: Number | None = None,
-        model: str | None = None,
-        theta_is: str | None = None,
-        max_iterations: int | None = None,
-        tilt: bool | None = None,
-        set: Mapping[str, Any] | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -400,17 +485,21 @@ class Verbs:
         """What the tendons of one section of a serial robot leave it free to do.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            section: of a serial robot, from 0
-            changes [m]: of serial robots: length paid out, a list a section, a value a tendon
-            measured [m]: of a diagram: changes that encoders read
-            tolerance [m]: of a diagram: in place of the robot's
-            envelope: of a diagram: square, disc or actuator
-            limit: how far to look `along`; of a diagram the envelope's size [rad, m]
-            model: of the links: cc, prb; of serial robots pcc, lsk
-            theta_is: what an input theta is the angle of: tangent, chord
-            max_iterations: the solve's bound
-            tilt: poses in space have tilt, azimuth and torsion, too
-            set: {path in the robot file: value}: changes the robot for this question alone
+            section: which section, from 0
+            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
+                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
+                lsk (linearised)
+            set: changes the robot for this question alone: values by their paths in its file, such as
+                legs[0].link.length
+            theta_is: what an input theta is the angle of: tangent (default) or chord
+            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
+                torque 400
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            limit: how far to look `along` its direction; of a diagram the envelope's size
+            changes [m]: of a serial robot the change of each tendon, > 0 pays out, section after section
+            measured [m]: changes that encoders read, beside those commanded
+            tolerance [m]: of a tendon before it counts as slack or too short; default the file's
+            envelope: bends that a section is allowed: square, disc or actuator; default its limit
 
         The answer has `ok`, `status`, `message`, and class_, word, amount, advice, point, slack, margin,
         over_tension, frontiers, polygon, boundary, area.
@@ -428,26 +517,29 @@ class Verbs:
         self,
         pose: Pose | None = None,
         *,
+        model: str | None = None,
+        set: Mapping[str, Any] | None = None,
+        theta_is: str | None = None,
+        law: str | None = None,
+        max_iterations: int | None = None,
+        tilt: bool | None = None,
         inputs: Numbers | None = None,
         independent: Mapping[str, Any] | None = None,
-        configuration: Lists | None = None,
-        changes: Lists | None = None,
         bending: Numbers | None = None,
-        curvature: Numbers | None = None,
         elbow: Numbers | None = None,
+        curvature: Numbers | None = None,
         angles: Lists | None = None,
         start: Any | None = None,
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
-        samples: int | None = None,
         want: Sequence[str] | None = None,
-        with_respect_to: Sequence[str] | None = None,
-        model: str | None = None,
-        law: str | None = None,
-        theta_is: str | None = None,
-        max_iterations: int | None = None,
-        tilt: bool | None = None,
-        set: Mapping[str, Any] | None = None,
+        twist: Numbers | None = None,
+        rates: Numbers | None = None,
+        along: Numbers | None = None,
+        limit: Number | None = None,
+        samples: int | None = None,
+        configuration: Lists | None = None,
+        changes: Lists | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -456,31 +548,49 @@ class Verbs:
         """Polylines for a picture.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform in the base frame: {x, y, phi}, or {position (3,), quaternion
-                (4,) [w, x, y, z]}
-            inputs [m, rad]: what the motors command, in the order of robot.inputs: (k,), or (n, k) for n
-                rows
-            independent [m]: in place of `pose` where three legs hold the platform: {z, e1, e2}
-            configuration [rad, m]: of serial robots: the bend of each section, [theta, phi] or [beta_1,
-                beta_2]
-            changes [m]: of serial robots: length paid out, a list a section, a value a tendon
-            bending: branch: +1 or -1 a leg, the sign of its curvature, (legs,)
-            curvature [1/m]: branch: the solution nearest to these, (legs,)
-            elbow: branch: +1 or -1 a leg, (legs,)
-            angles [rad]: of pseudo-rigid chains: joints leg by leg
-            start: where the search begins: a pose, inputs, or "last", the last answer to this thread
-            wrench [N, N m]: of the world on the platform, about its reference point, in base axes: (fx, fy,
-                m) or (6,)
-            gravity [m/s^2]: in place of the robot's, in base axes, (3,)
-            samples: number of points, or of poses on the way
-            want: more to be answered: stiffness, stability, margins, sensitivity, shape, velocity, ...
-            with_respect_to: paths of the robot's numbers by which `sensitivity` is taken, too
-            model: of the links: cc, prb; of serial robots pcc, lsk
-            law: of chains: M0w, M0, M1
-            theta_is: what an input theta is the angle of: tangent, chord
-            max_iterations: the solve's bound
-            tilt: poses in space have tilt, azimuth and torsion, too
-            set: {path in the robot file: value}: changes the robot for this question alone
+            pose [m, rad]: of the platform, of a serial robot of its tip
+            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
+                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
+                lsk (linearised)
+            set: changes the robot for this question alone: values by their paths in its file, such as
+                legs[0].link.length
+            theta_is: what an input theta is the angle of: tangent (default) or chord
+            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
+                (tendons straight between discs)
+            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
+                torque 400
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
+                length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
+            independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
+                it: height and two components of its quaternion; of hinges `mode`, too
+            bending: sign of each leg's curvature; (legs,)
+            elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
+            curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
+            angles [rad]: of the joints of each chain, from the first sprung one; before them the direction
+                of a first link that a motor turns
+            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
+                configuration, or last, where the last question with a start ended; default the robot's home
+            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
+                in the plane, (6,) in space
+            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
+            want: what is answered beside pose and legs, or without them where one of the two is named:
+                velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has
+                them
+            twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
+                of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
+                with the want velocity; (3,) in the plane, (6,) in space
+            rates [m/s]: of the inputs, in place of `twist`; answers the twist of the platform; (k,), or (n,
+                k) for n rows
+            along [m/s, rad/s]: a direction in which the nearest type II is looked for; with the want
+                velocity; (3,) in the plane, (6,) in space
+            limit: how far to look `along` its direction; of a diagram the envelope's size
+            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
+                most, default 500
+            configuration [rad, m]: of a serial robot two angles a section: theta, phi of a neutral
+                backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its extension;
+                sections not given are straight
+            changes [m]: of a serial robot the change of each tendon, > 0 pays out, section after section
 
         The answer has `ok`, `status`, `message`, and pose, backbones, tendons, lines, platform, base,
         frames; points in the base frame [m].
@@ -498,21 +608,26 @@ class Verbs:
         self,
         set: Mapping[str, Any] | None = None,
         *,
-        tilt: bool | None = None,
-        max_iterations: int | None = None,
+        model: str | None = None,
         theta_is: str | None = None,
         law: str | None = None,
-        model: str | None = None,
+        max_iterations: int | None = None,
+        tilt: bool | None = None,
     ) -> Answer:
         """What the robot has.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            set: {path in the robot file: value}: changes the robot for this question alone
-            tilt: poses in space have tilt, azimuth and torsion, too
-            max_iterations: the solve's bound
-            theta_is: what an input theta is the angle of: tangent, chord
-            law: of chains: M0w, M0, M1
-            model: of the links: cc, prb; of serial robots pcc, lsk
+            set: changes the robot for this question alone: values by their paths in its file, such as
+                legs[0].link.length
+            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
+                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
+                lsk (linearised)
+            theta_is: what an input theta is the angle of: tangent (default) or chord
+            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
+                (tendons straight between discs)
+            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
+                torque 400
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
 
         The answer has `ok`, `status`, `message`, and kind, space, inputs, pose, home, legs or sections,
         models, versions.

@@ -112,13 +112,31 @@ bool has_key(const Document& robot, std::string_view key) {
   return value && value->kind != Node::Kind::null;
 }
 
-Value error_answer(const Value& id, const Errors& errors) {
-  Value answer = Value::map();
-  if (!id.is_null()) answer["id"] = id;
+std::string message_of(const Errors& errors) {
   std::string message = errors.front().message;
   for (std::size_t i = 1; i < errors.size(); ++i)
     message += (message.ends_with('.') ? " " : "; ") + errors[i].message;
-  answer["error"] = {{"code", errors.front().code}, {"where", errors.front().where}, {"message", message}};
+  return message;
+}
+
+Value error_answer(const Value& id, const Errors& errors) {
+  Value answer = Value::map();
+  if (!id.is_null()) answer["id"] = id;
+  answer["error"] = {
+      {"code", errors.front().code}, {"where", errors.front().where}, {"message", message_of(errors)}};
+  return answer;
+}
+
+/// What is wrong with a question is an error; what its kind of robot, or of model, cannot answer a status.
+Value refusal(const Value& id, const Kind& kind, const Robot& robot, const Errors& errors) {
+  const auto is_lacking = [](const Error& error) { return error.code == "not_available"; };
+  if (!std::ranges::all_of(errors, is_lacking)) return error_answer(id, errors);
+  Value answer = Value::map();
+  if (!id.is_null()) answer["id"] = id;
+  answer["query"] = kind.name;
+  answer["robot"] = robot.name();
+  answer["status"] = to_string(Status::unsupported);
+  answer["message"] = message_of(errors);
   return answer;
 }
 
@@ -157,7 +175,7 @@ Expected<Opened> open_robot(const Document& document) {
 }  // namespace
 
 struct TreeSession::State {
-  Document document;
+  std::shared_ptr<const Document> document;
   Opened opened;
   StopToken stop = {};
   /// The robot that the last query asked about which changed it: the next one often changes it alike.
@@ -229,7 +247,7 @@ Opened* TreeSession::State::altered(Reader& query, Errors& errors) {
   if (errors.empty() && kept && is_same(kept->set, settings) && is_same(kept->theta_is, theta))
     return &kept->opened;
   kept.reset();
-  const auto changed = with(document, settings.members);
+  const auto changed = with(*document, settings.members);
   auto robot = changed ? open_robot(*changed) : tl::unexpected(changed.error());
   if (!robot) {
     errors.insert(errors.end(), robot.error().begin(), robot.error().end());
@@ -249,7 +267,13 @@ TreeSession::~TreeSession() = default;
 Expected<TreeSession> TreeSession::open(Document robot) {
   auto opened = open_robot(robot);
   if (!opened) return tl::unexpected(opened.error());
-  return TreeSession(std::make_unique<State>(State{std::move(robot), std::move(*opened)}));
+  return TreeSession(std::make_unique<State>(
+      State{std::make_shared<const Document>(std::move(robot)), std::move(*opened)}));
+}
+
+TreeSession TreeSession::anew() const {
+  return TreeSession(
+      std::make_unique<State>(State{state_->document, Opened(state_->opened.robot), state_->stop}));
 }
 
 Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last, Continues continues) {
@@ -258,13 +282,14 @@ Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last
   const Value id = read_id(query);
   const bool is_serial = state_->opened.robot.serial() != nullptr;
   const Kind& kind = read_kind(query, is_serial);
-  if (!errors.empty()) return error_answer(id, errors);
+  if (!errors.empty()) return refusal(id, kind, state_->opened.robot, errors);
   const auto model = is_serial ? std::nullopt : query.optional("model");  // of serial robots that of tendons
   Opened* opened = state_->altered(query, errors);
   if (!errors.empty()) return error_answer(id, errors);
   if (!opened) opened = &state_->opened;
-  if (!is_serial) opened = opened->by(read_model(query, model, opened->robot, kind), errors);
-  if (!errors.empty()) return error_answer(id, errors);
+  const Robot& asked = opened->robot;
+  if (!is_serial) opened = opened->by(read_model(query, model, asked, kind), errors);
+  if (!errors.empty()) return refusal(id, kind, asked, errors);
 
   Value answer = Value::map();
   if (!id.is_null()) answer["id"] = id;
@@ -278,14 +303,14 @@ Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last
   if (is_serial) refuse_loads(query, document.root);
   Context context{question, opened->robot, opened->work};
   kind.handler(opened->robot)(context);
-  if (!errors.empty()) return error_answer(id, errors);
+  if (!errors.empty()) return refusal(id, kind, opened->robot, errors);
   if (wants_tilt) add_tilt(answer);
-  if (is_serial && answer.text_at("status") == "slack" && !has_key(state_->document, "tolerance"))
+  if (is_serial && answer.text_at("status") == "slack" && !has_key(*state_->document, "tolerance"))
     answer["message"] =
         fmt::format("{}; the file gives no tolerance of its tendons: {} counts", answer.text_at("message"),
                     human(opened->robot.serial()->tolerance, Dimension::length));
   const Opened& own = state_->opened;  // the robot as its file has it
-  const std::string hint = unit_hint(document.root, answer, own.scale, state_->document.root, own.inputs);
+  const std::string hint = unit_hint(document.root, answer, own.scale, state_->document->root, own.inputs);
   if (!hint.empty()) {
     std::string said(answer.text_at("message"));
     while (said.ends_with('.')) said.pop_back();

@@ -12,6 +12,8 @@ namespace sinew::inline v1 {
 class SINEW_API TreeSession {
  public:
   static Expected<TreeSession> open(Document robot);
+  /// One to the same robot in which nothing was asked yet.
+  TreeSession anew() const;
 
   /// @param last where the search of a question may begin, see Question; it is kept up to date
   Value answer(const Document& query, std::optional<AnyPose>* last = nullptr,

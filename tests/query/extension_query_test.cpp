@@ -105,7 +105,7 @@ TEST(ExtensionQuery, AllArcsAreOfFixedLength) {
   const Json pose = {{"position", {0, 0, 2.9}}, {"quaternion", {1, 0, 0, 0}}};
   const Json answer =
       ask("three-arcs", {{{"query", "inverse"}, {"set", set}, {"pose", pose}, {"all", true}}})[0];
-  EXPECT_EQ(answer["error"]["code"], "not_available") << answer;
+  EXPECT_EQ(answer["status"], "unsupported") << answer;
 }
 
 }  // namespace extension_query_test

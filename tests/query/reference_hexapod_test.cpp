@@ -137,7 +137,7 @@ TEST(TripodInverse, AllIsOfSixRods) {
   const auto asked =
       ask("3pfs-g1",
           {{{"query", "inverse"}, {"independent", {{"z", 0.3}, {"e1", 0}, {"e2", 0}}}, {"all", true}}})[0];
-  EXPECT_EQ(asked["error"]["code"], "not_available") << asked;
+  EXPECT_EQ(asked["status"], "unsupported") << asked;
 }
 
 }  // namespace reference_hexapod_test

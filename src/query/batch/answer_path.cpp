@@ -1,8 +1,9 @@
 #include "query/batch/answer_path.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
+
+#include "query/fields/answer_fields.hpp"
 
 namespace sinew::inline v1 {
 
@@ -64,50 +65,10 @@ std::optional<double> AnswerPath::number(const Value& answer) const {
 }
 
 std::string_view unit_of_answer(std::string_view path) {
-  // the last word of the path that has a unit, without its indices
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 32> units{{
-      {"x", "m"},
-      {"y", "m"},
-      {"z", "m"},
-      {"phi", "rad"},
-      {"tilt", "rad"},
-      {"azimuth", "rad"},
-      {"torsion", "rad"},
-      {"position", "m"},
-      {"curvature", "1/m"},
-      {"curvature_0", "1/m"},
-      {"chord", "m"},
-      {"tendon_lengths", "m"},
-      {"base_tangent", "rad"},
-      {"joint_angles", "rad"},
-      {"length", "m"},
-      {"force", "N"},
-      {"force_0", "N"},
-      {"moment", "N m"},
-      {"moment_0", "N m"},
-      {"tip", "m"},
-      {"tip_angle", "rad"},
-      {"energy", "J"},
-      {"potential", "J"},
-      {"slide", "m"},
-      {"carriage", "m"},
-      {"hinge_angle", "rad"},
-      {"tensions", "N"},
-      {"chord_force", "N"},
-      {"changes", "m"},
-      {"slack", "m"},
-      {"margin", "m"},
-      {"over_tension", "m"},
-  }};
-  if (path.ends_with(".count") || path.starts_with("indices.") || path.starts_with("type_2.screw")) return {};
-  const std::size_t dot = path.rfind('.');
-  std::string_view last = path.substr(dot == std::string_view::npos ? 0 : dot + 1);
-  const bool has_index = last.find('[') != std::string_view::npos;
-  last = last.substr(0, last.find('['));
-  if (last == "base_tangent" && has_index) return {};  // in space a unit vector
-  if (last == "configuration") return "rad";
-  const auto found = std::ranges::find(units, last, [](const auto& unit) { return unit.first; });
-  return found == units.end() ? std::string_view() : found->second;
+  const AnswerField* field = find_answer_field(path);
+  const bool is_component = path.ends_with(']');
+  if (!field || path.ends_with(".count") || (field->shape == AnswerShape::direction && is_component)) return {};
+  return field->unit;
 }
 
 }  // namespace sinew::inline v1

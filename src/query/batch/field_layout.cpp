@@ -7,6 +7,7 @@
 #include <functional>
 #include <numeric>
 
+#include "query/fields/fields.hpp"
 #include "robot/chains.hpp"
 #include "sinew/robot/assembly.hpp"
 #include "sinew/robot/serial.hpp"
@@ -52,6 +53,13 @@ std::optional<std::size_t> take_index(std::string_view& place) {
   return index;
 }
 
+/// All of them, from the end of a place.
+Lengths take_indices(std::string_view& place) {
+  Lengths indices;
+  while (const auto index = take_index(place)) indices.insert(indices.begin(), *index);
+  return indices;
+}
+
 }  // namespace
 
 std::size_t FieldLayout::size() const {
@@ -66,112 +74,128 @@ std::string FieldLayout::suffix(std::size_t number) const {
   return fmt::format("[{}][{}]", list, number);
 }
 
-FieldLayouts::FieldLayouts(const Robot& robot, std::string_view query) {
-  if (query == "diagram") return;
+FieldLayouts::FieldLayouts(const Robot& robot, std::string_view query)
+    : is_diagram_(query == "diagram"),
+      is_statics_(query == "statics") {
   if (const SerialRobot* sections = robot.serial())
-    read_sections(*sections);
+    count(*sections);
   else
-    read_platform(robot, query);
+    count(robot);
+}
+
+void FieldLayouts::count(const Robot& robot) {
+  const auto number = [](int count) { return static_cast<std::size_t>(count); };
+  is_planar_ = robot.planar() != nullptr;
+  inputs_ = number(input_count(robot));
+  freedoms_ = number(dof(robot));
+  legs_ = number(leg_count(robot));
+  rows_ = number(row_count(robot));
+  if (robot.model() == Model::prb) angles_ = angles_of(robot);
+  columns_ = angles_.empty() ? inputs_ : sum(angles_);
+}
+
+void FieldLayouts::count(const SerialRobot& robot) {
+  is_serial_ = true;
+  freedoms_ = 6;
+  for (const Section& section : robot.sections) {
+    configuration_.push_back(section.is_extensible() ? 3 : 2);
+    tendons_.push_back(static_cast<std::size_t>(section.tendons));
+  }
+  rows_ = freedoms_;
+  columns_ = sum(configuration_);
+}
+
+FieldLayout FieldLayouts::lists(std::string_view name) const {
+  if (name == "angles") return matrix_or_lists_of(angles_);
+  return name == "configuration" ? matrix_or_lists_of(configuration_) : lists_of(tendons_);
 }
 
 FieldLayout FieldLayouts::input(std::string_view place) const {
-  return place.starts_with("set.") ? FieldLayout() : find(inputs_, place);
-}
-
-void FieldLayouts::read_platform(const Robot& robot, std::string_view query) {
-  const auto count = [](int number) { return static_cast<std::size_t>(number); };
-  const std::size_t inputs = count(input_count(robot)), freedoms = count(dof(robot)),
-                    legs = count(leg_count(robot)), rows = count(row_count(robot)),
-                    space = robot.planar() ? 2 : 3;
-  const bool is_on_chains = robot.model() == Model::prb, is_planar = robot.planar() != nullptr;
-  const Lengths angles = is_on_chains ? angles_of(robot) : Lengths();
-  const std::size_t columns = is_on_chains ? sum(angles) : inputs;  // of K and U
-  const FieldLayout vector = list_of(space), wrench = list_of(freedoms), pair = list_of(2);
-  inputs_ = {{"inputs", list_of(inputs)},
-             {"start", list_of(inputs)},
-             {"wrench", wrench},
-             {"gravity", list_of(3)},
-             {"position", list_of(3)},
-             {"quaternion", list_of(4)},
-             {"twist", list_of(freedoms)},
-             {"along", list_of(freedoms)},
-             {"rates", list_of(inputs)},
-             {"bending", list_of(legs)},
-             {"elbow", list_of(legs)},
-             {"curvature", list_of(legs)},
-             {"tensions", matrix_of(legs, 2)},
-             {"lengths", matrix_of(legs, 2)},
-             {"angles", matrix_or_lists_of(angles)},
-             {"axial_forces", list_of(inputs)},
-             {"measured_tensions", list_of(legs)}};
-  outputs_ = {{"indices.position", {}},
-              {"position", list_of(3)},
-              {"quaternion", list_of(4)},
-              {"inputs", list_of(inputs)},
-              {"J", matrix_of(rows, freedoms)},
-              {"K", matrix_of(rows, columns)},
-              {"U", matrix_of(freedoms, columns)},
-              {"rates", list_of(columns)},
-              {"twist", list_of(freedoms)},
-              {"wrench", wrench},
-              {"stiffness", matrix_of(freedoms, freedoms)},
-              {"compliance", matrix_of(freedoms, freedoms)},
-              {"covariance", matrix_of(freedoms, freedoms)},
-              {"wrench_sensitivity", matrix_of(freedoms, freedoms)},
-              {"tendon_lengths", pair},
-              {"tensions", pair},
-              {"base_tangent", is_planar ? FieldLayout() : list_of(3)},
-              {"joint_angles", pair},
-              {"carriage", vector},
-              {"force", vector},
-              {"force_0", vector},
-              {"moment", list_of(3)},
-              {"moment_0", list_of(3)},
-              {"curvature_0", pair},
-              {"tip", vector},
-              {"tip_wrench", wrench},
-              {"linear", list_of(freedoms)},
-              {"point", vector},
-              {"direction", vector}};
-  if (query != "statics")  // there it has columns of what is held, which may be tensions
-    outputs_.push_back({"sensitivity", matrix_of(freedoms, inputs)});
-  if (is_even(angles)) outputs_.push_back({"angles", list_of(angles.front())});  // of a leg
-}
-
-void FieldLayouts::read_sections(const SerialRobot& robot) {
-  Lengths configuration, tendons;
-  for (const Section& section : robot.sections) {
-    configuration.push_back(section.is_extensible() ? 3 : 2);
-    tendons.push_back(static_cast<std::size_t>(section.tendons));
+  if (is_diagram_ || place.starts_with("set.")) return {};
+  const Lengths indices = take_indices(place);
+  if (!indices.empty()) return {};
+  const std::string_view name = place.substr(place.rfind('.') + 1);
+  if (name == "position") return list_of(3);
+  if (name == "quaternion") return list_of(4);
+  const Field* field = find_field(name);
+  if (!field) return {};
+  using Shape = FieldShape;
+  switch (field->shape) {
+    case Shape::inputs:
+      return list_of(inputs_);
+    case Shape::start:
+      return is_serial_ ? matrix_or_lists_of(configuration_) : list_of(inputs_);
+    case Shape::wrench:
+    case Shape::twist:
+      return list_of(freedoms_);
+    case Shape::point:
+      return list_of(3);
+    case Shape::signs:
+    case Shape::per_leg:
+      return list_of(legs_);
+    case Shape::pairs:
+      return matrix_of(legs_, 2);
+    case Shape::numbers:
+      return list_of(is_serial_ ? tendons_.size() : inputs_);
+    case Shape::lists:
+      return lists(name);
+    default:
+      return {};
   }
-  const FieldLayout bends = matrix_or_lists_of(configuration), changes = lists_of(tendons);
-  inputs_ = {{"configuration", bends},           {"start", bends},         {"changes", changes},
-             {"slack", list_of(tendons.size())}, {"position", list_of(3)}, {"direction", list_of(3)},
-             {"quaternion", list_of(4)},         {"twist", list_of(6)}};
-  outputs_ = {{"indices.position", {}},
-              {"position", list_of(3)},
-              {"quaternion", list_of(4)},
-              {"configuration", bends},
-              {"rates", bends},
-              {"changes", changes},
-              {"motors", changes},
-              {"slack", changes},
-              {"J", matrix_of(6, sum(configuration))},
-              {"K", matrix_of(sum(tendons), sum(configuration))},
-              {"steering", matrix_of(2, 2)}};
 }
 
-FieldLayout FieldLayouts::find(const Table& table, std::string_view place) {
-  Lengths indices;
-  while (const auto index = take_index(place)) indices.insert(indices.begin(), *index);
-  const auto found = std::ranges::find_if(table, [&](const Entry& entry) {
-    return place.ends_with(entry.key) &&
-           (place.size() == entry.key.size() || place[place.size() - entry.key.size() - 1] == '.');
-  });
-  if (found == table.end()) return {};
-  if (indices.empty()) return found->layout;
-  const auto& lists = found->layout.lists;
-  return indices.size() == 1 && indices[0] < lists.size() ? list_of(lists[indices[0]]) : FieldLayout();
+FieldLayout FieldLayouts::whole(AnswerShape shape) const {
+  using Shape = AnswerShape;
+  switch (shape) {
+    case Shape::number:
+      return {};
+    case Shape::pair:
+      return list_of(2);
+    case Shape::triple:
+      return list_of(3);
+    case Shape::quaternion:
+      return list_of(4);
+    case Shape::vector:
+      return list_of(is_planar_ ? 2 : 3);
+    case Shape::direction:
+      return is_planar_ ? FieldLayout() : list_of(3);
+    case Shape::inputs:
+      return list_of(inputs_);
+    case Shape::freedoms:
+      return list_of(freedoms_);
+    case Shape::square:
+      return matrix_of(freedoms_, freedoms_);
+    case Shape::by_inputs:  // of statics it has columns of what is held, which may be tensions
+      return is_statics_ ? FieldLayout() : matrix_of(freedoms_, inputs_);
+    case Shape::jacobian:
+      return matrix_of(rows_, is_serial_ ? columns_ : freedoms_);
+    case Shape::input_jacobian:
+      return matrix_of(is_serial_ ? sum(tendons_) : rows_, columns_);
+    case Shape::rates:
+      return is_serial_ ? matrix_or_lists_of(configuration_) : list_of(columns_);
+    case Shape::sensitivities:
+      return matrix_of(freedoms_, columns_);
+    case Shape::joints:
+      return is_even(angles_) ? list_of(angles_.front()) : FieldLayout();
+    case Shape::bends:
+      return matrix_or_lists_of(configuration_);
+    case Shape::tendons:
+      return lists_of(tendons_);
+    case Shape::two_by_two:
+      return matrix_of(2, 2);
+  }
+  return {};
+}
+
+FieldLayout FieldLayouts::output(std::string_view place) const {
+  if (is_diagram_) return {};
+  const AnswerField* field = find_answer_field(place);
+  if (!field) return {};
+  const Lengths indices = take_indices(place);
+  const FieldLayout layout = whole(field->shape);
+  if (indices.empty()) return layout;
+  return indices.size() == 1 && indices[0] < layout.lists.size() ? list_of(layout.lists[indices[0]])
+                                                                  : FieldLayout();
 }
 
 }  // namespace sinew::inline v1

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "query/fields/answer_fields.hpp"
 #include "sinew/robot/robot.hpp"
 
 namespace sinew::inline v1 {
@@ -23,7 +24,7 @@ struct FieldLayout {
   std::string suffix(std::size_t number) const;
 };
 
-/// What is a list of numbers among the fields of a robot's questions and answers. All else is taken for one
+/// How the fields of a robot's questions and answers lie, by the tables of fields. All else is taken for one
 /// number: what `set` changes, and the fields of diagrams.
 class FieldLayouts {
  public:
@@ -31,20 +32,20 @@ class FieldLayouts {
   FieldLayouts(const Robot& robot, std::string_view query);
 
   FieldLayout input(std::string_view place) const;
-  FieldLayout output(std::string_view place) const { return find(outputs_, place); }
+  FieldLayout output(std::string_view place) const;
 
  private:
-  struct Entry {
-    std::string_view key;  ///< the last word of the place
-    FieldLayout layout;
-  };
-  using Table = std::vector<Entry>;
+  using Lengths = std::vector<std::size_t>;
 
-  void read_platform(const Robot& robot, std::string_view query);
-  void read_sections(const SerialRobot& robot);
-  static FieldLayout find(const Table& table, std::string_view place);
+  void count(const Robot& robot);
+  void count(const SerialRobot& robot);
+  FieldLayout lists(std::string_view name) const;
+  FieldLayout whole(AnswerShape shape) const;
 
-  Table inputs_, outputs_;
+  bool is_diagram_, is_statics_, is_serial_ = false, is_planar_ = false;
+  std::size_t inputs_ = 0, freedoms_ = 0, legs_ = 0, rows_ = 0, columns_ = 0;  ///< rows of J, columns of K
+  Lengths angles_;                  ///< of chains, a leg each
+  Lengths configuration_, tendons_;  ///< of serial robots, a section each
 };
 
 }  // namespace sinew::inline v1

@@ -17,13 +17,14 @@ class QuerySampler {
   explicit QuerySampler(std::shared_ptr<const BatchQuestion> question)
       : question_(std::move(question)),
         query_(question_->query),
-        places_(placeholders(query_.root, question_->inputs)) {
+        places_(placeholders(query_.root, question_->inputs)),
+        opened_(TreeSession::open(question_->robot).value()) {
     for (const std::string& output : question_->outputs) paths_.emplace_back(output);
   }
 
   void operator()(const SampleBlock& block) {
     // anew for each block: what was solved before must not show in the last digits
-    TreeSession session = TreeSession::open(question_->robot).value();
+    TreeSession session = opened_.anew();
     session.stop_on(StopToken(*block.stop));
     last_.reset();
     for (std::size_t k = 0; k < block.count && !*block.stop; ++k, ++*block.done) {
@@ -73,6 +74,7 @@ class QuerySampler {
   Document query_;
   std::vector<Placeholder> places_;
   std::vector<AnswerPath> paths_;
+  TreeSession opened_;
   std::optional<AnyPose> last_;
 };
 

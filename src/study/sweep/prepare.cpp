@@ -107,6 +107,12 @@ class Trial {
       for (const Placeholder& place : places)
         put(*place.node, values_[*place.input], study_.column_unit(*place.input));
       Value answer = session.answer(query);
+      if (answer.text_at("status") == to_string(Status::unsupported)) {
+        if (errors_.empty())
+          errors_ = {{"not_available", fmt::format("{}: query", study_.source),
+                      std::string(answer.text_at("message"))}};
+        continue;
+      }
       if (const Value* error = answer.find("error")) {
         if (errors_.empty())
           errors_ = {{std::string(error->text_at("code")), place_of(std::string(error->text_at("where"))),

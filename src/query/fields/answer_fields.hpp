@@ -1,0 +1,44 @@
+/// @file answer_fields.hpp
+/// Numbers of answers, written down once: how each lies, in what unit, and what it is.
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "sinew/base/export.hpp"
+
+namespace sinew::inline v1 {
+
+/// How many numbers a field of an answer has, of which robot whatever.
+enum class AnswerShape {
+  number,
+  pair,
+  triple,
+  quaternion,
+  vector,          ///< two in the plane, three in space
+  direction,       ///< an angle in the plane, a unit vector in space
+  inputs,          ///< one an input
+  freedoms,        ///< one a freedom of the platform, twist order
+  square,          ///< freedoms by freedoms
+  by_inputs,       ///< freedoms by inputs; in `statics` by what is held there, which a place does not tell
+  jacobian,        ///< J: a row a constraint, of a serial robot of the tip's twist
+  input_jacobian,  ///< K: a column an input, of chains a joint, of a serial robot a coordinate
+  rates,           ///< as many as K has columns, in the lists that inputs, joints or coordinates have
+  sensitivities,   ///< U: freedoms by columns of K
+  joints,          ///< of one leg on chains
+  bends,           ///< a serial robot's coordinates, a list a section
+  tendons,         ///< a number a tendon of a serial robot, a list a section
+  two_by_two,
+};
+
+struct AnswerField {
+  std::string_view name;  ///< the last word of its place, or more of them where that is not enough
+  AnswerShape shape;
+  std::string_view unit;  ///< SI; empty for plain numbers, and where numbers of one field have several
+  std::string_view meaning;
+};
+
+SINEW_API std::span<const AnswerField> answer_fields();
+/// By a place such as `legs[0].tendon_lengths[1]`; null where nothing is known of it.
+SINEW_API const AnswerField* find_answer_field(std::string_view place);
+
+}  // namespace sinew::inline v1
