@@ -103,7 +103,7 @@ void throughput(const char* what, const std::string& text, const std::string& by
              median(efficiency), base, median(one) / base, last.instruction_set);
 }
 
-/// Data a second through log and file, beside the disc.
+/// Data a second into the file of results, beside the disc.
 void writing(const std::string& text, const fs::path& folder) {
   std::vector<double> rates, discs;
   std::size_t size = 0;
@@ -114,8 +114,8 @@ void writing(const std::string& text, const fs::path& folder) {
     discs.push_back(disc_rate(folder, size));
   }
   fmt::print(
-      "\nwriting {:.0f} MB through log and file, until it is on the disc: {:.0f} MB/s; the disc {:.0f} MB/s, "
-      "ratio {:.2f}\n",
+      "\nwriting {:.0f} MB of results, until they are on the disc: {:.0f} MB/s; the disc {:.0f} MB/s, ratio "
+      "{:.2f}\n",
       static_cast<double>(size) / 1e6, median(rates) / 1e6, median(discs) / 1e6,
       median(rates) / median(discs));
 }

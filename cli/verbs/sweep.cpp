@@ -75,7 +75,9 @@ std::string report(const SweepSummary& summary) {
                      summary.sampler, who, summary.instruction_set) +
          line("computing", summary.computing,
               short_number(fresh / std::max(summary.computing, 1e-9)) + " samples/s") +
-         line("log", summary.logging, rate_of(summary.logged_bytes, summary.logging)) +
+         (summary.logged_bytes > 0
+              ? line("log", summary.logging, rate_of(summary.logged_bytes, summary.logging))
+              : std::string()) +
          line("file", summary.writing, rate_of(summary.written_bytes, summary.writing));
 }
 

@@ -103,7 +103,7 @@ tl::unexpected<Errors> FileWriter::fails(int reason) const {
   return failure("file_unwritable", path_.string(), unwritable(reason));
 }
 
-Expected<FileWriter> FileWriter::open(const fs::path& path, std::string_view part_ending) {
+Expected<FileWriter> FileWriter::open(const fs::path& path, std::string_view part_ending, bool resumes) {
   FileWriter writer;
   writer.path_ = path;
   auto target = without_links(path);
@@ -133,9 +133,10 @@ Expected<FileWriter> FileWriter::open(const fs::path& path, std::string_view par
   for (int k = 0; k < tries && writer.file_ < 0; ++k) {
     const fs::path name =
         part_ending.empty() ? beside(writer.target_) : fs::path(writer.target_) += part_ending;
-    if (!part_ending.empty()) ::unlink(name.c_str());  // of a run that was killed; no link is followed
-    writer.file_ =
-        ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, is_there ? 0600 : 0666);
+    if (!part_ending.empty() && !resumes)
+      ::unlink(name.c_str());  // of a run that was killed; no link is followed
+    writer.file_ = ::open(name.c_str(), O_RDWR | O_CREAT | (resumes ? 0 : O_EXCL) | O_NOFOLLOW | O_CLOEXEC,
+                          is_there ? 0600 : 0666);
     if (writer.file_ >= 0) writer.part_ = name;
     if (writer.file_ < 0 && errno != EEXIST) return writer.fails(errno);
   }
@@ -205,7 +206,7 @@ Expected<void> finish_together(std::span<FileWriter> files) {
 
 FileWriter::~FileWriter() {
   if (file_ >= 0) ::close(file_);
-  if (!part_.empty() && (!is_placed_ || is_swapped_)) ::unlink(part_.c_str());
+  if (!part_.empty() && !keeps_part_ && (!is_placed_ || is_swapped_)) ::unlink(part_.c_str());
 }
 
 Expected<void> write_text(std::string_view text, const fs::path& path) {

@@ -23,7 +23,9 @@ class SINEW_API FileWriter {
   /// system's reason.
   /// @param part_ending makes the name in the meantime, `.part`, where the next run shall find what a killed
   /// one leaves; default: a name that nobody has
-  static Expected<FileWriter> open(const std::filesystem::path& path, std::string_view part_ending = {});
+  /// @param resumes what it finds stays
+  static Expected<FileWriter> open(const std::filesystem::path& path, std::string_view part_ending = {},
+                                   bool resumes = false);
 
   Expected<void> write(std::string_view bytes);
   /// Puts the file in its place.
@@ -32,6 +34,8 @@ class SINEW_API FileWriter {
   /// Whether bytes go to a device or pipe as they are written.
   bool is_stream() const { return part_.empty(); }
   const std::filesystem::path& part() const { return part_; }  ///< the name in the meantime
+  int file() const { return file_; }                           ///< open for reading and writing
+  void keep_part() { keeps_part_ = true; }  ///< stays there when this is destroyed, for a run that resumes
 
   FileWriter(FileWriter&& other) noexcept { swap(other); }
   FileWriter& operator=(FileWriter&& other) noexcept {
@@ -50,6 +54,7 @@ class SINEW_API FileWriter {
     std::swap(is_swapped_, other.is_swapped_);
     std::swap(is_placed_, other.is_placed_);
     std::swap(is_new_, other.is_new_);
+    std::swap(keeps_part_, other.keeps_part_);
   }
   Expected<void> bring_to_disc();
   Expected<void> place(bool is_one_of_several);
@@ -62,6 +67,7 @@ class SINEW_API FileWriter {
   bool is_swapped_ = false;  ///< what was there is at `part_`
   bool is_placed_ = false;
   bool is_new_ = false;  ///< nothing is replaced
+  bool keeps_part_ = false;
 };
 
 /// Puts several files in their places: all of them, or none.

@@ -227,6 +227,48 @@ TEST(CAbi, RunsListsAndMatrices) {
   sinew_release(robot);
 }
 
+/// One robot and one batch, which several threads run, each on threads of its own, while others ask.
+TEST(CAbi, ThreadsShareABatch) {
+  constexpr std::string_view name = "3pfs-g2",
+                             question = R"({"query": "forward", "inputs": "$L", "path": "continue"})";
+  sinew_robot* robot = opened(name);
+  sinew_batch* batch = nullptr;
+  ASSERT_EQ(sinew_prepare(robot, question.data(), question.size(), &batch, nullptr), SINEW_OK);
+  constexpr std::size_t rows = 2100;  // three chunks
+  std::vector<double> in;
+  for (std::size_t k = 0; k < 3 * rows; ++k)
+    in.push_back(0.43 + 1e-2 * std::sin(0.01 * static_cast<double>(k)));
+  struct Found {
+    std::vector<double> poses = std::vector<double>(7 * rows);
+    std::vector<std::uint8_t> statuses = std::vector<std::uint8_t>(rows);
+  };
+  const auto run = [&](Found& found, std::size_t count, std::int32_t threads) {
+    const sinew_input from{in.data(), 24, 8};
+    const sinew_output to[] = {{found.poses.data(), 56, 8}, {found.poses.data() + 3, 56, 8}};
+    EXPECT_EQ(sinew_run(batch, count, &from, to, found.statuses.data(), threads, nullptr), SINEW_OK);
+  };
+  Found alone;
+  run(alone, rows, 1);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 3; ++t)
+    threads.emplace_back([&] {
+      Found own, single;
+      sinew_session* session = sinew_session_new(robot);
+      for (int k = 0; k < 3; ++k) {
+        run(own, rows, 2);
+        EXPECT_EQ(own.poses, alone.poses);
+        run(single, 1, 1);
+        EXPECT_NEAR(single.poses[2], alone.poses[2], 1e-12);
+        EXPECT_NE(asked(session, rods).find("converged"), std::string::npos);
+      }
+      sinew_release(session);
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(alone.statuses, std::vector<std::uint8_t>(rows, 7));
+  sinew_release(batch);
+  sinew_release(robot);
+}
+
 TEST(CAbi, SaysWhatIsOddAboutRows) {
   Rows rows("3-rfr",
             R"({"query": "inverse", "pose": {"x": "$x", "y": 0, "phi": 0}, "outputs": {"l": "inputs[0]"}})");

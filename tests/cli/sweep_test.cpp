@@ -97,19 +97,31 @@ TEST(SweepCommand, SurvivesKillsAtAnyMoment) {
 TEST(SweepCommand, OutOfRoomKeepsWhatThereWas) {  // a limit on files stands for a full disc
   const Scratch here;
   write_text(here.path() / "study.yaml", rods);
-  ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "-o", "whole.h5"}, here.path()).exit, 0);
+  ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "-o", "whole.csv"}, here.path()).exit, 0);
   const std::string start = std::string("trap '' XFSZ; ulimit -f ");
-  const std::string run = std::string("; ") + command_path + " sweep study.yaml -q --resume -o parts.h5";
-  const auto size = std::filesystem::file_size(here.path() / "whole.h5") / 1024;
-  for (const auto room : {size / 4, size / 2, size - 8}) {  // in the log, in the log, in the file
+  const std::string run = std::string("; ") + command_path + " sweep study.yaml -q --resume -o parts.csv";
+  const auto size = std::filesystem::file_size(here.path() / "whole.csv") / 1024;
+  for (const auto room : {size / 8, size / 6, size - 8}) {  // in the log, in the log, in the file
     const Outcome full = run_shell(start + std::to_string(room) + run, here.path());
     EXPECT_EQ(full.exit, 4) << full.err;
     EXPECT_NE(full.err.find("--resume"), std::string::npos) << full.err;
-    EXPECT_TRUE(std::filesystem::exists(here.path() / "parts.h5.log"));
-    EXPECT_FALSE(std::filesystem::exists(here.path() / "parts.h5"));
+    EXPECT_TRUE(std::filesystem::exists(here.path() / "parts.csv.log"));
+    EXPECT_FALSE(std::filesystem::exists(here.path() / "parts.csv"));
   }
-  ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "--resume", "-o", "parts.h5"}, here.path()).exit, 0);
-  EXPECT_EQ(read_text(here.path() / "parts.h5"), read_text(here.path() / "whole.h5"));
+  ASSERT_EQ(run_command({"sweep", "study.yaml", "-q", "--resume", "-o", "parts.csv"}, here.path()).exit, 0);
+  EXPECT_EQ(read_text(here.path() / "parts.csv"), read_text(here.path() / "whole.csv"));
+}
+
+/// Of a file that is made with room for all rows, before anything is computed.
+TEST(SweepCommand, OutOfRoomIsToldBeforeItBegins) {
+  const Scratch here;
+  write_text(here.path() / "study.yaml", rods);
+  const std::string run = std::string("trap '' XFSZ; ulimit -f 100; ") + command_path;
+  const Outcome full = run_shell(run + " sweep study.yaml -q -o out.h5", here.path());
+  EXPECT_EQ(full.exit, 4) << full.err;
+  EXPECT_NE(full.err.find("File too large"), std::string::npos) << full.err;
+  for (const char* name : {"out.h5", "out.h5.log", "out.h5.part"})
+    EXPECT_FALSE(std::filesystem::exists(here.path() / name)) << name;
 }
 
 TEST(SweepCommand, BeginsNoSweepOverAnother) {
@@ -117,11 +129,12 @@ TEST(SweepCommand, BeginsNoSweepOverAnother) {
   write_text(here.path() / "study.yaml", queries);
   bool has_begun = false;  // killed neither before the first chunks nor after the last
   for (int attempt = 0; !has_begun && attempt < 100; ++attempt) {
-    for (const char* name : {"out.h5", "out.h5.log"}) std::filesystem::remove(here.path() / name);
+    for (const char* name : {"out.h5", "out.h5.log", "out.h5.part"})
+      std::filesystem::remove(here.path() / name);
     std::error_code none;
     const auto has_chunks = [&] {
       const auto size = std::filesystem::file_size(here.path() / "out.h5.log", none);
-      return !none && size > 10'000;
+      return !none && size > 1000;
     };
     has_begun = !is_done_before(has_chunks, {"sweep", "study.yaml", "-q", "-o", "out.h5"}, here.path());
   }

@@ -124,6 +124,93 @@ TEST(Sweep, StoppedAgainAndAgainGivesTheSameBytes) {
   }
 }
 
+/// Takes long enough to be stopped.
+const std::string many_rods = R"(sinew: 1
+robot: 3pfs-g2
+query: {query: forward, inputs: [$a, $b, $c]}
+axes:
+  a: {from: 400 mm, to: 460 mm, count: 41}
+  b: {from: 400 mm, to: 460 mm, count: 59}
+  c: {from: 400 mm, to: 460 mm, count: 63}
+)";
+
+/// A sweep stopped somewhere, with the file that its rows are in.
+void stop_midway(const Folder& folder, const std::string& text) {
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    int ticks = 0;
+    const auto done = sweep_to(
+        folder, text, "parts.h5",
+        {.resume = true, .threads = 1, .progress = [&](const SweepProgress&) { return ticks++ == 0; }});
+    ASSERT_TRUE(done) << to_string(done.error());
+    if (done->is_complete)
+      std::filesystem::remove(folder.path / "parts.h5");
+    else if (std::filesystem::file_size(folder.path / "parts.h5.log") > 300)
+      return;
+  }
+  GTEST_SKIP() << "too quick to be stopped";
+}
+
+/// A machine that lost power has the log's last records, and not all of what they speak of.
+TEST(Sweep, WhatIsNoLongerInTheFileIsComputedAgain) {
+  const Folder folder;
+  const std::string random =
+      "sinew: 1\nrobot: 3-frr\nquery: {query: inverse, pose: {x: $x, y: $y, phi: $two}}\nrandom: {count: "
+      "15000, "
+      "seed: 3}\naxes:\n  x: {from: -30 mm, to: 30 mm}\n  y: {from: -30 mm, to: 30 mm}\nderived: {two: {is: "
+      "\"2 x\", unit: rad}}\n";
+  for (const std::string& text : {many_rods, random}) {
+    ASSERT_TRUE(sweep_to(folder, text, "whole.h5"));
+    const std::string whole = bytes(folder.path / "whole.h5");
+    for (const double part : {0.1, 0.6}) {
+      stop_midway(folder, text);
+      if (testing::Test::IsSkipped()) return;
+      std::string file = bytes(folder.path / "parts.h5.part");
+      ASSERT_EQ(file.size(), whole.size());
+      const auto at = static_cast<std::size_t>(part * static_cast<double>(file.size()));
+      std::fill_n(file.begin() + static_cast<std::ptrdiff_t>(at), 5000, '\0');
+      std::ofstream(folder.path / "parts.h5.part", std::ios::binary) << file;
+      ASSERT_TRUE(sweep_to(folder, text, "parts.h5", {.resume = true}));
+      EXPECT_TRUE(bytes(folder.path / "parts.h5") == whole) << part;
+      std::filesystem::remove(folder.path / "parts.h5");
+    }
+  }
+}
+
+TEST(Sweep, BeginsAnewWhereTheFileIsGoneOrNone) {
+  const Folder folder;
+  ASSERT_TRUE(sweep_to(folder, many_rods, "whole.h5"));
+  for (const bool is_gone : {true, false}) {
+    stop_midway(folder, many_rods);
+    if (testing::Test::IsSkipped()) return;
+    if (is_gone)
+      std::filesystem::remove(folder.path / "parts.h5.part");
+    else
+      std::ofstream(folder.path / "parts.h5.part") << "no HDF5";
+    const auto done = sweep_to(folder, many_rods, "parts.h5", {.resume = true});
+    ASSERT_TRUE(done) << to_string(done.error());
+    EXPECT_EQ(done->resumed, 0U);
+    EXPECT_EQ(bytes(folder.path / "parts.h5"), bytes(folder.path / "whole.h5"));
+    std::filesystem::remove(folder.path / "parts.h5");
+  }
+}
+
+TEST(Sweep, GoesOnAsItWasBegun) {
+  const Folder folder;
+  stop_midway(folder, many_rods);
+  if (testing::Test::IsSkipped()) return;
+  const auto other = sweep_to(folder, many_rods, "parts.h5", {.resume = true, .compression = 4});
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().front().code, "other_options");
+  // killed between giving the file its name and removing the log
+  const std::string log = bytes(folder.path / "parts.h5.log");
+  ASSERT_TRUE(sweep_to(folder, many_rods, "parts.h5", {.resume = true}));
+  std::ofstream(folder.path / "parts.h5.log", std::ios::binary) << log;
+  const auto again = sweep_to(folder, many_rods, "parts.h5", {.resume = true});
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_TRUE(again->was_complete);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "parts.h5.log"));
+}
+
 TEST(Sweep, HasEveryColumnWithItsUnitInBothFormats) {
   const Folder folder;
   ASSERT_TRUE(sweep_to(folder, poses, "out.h5"));

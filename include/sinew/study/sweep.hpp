@@ -66,9 +66,10 @@ struct SweepSummary {
   bool counts_all = true;                  ///< else they are of this run, without what was resumed
   std::vector<FittedTerms> fits;
   double computing = 0;  ///< [s] on the wall, the mean of the threads
-  double logging = 0;    ///< [s] appending chunks
-  double writing = 0;    ///< [s] making the file of results
-  double total = 0;      ///< [s]
+  double logging = 0;  ///< [s] appending chunks to a log that the file is made from; none where rows go into
+                       ///< the file at once
+  double writing = 0;  ///< [s] making the file of results
+  double total = 0;    ///< [s]
   std::uint64_t logged_bytes = 0, written_bytes = 0;
   int threads = 0, ranks = 1;
   std::string sampler, instruction_set;

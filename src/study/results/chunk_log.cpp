@@ -15,13 +15,15 @@
 #include <utility>
 
 #include "io/write_file.hpp"
+#include "study/results/file_bytes.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
 // Little-endian as every machine this runs on; the header says so by its first number.
-constexpr std::uint64_t log_magic = 0x31676f6c77656e73U;    // "snewlog1"
-constexpr std::uint64_t chunk_magic = 0x316b6e7563776e73U;  // "snwcunk1"
+constexpr std::uint64_t log_magic = 0x31676f6c77656e73U;     // "snewlog1"
+constexpr std::uint64_t placed_magic = 0x32676f6c77656e73U;  // "snewlog2": the chunks are elsewhere
+constexpr std::uint64_t chunk_magic = 0x316b6e7563776e73U;   // "snwcunk1"
 /// A killed process loses nothing that was written; a machine without power loses so much.
 constexpr std::chrono::seconds between_flushes{20};
 constexpr std::string_view not_a_log =
@@ -46,29 +48,6 @@ std::uint64_t checksum_of(const Record& record, std::span<const std::byte> bytes
   return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
 }
 
-/// All of it, or the errno.
-bool write_all(int file, std::uint64_t at, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t done = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return false;
-    at += static_cast<std::uint64_t>(done);
-    bytes = bytes.subspan(static_cast<std::size_t>(done));
-  }
-  return true;
-}
-
-bool read_all(int file, std::uint64_t at, std::span<std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t done = ::pread(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return false;
-    at += static_cast<std::uint64_t>(done);
-    bytes = bytes.subspan(static_cast<std::size_t>(done));
-  }
-  return true;
-}
-
 template <class T>
 std::span<const std::byte> bytes_of(const T& value) {
   return std::as_bytes(std::span(&value, 1));
@@ -76,14 +55,16 @@ std::span<const std::byte> bytes_of(const T& value) {
 
 }  // namespace
 
-ChunkLog::ChunkLog(std::filesystem::path path, int file, std::size_t chunks)
+ChunkLog::ChunkLog(std::filesystem::path path, int file, std::size_t chunks, ChunkPlace* place)
     : path_(std::move(path)),
       file_(file),
+      place_(place),
       places_(chunks) {}
 
 ChunkLog::ChunkLog(ChunkLog&& other) noexcept
     : path_(std::move(other.path_)),
       file_(std::exchange(other.file_, -1)),
+      place_(other.place_),
       places_(std::move(other.places_)),
       count_(other.count_),
       end_(other.end_),
@@ -92,6 +73,7 @@ ChunkLog::ChunkLog(ChunkLog&& other) noexcept
 ChunkLog& ChunkLog::operator=(ChunkLog&& other) noexcept {
   std::swap(path_, other.path_);
   std::swap(file_, other.file_);
+  std::swap(place_, other.place_);
   std::swap(places_, other.places_);
   std::swap(count_, other.count_);
   std::swap(end_, other.end_);
@@ -104,14 +86,14 @@ ChunkLog::~ChunkLog() {
 }
 
 Expected<ChunkLog> ChunkLog::open(const std::filesystem::path& path, const Digest& key, std::size_t chunks,
-                                  Open how) {
+                                  Open how, ChunkPlace* place) {
   if (path.has_parent_path()) {
     std::error_code ignored;  // opening tells
     std::filesystem::create_directories(path.parent_path(), ignored);
   }
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file < 0) return failure("file_unwritable", path.string(), unwritable(errno));
-  ChunkLog log(path, file, chunks);
+  ChunkLog log(path, file, chunks, place);
   if (::flock(file, LOCK_EX | LOCK_NB) != 0)
     return failure("in_use", path.string(),
                    "another sweep is writing it; wait for it, or give another --output");
@@ -121,15 +103,23 @@ Expected<ChunkLog> ChunkLog::open(const std::filesystem::path& path, const Diges
   if (status.st_size < static_cast<off_t>(sizeof(Header))) {  // new, or killed while it was begun
     const auto size = static_cast<std::size_t>(status.st_size);
     std::array<std::byte, sizeof(Header)> begun{};
-    const auto magic = bytes_of(log_magic);
-    if (!read_all(file, 0, std::span(begun).first(size)) ||
-        !std::ranges::equal(std::span(begun).first(std::min(size, magic.size())),
-                            magic.first(std::min(size, magic.size()))))
+    const auto is_begun = [&](const std::uint64_t& magic) {
+      const std::size_t there = std::min(size, sizeof magic);
+      return std::ranges::equal(std::span(begun).first(there), bytes_of(magic).first(there));
+    };
+    if (!read_all(file, 0, std::span(begun).first(size)) || (!is_begun(log_magic) && !is_begun(placed_magic)))
       return failure("not_a_log", path.string(), not_a_log);
-    if (const auto done = log.write_header(key); !done) return tl::unexpected(done.error());
+    auto done = log.write_header(key);
+    if (done && place) done = place->open(false);
+    if (!done) {
+      if (size == 0) log.remove();
+      return tl::unexpected(done.error());
+    }
     return log;
   }
   if (const auto done = log.check_header(key); !done) return tl::unexpected(done.error());
+  if (place)
+    if (const auto done = place->open(true); !done) return tl::unexpected(done.error());
   if (const auto done = log.recover(); !done) return tl::unexpected(done.error());
   if (how == Open::create && log.count_ > 0)
     return failure(
@@ -140,7 +130,7 @@ Expected<ChunkLog> ChunkLog::open(const std::filesystem::path& path, const Diges
 }
 
 Expected<void> ChunkLog::write_header(const Digest& key) {
-  Header header{.chunks = places_.size(), .key = key};
+  Header header{.magic = place_ ? placed_magic : log_magic, .chunks = places_.size(), .key = key};
   header.checksum = checksum_of(header);
   if (::ftruncate(file_, 0) != 0 || !write_all(file_, 0, bytes_of(header)))
     return failure("file_unwritable", path_.string(), unwritable(errno));
@@ -150,19 +140,33 @@ Expected<void> ChunkLog::write_header(const Digest& key) {
 
 Expected<void> ChunkLog::check_header(const Digest& key) {
   Header header;
-  if (!read_all(file_, 0, std::as_writable_bytes(std::span(&header, 1))) || header.magic != log_magic ||
-      header.checksum != checksum_of(header))
+  if (!read_all(file_, 0, std::as_writable_bytes(std::span(&header, 1))) ||
+      (header.magic != log_magic && header.magic != placed_magic) || header.checksum != checksum_of(header))
     return failure("not_a_log", path_.string(), not_a_log);
   if (header.key != key || header.chunks != places_.size())
     return failure(
         "other_sweep", path_.string(),
         "belongs to another sweep: study, robot, list of samples, version or instruction set differ; "
         "remove it, or give another --output");
+  if (header.magic != (place_ ? placed_magic : log_magic))
+    return failure("other_options", path_.string(),
+                   "was begun with another --compress; go on with that one, or remove it to begin anew");
   end_ = sizeof(Header);
   return {};
 }
 
-/// Whole records from the front; what follows them was being written when the process ended.
+/// The bytes of the record that stands there; false where they are no longer, or not yet, those written.
+bool ChunkLog::load(std::uint64_t at, std::vector<std::byte>& bytes) const {
+  Record record;
+  if (!read_all(file_, at, std::as_writable_bytes(std::span(&record, 1)))) return false;
+  if (!place_) bytes.resize(record.size);
+  const bool is_there =
+      place_ ? place_->read(record.chunk, bytes) : read_all(file_, at + sizeof(Record), bytes);
+  return is_there && checksum_of(record, bytes) == record.checksum;
+}
+
+/// Whole records from the front; what follows them was being written when the process ended. What is not in
+/// the log may be missing of any record, where a machine lost power.
 Expected<void> ChunkLog::recover() {
   std::vector<std::byte> bytes;
   struct stat status = {};
@@ -170,15 +174,17 @@ Expected<void> ChunkLog::recover() {
   const auto size = static_cast<std::uint64_t>(status.st_size);
   for (Record record;;) {
     if (!read_all(file_, end_, std::as_writable_bytes(std::span(&record, 1)))) break;
+    const std::uint64_t here = place_ ? 0 : record.size;
     if (record.magic != chunk_magic || record.chunk >= places_.size() || record.size == 0 ||
-        record.size > size - end_ - sizeof(Record))
+        here > size - end_ - sizeof(Record))
       break;
-    bytes.resize(record.size);
-    if (!read_all(file_, end_ + sizeof(Record), bytes) || checksum_of(record, bytes) != record.checksum)
-      break;
-    count_ += !has(record.chunk);
-    places_[record.chunk] = {end_ + sizeof(Record), record.size};
-    end_ += sizeof(Record) + record.size;
+    const bool is_whole = load(end_, bytes);
+    if (!is_whole && !place_) break;
+    if (is_whole) {
+      count_ += !has(record.chunk);
+      places_[record.chunk] = {end_, record.size};
+    }
+    end_ += sizeof(Record) + here;
   }
   if (::ftruncate(file_, static_cast<off_t>(end_)) != 0)
     return failure("file_unwritable", path_.string(), unwritable(errno));
@@ -188,33 +194,31 @@ Expected<void> ChunkLog::recover() {
 Expected<void> ChunkLog::append(std::size_t chunk, std::span<const std::byte> bytes) {
   Record record{.chunk = chunk, .size = bytes.size()};
   record.checksum = checksum_of(record, bytes);
-  if (!write_all(file_, end_, bytes_of(record)) || !write_all(file_, end_ + sizeof(Record), bytes)) {
+  if (place_)
+    if (auto done = place_->write(chunk, bytes); !done) return done;
+  const auto here = place_ ? std::span<const std::byte>() : bytes;
+  if (!write_all(file_, end_, bytes_of(record)) || !write_all(file_, end_ + sizeof(Record), here)) {
     const std::string why = unwritable(errno);
     [[maybe_unused]] const int cut = ::ftruncate(file_, static_cast<off_t>(end_));  // else recovery does
     return failure("write_failed", path_.string(),
                    fmt::format("{}; the chunks are kept, go on with --resume", why));
   }
   count_ += !has(chunk);
-  places_[chunk] = {end_ + sizeof(Record), bytes.size()};
-  end_ += sizeof(Record) + bytes.size();
+  places_[chunk] = {end_, bytes.size()};
+  end_ += sizeof(Record) + here.size();
   if (std::chrono::steady_clock::now() - flushed_ > between_flushes) flush();
   return {};
 }
 
 Expected<void> ChunkLog::read(std::size_t chunk, std::vector<std::byte>& bytes) const {
-  const Place& place = places_[chunk];
-  bytes.resize(place.size);
-  Record record;
-  if (!read_all(file_, place.at - sizeof(Record), std::as_writable_bytes(std::span(&record, 1))) ||
-      !read_all(file_, place.at, bytes) || checksum_of(record, bytes) != record.checksum)
-    return failure(
-        "file_unreadable", path_.string(),
-        fmt::format("chunk {} can no longer be read as it was written; remove the file and begin anew",
-                    chunk));
-  return {};
+  if (load(places_[chunk].at, bytes)) return {};
+  return failure(
+      "file_unreadable", path_.string(),
+      fmt::format("chunk {} can no longer be read as it was written; remove the file and begin anew", chunk));
 }
 
 void ChunkLog::flush() {
+  if (place_) place_->flush();
   ::fdatasync(file_);
   flushed_ = std::chrono::steady_clock::now();
 }

@@ -1,16 +1,15 @@
-/// Results as HDF5: of a grid each column has the grid's shape, with the axes attached as dimension scales;
-/// units are attributes, as netCDF and xarray know them.
+/// Results as HDF5, written by the library: compressed, reduced, or with what was fitted to them.
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <hdf5_hl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "io/write_file.hpp"
-#include "study/results/hdf5.hpp"
+#include "study/results/hdf5_columns.hpp"
 #include "study/results/result_file.hpp"
 
 namespace sinew::inline v1 {
@@ -20,7 +19,6 @@ using hdf5::Handle;
 namespace fs = std::filesystem;
 
 constexpr std::size_t bytes_to_send = std::size_t{16} << 20U;
-constexpr hsize_t elements_a_block = 65536;  ///< of compressed columns
 
 /// The boxes of an array that a stretch of its elements, in C order, is made of: calls `use(corner, sizes)`.
 class Boxes {
@@ -75,15 +73,9 @@ class Hdf5Result : public ResultFile {
       reason_ = place_.error().front().message;
       return;
     }
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);  // what every reader reads
-    H5Pset_obj_track_times(creation, false);                       // the same data, the same bytes
-    H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    file_ = Handle(H5Fcreate(place_->part().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
-    check(file_.ok() && create_columns());
+    columns_.emplace(place_->part(), layout_, Hdf5Columns::Room::when_written);
+    check(columns_->is_good());
   }
-  ~Hdf5Result() override { close(); }
-
   Expected<void> begun() const override {
     if (reason_.empty()) return {};
     return failure("file_unwritable", path_.string(), reason_);
@@ -92,12 +84,12 @@ class Hdf5Result : public ResultFile {
 
   Expected<void> write(const ResultRows& rows) override {
     const std::size_t axes = layout_.is_grid ? 0 : layout_.axes.size();
-    for (std::size_t c = 0; reason_.empty() && c < data_.size(); ++c) {
+    for (std::size_t c = 0; reason_.empty() && c < columns_->data().size(); ++c) {
       const bool is_axis = c < axes, is_status = c >= axes + layout_.columns.size();
       const std::size_t at = (is_axis ? c : c - axes) * rows.count;
       const void* values = is_status ? static_cast<const void*>(rows.statuses.data())
                                      : (is_axis ? rows.axes : rows.columns).data() + at;
-      check(put(data_[c], rows, values, is_status));
+      check(put(columns_->data()[c], rows, values, is_status));
       pending_ += rows.count * (is_status ? sizeof(SampleStatus) : sizeof(double));
     }
     if (pending_ > bytes_to_send) send();
@@ -105,8 +97,8 @@ class Hdf5Result : public ResultFile {
   }
 
   Expected<void> finish(std::span<const FittedTerms> fits) override {
-    if (reason_.empty()) check(put_provenance() && put_fits(fits));
-    check(close() && !hdf5::has_failed());
+    if (reason_.empty()) check(columns_->put_provenance() && put_fits(fits));
+    check((!columns_ || columns_->close()) && !hdf5::has_failed());
     if (reason_.empty())
       if (const auto done = place_->finish(); !done) reason_ = done.error().front().message;
     return outcome();
@@ -133,98 +125,6 @@ class Hdf5Result : public ResultFile {
 #endif
   }
 
-  bool close() {
-    bool good = true;
-    for (Handle& column : data_) good = column.close() && good;
-    for (Handle& scale : scales_) good = scale.close() && good;
-    return file_.close() && good;
-  }
-
-  /// Blocks of whole rows where they fit, so that a stretch of samples touches few of them.
-  std::vector<hsize_t> block() const {
-    std::vector<hsize_t> sizes(shape_.size(), 1);
-    hsize_t room = elements_a_block;
-    for (std::size_t a = shape_.size(); a-- > 0 && room > 0;) {
-      sizes[a] = std::max<hsize_t>(1, std::min(shape_[a], room));
-      room /= sizes[a];
-    }
-    return sizes;
-  }
-
-  Handle options(bool is_column) const {
-    Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(list, false);
-    H5Pset_fill_time(list, H5D_FILL_TIME_NEVER);
-    H5Pset_attr_phase_change(list, 16, 8);
-    if (is_column && layout_.compression > 0 && layout_.rows > 0) {
-      const auto sizes = block();
-      H5Pset_chunk(list, static_cast<int>(sizes.size()), sizes.data());
-      H5Pset_shuffle(list);
-      H5Pset_deflate(list, static_cast<unsigned>(layout_.compression));
-    }
-    return list;
-  }
-
-  bool create(const std::string& name, const std::string& unit, hid_t type) {
-    const Handle space(H5Screate_simple(static_cast<int>(shape_.size()), shape_.data(), nullptr), H5Sclose);
-    Handle data(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, options(true), H5P_DEFAULT),
-                H5Dclose);
-    bool good = data.ok() && (unit.empty() || hdf5::put_attribute(data, "units", unit));
-    for (std::size_t a = 0; good && a < scales_.size(); ++a)
-      good = H5DSattach_scale(data, scales_[a], static_cast<unsigned>(a)) >= 0;
-    data_.push_back(std::move(data));
-    return good;
-  }
-
-  bool create_scale(const ResultLayout::Axis& axis) {
-    const hsize_t size = axis.values.size();
-    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    Handle data(
-        H5Dcreate2(file_, axis.name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, options(false), H5P_DEFAULT),
-        H5Dclose);
-    const bool good =
-        data.ok() &&
-        H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, axis.values.data()) >= 0 &&
-        H5DSset_scale(data, axis.name.c_str()) >= 0 &&
-        (axis.unit.empty() || hdf5::put_attribute(data, "units", axis.unit));
-    scales_.push_back(std::move(data));
-    return good;
-  }
-
-  bool create_columns() {
-    bool good = layout_.title.empty() || hdf5::put_attribute(file_, "title", layout_.title);
-    if (layout_.is_grid) {
-      for (const auto& axis : layout_.axes) {
-        shape_.push_back(axis.values.size());
-        good = good && create_scale(axis);
-      }
-      if (shape_.empty()) shape_.push_back(1);  // all axes were left out
-    } else {
-      shape_.push_back(layout_.rows);
-      for (const auto& axis : layout_.axes) good = good && create(axis.name, axis.unit, H5T_IEEE_F64LE);
-    }
-    for (const auto& column : layout_.columns)
-      good = good && create(column.name, column.unit, H5T_IEEE_F64LE);
-    if (layout_.has_status) good = good && create("status", "", H5T_STD_U8LE) && describe_status();
-    return good;
-  }
-
-  /// As the climate and forecast conventions have it: code k of the list of codes is word k.
-  bool describe_status() {
-    std::string words;
-    std::vector<SampleStatus> codes;
-    for (SampleStatus s = 0; s < sample_statuses; ++s) {
-      words += (s == 0 ? "" : " ") + std::string(name_of(s));
-      codes.push_back(s);
-    }
-    const hsize_t count = codes.size();
-    const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-    const Handle values(
-        H5Acreate2(data_.back(), "flag_values", H5T_STD_U8LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-    return values.ok() && H5Awrite(values, H5T_NATIVE_UINT8, codes.data()) >= 0 &&
-           hdf5::put_attribute(data_.back(), "flag_meanings", words);
-  }
-
   bool put(const Handle& data, const ResultRows& rows, const void* values, bool is_status) {
     const hid_t type = is_status ? H5T_NATIVE_UINT8 : H5T_NATIVE_DOUBLE;
     const std::size_t width = is_status ? sizeof(SampleStatus) : sizeof(double);
@@ -239,33 +139,19 @@ class Hdf5Result : public ResultFile {
       return H5Sselect_hyperslab(space, H5S_SELECT_SET, corner.data(), nullptr, sizes.data(), nullptr) >= 0 &&
              H5Dwrite(data, type, memory, space, H5P_DEFAULT, from) >= 0;
     };
-    return Boxes(shape_, write).cover(rows.first, rows.count);
-  }
-
-  Handle group(const char* name) {
-    const Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-    H5Pset_obj_track_times(list, false);
-    return {H5Gcreate2(file_, name, H5P_DEFAULT, list, H5P_DEFAULT), H5Gclose};
-  }
-
-  bool put_provenance() {
-    const Handle facts = group("provenance");
-    bool good = facts.ok();
-    for (const Fact& fact : layout_.provenance)
-      good = good && hdf5::put_text(facts, fact.name.c_str(), fact.text);
-    return good;
+    return Boxes(columns_->shape(), write).cover(rows.first, rows.count);
   }
 
   bool put_fits(std::span<const FittedTerms> fits) {
     if (fits.empty()) return true;
-    const Handle all = group("fits");
+    const Handle all = columns_->group("fits");
     bool good = all.ok();
     for (const FittedTerms& fit : fits) {
       const Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
       H5Pset_obj_track_times(list, false);
       const Handle one(H5Gcreate2(all, fit.name.c_str(), H5P_DEFAULT, list, H5P_DEFAULT), H5Gclose);
-      good = good && put_numbers(one, "coefficients", fit.coefficients) &&
-             put_numbers(one, "deviations", fit.deviations) && put_residuals(one, fit) &&
+      good = good && columns_->put_numbers(one, "coefficients", fit.coefficients) &&
+             columns_->put_numbers(one, "deviations", fit.deviations) && put_residuals(one, fit) &&
              hdf5::put_attribute(one, "terms", fmt::format("{}", fmt::join(fit.terms, "; "))) &&
              hdf5::put_attribute(one, "units", fit.unit) && hdf5::put_attribute(one, "rms", fit.rms) &&
              hdf5::put_attribute(one, "largest", fit.largest) &&
@@ -286,30 +172,21 @@ class Hdf5Result : public ResultFile {
       units.push_back(column.unit);
       texts.push_back(column.text);
     }
-    return put_numbers(group, "column_rms", rms) && put_numbers(group, "column_largest", largest) &&
-           put_numbers(group, "column_relative", relative) &&
+    return columns_->put_numbers(group, "column_rms", rms) &&
+           columns_->put_numbers(group, "column_largest", largest) &&
+           columns_->put_numbers(group, "column_relative", relative) &&
            hdf5::put_attribute(group, "columns", fmt::format("{}", fmt::join(names, "; "))) &&
            hdf5::put_attribute(group, "column_units", fmt::format("{}", fmt::join(units, "; "))) &&
            (fit.columns.front().text.empty() ||
             hdf5::put_attribute(group, "formulas", fmt::format("{}", fmt::join(texts, "; "))));
   }
 
-  bool put_numbers(const Handle& group, const char* name, const std::vector<double>& values) {
-    const hsize_t count = values.size();
-    const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-    const Handle data(
-        H5Dcreate2(group, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, options(false), H5P_DEFAULT), H5Dclose);
-    return data.ok() && H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
-  }
-
   fs::path path_;
   ResultLayout layout_;
   Expected<FileWriter> place_;
   std::string reason_;
-  std::vector<hsize_t> shape_;
-  Handle file_;
-  std::vector<Handle> scales_, data_;  ///< axes that are columns first, status last
-  std::size_t pending_ = 0;            ///< bytes written since they were sent
+  std::optional<Hdf5Columns> columns_;
+  std::size_t pending_ = 0;  ///< bytes written since they were sent
 };
 
 }  // namespace

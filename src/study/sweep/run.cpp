@@ -13,6 +13,7 @@
 #include "io/write_file.hpp"
 #include "sinew/study/sweep.hpp"
 #include "study/cluster.hpp"
+#include "study/sweep/chunks_in_place.hpp"
 #include "study/sweep/executor.hpp"
 #include "study/sweep/left_out.hpp"
 #include "study/sweep/plan.hpp"
@@ -157,21 +158,24 @@ class Sweep {
               plan_.study().samples, plan_.chunks().count()));
     const Digest key = plan_.key();
     const fs::path path = options_.output.string() + ".log";
+    if (ChunksInPlace::serves(plan_, options_)) in_place_.emplace(plan_, options_);
     std::error_code ignored;
-    if (options_.resume && !fs::exists(path, ignored) &&
-        recorded_fact(options_.output, "key") == hexadecimal(key)) {
+    const bool is_going_on = fs::exists(path, ignored) && !(in_place_ && in_place_->has_become_results());
+    if (options_.resume && !is_going_on && recorded_fact(options_.output, "key") == hexadecimal(key)) {
+      fs::remove(path, ignored);
       summary_.was_complete = true;
       return {};
     }
     if (!fs::exists(path, ignored))
       if (auto spared = spare(); !spared) return spared;
     auto log = ChunkLog::open(path, key, plan_.chunks().count(),
-                              options_.resume ? ChunkLog::Open::resume : ChunkLog::Open::create);
+                              options_.resume ? ChunkLog::Open::resume : ChunkLog::Open::create,
+                              in_place_ ? &*in_place_ : nullptr);
     if (!log) return tl::unexpected(log.error());
     log_ = std::move(*log);
     // what could not be written at the end is not begun; this leaves nothing
     const bool is_read_once = is_stream(options_.output) && options_.output.extension() == ".csv";
-    if (!is_read_once)
+    if (!is_read_once && !in_place_)
       if (const auto trial = create_result(options_.output, plan_.layout(options_)); !trial) {
         if (log_->count() == 0) log_->remove();
         return tl::unexpected(trial.error());
@@ -227,7 +231,7 @@ class Sweep {
       error_ = std::move(done.error());
       pulse_.stop = true;
     }
-    summary_.logging += seconds_since(begin);
+    (in_place_ ? summary_.writing : summary_.logging) += seconds_since(begin);
   }
 
   void collect() {
@@ -242,19 +246,19 @@ class Sweep {
 
   Expected<void> conclude() {
     if (error_) return tl::unexpected(*error_);
-    summary_.logged_bytes = log_->bytes();
+    if (!in_place_) summary_.logged_bytes = log_->bytes();
     if (log_->count() < plan_.chunks().count()) {
       log_->flush();
       return {};
     }
     const auto begin = Clock::now();
-    auto written = write_results(plan_, *log_, options_, pulse_.stop);
+    auto written = in_place_ ? in_place_->finish() : write_results(plan_, *log_, options_, pulse_.stop);
     if (!written && written.error().front().code == "stopped") return {};
     if (!written) return tl::unexpected(written.error());
     summary_.fits = std::move(written->fits);
     summary_.counts_all = !plan_.reduces() || summary_.resumed == 0;
     if (!plan_.reduces()) summary_.statuses = written->statuses;
-    summary_.writing = seconds_since(begin);
+    summary_.writing += seconds_since(begin);
     std::error_code ignored;
     summary_.written_bytes = fs::file_size(options_.output, ignored);
     log_->remove();
@@ -266,6 +270,7 @@ class Sweep {
   const SweepOptions& options_;
   SweepSummary summary_;
   Pulse pulse_;
+  std::optional<ChunksInPlace> in_place_;
   std::optional<ChunkLog> log_;
   std::size_t next_ = 0;
   std::optional<Errors> error_;
