@@ -28,8 +28,9 @@ std::string show(const Answer& answer, const OpenRobot& robot) {
 
 /// Why there is no solution, or what the solution leaves out.
 void explain(const Answer& answer, std::string_view verb) {
-  const std::string said = in_options(answer.text("message"));
-  const std::string status = answer.text("status");
+  const std::string status = answer.text("status"), message_text = answer.text("message");
+  // it begins with the field that the robot has nothing for
+  const std::string said = in_options(status == "unsupported" ? as_option(message_text) : message_text);
   const auto style = answer.converged()     ? std::optional<Style>()
                      : status == "unstable" ? Style::doubtful
                                             : Style::bad;

@@ -24,7 +24,7 @@ std::optional<AnyPose> read_start(Context& context) {
   if (start->text() != "last")
     start->refuse("unknown_choice", "give a pose, or last: the pose last answered to a query with a start");
   else if (!context.last || context.continues == Continues::always)
-    start->refuse("not_available", "in a study path says where searches begin; leave it out");
+    start->refuse("no_effect", "in a study path says where searches begin; leave it out");
   else if (*context.last && (*context.last)->index() == home(context.robot).index())  // or set has changed it
     context.starts_at_last = true;
   return context.starts_at_last ? *context.last : std::nullopt;

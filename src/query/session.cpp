@@ -267,8 +267,8 @@ TreeSession::~TreeSession() = default;
 Expected<TreeSession> TreeSession::open(Document robot) {
   auto opened = open_robot(robot);
   if (!opened) return tl::unexpected(opened.error());
-  return TreeSession(std::make_unique<State>(
-      State{std::make_shared<const Document>(std::move(robot)), std::move(*opened)}));
+  return TreeSession(
+      std::make_unique<State>(State{std::make_shared<const Document>(std::move(robot)), std::move(*opened)}));
 }
 
 TreeSession TreeSession::anew() const {

@@ -67,7 +67,8 @@ std::optional<double> AnswerPath::number(const Value& answer) const {
 std::string_view unit_of_answer(std::string_view path) {
   const AnswerField* field = find_answer_field(path);
   const bool is_component = path.ends_with(']');
-  if (!field || path.ends_with(".count") || (field->shape == AnswerShape::direction && is_component)) return {};
+  if (!field || path.ends_with(".count") || (field->shape == AnswerShape::direction && is_component))
+    return {};
   return field->unit;
 }
 

@@ -195,7 +195,7 @@ FieldLayout FieldLayouts::output(std::string_view place) const {
   const FieldLayout layout = whole(field->shape);
   if (indices.empty()) return layout;
   return indices.size() == 1 && indices[0] < layout.lists.size() ? list_of(layout.lists[indices[0]])
-                                                                  : FieldLayout();
+                                                                 : FieldLayout();
 }
 
 }  // namespace sinew::inline v1

@@ -44,7 +44,7 @@ class FieldLayouts {
 
   bool is_diagram_, is_statics_, is_serial_ = false, is_planar_ = false;
   std::size_t inputs_ = 0, freedoms_ = 0, legs_ = 0, rows_ = 0, columns_ = 0;  ///< rows of J, columns of K
-  Lengths angles_;                  ///< of chains, a leg each
+  Lengths angles_;                                                             ///< of chains, a leg each
   Lengths configuration_, tendons_;  ///< of serial robots, a section each
 };
 

@@ -7,7 +7,7 @@ namespace sinew::inline v1 {
 namespace {
 
 // clang-format off
-constexpr auto table = [] {
+constexpr auto answer_table = [] {
 using enum AnswerShape;
 return std::array{
     AnswerField{"indices.position", number, "", "largest singular value of the upper rows of U"},
@@ -84,15 +84,15 @@ std::string_view without_indices(std::string_view place) {
 
 }  // namespace
 
-std::span<const AnswerField> answer_fields() { return table; }
+std::span<const AnswerField> answer_fields() { return answer_table; }
 
 const AnswerField* find_answer_field(std::string_view place) {
   place = without_indices(place);
-  const auto found = std::ranges::find_if(table, [&](const AnswerField& field) {
-    return place.ends_with(field.name) && (place.size() == field.name.size() ||
-                                           place[place.size() - field.name.size() - 1] == '.');
+  const auto found = std::ranges::find_if(answer_table, [&](const AnswerField& field) {
+    return place.ends_with(field.name) &&
+           (place.size() == field.name.size() || place[place.size() - field.name.size() - 1] == '.');
   });
-  return found == table.end() ? nullptr : &*found;
+  return found == answer_table.end() ? nullptr : &*found;
 }
 
 }  // namespace sinew::inline v1
