@@ -33,8 +33,7 @@ class SINEW_API Batch {
   struct Strided {
     Number* data = nullptr;
     std::ptrdiff_t stride = sizeof(double);  ///< bytes from row to row
-    std::ptrdiff_t step =
-        sizeof(double);  ///< bytes from number to number within a row, the last index fastest
+    std::ptrdiff_t step = sizeof(double);    ///< bytes from number to number of a row, last index fastest
 
     Number& operator()(std::size_t row, std::size_t number = 0) const {
       using Byte = std::conditional_t<std::is_const_v<Number>, const char, char>;
@@ -67,9 +66,9 @@ class SINEW_API Batch {
       255;  ///< status of a row at which the library failed; please report it
   /// What a row has no value of is NaN. Statuses are those of Report, in their numbers; of a row
   /// whose numbers the question does not take `bad_input`, see `answer`. Rows are cut into chunks by their
-  /// number alone: the same bytes for any number of threads. Allocates a chunk's memory for each thread;
-  /// throws what that throws. Nothing happens where there are more or fewer fields than those above, or
-  /// statuses than rows.
+  /// number alone: the same bytes for any number of threads. Allocates a chunk's memory for each
+  /// thread, which later runs find; throws what that throws. Nothing happens where there are more or fewer
+  /// fields than those above, or statuses than rows.
   /// @param statuses one a row, or none
   void run(std::size_t rows, std::span<const Strided<const double>> inputs,
            std::span<const Strided<double>> outputs, std::span<std::uint8_t> statuses,
