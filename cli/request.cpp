@@ -41,6 +41,7 @@ class Request {
   void target();
   void growing_load();
   void changes();
+  void want_both();
 
   Expected<Document> done() {
     if (!reader_.errors().empty()) return tl::unexpected(reader_.errors());
@@ -103,6 +104,18 @@ void Request::changes() {
   const auto found = settings(arguments_);
   if (!found) return reader_.fail(found.error().front().code, "set", found.error().front().message);
   if (!found->empty()) member("set", map_of(*found));
+}
+
+/// Tables show the pose and the legs: where a list of wants names one of them, the other one, too.
+void Request::want_both() {
+  const auto want = std::ranges::find(members_, "want", &Member::key);
+  if (want == members_.end()) return;
+  std::vector<Node>& words = want->value.items;
+  const auto has = [&](std::string_view word) {
+    return std::ranges::find(words, word, &Node::text) != words.end();
+  };
+  for (const auto& [named, other] : {std::pair{"pose", "legs"}, std::pair{"legs", "pose"}})
+    if (has(named) && !has(other)) words.push_back(make_node(other));
 }
 
 }  // namespace
@@ -199,6 +212,7 @@ Expected<Document> request(std::string_view query, const Arguments& arguments, c
   if (query == "statics" && arguments.has("pose")) request.member("inverse", make_node(true));
   if (is_curve && arguments.has("all")) request.member("branches", make_node(true));
   request.changes();
+  if (!arguments.has("json") && !is_serial(robot)) request.want_both();
   return request.done();
 }
 

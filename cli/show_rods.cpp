@@ -154,7 +154,7 @@ std::string show_rod_velocity(const Answer& answer, const OpenRobot& robot) {
                      show_inputs("value", numbers(answer.find("inputs")), robot) + '\n' +
                      show_matrix(*answer.find("J"), per_motion("J", true), wrench_rows, si) + '\n' +
                      show_matrix(*answer.find("K"), std::move(K), wrench_rows, si) + '\n' +
-                     show_sensitivity("U", *answer.find("U"), robot) + '\n';
+                     (answer.find("U") ? show_sensitivity("U", *answer.find("U"), robot) + '\n' : "");
   TextTable table({"index", "value"});
   table.add({"position[mm/mm]", six_digits(answer.number("indices.position").value_or(0))});
   table.add({"rotation[deg/mm]", six_digits(answer.number("indices.rotation").value_or(0) *

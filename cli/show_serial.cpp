@@ -180,7 +180,7 @@ std::string show_serial(const Answer& answer, const OpenRobot& robot) {
   if (answer.text("query") == "velocity") return show_tip_velocity(answer, robot);
   if (!answer.find("configuration")) return {};
   return show_sections(answer, robot) + '\n' + show_ends(*answer.find("sections")) +
-         show_solutions(answer, robot);
+         show_solutions(answer, robot) + (answer.find("J") ? '\n' + show_tip_velocity(answer, robot) : "");
 }
 
 /// After "an earlier section is not exact".

@@ -12,7 +12,7 @@ const std::array table{
         "forward",
         "ROBOT",
         "pose of the platform from the inputs",
-        options_of("forward", {"along"}, {"limit", "json", "quiet", "help"}),
+        options_of("forward", {"along", "samples", "tilt", "trace"}, {"limit", "json", "quiet", "help"}),
         {"inputs", "configuration", "changes"},
         "Newton's method from the start; --all finds the other assembly modes too. Exit code 3 where the\n"
         "legs do not close, 4 where the iterations ran out. A platform on rods comes to rest under a load:\n"
@@ -30,7 +30,7 @@ const std::array table{
         "inverse",
         "ROBOT",
         "inputs from the pose of the platform",
-        options_of("inverse", {"along", "limit"}, {"json", "quiet", "help"}),
+        options_of("inverse", {"along", "limit", "samples", "tilt"}, {"json", "quiet", "help"}),
         {"pose", "independent", "position"},
         "Of several solutions the one that bends least is taken, positive where both signs do; with --start "
         "the "
@@ -49,7 +49,7 @@ const std::array table{
     Verb{"statics",
          "ROBOT",
          "a tendon-driven robot under a load, its links pseudo-rigid chains; the load on rods, sensed",
-         options_of("statics", {"inverse"}, {"limit", "json", "quiet", "help"}),
+         options_of("statics", {"inverse", "samples", "tilt"}, {"limit", "json", "quiet", "help"}),
          {"set-at", "tensions", "lengths", "pose", "axial-forces"},
          "Tendons are set at a pose, or their tensions or lengths given; or --pose is held under the load, "
          "and "
@@ -67,7 +67,7 @@ const std::array table{
     Verb{"analyse",
          "ROBOT",
          "velocity equations, sensitivities and singularities at a configuration",
-         options_of("velocity", {"along", "limit"}, {"json", "quiet", "help"}),
+         options_of("velocity", {"along", "limit", "samples", "tilt"}, {"json", "quiet", "help"}),
          {"pose", "independent", "inputs", "configuration", "changes"},
          "Give a pose, or inputs, or both. J·(platform velocity) = K·(input rates) is printed in SI as in "
          "the paper,\n"

@@ -110,8 +110,9 @@ typedef struct sinew_output {
  * differ from it in the last digits. A number that a row has no value of is NaN. `statuses`, if it is not
  * NULL, becomes a status a row: 0 unreachable, 1 left_domain, 2 slack, 3 singular, 4 stalled, 5
  * iteration_limit, 6 unstable, 7 converged, 8 stopped, 9 bad_input (the question does not take these
- * numbers), 255 an error of the library. SINEW_OK also where rows have no solution; *error then has the
- * answer to the first row that is bad input, or names a field that has a number in no row that is solved. */
+ * numbers), 10 unsupported (the robot has no answer to it), 255 an error of the library. SINEW_OK also where
+ * rows have no solution; *error then has the answer to the first row that is bad input, or names a field
+ * that has a number in no row that is solved. */
 SINEW_C_API int32_t sinew_run(sinew_batch* batch, size_t rows, const sinew_input* inputs,
                               const sinew_output* outputs, uint8_t* statuses, int32_t threads, char** error);
 

@@ -8,10 +8,10 @@
 namespace sinew::cli {
 namespace {
 
-std::string show(const Answer& answer, const OpenRobot& robot) {
+/// What the question itself asks, without wants that have tables of their own.
+std::string show_configuration(const Answer& answer, const OpenRobot& robot) {
   if (is_serial(robot)) return show_serial(answer, robot);
   const std::string query = answer.text("query");
-  if (query == "velocity") return show_velocity(answer, robot);
   if (is_on_chains(answer)) return show_chains(answer, robot);
   if (answer.find("wrench_sensitivity")) return show_sensed(answer);
   const bool is_forward = query == "forward";
@@ -23,6 +23,13 @@ std::string show(const Answer& answer, const OpenRobot& robot) {
     if (answer.find("solutions")) text += '\n' + show_equilibria(answer, robot);
   } else if (const Node* solutions = answer.find("solutions"))
     text += '\n' + (is_forward ? show_assembly_modes(answer) : show_working_modes(*solutions, robot));
+  return text;
+}
+
+std::string show(const Answer& answer, const OpenRobot& robot) {
+  if (answer.text("query") == "velocity" && !is_serial(robot)) return show_velocity(answer, robot);
+  std::string text = show_configuration(answer, robot);
+  if (answer.find("J") && !is_serial(robot)) text += '\n' + show_velocity(answer, robot);
   return text;
 }
 

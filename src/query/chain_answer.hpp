@@ -26,7 +26,7 @@ Load<Space> read_load(Context& context) {
   if (const auto wrench = context.query.optional("wrench")) load.wrench = read_wrench<Space>(*wrench);
   load.until = read_until<Space>(context);
   load.wanted = read_wants_of_loads(context);
-  if (load.wanted.has(Want::velocity)) load.twist = read_twist<Space>(context);
+  load.twist = read_twist<Space>(context, load.wanted);
   if (const auto threshold = context.query.optional("posture_threshold"))
     load.threshold = threshold->quantity(Dimension::angle, Range::positive());
   if (context.max_iterations) load.options.max_iterations = *context.max_iterations;

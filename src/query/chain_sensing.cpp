@@ -74,7 +74,7 @@ void answer_sensing(Context& context, ChainLegs<Space>& robot) {
   const SensingQuery asked = read_sensing(context, robot.legs.size(), freedoms);
   Load<Space> load;
   load.wanted = read_wants_of_loads(context);
-  if (load.wanted.has(Want::velocity)) load.twist = read_twist<Space>(context);
+  load.twist = read_twist<Space>(context, load.wanted);
   if (context.max_iterations) load.options.max_iterations = *context.max_iterations;
   if (!context.ready()) return;
   ChainState<Space> state;

@@ -47,7 +47,7 @@ Value U_value(const ChainVelocity<Space>& velocity) {
 template <class Space>
 void put_velocity(Context& context, const ChainVelocity<Space>& velocity, std::span<const double> twist) {
   Value& answer = context.answer;
-  if (!velocity.report.ok()) context.report(velocity.report);
+  context.add_report(velocity.report);
   const Eigen::Matrix<double, Eigen::Dynamic, Space::dof, Eigen::RowMajor> J = velocity.rates.J;
   answer["J"] = Value(MatrixView(J.data(), J.rows(), Space::dof));
   answer["K"] = K_value(velocity.rates);
@@ -63,7 +63,7 @@ void put_velocity(Context& context, const ChainVelocity<Space>& velocity, std::s
       Report report;
       report.status = Status::singular;
       report.message.append("a leg at a type I singularity cannot follow a twist; see type_1");
-      context.report(report);
+      context.add_report(report);
     }
   }
 }
@@ -91,7 +91,7 @@ void answer_velocity_of(Context& context, ChainLegs<Space>& robot) {
   const Joints joints(context, robot, read_branch(context));
   const Wants wanted = read_wants(context, usual_wants | Wants{Want::velocity},
                                   usual_wants | Wants{Want::velocity, Want::shape});
-  const std::vector<double> twist = read_twist<Space>(context);
+  const std::vector<double> twist = read_twist<Space>(context, wanted);
   if (!context.ready()) return;
   std::vector<ChainLegState> legs;
   const Report report = joints.at(context, robot, pose, legs);
@@ -99,7 +99,7 @@ void answer_velocity_of(Context& context, ChainLegs<Space>& robot) {
   const auto velocity = chain_velocity(robot, std::get<typename Space::Pose>(pose), legs);
   refuse_open_legs(context, velocity.rates.closure_error);
   if (!context.errors.empty()) return;
-  context.report(velocity.report);
+  context.report({});
   if (wanted.has(Want::pose)) context.answer["pose"] = pose_value(pose);
   put_velocity(context, velocity, twist);
   context.answer["residual"] = velocity.report.residual;

@@ -6,9 +6,11 @@
 
 namespace sinew::inline v1::chains {
 
-/// `twist`, if it is given.
+/// `twist`, if it is given; it goes with the want `velocity`.
 template <class Space>
-std::vector<double> read_twist(Context& context) {
+std::vector<double> read_twist(Context& context, Wants wants) {
+  refuse_without(context, wants, Want::velocity, {"twist"});
+  if (!wants.has(Want::velocity)) return {};
   const auto asked = context.query.optional("twist");
   if (!asked) return {};
   return asked->quantities(Dimension::number, {}, static_cast<std::size_t>(Space::dof));

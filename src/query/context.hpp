@@ -50,6 +50,17 @@ struct Question {
     answer["status"] = to_string(report.status);
     if (!report.message.empty()) answer["message"] = report.message.view();
   }
+  /// What a part of the answer says of itself, after what is said of the configuration. Its status counts
+  /// where it is no success.
+  void add_report(const Report& report) {
+    if (!report.ok()) answer["status"] = to_string(report.status);
+    add_message(report.message.view());
+  }
+  void add_message(std::string_view message) {
+    if (message.empty()) return;
+    std::string said(answer.text_at("message"));
+    answer["message"] = said.empty() ? std::string(message) : said + "; " + std::string(message);
+  }
 };
 
 /// One put to a robot with a platform.

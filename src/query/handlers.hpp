@@ -1,5 +1,5 @@
 /// @file handlers.hpp
-/// Who answers a query: a function for each kind of question and of mechanics. The table is in session.cpp.
+/// Handlers of queries: a function for each kind of question and of mechanics. The table is in session.cpp.
 #pragma once
 #include "query/context.hpp"
 

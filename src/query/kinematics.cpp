@@ -37,12 +37,12 @@ Value all_working_modes(Context& context, const AnyPose& pose, const Branch& bra
         {{"inputs", Value(inputs)}, {"legs", legs_value(context.robot, pose, coordinates, context.work)}});
   }
   if (modes.count > max_solutions)
-    context.answer["message"] =
-        fmt::format("{:.0f} working modes exist; the first {:.0f} are listed", modes.count, max_solutions);
+    context.add_message(
+        fmt::format("{:.0f} working modes exist; the first {:.0f} are listed", modes.count, max_solutions));
   else if (modes.is_continuum)
-    context.answer["message"] =
+    context.add_message(
         "the robot is redundant: at this pose its legs can move; listed are the modes of the curvature asked "
-        "for";
+        "for");
   return solutions;
 }
 
@@ -72,7 +72,8 @@ KinematicWants read_kinematic_wants(Context& context, Wants usual) {
         context, "angles",
         "a constant-curvature model has no joint angles; add model: prb, or give inputs or a branch");
   }
-  if (wanted.words.has(Want::shape)) wanted.samples = read_samples(context, 33, 2000);
+  refuse_without(context, wanted.words, Want::velocity, {"twist", "along", "limit"});
+  wanted.samples = read_samples(context, wanted.words, 33, 2000);
   return wanted;
 }
 
@@ -81,7 +82,7 @@ void put_rates(Context& context, const Velocity& result, std::span<const double>
   if (found.ok())
     context.answer["rates"] = Value(context.work.rates);
   else
-    context.report(found);
+    context.add_report(found);
 }
 
 template <int D>
@@ -114,7 +115,6 @@ void put_shape_of(Value& answer, const ShapeOf<D>& picture) {
 void put_velocity(Context& context, const AnyPose& pose, const Velocity& result,
                   std::span<const double> twist) {
   Value& answer = context.answer;
-  if (!result.report.ok() || !result.report.message.empty()) context.report(result.report);
   answer["J"] = result.J;
   answer["K"] = result.K;
   if (result.U.rows() > 0) answer["U"] = result.U;
@@ -122,7 +122,6 @@ void put_velocity(Context& context, const AnyPose& pose, const Velocity& result,
   answer["indices"] = indices_value(result.indices);
   answer["type_1"] = std::span<const int>(result.type_1);
   answer["type_2"] = type_two_value(result.type_2, std::holds_alternative<PlanarPose>(pose));
-  answer["residual"] = result.report.residual;
   if (!twist.empty()) put_rates(context, result, twist);
 }
 
@@ -134,6 +133,7 @@ void put_wanted(Context& context, const KinematicWants& wanted, const Configurat
   if (words.has(Want::pose)) answer["pose"] = pose_value(at.pose);
   if (!(words & Wants{Want::velocity, Want::sensitivity}).is_empty()) {
     const Velocity result = velocity(context.robot, at.pose, at.coordinates, context.work);
+    context.add_report(result.report);
     if (words.has(Want::velocity)) put_velocity(context, at.pose, result, wanted.twist);
     if (words.has(Want::sensitivity) && result.U.rows() > 0) answer["sensitivity"] = result.U;
   }
@@ -151,13 +151,13 @@ void put_wanted(Context& context, const KinematicWants& wanted, const Configurat
   if (wanted.along) put_type_2_distance(context, *wanted.along, given, at.pose);
 }
 
-/// Every assembly mode of the inputs; the one nearest to the start stands for the answer, which is returned.
-std::optional<Solved> put_all_modes(Context& context, const std::vector<double>& inputs,
-                                    const AnyPose& start) {
-  const AssemblyModes modes = assembly_modes(context.robot, inputs, context.work);
+/// Every assembly mode of the inputs; the one nearest to the start stands for the answer.
+void put_all_modes(Context& context, const KinematicWants& wanted, const Configuration& given,
+                   const AnyPose& start) {
+  const AssemblyModes modes = assembly_modes(context.robot, *given.inputs, context.work);
   context.report(modes.report);
   context.remember({});
-  if (modes.report.status == Status::left_domain || modes.report.status == Status::unsupported) return {};
+  if (modes.report.status == Status::left_domain || modes.report.status == Status::unsupported) return;
   Value solutions = Value::list();
   for (std::size_t k = 0; k < modes.poses.size(); ++k) {
     solutions.push_back({{"pose", pose_value(modes.poses[k])},
@@ -165,17 +165,16 @@ std::optional<Solved> put_all_modes(Context& context, const std::vector<double>&
                          {"residual", modes.residual[k]}});
     if (modes.is_double[k]) solutions.back()["double"] = true;  // two modes merge: a type II singularity
   }
-  std::optional<Solved> nearest;
   if (!modes.poses.empty()) {
     const std::size_t chosen = nearest_pose(context.robot, modes.poses, start);
     context.remember(modes.poses[chosen]);
-    nearest = Solved{{}, modes.poses[chosen], {modes.coordinates.begin(), modes.coordinates.end()}};
-    nearest->report.residual = modes.residual[chosen];
+    put_wanted(context, wanted, given,
+               {{}, modes.poses[chosen], {modes.coordinates.begin(), modes.coordinates.end()}});
+    context.answer["residual"] = modes.residual[chosen];
   }
   context.answer["count"] = modes.poses.size();
   context.answer["complete"] = modes.is_complete;
   context.answer["solutions"] = std::move(solutions);
-  return nearest;
 }
 
 }  // namespace
@@ -210,23 +209,17 @@ void answer_kinematic_forward(Context& context) {
   refuse_if_asked(context, "until", no_load(context));
   if (!context.ready()) return;
 
-  if (want_all) {
-    const auto nearest = put_all_modes(context, *given.inputs, options.start.value_or(home(context.robot)));
-    if (!nearest) return;
-    put_wanted(context, wanted, given, *nearest);
-    context.answer["residual"] = nearest->report.residual;
-    return;
-  }
+  if (want_all) return put_all_modes(context, wanted, given, options.start.value_or(home(context.robot)));
   if (!options.start) options.start = context.path_start();
   const Forward result = forward(context.robot, *given.inputs, options, context.work);
   context.report(result.report);
   context.remember(result.ok() ? std::optional(result.pose) : std::nullopt);
   if (result.report.status == Status::left_domain) return;  // nothing was solved
-  context.answer["residual"] = result.report.residual;
-  context.answer["iterations"] = result.report.iterations;
   if (result.ok())
     put_wanted(context, wanted, given,
                {result.report, result.pose, {result.coordinates.begin(), result.coordinates.end()}});
+  context.answer["residual"] = result.report.residual;
+  context.answer["iterations"] = result.report.iterations;
   if (!trace.empty()) context.answer["trace"] = trace_value(trace, result.report.iterations);
 }
 
@@ -251,10 +244,10 @@ void answer_kinematic_inverse(Context& context) {
   context.report(result.report);
   if (!result.ok()) return;
   context.answer["inputs"] = result.inputs;
-  context.answer["residual"] = result.report.residual;
   given.inputs.emplace(result.inputs.begin(), result.inputs.end());
   put_wanted(context, wanted, given,
              {result.report, pose, {result.coordinates.begin(), result.coordinates.end()}});
+  context.answer["residual"] = result.report.residual;
   if (want_all) context.answer["solutions"] = all_working_modes(context, pose, given.branch);
 }
 
@@ -269,8 +262,8 @@ void answer_configuration(Context& context, Wants usual) {
   if (!context.errors.empty()) return;
   context.report(at.report);
   if (!at.report.ok()) return;
-  context.answer["residual"] = at.report.residual;
   put_wanted(context, wanted, given, at);
+  context.answer["residual"] = at.report.residual;
 }
 
 }  // namespace

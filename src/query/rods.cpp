@@ -124,7 +124,10 @@ RodMotion read_motion(Context& context) {
 void put_motion(Context& context, const RodMotion& asked, const Report& equilibrium,
                 const RodAnalysis& analysis) {
   const auto is_known = [&](const Report& found) {
-    if (!found.ok() && equilibrium.ok()) context.report(found);
+    if (equilibrium.ok())
+      context.add_report(found);
+    else
+      context.add_message(found.message.view());  // the status is that of the equilibrium
     return found.ok();
   };
   std::vector<double> rates = asked.rates;
@@ -153,7 +156,8 @@ void put_velocity(Context& context, const RodMotion& motion, const Report& equil
 
 void put_shape_of(Context& context, const Equilibrium& found, int samples,
                   const std::optional<Vec3<double>>& gravity) {
-  Weight weight = context.robot.weight();  // rods that bear torque are drawn from their bases, under theirs
+  Weight weight =
+      context.robot.weight();  // rods that bear torque are drawn from their bases, under this weight
   weight.gravity = gravity.value_or(weight.gravity);
   put_shape(context.answer, any_shape(context.robot.under(weight), found.pose, found.coordinates, samples));
   context.answer["frames"] = Value::list({pose_value(found.pose)});
@@ -192,7 +196,8 @@ RodWants read_rod_wants(Context& context, Wants usual) {
       if (const auto given = context.query.optional(key))
         given->fail("not_available", "robots of rods have no search for type II; leave it out");
   }
-  if (wanted.words.has(Want::shape)) wanted.samples = read_samples(context, 33, 2000);
+  refuse_without(context, wanted.words, Want::velocity, {"twist", "rates"});
+  wanted.samples = read_samples(context, wanted.words, 33, 2000);
   return wanted;
 }
 
@@ -201,9 +206,9 @@ void put_rod_wants(Context& context, const Equilibrium& found, const RodWants& w
   const Wants words = wanted.words;
   Value& answer = context.answer;
   if (words.has(Want::pose)) answer["pose"] = pose_value(found.pose);
+  answer["inputs"] = found.inputs;
   if (!(words - Wants{Want::pose, Want::shape}).is_empty()) {
     const RodAnalysis analysis = analyse_equilibrium(context.robot, context.work);
-    answer["inputs"] = found.inputs;
     if (words.has(Want::legs)) {
       answer["legs"] = legs_of(context, found, analysis);
       answer["energy"] = analysis.energy;
@@ -321,15 +326,15 @@ void put_all(Context& context, std::span<const double> inputs, const Equilibrium
   put_solutions(context, std::move(solutions));
 }
 
-void put_all_lengths(Context& context, const SpatialPose& pose, const EquilibriumOptions& options) {
+/// @param is_held whether the one nearest to the start was found
+void put_all_lengths(Context& context, const SpatialPose& pose, bool is_held,
+                     const EquilibriumOptions& options) {
   Value solutions = Value::list();
   for (const FoundEquilibrium& one : inverse_equilibria(context.robot, pose, options, context.work)) {
     solutions.push_back({{"inputs", Value(one.inputs)}});
     put_found(solutions.back(), one, context.robot);
   }
-  if (solutions.size() > 0 && !context.answer.contains("inputs"))
-    context.answer["message"] =
-        std::string(context.answer.text_at("message")) + "; by other ways it is held: see solutions";
+  if (solutions.size() > 0 && !is_held) context.add_message("by other ways it is held: see solutions");
   put_solutions(context, std::move(solutions));
 }
 
@@ -442,10 +447,11 @@ void answer_rods_inverse(Context& context) {
     remember_held(context, {});
     return;
   }
-  put_equilibrium(context, solve(context, asked), wanted, asked.options.gravity);
+  const Equilibrium found = solve(context, asked);
+  put_equilibrium(context, found, wanted, asked.options.gravity);
   if (want_all)
-    put_all_lengths(context, *asked.pose, asked.options);
-  else if (asked.pose && context.answer.contains("inputs"))
+    put_all_lengths(context, *asked.pose, found.is_solved(), asked.options);
+  else if (asked.pose && found.is_solved())
     context.answer["complete"] = false;  // other lengths may hold it too
 }
 

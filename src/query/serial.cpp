@@ -310,7 +310,7 @@ void put_velocity(SerialContext& context, std::span<const Bend> bends, kernel::M
     if (found.ok())
       rates = rates_value(context, bends, found, straight);
     else
-      context.report(found.report);
+      context.add_report(found.report);
   }
   tip_motion(bends, context.work);
   tendon_rates(bends, model, context.work);
@@ -318,7 +318,7 @@ void put_velocity(SerialContext& context, std::span<const Bend> bends, kernel::M
   const auto [J, K] = by_configuration(context, bends, straight);
   Value& answer = context.answer;
   answer["configuration"] = configuration_value(context, bends, straight);
-  answer["tip"] = pose_value(AnyPose(spatial_pose(context.work.ends.back())));
+  if (!answer.contains("tip")) answer["tip"] = pose_value(AnyPose(spatial_pose(context.work.ends.back())));
   answer["J"] = Value(MatrixView(J.data(), J.rows(), J.cols()));
   answer["K"] = Value(MatrixView(K.data(), K.rows(), K.cols()));
   answer["indices"] = indices_value(context);
@@ -350,8 +350,8 @@ void put_shape_of(SerialContext& context, std::span<const Bend> bends, int sampl
                      {"radius", disc.radius}});
   for (const SE3<double>& end : shape.ends) frames.push_back(pose_value(AnyPose(spatial_pose(end))));
   Value& answer = context.answer;
-  answer["configuration"] = configuration_value(context, bends);
-  answer["tip"] = frames.back();
+  if (!answer.contains("configuration")) answer["configuration"] = configuration_value(context, bends);
+  if (!answer.contains("tip")) answer["tip"] = frames.back();
   answer["backbones"] = std::move(backbones);
   answer["tendons"] = std::move(tendons);
   answer["discs"] = std::move(discs);
@@ -362,13 +362,12 @@ void put_shape_of(SerialContext& context, std::span<const Bend> bends, int sampl
 
 SerialWants read_serial_wants(SerialContext& context, Wants usual) {
   SerialWants wanted{read_wants(context, usual, {Want::pose, Want::velocity, Want::shape}), {}, 0};
+  refuse_without(context, wanted.words, Want::velocity, {"twist"});
   if (wanted.words.has(Want::velocity))
     if (const auto asked = context.query.optional("twist"))
       wanted.twist = asked->quantities(Dimension::number, Range::place(), 6);
-  if (wanted.words.has(Want::shape)) {
-    wanted.samples = read_samples(context, 5, 200);
-    refuse_many_points(context, wanted.samples);
-  }
+  wanted.samples = read_samples(context, wanted.words, 5, 200);
+  if (wanted.words.has(Want::shape)) refuse_many_points(context, wanted.samples);
   return wanted;
 }
 

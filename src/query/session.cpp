@@ -57,8 +57,9 @@ const Kind& read_kind(Reader& query, bool is_serial) {
       "query", "what is asked: forward, inverse, velocity, statics, track, diagram, shape or describe");
   const Kind& kind = kinds[word.choice_index(kind_names)];
   if (is_serial ? !kind.of_serial : kind.is_of_serial_alone())
-    word.fail("not_available", std::string(kind.name) + " is not available " +
-                                   (is_serial ? "of serial robots " : "") + "in this version");
+    word.fail("not_available",
+              is_serial ? fmt::format("{} is not available of serial robots in this version", kind.name)
+                        : fmt::format("{} is a question to serial robots", kind.name));
   return kind;
 }
 
@@ -127,7 +128,7 @@ Value error_answer(const Value& id, const Errors& errors) {
   return answer;
 }
 
-/// What is wrong with a question is an error; what its kind of robot, or of model, cannot answer a status.
+/// Errors that are all `not_available` become the status `unsupported`; with any other they are an error.
 Value refusal(const Value& id, const Kind& kind, const Robot& robot, const Errors& errors) {
   const auto is_lacking = [](const Error& error) { return error.code == "not_available"; };
   if (!std::ranges::all_of(errors, is_lacking)) return error_answer(id, errors);

@@ -28,13 +28,23 @@ Wants read_wants(Question& question, Wants usual, Wants known) {
   for (const Reader& word : list->items()) {
     const auto want = static_cast<Want>(word.choice_index(want_names));
     if (word.is(Node::Kind::string) && !known.has(want))
-      word.refuse("not_available", fmt::format("of this robot and model there are {}", names_of(known)));
+      word.refuse("not_available", fmt::format("this robot, by this model, answers {}", names_of(known)));
     named = named | Wants{want};
   }
   return (named & places).is_empty() ? usual | named : (usual - places) | named;
 }
 
-int read_samples(Question& question, int usual, int most) {
+void refuse_without(Question& question, Wants wants, Want word, std::initializer_list<const char*> fields) {
+  if (wants.has(word)) return;
+  for (const char* field : fields)
+    if (const auto given = question.query.optional(field))
+      given->fail("no_effect", fmt::format("goes with want: [{}]; add it, or remove this",
+                                           want_names[static_cast<std::size_t>(word)]));
+}
+
+int read_samples(Question& question, Wants wants, int usual, int most) {
+  refuse_without(question, wants, Want::shape, {"samples"});
+  if (!wants.has(Want::shape)) return usual;
   const auto samples = question.query.optional("samples");
   return samples ? samples->integer(Range::between(2, most)) : usual;
 }

@@ -51,7 +51,10 @@ constexpr Wants usual_wants{Want::pose, Want::legs};
 /// @param known what this kind of robot can tell; other words are refused
 Wants read_wants(Question& question, Wants usual, Wants known);
 
-/// Points of a curve in `shape`.
-int read_samples(Question& question, int usual, int most);
+/// Says of fields that go with a word which is not wanted that they have no effect.
+void refuse_without(Question& question, Wants wants, Want word, std::initializer_list<const char*> fields);
+
+/// `samples`: points of a curve in `shape`, if that is wanted.
+int read_samples(Question& question, Wants wants, int usual, int most);
 
 }  // namespace sinew::inline v1

@@ -120,7 +120,7 @@ export const isSolved = (answer: Json) => !answer.error && ['converged', 'unstab
 
 /** An answer to `everything`, with its velocity equations by themselves: at a singularity these are what has no answer, and the pose is solved. */
 export function told(answer: Json): Json {
-  return answer.J ? {...answer, ...(answer.status === 'singular' && {status: 'converged', message: undefined}), velocity: answer} : answer;
+  return answer.J ? {...answer, ...(answer.status === 'singular' && {status: 'converged'}), velocity: answer} : answer;
 }
 
 /** A pose as a question takes it: its orientation once. */

@@ -107,7 +107,7 @@ struct RodAnalysis {
 
   /// Kinematic sensitivities: 2-norms of the blocks of `sensitivity`, position [m/m], rotation [rad/m].
   SINEW_API double position_index() const;
-  SINEW_API double rotation_index() const;
+  SINEW_API double rotation_index() const;  ///< [rad/m], see `position_index`
 };
 
 /// Of robots on rods. Where the workspace holds no equilibrium, and of other robots, the lists are empty.

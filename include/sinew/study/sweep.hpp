@@ -62,7 +62,7 @@ struct SweepSummary {
   bool is_complete = false;   ///< else it was stopped; `resume` goes on
   bool was_complete = false;  ///< there was nothing left to do
   std::size_t samples = 0, resumed = 0;
-  std::array<std::size_t, 11> statuses{};  ///< samples a status, see `sample_status_name`
+  std::array<std::size_t, 12> statuses{};  ///< samples a status, see `sample_status_name`
   bool counts_all = true;                  ///< else they are of this run, without what was resumed
   std::vector<FittedTerms> fits;
   double computing = 0;  ///< [s] on the wall, the mean of the threads

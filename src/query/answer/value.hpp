@@ -46,7 +46,7 @@ class SINEW_API Value {
     }
   };
 
-  /// A number as somebody wrote it, who gets it back so.
+  /// A number kept as it was written, for `id`.
   struct Written {
     std::string text;
   };

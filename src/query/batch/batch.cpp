@@ -28,6 +28,7 @@ void place_columns(std::span<const Batch::Field> fields, std::span<const Batch::
 std::uint8_t status_of(SampleStatus status) {
   if (status <= converged) return status;
   if (status == not_computed) return static_cast<std::uint8_t>(Status::stopped);
+  if (status == not_supported) return static_cast<std::uint8_t>(Status::unsupported);
   return status == refused ? static_cast<std::uint8_t>(Status::bad_input) : Batch::failed;
 }
 

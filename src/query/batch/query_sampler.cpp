@@ -64,7 +64,7 @@ class QuerySampler {
     const std::string_view text = answer.text_at("status");
     if (text.empty()) return converged;  // a question that is always answered
     if (text == to_string(Status::stopped)) return not_computed;
-    if (text == to_string(Status::bad_input) || text == to_string(Status::unsupported)) return refused;
+    if (text == to_string(Status::bad_input)) return refused;
     for (SampleStatus s = 0; s < sample_statuses; ++s)
       if (name_of(s) == text) return s;
     return failed_inside;
@@ -94,6 +94,7 @@ std::string_view name_of(SampleStatus status) {
   if (status == refused) return "refused";
   if (status == failed_inside) return "failed";
   if (status == left_out) return "left_out";
+  if (status == not_supported) return to_string(Status::unsupported);
   return to_string(static_cast<Status>(status));
 }
 

@@ -20,11 +20,12 @@ using SampleStatus = std::uint8_t;
 inline constexpr SampleStatus refused = 8;         ///< the query at this sample is no good one
 inline constexpr SampleStatus failed_inside = 9;   ///< an error of the program
 inline constexpr SampleStatus left_out = 10;       ///< a derived value is outside its limits; nobody asked
+inline constexpr SampleStatus not_supported = 11;  ///< the robot, or its model, has no answer to the query
 inline constexpr SampleStatus not_computed = 254;  ///< its block was stopped; in no file
 inline constexpr SampleStatus converged = static_cast<SampleStatus>(Status::converged);
 inline constexpr SampleStatus unstable = static_cast<SampleStatus>(Status::unstable);
 SINEW_API std::string_view name_of(SampleStatus status);
-inline constexpr int sample_statuses = 11;
+inline constexpr int sample_statuses = 12;
 
 /// Of a solver. Numbers above the first eight mean other things in files of results than in a Report.
 inline SampleStatus sample_status(Status status) {

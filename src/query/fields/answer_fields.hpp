@@ -8,7 +8,7 @@
 
 namespace sinew::inline v1 {
 
-/// How many numbers a field of an answer has, of which robot whatever.
+/// How many numbers a field of an answer has, in terms of the robot.
 enum class AnswerShape {
   number,
   pair,
@@ -16,17 +16,17 @@ enum class AnswerShape {
   quaternion,
   vector,          ///< two in the plane, three in space
   direction,       ///< an angle in the plane, a unit vector in space
-  inputs,          ///< one an input
-  freedoms,        ///< one a freedom of the platform, twist order
+  inputs,          ///< one per input
+  freedoms,        ///< one per freedom of the platform, twist order
   square,          ///< freedoms by freedoms
   by_inputs,       ///< freedoms by inputs; in `statics` by what is held there, which a place does not tell
-  jacobian,        ///< J: a row a constraint, of a serial robot of the tip's twist
-  input_jacobian,  ///< K: a column an input, of chains a joint, of a serial robot a coordinate
+  jacobian,        ///< J: a row per constraint, of a serial robot of the tip's twist
+  input_jacobian,  ///< K: a column per input, of chains per joint, of a serial robot per coordinate
   rates,           ///< as many as K has columns, in the lists that inputs, joints or coordinates have
   sensitivities,   ///< U: freedoms by columns of K
   joints,          ///< of one leg on chains
-  bends,           ///< a serial robot's coordinates, a list a section
-  tendons,         ///< a number a tendon of a serial robot, a list a section
+  bends,           ///< a serial robot's coordinates, a list per section
+  tendons,         ///< a number per tendon of a serial robot, a list per section
   two_by_two,
 };
 

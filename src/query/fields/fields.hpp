@@ -35,7 +35,7 @@ enum class FieldShape {
   twist,           ///< velocity, then angular velocity, or a direction of these
   growing_load,    ///< {wrench, limit}
   range,           ///< two numbers, the lower one first
-  text_or_number,  ///< anybody's
+  text_or_number,  ///< of `id`, returned as given
   settings,        ///< {path: value}
 };
 

@@ -1,0 +1,51 @@
+/// Whatever is wanted, the command shows what there is.
+#include <gtest/gtest.h>
+
+#include "command.hpp"
+
+namespace sinew::test {
+namespace cli_wants_test {
+
+Outcome run(const std::string& line) {
+  std::istringstream words(line);
+  std::vector<std::string> command{command_path};
+  for (std::string word; words >> word;) command.push_back(word);
+  const Scratch scratch;
+  return run_program(command, scratch.path());
+}
+
+TEST(Wants, AreShownWhateverTheyLeaveOut) {
+  const char* lines[] = {
+      "forward 3-rfr --inputs 0.19,0.19,0.188",
+      "forward 3-rfr --inputs 0.19,0.19,0.188 --all",
+      "forward 3-rfr --model prb --inputs 0.19,0.19,0.188",
+      "forward 3pfs-g2 --inputs 0.44,0.42,0.41",
+      "forward 3prs --inputs 0.17,0.17,0.17",
+      "forward nottingham-neutral --configuration 0.2,0.1",
+      "inverse 3-rfr --pose 0,0,0",
+      "inverse 3-rfr --model prb --pose 0.01,0,0.1",
+      "inverse 3pfs-g2 --independent 0.39,0.1,0.05",
+      "inverse hexapod --pose 0,0,0.4,0,0,0",
+      "analyse 3-rfr --pose 0.01,0,0.1",
+      "analyse 3-rfr --model prb --pose 0.01,0,0.1",
+      "analyse 3pfs-g2 --inputs 0.44,0.42,0.41",
+      "statics 3-rfr --set-at 0.01,0,0.3 --wrench 0,-0.01,0",
+      "statics hexapod --inputs 0.41,0.41,0.405,0.405,0.405,0.405 --axial-forces 0.1,-0.2,0,0,0.1,0",
+  };
+  for (const char* line : lines)
+    for (const char* want : {"pose", "legs", "pose,legs", "velocity", "shape", "stiffness", "stability",
+                             "margins", "sensitivity", "lines", "modes"}) {
+      const Outcome ran = run(std::string(line) + " --want " + want);
+      EXPECT_TRUE(ran.exit == 0 || ran.exit == 3) << line << " --want " << want << ": " << ran.exit << '\n'
+                                                  << ran.err;
+      if (ran.exit == 0) EXPECT_FALSE(ran.out.empty()) << line << " --want " << want;
+    }
+}
+
+TEST(Wants, OfVelocityHaveTheirTable) {
+  const Outcome ran = run("forward 3-rfr --inputs 0.19,0.19,0.188 --want velocity --twist 1,0,0");
+  EXPECT_NE(ran.out.find("rate"), std::string::npos) << ran.out;
+}
+
+}  // namespace cli_wants_test
+}  // namespace sinew::test
