@@ -69,7 +69,7 @@ endif()
 
 # The reference of the C++ and C interface, and the site of all pages, are made without a warning.
 add_test(NAME docs.api COMMAND Python3::Interpreter ${tools_dir}/reference.py ${PROJECT_BINARY_DIR}/api)
-add_test(NAME docs.site COMMAND Python3::Interpreter ${tools_dir}/site.py ${PROJECT_BINARY_DIR}/site)
+add_test(NAME docs.site COMMAND Python3::Interpreter ${tools_dir}/site.py ${PROJECT_BINARY_DIR}/site ${PROJECT_BINARY_DIR}/notebooks)
 set_tests_properties(docs.api docs.site PROPERTIES LABELS tools TIMEOUT 180 SKIP_RETURN_CODE 77)
 
 # Every public header compiles alone.
