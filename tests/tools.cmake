@@ -1,5 +1,10 @@
 # Checks of the tree itself: layers, equations, headers, packaging. Included by tests/CMakeLists.txt.
 find_package(Python3 COMPONENTS Interpreter REQUIRED)
+# Debian's own Python: for that one its packages are installed, and another may come first on the path.
+find_program(SYSTEM_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(NOT SYSTEM_PYTHON)
+  set(SYSTEM_PYTHON ${Python3_EXECUTABLE} CACHE FILEPATH "Python with Debian's packages" FORCE)
+endif()
 set(packaging_dir ${CMAKE_CURRENT_LIST_DIR}/packaging)
 set(tools_dir ${PROJECT_SOURCE_DIR}/tools)
 
@@ -10,13 +15,17 @@ set_tests_properties(tools.layers tools.equations tools.selftest PROPERTIES LABE
 
 # The README and the pages show what happens.
 if(TARGET sinew_command AND TARGET example_01_first_answer)
-  add_test(NAME readme COMMAND Python3::Interpreter ${tools_dir}/readme.py --command $<TARGET_FILE_DIR:sinew_command>
+  set(languages $<$<TARGET_EXISTS:sinew_python>:--python$<SEMICOLON>${SYSTEM_PYTHON}>
+                $<$<TARGET_EXISTS:sinew_mex>:--octave$<SEMICOLON>${OCTAVE}>)
+  add_test(NAME readme COMMAND Python3::Interpreter ${tools_dir}/readme.py --command $<TARGET_FILE_DIR:sinew_command> ${languages}
     --examples ${PROJECT_SOURCE_DIR}/examples/cpp --programs $<TARGET_FILE_DIR:example_01_first_answer>
-    README.md docs/tour.md docs/cpp.md docs/robot-files.md docs/protocol.md WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    README.md docs/tour.md docs/cpp.md docs/robot-files.md docs/protocol.md
+    COMMAND_EXPAND_LISTS WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   add_test(NAME tools.facts COMMAND Python3::Interpreter ${tools_dir}/facts.py $<TARGET_FILE:sinew_command>)
   add_test(NAME tools.fields COMMAND Python3::Interpreter ${tools_dir}/fields.py $<TARGET_FILE:sinew_command> --check)
   set_tests_properties(tools.facts tools.fields PROPERTIES LABELS tools TIMEOUT 60)
-  set_tests_properties(readme PROPERTIES LABELS tools TIMEOUT 120)
+  set_tests_properties(readme PROPERTIES LABELS tools TIMEOUT 120
+                       ENVIRONMENT "PYTHONPATH=${CMAKE_BINARY_DIR}/python;OCTAVE_PATH=${CMAKE_BINARY_DIR}/octave")
 endif()
 
 # Every example prints what its last comment says.
@@ -45,12 +54,7 @@ if(SINEW_SANITIZE)
   return()
 endif()
 
-# The schema of robot files and the reader judge alike. The test needs Debian's own Python: python3-jsonschema and
-# python3-yaml are installed for that one, and another may come first on the path.
-find_program(SYSTEM_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
-if(NOT SYSTEM_PYTHON)
-  set(SYSTEM_PYTHON ${Python3_EXECUTABLE} CACHE FILEPATH "Python with jsonschema and yaml" FORCE)
-endif()
+# The schema of robot files and the reader judge alike.
 if(TARGET sinew_command)
   add_executable(schema_judge ${CMAKE_CURRENT_LIST_DIR}/schema/judge.cpp)
   target_link_libraries(schema_judge PRIVATE sinew sinew_options)
@@ -69,7 +73,7 @@ endif()
 
 # The reference of the C++ and C interface, and the site of all pages, are made without a warning.
 add_test(NAME docs.api COMMAND Python3::Interpreter ${tools_dir}/reference.py ${PROJECT_BINARY_DIR}/api)
-add_test(NAME docs.site COMMAND Python3::Interpreter ${tools_dir}/site.py ${PROJECT_BINARY_DIR}/site)
+add_test(NAME docs.site COMMAND Python3::Interpreter ${tools_dir}/site.py ${PROJECT_BINARY_DIR}/site ${PROJECT_BINARY_DIR}/notebooks)
 set_tests_properties(docs.api docs.site PROPERTIES LABELS tools TIMEOUT 180 SKIP_RETURN_CODE 77)
 
 # Every public header compiles alone.

@@ -19,12 +19,14 @@ sanitizer_packages=(clang lld libclang-rt-14-dev)
 plan_packages=(libfcl-dev libassimp-dev)
 # ... what the module of Octave needs, ...
 octave_packages=(octave octave-dev)
+# ... what the notebooks need (python3-munkres is in the place of python3-scipy, which python3-matplotlib would bring along), ...
+notebook_packages=(python3-matplotlib python3-munkres python3-nbconvert python3-ipykernel)
 # ... and what the tests and benchmarks need beside it. ccache saves compiling the library again for the packaging tests.
 # Doxygen and Sphinx make the reference of the C++ interface and the site. Last, what builds and runs the firmware: the cross
 # compilers of ATmega2560 and Cortex-M with their simulators, the tools of the Verilog core, and a browser.
 # shellcheck disable=SC2034
 test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev python3 python3-jsonschema
-               doxygen python3-sphinx python3-myst-parser
+               doxygen python3-sphinx python3-myst-parser "${notebook_packages[@]}"
                python3-yaml python3-h5py python3-numpy libpython3-dev python3-venv mypy ccache libopenmpi-dev openmpi-bin
                gcc-avr avr-libc libsimavr-dev gcc-arm-none-eabi qemu-system-arm verilator yosys "${octave_packages[@]}" "${web_packages[@]}" chromium-headless-shell)
 

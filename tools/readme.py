@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Runs what pages of documentation show and compares: console blocks, and C++ programs with what they print.
+"""Runs what pages of documentation show and compares: console blocks, and programs with what they print.
 
-usage: readme.py [--update] --command FOLDER [--examples FOLDER --programs FOLDER] PAGE...
+usage: readme.py [--update] --command FOLDER [--examples FOLDER --programs FOLDER] [--python PYTHON] [--octave OCTAVE] PAGE...
 
 Console blocks: each `$ command` runs with the command's folder on the path. One page has one folder of its own, where
 a yaml block that begins with `# name.yaml` is a file. A shown line `...` stands for any lines, `...` within a line for
 any text. Residuals and numbers of iterations are not compared: they differ between processors.
 C++ blocks: each is part of one program of the examples; the block without a language that follows the word `prints`
-is what this program writes to standard output.
+is what this program writes to standard output. After the words `Each prints` it is what every program of the section
+writes: of C++, and, where an interpreter is given, blocks of Python and Octave, which are whole programs.
 With --update the outputs in the console blocks are rewritten, and keep as many lines around a line `...` as they had.
 """
 import argparse
@@ -91,6 +92,30 @@ class Page:
             if not agrees(printed, now):
                 self.differs(program, printed, now)
 
+    def script(self, language, code, printed):
+        """A whole program for an interpreter."""
+        interpreter = {"python": self.options.python, "octave": self.options.octave}[language]
+        if interpreter is None:
+            return
+        options = ["-B", "-W", "error"] if language == "python" else ["--no-gui", "--quiet", "--no-history", "--no-init-file"]
+        with tempfile.TemporaryDirectory() as here:
+            path = os.path.join(here, {"python": "shown.py", "octave": "shown.m"}[language])
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(code)
+            done = subprocess.run([interpreter, *options, path], capture_output=True, text=True, timeout=60, cwd=here)
+        if done.returncode != 0 or not agrees(printed, done.stdout):
+            self.differs(code, printed, done.stdout + done.stderr)
+
+    def each(self):
+        """Sections of which each program prints the same."""
+        for section in re.split(r"(?m)^## ", self.text):
+            printed = re.search(r"\bEach prints\b[^\n]*\n\n```\n(.*?)```", section, flags=re.S)
+            for language, code in re.findall(r"```(cpp|python|octave)\n(.*?)```", section if printed else "", flags=re.S):
+                if language != "cpp":
+                    self.script(language, code, printed.group(1))
+                elif self.options.examples:
+                    self.cpp(code, printed.group(1))
+
     def check(self):
         with tempfile.TemporaryDirectory() as here:
 
@@ -110,6 +135,7 @@ class Page:
         if self.options.examples:
             for code, printed in re.findall(r"```cpp\n(.*?)```(?:\n\n[^\n`]*\bprints\b[^\n]*\n\n```\n(.*?)```)?", self.text, flags=re.S):
                 self.cpp(code, printed or None)
+        self.each()
         return self.wrong
 
 
@@ -119,6 +145,8 @@ def main():
     parser.add_argument("--command", required=True, metavar="FOLDER")
     parser.add_argument("--examples", metavar="FOLDER")
     parser.add_argument("--programs", metavar="FOLDER")
+    parser.add_argument("--python", metavar="PYTHON")
+    parser.add_argument("--octave", metavar="OCTAVE")
     parser.add_argument("pages", nargs="+", metavar="PAGE")
     options = parser.parse_args()
     wrong = [line for page in options.pages for line in Page(page, options).check()]

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Makes the site: all pages by Sphinx and MyST, and under api/ the C++ and C reference by Doxygen.
 
-    tools/site.py FOLDER        writes FOLDER/html/index.html
+    tools/site.py FOLDER [NOTEBOOKS]        writes FOLDER/html/index.html
+
+NOTEBOOKS has the pages that tools/notebook.py wrote of those of examples/notebooks.
 
 Nothing may be warned of: links and anchors between pages hold, and every page is in the table of contents. Pages stay readable
 on their own; here they are copied, with what they link to. Without these programs the exit status is 77.
@@ -25,7 +27,7 @@ def is_there():
     return shutil.which("doxygen") and subprocess.run(modules, capture_output=True, check=False).returncode == 0
 
 
-def lay_out(source):
+def lay_out(source, notebooks):
     shutil.rmtree(source, ignore_errors=True)
     source.mkdir(parents=True)
     for name in PAGES:
@@ -34,6 +36,12 @@ def lay_out(source):
     shutil.copy(ROOT / "docs/site/index.md", source)
     readme = source / "README.md"
     readme.write_text(re.sub(r"\]\((docs/theory|docs/adr)\)", r"](\1/README.md)", readme.read_text()))
+    pages = source / "examples/notebooks"
+    if notebooks and notebooks.is_dir():
+        shutil.copytree(notebooks, pages, dirs_exist_ok=True)
+    for page in pages.glob("*.md"):  # links from notebook to notebook lead to what they showed, where they were run
+        page.write_text(re.sub(r"\((\w+)\.ipynb\)", lambda link: f"({link[1]}.md)" if (pages / f"{link[1]}.md").exists() else link[0],
+                               page.read_text()))
     if not (source / "docs/adr/README.md").exists():
         (source / "docs/adr/README.md").write_text("# Decisions\n\n```{toctree}\n:glob:\n\n0*\n```\n")
 
@@ -43,7 +51,7 @@ def main():
         print(f"skipped: one of these Debian packages is not installed: {PACKAGES}")
         return 77
     folder = pathlib.Path(sys.argv[1]).resolve()
-    lay_out(folder / "source")
+    lay_out(folder / "source", pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None)
     (folder / "reference").mkdir(exist_ok=True)
     shutil.rmtree(folder / "html", ignore_errors=True)
     sphinx = [PYTHON, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", ROOT / "docs/site", "-d", folder / "doctrees",

@@ -32,7 +32,8 @@ def plot(robot: Robot, answer: Any, ax: Any) -> Any:
     ax.set_ylabel("y [mm]")
     ax.set_title(robot.name)
     if is_planar:
-        ax.set_aspect("equal", adjustable="datalim")
+        is_shared = any(len(axes.get_siblings(ax)) > 1 for axes in (ax.get_shared_x_axes(), ax.get_shared_y_axes()))
+        ax.set_aspect("equal", adjustable="box" if is_shared else "datalim")
     else:
         ax.set_zlabel("z [mm]")
         _equal_axes(ax, [point for _, line in lines for point in line])
@@ -46,4 +47,5 @@ def _equal_axes(ax: Any, points: list[list[float]]) -> None:
     half = max(high - low for low, high in zip(lowest, highest)) / 2 or 1.0
     for name, low, high in zip("xyz", lowest, highest):
         getattr(ax, f"set_{name}lim")((low + high) / 2 - half, (low + high) / 2 + half)
-    ax.set_box_aspect((1, 1, 1))
+    ax.set_box_aspect((1, 1, 1), zoom=0.85)  # else labels are cut off at the edge of the figure
+    ax.locator_params(nbins=4)

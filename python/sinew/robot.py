@@ -69,6 +69,8 @@ class Robot(Verbs):
     def _ask(self, query: str, fields: dict[str, Any]) -> Any:
         if self._settings:
             fields = {**fields, "set": {**self._settings, **(fields.get("set") or {})}}
+        if getattr(fields.get("changes"), "ndim", 0) == 2:
+            fields = {**fields, "changes": self._rows_of_tendons(fields["changes"])}
         asked = self._session().ask(query, fields, RANKS)
         if asked is None:
             from .columns import ask_columns
@@ -134,6 +136,13 @@ class Robot(Verbs):
         """Numbers of all tendons, in order, as a list a section."""
         left = iter(numbers)
         return [list(itertools.islice(left, section["tendons"]["count"])) for section in self._about()._plain()["sections"]]
+
+    def _rows_of_tendons(self, changes: Any) -> Any:
+        """Rows of all tendons, as columns have them (n, 15), as columns (n, 1, 15); a list a section (5, 3) as it is."""
+        counts = [section["tendons"]["count"] for section in self._about()._plain().get("sections", [])]
+        rows, width = changes.shape
+        is_of_rows = width == sum(counts) and (rows > 1 or len(counts) > 1)
+        return changes.reshape(rows, 1, width) if is_of_rows else changes
 
     def plot(self, answer: Any = None, ax: Any = None) -> Any:
         """Draws the robot at an answer's pose (None: at home) by matplotlib; returns the axes. Lengths in mm."""

@@ -129,6 +129,12 @@ class Columns(unittest.TestCase):
         self.assertEqual(found.changes.shape, (3, 15))
         np.testing.assert_allclose(found.position[1], arm.forward(configuration=bends[1]).tip.position, atol=1e-12)
         back = arm.forward(changes=found.changes.reshape(3, 5, 3))
+        self.assertEqual(arm.forward(changes=found.changes).position.tobytes(), back.position.tobytes())
+        self.assertEqual(arm.forward(changes=found.changes[0].reshape(5, 3)).status, "converged")
+        one = sinew.load({"sinew": 1, "name": "one", "kind": "serial", "sections": [
+            {"type": "neutral", "segments": 1, "joint": 0.06, "tendons": {"count": 3, "radius": 0.004, "angle": 0}}]})
+        self.assertEqual(len(one.forward(changes=np.zeros((4, 3)))), 4)
+        self.assertTrue(one.forward(changes=np.zeros((1, 3))).tip)
         np.testing.assert_allclose(back.position, found.position, atol=1e-9)
         self.assertEqual(back[0].status, "converged")
 

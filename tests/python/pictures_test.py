@@ -109,6 +109,13 @@ class Plots(unittest.TestCase):
             sinew.load("3pfs-g2").plot(ax=ax)
         matplotlib.pyplot.close(figure)
 
+    def test_side_by_side_to_one_scale(self):
+        figure, both = matplotlib.pyplot.subplots(1, 2, sharex=True, sharey=True)
+        for ax in both:
+            sinew.load("3-rfr").plot(ax=ax)
+        figure.canvas.draw()
+        matplotlib.pyplot.close(figure)
+
 
 class Viewer(unittest.TestCase):
     def test_serves_the_robot_and_ends(self):
