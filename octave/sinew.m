@@ -176,7 +176,7 @@ classdef sinew < handle
     function names = status_names (codes)
       % Names of the statuses of rows, as a cell array.
       known = {'unreachable', 'left_domain', 'slack', 'singular', 'stalled', 'iteration_limit', ...
-               'unstable', 'converged', 'stopped', 'bad_input'};
+               'unstable', 'converged', 'stopped', 'bad_input', 'unsupported'};
       known(256) = {'failed'};
       names = reshape (known(double (codes) + 1), size (codes));
     end

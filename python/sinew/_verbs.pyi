@@ -46,26 +46,25 @@ class Verbs:
                 driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
                 lsk (linearised)
             set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length
+                legs[0].link.length; on the command line it may be repeated
             theta_is: what an input theta is the angle of: tangent (default) or chord
             law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
                 (tendons straight between discs)
             max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
                 torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
             start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
                 configuration, or last, where the last question with a start ended; default the robot's home
             wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
                 in the plane, (6,) in space
             gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            until [N]: a wrench that is added again and again until the robot buckles, at most so many times
-                as its limit
+            until [N]: a wrench that is added again and again until the robot buckles, up to `limit` times
             posture_threshold [rad]: turn of a joint up to which the linear model counts as valid
-            want: what is answered beside pose and legs, or without them where one of the two is named:
-                velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has
-                them
+            want: what is answered about the configuration: velocity, shape, stiffness, stability, margins,
+                sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them
+                is named
             all: every solution, not only the one wanted
-            trace: the iterates, too
+            trace: the residual of each iterate is answered, too
             twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
                 of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
                 with the want velocity; (3,) in the plane, (6,) in space
@@ -128,20 +127,21 @@ class Verbs:
         """Inputs from the pose.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform, of a serial robot of its tip
+            pose [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in space
+                x, y, z and a quaternion, on the command line also a rotation vector
             model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
                 driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
                 lsk (linearised)
             set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length
+                legs[0].link.length; on the command line it may be repeated
             theta_is: what an input theta is the angle of: tangent (default) or chord
             law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
                 (tendons straight between discs)
             max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
                 torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
             independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
-                it: height and two components of its quaternion; of hinges `mode`, too
+                it: height and two components of its quaternion; of hinges a mode, too, tilt or half_turn
             bending: sign of each leg's curvature; (legs,)
             elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
             curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
@@ -150,9 +150,9 @@ class Verbs:
             wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
                 in the plane, (6,) in space
             gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            want: what is answered beside pose and legs, or without them where one of the two is named:
-                velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has
-                them
+            want: what is answered about the configuration: velocity, shape, stiffness, stability, margins,
+                sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them
+                is named
             all: every solution, not only the one wanted
             twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
                 of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
@@ -214,22 +214,23 @@ class Verbs:
         """Velocity equations J (twist) = K (input rates), sensitivities, singularities.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform, of a serial robot of its tip
+            pose [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in space
+                x, y, z and a quaternion, on the command line also a rotation vector
             model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
                 driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
                 lsk (linearised)
             set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length
+                legs[0].link.length; on the command line it may be repeated
             theta_is: what an input theta is the angle of: tangent (default) or chord
             law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
                 (tendons straight between discs)
             max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
                 torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
                 length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
             independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
-                it: height and two components of its quaternion; of hinges `mode`, too
+                it: height and two components of its quaternion; of hinges a mode, too, tilt or half_turn
             bending: sign of each leg's curvature; (legs,)
             elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
             curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
@@ -240,9 +241,9 @@ class Verbs:
             wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
                 in the plane, (6,) in space
             gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            want: what is answered beside pose and legs, or without them where one of the two is named:
-                velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has
-                them
+            want: what is answered about the configuration: velocity, shape, stiffness, stability, margins,
+                sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them
+                is named
             twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
                 of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
                 with the want velocity; (3,) in the plane, (6,) in space
@@ -309,18 +310,19 @@ class Verbs:
         """A tendon-driven robot under a load, or the wrench on it sensed from forces.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform, of a serial robot of its tip
+            pose [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in space
+                x, y, z and a quaternion, on the command line also a rotation vector
             model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
                 driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
                 lsk (linearised)
             set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length
+                legs[0].link.length; on the command line it may be repeated
             theta_is: what an input theta is the angle of: tangent (default) or chord
             law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
                 (tendons straight between discs)
             max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
                 torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
                 length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
             bending: sign of each leg's curvature; (legs,)
@@ -331,8 +333,8 @@ class Verbs:
             set_at [m, rad]: the pose at which the tendons are set without load, the outer ones loose
             hold: what stays after `set_at` or with `pose`: tension (default) or length
             tensions [N]: of both tendons of each leg; (legs, 2)
-            lengths [m]: of the tendon of each leg whose length is held; the other one is null and loose;
-                (legs, 2)
+            lengths [m]: of the tendon of each leg whose length is held; null, on the command line -, leaves
+                the other one loose; (legs, 2)
             inverse: `pose` is held under the load, and the tensions for it answered
             axial_forces [N]: what each of six rods pulls at its guide; answers the wrench on the platform
             measured_tensions [N]: what the tendons at `lengths` pull, a leg each; answers the wrench on the
@@ -342,12 +344,11 @@ class Verbs:
             wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
                 in the plane, (6,) in space
             gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            until [N]: a wrench that is added again and again until the robot buckles, at most so many times
-                as its limit
+            until [N]: a wrench that is added again and again until the robot buckles, up to `limit` times
             posture_threshold [rad]: turn of a joint up to which the linear model counts as valid
-            want: what is answered beside pose and legs, or without them where one of the two is named:
-                velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has
-                them
+            want: what is answered about the configuration: velocity, shape, stiffness, stability, margins,
+                sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them
+                is named
             twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
                 of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
                 with the want velocity; (3,) in the plane, (6,) in space
@@ -413,18 +414,19 @@ class Verbs:
                 driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
                 lsk (linearised)
             set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length
+                legs[0].link.length; on the command line it may be repeated
             theta_is: what an input theta is the angle of: tangent (default) or chord
             law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
                 (tendons straight between discs)
             max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
                 torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
                 length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
-            pose [m, rad]: of the platform, of a serial robot of its tip
+            pose [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in space
+                x, y, z and a quaternion, on the command line also a rotation vector
             independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
-                it: height and two components of its quaternion; of hinges `mode`, too
+                it: height and two components of its quaternion; of hinges a mode, too, tilt or half_turn
             bending: sign of each leg's curvature; (legs,)
             elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
             curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
@@ -435,8 +437,8 @@ class Verbs:
             set_at [m, rad]: the pose at which the tendons are set without load, the outer ones loose
             hold: what stays after `set_at` or with `pose`: tension (default) or length
             tensions [N]: of both tendons of each leg; (legs, 2)
-            lengths [m]: of the tendon of each leg whose length is held; the other one is null and loose;
-                (legs, 2)
+            lengths [m]: of the tendon of each leg whose length is held; null, on the command line -, leaves
+                the other one loose; (legs, 2)
             wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
                 in the plane, (6,) in space
             gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
@@ -490,11 +492,11 @@ class Verbs:
                 driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
                 lsk (linearised)
             set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length
+                legs[0].link.length; on the command line it may be repeated
             theta_is: what an input theta is the angle of: tangent (default) or chord
             max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
                 torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
             limit: how far to look `along` its direction; of a diagram the envelope's size
             changes [m]: of a serial robot the change of each tendon, > 0 pays out, section after section
             measured [m]: changes that encoders read, beside those commanded
@@ -548,22 +550,23 @@ class Verbs:
         """Polylines for a picture.
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform, of a serial robot of its tip
+            pose [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in space
+                x, y, z and a quaternion, on the command line also a rotation vector
             model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
                 driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
                 lsk (linearised)
             set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length
+                legs[0].link.length; on the command line it may be repeated
             theta_is: what an input theta is the angle of: tangent (default) or chord
             law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
                 (tendons straight between discs)
             max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
                 torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
                 length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
             independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
-                it: height and two components of its quaternion; of hinges `mode`, too
+                it: height and two components of its quaternion; of hinges a mode, too, tilt or half_turn
             bending: sign of each leg's curvature; (legs,)
             elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
             curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
@@ -574,9 +577,9 @@ class Verbs:
             wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
                 in the plane, (6,) in space
             gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            want: what is answered beside pose and legs, or without them where one of the two is named:
-                velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has
-                them
+            want: what is answered about the configuration: velocity, shape, stiffness, stability, margins,
+                sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them
+                is named
             twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
                 of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
                 with the want velocity; (3,) in the plane, (6,) in space
@@ -618,7 +621,7 @@ class Verbs:
 
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
             set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length
+                legs[0].link.length; on the command line it may be repeated
             model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
                 driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
                 lsk (linearised)
@@ -627,7 +630,7 @@ class Verbs:
                 (tendons straight between discs)
             max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
                 torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space alone
+            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
 
         The answer has `ok`, `status`, `message`, and kind, space, inputs, pose, home, legs or sections,
         models, versions.

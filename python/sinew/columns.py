@@ -30,6 +30,7 @@ class Status(enum.IntEnum):
     converged = 7
     stopped = 8
     bad_input = 9
+    unsupported = 10
     failed = 255
 
 
