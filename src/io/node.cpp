@@ -267,23 +267,22 @@ bool NodeBuilder::open(Node::Kind list_or_map, int line, int column) {
   if (!count(line, column)) return false;
   if (open_.size() >= depth_limit)
     return stop("too_deep", line, column, fmt::format("more than {} levels of lists and maps.", depth_limit));
-  Level level;
-  level.node.kind = list_or_map;
-  level.node.line = line;
-  level.node.column = column;
+  Node& node = slot();
+  node.kind = list_or_map;
+  node.line = line;
+  node.column = column;
   constexpr std::size_t usual = 4;  // of queries: a list of coordinates, a map of few fields
   if (list_or_map == Node::Kind::list)
-    level.node.items.reserve(usual);
+    node.items.reserve(usual);
   else
-    level.node.members.reserve(usual);
-  open_.push_back(std::move(level));
+    node.members.reserve(usual);
+  open_.push_back({&node});
   return true;
 }
 
 bool NodeBuilder::close() {
-  Node node = std::move(open_.back().node);
   open_.pop_back();
-  return attach(std::move(node));
+  return true;
 }
 
 bool NodeBuilder::key(std::string_view key, int line, int column) {
@@ -295,12 +294,16 @@ bool NodeBuilder::key(std::string_view key, int line, int column) {
                      line > 0 ? fmt::format("; it was first given at line {}", *first) : ""));
     if (errors_.size() >= 100) return false;  // nobody mends more at once
   }
-  level.next = {.key = std::string(key), .line = line, .column = column, .value = {}};
+  level.node->members.push_back({.key = std::string(key), .line = line, .column = column, .value = {}});
   level.has_key = true;
   return true;
 }
 
-bool NodeBuilder::scalar(Node node) { return count(node.line, node.column) && attach(std::move(node)); }
+bool NodeBuilder::scalar(Node node) {
+  if (!count(node.line, node.column)) return false;
+  slot() = std::move(node);
+  return true;
+}
 
 bool NodeBuilder::stop(std::string_view code, int line, int column, std::string_view message) {
   errors_.push_back({std::string(code), place(document_, line, column), one_line(message, 1000)});
@@ -309,7 +312,7 @@ bool NodeBuilder::stop(std::string_view code, int line, int column, std::string_
 
 std::optional<int> NodeBuilder::Level::line_of(std::string_view key) {
   constexpr std::size_t few = 24;  // a search of more would be quadratic
-  const auto& members = node.members;
+  const auto& members = node->members;
   if (members.size() <= few) {
     const auto found = std::ranges::find(members, key, &Member::key);
     return found == members.end() ? std::nullopt : std::optional(found->line);
@@ -321,7 +324,8 @@ std::optional<int> NodeBuilder::Level::line_of(std::string_view key) {
 
 std::pair<int, int> NodeBuilder::key_place() const {
   if (open_.empty() || !open_.back().has_key) return {0, 0};
-  return {open_.back().next.line, open_.back().next.column};
+  const Member& last = open_.back().node->members.back();
+  return {last.line, last.column};
 }
 
 Expected<Document> NodeBuilder::finish() {
@@ -335,25 +339,20 @@ bool NodeBuilder::count(int line, int column) {
   return stop("too_large", line, column, fmt::format("more than {} values in one document.", node_limit));
 }
 
-bool NodeBuilder::attach(Node node) {
-  if (open_.empty()) {
-    document_.root = std::move(node);
-  } else if (Level& level = open_.back(); level.node.kind == Node::Kind::list) {
-    level.node.items.push_back(std::move(node));
-  } else {
-    level.next.value = std::move(node);
-    level.node.members.push_back(std::move(level.next));
-    level.has_key = false;
-  }
-  return true;
+Node& NodeBuilder::slot() {
+  if (open_.empty()) return document_.root;
+  Level& level = open_.back();
+  if (level.node->kind == Node::Kind::list) return level.node->items.emplace_back();
+  level.has_key = false;
+  return level.node->members.back().value;
 }
 
 std::string NodeBuilder::path() const {
   std::string path;
   for (std::size_t i = 0; i + 1 < open_.size(); ++i) {
-    const Level& level = open_[i];
-    path = level.node.kind == Node::Kind::list ? joined(path, level.node.items.size())
-                                               : joined(path, level.next.key);
+    const Node& node = *open_[i].node;
+    path = node.kind == Node::Kind::list ? joined(path, node.items.size() - 1)
+                                         : joined(path, node.members.back().key);
   }
   return path;
 }

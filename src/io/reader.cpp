@@ -77,7 +77,7 @@ std::string Reader::place() const {
 }
 
 Reader Reader::required(std::string_view key, std::string_view meaning) {
-  known_.emplace_back(key);
+  know(key);
   const std::string path = joined(path_, key);
   if (!expect(Node::Kind::map, "a map of keys")) return {document_, sink_, nullptr, path};
   const Node* value = node_->find(key);
@@ -95,8 +95,14 @@ std::optional<Reader> Reader::optional(std::string_view key) {
   return Reader(document_, sink_, node_->find(key), joined(path_, key));
 }
 
+void Reader::know(std::string_view key) {
+  constexpr std::size_t of_document = 32, of_map = 4;  // usual numbers of keys
+  if (known_.empty()) known_.reserve(path_.empty() ? of_document : of_map);
+  known_.push_back(key);
+}
+
 bool Reader::has(std::string_view key) {
-  known_.emplace_back(key);
+  know(key);
   if (!expect(Node::Kind::map, "a map of keys")) return false;
   const Node* value = node_->find(key);
   return value && value->kind != Node::Kind::null;

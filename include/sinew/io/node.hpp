@@ -124,7 +124,7 @@ class NodeBuilder {
 
   /// Inside a map, before a key.
   bool wants_key() const {
-    return !open_.empty() && open_.back().node.kind == Node::Kind::map && !open_.back().has_key;
+    return !open_.empty() && open_.back().node->kind == Node::Kind::map && !open_.back().has_key;
   }
   /// Place of the key whose value comes next; {0, 0} outside a map.
   std::pair<int, int> key_place() const;
@@ -134,17 +134,18 @@ class NodeBuilder {
   SINEW_API Expected<Document> finish();
 
  private:
+  /// A list or map that is open, where it stands in the document: what holds it does not move until it is
+  /// closed.
   struct Level {
-    Node node;
-    Member next;  // its key is known, its value is to come
-    bool has_key = false;
-    std::unordered_map<std::string, int> lines;  // of the first `indexed` members, once there are many
+    Node* node;
+    bool has_key = false;                             // the last member's value is to come
+    std::unordered_map<std::string, int> lines = {};  // of the first `indexed` members, once there are many
     std::size_t indexed = 0;
 
     std::optional<int> line_of(std::string_view key);  // where the key was given before, if it was
   };
   bool count(int line, int column);
-  bool attach(Node node);
+  Node& slot();  // where the next value goes
   std::string path() const;
 
   std::vector<Level> open_;

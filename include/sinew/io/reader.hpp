@@ -130,6 +130,7 @@ class SINEW_API Reader {
   std::optional<double> value(Dimension dimension, const Range& range) const;
   bool expect(Node::Kind kind, std::string_view advice) const;
   void expect_size(std::size_t size) const;
+  void know(std::string_view key);
   void unsuitable(std::string_view advice) const;
   void unknown(const Member& member) const;
   std::string name(const Node& node, const std::string& path) const;
