@@ -25,11 +25,11 @@ class InputError(ValueError):
         return type(self), (self.message, self.code, self.where)
 
 
-def from_text(text: str) -> InputError:
-    """Of what the library wrote: the JSON of an answer, or lines `where: sentence [code]`."""
+def from_text(text: str, hint: str = "") -> InputError:
+    """Of what the library wrote: the JSON of an answer, to which a hint may be added, or lines `where: sentence [code]`."""
     if text.startswith("{"):
         error = json.loads(text).get("error", {})
-        return InputError(error.get("message", text), error.get("code", "bad_input"), error.get("where", ""))
+        return InputError(error.get("message", text) + hint, error.get("code", "bad_input"), error.get("where", ""))
     line = re.match(r"(?P<where>.+?): .*\[(?P<code>\w+)\]$", text.splitlines()[0] if text else "")
     if not line:
         return InputError(text)

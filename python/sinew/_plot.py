@@ -19,7 +19,10 @@ STYLES = {
 
 
 def plot(robot: Robot, answer: Any, ax: Any) -> Any:
-    plt: Any = importlib.import_module("matplotlib.pyplot")
+    try:
+        plt: Any = importlib.import_module("matplotlib.pyplot")
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError("plot needs matplotlib, which is not installed; save_html needs nothing", name=error.name) from None
     lines = polylines(shape_of(robot, answer))
     is_planar = all(len(point) == 2 for _, line in lines for point in line)
     if ax is None:

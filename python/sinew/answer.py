@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from .robot import Robot
 
 
+_WANTS = {"stiffness": "stiffness", "stable": "stability", "unstable_directions": "stability", "margins": "margins",
+          "sensitivity": "sensitivity", "J": "velocity", "K": "velocity", "U": "velocity", "indices": "velocity", "backbones": "shape"}
+
+
 class Record(Mapping[str, Any]):
     """Named values, as attributes (`pose.position`) and as of a dict (`pose["position"]`).
 
@@ -43,7 +47,8 @@ class Record(Mapping[str, Any]):
         place = name[:-1] if name.endswith("_") and keyword.iskeyword(name[:-1]) else name
         if place in plain:
             return self[place]
-        raise AttributeError(f"{self._title()} has no {name!r}; it has {', '.join(plain) or 'nothing'}", name=name, obj=self)
+        way = f', and more with want=["{_WANTS[name]}"]' if name in _WANTS and "query" in plain else ""
+        raise AttributeError(f"{self._title()} has no {name!r}; it has {', '.join(plain) or 'nothing'}{way}", name=name, obj=self)
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *(name + "_" if keyword.iskeyword(name) else name for name in self._plain())})

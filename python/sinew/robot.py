@@ -77,7 +77,7 @@ class Robot(Verbs):
             return ask_columns(self, query, fields)
         question, text = asked
         if text.startswith('{"error"'):
-            raise from_text(text)
+            raise from_text(text, _hint_of_rows(fields))
         return Answer(self, question, text)
 
     def ask(self, question: Mapping[str, Any] | str) -> Answer:
@@ -191,6 +191,14 @@ def robots() -> list[str]:
     """Names of the robots that come with sinew."""
     folder = importlib.resources.files("sinew") / "robots"
     return sorted(entry.name[:-len(".yaml")] for entry in folder.iterdir() if entry.name.endswith(".yaml"))
+
+
+def _hint_of_rows(fields: Mapping[str, Any]) -> str:
+    """For lists of rows where one row is read."""
+    for name, value in fields.items():
+        if RANKS.get(name) == 1 and isinstance(value, (list, tuple)) and value and isinstance(value[0], (list, tuple)):
+            return f" Rows are given as an array: {name}=numpy.array(...)."
+    return ""
 
 
 def _read(path: str) -> str:

@@ -1,4 +1,5 @@
 """Deliberate violations in a small tree: what tools/layers.py and tools/equations.py must and must not say."""
+import argparse
 import pathlib
 import subprocess
 import sys
@@ -8,6 +9,7 @@ import xml.etree.ElementTree as tree
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 sys.path.append(str(TOOLS))
+import readme  # noqa: E402
 import reference  # noqa: E402
 
 
@@ -46,6 +48,20 @@ class Reference(unittest.TestCase):
         self.assertIsNone(self.lacks("function", "double", "Length of it [m]."))
         self.assertIsNone(self.lacks("variable", "Vec3&lt;double&gt;", "Where it is.", around="Base frame [m]."))
         self.assertIsNone(self.lacks("function", "double", "sin(x)/x", where="sinew/math/entire.hpp"))
+
+
+class Readme(Tree):
+    """Programs of a page of which each prints the same."""
+
+    def wrong(self, *programs):
+        self.write("page.md", "## One\n\n" + "".join(f"```python\n{program}\n```\n\n" for program in programs) + "Each prints\n\n```\n3\n```\n")
+        options = argparse.Namespace(update=False, command=".", examples=None, programs=None, python=sys.executable, octave=None)
+        return len(readme.Page(self.root / "page.md", options).check())
+
+    def test_each_has_to_print_what_is_shown(self):
+        self.assertEqual(self.wrong("print(3)", "print(1 + 2)"), 0)
+        self.assertEqual(self.wrong("print(3)", "print(4)"), 1)
+        self.assertEqual(self.wrong("print(3)", "print(3); raise ValueError"), 1)
 
 
 class Layers(Tree):

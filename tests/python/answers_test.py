@@ -103,6 +103,13 @@ class Answers(unittest.TestCase):
         with self.assertRaisesRegex(AttributeError, "no 'inputs'; it has"):
             answer.inputs
 
+    def test_say_the_way_to_what_they_have_not(self):
+        robot = sinew.load("3pfs-g2")
+        with self.assertRaisesRegex(AttributeError, r'want=\["stiffness"\]$'):
+            robot.forward([0.42] * 3).stiffness
+        with self.assertRaisesRegex(sinew.InputError, r"Rows are given as an array: inputs=numpy.array"):
+            robot.forward(inputs=[[0.42] * 3] * 4)
+
     def test_have_names_that_are_words_of_python(self):
         robot = sinew.load("3-rfr")
         home = {"x": 0, "y": 0, "phi": 0}
