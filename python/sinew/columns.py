@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import enum
+import json
 from collections.abc import Iterator, KeysView, Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _arrays
 from ._errors import InputError
 from ._fields import RANKS
-from .answer import Answer
+from .answer import Answer, Record
 
 if TYPE_CHECKING:
     from .prepared import Prepared
@@ -127,6 +128,12 @@ class Columns(Answer):
         return {field["name"]: field["unit"] for field in self._prepared.layout["outputs"]}
 
     @property
+    def question(self) -> Record:
+        """What was asked, "$name" where columns went in."""
+        _, query, fields, *_ = self._prepared._made_of
+        return Record({"query": query, **fields})
+
+    @property
     def method(self) -> str:
         """How the rows were computed: `rods in lanes`, `query by query`, ..."""
         return str(self._prepared.layout["method"])
@@ -134,6 +141,11 @@ class Columns(Answer):
     def to_dict(self) -> dict[str, Any]:
         """The arrays (n, ...) by name, SI and radians, and `status`; not copied."""
         return {**self._values, "status": self._status}
+
+    def to_json(self) -> str:
+        """As `to_dict`, arrays as lists of rows; null where a row has no number."""
+        text = json.dumps(self.to_dict(), default=lambda array: array.tolist())
+        return json.dumps(json.loads(text, parse_constant=lambda _: None))
 
     def __repr__(self) -> str:
         shapes = ", ".join(f"{name} {_arrays.shape(value)}" for name, value in self._values.items())
