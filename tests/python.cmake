@@ -28,7 +28,11 @@ foreach(notebook IN LISTS notebooks)
   set_tests_properties(notebook.${name} PROPERTIES LABELS python TIMEOUT 120 SKIP_RETURN_CODE 77 FIXTURES_SETUP notebooks
                        ENVIRONMENT "PYTHONPATH=${CMAKE_BINARY_DIR}/python")
 endforeach()
-set_tests_properties(docs.site PROPERTIES FIXTURES_REQUIRED notebooks)
+set_tests_properties(docs.site PROPERTIES FIXTURES_REQUIRED notebooks ENVIRONMENT "PYTHONPATH=${CMAKE_BINARY_DIR}/python")
+
+# The reference of the module says shapes, units and errors.
+add_test(NAME docs.python COMMAND ${SYSTEM_PYTHON} -B ${tools_dir}/python_reference.py)
+set_tests_properties(docs.python PROPERTIES LABELS python TIMEOUT 60 ENVIRONMENT "PYTHONPATH=${CMAKE_BINARY_DIR}/python")
 
 # It is built anew, from objects that ccache has.
 add_test(NAME python.wheel COMMAND ${CMAKE_CURRENT_LIST_DIR}/python/wheel.sh ${PROJECT_SOURCE_DIR}

@@ -3,7 +3,8 @@
 
     tools/site.py FOLDER [NOTEBOOKS]        writes FOLDER/html/index.html
 
-NOTEBOOKS has the pages that tools/notebook.py wrote of those of examples/notebooks.
+NOTEBOOKS has the pages that tools/notebook.py wrote of those of examples/notebooks. The reference of the Python module is of
+the one that Python finds (PYTHONPATH); where it finds none, its page says so.
 
 Nothing may be warned of: links and anchors between pages hold, and every page is in the table of contents. Pages stay readable
 on their own; here they are copied, with what they link to. Without these programs the exit status is 77.
@@ -27,6 +28,13 @@ def is_there():
     return shutil.which("doxygen") and subprocess.run(modules, capture_output=True, check=False).returncode == 0
 
 
+NO_MODULE = "The module was not built where this site was made: `cmake --build --preset dev` builds it.\n"
+
+
+def has_module():
+    return subprocess.run([PYTHON, "-c", "import sinew"], capture_output=True, check=False).returncode == 0
+
+
 def lay_out(source, notebooks):
     shutil.rmtree(source, ignore_errors=True)
     source.mkdir(parents=True)
@@ -36,6 +44,9 @@ def lay_out(source, notebooks):
     shutil.copy(ROOT / "docs/site/index.md", source)
     readme = source / "README.md"
     readme.write_text(re.sub(r"\]\((docs/theory|docs/adr)\)", r"](\1/README.md)", readme.read_text()))
+    if not has_module():
+        page = source / "docs/python-reference.md"
+        page.write_text(page.read_text().partition("<!-- reference")[0] + NO_MODULE)
     pages = source / "examples/notebooks"
     if notebooks and notebooks.is_dir():
         shutil.copytree(notebooks, pages, dirs_exist_ok=True)

@@ -22,6 +22,7 @@ def load(source: Source) -> Robot:
     """Opens a robot: by the name of one that comes with sinew (`robots()`), the path of a robot file, the text of one
     (YAML or JSON of more than one line), or a dict of what a robot file has.
 
-    Raises InputError with all that is wrong with it, a line each.
+    Of a dict numbers are SI (lengths [m], angles [rad], forces [N]), or text with a unit ("60 mm"); docs/robot-files.md has
+    all that `source` may say. Raises `InputError` with all that is wrong with it, a line each.
     """
     return Robot(source)

@@ -27,14 +27,16 @@ def to_array(values: list[Any]) -> Any:
 
 def depth(value: Any) -> int:
     """How many levels of lists of numbers this is; 0 where lists are uneven, empty, or hold anything else."""
+    return len(_sizes(value))
+
+
+def _sizes(value: Any) -> tuple[int, ...]:
     if type(value) is not list or not value:
-        return 0
-    first = value[0]
-    if type(first) is list:
-        below = depth(first)
-        same = below > 0 and all(type(item) is list and len(item) == len(first) and depth(item) == below for item in value)
-        return below + 1 if same else 0
-    return int(all(type(item) in (float, int) for item in value))
+        return ()
+    if type(value[0]) is list:
+        below = _sizes(value[0])
+        return (len(value), *below) if below and all(_sizes(item) == below for item in value) else ()
+    return (len(value),) if all(type(item) in (float, int) for item in value) else ()
 
 
 def shape_text(shape: Any) -> str:

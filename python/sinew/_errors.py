@@ -16,6 +16,7 @@ class InputError(ValueError):
     where: str
     """The field (`inputs[1]`), or the line of a file (`mine.yaml:14:11`)."""
     message: str
+    """The library's sentence, or a line for each thing that is wrong."""
 
     def __init__(self, message: str, code: str = "bad_input", where: str = "") -> None:
         super().__init__(message)

@@ -3,6 +3,7 @@ array's dimensions mean come from it; the library alone judges what a robot take
 """
 from typing import NamedTuple
 
+from . import _answers as answers
 from . import _table
 
 
@@ -12,20 +13,21 @@ class Kind(NamedTuple):
     rank: int
     """Dimensions of one value; an array with one more holds a column."""
     text: str
+    """As help says it."""
 
 
 KINDS = {
-    "number": Kind("Number", 0, "a number, or text with a unit"),
-    "numbers": Kind("Numbers", 1, "shape (k,); (n, k) for n rows"),
-    "lists": Kind("Lists", 2, "a list each"),
-    "pose": Kind("Pose", 0, "a pose"),
-    "poses": Kind("Sequence[Pose]", 0, "poses"),
-    "map": Kind("Mapping[str, Any]", 0, "a dict"),
-    "word": Kind("str", 0, "a word"),
-    "words": Kind("Sequence[str]", 0, "words"),
-    "flag": Kind("bool", 0, "true or false"),
-    "count": Kind("int", 0, "a whole number"),
-    "any": Kind("Any", 1, "several forms"),
+    "number": Kind("Number", 0, "number"),
+    "numbers": Kind("Numbers", 1, "numbers"),
+    "lists": Kind("Lists", 2, "lists of numbers"),
+    "pose": Kind("Pose", 0, "pose"),
+    "poses": Kind("Sequence[Pose]", 0, "list of poses"),
+    "map": Kind("Mapping[str, Any]", 0, "dict"),
+    "word": Kind("str", 0, "str"),
+    "words": Kind("Sequence[str]", 0, "list of str"),
+    "flag": Kind("bool", 0, "bool"),
+    "count": Kind("int", 0, "int"),
+    "any": Kind("Any", 1, "number, list, dict or str"),
 }
 
 
@@ -45,27 +47,19 @@ FIELDS = _fields(*_table.FIELDS)
 
 class Verb(NamedTuple):
     text: str
-    answer: str
+    answer: tuple[str, ...]
     fields: tuple[str, ...]
 
 
-VERBS = {name: Verb(text, answer, _table.QUESTIONS[name]) for name, text, answer in (
-    ("forward", "Pose of the platform or tip from the inputs.",
-     "pose (or tip), legs (or sections), residual, iterations; of rods and chains energy, potential, and what `want` asks for"),
-    ("inverse", "Inputs from the pose.",
-     "inputs (or configuration and changes), legs, pose, residual"),
-    ("velocity", "Velocity equations J (twist) = K (input rates), sensitivities, singularities.",
-     "pose, J, K, U = J^-1 K, determinant, indices, type_1, type_2; with `twist` rates"),
-    ("statics", "A tendon-driven robot under a load, or the wrench on it sensed from forces.",
-     "pose, legs with tensions and forces, wrench, stiffness, compliance, stable, potential, residual"),
-    ("track", "Inputs along a path of poses; of rods and chains also a curve of equilibria.",
-     "rows, residual, reached; of a curve curves and equilibria"),
-    ("diagram", "What the tendons of one section of a serial robot leave it free to do.",
-     "class_, word, amount, advice, point, slack, margin, over_tension, frontiers, polygon, boundary, area"),
-    ("shape", "Polylines for a picture.",
-     "pose, backbones, tendons, lines, platform, base, frames; points in the base frame [m]"),
-    ("describe", "What the robot has.",
-     "kind, space, inputs, pose, home, legs or sections, models, versions"),
+VERBS = {name: Verb(text, answers.OF[name], _table.QUESTIONS[name]) for name, text in (
+    ("forward", "Pose of the platform or tip from the inputs."),
+    ("inverse", "Inputs from the pose."),
+    ("velocity", "Velocity equations J (twist) = K (input rates), sensitivities, singularities."),
+    ("statics", "A tendon-driven robot under a load, or the wrench on it sensed from forces."),
+    ("track", "Inputs along a path of poses; of rods and chains also a curve of equilibria."),
+    ("diagram", "What the tendons of one section of a serial robot leave it free to do."),
+    ("shape", "Polylines for a picture."),
+    ("describe", "What the robot has."),
 )}
 
 RANKS = {name: KINDS[field.kind].rank for name, field in FIELDS.items()}

@@ -4,30 +4,46 @@ same table, has them for readers and type checkers.
 from __future__ import annotations
 
 import inspect
+import re
 import textwrap
+from collections.abc import Iterable, Iterator
 from typing import Any
 
-from ._fields import FIELDS, VERBS
+from ._fields import FIELDS, KINDS, VERBS
 
 BATCH = ("outputs", "path", "threads", "out")
-_BATCH_HELP = """\
-threads: of n rows, default all cores; the bytes do not depend on it
-out: arrays of your own that become the answer's, by name
-outputs, path: as of Robot.prepare
-Of n rows the answer is `Columns`: arrays (n, ...), and statuses a row."""
+_BATCH_HELP = (
+    "outputs (dict or list of str): what comes out, as of `Robot.prepare`",
+    'path (str): "continue", as of `Robot.prepare`',
+    "threads (int): default all cores; the bytes do not depend on it",
+    "out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name")
+_FRAMES = "Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before the angular."
+_ARRAYS = "An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of arrays (n, ...). Also by keyword:"
+_SHAPES = {"numbers": "; (k,)", "lists": "; a list each, or an array"}
+
+
+def _entries(texts: Iterable[str]) -> Iterator[str]:
+    """Indented lines `name (kind) [unit]: text`."""
+    for text in texts:
+        yield from textwrap.wrap(text, 100, initial_indent="    ", subsequent_indent="        ")
+
+
+def _field(name: str) -> str:
+    field = FIELDS[name]
+    unit = f" [{field.unit}]" if field.unit else ""
+    shape = "" if re.search(r"\(\w+,[^)]*\)", field.text) else _SHAPES.get(field.kind, "")
+    return f"{name} ({KINDS[field.kind].text}){unit}: {field.text}{shape}"
 
 
 def document(name: str) -> str:
+    """What help says of a question: all its fields with kinds, shapes and units, and those of its answer."""
     verb = VERBS[name]
-    lines = [verb.text, "", "Fields, all by keyword but the first; which of them a robot takes, it says itself:"]
-    for field in verb.fields:
-        entry = FIELDS[field]
-        unit = f" [{entry.unit}]" if entry.unit else ""
-        lines += textwrap.wrap(f"{field}{unit}: {entry.text}", 100, initial_indent="    ", subsequent_indent="        ")
-    lines += ["", *textwrap.wrap(f"The answer has `ok`, `status`, `message`, and {verb.answer}.", 100)]
+    lines = [verb.text, "", *textwrap.wrap(_FRAMES, 100), "", "Fields, all by keyword but the first; which of them a robot takes, it says itself:"]
+    lines += _entries(_field(field) for field in verb.fields)
     if name != "describe":
-        lines += ["", "With arrays of one dimension more than one value needs:", *("    " + line for line in _BATCH_HELP.splitlines())]
-    lines += ["", "Raises InputError where a field is not to be read. No solution is no error: see `status`, `message`."]
+        lines += ["", *textwrap.wrap(_ARRAYS, 100), *_entries(_BATCH_HELP)]
+    lines += ["", "The answer has `ok`, `status`, `message`, and, as far as the robot has them:", *_entries(verb.answer)]
+    lines += ["", "Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`."]
     return "\n".join(lines)
 
 

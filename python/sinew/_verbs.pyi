@@ -39,58 +39,82 @@ class Verbs:
     ) -> Answer:
         """Pose of the platform or tip from the inputs.
 
+        Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before
+        the angular.
+
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
-                length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
-            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
-                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
-                lsk (linearised)
-            set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length; on the command line it may be repeated
-            theta_is: what an input theta is the angle of: tangent (default) or chord
-            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
-                (tendons straight between discs)
-            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
-                torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
-            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
-                configuration, or last, where the last question with a start ended; default the robot's home
-            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
-                in the plane, (6,) in space
-            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            until [N]: a wrench that is added again and again until the robot buckles, up to `limit` times
-            posture_threshold [rad]: turn of a joint up to which the linear model counts as valid
-            want: what is answered about the configuration: velocity, shape, stiffness, stability, margins,
-                sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them
-                is named
-            all: every solution, not only the one wanted
-            trace: the residual of each iterate is answered, too
-            twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
-                of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
-                with the want velocity; (3,) in the plane, (6,) in space
-            rates [m/s]: of the inputs, in place of `twist`; answers the twist of the platform; (k,), or (n,
-                k) for n rows
-            along [m/s, rad/s]: a direction in which the nearest type II is looked for; with the want
-                velocity; (3,) in the plane, (6,) in space
-            limit: how far to look `along` its direction; of a diagram the envelope's size
-            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
-                most, default 500
-            configuration [rad, m]: of a serial robot two angles a section: theta, phi of a neutral
-                backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its extension;
-                sections not given are straight
-            changes [m]: of a serial robot the change of each tendon, > 0 pays out, section after section
-            slack [m]: what the tendons of each section are paid out beyond its configuration; < 0 stiffens
+            inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
+                a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
+                n rows
+            model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
+                tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
+                (exact) or lsk (linearised)
+            set (dict): changes the robot for this question alone: values by their paths in its file, such
+                as legs[0].link.length; on the command line it may be repeated
+            theta_is (str): what an input theta is the angle of: tangent (default) or chord
+            law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
+                M1 (tendons straight between discs)
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
+                bear torque 400
+            tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
+            start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
+                of a serial robot its configuration, or last, where the last question with a start ended;
+                default the robot's home
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
+                axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
+                (3,)
+            until (dict) [N]: a wrench that is added again and again until the robot buckles, up to `limit`
+                times
+            posture_threshold (number) [rad]: turn of a joint up to which the linear model counts as valid
+            want (list of str): what is answered about the configuration: velocity, shape, stiffness,
+                stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are
+                added unless one of them is named
+            all (bool): every solution, not only the one wanted
+            trace (bool): the residual of each iterate is answered, too
+            twist (numbers) [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space
+                three each, of rods with three inputs z, x and y of them alone, too; answers the rates of
+                the inputs; with the want velocity; (3,) in the plane, (6,) in space
+            rates (numbers) [m/s]: of the inputs, in place of `twist`; answers the twist of the platform;
+                (k,), or (n, k) for n rows
+            along (numbers) [m/s, rad/s]: a direction in which the nearest type II is looked for; with the
+                want velocity; (3,) in the plane, (6,) in space
+            limit (number): how far to look `along` its direction; of a diagram the envelope's size
+            samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
+                curve, at most, default 500
+            configuration (lists of numbers) [rad, m]: of a serial robot two angles a section: theta, phi of
+                a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its
+                extension; sections not given are straight; a list each, or an array
+            changes (lists of numbers) [m]: of a serial robot the change of each tendon, > 0 pays out,
+                section after section; a list each, or an array
+            slack (numbers) [m]: what the tendons of each section are paid out beyond its configuration; < 0
+                stiffens; (k,)
 
-        The answer has `ok`, `status`, `message`, and pose (or tip), legs (or sections), residual,
-        iterations; of rods and chains energy, potential, and what `want` asks for.
+        An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
+        arrays (n, ...). Also by keyword:
+            outputs (dict or list of str): what comes out, as of `Robot.prepare`
+            path (str): "continue", as of `Robot.prepare`
+            threads (int): default all cores; the bytes do not depend on it
+            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
 
-        With arrays of one dimension more than one value needs:
-            threads: of n rows, default all cores; the bytes do not depend on it
-            out: arrays of your own that become the answer's, by name
-            outputs, path: as of Robot.prepare
-            Of n rows the answer is `Columns`: arrays (n, ...), and statuses a row.
+        The answer has `ok`, `status`, `message`, and, as far as the robot has them:
+            pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
+                quaternion (4,), w first
+            tip: of a serial robot instead of pose and legs: position (3,) [m] and quaternion (4,), w first
+            legs: list of one record a leg: curvature [1/m], chord [m], tendon_lengths (2,) [m]; of a rod
+                length [m], force and force_0 (3,) [N], moment and moment_0 (3,) [N m]
+            sections: of a serial robot, list of one record a section: position (3,) [m] and quaternion (4,)
+                of its end
+            configuration: of a serial robot, (sections, 2) [rad], where lengths vary (sections, 3) [rad, m]
+            changes: of a serial robot's tendons, (sections, tendons) [m], or a list each where sections
+                differ
+            residual: number [m], of rods and chains without a unit: the largest error of what was solved
+            iterations: int, of the solver
+            energy, potential: of rods and chains, numbers [J]
+            J, K, stiffness, stable, sensitivity, margins, backbones: what `want` asks for, and more; see
+                `velocity`, `statics`, `shape`
 
-        Raises InputError where a field is not to be read. No solution is no error: see `status`, `message`.
+        Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`.
         """
 
     def inverse(
@@ -126,57 +150,76 @@ class Verbs:
     ) -> Answer:
         """Inputs from the pose.
 
+        Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before
+        the angular.
+
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in space
-                x, y, z and a quaternion, on the command line also a rotation vector
-            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
-                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
-                lsk (linearised)
-            set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length; on the command line it may be repeated
-            theta_is: what an input theta is the angle of: tangent (default) or chord
-            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
-                (tendons straight between discs)
-            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
-                torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
-            independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
-                it: height and two components of its quaternion; of hinges a mode, too, tilt or half_turn
-            bending: sign of each leg's curvature; (legs,)
-            elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
-            curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
-            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
-                configuration, or last, where the last question with a start ended; default the robot's home
-            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
-                in the plane, (6,) in space
-            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            want: what is answered about the configuration: velocity, shape, stiffness, stability, margins,
-                sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them
-                is named
-            all: every solution, not only the one wanted
-            twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
-                of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
-                with the want velocity; (3,) in the plane, (6,) in space
-            rates [m/s]: of the inputs, in place of `twist`; answers the twist of the platform; (k,), or (n,
-                k) for n rows
-            along [m/s, rad/s]: a direction in which the nearest type II is looked for; with the want
-                velocity; (3,) in the plane, (6,) in space
-            limit: how far to look `along` its direction; of a diagram the envelope's size
-            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
-                most, default 500
-            position [m]: of a serial robot's tip; (3,)
-            direction: in which a serial robot's tip points; (3,)
+            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in
+                space x, y, z and a quaternion, on the command line also a rotation vector
+            model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
+                tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
+                (exact) or lsk (linearised)
+            set (dict): changes the robot for this question alone: values by their paths in its file, such
+                as legs[0].link.length; on the command line it may be repeated
+            theta_is (str): what an input theta is the angle of: tangent (default) or chord
+            law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
+                M1 (tendons straight between discs)
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
+                bear torque 400
+            tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
+            independent (dict) [m]: in place of `pose` where hinges hold the platform in planes, or three
+                rods hold it: height and two components of its quaternion; of hinges a mode, too, tilt or
+                half_turn
+            bending (numbers): sign of each leg's curvature; (legs,)
+            elbow (numbers): side to which the strut of each leg turns, where the leg has a motor or a rail;
+                (legs,)
+            curvature (numbers) [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
+            start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
+                of a serial robot its configuration, or last, where the last question with a start ended;
+                default the robot's home
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
+                axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
+                (3,)
+            want (list of str): what is answered about the configuration: velocity, shape, stiffness,
+                stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are
+                added unless one of them is named
+            all (bool): every solution, not only the one wanted
+            twist (numbers) [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space
+                three each, of rods with three inputs z, x and y of them alone, too; answers the rates of
+                the inputs; with the want velocity; (3,) in the plane, (6,) in space
+            rates (numbers) [m/s]: of the inputs, in place of `twist`; answers the twist of the platform;
+                (k,), or (n, k) for n rows
+            along (numbers) [m/s, rad/s]: a direction in which the nearest type II is looked for; with the
+                want velocity; (3,) in the plane, (6,) in space
+            limit (number): how far to look `along` its direction; of a diagram the envelope's size
+            samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
+                curve, at most, default 500
+            position (numbers) [m]: of a serial robot's tip; (3,)
+            direction (numbers): in which a serial robot's tip points; (3,)
 
-        The answer has `ok`, `status`, `message`, and inputs (or configuration and changes), legs, pose,
-        residual.
+        An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
+        arrays (n, ...). Also by keyword:
+            outputs (dict or list of str): what comes out, as of `Robot.prepare`
+            path (str): "continue", as of `Robot.prepare`
+            threads (int): default all cores; the bytes do not depend on it
+            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
 
-        With arrays of one dimension more than one value needs:
-            threads: of n rows, default all cores; the bytes do not depend on it
-            out: arrays of your own that become the answer's, by name
-            outputs, path: as of Robot.prepare
-            Of n rows the answer is `Columns`: arrays (n, ...), and statuses a row.
+        The answer has `ok`, `status`, `message`, and, as far as the robot has them:
+            inputs: (k,) [m, rad], in leg order
+            pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
+                quaternion (4,), w first
+            legs: list of one record a leg: curvature [1/m], chord [m], tendon_lengths (2,) [m]; of a rod
+                length [m], force and force_0 (3,) [N], moment and moment_0 (3,) [N m]
+            tip: of a serial robot instead of pose and legs: position (3,) [m] and quaternion (4,), w first
+            configuration: of a serial robot, (sections, 2) [rad], where lengths vary (sections, 3) [rad, m]
+            changes: of a serial robot's tendons, (sections, tendons) [m], or a list each where sections
+                differ
+            residual: number [m], of rods and chains without a unit: the largest error of what was solved
+            J, K, stiffness, stable, sensitivity, margins, backbones: what `want` asks for, and more; see
+                `velocity`, `statics`, `shape`
 
-        Raises InputError where a field is not to be read. No solution is no error: see `status`, `message`.
+        Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`.
         """
 
     def velocity(
@@ -213,62 +256,85 @@ class Verbs:
     ) -> Answer:
         """Velocity equations J (twist) = K (input rates), sensitivities, singularities.
 
+        Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before
+        the angular.
+
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in space
-                x, y, z and a quaternion, on the command line also a rotation vector
-            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
-                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
-                lsk (linearised)
-            set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length; on the command line it may be repeated
-            theta_is: what an input theta is the angle of: tangent (default) or chord
-            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
-                (tendons straight between discs)
-            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
-                torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
-            inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
-                length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
-            independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
-                it: height and two components of its quaternion; of hinges a mode, too, tilt or half_turn
-            bending: sign of each leg's curvature; (legs,)
-            elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
-            curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
-            angles [rad]: of the joints of each chain, from the first sprung one; before them the direction
-                of a first link that a motor turns
-            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
-                configuration, or last, where the last question with a start ended; default the robot's home
-            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
-                in the plane, (6,) in space
-            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            want: what is answered about the configuration: velocity, shape, stiffness, stability, margins,
-                sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them
-                is named
-            twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
-                of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
-                with the want velocity; (3,) in the plane, (6,) in space
-            rates [m/s]: of the inputs, in place of `twist`; answers the twist of the platform; (k,), or (n,
-                k) for n rows
-            along [m/s, rad/s]: a direction in which the nearest type II is looked for; with the want
-                velocity; (3,) in the plane, (6,) in space
-            limit: how far to look `along` its direction; of a diagram the envelope's size
-            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
-                most, default 500
-            configuration [rad, m]: of a serial robot two angles a section: theta, phi of a neutral
-                backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its extension;
-                sections not given are straight
-            changes [m]: of a serial robot the change of each tendon, > 0 pays out, section after section
+            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in
+                space x, y, z and a quaternion, on the command line also a rotation vector
+            model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
+                tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
+                (exact) or lsk (linearised)
+            set (dict): changes the robot for this question alone: values by their paths in its file, such
+                as legs[0].link.length; on the command line it may be repeated
+            theta_is (str): what an input theta is the angle of: tangent (default) or chord
+            law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
+                M1 (tendons straight between discs)
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
+                bear torque 400
+            tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
+            inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
+                a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
+                n rows
+            independent (dict) [m]: in place of `pose` where hinges hold the platform in planes, or three
+                rods hold it: height and two components of its quaternion; of hinges a mode, too, tilt or
+                half_turn
+            bending (numbers): sign of each leg's curvature; (legs,)
+            elbow (numbers): side to which the strut of each leg turns, where the leg has a motor or a rail;
+                (legs,)
+            curvature (numbers) [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
+            angles (lists of numbers) [rad]: of the joints of each chain, from the first sprung one; before
+                them the direction of a first link that a motor turns; a list each, or an array
+            start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
+                of a serial robot its configuration, or last, where the last question with a start ended;
+                default the robot's home
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
+                axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
+                (3,)
+            want (list of str): what is answered about the configuration: velocity, shape, stiffness,
+                stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are
+                added unless one of them is named
+            twist (numbers) [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space
+                three each, of rods with three inputs z, x and y of them alone, too; answers the rates of
+                the inputs; with the want velocity; (3,) in the plane, (6,) in space
+            rates (numbers) [m/s]: of the inputs, in place of `twist`; answers the twist of the platform;
+                (k,), or (n, k) for n rows
+            along (numbers) [m/s, rad/s]: a direction in which the nearest type II is looked for; with the
+                want velocity; (3,) in the plane, (6,) in space
+            limit (number): how far to look `along` its direction; of a diagram the envelope's size
+            samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
+                curve, at most, default 500
+            configuration (lists of numbers) [rad, m]: of a serial robot two angles a section: theta, phi of
+                a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its
+                extension; sections not given are straight; a list each, or an array
+            changes (lists of numbers) [m]: of a serial robot the change of each tendon, > 0 pays out,
+                section after section; a list each, or an array
 
-        The answer has `ok`, `status`, `message`, and pose, J, K, U = J^-1 K, determinant, indices, type_1,
-        type_2; with `twist` rates.
+        An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
+        arrays (n, ...). Also by keyword:
+            outputs (dict or list of str): what comes out, as of `Robot.prepare`
+            path (str): "continue", as of `Robot.prepare`
+            threads (int): default all cores; the bytes do not depend on it
+            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
 
-        With arrays of one dimension more than one value needs:
-            threads: of n rows, default all cores; the bytes do not depend on it
-            out: arrays of your own that become the answer's, by name
-            outputs, path: as of Robot.prepare
-            Of n rows the answer is `Columns`: arrays (n, ...), and statuses a row.
+        The answer has `ok`, `status`, `message`, and, as far as the robot has them:
+            pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
+                quaternion (4,), w first
+            tip: of a serial robot instead of pose and legs: position (3,) [m] and quaternion (4,), w first
+            J, K: (m, m) and (m, k), J (twist) = K (rates), SI; m is 3 in the plane, 6 in space, k the
+                number of inputs; of a serial robot of c configuration variables (6, c) and (tendons, c):
+                twist of the tip and rates of the tendons by their rates
+            U: (m, k), J^-1 K: sensitivities of the pose to the inputs
+            determinant: number, of J where it is square
+            indices: record of numbers: condition, condition_homogenised; position and rotation, the largest
+                singular values of those rows of U
+            type_1, type_2: singularities: list of legs; record with singular, class_, rank
+            rates: with `twist`, (k,) [m/s, rad/s]
+            twist: with `rates`, (3,) or (6,) [m/s, rad/s]
+            residual: number [m], of rods and chains without a unit: the largest error of what was solved
 
-        Raises InputError where a field is not to be read. No solution is no error: see `status`, `message`.
+        Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`.
         """
 
     def statics(
@@ -309,64 +375,84 @@ class Verbs:
     ) -> Answer:
         """A tendon-driven robot under a load, or the wrench on it sensed from forces.
 
+        Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before
+        the angular.
+
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in space
-                x, y, z and a quaternion, on the command line also a rotation vector
-            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
-                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
-                lsk (linearised)
-            set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length; on the command line it may be repeated
-            theta_is: what an input theta is the angle of: tangent (default) or chord
-            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
-                (tendons straight between discs)
-            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
-                torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
-            inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
-                length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
-            bending: sign of each leg's curvature; (legs,)
-            elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
-            curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
-            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
-                configuration, or last, where the last question with a start ended; default the robot's home
-            set_at [m, rad]: the pose at which the tendons are set without load, the outer ones loose
-            hold: what stays after `set_at` or with `pose`: tension (default) or length
-            tensions [N]: of both tendons of each leg; (legs, 2)
-            lengths [m]: of the tendon of each leg whose length is held; null, on the command line -, leaves
-                the other one loose; (legs, 2)
-            inverse: `pose` is held under the load, and the tensions for it answered
-            axial_forces [N]: what each of six rods pulls at its guide; answers the wrench on the platform
-            measured_tensions [N]: what the tendons at `lengths` pull, a leg each; answers the wrench on the
-                platform; (legs,)
-            deviation [N]: standard deviation of what is measured, one for all or one each; answers how well
-                the wrench is known
-            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
-                in the plane, (6,) in space
-            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            until [N]: a wrench that is added again and again until the robot buckles, up to `limit` times
-            posture_threshold [rad]: turn of a joint up to which the linear model counts as valid
-            want: what is answered about the configuration: velocity, shape, stiffness, stability, margins,
-                sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them
-                is named
-            twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
-                of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
-                with the want velocity; (3,) in the plane, (6,) in space
-            rates [m/s]: of the inputs, in place of `twist`; answers the twist of the platform; (k,), or (n,
-                k) for n rows
-            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
-                most, default 500
+            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in
+                space x, y, z and a quaternion, on the command line also a rotation vector
+            model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
+                tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
+                (exact) or lsk (linearised)
+            set (dict): changes the robot for this question alone: values by their paths in its file, such
+                as legs[0].link.length; on the command line it may be repeated
+            theta_is (str): what an input theta is the angle of: tangent (default) or chord
+            law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
+                M1 (tendons straight between discs)
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
+                bear torque 400
+            tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
+            inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
+                a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
+                n rows
+            bending (numbers): sign of each leg's curvature; (legs,)
+            elbow (numbers): side to which the strut of each leg turns, where the leg has a motor or a rail;
+                (legs,)
+            curvature (numbers) [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
+            start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
+                of a serial robot its configuration, or last, where the last question with a start ended;
+                default the robot's home
+            set_at (pose) [m, rad]: the pose at which the tendons are set without load, the outer ones loose
+            hold (str): what stays after `set_at` or with `pose`: tension (default) or length
+            tensions (lists of numbers) [N]: of both tendons of each leg; (legs, 2)
+            lengths (lists of numbers) [m]: of the tendon of each leg whose length is held; null, on the
+                command line -, leaves the other one loose; (legs, 2)
+            inverse (bool): `pose` is held under the load, and the tensions for it answered
+            axial_forces (numbers) [N]: what each of six rods pulls at its guide; answers the wrench on the
+                platform; (k,)
+            measured_tensions (numbers) [N]: what the tendons at `lengths` pull, a leg each; answers the
+                wrench on the platform; (legs,)
+            deviation (number, list, dict or str) [N]: standard deviation of what is measured, one for all
+                or one each; answers how well the wrench is known
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
+                axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
+                (3,)
+            until (dict) [N]: a wrench that is added again and again until the robot buckles, up to `limit`
+                times
+            posture_threshold (number) [rad]: turn of a joint up to which the linear model counts as valid
+            want (list of str): what is answered about the configuration: velocity, shape, stiffness,
+                stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are
+                added unless one of them is named
+            twist (numbers) [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space
+                three each, of rods with three inputs z, x and y of them alone, too; answers the rates of
+                the inputs; with the want velocity; (3,) in the plane, (6,) in space
+            rates (numbers) [m/s]: of the inputs, in place of `twist`; answers the twist of the platform;
+                (k,), or (n, k) for n rows
+            samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
+                curve, at most, default 500
 
-        The answer has `ok`, `status`, `message`, and pose, legs with tensions and forces, wrench,
-        stiffness, compliance, stable, potential, residual.
+        An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
+        arrays (n, ...). Also by keyword:
+            outputs (dict or list of str): what comes out, as of `Robot.prepare`
+            path (str): "continue", as of `Robot.prepare`
+            threads (int): default all cores; the bytes do not depend on it
+            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
 
-        With arrays of one dimension more than one value needs:
-            threads: of n rows, default all cores; the bytes do not depend on it
-            out: arrays of your own that become the answer's, by name
-            outputs, path: as of Robot.prepare
-            Of n rows the answer is `Columns`: arrays (n, ...), and statuses a row.
+        The answer has `ok`, `status`, `message`, and, as far as the robot has them:
+            pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
+                quaternion (4,), w first
+            legs: list of one record a leg: tensions (2,) [N], tendon_lengths (2,) [m], angles (joints,)
+                [rad], chord_force [N], tip_wrench (3,) or (6,) [N, N m]
+            wrench: (3,) in the plane, (6,) in space [N, N m], on the platform, about its reference point
+            stiffness, compliance: (3, 3) or (6, 6): wrench [N, N m] by pose [m, rad], inputs held, and its
+                inverse
+            stable: bool, beside unstable_directions, an int
+            potential: number [J]
+            residual: number [m], of rods and chains without a unit: the largest error of what was solved
+            iterations: int, of the solver
 
-        Raises InputError where a field is not to be read. No solution is no error: see `status`, `message`.
+        Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`.
         """
 
     def track(
@@ -408,61 +494,78 @@ class Verbs:
     ) -> Answer:
         """Inputs along a path of poses; of rods and chains also a curve of equilibria.
 
+        Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before
+        the angular.
+
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            poses [m, rad]: the path, pose by pose
-            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
-                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
-                lsk (linearised)
-            set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length; on the command line it may be repeated
-            theta_is: what an input theta is the angle of: tangent (default) or chord
-            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
-                (tendons straight between discs)
-            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
-                torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
-            inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
-                length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
-            pose [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in space
-                x, y, z and a quaternion, on the command line also a rotation vector
-            independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
-                it: height and two components of its quaternion; of hinges a mode, too, tilt or half_turn
-            bending: sign of each leg's curvature; (legs,)
-            elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
-            curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
-            angles [rad]: of the joints of each chain, from the first sprung one; before them the direction
-                of a first link that a motor turns
-            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
-                configuration, or last, where the last question with a start ended; default the robot's home
-            set_at [m, rad]: the pose at which the tendons are set without load, the outer ones loose
-            hold: what stays after `set_at` or with `pose`: tension (default) or length
-            tensions [N]: of both tendons of each leg; (legs, 2)
-            lengths [m]: of the tendon of each leg whose length is held; null, on the command line -, leaves
-                the other one loose; (legs, 2)
-            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
-                in the plane, (6,) in space
-            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
-                most, default 500
-            from_ [m, rad]: first pose of a path, of rods with three inputs z, e1 and e2
-            to: last pose of a path; of a curve of equilibria what changes along it: inputs, tensions,
-                lengths, wrench, pose
-            objective: what redundant legs do with their freedom: limits, singularity, smooth or none
-            rk4_steps: Runge-Kutta steps between poses; default the flow itself
-            range: how far a curve goes: 0 is its beginning, 1 what it leads to; default [0, 1]; (2,)
-            backward: a curve sets out the other way
-            branches: curves that leave it at bifurcations are followed, too
+            poses (list of poses) [m, rad]: the path, pose by pose
+            model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
+                tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
+                (exact) or lsk (linearised)
+            set (dict): changes the robot for this question alone: values by their paths in its file, such
+                as legs[0].link.length; on the command line it may be repeated
+            theta_is (str): what an input theta is the angle of: tangent (default) or chord
+            law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
+                M1 (tendons straight between discs)
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
+                bear torque 400
+            tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
+            inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
+                a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
+                n rows
+            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in
+                space x, y, z and a quaternion, on the command line also a rotation vector
+            independent (dict) [m]: in place of `pose` where hinges hold the platform in planes, or three
+                rods hold it: height and two components of its quaternion; of hinges a mode, too, tilt or
+                half_turn
+            bending (numbers): sign of each leg's curvature; (legs,)
+            elbow (numbers): side to which the strut of each leg turns, where the leg has a motor or a rail;
+                (legs,)
+            curvature (numbers) [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
+            angles (lists of numbers) [rad]: of the joints of each chain, from the first sprung one; before
+                them the direction of a first link that a motor turns; a list each, or an array
+            start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
+                of a serial robot its configuration, or last, where the last question with a start ended;
+                default the robot's home
+            set_at (pose) [m, rad]: the pose at which the tendons are set without load, the outer ones loose
+            hold (str): what stays after `set_at` or with `pose`: tension (default) or length
+            tensions (lists of numbers) [N]: of both tendons of each leg; (legs, 2)
+            lengths (lists of numbers) [m]: of the tendon of each leg whose length is held; null, on the
+                command line -, leaves the other one loose; (legs, 2)
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
+                axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
+                (3,)
+            samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
+                curve, at most, default 500
+            from_ (number, list, dict or str) [m, rad]: first pose of a path, of rods with three inputs z,
+                e1 and e2
+            to (dict): last pose of a path; of a curve of equilibria what changes along it: inputs,
+                tensions, lengths, wrench, pose
+            objective (str): what redundant legs do with their freedom: limits, singularity, smooth or none
+            rk4_steps (int): Runge-Kutta steps between poses; default the flow itself
+            range (numbers): how far a curve goes: 0 is its beginning, 1 what it leads to; default [0, 1];
+                (2,)
+            backward (bool): a curve sets out the other way
+            branches (bool): curves that leave it at bifurcations are followed, too
 
-        The answer has `ok`, `status`, `message`, and rows, residual, reached; of a curve curves and
-        equilibria.
+        An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
+        arrays (n, ...). Also by keyword:
+            outputs (dict or list of str): what comes out, as of `Robot.prepare`
+            path (str): "continue", as of `Robot.prepare`
+            threads (int): default all cores; the bytes do not depend on it
+            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
 
-        With arrays of one dimension more than one value needs:
-            threads: of n rows, default all cores; the bytes do not depend on it
-            out: arrays of your own that become the answer's, by name
-            outputs, path: as of Robot.prepare
-            Of n rows the answer is `Columns`: arrays (n, ...), and statuses a row.
+        The answer has `ok`, `status`, `message`, and, as far as the robot has them:
+            rows: list of one record a pose: pose, inputs (k,) [m, rad], curvature (legs,) [1/m],
+                closure_error [m], indices
+            curves: of a curve of equilibria, list of records with rows: parameter, pose, inputs (k,) [m,
+                rad], stable, potential [J], event
+            equilibria: of a curve, list of one record for each point where the parameter is 1: curve, row,
+                pose, inputs (k,) [m, rad], stable
+            residual: number [m], of rods and chains without a unit: the largest error of what was solved
 
-        Raises InputError where a field is not to be read. No solution is no error: see `status`, `message`.
+        Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`.
         """
 
     def diagram(
@@ -486,33 +589,46 @@ class Verbs:
     ) -> Answer:
         """What the tendons of one section of a serial robot leave it free to do.
 
+        Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before
+        the angular.
+
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            section: which section, from 0
-            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
-                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
-                lsk (linearised)
-            set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length; on the command line it may be repeated
-            theta_is: what an input theta is the angle of: tangent (default) or chord
-            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
-                torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
-            limit: how far to look `along` its direction; of a diagram the envelope's size
-            changes [m]: of a serial robot the change of each tendon, > 0 pays out, section after section
-            measured [m]: changes that encoders read, beside those commanded
-            tolerance [m]: of a tendon before it counts as slack or too short; default the file's
-            envelope: bends that a section is allowed: square, disc or actuator; default its limit
+            section (int): which section, from 0
+            model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
+                tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
+                (exact) or lsk (linearised)
+            set (dict): changes the robot for this question alone: values by their paths in its file, such
+                as legs[0].link.length; on the command line it may be repeated
+            theta_is (str): what an input theta is the angle of: tangent (default) or chord
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
+                bear torque 400
+            tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
+            limit (number): how far to look `along` its direction; of a diagram the envelope's size
+            changes (lists of numbers) [m]: of a serial robot the change of each tendon, > 0 pays out,
+                section after section; a list each, or an array
+            measured (number, list, dict or str) [m]: changes that encoders read, beside those commanded
+            tolerance (number) [m]: of a tendon before it counts as slack or too short; default the file's
+            envelope (str): bends that a section is allowed: square, disc or actuator; default its limit
 
-        The answer has `ok`, `status`, `message`, and class_, word, amount, advice, point, slack, margin,
-        over_tension, frontiers, polygon, boundary, area.
+        An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
+        arrays (n, ...). Also by keyword:
+            outputs (dict or list of str): what comes out, as of `Robot.prepare`
+            path (str): "continue", as of `Robot.prepare`
+            threads (int): default all cores; the bytes do not depend on it
+            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
 
-        With arrays of one dimension more than one value needs:
-            threads: of n rows, default all cores; the bytes do not depend on it
-            out: arrays of your own that become the answer's, by name
-            outputs, path: as of Robot.prepare
-            Of n rows the answer is `Columns`: arrays (n, ...), and statuses a row.
+        The answer has `ok`, `status`, `message`, and, as far as the robot has them:
+            class_, word, advice: str: exact, indeterminate, inconsistent or unreachable; the same for an
+                operator
+            slack: (tendons,) [m] at `point`, beside margin and over_tension, numbers [m]
+            amount: number [m], what a tendon has too much or lacks; of an unreachable bend [rad]
+            point: (2,) [rad], the bend that meets the tendons best: beta_1, beta_2, or theta cos phi, theta
+                sin phi
+            frontiers: list of records: half-planes normal (2,) and offset [rad], or curve
+            polygon, boundary: (corners, 2) [rad]: what no tendon forbids, and that within the envelope
+            area: number [rad^2], of the boundary
 
-        Raises InputError where a field is not to be read. No solution is no error: see `status`, `message`.
+        Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`.
         """
 
     def shape(
@@ -549,62 +665,80 @@ class Verbs:
     ) -> Answer:
         """Polylines for a picture.
 
+        Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before
+        the angular.
+
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            pose [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in space
-                x, y, z and a quaternion, on the command line also a rotation vector
-            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
-                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
-                lsk (linearised)
-            set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length; on the command line it may be repeated
-            theta_is: what an input theta is the angle of: tangent (default) or chord
-            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
-                (tendons straight between discs)
-            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
-                torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
-            inputs [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its
-                length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows
-            independent [m]: in place of `pose` where hinges hold the platform in planes, or three rods hold
-                it: height and two components of its quaternion; of hinges a mode, too, tilt or half_turn
-            bending: sign of each leg's curvature; (legs,)
-            elbow: side to which the strut of each leg turns, where the leg has a motor or a rail; (legs,)
-            curvature [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
-            angles [rad]: of the joints of each chain, from the first sprung one; before them the direction
-                of a first link that a motor turns
-            start: where the search begins: a pose, of inverse and track inputs, of a serial robot its
-                configuration, or last, where the last question with a start ended; default the robot's home
-            wrench [N, N m]: force and moment on the platform, about its reference point, in base axes; (3,)
-                in the plane, (6,) in space
-            gravity [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's; (3,)
-            want: what is answered about the configuration: velocity, shape, stiffness, stability, margins,
-                sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them
-                is named
-            twist [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space three each,
-                of rods with three inputs z, x and y of them alone, too; answers the rates of the inputs;
-                with the want velocity; (3,) in the plane, (6,) in space
-            rates [m/s]: of the inputs, in place of `twist`; answers the twist of the platform; (k,), or (n,
-                k) for n rows
-            along [m/s, rad/s]: a direction in which the nearest type II is looked for; with the want
-                velocity; (3,) in the plane, (6,) in space
-            limit: how far to look `along` its direction; of a diagram the envelope's size
-            samples: points of each backbone of a shape; poses on a path, default 60; points on a curve, at
-                most, default 500
-            configuration [rad, m]: of a serial robot two angles a section: theta, phi of a neutral
-                backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its extension;
-                sections not given are straight
-            changes [m]: of a serial robot the change of each tendon, > 0 pays out, section after section
+            pose (pose) [m, rad]: of the platform, of a serial robot of its tip; in the plane x, y, phi, in
+                space x, y, z and a quaternion, on the command line also a rotation vector
+            model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
+                tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
+                (exact) or lsk (linearised)
+            set (dict): changes the robot for this question alone: values by their paths in its file, such
+                as legs[0].link.length; on the command line it may be repeated
+            theta_is (str): what an input theta is the angle of: tangent (default) or chord
+            law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
+                M1 (tendons straight between discs)
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
+                bear torque 400
+            tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
+            inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
+                a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
+                n rows
+            independent (dict) [m]: in place of `pose` where hinges hold the platform in planes, or three
+                rods hold it: height and two components of its quaternion; of hinges a mode, too, tilt or
+                half_turn
+            bending (numbers): sign of each leg's curvature; (legs,)
+            elbow (numbers): side to which the strut of each leg turns, where the leg has a motor or a rail;
+                (legs,)
+            curvature (numbers) [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
+            angles (lists of numbers) [rad]: of the joints of each chain, from the first sprung one; before
+                them the direction of a first link that a motor turns; a list each, or an array
+            start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
+                of a serial robot its configuration, or last, where the last question with a start ended;
+                default the robot's home
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
+                axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
+                (3,)
+            want (list of str): what is answered about the configuration: velocity, shape, stiffness,
+                stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are
+                added unless one of them is named
+            twist (numbers) [m/s, rad/s]: velocity and turning rate of the platform or the tip, in space
+                three each, of rods with three inputs z, x and y of them alone, too; answers the rates of
+                the inputs; with the want velocity; (3,) in the plane, (6,) in space
+            rates (numbers) [m/s]: of the inputs, in place of `twist`; answers the twist of the platform;
+                (k,), or (n, k) for n rows
+            along (numbers) [m/s, rad/s]: a direction in which the nearest type II is looked for; with the
+                want velocity; (3,) in the plane, (6,) in space
+            limit (number): how far to look `along` its direction; of a diagram the envelope's size
+            samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
+                curve, at most, default 500
+            configuration (lists of numbers) [rad, m]: of a serial robot two angles a section: theta, phi of
+                a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its
+                extension; sections not given are straight; a list each, or an array
+            changes (lists of numbers) [m]: of a serial robot the change of each tendon, > 0 pays out,
+                section after section; a list each, or an array
 
-        The answer has `ok`, `status`, `message`, and pose, backbones, tendons, lines, platform, base,
-        frames; points in the base frame [m].
+        An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
+        arrays (n, ...). Also by keyword:
+            outputs (dict or list of str): what comes out, as of `Robot.prepare`
+            path (str): "continue", as of `Robot.prepare`
+            threads (int): default all cores; the bytes do not depend on it
+            out (dict of arrays): writable doubles, (n, ...), that become the answer's, by name
 
-        With arrays of one dimension more than one value needs:
-            threads: of n rows, default all cores; the bytes do not depend on it
-            out: arrays of your own that become the answer's, by name
-            outputs, path: as of Robot.prepare
-            Of n rows the answer is `Columns`: arrays (n, ...), and statuses a row.
+        The answer has `ok`, `status`, `message`, and, as far as the robot has them:
+            pose: of the platform; in the plane x, y [m] and phi [rad], in space position (3,) [m] and
+                quaternion (4,), w first
+            tip: of a serial robot instead of pose and legs: position (3,) [m] and quaternion (4,), w first
+            backbones: (legs or sections, points, 2) in the plane, (..., 3) in space [m]
+            tendons: (legs, 2, points, 2 or 3) [m]; a list each where their lengths differ
+            lines: (legs, 2, 2 or 3) [m]: ends of the line through each leg
+            platform, base: (points, 2 or 3) [m]: outlines
+            frames: list of one pose at the tip of each leg
+            residual: number [m], of rods and chains without a unit: the largest error of what was solved
 
-        Raises InputError where a field is not to be read. No solution is no error: see `status`, `message`.
+        Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`.
         """
 
     def describe(
@@ -619,21 +753,30 @@ class Verbs:
     ) -> Answer:
         """What the robot has.
 
+        Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before
+        the angular.
+
         Fields, all by keyword but the first; which of them a robot takes, it says itself:
-            set: changes the robot for this question alone: values by their paths in its file, such as
-                legs[0].link.length; on the command line it may be repeated
-            model: how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-
-                driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or
-                lsk (linearised)
-            theta_is: what an input theta is the angle of: tangent (default) or chord
-            law: how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1
-                (tendons straight between discs)
-            max_iterations: most iterations of the solver; default 100, of rods 4000, of rods that bear
-                torque 400
-            tilt: poses of the answer have tilt, azimuth and torsion, too; in space only
+            set (dict): changes the robot for this question alone: values by their paths in its file, such
+                as legs[0].link.length; on the command line it may be repeated
+            model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
+                tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
+                (exact) or lsk (linearised)
+            theta_is (str): what an input theta is the angle of: tangent (default) or chord
+            law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
+                M1 (tendons straight between discs)
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
+                bear torque 400
+            tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
 
-        The answer has `ok`, `status`, `message`, and kind, space, inputs, pose, home, legs or sections,
-        models, versions.
+        The answer has `ok`, `status`, `message`, and, as far as the robot has them:
+            kind, space: str: parallel or serial, planar or spatial
+            inputs, pose, configuration: lists of records: name, unit, and of tendons limits (2,) [m]
+            home: pose where searches begin, in the plane x, y [m] and phi [rad], in space position (3,) [m]
+                and quaternion (4,)
+            legs, sections: lists of one record each: what the file says, lengths [m], angles [rad]
+            models, model: list of str, str
+            versions: record: sinew, a str; protocol, an int
 
-        Raises InputError where a field is not to be read. No solution is no error: see `status`, `message`.
+        Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`.
         """

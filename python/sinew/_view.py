@@ -41,7 +41,10 @@ def _in_notebook() -> bool:
 
 
 class View:
-    """The viewer that was started: `url`; `close()` ends it, as does the end of this program."""
+    """The viewer that was started. `close()` ends it, as do the end of a `with` and the end of this program."""
+
+    url: str
+    """Where it is: `http://127.0.0.1:...`."""
 
     def __init__(self, robot: Robot, port: int, open_browser: bool) -> None:
         if robot._settings:

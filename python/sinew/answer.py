@@ -20,7 +20,8 @@ _WANTS = {"stiffness": "stiffness", "stable": "stability", "unstable_directions"
 class Record(Mapping[str, Any]):
     """Named values, as attributes (`pose.position`) and as of a dict (`pose["position"]`).
 
-    Lists of numbers are NumPy arrays where NumPy is installed. A name that is a word of Python's takes an underscore:
+    Numbers are SI and radians, vectors in base axes. Lists of numbers are NumPy arrays where NumPy is installed; a matrix is
+    (rows, columns), a polyline (points, 2 or 3). A name that is a word of Python's takes an underscore:
     `type_2.class_`.
     """
 
@@ -66,7 +67,7 @@ class Record(Mapping[str, Any]):
         return hash(json.dumps(self._plain(), sort_keys=True))
 
     def to_dict(self) -> dict[str, Any]:
-        """The same as dicts, lists, numbers, texts: a copy."""
+        """The same as dicts, lists, numbers (SI and radians), texts: a copy, matrices as lists of rows."""
         copied: dict[str, Any] = json.loads(json.dumps(self._plain()))
         return copied
 
@@ -91,7 +92,7 @@ def _value(raw: Any) -> Any:
 
 
 class Answer(Record):
-    """What came of a question: `ok`, `status`, `message`, and the fields of its kind (docs/protocol.md)."""
+    """What came of a question: `ok`, `status`, `message`, and the fields of its kind, which the methods of `Robot` list."""
 
     __slots__ = ("_text", "_question", "_robot")
 
@@ -108,12 +109,15 @@ class Answer(Record):
 
     @property
     def ok(self) -> Any:
-        """Whether it is solved: `status` is `converged`. Of many rows an array."""
+        """Whether it is solved, a bool: `status` is `converged`. Of `Columns` booleans (n,)."""
         return self._plain().get("status") == "converged"
 
     @property
     def status(self) -> Any:
-        """One word: `converged`, or why not: `unreachable`, `singular`, `unstable`, ... Of many rows an array of `Status`."""
+        """One word: `converged`, or why not: `unreachable`, `singular`, `unstable`, ...
+
+        Of `Columns` a number of `Status` for each row, (n,).
+        """
         return self._plain().get("status", "")
 
     @property
@@ -128,7 +132,7 @@ class Answer(Record):
 
     @property
     def question(self) -> Record:
-        """What was asked, with all its fields."""
+        """What was asked, with all its fields, numbers as they were given."""
         return Record(json.loads(self._question))
 
     @property
@@ -137,7 +141,7 @@ class Answer(Record):
         return dict(_units(self._plain(), self._robot, ""))
 
     def to_json(self) -> str:
-        """The answer as the library wrote it."""
+        """The answer as the library wrote it, numbers to all digits, SI and radians."""
         return self._text
 
     def _title(self) -> str:
@@ -161,16 +165,21 @@ class Answer(Record):
         return Answer, (self._robot, self._question, self._text)
 
 
+_OF_DIAGRAMS = {"point": "rad", "polygon": "rad", "boundary": "rad", "area": "rad^2"}  # a plane of bends
+_WITHOUT = ("indices.", "freedoms.")  # ratios and counts, whose names mean something else elsewhere
+
+
 def _units(plain: Mapping[str, Any], robot: Robot, outer: str) -> Iterator[tuple[str, str]]:
+    known = {**UNITS, **_OF_DIAGRAMS} if plain.get("query") == "diagram" else UNITS
     for name, value in plain.items():
         place = outer + name
         if name == "inputs":
             yield place, ", ".join(dict.fromkeys(robot._input_units()))
         elif name == "wrench":
             yield place, "N, N m"
-        elif name in UNITS and not outer.startswith("indices"):
-            yield place, UNITS[name]
         elif type(value) is dict:
             yield from _units(value, robot, place + ".")
         elif type(value) is list and value and type(value[0]) is dict:
             yield from _units(value[0], robot, place + "[].")
+        elif name in known and not outer.endswith(_WITHOUT):
+            yield place, known[name]

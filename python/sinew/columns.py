@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterator, Mapping
+import json
+from collections.abc import Iterator, KeysView, Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _arrays
 from ._errors import InputError
 from ._fields import RANKS
-from .answer import Answer
+from .answer import Answer, Record
 
 if TYPE_CHECKING:
     from .prepared import Prepared
@@ -18,24 +19,36 @@ _MOST_PLANS = 16
 
 
 class Status(enum.IntEnum):
-    """What came of a row; its numbers are those of `Columns.status`."""
+    """What came of a row, as a number; `Columns.status` has one each, `Answer.status` the word."""
 
     unreachable = 0
+    """No solution: the inputs or the pose are out of reach."""
     left_domain = 1
+    """Beyond what a model, a limit or a number holds for."""
     slack = 2
+    """A tendon of a serial robot is slack."""
     singular = 3
+    """At a singularity: what was asked for has no one value."""
     stalled = 4
+    """The solver stopped making progress; that nothing is there is not proven."""
     iteration_limit = 5
+    """`max_iterations` was reached."""
     unstable = 6
+    """An equilibrium that the robot would leave."""
     converged = 7
+    """Solved."""
     stopped = 8
+    """Ended from outside before it was computed."""
     bad_input = 9
+    """The row's numbers are no input, such as NaN."""
     unsupported = 10
+    """Not for this robot or model."""
     failed = 255
+    """An error of the library; `message` has it."""
 
 
 class Columns(Answer):
-    """Answers to n rows: of each field an array (n, ...), as attributes and as of a dict.
+    """Answers to n rows: of each field an array (n, ...), as attributes and as of a dict; SI and radians, base axes.
 
     `ok` is an array of n booleans, `status` one of n numbers of `Status`; numbers that a row does not have are NaN.
     `columns[i]` is the whole answer to one row.
@@ -59,16 +72,16 @@ class Columns(Answer):
     def __iter__(self) -> Iterator[Any]:
         return (self[row] for row in range(len(self)))
 
-    def keys(self) -> Any:
+    def keys(self) -> KeysView[str]:
         """Names of the fields."""
         return self._values.keys()
 
     def items(self) -> Any:
-        """Names and arrays."""
+        """Names and arrays (n, ...), in SI and radians; `units` has each one's."""
         return self._values.items()
 
     def values(self) -> Any:
-        """The arrays."""
+        """The arrays (n, ...), in SI and radians, in the order of `keys`."""
         return self._values.values()
 
     def __len__(self) -> int:
@@ -85,15 +98,17 @@ class Columns(Answer):
 
     @property
     def ok(self) -> Any:
+        """Whether each row is solved: booleans (n,)."""
         return _arrays.equal(self._status, Status.converged)
 
     @property
     def status(self) -> Any:
+        """A number of `Status` for each row: bytes (n,)."""
         return self._status
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many rows have which status."""
+        """Number of rows of each status, by its word."""
         return {Status(code).name: count for code, count in _arrays.counts(self._status)}
 
     @property
@@ -109,7 +124,14 @@ class Columns(Answer):
 
     @property
     def units(self) -> dict[str, str]:
+        """Units of the arrays by name, SI throughout; "" of plain numbers."""
         return {field["name"]: field["unit"] for field in self._prepared.layout["outputs"]}
+
+    @property
+    def question(self) -> Record:
+        """What was asked, "$name" where columns went in."""
+        _, query, fields, *_ = self._prepared._made_of
+        return Record({"query": query, **fields})
 
     @property
     def method(self) -> str:
@@ -117,7 +139,13 @@ class Columns(Answer):
         return str(self._prepared.layout["method"])
 
     def to_dict(self) -> dict[str, Any]:
+        """The arrays (n, ...) by name, SI and radians, and `status`; not copied."""
         return {**self._values, "status": self._status}
+
+    def to_json(self) -> str:
+        """As `to_dict`, arrays as lists of rows; null where a row has no number."""
+        text = json.dumps(self.to_dict(), default=lambda array: array.tolist())
+        return json.dumps(json.loads(text, parse_constant=lambda _: None))
 
     def __repr__(self) -> str:
         shapes = ", ".join(f"{name} {_arrays.shape(value)}" for name, value in self._values.items())

@@ -18,7 +18,8 @@ _OF_TENDONS = ("changes", "measured")  # of all tendons in order in columns, a l
 class Row(_sinew.Row):
     """What a prepared question answers of one row: its outputs, as attributes; `ok`, `status`.
 
-    A number that the row does not have is NaN.
+    Numbers are SI and radians, in base axes; an output of rank 1 or 2 is an array of the shape that `Prepared.outputs` says. A
+    number that the row does not have is NaN.
     """
 
     __slots__ = ()
@@ -41,11 +42,11 @@ class Row(_sinew.Row):
 
     @property
     def units(self) -> dict[str, str]:
-        """Units of the outputs."""
+        """Units of the outputs by name, SI throughout; "" of plain numbers."""
         return {field["name"]: field["unit"] for field in self._question.layout["outputs"]}
 
     def to_dict(self) -> dict[str, Any]:
-        """Outputs by name."""
+        """Outputs by name: numbers and arrays of their shape, SI and radians."""
         return {field["name"]: getattr(self, field["name"]) for field in self._question.layout["outputs"]}
 
     def __repr__(self) -> str:
@@ -60,12 +61,15 @@ class Prepared(_sinew.Question):
     """A function of what stands as "$name" in the fields of a question; see `Robot.prepare`.
 
     Arguments are in the order in which the names stand in the question, or by name. Numbers, lists or (k,) arrays are
-    one row and give a `Row`; arrays (n,) or (n, k) are n rows and give `Columns`. `threads` and `out` are as of the
-    robot's methods. Any number of threads may call it; `stop()` ends what others compute.
+    one row and give a `Row`; arrays (n,) or (n, k) are n rows and give `Columns`. Numbers are SI and radians; `inputs` says
+    units and shapes. `threads` and `out` are as of the robot's methods. Raises `InputError` where an array is not to be read,
+    `TypeError` where arguments are missing or not known. Any number of threads may call it; `stop()` ends what others compute.
     """
 
     robot: Robot
+    """The robot that is asked."""
     query: str
+    """Which question: `forward`, `inverse`, ..."""
     _made_of: tuple[Robot, str, dict[str, Any], Any, str | None]
 
     def __new__(cls, robot: Robot, query: str, fields: dict[str, Any], outputs: Any, path: str | None) -> Prepared:
@@ -88,16 +92,16 @@ class Prepared(_sinew.Question):
 
     @property
     def inputs(self) -> list[dict[str, Any]]:
-        """What goes in: `name`, `unit`, `rank`, `shape`."""
+        """What goes in, a dict each: `name`, `unit`, `rank`, and `shape` of one row, a list of numbers: `[]` of a number, `[3]`."""
         return [dict(field) for field in self.layout["inputs"]]
 
     @property
     def outputs(self) -> list[dict[str, Any]]:
-        """What comes out: `name`, `unit`, `rank`, `shape`."""
+        """What comes out, a dict each: `name`, `unit`, `rank`, and `shape` of one row, a list of numbers: `[]` of a number, `[6, 3]`."""
         return [dict(field) for field in self.layout["outputs"]]
 
     def answer(self, values: Sequence[Any]) -> Answer:
-        """The whole answer to one row."""
+        """The whole answer to one row: `values` in the order of `inputs`, in their shapes, SI and radians."""
         named = {field["name"]: value for field, value in zip(self.layout["inputs"], values)}
         answer: Answer = self.robot._ask(self.query, _filled(self._made_of[2], named, self.robot, ""))
         return answer

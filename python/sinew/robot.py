@@ -81,7 +81,11 @@ class Robot(Verbs):
         return Answer(self, question, text)
 
     def ask(self, question: Mapping[str, Any] | str) -> Answer:
-        """A question as the protocol has it (docs/protocol.md): a dict, or JSON."""
+        """A `question` as the protocol has it (docs/protocol.md): a dict, or JSON text. Its numbers are SI and radians, or text
+        with a unit.
+
+        Raises `InputError` where it is not to be read. No solution is no error: see `Answer.status`.
+        """
         if not isinstance(question, str):
             fields = dict(question)
             answer: Answer = self._ask(fields.pop("query", ""), fields)
@@ -93,20 +97,25 @@ class Robot(Verbs):
         return Answer(self, question, text)
 
     def prepare(self, query: str, *, outputs: Any = None, path: str | None = None, **fields: Any) -> Any:
-        """A question to be put many times: a function of what stands as "$name" in its fields.
+        """A question to be put many times: a function (`Prepared`) of what stands as "$name" in its fields.
 
             forward = robot.prepare("forward", inputs="$lengths")
             forward([0.44, 0.42, 0.41]).position          # one row
             forward(numpy.full((1000, 3), 0.42)).position  # (1000, 3)
 
         `outputs` names what comes out, `{"z": "pose.position[2]"}` or a list of places; left out, what the question is
-        mostly asked for. `path="continue"`: each row begins where the one before it ended, as along a trajectory.
+        mostly asked for. `path="continue"`: each row begins where the one before it ended, as along a trajectory. `query` is
+        the name of a method, `fields` are its fields, their shapes and units as there. Raises `InputError` where they are not
+        to be read.
         """
         from .prepared import Prepared
         return Prepared(self, query, fields, outputs, path)
 
     def set(self, values: Mapping[str, Any]) -> Robot:
-        """Another robot, like this one but for these values: `robot.set({"legs[0].link.length": "180 mm"})`."""
+        """Another robot, like this one but for `values`, by their paths in a robot file: `robot.set({"legs[0].link.length": "180 mm"})`.
+
+        Numbers are SI and radians, or text with a unit. Raises `InputError` where there is no such robot.
+        """
         if not isinstance(values, Mapping):
             raise InputError(f"set takes a dict of paths and values, not {type(values).__name__}", "wrong_type", "set")
         changed = Robot(self)
@@ -121,12 +130,12 @@ class Robot(Verbs):
 
     @property
     def name(self) -> str:
-        """As its file has it."""
+        """Name of the robot, as its file has it."""
         return str(self._about()._plain()["robot"])
 
     @property
     def inputs(self) -> list[Record]:
-        """What the motors command, in order: `name`, `unit` and, of tendons, `limits`."""
+        """What the motors command, in order, a record each: `name`, `unit` (m or rad) and, of tendons, `limits` (2,) [m]."""
         return [Record(entry) for entry in self._about()._plain()["inputs"]]
 
     def _input_units(self) -> list[str]:
@@ -145,17 +154,23 @@ class Robot(Verbs):
         return changes.reshape(rows, 1, width) if is_of_rows else changes
 
     def plot(self, answer: Any = None, ax: Any = None) -> Any:
-        """Draws the robot at an answer's pose (None: at home) by matplotlib; returns the axes. Lengths in mm."""
+        """Draws the robot at the pose of `answer` (None: at home) by matplotlib, on the axes `ax` (None: new ones); returns the axes.
+
+        Axes are those of the base, lengths in mm. Raises `ValueError` where `ax` is planar and the robot is not.
+        """
         from ._plot import plot
         return plot(self, answer, ax)
 
     def save_html(self, answer: Any, path: str | os.PathLike[str]) -> None:
-        """One file for a browser that shows an answer and its pose, to be turned by the mouse. It loads nothing."""
+        """Writes the file `path` for a browser: `answer` as a table with units, and its pose, to be turned by the mouse. It loads nothing."""
         from ._html import save
         save(self, answer, path)
 
     def view(self, *, port: int = 0, open_browser: bool = True) -> Any:
-        """Starts `sinew serve` and opens the viewer: in a notebook in a frame, else in a browser. Returns a `View`."""
+        """Starts `sinew serve` and opens the viewer: in a notebook in a frame, else in a browser, where `open_browser` is true.
+
+        `port` is a number of TCP's, 0 for a free one. Returns a `View`. Raises `InputError` where the command is not there.
+        """
         from ._view import View
         return View(self, port, open_browser)
 
@@ -188,7 +203,7 @@ class Robot(Verbs):
 
 
 def robots() -> list[str]:
-    """Names of the robots that come with sinew."""
+    """Names of the robots that come with sinew, for `load`."""
     folder = importlib.resources.files("sinew") / "robots"
     return sorted(entry.name[:-len(".yaml")] for entry in folder.iterdir() if entry.name.endswith(".yaml"))
 

@@ -9,6 +9,7 @@ import xml.etree.ElementTree as tree
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 sys.path.append(str(TOOLS))
+import python_reference  # noqa: E402
 import readme  # noqa: E402
 import reference  # noqa: E402
 
@@ -189,6 +190,22 @@ RC_GTEST_PROP(Arc, Rate, ()) {
             with self.subTest(tag=tag):
                 self.write("src/link/arc.cpp", f"// @implements {tag}\n")
                 self.assertIn(text, "\n".join(self.problems()))
+
+
+class PythonReference(unittest.TestCase):
+    def lacking(self, said, types="", parameters=(), source=""):
+        return list(python_reference.lacking(said, "", types, parameters, source))
+
+    def test_finds_what_a_docstring_lacks(self):
+        self.assertEqual(self.lacking(""), ["has no sentence"])
+        self.assertEqual(self.lacking("Where the tip is.", "float"), ["has numbers without a shape", "has numbers without a unit"])
+        self.assertEqual(self.lacking("Draws.", parameters=["ax"]), ["does not say what ax is"])
+        self.assertEqual(self.lacking("Opens.", source="raise InputError(text)"), ["raises InputError and does not say so"])
+        self.assertEqual(self.lacking("Where the tip is, (3,) [m].", "float"), [])
+
+    def test_finds_fields_without_shape_or_unit(self):
+        said = "Fields:\n    inputs (numbers): in leg order\n    wrench (numbers) [N, N m]: on the platform; (6,)\n"
+        self.assertEqual(list(python_reference.lacking_of_fields(said)), ["inputs has no shape", "inputs has no unit"])
 
 
 if __name__ == "__main__":

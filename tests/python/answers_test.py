@@ -145,6 +145,25 @@ class Answers(unittest.TestCase):
         self.assertEqual(len({answer, again}), 1)
 
 
+class Units(unittest.TestCase):
+    def test_are_those_of_the_place(self):
+        arm, planar = sinew.load("nottingham-tpcj"), sinew.load("3-rfr")
+        diagram = arm.diagram(0, changes=[[0, 0, 0]]).units
+        self.assertEqual((diagram["point"], diagram["area"], diagram["margin"]), ("rad", "rad^2", "m"))
+        tip = arm.forward(configuration=[[0.1, 0.1]]).units
+        self.assertEqual((tip["tip.position"], tip["tip.quaternion"], "tip" in tip), ("m", "", False))
+        track = planar.track([{"x": 0, "y": 0, "phi": 0}, {"x": 0.01, "y": 0, "phi": 0}]).units
+        self.assertEqual((track["rows[].pose.x"], "rows[].indices.position" in track), ("m", False))
+        self.assertNotIn("freedoms.platform", planar.describe().units)
+
+
+class Uneven(unittest.TestCase):
+    def test_lists_stay_lists(self):
+        shape = sinew.load("nottingham-tpcj").shape(configuration=[[0.1, 0.1]])
+        self.assertEqual(len(shape.tendons), 5)
+        self.assertEqual(shape.backbones.shape[2], 3)
+
+
 class Help(unittest.TestCase):
     def test_names_fields_shapes_units_and_frames(self):
         for verb in ("forward", "inverse", "velocity", "statics", "track", "diagram", "shape", "describe"):

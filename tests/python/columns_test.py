@@ -1,4 +1,5 @@
 """Arrays in, arrays out."""
+import json
 import pickle
 import tracemalloc
 import unittest
@@ -177,6 +178,15 @@ class Columns(unittest.TestCase):
         np.testing.assert_array_equal(again.x, found.x)
         self.assertEqual(again[2].pose.x, found[2].pose.x)
         self.assertIn("4 rows", repr(again))
+
+
+class Told(unittest.TestCase):
+    def test_question_and_json(self):
+        x = np.array([0.0, 0.31])
+        found = sinew.load("3-rfr").inverse(pose={"x": x, "y": 0, "phi": 0})
+        self.assertEqual(found.question.to_dict(), {"query": "inverse", "pose": {"x": "$pose.x", "y": 0, "phi": 0}})
+        self.assertEqual(json.loads(found.to_json())["inputs"][1], [None] * 3)
+        self.assertEqual(json.loads(found.to_json())["status"], found.status.tolist())
 
 
 if __name__ == "__main__":
