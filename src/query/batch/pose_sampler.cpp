@@ -136,7 +136,8 @@ std::optional<AskedPoses> asked_of_poses(const BatchQuestion& question, const Ro
     } else if (field.key == "pose") {
       if (!read_pose(field.value, question, asked)) return {};
     } else if (field.key == "independent") {
-      if (!read_independent(field.value, question, asked)) return {};
+      const bool is_held_in_planes = plane_count(robot) == 3;  // of others the question itself says why not
+      if (!is_held_in_planes || !read_independent(field.value, question, asked)) return {};
     } else if (field.key == "bending") {
       if (!read_signs(field.value, question, asked.bending)) return {};
     } else if (field.key == "elbow") {
