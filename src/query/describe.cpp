@@ -24,8 +24,11 @@ template <class LegT>
 Value base_value(const LegT& leg) {
   Value base{{"point", Value(leg.base.p)}};
   if constexpr (LegT::dimension == 3) {
-    base[HasSlide<typename LegT::Link> ? "hinge_axis" : "first_axis"] =
-        Value(leg.base.rotate(Vec3<double>(1, 0, 0)));
+    const Value axis(leg.base.rotate(Vec3<double>(1, 0, 0)));
+    if constexpr (HasSlide<typename LegT::Link>)
+      base["hinge_axis"] = axis;
+    else
+      base["first_axis"] = axis;
     base["direction"] = Value(leg.base.rotate(Vec3<double>(0, 1, 0)));
   } else if constexpr (LegT::is_clamped) {
     base["direction"] = wrap_angle(leg.base.angle() + std::numbers::pi / 2);

@@ -61,6 +61,44 @@ void append_numbers(std::string& text, std::span<const double> numbers) {
 
 }  // namespace
 
+// Not inline: they need what is in a map to be complete, which needs a value to be.
+Value::Value() = default;
+Value::Value(const Value&) = default;
+Value::Value(Value&&) noexcept = default;
+Value& Value::operator=(const Value&) = default;
+Value& Value::operator=(Value&&) noexcept = default;
+Value::~Value() = default;
+Value::Value(bool value) : is_(value) {}
+Value::Value(double value) : is_(value) {}
+Value::Value(std::string value) : is_(std::move(value)) {}
+Value::Value(std::string_view value) : is_(std::string(value)) {}
+Value::Value(const char* value) : is_(std::string(value)) {}
+Value::Value(Written value) : is_(std::move(value)) {}
+Value::Value(List value) : is_(std::move(value)) {}
+Value::Value(Block value) : is_(std::move(value)) {}
+Value::Value(std::span<const int> whole_numbers) : is_(List(whole_numbers.begin(), whole_numbers.end())) {}
+Value::Value(std::initializer_list<double> numbers) : is_(Block{numbers}) {}
+Value::Value(std::span<const double> numbers, std::size_t columns)
+    : is_(Block{{numbers.begin(), numbers.end()}, columns}) {}
+
+Value Value::whole(std::int64_t value) {
+  Value made;
+  made.is_ = value;
+  return made;
+}
+
+Value Value::list() { return {List()}; }
+Value Value::list(std::initializer_list<Value> items) { return {List(items)}; }
+
+bool Value::is_null() const { return std::holds_alternative<std::monostate>(is_); }
+const bool* Value::boolean() const { return std::get_if<bool>(&is_); }
+const std::string* Value::text() const { return std::get_if<std::string>(&is_); }
+const Value::List* Value::items() const { return std::get_if<List>(&is_); }
+const Value::Block* Value::block() const { return std::get_if<Block>(&is_); }
+const Value::Map* Value::members() const { return std::get_if<Map>(&is_); }
+Value& Value::back() { return std::get<List>(is_).back(); }
+Value& Value::operator[](std::size_t i) { return std::get<List>(is_)[i]; }
+
 Value Value::map() {
   Value value;
   value.is_.emplace<Map>().reserve(usual_members);
@@ -92,7 +130,9 @@ std::size_t Value::size() const {
 Value& Value::operator[](Key key) {
   if (is_null()) *this = map();
   if (Value* found = find(key.name())) return *found;
-  return std::get<Map>(is_).emplace_back(key.name()).value;
+  Map& members = std::get<Map>(is_);
+  members.push_back({key.name(), {}});
+  return members.back().value;
 }
 
 Value* Value::find(std::string_view name) {

@@ -51,49 +51,51 @@ class SINEW_API Value {
     std::string text;
   };
 
-  Value() = default;
-  static Value map();
-  static Value list() { return Value(List()); }
-  static Value list(std::initializer_list<Value> items) { return Value(List(items)); }
-
   /// @name Of what it is made from
   /// @{
-  Value(bool value) : is_(value) {}
-  Value(double value) : is_(value) {}
+  Value();
+  static Value map();
+  static Value list();
+  static Value list(std::initializer_list<Value> items);
+  Value(bool value);
+  Value(double value);
   template <class Whole>
   requires std::is_integral_v<Whole> &&(!std::is_same_v<Whole, bool>)Value(Whole value)
-      : is_(static_cast<std::int64_t>(value)) {}
-  Value(std::string value) : is_(std::move(value)) {}
-  Value(std::string_view value) : is_(std::string(value)) {}
-  Value(const char* value) : is_(std::string(value)) {}
-  Value(Written value) : is_(std::move(value)) {}
-  Value(List value) : is_(std::move(value)) {}
-  Value(Block value) : is_(std::move(value)) {}
+      : Value(whole(static_cast<std::int64_t>(value))) {}
+  Value(std::string value);
+  Value(std::string_view value);
+  Value(const char* value);
+  Value(Written value);
+  Value(List value);
+  Value(Block value);
   template <class Numbers>  // a span, vector or array of doubles
   requires std::convertible_to<const Numbers&, std::span<const double>> Value(const Numbers& numbers)
       : Value(std::span<const double>(numbers), 0) {}
-  Value(std::span<const int> whole_numbers) : is_(List(whole_numbers.begin(), whole_numbers.end())) {}
-  Value(std::initializer_list<double> numbers) : is_(Block{numbers}) {}
+  Value(std::span<const int> whole_numbers);
+  Value(std::initializer_list<double> numbers);
   Value(const MatrixView& matrix);
-  /// Row by row.
-  Value(std::span<const double> numbers, std::size_t columns)
-      : is_(Block{{numbers.begin(), numbers.end()}, columns}) {}
-  template <int size>
-  Value(const Eigen::Matrix<double, size, 1>& vector)
+  Value(std::span<const double> numbers, std::size_t columns);  ///< row by row
+  template <int size, int options>
+  Value(const Eigen::Matrix<double, size, 1, options>& vector)
       : Value(std::span<const double>(vector.data(), static_cast<std::size_t>(size)), 0) {}
   Value(std::initializer_list<Entry> members);
+
+  Value(const Value&);
+  Value(Value&&) noexcept;
+  Value& operator=(const Value&);
+  Value& operator=(Value&&) noexcept;
+  ~Value();
   /// @}
 
   /// @name What it is
   /// @{
-  bool is_null() const { return std::holds_alternative<std::monostate>(is_); }
-  const bool* boolean() const { return std::get_if<bool>(&is_); }
-  const std::string* text() const { return std::get_if<std::string>(&is_); }
-  const List* items() const { return std::get_if<List>(&is_); }
-  const Block* block() const { return std::get_if<Block>(&is_); }
-  const Map* members() const { return std::get_if<Map>(&is_); }
+  bool is_null() const;
+  const bool* boolean() const;
+  const std::string* text() const;
+  const List* items() const;
+  const Block* block() const;
+  const Map* members() const;
   std::optional<double> number() const;  ///< also of a whole number
-  bool is_whole() const { return std::holds_alternative<std::int64_t>(is_); }
   bool is_list() const { return items() || block(); }
   /// Of a list or a map.
   std::size_t size() const;
@@ -114,8 +116,8 @@ class SINEW_API Value {
   /// @{
   /// A null becomes a list; a block of numbers takes a number.
   void push_back(Value value);
-  Value& back() { return std::get<List>(is_).back(); }
-  Value& operator[](std::size_t i) { return std::get<List>(is_)[i]; }
+  Value& back();
+  Value& operator[](std::size_t i);
   void push_front(double number);  ///< of a block
   /// @}
 
@@ -126,6 +128,8 @@ class SINEW_API Value {
   Node node() const;
 
  private:
+  static Value whole(std::int64_t value);
+
   std::variant<std::monostate, bool, std::int64_t, double, std::string, Written, Block, List, Map> is_;
 };
 
