@@ -1,7 +1,6 @@
 #include "study/sweep/chunks_in_place.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "io/write_file.hpp"
 
@@ -56,7 +55,7 @@ bool ChunksInPlace::read(std::size_t number, std::vector<std::byte>& bytes) cons
   std::vector<SampleStatus> statuses;
   if (!file_->read(chunk.first, chunk.count, values, statuses)) return false;
   const auto before = axes_of(chunk, variables);  // which no checksum covers
-  if (std::memcmp(before.data(), values.data(), before.size_bytes()) != 0) return false;
+  if (!std::ranges::equal(before, std::span(values).first(before.size()))) return false;
   const auto outputs = std::as_bytes(std::span(values).subspan(before.size()));
   bytes.assign(outputs.begin(), outputs.end());
   const auto ends = std::as_bytes(std::span(statuses));
@@ -72,7 +71,8 @@ Expected<WrittenResults> ChunksInPlace::finish() {
     if (!file_->read_statuses(chunk.first, statuses))
       return failure("file_unreadable", options_.output.string(),
                      "can no longer be read as it was written; go on with --resume");
-    for (const SampleStatus status : statuses) ++results.statuses[std::min<std::size_t>(status, left_out)];
+    for (const SampleStatus status : statuses)
+      ++results.statuses[std::min<std::size_t>(status, sample_statuses - 1)];
   }
   if (const auto done = file_->finish(); !done) return tl::unexpected(done.error());
   return results;

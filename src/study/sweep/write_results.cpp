@@ -53,7 +53,8 @@ class Writer {
                                chunk.count);
       tabulate(chunk, outputs, !fits_.empty() || !study.derived.empty() || file.wants_axes());
       if (is_first) {
-        for (const SampleStatus status : statuses) ++statuses_[std::min<std::size_t>(status, left_out)];
+        for (const SampleStatus status : statuses)
+          ++statuses_[std::min<std::size_t>(status, sample_statuses - 1)];
         const std::size_t axes = study.axes.size() * chunk.count;
         const std::span<const double> table(table_);
         if (const auto done =
