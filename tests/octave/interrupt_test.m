@@ -18,4 +18,5 @@ function interrupted (what, call)
 end
 
 interrupted ('rows', 'r.forward (repmat (0.407 * ones (1, 6), 2000000, 1))');
-interrupted ('a question', 'r.forward (0.407 * ones (1, 6), ''all'', true)');
+% one takes about a second, which is more or less than that until the signal
+interrupted ('a question', 'for k = 1:100, r.forward (0.407 * ones (1, 6), ''all'', true); end');
