@@ -2,20 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include "query/fields/fields.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-constexpr std::array<std::string_view, 10> want_names{"pose",      "legs",      "velocity", "shape",
-                                                      "stiffness", "stability", "margins",  "sensitivity",
-                                                      "lines",     "modes"};
+/// In the order of `Want`.
+std::span<const std::string_view> want_names() {
+  static const std::span<const std::string_view> words = find_field("want")->words;
+  return words;
+}
+
 constexpr Wants places{Want::pose, Want::legs};
 
 std::string names_of(Wants wants) {
   std::vector<std::string_view> known;
-  for (std::size_t k = 0; k < want_names.size(); ++k)
-    if (wants.has(static_cast<Want>(k))) known.push_back(want_names[k]);
+  for (std::size_t k = 0; k < want_names().size(); ++k)
+    if (wants.has(static_cast<Want>(k))) known.push_back(want_names()[k]);
   return fmt::format("{}", fmt::join(known, ", "));
 }
 
@@ -26,7 +29,7 @@ Wants read_wants(Question& question, Wants usual, Wants known) {
   if (!list) return usual;
   Wants named;
   for (const Reader& word : list->items()) {
-    const auto want = static_cast<Want>(word.choice_index(want_names));
+    const auto want = static_cast<Want>(word.choice_index(want_names()));
     if (word.is(Node::Kind::string) && !known.has(want))
       word.refuse("not_available", fmt::format("this robot, by this model, answers {}", names_of(known)));
     named = named | Wants{want};
@@ -39,7 +42,7 @@ void refuse_without(Question& question, Wants wants, Want word, std::initializer
   for (const char* field : fields)
     if (const auto given = question.query.optional(field))
       given->fail("no_effect", fmt::format("goes with want: [{}]; add it, or remove this",
-                                           want_names[static_cast<std::size_t>(word)]));
+                                           want_names()[static_cast<std::size_t>(word)]));
 }
 
 int read_samples(Question& question, Wants wants, int usual, int most) {
