@@ -22,7 +22,7 @@ ROWS = [
     ["kinematics"],
     ["robot"],
     ["leg"],
-    ["link", "tendon"],
+    ["link", "tendon", "strain"],
     ["math", "solve"],
     ["kernel", "base"],
 ]

@@ -1,0 +1,321 @@
+#include "robot/arm_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sinew::inline v1 {
+namespace {
+
+using strain::Element;
+using strain::Guide;
+using strain::Hole;
+using strain::Piece;
+using strain::RodModel;
+using strain::Six;
+using strain::Span;
+using strain::Three;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// At a share of the section's length.
+CrossSection section_at(const ArmSection& section, double share) {
+  const auto mix = [&](double a, double b, double power) {
+    if (!section.round_taper) return a + share * (b - a);
+    const double x = std::pow(a, 1 / power), y = std::pow(b, 1 / power);
+    return std::pow(x + share * (y - x), power);
+  };
+  const CrossSection &a = section.start, &b = section.end;
+  return {mix(a.bending_x, b.bending_x, 4), mix(a.bending_y, b.bending_y, 4), mix(a.torsion, b.torsion, 4),
+          mix(a.stretch, b.stretch, 2),     mix(a.shear, b.shear, 2),         mix(a.mass, b.mass, 2)};
+}
+
+Three place_of(const TendonRoute& route, double share) {
+  const double radius = route.start_radius + share * (route.end_radius - route.start_radius),
+               angle = route.start_angle + share * (route.end_angle - route.start_angle);
+  return {radius * std::cos(angle), radius * std::sin(angle), 0};
+}
+/// dr/ds.
+Three slope_of(const TendonRoute& route, double share, double length) {
+  const double radius = route.start_radius + share * (route.end_radius - route.start_radius),
+               angle = route.start_angle + share * (route.end_angle - route.start_angle),
+               grows = (route.end_radius - route.start_radius) / length,
+               turns = (route.end_angle - route.start_angle) / length;
+  return {grows * std::cos(angle) - radius * turns * std::sin(angle),
+          grows * std::sin(angle) + radius * turns * std::cos(angle), 0};
+}
+
+/// √(2a+1) P_a(x), x in [−1, 1].
+void legendre(double x, int modes, double scale, std::array<double, strain::max_modes>& values) {
+  double before = 0, value = 1;
+  for (int a = 0; a < modes; ++a) {
+    values[at(a)] = std::sqrt(2.0 * a + 1) * value * scale;
+    const double next = ((2.0 * a + 1) * x * value - a * before) / (a + 1);
+    before = value;
+    value = next;
+  }
+}
+
+class Builder {
+ public:
+  Builder(const Arm& arm, const ArmBasis& basis) : arm_(arm), basis_(basis) {
+    rod_.tendons = static_cast<int>(arm.tendons.size());
+    rod_.masses.resize(1);
+  }
+
+  RodModel build(std::vector<double> breaks) {
+    double from = 0, bending = 0;
+    for (std::size_t m = 0; m < arm_.sections.size(); ++m) {
+      const ArmSection& section = arm_.sections[m];
+      std::vector<double> cuts;
+      for (double place : breaks)
+        if (place > from + 1e-12 && place < from + section.length - 1e-12)
+          cuts.push_back((place - from) / section.length);
+      add_section(static_cast<int>(m), cuts);
+      from += section.length;
+      bending += section.length / std::min(section.start.bending_x, section.start.bending_y);
+    }
+    rod_.energy_scale = 1 / bending;
+    for (Piece& piece : rod_.pieces) {
+      piece.first = rod_.size;
+      rod_.size += piece.size;
+    }
+    rod_.masses.back().mass += arm_.tip_mass;
+    for (std::size_t i = 0; i < 3; ++i)
+      rod_.masses.back().moment[i] += arm_.tip_mass * arm_.tip_mass_place[i];
+    return std::move(rod_);
+  }
+
+ private:
+  bool by_section() const { return basis_.model == ArmModel::rod || basis_.model == ArmModel::cc; }
+  int modes() const {
+    if (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc) return 1;
+    if (basis_.order >= 0) return basis_.order + 1;
+    return basis_.model == ArmModel::rod ? 4 : 3;
+  }
+
+  /// Shares of the section's length at which spans end.
+  std::vector<double> span_ends(const ArmSection& section, const std::vector<double>& cuts) const {
+    const bool channel = section.discs.count == 0 || basis_.model == ArmModel::rod;
+    int spans = section.discs.count;
+    if (channel) spans = by_section() ? 1 : std::max(basis_.elements, 10);
+    std::vector<double> ends;
+    for (int k = 1; k <= spans; ++k) ends.push_back(static_cast<double>(k) / spans);
+    if (channel) ends.insert(ends.end(), cuts.begin(), cuts.end());
+    std::sort(ends.begin(), ends.end());
+    return ends;
+  }
+
+  void add_section(int m, const std::vector<double>& cuts) {
+    const ArmSection& section = arm_.sections[at(m)];
+    const bool channel = section.discs.count == 0 || basis_.model == ArmModel::rod;
+    double start = 0;
+    const auto ends = span_ends(section, cuts);
+    if (basis_.model == ArmModel::cc) begin_piece(section, 0, 1, 1);
+    std::size_t cut = 0;
+    for (double end : ends) {
+      int elements = basis_.elements;
+      if (elements == 0) elements = basis_.model == ArmModel::rod ? 8 : 1;
+      if (basis_.model == ArmModel::cc) elements = 1;
+      if (basis_.model == ArmModel::prb)
+        begin_joints(section, start, end, elements);
+      else if (basis_.model != ArmModel::cc)
+        begin_piece(section, start, end, modes());
+      if (channel) {  // every element is a span of its own: no tendon runs straight
+        for (int e = 0; e < elements; ++e) {
+          const double a = start + (end - start) * e / elements,
+                       b = start + (end - start) * (e + 1) / elements;
+          begin_span();
+          add_elements(m, a, b, start, end, e, elements);
+        }
+      } else {
+        begin_span();
+        double a = start;
+        while (cut < cuts.size() && cuts[cut] <= start) ++cut;
+        for (int e = 0; e < elements; ++e) {
+          const double b = start + (end - start) * (e + 1) / elements;
+          for (; cut < cuts.size() && cuts[cut] < b - 1e-12; ++cut) {
+            add_elements(m, a, cuts[cut], start, end, e, elements);
+            a = cuts[cut];
+          }
+          add_elements(m, a, b, start, end, e, elements);
+          a = b;
+        }
+        add_holes(m, start, end);
+        rod_.masses.back().mass += section.discs.mass;
+      }
+      start = end;
+    }
+    if (channel && section.discs.count > 0) spread_discs(section);
+  }
+
+  /// Discs of a section whose nodes are not at them: as a load along it.
+  void spread_discs(const ArmSection&) {}
+
+  void begin_piece(const ArmSection& section, double start, double end, int modes) {
+    Piece piece;
+    const double length = (end - start) * section.length, mid = 0.5 * (start + end);
+    const CrossSection here = section_at(section, mid);
+    const Six stiffness{here.shear, here.shear, here.stretch, here.bending_x, here.bending_y, here.torsion};
+    const bool fine = basis_.model == ArmModel::rod && basis_.order < 0;
+    for (std::size_t c = 0; c < 6; ++c) {
+      if (stiffness[c] <= 0) continue;
+      if (c < 3 && (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc)) continue;
+      piece.modes[c] = fine && c < 3 ? modes - 1 : modes;
+      piece.scale[c] = 1 / std::sqrt(stiffness[c]);
+      piece.offset[c] = piece.size;
+      piece.size += piece.modes[c];
+    }
+    begin(piece);
+    piece_length_ = length;
+    piece_start_ = start;
+    piece_end_ = end;
+  }
+  void begin_joints(const ArmSection& section, double start, double end, int joints) {
+    Piece piece;
+    const double length = (end - start) * section.length / joints;
+    const CrossSection here = section_at(section, 0.5 * (start + end));
+    const Six stiffness{0, 0, 0, here.bending_x / length, here.bending_y / length, here.torsion / length};
+    for (std::size_t c = 3; c < 6; ++c) {
+      piece.modes[c] = joints;
+      piece.scale[c] = 1 / std::sqrt(stiffness[c]);
+      piece.offset[c] = piece.size;
+      piece.size += joints;
+    }
+    begin(piece);
+  }
+  void begin(Piece& piece) {
+    piece.first_span = static_cast<int>(rod_.spans.size());
+    piece.padded = (piece.size + strain::row - 1) / strain::row * strain::row;
+    rod_.pieces.push_back(piece);
+  }
+  void begin_span() {
+    Span span;
+    span.first_element = static_cast<int>(rod_.elements.size());
+    span.first_hole = static_cast<int>(rod_.holes.size());
+    rod_.spans.push_back(span);
+    ++rod_.pieces.back().spans;
+  }
+
+  void add_elements(int m, double a, double b, double start, double end, int joint, int joints) {
+    const ArmSection& section = arm_.sections[at(m)];
+    if (basis_.model == ArmModel::prb) {
+      const double middle = 0.5 * (a + b);
+      add_rigid(section, a, middle);
+      add_joint(section, middle, joint, (end - start) * section.length / joints);
+      add_rigid(section, middle, b);
+      return;
+    }
+    Element element = straight(section, a, b);
+    for (int g = 0; g < 2; ++g) {
+      const double share = point_share(a, b, g);
+      const CrossSection here = section_at(section, share);
+      element.stiffness[at(g)] = {here.shear,     here.shear,     here.stretch,
+                                  here.bending_x, here.bending_y, here.torsion};
+      legendre(2 * (share - piece_start_) / (piece_end_ - piece_start_) - 1, strain::max_modes,
+               1 / std::sqrt(piece_length_), element.modes[at(g)]);
+    }
+    if (section.discs.count == 0 || basis_.model == ArmModel::rod) add_guides(m, a, b, element);
+    push(section, element, a, b);
+  }
+  static double point_share(double a, double b, int g) {
+    const double side = (g == 0 ? -1 : 1) / std::sqrt(12.0);
+    return a + (b - a) * (0.5 + side);
+  }
+  Element straight(const ArmSection& section, double a, double b) const {
+    Element element;
+    element.length = (b - a) * section.length;
+    element.commutator = std::sqrt(3.0) / 12 * element.length * element.length;
+    element.weight = 0.5 * element.length;
+    for (auto& rest : element.rest)
+      rest = {0, 0, 1, section.curvature[0], section.curvature[1], section.curvature[2]};
+    return element;
+  }
+  void add_rigid(const ArmSection& section, double a, double b) {
+    push(section, straight(section, a, b), a, b);
+  }
+  void add_joint(const ArmSection& section, double place, int joint, double length) {
+    Element element;
+    element.points = 1;
+    element.weight = 1;
+    const CrossSection here = section_at(section, place);
+    element.stiffness[0] = {0, 0, 0, here.bending_x / length, here.bending_y / length, here.torsion / length};
+    element.modes[0][at(joint)] = 1;
+    push(section, element, place, place);
+  }
+  void push(const ArmSection& section, const Element& element, double a, double b) {
+    rod_.elements.push_back(element);
+    ++rod_.spans.back().elements;
+    rod_.masses.emplace_back();
+    // ∫ of the mass times the place by trapezoids with their correction by slopes: exact to fourth order.
+    const double h = element.length, first = section_at(section, a).mass, last = section_at(section, b).mass;
+    strain::NodeMass &before = rod_.masses[rod_.masses.size() - 2], &after = rod_.masses.back();
+    before.mass += h / 2 * first + h / 12 * (last - first);
+    after.mass += h / 2 * last - h / 12 * (last - first);
+    before.moment[2] += first * h * h / 12;
+    after.moment[2] -= last * h * h / 12;
+  }
+
+  void add_guides(int m, double a, double b, Element& element) {
+    const ArmSection& section = arm_.sections[at(m)];
+    element.first_guide = static_cast<int>(rod_.guides.size());
+    for (std::size_t i = 0; i < arm_.tendons.size(); ++i) {
+      const ArmTendon& tendon = arm_.tendons[i];
+      if (tendon.section() < m) continue;
+      Guide guide;
+      guide.tendon = static_cast<int>(i);
+      for (int g = 0; g < 2; ++g) {
+        guide.place[at(g)] = place_of(tendon.routes[at(m)], point_share(a, b, g));
+        guide.slope[at(g)] = slope_of(tendon.routes[at(m)], point_share(a, b, g), section.length);
+      }
+      rod_.guides.push_back(guide);
+      ++element.guides;
+    }
+  }
+  void add_holes(int m, double start, double end) {
+    for (std::size_t i = 0; i < arm_.tendons.size(); ++i) {
+      const ArmTendon& tendon = arm_.tendons[i];
+      if (tendon.section() < m) continue;
+      const TendonRoute& route = tendon.routes[at(m)];
+      rod_.holes.push_back({static_cast<int>(i), place_of(route, start), place_of(route, end)});
+      ++rod_.spans.back().holes;
+    }
+  }
+
+  const Arm& arm_;
+  ArmBasis basis_;
+  RodModel rod_;
+  double piece_length_ = 0, piece_start_ = 0, piece_end_ = 1;
+};
+
+}  // namespace
+
+CrossSection round_section(const Material& material, double diameter, double hole) {
+  const double pi = std::numbers::pi, area = pi / 4 * (diameter * diameter - hole * hole),
+               moment = pi / 64 * (std::pow(diameter, 4) - std::pow(hole, 4));
+  return {material.young * moment, material.young * moment, 2 * material.shear * moment,
+          material.young * area,   material.shear * area,   material.density * area};
+}
+
+CrossSection rectangular_section(const Material& material, double along_x, double along_y) {
+  const double area = along_x * along_y, longer = std::max(along_x, along_y),
+               shorter = std::min(along_x, along_y);
+  // de Saint-Venant's series, to full precision
+  double series = 0;
+  for (int n = 1; n < 60; n += 2)
+    series += std::tanh(n * std::numbers::pi * longer / (2 * shorter)) / std::pow(n, 5);
+  const double torsion = longer * std::pow(shorter, 3) *
+                         (1.0 / 3 - 64 * shorter / (std::pow(std::numbers::pi, 5) * longer) * series);
+  return {material.young * along_x * std::pow(along_y, 3) / 12,
+          material.young * along_y * std::pow(along_x, 3) / 12,
+          material.shear * torsion,
+          material.young * area,
+          material.shear * area * 5 / 6,
+          material.density * area};
+}
+
+strain::RodModel make_rod(const Arm& arm, const ArmBasis& basis, const std::vector<double>& breaks) {
+  return Builder(arm, basis).build(breaks);
+}
+
+}  // namespace sinew::inline v1

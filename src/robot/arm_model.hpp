@@ -1,0 +1,19 @@
+/// @file arm_model.hpp
+/// An arm and a choice of strains as a rod.
+#pragma once
+#include "sinew/robot/arm.hpp"
+#include "strain/rod_model.hpp"
+
+namespace sinew::inline v1 {
+
+/// Of the bases of an arm's strains. What is 0 is chosen by the model.
+struct ArmBasis {
+  ArmModel model = ArmModel::subsegment_rod;
+  int order = -1;    ///< of bending and torsion; −1: 3 along a section, 2 from disc to disc
+  int elements = 0;  ///< of a section, or between two discs; of prb joints between two discs
+};
+
+/// @param breaks where point loads act, from the base [m]: nodes are there
+strain::RodModel make_rod(const Arm& arm, const ArmBasis& basis, const std::vector<double>& breaks = {});
+
+}  // namespace sinew::inline v1

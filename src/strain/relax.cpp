@@ -1,0 +1,425 @@
+#include "strain/relax.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::inline v1::strain {
+namespace {
+
+double norm(std::span<const double> x) {
+  double sum = 0;
+  for (double v : x) sum += v * v;
+  return std::sqrt(sum);
+}
+double dot(std::span<const double> a, std::span<const double> b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+RodWork::RodWork(const RodModel& model)
+    : y(at(model.size), 0.0),
+      gradient(at(model.size), 0.0),
+      frames(at(model.nodes())),
+      steps(model.elements.size()),
+      omega(model.elements.size()),
+      strains(model.elements.size()),
+      loads(at(model.nodes())),
+      hole_tension(model.holes.size(), 0.0),
+      guide_tension(model.guides.size(), 0.0),
+      lengths(at(model.tendons), 0.0),
+      length_gradient(at(model.tendons) * at(model.size), 0.0),
+      pieces(model.pieces.size()) {
+  frames[0] = {{0, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  std::size_t most = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Piece& piece = model.pieces[k];
+    const std::size_t square = at(piece.size * piece.padded), rows = at(6 * piece.padded);
+    pieces[k].H.resize(square);
+    pieces[k].factor.resize(square);
+    for (auto* rows_of : {&pieces[k].R, &pieces[k].L, &pieces[k].G}) rows_of->resize(rows);
+    pieces[k].fed.resize(2 * rows);
+    pieces[k].pivots.resize(at(piece.size));
+    most = std::max(most, square);
+  }
+  scratch.resize(most);
+}
+
+LoadedRod::LoadedRod(const RodModel& model)
+    : holds(at(model.tendons)),
+      model_(&model),
+      work_(model),
+      tensions_(at(model.tendons), 0.0),
+      offsets_(at(model.tendons), 0.0),
+      stiff_(at(model.tendons), 0.0),
+      stride_((model.tendons + 1 + row - 1) / row * row) {
+  columns_.resize(at(model.size * stride_));
+  sides_.resize(at(model.size * stride_));
+  small_.resize(at(model.tendons * model.tendons));
+  trial_.resize(at(model.size));
+  step_.resize(at(model.size));
+}
+
+double LoadedRod::slack(std::size_t i) const {
+  return holds[i].by_tension ? 0 : std::max(0.0, holds[i].free_length - work_.lengths[i]);
+}
+
+void LoadedRod::spread_tensions() {
+  for (std::size_t i = 0; i < model_->holes.size(); ++i)
+    work_.hole_tension[i] = tensions_[at(model_->holes[i].tendon)];
+  for (std::size_t i = 0; i < model_->guides.size(); ++i)
+    work_.guide_tension[i] = tensions_[at(model_->guides[i].tendon)];
+}
+
+double LoadedRod::evaluate() {
+  sweep_out(*model_, work_);
+  double energy = work_.energy;
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    const TendonHold& hold = holds[i];
+    if (hold.by_tension) {
+      tensions_[i] = hold.tension;
+      energy += hold.tension * work_.lengths[i];
+    } else {
+      const double stretch = std::max(0.0, work_.lengths[i] - hold.free_length + offsets_[i]);
+      tensions_[i] = stretch / stiff_[i];
+      energy += 0.5 * stretch * tensions_[i];
+    }
+  }
+  spread_tensions();
+  return energy;
+}
+
+void LoadedRod::linearise(bool hessian) {
+  if (hessian)
+    sweep_back_with_hessian(*model_, work_);
+  else
+    sweep_back(*model_, work_);
+}
+
+double LoadedRod::gradient_norm() const { return norm(work_.gradient) / std::sqrt(model_->energy_scale); }
+
+int LoadedRod::factor_all(double shift) {
+  const Inertia inertia = factor(*model_, work_, shift);
+  if (!inertia.ok) return -1;
+  active_.clear();
+  for (std::size_t i = 0; i < holds.size(); ++i)
+    if (!holds[i].by_tension && tensions_[i] > 0) active_.push_back(static_cast<int>(i));
+  if (active_.empty()) return inertia.negative;
+  const int n = model_->size, m = static_cast<int>(active_.size());
+  for (double& x : columns_) x = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j)
+      columns_[at(i * stride_ + j)] = work_.length_gradient[at(active_[at(j)] * n + i)];
+  solve(*model_, work_, columns_.data(), m, stride_);
+  for (int i = 0; i < m; ++i)
+    for (int j = 0; j < m; ++j) {
+      double sum = i == j ? stiff_[at(active_[at(i)])] : 0;
+      const double* gradient = work_.length_gradient.data() + active_[at(i)] * n;
+      for (int k = 0; k < n; ++k) sum += gradient[k] * columns_[at(k * stride_ + j)];
+      small_[at(i * m + j)] = sum;
+    }
+  int negative = 0;
+  for (int k = 0; k < m; ++k) {  // LDLᵀ
+    const double d = small_[at(k * m + k)];
+    if (!(std::abs(d) > 1e-300)) return -1;
+    if (d < 0) ++negative;
+    for (int i = k + 1; i < m; ++i) {
+      const double l = small_[at(i * m + k)] / d;
+      small_[at(i * m + k)] = l;
+      for (int j = k + 1; j < m; ++j) small_[at(i * m + j)] -= l * small_[at(k * m + j)];
+    }
+  }
+  return inertia.negative - negative;
+}
+
+void LoadedRod::solve_all(std::span<double> sides, int columns, int stride) {
+  solve(*model_, work_, sides.data(), columns, stride);
+  const int n = model_->size, m = static_cast<int>(active_.size());
+  if (m == 0) return;
+  std::array<double, 64> t{};
+  for (int c = 0; c < columns; ++c) {
+    for (int i = 0; i < m; ++i) {
+      double sum = 0;
+      const double* gradient = work_.length_gradient.data() + active_[at(i)] * n;
+      for (int k = 0; k < n; ++k) sum += gradient[k] * sides[at(k * stride + c)];
+      t[at(i)] = sum;
+    }
+    for (int i = 0; i < m; ++i)
+      for (int j = 0; j < i; ++j) t[at(i)] -= small_[at(i * m + j)] * t[at(j)];
+    for (int i = m; i-- > 0;) {
+      for (int j = i + 1; j < m; ++j) t[at(i)] -= small_[at(i * m + j)] * t[at(j)];
+      t[at(i)] /= small_[at(i * m + i)];
+    }
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < m; ++j) sides[at(k * stride + c)] -= columns_[at(k * stride_ + j)] * t[at(j)];
+  }
+}
+
+double LoadedRod::lowest(std::span<double> direction) {
+  double shift = 0;
+  for (int tries = 0; factor_all(shift) != 0 && tries < 60; ++tries) shift = shift == 0 ? 1e-3 : 2 * shift;
+  std::vector<double> x(at(model_->size * row), 0.0);
+  for (int i = 0; i < model_->size; ++i) direction[at(i)] = 1 + 0.37 * std::sin(1.0 + 2.3 * i);
+  double value = 0;
+  for (int round = 0; round < 30; ++round) {
+    const double length = norm(direction);
+    for (int i = 0; i < model_->size; ++i) x[at(i * row)] = direction[at(i)] / length;
+    solve_all(x, 1, row);
+    double along = 0;
+    for (int i = 0; i < model_->size; ++i) {
+      along += x[at(i * row)] * direction[at(i)] / length;
+      direction[at(i)] = x[at(i * row)];
+    }
+    const double next = 1 / along - shift;
+    if (round > 2 && std::abs(next - value) < 1e-9 * (std::abs(next) + shift + 1e-3)) {
+      value = next;
+      break;
+    }
+    value = next;
+  }
+  const double length = norm(direction);
+  for (double& v : direction) v /= length;
+  return value;
+}
+
+/// A step of at most `radius`; `shift` starts at what the last one needed.
+bool LoadedRod::newton_step(double& shift, double radius, std::span<double> step, int& negative) {
+  double low = 0, high = 0;
+  shift = 0;
+  for (int tries = 0; tries < 40; ++tries) {
+    const int found = factor_all(shift);
+    if (tries == 0) negative = found;
+    if (found != 0) {  // not positive definite
+      low = shift;
+      shift = high > 0 ? std::sqrt(std::max(low, 1e-9 * high) * high) : std::max(1e-3, 4 * shift);
+      continue;
+    }
+    for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
+    for (int i = 0; i < model_->size; ++i)
+      for (int j = 1; j < stride_; ++j) sides_[at(i * stride_ + j)] = 0;
+    solve_all(sides_, 1, stride_);
+    for (int i = 0; i < model_->size; ++i) step[at(i)] = sides_[at(i * stride_)];
+    const double length = norm(step);
+    if (length <= 1.1 * radius) return true;
+    if (shift > 0 && length <= 1.5 * radius && tries > 6) break;
+    // Newton on 1/|step| with the derivative |step|' = −step·(H+shift)⁻¹step/|step|
+    for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = step[at(i)];
+    solve_all(sides_, 1, stride_);
+    double slope = 0;
+    for (int i = 0; i < model_->size; ++i) slope += sides_[at(i * stride_)] * step[at(i)];
+    const double by = length * length / slope * (length - radius) / radius;
+    low = shift;
+    shift += by;
+    if (high > 0 && shift >= high) shift = 0.5 * (low + high);
+  }
+  const double length = norm(step);
+  if (!(length > 0)) return false;
+  for (double& x : step) x *= radius / length;
+  return true;
+}
+
+Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
+  Relaxed result;
+  const double scale = std::sqrt(model_->energy_scale), pi = 3.14159265358979;
+  double radius = scale * pi, shift = 0, energy = evaluate();
+  ++result.evaluations;
+  const double most = 1e3 * radius;
+  bool linear = false;
+  for (;; ++result.iterations) {
+    if (!linear) linearise(true);
+    linear = true;
+    result.residual = gradient_norm();
+    if (!std::isfinite(energy) || !std::isfinite(result.residual)) {
+      result.status = Status::left_domain;
+      return result;
+    }
+    if (result.residual <= options.tolerance) {
+      result.negative = factor_all(0);
+      if (result.negative == 0) return result;
+      std::vector<double> direction(at(model_->size));
+      const double value = lowest(direction);
+      if (value > -1e-9 && result.negative >= 0 && result.negative <= 1) {
+        result.negative = 0;
+        return result;
+      }
+      if (value > -1e-9) {
+        result.negative = 0;
+        return result;
+      }
+      if (!options.leave_saddles) {
+        result.status = Status::unstable;
+        return result;
+      }
+      // downhill along the direction, as far as it pays
+      const std::vector<double> from = work_.y;
+      double length = 0.3 * scale, best = energy;
+      bool found = false;
+      for (int tries = 0; tries < 40 && !found; ++tries, length *= 0.5) {
+        for (std::size_t i = 0; i < from.size(); ++i) work_.y[i] = from[i] + length * direction[i];
+        const double trial = evaluate();
+        ++result.evaluations;
+        found = trial < best;
+        energy = trial;
+      }
+      if (!found) {
+        work_.y = from;
+        energy = evaluate();
+        linearise(true);
+        factor_all(0);
+        result.status = Status::unstable;
+        return result;
+      }
+      linear = false;
+      continue;
+    }
+    if (result.iterations >= options.max_iterations) {
+      result.status = Status::iteration_limit;
+      return result;
+    }
+    if (options.stop && options.stop()) {
+      result.status = Status::stopped;
+      return result;
+    }
+    int negative = 0;
+    if (!newton_step(shift, radius, step_, negative)) {
+      result.status = Status::stalled;
+      return result;
+    }
+    const double length = norm(step_);
+    double predicted = -0.5 * dot(work_.gradient, step_) + 0.5 * shift * length * length;
+    const std::vector<double>& from = trial_;
+    std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
+    for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = from[i] + step_[i];
+    const double before = result.residual, next = evaluate();
+    ++result.evaluations;
+    bool accept = false;
+    double ratio = 0;
+    if (predicted <= 1e-12 * (std::abs(energy) + model_->energy_scale)) {
+      linearise(true);
+      const double after = gradient_norm();
+      accept = after < before * (1 - 1e-4) || after <= options.tolerance;
+      ratio = accept ? 1 : 0;
+      linear = accept;
+      if (!accept && length < 1e-9 * scale) {  // rounding is reached
+        if (before < 1e3 * options.tolerance) {
+          std::copy(trial_.begin(), trial_.end(), work_.y.begin());
+          energy = evaluate();
+          linearise(true);
+          result.negative = std::max(0, factor_all(0));
+          result.status = result.negative == 0 ? Status::converged : Status::unstable;
+          return result;
+        }
+      }
+    } else {
+      ratio = (energy - next) / predicted;
+      accept = ratio > 1e-4;
+      linear = false;
+    }
+    if (ratio < 0.25)
+      radius = 0.25 * std::min(length, radius);
+    else if (ratio > 0.75 && length > 0.8 * radius)
+      radius = std::min(most, 2.5 * radius);
+    if (accept) {
+      energy = next;
+    } else {
+      std::copy(trial_.begin(), trial_.end(), work_.y.begin());
+      energy = evaluate();
+      linear = false;
+      if (radius < 1e-14 * scale) {
+        linearise(true);
+        result.residual = gradient_norm();
+        result.status = Status::stalled;
+        return result;
+      }
+    }
+  }
+}
+
+Relaxed LoadedRod::relax_residual(const RelaxOptions& options) {
+  Relaxed result;
+  const double scale = std::sqrt(model_->energy_scale);
+  evaluate();
+  ++result.evaluations;
+  linearise(true);
+  result.residual = gradient_norm();
+  for (;; ++result.iterations) {
+    if (!std::isfinite(result.residual)) {
+      result.status = Status::left_domain;
+      return result;
+    }
+    if (result.residual <= options.tolerance) return result;
+    if (result.iterations >= options.max_iterations) {
+      result.status = Status::iteration_limit;
+      return result;
+    }
+    if (options.stop && options.stop()) {
+      result.status = Status::stopped;
+      return result;
+    }
+    double shift = 0;
+    for (int tries = 0; factor_all(shift) == -1 && tries < 30; ++tries)
+      shift = shift == 0 ? 1e-6 : 10 * shift;
+    for (double& x : sides_) x = 0;
+    for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
+    solve_all(sides_, 1, stride_);
+    for (int i = 0; i < model_->size; ++i) step_[at(i)] = sides_[at(i * stride_)];
+    const double length = norm(step_), before = result.residual, most = scale * 3.14159265358979;
+    double fraction = length > most ? most / length : 1;
+    std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
+    bool accept = false;
+    for (int tries = 0; tries < 30 && !accept; ++tries, fraction *= accept ? 1 : 0.5) {
+      for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + fraction * step_[i];
+      evaluate();
+      ++result.evaluations;
+      linearise(true);
+      const double after = gradient_norm();
+      accept = after < (1 - 1e-4 * fraction) * before;
+    }
+    if (!accept) {
+      std::copy(trial_.begin(), trial_.end(), work_.y.begin());
+      evaluate();
+      linearise(true);
+      result.residual = gradient_norm();
+      if (result.residual < 1e3 * options.tolerance) return result;
+      result.status = Status::stalled;
+      return result;
+    }
+    result.residual = gradient_norm();
+  }
+}
+
+Relaxed LoadedRod::relax(const RelaxOptions& options) {
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    offsets_[i] = 0;
+    stiff_[i] = holds[i].compliance > 0 ? holds[i].compliance : 1e-6;
+  }
+  bool potential = true;
+  for (const NodeLoad& load : work_.loads) {
+    for (double x : load.moment) potential = potential && x == 0;
+    for (double x : load.following) potential = potential && x == 0;
+  }
+  work_.symmetric = potential;
+  Relaxed result;
+  for (int round = 0; round < 30; ++round) {
+    Relaxed one = potential ? relax_energy(options) : relax_residual(options);
+    one.iterations += result.iterations;
+    one.evaluations += result.evaluations;
+    result = one;
+    // Tendons that do not stretch: what they gave way is taken back.
+    double off = 0;
+    for (std::size_t i = 0; i < holds.size(); ++i) {
+      if (holds[i].by_tension || holds[i].compliance > 0) continue;
+      const double gap = work_.lengths[i] - holds[i].free_length;
+      const double wanted = std::max(0.0, offsets_[i] + gap);
+      off = std::max(off, std::abs(wanted - offsets_[i]));
+      offsets_[i] = wanted;
+    }
+    if (off < 1e-12 || (result.status != Status::converged && result.status != Status::unstable)) break;
+  }
+  return result;
+}
+
+}  // namespace sinew::inline v1::strain

@@ -1,0 +1,85 @@
+/// @file relax.hpp
+/// Equilibria of a rod with tendons: Newton's steps in a trust region of the energy; where a load has no
+/// potential, Newton's steps that lower the residual. Theory: docs/theory/strain_rod.md
+#pragma once
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sinew/solve/report.hpp"
+#include "strain/condense.hpp"
+#include "strain/rod_model.hpp"
+#include "strain/sweep.hpp"
+
+namespace sinew::inline v1::strain {
+
+/// What holds a tendon: its tension, or its end, so that it pulls by what it is longer than its free length.
+struct TendonHold {
+  bool by_tension = true;
+  double tension = 0;      ///< [N], where it is held
+  double free_length = 0;  ///< from the base, unstretched [m]
+  double compliance = 0;   ///< of the whole tendon [m/N]; 0: it does not stretch
+};
+
+struct RelaxOptions {
+  int max_iterations = 200;
+  double tolerance = 1e-10;  ///< of the gradient, over √(EI/L)
+  bool leave_saddles = true;
+  std::function<bool()> stop;
+};
+
+struct Relaxed {
+  Status status = Status::converged;
+  int iterations = 0, evaluations = 0;
+  double residual = 0;  ///< of the gradient, over √(EI/L)
+  int negative = 0;     ///< directions in which the energy falls
+};
+
+/// The rod, its tendons and their memory.
+class LoadedRod {
+ public:
+  explicit LoadedRod(const RodModel& model);
+
+  const RodModel& model() const { return *model_; }
+  RodWork& work() { return work_; }
+  const RodWork& work() const { return work_; }
+
+  std::vector<TendonHold> holds;
+
+  /// From the coordinates that stand in `work().y`.
+  Relaxed relax(const RelaxOptions& options);
+  /// Frames, lengths and tensions at `work().y`; returns the potential of rod and tendons [J].
+  double evaluate();
+  /// After evaluate(): gradient, and the Hessian's terms.
+  void linearise(bool hessian);
+  /// Factors the Hessian with all tendons that pull by their stretch; the number of negative directions, or
+  /// −1.
+  int factor_all(double shift);
+  /// Solves with what factor_all left; a row a coordinate.
+  void solve_all(std::span<double> sides, int columns, int stride);
+  /// Of the tendons [N].
+  std::span<const double> tensions() const { return tensions_; }
+  /// What a tendon is longer than it needs to be [m]; 0 where it is taut.
+  double slack(std::size_t tendon) const;
+  /// Lowest eigenvalue of the Hessian and its direction: the elastic energy alone has 1.
+  double lowest(std::span<double> direction);
+
+ private:
+  void spread_tensions();
+  bool newton_step(double& shift, double radius, std::span<double> step, int& negative);
+  Relaxed relax_energy(const RelaxOptions& options);
+  Relaxed relax_residual(const RelaxOptions& options);
+  double gradient_norm() const;
+
+  const RodModel* model_;
+  RodWork work_;
+  std::vector<double> tensions_,
+      offsets_;                ///< offsets: multipliers of tendons that do not stretch, as length [m]
+  std::vector<double> stiff_;  ///< compliance used [m/N]
+  std::vector<int> active_;
+  std::vector<double> columns_, small_, sides_;
+  std::vector<double> trial_, step_;
+  int stride_ = 8;
+};
+
+}  // namespace sinew::inline v1::strain

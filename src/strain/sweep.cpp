@@ -1,0 +1,509 @@
+// Compiled once for each instruction set; Highway chooses among them at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "strain/sweep.cpp"
+#include "base/instruction_sets.hpp"  // must come before foreach_target.h
+
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "strain/sweep.hpp"
+#include "strain/twist-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace sinew::inline v1::strain {
+namespace HWY_NAMESPACE {
+
+/// Strain at a Gauss point.
+HWY_INLINE void strain_at(const Piece& piece, const Element& element, int point, const double* y, Six& xi) {
+  const auto g = static_cast<std::size_t>(point);
+  for (std::size_t c = 0; c < 6; ++c) {
+    double sum = 0;
+    const double* own = y + piece.offset[c];
+    for (int a = 0; a < piece.modes[c]; ++a) sum += element.modes[g][static_cast<std::size_t>(a)] * own[a];
+    xi[c] = element.rest[g][c] + piece.scale[c] * sum;
+  }
+}
+
+HWY_INLINE void magnus(const Element& element, const std::array<Six, 2>& xi, Six& omega) {
+  if (element.points == 1) {
+    omega = xi[0];
+    return;
+  }
+  const double *a = xi[0].data(), *b = xi[1].data(), half = 0.5 * element.length;
+  double first[3], second[3], turn[3];
+  cross3(a + 3, b, first);
+  cross3(a, b + 3, second);
+  cross3(a + 3, b + 3, turn);
+  for (std::size_t i = 0; i < 3; ++i) {
+    omega[i] = half * (a[i] + b[i]) + element.commutator * (first[i] + second[i]);
+    omega[i + 3] = half * (a[i + 3] + b[i + 3]) + element.commutator * turn[i];
+  }
+}
+
+/// v + u × r + dr/ds: how a tendon in a channel runs, by the rod's length.
+HWY_INLINE void guided(const Six& xi, const Three& place, const Three& slope, double* x) {
+  cross3(xi.data() + 3, place.data(), x);
+  for (std::size_t i = 0; i < 3; ++i) x[i] += xi[i] + slope[i];
+}
+
+void SweepOut(const RodModel& model, RodWork& work) {
+  RodFrame* frame = work.frames.data();
+  double energy = 0;
+  for (double& length : work.lengths) length = 0;
+  for (const Piece& piece : model.pieces) {
+    const double* y = work.y.data() + piece.first;
+    for (int s = piece.first_span; s < piece.first_span + piece.spans; ++s) {
+      const Span& span = model.spans[static_cast<std::size_t>(s)];
+      const RodFrame* start = frame;
+      for (int k = span.first_element; k < span.first_element + span.elements; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        const Element& element = model.elements[at];
+        auto& xi = work.strains[at];
+        for (int g = 0; g < element.points; ++g) {
+          const auto point = static_cast<std::size_t>(g);
+          strain_at(piece, element, g, y, xi[point]);
+          for (std::size_t c = 0; c < 6; ++c) {
+            const double bent = xi[point][c] - element.rest[point][c];
+            energy += 0.5 * element.weight * element.stiffness[point][c] * bent * bent;
+          }
+          for (int i = element.first_guide; i < element.first_guide + element.guides; ++i) {
+            const Guide& guide = model.guides[static_cast<std::size_t>(i)];
+            double x[3];
+            guided(xi[point], guide.place[point], guide.slope[point], x);
+            work.lengths[static_cast<std::size_t>(guide.tendon)] += element.weight * std::sqrt(dot3(x, x));
+          }
+        }
+        magnus(element, xi, work.omega[at]);
+        double *R = work.steps[at].data(), *p = R + 9;
+        exponential(work.omega[at].data(), R, p);
+        RodFrame& next = frame[1];
+        turn3(frame->R, p, next.p);
+        for (int i = 0; i < 3; ++i) next.p[i] += frame->p[i];
+        multiply3(frame->R, R, next.R);
+        ++frame;
+      }
+      for (int i = span.first_hole; i < span.first_hole + span.holes; ++i) {
+        const Hole& hole = model.holes[static_cast<std::size_t>(i)];
+        double a[3], b[3];
+        turn3(start->R, hole.start.data(), a);
+        turn3(frame->R, hole.end.data(), b);
+        for (int j = 0; j < 3; ++j) b[j] += frame->p[j] - a[j] - start->p[j];
+        work.lengths[static_cast<std::size_t>(hole.tendon)] += std::sqrt(dot3(b, b));
+      }
+    }
+  }
+  for (std::size_t k = 1; k < work.frames.size(); ++k) {
+    const NodeLoad& load = work.loads[k];
+    energy -= dot3(load.force, work.frames[k].p);
+    for (int i = 0; i < 9; ++i) energy -= load.couple[i] * work.frames[k].R[i];
+  }
+  work.energy = energy;
+}
+
+/// Of a node's load the gradient of its potential, or what stands for it, and where P is given its
+/// derivative.
+HWY_INLINE void add_load(const NodeLoad& load, const RodFrame& frame, double* lambda, Block* P) {
+  double f[3], m[3], D[9];
+  turn_back3(frame.R, load.force, f);
+  turn_back3(frame.R, load.moment, m);
+  for (int i = 0; i < 3; ++i)  // Rᵀ Σ f dᵀ: rows are f
+    for (int j = 0; j < 3; ++j)
+      D[3 * i + j] = frame.R[i] * load.couple[j] + frame.R[3 + i] * load.couple[3 + j] +
+                     frame.R[6 + i] * load.couple[6 + j];
+  const double around[3] = {D[7] - D[5], D[2] - D[6], D[3] - D[1]};  // Σ d × f
+  double follow[6];
+  for (int i = 0; i < 6; ++i) follow[i] = -load.following[i];
+  for (int i = 0; i < 3; ++i) {
+    lambda[i] += follow[i] - f[i];
+    lambda[i + 3] += follow[i + 3] - m[i] - around[i];
+  }
+  if (P == nullptr) return;
+  add_skew(*P, 3, 0, f, 0.5);
+  add_skew(*P, 0, 3, f, -0.5);
+  const double trace = D[0] + D[4] + D[8];
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) P->a[i + 3][j + 3] -= 0.5 * (D[3 * i + j] + D[3 * j + i]);
+    P->a[i + 3][i + 3] += trace;
+  }
+  add_skew(*P, 3, 3, m, -0.5);
+  add_bracket(*P, follow, 0.5);
+}
+
+/// The gradient of a tendon's length between two discs by the twist of the second one against the first, and
+/// where P is given its second derivative times the tension.
+HWY_INLINE void hole_terms(const RodFrame& start, const RodFrame& end, const Hole& hole, double tension,
+                           double* gradient, Block* P) {
+  double a[3], x[3], t[3], around[3];
+  turn3(start.R, hole.start.data(), a);
+  turn3(end.R, hole.end.data(), x);
+  for (int j = 0; j < 3; ++j) x[j] += end.p[j] - a[j] - start.p[j];
+  const double length = std::sqrt(dot3(x, x));
+  turn_back3(end.R, x, t);
+  for (double& component : t) component /= length;
+  const double* r = hole.end.data();
+  cross3(r, t, around);
+  for (int j = 0; j < 3; ++j) {
+    gradient[j] = t[j];
+    gradient[j + 3] = around[j];
+  }
+  if (P == nullptr) return;
+  add_skew(*P, 3, 0, t, -0.5 * tension);
+  add_skew(*P, 0, 3, t, 0.5 * tension);
+  const double tr = dot3(t, r), stiff = tension / length;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) P->a[i + 3][j + 3] += 0.5 * tension * (t[i] * r[j] + r[i] * t[j]);
+    P->a[i + 3][i + 3] -= tension * tr;
+  }
+  // (tension/length) Nᵀ(1 − t tᵀ)N, N = [1, −[r]]: Nᵀ x = (x, r × x)
+  for (int c = 0; c < 3; ++c) {
+    double across[6] = {-t[c] * t[0], -t[c] * t[1], -t[c] * t[2]};
+    across[c] += 1;
+    cross3(r, across, across + 3);
+    double column[6] = {};
+    column[c] = 1;
+    cross3(r, column, column + 3);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) P->a[i][j] += stiff * column[i] * across[j];
+  }
+}
+
+/// Of a guided tendon at a Gauss point: the gradient of its length by the strain, and the second derivative.
+HWY_INLINE void guide_terms(const Six& xi, const Guide& guide, int point, double* gradient, double tension,
+                            Block* E) {
+  const auto g = static_cast<std::size_t>(point);
+  double x[3];
+  guided(xi, guide.place[g], guide.slope[g], x);
+  const double length = std::sqrt(dot3(x, x)), *r = guide.place[g].data();
+  for (int i = 0; i < 3; ++i) gradient[i] = x[i] / length;
+  cross3(r, gradient, gradient + 3);
+  if (E == nullptr) return;
+  const double stiff = tension / length, *t = gradient;
+  for (int c = 0; c < 3; ++c) {
+    double across[6] = {-t[c] * t[0], -t[c] * t[1], -t[c] * t[2]};
+    across[c] += 1;
+    cross3(r, across, across + 3);
+    double column[6] = {};
+    column[c] = 1;
+    cross3(r, column, column + 3);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) E->a[i][j] += stiff * column[i] * across[j];
+  }
+}
+
+/// A gradient by the strains of an element into that by the coordinates of its piece.
+HWY_INLINE void collect(const Piece& piece, const Element& element, int point, const double* by_strain,
+                        double* out) {
+  const double* modes = element.modes[static_cast<std::size_t>(point)].data();
+  for (std::size_t c = 0; c < 6; ++c) {
+    const double x = by_strain[c] * piece.scale[c];
+    double* own = out + piece.offset[c];
+    for (int a = 0; a < piece.modes[c]; ++a) own[a] += x * modes[a];
+  }
+}
+
+/// From a gradient by Ω to those by the two strains.
+HWY_INLINE void by_strains(const Element& element, const std::array<Six, 2>& xi, const double* by_omega,
+                           double* first, double* second) {
+  if (element.points == 1) {
+    for (int i = 0; i < 6; ++i) first[i] = by_omega[i];
+    return;
+  }
+  // D₁ᵀ = h/2 − k ad(ξ₂)ᵀ, D₂ᵀ = h/2 + k ad(ξ₁)ᵀ; adᵀ λ = −(ω × f, ω × m + v × f)
+  const auto dual = [&](const Six& x, double* out) {
+    double a[3], b[3], c[3];
+    cross3(x.data() + 3, by_omega, a);
+    cross3(x.data() + 3, by_omega + 3, b);
+    cross3(x.data(), by_omega, c);
+    for (int i = 0; i < 3; ++i) {
+      out[i] = -a[i];
+      out[i + 3] = -b[i] - c[i];
+    }
+  };
+  double one[6], two[6];
+  dual(xi[1], one);
+  dual(xi[0], two);
+  for (int i = 0; i < 6; ++i) {
+    first[i] = 0.5 * element.length * by_omega[i] - element.commutator * one[i];
+    second[i] = 0.5 * element.length * by_omega[i] + element.commutator * two[i];
+  }
+}
+
+/// out += Γᵀ rows, all 6 × padded; out is size × padded.
+HWY_INLINE void add_product(const double* G, const double* rows, int size, int padded, double* out) {
+  for (int i = 0; i < size; ++i) {
+    double* line = out + i * padded;
+    const double g0 = G[i], g1 = G[padded + i], g2 = G[2 * padded + i], g3 = G[3 * padded + i],
+                 g4 = G[4 * padded + i], g5 = G[5 * padded + i];
+    for (int j = 0; j < padded; ++j)
+      line[j] += g0 * rows[j] + g1 * rows[padded + j] + g2 * rows[2 * padded + j] +
+                 g3 * rows[3 * padded + j] + g4 * rows[4 * padded + j] + g5 * rows[5 * padded + j];
+  }
+}
+/// out += b rows, 6 × padded.
+HWY_INLINE void add_times(const Block& b, const double* rows, int padded, double* out) {
+  for (int i = 0; i < 6; ++i) {
+    const double* x = b.a[i];
+    double* line = out + i * padded;
+    for (int j = 0; j < padded; ++j)
+      line[j] += x[0] * rows[j] + x[1] * rows[padded + j] + x[2] * rows[2 * padded + j] +
+                 x[3] * rows[3 * padded + j] + x[4] * rows[4 * padded + j] + x[5] * rows[5 * padded + j];
+  }
+}
+/// rows = bᵀ (rows + more).
+HWY_INLINE void carry_rows(const Block& b, const double* more, int padded, double* rows) {
+  for (int j = 0; j < padded; j += row) {
+    double in[6][row];
+    for (int i = 0; i < 6; ++i)
+      for (int l = 0; l < row; ++l) in[i][l] = rows[i * padded + j + l] + more[i * padded + j + l];
+    for (int i = 0; i < 6; ++i) {
+      double sum[row] = {};
+      for (int k = 0; k < 6; ++k) {
+        const double x = b.a[k][i];
+        for (int l = 0; l < row; ++l) sum[l] += x * in[k][l];
+      }
+      for (int l = 0; l < row; ++l) rows[i * padded + j + l] = sum[l];
+    }
+  }
+}
+
+/// What the rod after a node is to it: the gradient of its potential by the node's twist, its derivatives by
+/// that and by the coordinates of the piece.
+struct Rest {
+  double lambda[6];
+  Block P;
+  double *R, *L;
+};
+
+template <bool hessian>
+HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
+  const std::size_t tendons = static_cast<std::size_t>(model.tendons);
+  for (double& x : work.gradient) x = 0;
+  for (double& x : work.length_gradient) x = 0;
+  alignas(64) double rows[6][6 * max_piece];
+  Rest outer, inner;
+  for (double& x : outer.lambda) x = 0;
+  outer.R = rows[0], outer.L = rows[1], inner.R = rows[2], inner.L = rows[3];
+  double *G = rows[4], *more = rows[5];
+  const bool symmetric = work.symmetric;
+  for (std::size_t k = model.pieces.size(); k-- > 0;) {
+    const Piece& piece = model.pieces[k];
+    const int n = piece.size, padded = piece.padded;
+    PieceTerms& terms = work.pieces[k];
+    double* gradient = work.gradient.data() + piece.first;
+    double* Y = work.scratch.data();  // Γᵀ L, whose transpose belongs to H
+    Block along;                      // from the node at hand to the end of the piece
+    if constexpr (hessian) {
+      for (double& x : terms.H) x = 0;
+      for (int i = 0; i < n * padded; ++i) Y[i] = 0;
+      for (double& x : terms.G) x = 0;
+      for (int i = 0; i < 6 * padded; ++i) outer.R[i] = outer.L[i] = 0;
+      clear(outer.P);
+      clear(along);
+      for (int i = 0; i < 6; ++i) along.a[i][i] = 1;
+    }
+    for (int s = piece.first_span + piece.spans; s-- > piece.first_span;) {
+      const Span& span = model.spans[static_cast<std::size_t>(s)];
+      const int last = span.first_element + span.elements;
+      const bool has_holes = span.holes > 0;
+      double of_hole[32][6];
+      for (double& x : inner.lambda) x = 0;
+      if constexpr (hessian) {
+        clear(inner.P);
+        for (int i = 0; i < 6 * padded; ++i) inner.R[i] = inner.L[i] = 0;
+      }
+      for (int i = 0; i < span.holes; ++i) {
+        const auto at = static_cast<std::size_t>(span.first_hole + i);
+        const double tension = work.hole_tension[at];
+        hole_terms(work.frames[static_cast<std::size_t>(span.first_element)],
+                   work.frames[static_cast<std::size_t>(last)], model.holes[at], tension, of_hole[i],
+                   hessian ? &inner.P : nullptr);
+        for (int j = 0; j < 6; ++j) inner.lambda[j] += tension * of_hole[i][j];
+      }
+      for (int e = last; e-- > span.first_element;) {
+        const auto at = static_cast<std::size_t>(e);
+        const Element& element = model.elements[at];
+        const auto& xi = work.strains[at];
+        const double *R = work.steps[at].data(), *p = R + 9, *omega = work.omega[at].data();
+        const Entire fn = entire(dot3(omega + 3, omega + 3));
+        add_load(work.loads[at + 1], work.frames[at + 1], outer.lambda, hessian ? &outer.P : nullptr);
+        double lambda[6], by_omega[6], by_strain[2][6];
+        for (int i = 0; i < 6; ++i) lambda[i] = outer.lambda[i] + inner.lambda[i];
+        Block J;
+        right_jacobian(omega, fn, J);
+        apply_back(J, lambda, by_omega);
+        by_strains(element, xi, by_omega, by_strain[0], by_strain[1]);
+        [[maybe_unused]] Block E[2][2], D[2];
+        if constexpr (hessian) {
+          Block Q, PJ, sum = outer.P;
+          add(sum, inner.P, 1);
+          multiply(sum, J, PJ);
+          multiply_back(J, PJ, Q);
+          add_exponential_curvature(Q, omega, lambda, fn);
+          if (element.points == 1) {
+            E[0][0] = Q;
+          } else {
+            for (int g = 0; g < 2; ++g) {
+              clear(D[g]);
+              for (int i = 0; i < 6; ++i) D[g].a[i][i] = 0.5 * element.length;
+              add_ad(D[g], xi[static_cast<std::size_t>(1 - g)].data(),
+                     g == 0 ? -element.commutator : element.commutator);
+            }
+            for (int h = 0; h < 2; ++h) {
+              Block QD;
+              multiply(Q, D[h], QD);
+              for (int g = 0; g < 2; ++g) multiply_back(D[g], QD, E[g][h]);
+            }
+            add_bracket(E[0][1], by_omega, element.commutator);
+            add_bracket(E[1][0], by_omega, -element.commutator);
+          }
+        }
+        for (int g = 0; g < element.points; ++g) {
+          const auto point = static_cast<std::size_t>(g);
+          for (std::size_t c = 0; c < 6; ++c) {
+            const double stiff = element.weight * element.stiffness[point][c];
+            by_strain[g][c] += stiff * (xi[point][c] - element.rest[point][c]);
+            if constexpr (hessian) E[g][g].a[c][c] += stiff;
+          }
+          for (int i = element.first_guide; i < element.first_guide + element.guides; ++i) {
+            const auto which = static_cast<std::size_t>(i);
+            const Guide& guide = model.guides[which];
+            const double tension = element.weight * work.guide_tension[which];
+            double one[6];
+            guide_terms(xi[point], guide, g, one, tension, hessian ? &E[g][g] : nullptr);
+            for (int j = 0; j < 6; ++j) {
+              by_strain[g][j] += tension * one[j];
+              one[j] *= element.weight;
+            }
+            collect(piece, element, g, one,
+                    work.length_gradient.data() + static_cast<std::size_t>(guide.tendon) * work.y.size() +
+                        piece.first);
+          }
+          collect(piece, element, g, by_strain[g], gradient);
+        }
+        for (int i = 0; i < span.holes; ++i) {
+          const Hole& hole = model.holes[static_cast<std::size_t>(span.first_hole + i)];
+          double one[6], by[2][6];
+          apply_back(J, of_hole[i], one);
+          by_strains(element, xi, one, by[0], by[1]);
+          double* out = work.length_gradient.data() + static_cast<std::size_t>(hole.tendon) * work.y.size() +
+                        piece.first;
+          for (int g = 0; g < element.points; ++g) collect(piece, element, g, by[g], out);
+          if (e > span.first_element) carry_back(R, p, of_hole[i], of_hole[i]);
+        }
+        if constexpr (hessian) {
+          // Γ = Σ J D modes
+          for (int i = 0; i < 6 * padded; ++i) G[i] = 0;
+          Block JD[2];
+          for (int g = 0; g < element.points; ++g) {
+            if (element.points == 1)
+              JD[g] = J;
+            else
+              multiply(J, D[g], JD[g]);
+            const double* modes = element.modes[static_cast<std::size_t>(g)].data();
+            for (int i = 0; i < 6; ++i)
+              for (std::size_t c = 0; c < 6; ++c) {
+                const double x = JD[g].a[i][c] * piece.scale[c];
+                double* own = G + i * padded + piece.offset[c];
+                for (int a = 0; a < piece.modes[c]; ++a) own[a] += x * modes[a];
+              }
+          }
+          // H += modesᵀ E modes
+          for (int g = 0; g < element.points; ++g) {
+            for (int i = 0; i < 6 * padded; ++i) more[i] = 0;
+            for (int h = 0; h < element.points; ++h) {
+              const double* modes = element.modes[static_cast<std::size_t>(h)].data();
+              for (int i = 0; i < 6; ++i)
+                for (std::size_t c = 0; c < 6; ++c) {
+                  const double x = E[g][h].a[i][c] * piece.scale[c];
+                  double* own = more + i * padded + piece.offset[c];
+                  for (int a = 0; a < piece.modes[c]; ++a) own[a] += x * modes[a];
+                }
+            }
+            const double* modes = element.modes[static_cast<std::size_t>(g)].data();
+            for (std::size_t c = 0; c < 6; ++c)
+              for (int a = 0; a < piece.modes[c]; ++a) {
+                const double x = modes[a] * piece.scale[c];
+                double* line = terms.H.data() + (piece.offset[c] + a) * padded;
+                const double* from = more + static_cast<int>(c) * padded;
+                for (int j = 0; j < padded; ++j) line[j] += x * from[j];
+              }
+          }
+          // Γᵀ R and its partner
+          for (int i = 0; i < 6 * padded; ++i) more[i] = outer.R[i] + inner.R[i];
+          add_product(G, more, n, padded, symmetric ? Y : terms.H.data());
+          if (!symmetric) {
+            for (int i = 0; i < 6 * padded; ++i) more[i] = outer.L[i] + inner.L[i];
+            add_product(G, more, n, padded, Y);
+          }
+          // the end of the piece moves by along·Γ
+          add_times(along, G, padded, terms.G.data());
+          Block A, next;
+          back_adjoint(R, p, A);
+          multiply(along, A, next);
+          along = next;
+          const auto carry = [&](Rest& rest) {
+            Block form = rest.P, PA;
+            add_bracket(form, rest.lambda, 0.5);
+            for (int i = 0; i < 6 * padded; ++i) more[i] = 0;
+            add_times(form, G, padded, more);
+            carry_rows(A, more, padded, rest.R);
+            if (!symmetric) {
+              Block back;
+              clear(back);
+              for (int i = 0; i < 6; ++i)
+                for (int j = 0; j < 6; ++j) back.a[i][j] = rest.P.a[j][i];
+              add_bracket(back, rest.lambda, 0.5);
+              for (int i = 0; i < 6 * padded; ++i) more[i] = 0;
+              add_times(back, G, padded, more);
+              carry_rows(A, more, padded, rest.L);
+            }
+            multiply(rest.P, A, PA);
+            multiply_back(A, PA, rest.P);
+          };
+          carry(outer);
+          if (has_holes && e > span.first_element) carry(inner);
+        }
+        carry_back(R, p, outer.lambda, outer.lambda);
+        if (e > span.first_element) carry_back(R, p, inner.lambda, inner.lambda);
+      }
+    }
+    if constexpr (hessian) {
+      for (int i = 0; i < n; ++i) {
+        double* line = terms.H.data() + i * padded;
+        for (int j = 0; j < n; ++j) line[j] += Y[j * padded + i];
+        if (symmetric)
+          for (int j = 0; j < n; ++j) line[j] += Y[i * padded + j];
+      }
+      terms.P = outer.P;
+      terms.A = along;
+      for (int i = 0; i < 6 * padded; ++i) {
+        terms.R[static_cast<std::size_t>(i)] = outer.R[i];
+        terms.L[static_cast<std::size_t>(i)] = symmetric ? outer.R[i] : outer.L[i];
+      }
+    }
+  }
+  (void)tendons;
+}
+
+void SweepBack(const RodModel& model, RodWork& work) { sweep<false>(model, work); }
+void SweepBackWithHessian(const RodModel& model, RodWork& work) { sweep<true>(model, work); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sinew::inline v1::strain
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sinew::inline v1::strain {
+
+HWY_EXPORT(SweepOut);
+HWY_EXPORT(SweepBack);
+HWY_EXPORT(SweepBackWithHessian);
+
+void sweep_out(const RodModel& model, RodWork& work) { HWY_DYNAMIC_DISPATCH(SweepOut)(model, work); }
+void sweep_back(const RodModel& model, RodWork& work) { HWY_DYNAMIC_DISPATCH(SweepBack)(model, work); }
+void sweep_back_with_hessian(const RodModel& model, RodWork& work) {
+  HWY_DYNAMIC_DISPATCH(SweepBackWithHessian)(model, work);
+}
+
+}  // namespace sinew::inline v1::strain
+#endif
