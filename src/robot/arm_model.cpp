@@ -79,6 +79,7 @@ class Builder {
     for (Piece& piece : rod_.pieces) {
       piece.first = rod_.size;
       rod_.size += piece.size;
+      add_rows(piece);
     }
     rod_.masses.back().mass += arm_.tip_mass;
     for (std::size_t i = 0; i < 3; ++i)
@@ -115,7 +116,7 @@ class Builder {
     std::size_t cut = 0;
     for (double end : ends) {
       int elements = basis_.elements;
-      if (elements == 0) elements = basis_.model == ArmModel::rod ? 8 : 1;
+      if (elements == 0) elements = basis_.model == ArmModel::rod ? 8 : basis_.model == ArmModel::subsegment_rod ? 2 : 1;
       if (basis_.model == ArmModel::cc) elements = 1;
       if (basis_.model == ArmModel::prb)
         begin_joints(section, start, end, elements);
@@ -157,11 +158,11 @@ class Builder {
     const double length = (end - start) * section.length, mid = 0.5 * (start + end);
     const CrossSection here = section_at(section, mid);
     const Six stiffness{here.shear, here.shear, here.stretch, here.bending_x, here.bending_y, here.torsion};
-    const bool fine = basis_.model == ArmModel::rod && basis_.order < 0;
+    const bool fine = basis_.order < 0;  // what is stiff follows with one order less
     for (std::size_t c = 0; c < 6; ++c) {
       if (stiffness[c] <= 0) continue;
       if (c < 3 && (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc)) continue;
-      piece.modes[c] = fine && c < 3 ? modes - 1 : modes;
+      piece.modes[c] = fine && c < 3 && modes > 1 ? modes - 1 : modes;
       piece.scale[c] = 1 / std::sqrt(stiffness[c]);
       piece.offset[c] = piece.size;
       piece.size += piece.modes[c];
@@ -188,6 +189,22 @@ class Builder {
     piece.first_span = static_cast<int>(rod_.spans.size());
     piece.padded = (piece.size + strain::row - 1) / strain::row * strain::row;
     rod_.pieces.push_back(piece);
+  }
+  void add_rows(const Piece& piece) {
+    for (int s = piece.first_span; s < piece.first_span + piece.spans; ++s) {
+      const Span& span = rod_.spans[at(s)];
+      for (int e = span.first_element; e < span.first_element + span.elements; ++e) {
+        Element& element = rod_.elements[at(e)];
+        element.first_row = static_cast<int>(rod_.rows.size());
+        for (int g = 0; g < element.points; ++g)
+          for (std::size_t c = 0; c < 6; ++c) {
+            std::vector<double> values(at(piece.padded), 0.0);
+            for (int a = 0; a < piece.modes[c]; ++a)
+              values[at(piece.offset[c] + a)] = piece.scale[c] * element.modes[at(g)][at(a)];
+            rod_.rows.insert(rod_.rows.end(), values.begin(), values.end());
+          }
+      }
+    }
   }
   void begin_span() {
     Span span;

@@ -27,19 +27,20 @@ HWY_INLINE Inertia factor_symmetric(double* H, int n, int padded) {
     for (int i = k + 1; i < n; ++i) {
       const double l = pivot[i] * inverse;
       double* line = H + i * padded;
-      for (int j = i / row * row; j < padded; ++j) line[j] -= l * pivot[j];
+      for (int j = i / row * row; j < padded; j += row) lanes(line + j) -= l * lanes(pivot + j);
     }
     H[k * padded + k] = inverse;
   }
   return found;
 }
-/// The same with rows exchanged; below the diagonal stays L.
-HWY_INLINE bool factor_general(double* H, int n, int padded, int* pivots) {
+/// The same with rows exchanged; below the diagonal stays L. `negative` changes with the determinant's sign.
+HWY_INLINE bool factor_general(double* H, int n, int padded, int* pivots, int& negative) {
   for (int k = 0; k < n; ++k) {
     int best = k;
     for (int i = k + 1; i < n; ++i)
       if (std::abs(H[i * padded + k]) > std::abs(H[best * padded + k])) best = i;
     pivots[k] = best;
+    if ((H[best * padded + k] < 0) != (best != k)) negative = 1 - negative;
     if (!(std::abs(H[best * padded + k]) > 1e-12)) return false;
     if (best != k)
       for (int j = 0; j < padded; ++j) std::swap(H[best * padded + j], H[k * padded + j]);
@@ -54,55 +55,34 @@ HWY_INLINE bool factor_general(double* H, int n, int padded, int* pivots) {
   return true;
 }
 
-/// In place; rows of `stride` numbers, of which the first `width` count.
-HWY_INLINE void substitute(const PieceTerms& terms, int n, int padded, bool symmetric, double* x, int width,
-                           int stride) {
+/// In place: eight columns; rows are `stride` numbers apart.
+HWY_INLINE void substitute(const PieceTerms& terms, int n, int padded, bool symmetric, double* x, int stride) {
   const double* H = terms.factor.data();
   if (symmetric) {
     for (int k = 0; k < n; ++k) {
       const double *pivot = H + k * padded, inverse = pivot[k];
-      const double* from = x + k * stride;
-      for (int i = k + 1; i < n; ++i) {
-        const double l = pivot[i] * inverse;
-        double* to = x + i * stride;
-        for (int j = 0; j < width; ++j) to[j] -= l * from[j];
-      }
+      const Lanes from = inverse * lanes(x + k * stride);
+      for (int i = k + 1; i < n; ++i) lanes(x + i * stride) -= pivot[i] * from;
     }
   } else {
     for (int k = 0; k < n; ++k) {
       const int other = terms.pivots[static_cast<std::size_t>(k)];
-      if (other != k)
-        for (int j = 0; j < width; ++j) std::swap(x[k * stride + j], x[other * stride + j]);
+      if (other == k) continue;
+      const Lanes one = lanes(x + k * stride);
+      lanes(x + k * stride) = lanes(x + other * stride);
+      lanes(x + other * stride) = one;
     }
     for (int k = 0; k < n; ++k) {
-      const double* from = x + k * stride;
-      for (int i = k + 1; i < n; ++i) {
-        const double l = H[i * padded + k];
-        double* to = x + i * stride;
-        for (int j = 0; j < width; ++j) to[j] -= l * from[j];
-      }
+      const Lanes from = lanes(x + k * stride);
+      for (int i = k + 1; i < n; ++i) lanes(x + i * stride) -= H[i * padded + k] * from;
     }
   }
   for (int k = n; k-- > 0;) {
     const double* pivot = H + k * padded;
-    double* to = x + k * stride;
-    for (int i = k + 1; i < n; ++i) {
-      const double u = pivot[i];
-      const double* from = x + i * stride;
-      for (int j = 0; j < width; ++j) to[j] -= u * from[j];
-    }
-    for (int j = 0; j < width; ++j) to[j] *= pivot[k];
+    Lanes sum = lanes(x + k * stride);
+    for (int i = k + 1; i < n; ++i) sum -= pivot[i] * lanes(x + i * stride);
+    lanes(x + k * stride) = pivot[k] * sum;
   }
-}
-
-/// sum += aᵀ b of rows: (6 × n)ᵀ… each 6 × padded, as 6 × 6.
-HWY_INLINE void add_outer_products(const double* a, const double* b, int n, double scale, Block& sum) {
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) {
-      double s = 0;
-      for (int k = 0; k < n; ++k) s += a[i * n + k] * b[j * n + k];
-      sum.a[i][j] += scale * s;
-    }
 }
 
 void Factor(const RodModel& model, RodWork& work, double shift, Inertia& inertia) {
@@ -122,22 +102,9 @@ void Factor(const RodModel& model, RodWork& work, double shift, Inertia& inertia
     Block P = terms.P;
     if (!is_last) {
       const double* G = terms.G.data();
-      for (int i = 0; i < rows; ++i) T[i] = 0;
-      for (int i = 0; i < 6; ++i)  // P̃ Γ
-        for (int l = 0; l < 6; ++l) {
-          const double x = rest.a[i][l];
-          for (int j = 0; j < padded; ++j) T[i * padded + j] += x * G[l * padded + j];
-        }
-      for (int i = 0; i < n; ++i)
-        for (int l = 0; l < 6; ++l) {
-          const double x = G[l * padded + i];
-          for (int j = 0; j < padded; ++j) H[i * padded + j] += x * T[l * padded + j];
-        }
-      for (int i = 0; i < 6; ++i)
-        for (int l = 0; l < 6; ++l) {
-          const double x = terms.A.a[l][i];
-          for (int j = 0; j < padded; ++j) R[i * padded + j] += x * T[l * padded + j];
-        }
+      multiply_rows<false>(rest, G, padded, T);  // P̃ Γ
+      add_product(G, T, n, padded, H);
+      multiply_rows_back<true>(terms.A, T, padded, R);
       Block PA, APA;
       multiply(rest, terms.A, PA);
       multiply_back(terms.A, PA, APA);
@@ -148,17 +115,8 @@ void Factor(const RodModel& model, RodWork& work, double shift, Inertia& inertia
       for (int i = 0; i < rows; ++i) U[i] = terms.L[static_cast<std::size_t>(i)];
       if (!is_last) {
         const double* G = terms.G.data();
-        for (int i = 0; i < rows; ++i) T[i] = 0;
-        for (int i = 0; i < 6; ++i)
-          for (int l = 0; l < 6; ++l) {
-            const double x = rest.a[l][i];
-            for (int j = 0; j < padded; ++j) T[i * padded + j] += x * G[l * padded + j];
-          }
-        for (int i = 0; i < 6; ++i)
-          for (int l = 0; l < 6; ++l) {
-            const double x = terms.A.a[l][i];
-            for (int j = 0; j < padded; ++j) U[i * padded + j] += x * T[l * padded + j];
-          }
+        multiply_rows_back<false>(rest, G, padded, T);
+        multiply_rows_back<true>(terms.A, T, padded, U);
       }
       L = U;
     }
@@ -170,7 +128,7 @@ void Factor(const RodModel& model, RodWork& work, double shift, Inertia& inertia
         inertia.ok = false;
         return;
       }
-    } else if (!factor_general(H, n, padded, terms.pivots.data())) {
+    } else if (!factor_general(H, n, padded, terms.pivots.data(), inertia.negative)) {
       inertia.ok = false;
       return;
     }
@@ -178,52 +136,40 @@ void Factor(const RodModel& model, RodWork& work, double shift, Inertia& inertia
       for (int j = 0; j < 6; ++j) side[i * row + j] = L[j * padded + i];
       side[i * row + 6] = side[i * row + 7] = 0;
     }
-    substitute(terms, n, padded, work.symmetric, side, row, row);
+    substitute(terms, n, padded, work.symmetric, side, row);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < 6; ++j) F[j * padded + i] = side[i * row + j];
     for (int i = 0; i < 6; ++i)  // P̃ = P̂ − R̂ Ĥ⁻¹ L̂
       for (int l = 0; l < n; ++l) {
         const double x = R[i * padded + l];
-        for (int j = 0; j < row; ++j) P.a[i][j] -= x * side[l * row + j];
+        lanes(P.a[i]) -= x * lanes(side + l * row);
       }
     rest = P;
   }
 }
 
-void Solve(const RodModel& model, RodWork& work, double* sides, int columns, int stride) {
-  const int width = std::min((columns + row - 1) / row * row, stride);
-  alignas(64) double carried[6][64], next[6][64];
-  for (auto& line : carried)
-    for (double& x : line) x = 0;
+/// Eight columns.
+HWY_INLINE void solve_columns(const RodModel& model, RodWork& work, double* sides, int stride) {
+  Lanes carried[6] = {}, twist[6] = {}, next[6];
   for (std::size_t k = model.pieces.size(); k-- > 0;) {
     const Piece& piece = model.pieces[k];
     const int n = piece.size, padded = piece.padded;
     const PieceTerms& terms = work.pieces[k];
     double* x = sides + piece.first * stride;
     const double *G = terms.G.data(), *R = terms.fed.data();
-    for (int i = 0; i < n; ++i)
-      for (int l = 0; l < 6; ++l) {
-        const double g = G[l * padded + i];
-        for (int j = 0; j < width; ++j) x[i * stride + j] -= g * carried[l][j];
-      }
-    substitute(terms, n, padded, work.symmetric, x, width, stride);
+    if (k + 1 < model.pieces.size())
+      for (int i = 0; i < n; ++i)
+        for (int l = 0; l < 6; ++l) lanes(x + i * stride) -= G[l * padded + i] * carried[l];
+    substitute(terms, n, padded, work.symmetric, x, stride);
+    if (k == 0) break;
     for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < width; ++j) next[i][j] = 0;
-      for (int l = 0; l < 6; ++l) {
-        const double a = terms.A.a[l][i];
-        for (int j = 0; j < width; ++j) next[i][j] += a * carried[l][j];
-      }
-      for (int l = 0; l < n; ++l) {
-        const double r = R[i * padded + l];
-        for (int j = 0; j < width; ++j) next[i][j] += r * x[l * stride + j];
-      }
+      Lanes sum = terms.A.a[0][i] * carried[0];
+      for (int l = 1; l < 6; ++l) sum += terms.A.a[l][i] * carried[l];
+      for (int l = 0; l < n; ++l) sum += R[i * padded + l] * lanes(x + l * stride);
+      next[i] = sum;
     }
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < width; ++j) carried[i][j] = next[i][j];
+    for (int i = 0; i < 6; ++i) carried[i] = next[i];
   }
-  double(*twist)[64] = carried;  // of the base: none
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < width; ++j) twist[i][j] = 0;
   for (std::size_t k = 0; k < model.pieces.size(); ++k) {
     const Piece& piece = model.pieces[k];
     const int n = piece.size, padded = piece.padded;
@@ -231,25 +177,24 @@ void Solve(const RodModel& model, RodWork& work, double* sides, int columns, int
     double* x = sides + piece.first * stride;
     const double *G = terms.G.data(), *F = terms.fed.data() + 6 * padded;
     if (k > 0)
-      for (int i = 0; i < n; ++i)
-        for (int l = 0; l < 6; ++l) {
-          const double f = F[l * padded + i];
-          for (int j = 0; j < width; ++j) x[i * stride + j] -= f * twist[l][j];
-        }
+      for (int i = 0; i < n; ++i) {
+        Lanes sum = lanes(x + i * stride);
+        for (int l = 0; l < 6; ++l) sum -= F[l * padded + i] * twist[l];
+        lanes(x + i * stride) = sum;
+      }
+    if (k + 1 == model.pieces.size()) break;
     for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < width; ++j) next[i][j] = 0;
-      for (int l = 0; l < 6; ++l) {
-        const double a = terms.A.a[i][l];
-        for (int j = 0; j < width; ++j) next[i][j] += a * twist[l][j];
-      }
-      for (int l = 0; l < n; ++l) {
-        const double g = G[i * padded + l];
-        for (int j = 0; j < width; ++j) next[i][j] += g * x[l * stride + j];
-      }
+      Lanes sum = terms.A.a[i][0] * twist[0];
+      for (int l = 1; l < 6; ++l) sum += terms.A.a[i][l] * twist[l];
+      for (int l = 0; l < n; ++l) sum += G[i * padded + l] * lanes(x + l * stride);
+      next[i] = sum;
     }
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < width; ++j) twist[i][j] = next[i][j];
+    for (int i = 0; i < 6; ++i) twist[i] = next[i];
   }
+}
+
+void Solve(const RodModel& model, RodWork& work, double* sides, int columns, int stride) {
+  for (int j = 0; j < columns; j += row) solve_columns(model, work, sides + j, stride);
 }
 
 void TipTwists(const RodModel& model, const RodWork& work, double* rows) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sinew::inline v1::strain {
 namespace {
@@ -16,6 +17,9 @@ double dot(std::span<const double> a, std::span<const double> b) {
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
+/// Eigenvalues down to this count as 0: a round rod that has buckled turns freely.
+constexpr double neutral = 1e-9;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
@@ -221,58 +225,69 @@ bool LoadedRod::newton_step(double& shift, double radius, std::span<double> step
   return true;
 }
 
+bool LoadedRod::same_active() const {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    if (holds[i].by_tension || tensions_[i] <= 0) continue;
+    if (next == active_.size() || active_[next] != static_cast<int>(i)) return false;
+    ++next;
+  }
+  return next == active_.size();
+}
+
+/// Downhill from a saddle along its lowest direction, as far as it pays.
+bool LoadedRod::leave_saddle(Relaxed& result, double& energy) {
+  std::vector<double> direction(at(model_->size));
+  lowest(direction);
+  std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
+  const double from = energy;
+  for (double length = 0.3 * std::sqrt(model_->energy_scale); length > 1e-12; length *= 0.5) {
+    for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + length * direction[i];
+    energy = evaluate();
+    ++result.evaluations;
+    if (energy < from) return true;
+  }
+  std::copy(trial_.begin(), trial_.end(), work_.y.begin());
+  energy = evaluate();
+  linearise(true);
+  factor_all(0);
+  return false;
+}
+
 Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
   Relaxed result;
-  const double scale = std::sqrt(model_->energy_scale), pi = 3.14159265358979;
-  double radius = scale * pi, shift = 0, energy = evaluate();
+  const double scale = std::sqrt(model_->energy_scale), most = 1e3 * scale;
+  double radius = std::numbers::pi * scale, energy = evaluate(), shift = 0, before = 0, rate = 1;
   ++result.evaluations;
-  const double most = 1e3 * radius;
-  bool linear = false;
+  bool kept = false;   // a factor of a Hessian near by, positive definite
+  bool swept = false;  // the Hessian at hand is of this iterate
   for (;; ++result.iterations) {
-    if (!linear) linearise(true);
-    linear = true;
+    if (!kept) {
+      if (!swept) linearise(true);
+      swept = true;
+    } else {
+      linearise(false);
+      swept = false;
+    }
     result.residual = gradient_norm();
     if (!std::isfinite(energy) || !std::isfinite(result.residual)) {
       result.status = Status::left_domain;
       return result;
     }
     if (result.residual <= options.tolerance) {
+      if (kept) return result;
       result.negative = factor_all(0);
       if (result.negative == 0) return result;
       std::vector<double> direction(at(model_->size));
-      const double value = lowest(direction);
-      if (value > -1e-9 && result.negative >= 0 && result.negative <= 1) {
+      if (lowest(direction) > -neutral) {  // it may turn freely
         result.negative = 0;
         return result;
       }
-      if (value > -1e-9) {
-        result.negative = 0;
-        return result;
-      }
-      if (!options.leave_saddles) {
+      if (!options.leave_saddles || !leave_saddle(result, energy)) {
         result.status = Status::unstable;
         return result;
       }
-      // downhill along the direction, as far as it pays
-      const std::vector<double> from = work_.y;
-      double length = 0.3 * scale, best = energy;
-      bool found = false;
-      for (int tries = 0; tries < 40 && !found; ++tries, length *= 0.5) {
-        for (std::size_t i = 0; i < from.size(); ++i) work_.y[i] = from[i] + length * direction[i];
-        const double trial = evaluate();
-        ++result.evaluations;
-        found = trial < best;
-        energy = trial;
-      }
-      if (!found) {
-        work_.y = from;
-        energy = evaluate();
-        linearise(true);
-        factor_all(0);
-        result.status = Status::unstable;
-        return result;
-      }
-      linear = false;
+      swept = false;
       continue;
     }
     if (result.iterations >= options.max_iterations) {
@@ -283,59 +298,76 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       result.status = Status::stopped;
       return result;
     }
+    if (kept) {  // worth another step of the same factor, or a new one
+      const double reduced = result.residual / before;
+      rate = std::max(reduced, 1e-12);
+      kept = same_active() && reduced < 0.3 &&
+             (result.residual * rate <= options.tolerance || result.residual * rate * rate <= options.tolerance);
+      if (!kept) linearise(true);
+      swept = !kept;
+    }
+    before = result.residual;
+    if (kept) {
+      for (double& x : sides_) x = 0;
+      for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
+      solve_all(sides_, 1, stride_);
+      for (int i = 0; i < model_->size; ++i) work_.y[at(i)] += sides_[at(i * stride_)];
+      energy = evaluate();
+      ++result.evaluations;
+      continue;
+    }
     int negative = 0;
     if (!newton_step(shift, radius, step_, negative)) {
       result.status = Status::stalled;
       return result;
     }
-    const double length = norm(step_);
-    double predicted = -0.5 * dot(work_.gradient, step_) + 0.5 * shift * length * length;
-    const std::vector<double>& from = trial_;
+    const double length = norm(step_),
+                 predicted = -0.5 * dot(work_.gradient, step_) + 0.5 * shift * length * length;
     std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
-    for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = from[i] + step_[i];
-    const double before = result.residual, next = evaluate();
+    for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + step_[i];
+    const double next = evaluate();
     ++result.evaluations;
     bool accept = false;
-    double ratio = 0;
-    if (predicted <= 1e-12 * (std::abs(energy) + model_->energy_scale)) {
-      linearise(true);
+    double ratio = 1;
+    if (predicted <= 1e-12 * (std::abs(energy) + model_->energy_scale)) {  // rounding rules the difference
+      linearise(false);
       const double after = gradient_norm();
       accept = after < before * (1 - 1e-4) || after <= options.tolerance;
-      ratio = accept ? 1 : 0;
-      linear = accept;
-      if (!accept && length < 1e-9 * scale) {  // rounding is reached
-        if (before < 1e3 * options.tolerance) {
-          std::copy(trial_.begin(), trial_.end(), work_.y.begin());
-          energy = evaluate();
-          linearise(true);
-          result.negative = std::max(0, factor_all(0));
-          result.status = result.negative == 0 ? Status::converged : Status::unstable;
-          return result;
-        }
+      if (!accept && before < 1e3 * options.tolerance) {  // as near as rounding lets it
+        restore(energy);
+        result.negative = std::max(0, factor_all(0));
+        result.status = result.negative == 0 ? Status::converged : Status::unstable;
+        return result;
       }
+      if (!accept) ratio = 0;
     } else {
       ratio = (energy - next) / predicted;
       accept = ratio > 1e-4;
-      linear = false;
     }
     if (ratio < 0.25)
       radius = 0.25 * std::min(length, radius);
     else if (ratio > 0.75 && length > 0.8 * radius)
       radius = std::min(most, 2.5 * radius);
+    swept = false;
     if (accept) {
       energy = next;
+      kept = shift == 0 && negative == 0 && length < 0.1 * scale && same_active();
     } else {
-      std::copy(trial_.begin(), trial_.end(), work_.y.begin());
-      energy = evaluate();
-      linear = false;
+      restore(energy);
+      swept = true;
       if (radius < 1e-14 * scale) {
-        linearise(true);
-        result.residual = gradient_norm();
         result.status = Status::stalled;
         return result;
       }
     }
   }
+}
+
+/// Back to where the last step began.
+void LoadedRod::restore(double& energy) {
+  std::copy(trial_.begin(), trial_.end(), work_.y.begin());
+  energy = evaluate();
+  linearise(true);
 }
 
 Relaxed LoadedRod::relax_residual(const RelaxOptions& options) {
@@ -366,7 +398,7 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options) {
     for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
     solve_all(sides_, 1, stride_);
     for (int i = 0; i < model_->size; ++i) step_[at(i)] = sides_[at(i * stride_)];
-    const double length = norm(step_), before = result.residual, most = scale * 3.14159265358979;
+    const double length = norm(step_), before = result.residual, most = scale * std::numbers::pi;
     double fraction = length > most ? most / length : 1;
     std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
     bool accept = false;
@@ -391,34 +423,134 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options) {
   }
 }
 
-Relaxed LoadedRod::relax(const RelaxOptions& options) {
-  for (std::size_t i = 0; i < holds.size(); ++i) {
-    offsets_[i] = 0;
-    stiff_[i] = holds[i].compliance > 0 ? holds[i].compliance : 1e-6;
+void make_symmetric(const RodModel& model, RodWork& work) {
+  for (std::size_t k = 0; k < model.pieces.size(); ++k) {
+    const Piece& piece = model.pieces[k];
+    PieceTerms& terms = work.pieces[k];
+    for (int i = 0; i < piece.size; ++i)
+      for (int j = 0; j < i; ++j) {
+        double &a = terms.H[at(i * piece.padded + j)], &b = terms.H[at(j * piece.padded + i)];
+        a = b = 0.5 * (a + b);
+      }
+    for (std::size_t i = 0; i < terms.R.size(); ++i) terms.R[i] = terms.L[i] = 0.5 * (terms.R[i] + terms.L[i]);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < i; ++j) terms.P.a[i][j] = terms.P.a[j][i] = 0.5 * (terms.P.a[i][j] + terms.P.a[j][i]);
   }
-  bool potential = true;
-  for (const NodeLoad& load : work_.loads) {
-    for (double x : load.moment) potential = potential && x == 0;
-    for (double x : load.following) potential = potential && x == 0;
-  }
-  work_.symmetric = potential;
+  work.symmetric = true;
+}
+
+/// Where loads have no potential: an equilibrium holds if the Hessian's symmetric part is positive definite;
+/// else the determinant's sign must be that of the unloaded rod.
+bool LoadedRod::judge(Relaxed& result) {
+  linearise(true);
+  const int sign = factor_all(0);
+  make_symmetric(*model_, work_);
+  const int negative = factor_all(0);
+  work_.symmetric = false;
+  result.negative = negative == 0 ? 0 : sign;
+  return negative == 0;
+}
+
+/// From here; tendons that do not stretch are let give way, and what they gave is taken back.
+Relaxed LoadedRod::relax_here(const RelaxOptions& options) {
   Relaxed result;
   for (int round = 0; round < 30; ++round) {
-    Relaxed one = potential ? relax_energy(options) : relax_residual(options);
+    Relaxed one = potential_ ? relax_energy(options) : relax_residual(options);
     one.iterations += result.iterations;
     one.evaluations += result.evaluations;
     result = one;
-    // Tendons that do not stretch: what they gave way is taken back.
     double off = 0;
     for (std::size_t i = 0; i < holds.size(); ++i) {
       if (holds[i].by_tension || holds[i].compliance > 0) continue;
-      const double gap = work_.lengths[i] - holds[i].free_length;
-      const double wanted = std::max(0.0, offsets_[i] + gap);
+      const double wanted = std::max(0.0, offsets_[i] + work_.lengths[i] - holds[i].free_length);
       off = std::max(off, std::abs(wanted - offsets_[i]));
       offsets_[i] = wanted;
     }
     if (off < 1e-12 || (result.status != Status::converged && result.status != Status::unstable)) break;
   }
+  return result;
+}
+
+/// Loads and inputs grow from nothing, the rod follows.
+Relaxed LoadedRod::grow(const RelaxOptions& options) {
+  const std::vector<TendonHold> targets = holds;
+  const std::vector<NodeLoad> loads = work_.loads;
+  for (double& y : work_.y) y = 0;
+  for (std::size_t i = 0; i < holds.size(); ++i) offsets_[i] = 0;
+  sweep_out(*model_, work_);
+  const std::vector<double> free = work_.lengths;
+  Relaxed result;
+  double done = 0, step = 0.2;
+  RelaxOptions each = options;
+  each.max_iterations = std::min(options.max_iterations, 40);
+  std::vector<double> y = work_.y, offsets = offsets_;
+  while (done < 1) {
+    const double share = std::min(1.0, done + step);
+    for (std::size_t i = 0; i < holds.size(); ++i) {
+      holds[i].tension = share * targets[i].tension;
+      holds[i].free_length = free[i] + share * (targets[i].free_length - free[i]);
+    }
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      NodeLoad& load = work_.loads[k];
+      for (int i = 0; i < 3; ++i) load.force[i] = share * loads[k].force[i];
+      for (int i = 0; i < 9; ++i) load.couple[i] = share * loads[k].couple[i];
+      for (int i = 0; i < 3; ++i) load.moment[i] = share * loads[k].moment[i];
+      for (int i = 0; i < 6; ++i) load.following[i] = share * loads[k].following[i];
+    }
+    const Relaxed one = relax_here(each);
+    result.iterations += one.iterations;
+    result.evaluations += one.evaluations;
+    result.residual = one.residual;
+    result.status = one.status;
+    result.negative = one.negative;
+    if (one.status == Status::stopped) break;
+    if (one.status == Status::converged) {
+      done = share;
+      step *= one.iterations < 8 ? 2 : 1;
+      y = work_.y;
+      offsets = offsets_;
+    } else {
+      work_.y = y;
+      offsets_ = offsets;
+      step *= 0.35;
+      if (step < 1e-3 || result.iterations > 20 * options.max_iterations) break;
+    }
+  }
+  result.reached = done;
+  holds = targets;
+  work_.loads = loads;
+  if (done < 1) {
+    evaluate();
+    linearise(true);
+    result.residual = gradient_norm();
+    if (result.status != Status::stopped) result.status = Status::stalled;
+  }
+  return result;
+}
+
+Relaxed LoadedRod::relax(const RelaxOptions& options) {
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    offsets_[i] = 0;
+    stiff_[i] = holds[i].compliance > 0 ? holds[i].compliance : 1e-6;
+  }
+  potential_ = true;
+  for (const NodeLoad& load : work_.loads) {
+    for (double x : load.moment) potential_ = potential_ && x == 0;
+    for (double x : load.following) potential_ = potential_ && x == 0;
+  }
+  work_.symmetric = potential_;
+  RelaxOptions direct = options;
+  direct.max_iterations = std::min(options.max_iterations, potential_ ? 60 : 15);
+  Relaxed result = relax_here(direct);
+  const bool ended = result.status == Status::stopped || result.status == Status::left_domain;
+  if (potential_ && (result.status == Status::converged || ended)) return result;
+  if (!potential_ && (ended || (result.status == Status::converged && judge(result)))) return result;
+  const int spent = result.iterations;
+  if (options.max_iterations <= direct.max_iterations) return result;
+  result = grow(options);
+  result.iterations += spent;
+  if (!potential_ && result.status == Status::converged && !judge(result) && result.negative != 0)
+    result.status = Status::unstable;
   return result;
 }
 

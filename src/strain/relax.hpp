@@ -33,6 +33,7 @@ struct Relaxed {
   int iterations = 0, evaluations = 0;
   double residual = 0;  ///< of the gradient, over √(EI/L)
   int negative = 0;     ///< directions in which the energy falls
+  double reached = 1;   ///< share of loads and inputs up to which equilibria were found
 };
 
 /// The rod, its tendons and their memory.
@@ -67,9 +68,17 @@ class LoadedRod {
  private:
   void spread_tensions();
   bool newton_step(double& shift, double radius, std::span<double> step, int& negative);
+  bool same_active() const;
+  bool leave_saddle(Relaxed& result, double& energy);
+  void restore(double& energy);
   Relaxed relax_energy(const RelaxOptions& options);
   Relaxed relax_residual(const RelaxOptions& options);
+  Relaxed relax_here(const RelaxOptions& options);
+  Relaxed grow(const RelaxOptions& options);
+  bool judge(Relaxed& result);
   double gradient_norm() const;
+
+  bool potential_ = true;
 
   const RodModel* model_;
   RodWork work_;

@@ -35,6 +35,7 @@ struct Element {
   std::array<Six, 2> rest{};                             ///< strain without load
   std::array<Six, 2> stiffness{};                        ///< its diagonal [N], [N m²]; of a joint [N m]
   std::array<std::array<double, max_modes>, 2> modes{};  ///< values of the basis
+  int first_row = 0;  ///< in RodModel::rows: the same, scaled, for each point 6 × padded
   int first_guide = 0, guides = 0;  ///< in RodModel::guides: tendons that a channel guides along the rod
 };
 
@@ -78,6 +79,7 @@ struct RodModel {
   std::vector<Piece> pieces;
   std::vector<Guide> guides;
   std::vector<Hole> holes;
+  std::vector<double> rows;  ///< strains by coordinates, see Element::first_row
   std::vector<NodeMass> masses;  ///< of every node; node k + 1 is the end of element k
   int tendons = 0, size = 0;
   double energy_scale = 1;  ///< EI/L [J]

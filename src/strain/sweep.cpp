@@ -129,6 +129,20 @@ HWY_INLINE void add_load(const NodeLoad& load, const RodFrame& frame, double* la
   add_bracket(*P, follow, 0.5);
 }
 
+/// b + scale (Nᵀ N − g gᵀ) with N = [1, −[r]] and g = Nᵀ t: how a length changes across its direction t.
+HWY_INLINE void add_stretching(Block& b, const double* r, const double* g, double scale) {
+  alignas(64) double line[row] = {g[0], g[1], g[2], g[3], g[4], g[5], 0, 0};
+  for (int i = 0; i < 6; ++i) lanes(b.a[i]) -= (scale * g[i]) * lanes(line);
+  const double square = scale * dot3(r, r);
+  for (int i = 0; i < 3; ++i) {
+    b.a[i][i] += scale;
+    b.a[i + 3][i + 3] += square;
+    for (int j = 0; j < 3; ++j) b.a[i + 3][j + 3] -= scale * r[i] * r[j];
+  }
+  add_skew(b, 0, 3, r, -scale);
+  add_skew(b, 3, 0, r, scale);
+}
+
 /// The gradient of a tendon's length between two discs by the twist of the second one against the first, and
 /// where P is given its second derivative times the tension.
 HWY_INLINE void hole_terms(const RodFrame& start, const RodFrame& end, const Hole& hole, double tension,
@@ -154,17 +168,7 @@ HWY_INLINE void hole_terms(const RodFrame& start, const RodFrame& end, const Hol
     for (int j = 0; j < 3; ++j) P->a[i + 3][j + 3] += 0.5 * tension * (t[i] * r[j] + r[i] * t[j]);
     P->a[i + 3][i + 3] -= tension * tr;
   }
-  // (tension/length) Nᵀ(1 − t tᵀ)N, N = [1, −[r]]: Nᵀ x = (x, r × x)
-  for (int c = 0; c < 3; ++c) {
-    double across[6] = {-t[c] * t[0], -t[c] * t[1], -t[c] * t[2]};
-    across[c] += 1;
-    cross3(r, across, across + 3);
-    double column[6] = {};
-    column[c] = 1;
-    cross3(r, column, column + 3);
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) P->a[i][j] += stiff * column[i] * across[j];
-  }
+  add_stretching(*P, r, gradient, stiff);
 }
 
 /// Of a guided tendon at a Gauss point: the gradient of its length by the strain, and the second derivative.
@@ -177,17 +181,7 @@ HWY_INLINE void guide_terms(const Six& xi, const Guide& guide, int point, double
   for (int i = 0; i < 3; ++i) gradient[i] = x[i] / length;
   cross3(r, gradient, gradient + 3);
   if (E == nullptr) return;
-  const double stiff = tension / length, *t = gradient;
-  for (int c = 0; c < 3; ++c) {
-    double across[6] = {-t[c] * t[0], -t[c] * t[1], -t[c] * t[2]};
-    across[c] += 1;
-    cross3(r, across, across + 3);
-    double column[6] = {};
-    column[c] = 1;
-    cross3(r, column, column + 3);
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) E->a[i][j] += stiff * column[i] * across[j];
-  }
+  add_stretching(*E, r, gradient, tension / length);
 }
 
 /// A gradient by the strains of an element into that by the coordinates of its piece.
@@ -228,44 +222,6 @@ HWY_INLINE void by_strains(const Element& element, const std::array<Six, 2>& xi,
   }
 }
 
-/// out += Γᵀ rows, all 6 × padded; out is size × padded.
-HWY_INLINE void add_product(const double* G, const double* rows, int size, int padded, double* out) {
-  for (int i = 0; i < size; ++i) {
-    double* line = out + i * padded;
-    const double g0 = G[i], g1 = G[padded + i], g2 = G[2 * padded + i], g3 = G[3 * padded + i],
-                 g4 = G[4 * padded + i], g5 = G[5 * padded + i];
-    for (int j = 0; j < padded; ++j)
-      line[j] += g0 * rows[j] + g1 * rows[padded + j] + g2 * rows[2 * padded + j] +
-                 g3 * rows[3 * padded + j] + g4 * rows[4 * padded + j] + g5 * rows[5 * padded + j];
-  }
-}
-/// out += b rows, 6 × padded.
-HWY_INLINE void add_times(const Block& b, const double* rows, int padded, double* out) {
-  for (int i = 0; i < 6; ++i) {
-    const double* x = b.a[i];
-    double* line = out + i * padded;
-    for (int j = 0; j < padded; ++j)
-      line[j] += x[0] * rows[j] + x[1] * rows[padded + j] + x[2] * rows[2 * padded + j] +
-                 x[3] * rows[3 * padded + j] + x[4] * rows[4 * padded + j] + x[5] * rows[5 * padded + j];
-  }
-}
-/// rows = bᵀ (rows + more).
-HWY_INLINE void carry_rows(const Block& b, const double* more, int padded, double* rows) {
-  for (int j = 0; j < padded; j += row) {
-    double in[6][row];
-    for (int i = 0; i < 6; ++i)
-      for (int l = 0; l < row; ++l) in[i][l] = rows[i * padded + j + l] + more[i * padded + j + l];
-    for (int i = 0; i < 6; ++i) {
-      double sum[row] = {};
-      for (int k = 0; k < 6; ++k) {
-        const double x = b.a[k][i];
-        for (int l = 0; l < row; ++l) sum[l] += x * in[k][l];
-      }
-      for (int l = 0; l < row; ++l) rows[i * padded + j + l] = sum[l];
-    }
-  }
-}
-
 /// What the rod after a node is to it: the gradient of its potential by the node's twist, its derivatives by
 /// that and by the coordinates of the piece.
 struct Rest {
@@ -276,7 +232,6 @@ struct Rest {
 
 template <bool hessian>
 HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
-  const std::size_t tendons = static_cast<std::size_t>(model.tendons);
   for (double& x : work.gradient) x = 0;
   for (double& x : work.length_gradient) x = 0;
   alignas(64) double rows[6][6 * max_piece];
@@ -290,6 +245,8 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
     const int n = piece.size, padded = piece.padded;
     PieceTerms& terms = work.pieces[k];
     double* gradient = work.gradient.data() + piece.first;
+    const Span& last_span = model.spans[static_cast<std::size_t>(piece.first_span + piece.spans - 1)];
+    [[maybe_unused]] const int piece_end = last_span.first_element + last_span.elements;
     double* Y = work.scratch.data();  // Γᵀ L, whose transpose belongs to H
     Block along;                      // from the node at hand to the end of the piece
     if constexpr (hessian) {
@@ -391,52 +348,40 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
           if (e > span.first_element) carry_back(R, p, of_hole[i], of_hole[i]);
         }
         if constexpr (hessian) {
-          // Γ = Σ J D modes
-          for (int i = 0; i < 6 * padded; ++i) G[i] = 0;
-          Block JD[2];
-          for (int g = 0; g < element.points; ++g) {
+          const double* basis = model.rows.data() + element.first_row;  // strains by coordinates
+          Block JD;
+          for (int g = 0; g < element.points; ++g) {  // Γ = Σ J D basis, H += basisᵀ E basis
+            const double* own = basis + g * 6 * padded;
             if (element.points == 1)
-              JD[g] = J;
+              JD = J;
             else
-              multiply(J, D[g], JD[g]);
-            const double* modes = element.modes[static_cast<std::size_t>(g)].data();
-            for (int i = 0; i < 6; ++i)
-              for (std::size_t c = 0; c < 6; ++c) {
-                const double x = JD[g].a[i][c] * piece.scale[c];
-                double* own = G + i * padded + piece.offset[c];
-                for (int a = 0; a < piece.modes[c]; ++a) own[a] += x * modes[a];
-              }
-          }
-          // H += modesᵀ E modes
-          for (int g = 0; g < element.points; ++g) {
-            for (int i = 0; i < 6 * padded; ++i) more[i] = 0;
-            for (int h = 0; h < element.points; ++h) {
-              const double* modes = element.modes[static_cast<std::size_t>(h)].data();
-              for (int i = 0; i < 6; ++i)
-                for (std::size_t c = 0; c < 6; ++c) {
-                  const double x = E[g][h].a[i][c] * piece.scale[c];
-                  double* own = more + i * padded + piece.offset[c];
-                  for (int a = 0; a < piece.modes[c]; ++a) own[a] += x * modes[a];
-                }
-            }
+              multiply(J, D[g], JD);
+            if (g == 0)
+              multiply_rows<false>(JD, own, padded, G);
+            else
+              multiply_rows<true>(JD, own, padded, G);
+            multiply_rows<false>(E[g][0], basis, padded, more);
+            if (element.points == 2) multiply_rows<true>(E[g][1], basis + 6 * padded, padded, more);
             const double* modes = element.modes[static_cast<std::size_t>(g)].data();
             for (std::size_t c = 0; c < 6; ++c)
               for (int a = 0; a < piece.modes[c]; ++a) {
                 const double x = modes[a] * piece.scale[c];
                 double* line = terms.H.data() + (piece.offset[c] + a) * padded;
                 const double* from = more + static_cast<int>(c) * padded;
-                for (int j = 0; j < padded; ++j) line[j] += x * from[j];
+                for (int j = 0; j < padded; j += row) lanes(line + j) += x * lanes(from + j);
               }
           }
-          // Γᵀ R and its partner
-          for (int i = 0; i < 6 * padded; ++i) more[i] = outer.R[i] + inner.R[i];
-          add_product(G, more, n, padded, symmetric ? Y : terms.H.data());
-          if (!symmetric) {
-            for (int i = 0; i < 6 * padded; ++i) more[i] = outer.L[i] + inner.L[i];
-            add_product(G, more, n, padded, Y);
+          // Γᵀ R and its partner; after the last element of a piece there is no R
+          if (e + 1 < piece_end) {
+            for (int i = 0; i < 6 * padded; i += row) lanes(more + i) = lanes(outer.R + i) + lanes(inner.R + i);
+            add_product(G, more, n, padded, symmetric ? Y : terms.H.data());
+            if (!symmetric) {
+              for (int i = 0; i < 6 * padded; i += row) lanes(more + i) = lanes(outer.L + i) + lanes(inner.L + i);
+              add_product(G, more, n, padded, Y);
+            }
           }
           // the end of the piece moves by along·Γ
-          add_times(along, G, padded, terms.G.data());
+          multiply_rows<true>(along, G, padded, terms.G.data());
           Block A, next;
           back_adjoint(R, p, A);
           multiply(along, A, next);
@@ -444,18 +389,16 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
           const auto carry = [&](Rest& rest) {
             Block form = rest.P, PA;
             add_bracket(form, rest.lambda, 0.5);
-            for (int i = 0; i < 6 * padded; ++i) more[i] = 0;
-            add_times(form, G, padded, more);
-            carry_rows(A, more, padded, rest.R);
+            multiply_rows<true>(form, G, padded, rest.R);
+            multiply_rows_back<false>(A, rest.R, padded, rest.R);
             if (!symmetric) {
               Block back;
               clear(back);
               for (int i = 0; i < 6; ++i)
                 for (int j = 0; j < 6; ++j) back.a[i][j] = rest.P.a[j][i];
               add_bracket(back, rest.lambda, 0.5);
-              for (int i = 0; i < 6 * padded; ++i) more[i] = 0;
-              add_times(back, G, padded, more);
-              carry_rows(A, more, padded, rest.L);
+              multiply_rows<true>(back, G, padded, rest.L);
+              multiply_rows_back<false>(A, rest.L, padded, rest.L);
             }
             multiply(rest.P, A, PA);
             multiply_back(A, PA, rest.P);
@@ -482,7 +425,6 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
       }
     }
   }
-  (void)tendons;
 }
 
 void SweepBack(const RodModel& model, RodWork& work) { sweep<false>(model, work); }

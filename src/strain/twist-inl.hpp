@@ -17,6 +17,11 @@ HWY_BEFORE_NAMESPACE();
 namespace sinew::inline v1::strain {
 namespace HWY_NAMESPACE {
 
+/// Eight numbers of a row, anywhere in memory: the compiler splits them as the instruction set has it.
+using Lanes [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
+HWY_INLINE Lanes& lanes(double* x) { return *reinterpret_cast<Lanes*>(x); }
+HWY_INLINE const Lanes& lanes(const double* x) { return *reinterpret_cast<const Lanes*>(x); }
+
 HWY_INLINE double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 HWY_INLINE void cross3(const double* a, const double* b, double* c) {
   c[0] = a[1] * b[2] - a[2] * b[1];
@@ -52,29 +57,67 @@ HWY_INLINE void clear(Block& b) {
 /// c = a b.
 HWY_INLINE void multiply(const Block& a, const Block& b, Block& c) {
   for (int i = 0; i < 6; ++i) {
-    double sum[row] = {};
-    for (int k = 0; k < 6; ++k) {
-      const double x = a.a[i][k];
-      for (int j = 0; j < row; ++j) sum[j] += x * b.a[k][j];
-    }
-    for (int j = 0; j < row; ++j) c.a[i][j] = sum[j];
+    Lanes sum = a.a[i][0] * lanes(b.a[0]);
+    for (int k = 1; k < 6; ++k) sum += a.a[i][k] * lanes(b.a[k]);
+    lanes(c.a[i]) = sum;
   }
 }
 /// c = aᵀ b.
 HWY_INLINE void multiply_back(const Block& a, const Block& b, Block& c) {
   for (int i = 0; i < 6; ++i) {
-    double sum[row] = {};
-    for (int k = 0; k < 6; ++k) {
-      const double x = a.a[k][i];
-      for (int j = 0; j < row; ++j) sum[j] += x * b.a[k][j];
-    }
-    for (int j = 0; j < row; ++j) c.a[i][j] = sum[j];
+    Lanes sum = a.a[0][i] * lanes(b.a[0]);
+    for (int k = 1; k < 6; ++k) sum += a.a[k][i] * lanes(b.a[k]);
+    lanes(c.a[i]) = sum;
   }
 }
 HWY_INLINE void add(Block& a, const Block& b, double scale) {
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < row; ++j) a.a[i][j] += scale * b.a[i][j];
+  for (int i = 0; i < 6; ++i) lanes(a.a[i]) += scale * lanes(b.a[i]);
 }
+/// rows (+)= b times more rows, 6 × padded.
+template <bool add>
+HWY_INLINE void multiply_rows(const Block& b, const double* from, int padded, double* to) {
+  for (int j = 0; j < padded; j += row) {
+    Lanes in[6];
+    for (int k = 0; k < 6; ++k) in[k] = lanes(from + k * padded + j);
+    for (int i = 0; i < 6; ++i) {
+      Lanes sum = b.a[i][0] * in[0];
+      for (int k = 1; k < 6; ++k) sum += b.a[i][k] * in[k];
+      if constexpr (add)
+        lanes(to + i * padded + j) += sum;
+      else
+        lanes(to + i * padded + j) = sum;
+    }
+  }
+}
+/// rows (+)= bᵀ times more rows.
+template <bool add>
+HWY_INLINE void multiply_rows_back(const Block& b, const double* from, int padded, double* to) {
+  for (int j = 0; j < padded; j += row) {
+    Lanes in[6];
+    for (int k = 0; k < 6; ++k) in[k] = lanes(from + k * padded + j);
+    for (int i = 0; i < 6; ++i) {
+      Lanes sum = b.a[0][i] * in[0];
+      for (int k = 1; k < 6; ++k) sum += b.a[k][i] * in[k];
+      if constexpr (add)
+        lanes(to + i * padded + j) += sum;
+      else
+        lanes(to + i * padded + j) = sum;
+    }
+  }
+}
+/// square += leftᵀ right, of 6 × padded rows each; n rows of it.
+HWY_INLINE void add_product(const double* left, const double* right, int n, int padded, double* square) {
+  for (int j = 0; j < padded; j += row) {
+    Lanes in[6];
+    for (int k = 0; k < 6; ++k) in[k] = lanes(right + k * padded + j);
+    for (int i = 0; i < n; ++i) {
+      Lanes sum = left[i] * in[0];
+      for (int k = 1; k < 6; ++k) sum += left[k * padded + i] * in[k];
+      lanes(square + i * padded + j) += sum;
+    }
+  }
+}
+
 /// v = a u, v = aᵀ u of six numbers.
 HWY_INLINE void apply(const Block& a, const double* u, double* v) {
   for (int i = 0; i < 6; ++i) {
