@@ -61,6 +61,8 @@ class Builder {
   Builder(const Arm& arm, const ArmBasis& basis) : arm_(arm), basis_(basis) {
     rod_.tendons = static_cast<int>(arm.tendons.size());
     rod_.masses.resize(1);
+    rod_.lengths.resize(1);
+    rod_.places.assign(1, 0.0);
   }
 
   RodModel build(std::vector<double> breaks) {
@@ -81,7 +83,7 @@ class Builder {
       rod_.size += piece.size;
       add_rows(piece);
     }
-    rod_.masses.back().mass += arm_.tip_mass;
+    rod_.masses.back().amount += arm_.tip_mass;
     for (std::size_t i = 0; i < 3; ++i)
       rod_.masses.back().moment[i] += arm_.tip_mass * arm_.tip_mass_place[i];
     return std::move(rod_);
@@ -111,12 +113,14 @@ class Builder {
     const ArmSection& section = arm_.sections[at(m)];
     const bool channel = section.discs.count == 0 || basis_.model == ArmModel::rod;
     double start = 0;
+    const std::size_t first = rod_.places.size() - 1;
     const auto ends = span_ends(section, cuts);
     if (basis_.model == ArmModel::cc) begin_piece(section, 0, 1, 1);
     std::size_t cut = 0;
     for (double end : ends) {
       int elements = basis_.elements;
-      if (elements == 0) elements = basis_.model == ArmModel::rod ? 8 : basis_.model == ArmModel::subsegment_rod ? 2 : 1;
+      if (elements == 0)
+        elements = basis_.model == ArmModel::rod ? 8 : basis_.model == ArmModel::subsegment_rod ? 2 : 1;
       if (basis_.model == ArmModel::cc) elements = 1;
       if (basis_.model == ArmModel::prb)
         begin_joints(section, start, end, elements);
@@ -143,15 +147,27 @@ class Builder {
           a = b;
         }
         add_holes(m, start, end);
-        rod_.masses.back().mass += section.discs.mass;
+        rod_.masses.back().amount += section.discs.mass;
       }
       start = end;
     }
-    if (channel && section.discs.count > 0) spread_discs(section);
+    if (channel && section.discs.mass > 0) add_discs(section, first);
+    place_ += section.length;
   }
 
-  /// Discs of a section whose nodes are not at them: as a load along it.
-  void spread_discs(const ArmSection&) {}
+  /// Discs of a section that has nodes elsewhere: each falls to two nodes, as a cubic between them says.
+  void add_discs(const ArmSection& section, std::size_t node) {
+    for (int k = 1; k <= section.discs.count; ++k) {
+      const double place = place_ + section.length * k / section.discs.count;
+      while (node + 2 < rod_.places.size() && rod_.places[node + 1] < place) ++node;
+      const double h = rod_.places[node + 1] - rod_.places[node], t = (place - rod_.places[node]) / h,
+                   u = 1 - t, mass = section.discs.mass;
+      rod_.masses[node].amount += mass * u * u * (1 + 2 * t);
+      rod_.masses[node].moment[2] += mass * h * t * u * u;
+      rod_.masses[node + 1].amount += mass * t * t * (3 - 2 * t);
+      rod_.masses[node + 1].moment[2] -= mass * h * t * t * u;
+    }
+  }
 
   void begin_piece(const ArmSection& section, double start, double end, int modes) {
     Piece piece;
@@ -263,12 +279,17 @@ class Builder {
   void push(const ArmSection& section, const Element& element, double a, double b) {
     rod_.elements.push_back(element);
     ++rod_.spans.back().elements;
-    rod_.masses.emplace_back();
-    // ∫ of the mass times the place by trapezoids with their correction by slopes: exact to fourth order.
-    const double h = element.length, first = section_at(section, a).mass, last = section_at(section, b).mass;
-    strain::NodeMass &before = rod_.masses[rod_.masses.size() - 2], &after = rod_.masses.back();
-    before.mass += h / 2 * first + h / 12 * (last - first);
-    after.mass += h / 2 * last - h / 12 * (last - first);
+    const double h = element.length;
+    add_shares(rod_.masses, h, section_at(section, a).mass, section_at(section, b).mass);
+    add_shares(rod_.lengths, h, 1, 1);
+    rod_.places.push_back(rod_.places.back() + h);
+  }
+  /// ∫ of a density times the place by trapezoids with their correction by slopes: exact to fourth order.
+  static void add_shares(std::vector<strain::NodeShare>& shares, double h, double first, double last) {
+    shares.emplace_back();
+    strain::NodeShare &before = shares[shares.size() - 2], &after = shares.back();
+    before.amount += h / 2 * first + h / 12 * (last - first);
+    after.amount += h / 2 * last - h / 12 * (last - first);
     before.moment[2] += first * h * h / 12;
     after.moment[2] -= last * h * h / 12;
   }
@@ -302,6 +323,7 @@ class Builder {
   const Arm& arm_;
   ArmBasis basis_;
   RodModel rod_;
+  double place_ = 0;  ///< where the section at hand begins
   double piece_length_ = 0, piece_start_ = 0, piece_end_ = 1;
 };
 

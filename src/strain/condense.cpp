@@ -56,7 +56,8 @@ HWY_INLINE bool factor_general(double* H, int n, int padded, int* pivots, int& n
 }
 
 /// In place: eight columns; rows are `stride` numbers apart.
-HWY_INLINE void substitute(const PieceTerms& terms, int n, int padded, bool symmetric, double* x, int stride) {
+HWY_INLINE void substitute(const PieceTerms& terms, int n, int padded, bool symmetric, double* x,
+                           int stride) {
   const double* H = terms.factor.data();
   if (symmetric) {
     for (int k = 0; k < n; ++k) {

@@ -8,7 +8,7 @@ namespace sinew::inline v1::strain {
 
 /// What a factorisation tells.
 struct Inertia {
-  bool ok = false;   ///< every pivot is far enough from 0
+  bool ok = false;  ///< every pivot is far enough from 0
   /// Of symmetric terms how many eigenvalues of H + shift are below 0; of others 1 where its determinant is.
   int negative = 0;
 };

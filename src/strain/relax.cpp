@@ -93,6 +93,7 @@ double LoadedRod::evaluate() {
     }
   }
   spread_tensions();
+  potential_energy_ = energy;
   return energy;
 }
 
@@ -136,10 +137,29 @@ int LoadedRod::factor_all(double shift) {
       for (int j = k + 1; j < m; ++j) small_[at(i * m + j)] -= l * small_[at(k * m + j)];
     }
   }
-  return inertia.negative - negative;
+  return work_.symmetric ? inertia.negative - negative : (inertia.negative + negative) % 2;
 }
 
-void LoadedRod::solve_all(std::span<double> sides, int columns, int stride) {
+int LoadedRod::factor_exactly() {
+  std::vector<double> used = stiff_;
+  for (std::size_t i = 0; i < holds.size(); ++i) stiff_[i] = holds[i].compliance;
+  const int negative = factor_all(0);
+  stiff_ = used;
+  return negative;
+}
+
+/// With the factors of the small matrix.
+void LoadedRod::solve_small(std::span<double> t) const {
+  const int m = static_cast<int>(active_.size());
+  for (int i = 0; i < m; ++i)
+    for (int j = 0; j < i; ++j) t[at(i)] -= small_[at(i * m + j)] * t[at(j)];
+  for (int i = m; i-- > 0;) {
+    for (int j = i + 1; j < m; ++j) t[at(i)] -= small_[at(i * m + j)] * t[at(j)];
+    t[at(i)] /= small_[at(i * m + i)];
+  }
+}
+
+void LoadedRod::solve_all(std::span<double> sides, int columns, int stride, double* pulls) {
   solve(*model_, work_, sides.data(), columns, stride);
   const int n = model_->size, m = static_cast<int>(active_.size());
   if (m == 0) return;
@@ -151,15 +171,24 @@ void LoadedRod::solve_all(std::span<double> sides, int columns, int stride) {
       for (int k = 0; k < n; ++k) sum += gradient[k] * sides[at(k * stride + c)];
       t[at(i)] = sum;
     }
-    for (int i = 0; i < m; ++i)
-      for (int j = 0; j < i; ++j) t[at(i)] -= small_[at(i * m + j)] * t[at(j)];
-    for (int i = m; i-- > 0;) {
-      for (int j = i + 1; j < m; ++j) t[at(i)] -= small_[at(i * m + j)] * t[at(j)];
-      t[at(i)] /= small_[at(i * m + i)];
-    }
+    solve_small(t);
     for (int k = 0; k < n; ++k)
       for (int j = 0; j < m; ++j) sides[at(k * stride + c)] -= columns_[at(k * stride_ + j)] * t[at(j)];
+    if (pulls != nullptr)
+      for (int i = 0; i < m; ++i) pulls[i * stride + c] = t[at(i)];
   }
+}
+
+void LoadedRod::answer_to_feed(int k, std::span<double> step, std::span<double> pulls) const {
+  const int m = static_cast<int>(active_.size());
+  for (int i = 0; i < m; ++i) pulls[at(i)] = i == k ? 1 : 0;
+  solve_small(pulls);
+  for (int i = 0; i < model_->size; ++i) {
+    double sum = 0;
+    for (int j = 0; j < m; ++j) sum += columns_[at(i * stride_ + j)] * pulls[at(j)];
+    step[at(i)] = sum;
+  }
+  for (int i = 0; i < m; ++i) pulls[at(i)] = -pulls[at(i)];
 }
 
 double LoadedRod::lowest(std::span<double> direction) {
@@ -301,8 +330,9 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
     if (kept) {  // worth another step of the same factor, or a new one
       const double reduced = result.residual / before;
       rate = std::max(reduced, 1e-12);
-      kept = same_active() && reduced < 0.3 &&
-             (result.residual * rate <= options.tolerance || result.residual * rate * rate <= options.tolerance);
+      kept =
+          same_active() && reduced < 0.3 &&
+          (result.residual * rate <= options.tolerance || result.residual * rate * rate <= options.tolerance);
       if (!kept) linearise(true);
       swept = !kept;
     }
@@ -334,7 +364,7 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       const double after = gradient_norm();
       accept = after < before * (1 - 1e-4) || after <= options.tolerance;
       if (!accept && before < 1e3 * options.tolerance) {  // as near as rounding lets it
-        restore(energy);
+        energy = restore();
         result.negative = std::max(0, factor_all(0));
         result.status = result.negative == 0 ? Status::converged : Status::unstable;
         return result;
@@ -353,7 +383,7 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       energy = next;
       kept = shift == 0 && negative == 0 && length < 0.1 * scale && same_active();
     } else {
-      restore(energy);
+      energy = restore();
       swept = true;
       if (radius < 1e-14 * scale) {
         result.status = Status::stalled;
@@ -364,13 +394,16 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
 }
 
 /// Back to where the last step began.
-void LoadedRod::restore(double& energy) {
+double LoadedRod::restore() {
   std::copy(trial_.begin(), trial_.end(), work_.y.begin());
-  energy = evaluate();
+  const double energy = evaluate();
   linearise(true);
+  return energy;
 }
 
-Relaxed LoadedRod::relax_residual(const RelaxOptions& options) {
+/// Implicit steps of ẏ = −gradient, ever longer as the gradient falls, so that the last ones are Newton's:
+/// they end where this motion does, at equilibria that hold.
+Relaxed LoadedRod::relax_residual(const RelaxOptions& options, double shift) {
   Relaxed result;
   const double scale = std::sqrt(model_->energy_scale);
   evaluate();
@@ -391,36 +424,81 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options) {
       result.status = Status::stopped;
       return result;
     }
-    double shift = 0;
-    for (int tries = 0; factor_all(shift) == -1 && tries < 30; ++tries)
-      shift = shift == 0 ? 1e-6 : 10 * shift;
-    for (double& x : sides_) x = 0;
-    for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
-    solve_all(sides_, 1, stride_);
-    for (int i = 0; i < model_->size; ++i) step_[at(i)] = sides_[at(i * stride_)];
-    const double length = norm(step_), before = result.residual, most = scale * std::numbers::pi;
-    double fraction = length > most ? most / length : 1;
+    const double before = result.residual;
     std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
     bool accept = false;
-    for (int tries = 0; tries < 30 && !accept; ++tries, fraction *= accept ? 1 : 0.5) {
-      for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + fraction * step_[i];
+    for (int tries = 0; tries < 20 && !accept; ++tries) {
+      double length = 0;
+      if (factor_all(shift) != -1) {
+        for (double& x : sides_) x = 0;
+        for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
+        solve_all(sides_, 1, stride_);
+        for (int i = 0; i < model_->size; ++i) step_[at(i)] = sides_[at(i * stride_)];
+        length = norm(step_);
+      }
+      if (length == 0 || length > scale) {
+        shift = std::max(4 * shift, 0.01);
+        continue;
+      }
+      for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + step_[i];
       evaluate();
       ++result.evaluations;
       linearise(true);
-      const double after = gradient_norm();
-      accept = after < (1 - 1e-4 * fraction) * before;
-    }
-    if (!accept) {
-      std::copy(trial_.begin(), trial_.end(), work_.y.begin());
-      evaluate();
-      linearise(true);
       result.residual = gradient_norm();
-      if (result.residual < 1e3 * options.tolerance) return result;
-      result.status = Status::stalled;
+      accept = result.residual < 3 * before;
+      if (!accept) {
+        restore();
+        shift = std::max(4 * shift, 0.01);
+      }
+    }
+    const bool by_rounding = before < 1e3 * options.tolerance && result.residual > 0.3 * before;
+    if (!accept) {
+      result.residual = before;
+      if (!by_rounding) result.status = Status::stalled;
       return result;
     }
-    result.residual = gradient_norm();
+    if (by_rounding) return result;
+    shift *= std::clamp(result.residual / before, 0.1, 2.0);
+    if (shift < 1e-4) shift = 0;
   }
+}
+
+/// An equilibrium that holds, where loads have no potential.
+Relaxed LoadedRod::relax_without_potential(const RelaxOptions& options) {
+  RelaxOptions quick = options;
+  quick.max_iterations = std::min(options.max_iterations, 8);
+  const std::vector<double> start = work_.y;
+  Relaxed result = relax_residual(quick, 0);
+  if (result.status == Status::stopped || (result.status == Status::converged && judge(result)))
+    return result;
+  int iterations = result.iterations;
+  work_.y = start;
+  result = relax_residual(options, 1);
+  for (int round = 0; round < 4 && result.status == Status::converged; ++round) {
+    iterations += result.iterations;
+    if (judge(result)) break;
+    // Pushed a little to where the energy's part falls, does it come back?
+    const std::vector<double> here = work_.y;
+    std::vector<double> direction(at(model_->size));
+    make_symmetric(*model_, work_);
+    lowest(direction);
+    work_.symmetric = false;
+    const double scale = std::sqrt(model_->energy_scale);
+    for (std::size_t i = 0; i < here.size(); ++i) work_.y[i] += 0.03 * scale * direction[i];
+    result = relax_residual(options, 1);
+    double moved = 0;
+    for (std::size_t i = 0; i < here.size(); ++i) moved = std::max(moved, std::abs(work_.y[i] - here[i]));
+    if (result.status == Status::converged) {
+      judge(result);
+      if (moved < 1e-6 * scale) {
+        result.negative = 0;
+        break;
+      }
+      if (result.negative == 0 && round == 3) result.status = Status::unstable;
+    }
+  }
+  result.iterations = iterations;
+  return result;
 }
 
 void make_symmetric(const RodModel& model, RodWork& work) {
@@ -432,9 +510,11 @@ void make_symmetric(const RodModel& model, RodWork& work) {
         double &a = terms.H[at(i * piece.padded + j)], &b = terms.H[at(j * piece.padded + i)];
         a = b = 0.5 * (a + b);
       }
-    for (std::size_t i = 0; i < terms.R.size(); ++i) terms.R[i] = terms.L[i] = 0.5 * (terms.R[i] + terms.L[i]);
+    for (std::size_t i = 0; i < terms.R.size(); ++i)
+      terms.R[i] = terms.L[i] = 0.5 * (terms.R[i] + terms.L[i]);
     for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < i; ++j) terms.P.a[i][j] = terms.P.a[j][i] = 0.5 * (terms.P.a[i][j] + terms.P.a[j][i]);
+      for (int j = 0; j < i; ++j)
+        terms.P.a[i][j] = terms.P.a[j][i] = 0.5 * (terms.P.a[i][j] + terms.P.a[j][i]);
   }
   work.symmetric = true;
 }
@@ -455,7 +535,7 @@ bool LoadedRod::judge(Relaxed& result) {
 Relaxed LoadedRod::relax_here(const RelaxOptions& options) {
   Relaxed result;
   for (int round = 0; round < 30; ++round) {
-    Relaxed one = potential_ ? relax_energy(options) : relax_residual(options);
+    Relaxed one = potential_ ? relax_energy(options) : relax_without_potential(options);
     one.iterations += result.iterations;
     one.evaluations += result.evaluations;
     result = one;
@@ -540,17 +620,14 @@ Relaxed LoadedRod::relax(const RelaxOptions& options) {
   }
   work_.symmetric = potential_;
   RelaxOptions direct = options;
-  direct.max_iterations = std::min(options.max_iterations, potential_ ? 60 : 15);
+  direct.max_iterations = std::min(options.max_iterations, 60);
   Relaxed result = relax_here(direct);
-  const bool ended = result.status == Status::stopped || result.status == Status::left_domain;
-  if (potential_ && (result.status == Status::converged || ended)) return result;
-  if (!potential_ && (ended || (result.status == Status::converged && judge(result)))) return result;
+  const bool ended = result.status == Status::converged || result.status == Status::stopped ||
+                     result.status == Status::left_domain;
+  if (ended || options.max_iterations <= direct.max_iterations) return result;
   const int spent = result.iterations;
-  if (options.max_iterations <= direct.max_iterations) return result;
   result = grow(options);
   result.iterations += spent;
-  if (!potential_ && result.status == Status::converged && !judge(result) && result.negative != 0)
-    result.status = Status::unstable;
   return result;
 }
 

@@ -56,8 +56,18 @@ class LoadedRod {
   /// Factors the Hessian with all tendons that pull by their stretch; the number of negative directions, or
   /// −1.
   int factor_all(double shift);
+  /// The same with what tendons truly give way by, where some do not stretch.
+  int factor_exactly();
   /// Solves with what factor_all left; a row a coordinate.
-  void solve_all(std::span<double> sides, int columns, int stride);
+  /// @param pulls if not null: by how much the tensions of `active()` change, a row each, `stride` apart
+  void solve_all(std::span<double> sides, int columns, int stride, double* pulls = nullptr);
+  /// Tendons that factor_all took as pulling by their stretch.
+  std::span<const int> active() const { return active_; }
+  /// How coordinates and tensions of `active()` change with the free length of its k-th tendon.
+  void answer_to_feed(int k, std::span<double> step, std::span<double> pulls) const;
+  /// Of rod and tendons, after evaluate() [J].
+  double potential() const { return potential_energy_; }
+  bool has_potential() const { return potential_; }
   /// Of the tendons [N].
   std::span<const double> tensions() const { return tensions_; }
   /// What a tendon is longer than it needs to be [m]; 0 where it is taut.
@@ -70,15 +80,19 @@ class LoadedRod {
   bool newton_step(double& shift, double radius, std::span<double> step, int& negative);
   bool same_active() const;
   bool leave_saddle(Relaxed& result, double& energy);
-  void restore(double& energy);
+  double restore();
   Relaxed relax_energy(const RelaxOptions& options);
-  Relaxed relax_residual(const RelaxOptions& options);
+  Relaxed relax_residual(const RelaxOptions& options, double shift);
+  Relaxed relax_without_potential(const RelaxOptions& options);
   Relaxed relax_here(const RelaxOptions& options);
   Relaxed grow(const RelaxOptions& options);
   bool judge(Relaxed& result);
   double gradient_norm() const;
 
+  void solve_small(std::span<double> t) const;
+
   bool potential_ = true;
+  double potential_energy_ = 0;
 
   const RodModel* model_;
   RodWork work_;

@@ -16,7 +16,7 @@ inline constexpr int row = 8;
 /// Of a strain component along a piece.
 inline constexpr int max_modes = 10;
 /// Coordinates of a piece.
-inline constexpr int max_piece = 48;
+inline constexpr int max_piece = 64;
 
 using Three = std::array<double, 3>;
 using Six = std::array<double, 6>;
@@ -35,7 +35,7 @@ struct Element {
   std::array<Six, 2> rest{};                             ///< strain without load
   std::array<Six, 2> stiffness{};                        ///< its diagonal [N], [N m²]; of a joint [N m]
   std::array<std::array<double, max_modes>, 2> modes{};  ///< values of the basis
-  int first_row = 0;  ///< in RodModel::rows: the same, scaled, for each point 6 × padded
+  int first_row = 0;                ///< in RodModel::rows: the same, scaled, for each point 6 × padded
   int first_guide = 0, guides = 0;  ///< in RodModel::guides: tendons that a channel guides along the rod
 };
 
@@ -66,10 +66,10 @@ struct Piece {
   Six scale{};
 };
 
-/// Dead mass of a node: of discs, and of the rod beside it.
-struct NodeMass {
-  double mass = 0;  ///< [kg]
-  Three moment{};   ///< its first moment about the node, in body axes [kg m]
+/// What is spread along the rod, as it falls to a node: mass of discs and of the rod beside it; or length.
+struct NodeShare {
+  double amount = 0;  ///< [kg]; [m]
+  Three moment{};     ///< its first moment about the node, in body axes [kg m]; [m²]
 };
 
 /// Constant once built.
@@ -79,8 +79,9 @@ struct RodModel {
   std::vector<Piece> pieces;
   std::vector<Guide> guides;
   std::vector<Hole> holes;
-  std::vector<double> rows;  ///< strains by coordinates, see Element::first_row
-  std::vector<NodeMass> masses;  ///< of every node; node k + 1 is the end of element k
+  std::vector<double> rows;                ///< strains by coordinates, see Element::first_row
+  std::vector<NodeShare> masses, lengths;  ///< of every node; node k + 1 is the end of element k
+  std::vector<double> places;              ///< of every node, from the base [m]
   int tendons = 0, size = 0;
   double energy_scale = 1;  ///< EI/L [J]
 

@@ -373,10 +373,12 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
           }
           // Γᵀ R and its partner; after the last element of a piece there is no R
           if (e + 1 < piece_end) {
-            for (int i = 0; i < 6 * padded; i += row) lanes(more + i) = lanes(outer.R + i) + lanes(inner.R + i);
+            for (int i = 0; i < 6 * padded; i += row)
+              lanes(more + i) = lanes(outer.R + i) + lanes(inner.R + i);
             add_product(G, more, n, padded, symmetric ? Y : terms.H.data());
             if (!symmetric) {
-              for (int i = 0; i < 6 * padded; i += row) lanes(more + i) = lanes(outer.L + i) + lanes(inner.L + i);
+              for (int i = 0; i < 6 * padded; i += row)
+                lanes(more + i) = lanes(outer.L + i) + lanes(inner.L + i);
               add_product(G, more, n, padded, Y);
             }
           }

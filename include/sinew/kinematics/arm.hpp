@@ -1,0 +1,122 @@
+/// @file arm.hpp
+/// Questions to an arm that bears loads: its equilibrium under tendons and loads, what moves it, what it
+/// yields, which inputs take its tip to a place, what pulls at it. Theory: docs/theory/strain_rod.md
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sinew/base/export.hpp"
+#include "sinew/base/stop.hpp"
+#include "sinew/math/linalg.hpp"
+#include "sinew/math/se3.hpp"
+#include "sinew/robot/arm.hpp"
+#include "sinew/solve/report.hpp"
+
+namespace sinew::inline v1 {
+
+/// What a motor holds of a tendon.
+enum class TendonHeld {
+  tension,  ///< [N]
+  change,   ///< Δl of its end, > 0 pays out [m]
+};
+struct TendonCommand {
+  TendonHeld held = TendonHeld::tension;
+  double value = 0;
+};
+
+/// A load at a place of the backbone.
+struct PointLoad {
+  double place = 0;                ///< from the base along the backbone [m]
+  std::array<double, 6> wrench{};  ///< force and moment about that place [N, N m]
+  bool following = false;          ///< in the axes of the place, which it turns with; else in base axes
+};
+
+/// What acts on an arm beside its tendons and its weight.
+struct ArmLoad {
+  std::array<double, 6> wrench{};           ///< at the tip, base axes, about the tip [N, N m]
+  std::array<double, 6> following{};        ///< at the tip, in its axes [N, N m]
+  std::array<double, 3> along{};            ///< on all of the backbone, base axes [N/m]
+  std::array<double, 3> following_along{};  ///< on all of it, in its own axes [N/m]
+  std::vector<PointLoad> points;
+  std::optional<std::array<double, 3>> gravity;  ///< in place of the arm's [m/s²]
+};
+
+/// How an arm's equilibrium is looked for.
+struct ArmOptions {
+  ArmModel model = ArmModel::subsegment_rod;
+  int order = -1;          ///< of the polynomials of rods; −1: the model's, more where the answer needs it
+  int elements = 0;        ///< of a section (rod), between discs (subsegment_rod, prb); 0: the model's
+  double accuracy = 1e-6;  ///< of the tip that rods are refined to, over the arm's length; 0: as they are
+  double tolerance = 1e-10;  ///< of the residual
+  int max_iterations = 200;
+  bool from_last = false;  ///< from where the workspace is, not from the straight arm
+};
+
+/// An equilibrium. `tip`, tensions and lengths are those of the best iterate where it is none.
+struct ArmState {
+  Report report;                 ///< its residual is that of moments over EI/L [1]
+  SE3<double> tip;               ///< base axes [m]
+  std::vector<double> tensions;  ///< of every tendon [N]
+  std::vector<double> changes;   ///< Δl of every tendon, > 0: paid out [m]; with its stretch
+  std::vector<double> slack;     ///< what a tendon is longer than its way [m]; 0 where it is taut
+  bool stable = true;
+  double energy = 0;      ///< elastic, of weight and dead forces, and of tendons [J]
+  double resolution = 0;  ///< by how much the tip moves with finer polynomials [m]; 0: not asked for
+  int coordinates = 0;    ///< of its strain
+};
+
+/// Memory for questions to one arm; one per thread.
+class ArmWorkspace {
+ public:
+  SINEW_API explicit ArmWorkspace(const Arm& arm);
+  SINEW_API ~ArmWorkspace();
+  SINEW_API ArmWorkspace(ArmWorkspace&&) noexcept;
+  SINEW_API ArmWorkspace& operator=(ArmWorkspace&&) noexcept;
+
+  StopToken stop;  ///< searches end with `stopped` once it is requested
+
+  struct Impl;
+  Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The arm's equilibrium under these tendons and this load.
+/// `bad_input`: commands of another number, a tension below 0, a place beyond the tip. `stalled`: no
+/// equilibrium was found; `unstable`: it does not hold by itself.
+/// @param commands of every tendon, those of the first section first
+SINEW_API const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> commands,
+                                      const ArmLoad& load, const ArmOptions& options, ArmWorkspace& work);
+
+/// @name Of the equilibrium that the workspace is in
+/// @{
+/// Frames at these places from the base [m], base axes.
+SINEW_API std::vector<SE3<double>> arm_frames(const Arm& arm, std::span<const double> places,
+                                              const ArmWorkspace& work);
+/// Strains there: stretch and shear (v), then curvature and torsion (u) [1, rad/m].
+SINEW_API std::vector<std::array<double, 6>> arm_strains(const Arm& arm, std::span<const double> places,
+                                                         const ArmWorkspace& work);
+/// Where every tendon runs: points of its guides, base axes [m].
+SINEW_API std::vector<std::vector<Vec3<double>>> arm_tendon_lines(const Arm& arm, const ArmWorkspace& work);
+
+/// Derivatives of an equilibrium. Twists are of the tip, in base axes, linear first [m, rad].
+struct ArmRates {
+  bool regular = false;  ///< the equilibrium is no fold
+  int tendons = 0;
+  std::vector<double> J;  ///< twist by what is held of the tendons, 6 rows [m/N or 1, rad/N or rad/m]
+  std::vector<double> compliance;  ///< twist by a wrench at the tip, 6 × 6 [m/N, rad/(N m)]
+  std::vector<double> answers;     ///< of each tendon what is not held (change [m] or tension [N]) by what is
+                                   ///< held of each, square
+  std::vector<double> answers_by_wrench;  ///< the same by a wrench at the tip, 6 columns
+  double margin =
+      0;  ///< lowest eigenvalue of the stiffness over that of the unloaded arm: 0 where it buckles
+};
+/// Rates of the equilibrium in the workspace.
+SINEW_API ArmRates arm_rates(const Arm& arm, ArmWorkspace& work);
+/// @}
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,50 @@
+/// @file arm_work.hpp
+/// What a workspace keeps for an arm: the rod at every resolution that a question has needed.
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "robot/arm_model.hpp"
+#include "sinew/kinematics/arm.hpp"
+#include "strain/relax.hpp"
+
+namespace sinew::inline v1 {
+
+/// A rod of an arm and its memory.
+struct ArmRod {
+  strain::RodModel model;
+  strain::LoadedRod rod;
+  explicit ArmRod(strain::RodModel made) : model(std::move(made)), rod(model) {}
+  ArmRod(const ArmRod&) = delete;
+  ArmRod& operator=(const ArmRod&) = delete;
+};
+
+struct ArmWorkspace::Impl {
+  explicit Impl(const Arm& arm);
+
+  std::shared_ptr<const char> robot;  ///< identity of the arm it is for
+  std::vector<double> rest_lengths;   ///< of tendons, straight or as the rest shape has them [m]
+
+  /// What the rods below are made for.
+  ArmModel model = ArmModel::subsegment_rod;
+  int order = -2, elements = 0;
+  std::vector<double> breaks;
+  std::vector<std::unique_ptr<ArmRod>> levels;  ///< coarse to fine; made when needed
+
+  std::vector<TendonCommand> commands;  ///< of the last equilibrium
+  int level = -1;                       ///< the rod that it was found with; −1: none was
+  double checked_size = 0;              ///< size of the highest modes when the resolution was last checked
+  double checked = 0;                   ///< what that check gave [m]
+  ArmState state;
+
+  /// The rod of a level for this question.
+  ArmRod& at(const Arm& arm, const ArmOptions& options, const std::vector<double>& at_breaks, int wanted);
+  strain::LoadedRod& rod() { return levels[static_cast<std::size_t>(level)]->rod; }
+};
+
+/// The strain at a place from the base [m].
+/// @param near an element to look from; becomes the one that the place is in
+strain::Six strain_at(const strain::RodModel& model, const strain::RodWork& work, double place, int& near);
+
+}  // namespace sinew::inline v1

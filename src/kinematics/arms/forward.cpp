@@ -1,0 +1,313 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinematics/arms/arm_work.hpp"
+
+namespace sinew::inline v1 {
+namespace {
+
+using strain::LoadedRod;
+using strain::NodeLoad;
+using strain::NodeShare;
+using strain::RodModel;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Orders and elements of polynomials, coarse to fine.
+struct Resolution {
+  int order, elements;
+};
+constexpr std::array<Resolution, 4> along_sections{{{3, 8}, {5, 16}, {7, 24}, {9, 48}}},
+    between_discs{{{2, 2}, {4, 3}, {6, 4}, {7, 8}}};
+
+/// How many resolutions a model has.
+int level_count(const ArmOptions& options) {
+  if (options.order >= 0 || options.elements > 0) return 1;
+  return options.model == ArmModel::rod || options.model == ArmModel::subsegment_rod ? 4 : 1;
+}
+
+void add_dead(NodeLoad& load, const NodeShare& share, const std::array<double, 3>& by) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    load.force[i] += share.amount * by[i];
+    for (std::size_t j = 0; j < 3; ++j) load.couple[3 * i + j] += by[i] * share.moment[j];
+  }
+}
+void add_following(NodeLoad& load, const NodeShare& share, const std::array<double, 3>& by) {
+  const auto& d = share.moment;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    load.following[i] += share.amount * by[i];
+    load.following[i + 3] += d[j] * by[k] - d[k] * by[j];
+  }
+}
+void add_wrench(NodeLoad& load, const std::array<double, 6>& wrench, bool following) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (following) {
+      load.following[i] += wrench[i];
+      load.following[i + 3] += wrench[i + 3];
+    } else {
+      load.force[i] += wrench[i];
+      load.moment[i] += wrench[i + 3];
+    }
+  }
+}
+
+void set_loads(const Arm& arm, const ArmLoad& load, const RodModel& model, std::vector<NodeLoad>& loads) {
+  const std::array<double, 3> gravity = load.gravity.value_or(arm.gravity);
+  for (std::size_t k = 1; k < loads.size(); ++k) {
+    loads[k] = {};
+    add_dead(loads[k], model.masses[k], gravity);
+    add_dead(loads[k], model.lengths[k], load.along);
+    add_following(loads[k], model.lengths[k], load.following_along);
+  }
+  add_wrench(loads.back(), load.wrench, false);
+  add_wrench(loads.back(), load.following, true);
+  for (const PointLoad& point : load.points) {
+    std::size_t nearest = 1;
+    for (std::size_t k = 2; k < model.places.size(); ++k)
+      if (std::abs(model.places[k] - point.place) < std::abs(model.places[nearest] - point.place))
+        nearest = k;
+    add_wrench(loads[nearest], point.wrench, point.following);
+  }
+}
+
+bool finite(std::span<const double> values) {
+  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
+}
+
+/// What does not fit the arm, in words; empty if all does.
+FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, const ArmLoad& load) {
+  FixedText<240> text;
+  const auto say = [&](const std::string& words) { text = FixedText<240>(words); };
+  if (commands.size() != arm.tendons.size()) {
+    say(fmt::format("the arm has {} tendons, found {} commands", arm.tendons.size(), commands.size()));
+    return text;
+  }
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const bool tension = commands[i].held == TendonHeld::tension;
+    if (!std::isfinite(commands[i].value))
+      say(fmt::format("what holds tendon {} is not finite", i));
+    else if (tension && commands[i].value < 0)
+      say(fmt::format("tendon {} would have to push with {} N: tensions are at least 0", i,
+                      -commands[i].value));
+    if (!text.empty()) return text;
+  }
+  bool all =
+      finite(load.wrench) && finite(load.following) && finite(load.along) && finite(load.following_along);
+  if (load.gravity) all = all && finite(*load.gravity);
+  for (const PointLoad& point : load.points) {
+    all = all && finite(point.wrench);
+    if (!(point.place > 0 && point.place <= arm.length() * (1 + 1e-12)))
+      say(fmt::format("a load at {} m is not on the arm, which is {} m long", point.place, arm.length()));
+  }
+  if (!all) say("a load is not finite");
+  return text;
+}
+
+/// Strains of one rod as coordinates of another of the same arm.
+void carry_over(const RodModel& from, const strain::RodWork& work, const RodModel& to,
+                std::vector<double>& y) {
+  std::fill(y.begin(), y.end(), 0.0);
+  int near = 0;
+  for (const strain::Piece& fine : to.pieces) {
+    double* own = y.data() + fine.first;
+    const strain::Span& last = to.spans[at(fine.first_span + fine.spans - 1)];
+    for (int e = to.spans[at(fine.first_span)].first_element; e < last.first_element + last.elements; ++e) {
+      const strain::Element& element = to.elements[at(e)];
+      for (int g = 0; g < element.points; ++g) {
+        const double place = to.places[at(e)] + element.length * (0.5 + (g == 0 ? -1 : 1) / std::sqrt(12.0));
+        const auto bent = strain_at(from, work, place, near);
+        for (std::size_t c = 0; c < 6; ++c)
+          for (int a = 0; a < fine.modes[c]; ++a)
+            own[fine.offset[c] + a] += element.weight * element.modes[at(g)][at(a)] *
+                                       (bent[c] - element.rest[at(g)][c]) / fine.scale[c];
+      }
+    }
+  }
+}
+
+/// Of the highest modes of bending: what a polynomial of this order may lack.
+double size_of_highest(const RodModel& model, const std::vector<double>& y) {
+  double sum = 0;
+  for (const strain::Piece& piece : model.pieces)
+    for (std::size_t c = 3; c < 6; ++c)
+      if (piece.modes[c] > 1) {
+        const double value = y[at(piece.first + piece.offset[c] + piece.modes[c] - 1)];
+        sum += value * value;
+      }
+  return std::sqrt(sum / model.energy_scale);
+}
+
+void set_holds(const Arm& arm, const ArmWorkspace::Impl& impl, LoadedRod& rod) {
+  for (std::size_t i = 0; i < rod.holds.size(); ++i) {
+    const ArmTendon& tendon = arm.tendons[i];
+    const TendonCommand& command = impl.commands[i];
+    rod.holds[i].by_tension = command.held == TendonHeld::tension;
+    rod.holds[i].tension = command.value;
+    rod.holds[i].free_length = impl.rest_lengths[i] + command.value - tendon.compliance * tendon.pretension;
+    rod.holds[i].compliance = tendon.compliance;
+  }
+}
+
+std::array<double, 3> tip_of(const LoadedRod& rod) {
+  const auto& frame = rod.work().frames.back();
+  return {frame.p[0], frame.p[1], frame.p[2]};
+}
+
+void write_state(const Arm& arm, ArmWorkspace::Impl& impl) {
+  LoadedRod& rod = impl.rod();
+  ArmState& state = impl.state;
+  const auto& frame = rod.work().frames.back();
+  Mat<double, 3, 3> turn;
+  turn << frame.R[0], frame.R[1], frame.R[2], frame.R[3], frame.R[4], frame.R[5], frame.R[6], frame.R[7],
+      frame.R[8];
+  state.tip.p = {frame.p[0], frame.p[1], frame.p[2]};
+  state.tip.R = SO3<double>::from(turn);
+  for (std::size_t i = 0; i < arm.tendons.size(); ++i) {
+    const ArmTendon& tendon = arm.tendons[i];
+    state.tensions[i] = rod.tensions()[i];
+    state.slack[i] = rod.slack(i);
+    state.changes[i] = impl.commands[i].held == TendonHeld::change
+                           ? impl.commands[i].value
+                           : rod.work().lengths[i] - impl.rest_lengths[i] -
+                                 tendon.compliance * (state.tensions[i] - tendon.pretension);
+  }
+  state.coordinates = rod.model().size;
+  state.energy = rod.potential();
+}
+
+std::string_view words_for(const strain::Relaxed& found) {
+  switch (found.status) {
+    case Status::stalled:
+      return "no equilibrium was found: loads and inputs led to one up to {:.0f} % of them";
+    case Status::iteration_limit:
+      return "the bound on iterations was met";
+    case Status::left_domain:
+      return "an iterate was not finite";
+    case Status::unstable:
+      return "the equilibrium does not hold by itself";
+    case Status::stopped:
+      return "stopped";
+    default:
+      return "";
+  }
+}
+
+void set_report(Report& report, const strain::Relaxed& found) {
+  report.status = found.status;
+  report.iterations = found.iterations;
+  report.residual = found.residual;
+  report.message = FixedText<240>(fmt::format(fmt::runtime(words_for(found)), 100 * found.reached));
+}
+
+}  // namespace
+
+ArmWorkspace::Impl::Impl(const Arm& arm) : robot(arm.identity), commands(arm.tendons.size()) {
+  for (auto* values : {&state.tensions, &state.changes, &state.slack}) values->resize(arm.tendons.size());
+}
+
+ArmRod& ArmWorkspace::Impl::at(const Arm& arm, const ArmOptions& options,
+                               const std::vector<double>& at_breaks, int wanted) {
+  if (options.model != model || options.order != order || options.elements != elements ||
+      at_breaks != breaks) {
+    levels.clear();
+    level = -1;
+    model = options.model, order = options.order, elements = options.elements, breaks = at_breaks;
+  }
+  if (levels.empty()) levels.resize(4);
+  auto& entry = levels[static_cast<std::size_t>(wanted)];
+  if (!entry) {
+    ArmBasis basis{model, order, elements};
+    if (level_count(options) > 1) {
+      const Resolution chosen =
+          (model == ArmModel::rod ? along_sections : between_discs)[static_cast<std::size_t>(wanted)];
+      if (wanted > 0) basis.order = chosen.order;  // the coarsest has one order less of what is stiff
+      basis.elements = chosen.elements;
+    }
+    entry = std::make_unique<ArmRod>(make_rod(arm, basis, breaks));
+  }
+  return *entry;
+}
+
+ArmWorkspace::ArmWorkspace(const Arm& arm) : impl_(std::make_unique<Impl>(arm)) {}
+ArmWorkspace::~ArmWorkspace() = default;
+ArmWorkspace::ArmWorkspace(ArmWorkspace&&) noexcept = default;
+ArmWorkspace& ArmWorkspace::operator=(ArmWorkspace&&) noexcept = default;
+
+const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> commands, const ArmLoad& load,
+                            const ArmOptions& options, ArmWorkspace& work) {
+  ArmWorkspace::Impl& impl = work.impl();
+  ArmState& state = impl.state;
+  state.report = {};
+  if (impl.robot != arm.identity) {
+    state.report = {Status::bad_input, 0, 0, FixedText<240>("the workspace is for another robot")};
+    return state;
+  }
+  if (const auto text = misfit(arm, commands, load); !text.empty()) {
+    state.report = {Status::bad_input, 0, 0, text};
+    return state;
+  }
+  std::copy(commands.begin(), commands.end(), impl.commands.begin());
+  std::vector<double> breaks;
+  for (const PointLoad& point : load.points) breaks.push_back(point.place);
+  const int before = impl.level, count = level_count(options);
+  impl.at(arm, options, breaks, 0);
+  const bool warm = options.from_last && before >= 0 && impl.level == before;
+  if (!warm) impl.level = 0;
+  strain::RelaxOptions relax;
+  relax.max_iterations = options.max_iterations;
+  relax.tolerance = options.tolerance;
+  relax.stop = [&work] { return work.stop.stop_requested(); };
+  const auto ready = [&](int level) -> LoadedRod& {  // with loads and holds of this question
+    ArmRod& entry = impl.at(arm, options, breaks, level);
+    set_loads(arm, load, entry.model, entry.rod.work().loads);
+    if (impl.rest_lengths.empty()) {
+      std::fill(entry.rod.work().y.begin(), entry.rod.work().y.end(), 0.0);
+      sweep_out(entry.model, entry.rod.work());
+      impl.rest_lengths = entry.rod.work().lengths;
+    }
+    set_holds(arm, impl, entry.rod);
+    return entry.rod;
+  };
+  LoadedRod* rod = &ready(impl.level);
+  if (!warm) std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
+  strain::Relaxed found = rod->relax(relax);
+  const double wanted = options.accuracy * arm.length();
+  const bool refines = count > 1 && options.accuracy > 0;
+  if (!refines) impl.checked = 0;
+  while (refines && found.status == Status::converged) {
+    const double size = size_of_highest(rod->model(), rod->work().y);
+    if (warm && size <= 1.5 * impl.checked_size && impl.checked <= wanted) break;
+    if (impl.level + 1 == count) break;  // `checked` is what the step to this resolution changed
+    LoadedRod& finer = ready(impl.level + 1);
+    carry_over(rod->model(), rod->work(), finer.model(), finer.work().y);
+    const strain::Relaxed again = finer.relax(relax);
+    found.iterations += again.iterations;
+    const auto coarse = tip_of(*rod), fine = tip_of(finer);
+    impl.checked = 0;
+    for (std::size_t i = 0; i < 3; ++i) impl.checked = std::max(impl.checked, std::abs(fine[i] - coarse[i]));
+    impl.checked_size = size;
+    if (again.status == Status::converged && impl.checked <= wanted) break;
+    ++impl.level;
+    rod = &finer;
+    const int spent = found.iterations;
+    found = again;
+    found.iterations = spent;
+  }
+  // Of the finest the last step was the error of the one before it, whose elements are twice as long.
+  state.resolution = impl.level + 1 == count ? impl.checked / 10 : impl.checked;
+  set_report(state.report, found);
+  if (refines && state.report.ok() && state.resolution > 10 * wanted) {
+    state.report.status = Status::stalled;
+    state.report.message = FixedText<240>(fmt::format(
+        "the finest polynomials still move the tip by {:.1e} m: loads or tensions are too large for this arm",
+        state.resolution));
+  }
+  state.stable = found.negative == 0;
+  write_state(arm, impl);
+  return state;
+}
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,91 @@
+/// Rates of arms against differences of whole solves, at tensions, changes and both.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "arms.hpp"
+
+namespace sinew::test {
+namespace arm_rates_test {
+
+/// Twist from one pose to another, base axes.
+Vec<double, 6> between(const SE3<double>& a, const SE3<double>& b) {
+  Vec<double, 6> twist;
+  twist << Vec3<double>(b.p - a.p), b.R.compose(a.R.inverse()).log();
+  return twist;
+}
+
+struct Case {
+  ArmModel model;
+  double compliance;
+  bool following;
+};
+class Rates : public testing::TestWithParam<Case> {};
+
+TEST_P(Rates, AgainstDifferences) {
+  const auto [model, compliance, following] = GetParam();
+  const Arm arm = two_sections(5, compliance);
+  std::mt19937 gen(7);
+  std::uniform_real_distribution<double> share(-1, 1);
+  for (int round = 0; round < 6; ++round) {
+    std::vector<TendonCommand> commands(6);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const bool held = round % 3 == 0 || (round % 3 == 1 && i < 3) || (compliance == 0 && i % 3 > 0);
+      commands[i] = held ? TendonCommand{TendonHeld::tension, 1.5 + share(gen)}
+                         : TendonCommand{TendonHeld::change,
+                                         compliance > 0 ? -0.003 + 0.002 * share(gen) : 0.001 * share(gen)};
+    }
+    ArmLoad load;
+    for (std::size_t i = 0; i < 3; ++i) load.wrench[i] = 0.1 * share(gen);
+    if (following)
+      for (std::size_t i = 0; i < 6; ++i) load.following[i] = (i < 3 ? 0.1 : 0.005) * share(gen);
+    const ArmOptions options{.model = model, .accuracy = 0, .tolerance = 1e-13, .from_last = true};
+    ArmWorkspace work(arm);
+    const ArmState here = arm_forward(arm, commands, load, options, work);
+    ASSERT_TRUE(here.report.ok()) << to_string(here.report);
+    const ArmRates rates = arm_rates(arm, work);
+    ASSERT_TRUE(rates.regular);
+    EXPECT_GT(rates.margin, 0);
+    const auto held = [&](const ArmState& state, std::size_t i) {
+      return commands[i].held == TendonHeld::tension ? state.changes[i] : state.tensions[i];
+    };
+    const auto check = [&](auto&& change, double step, const double* column, std::ptrdiff_t stride,
+                           const double* answers, std::ptrdiff_t answer_stride) {
+      const auto solve = [&](double by) {
+        ArmWorkspace other(arm);
+        arm_forward(arm, commands, load, options, other);
+        auto moved = commands;
+        ArmLoad pushed = load;
+        change(moved, pushed, by);
+        return arm_forward(arm, moved, pushed, options, other);
+      };
+      const ArmState after = solve(step), before = solve(-step);
+      ASSERT_TRUE(after.report.ok() && before.report.ok())
+          << to_string(after.report) << to_string(before.report);
+      const Vec<double, 6> twist = between(before.tip, after.tip) / (2 * step);
+      const double size = std::max(twist.norm(), 1e-3);
+      for (int i = 0; i < 6; ++i) EXPECT_NEAR(twist[i], column[i * stride], 2e-5 * size) << i;
+      for (std::size_t i = 0; i < 6; ++i) {
+        const double rate = (held(after, i) - held(before, i)) / (2 * step);
+        EXPECT_NEAR(rate, answers[static_cast<std::ptrdiff_t>(i) * answer_stride],
+                    2e-4 * std::max(std::abs(rate), 0.01))
+            << i;
+      }
+    };
+    for (std::size_t k = 0; k < 6; ++k)
+      check([k](auto& moved, ArmLoad&, double by) { moved[k].value += by; },
+            commands[k].held == TendonHeld::tension ? 1e-4 : 1e-7, rates.J.data() + k, 6,
+            rates.answers.data() + k, 6);
+    for (std::size_t k = 0; k < 6; ++k)
+      check([k](auto&, ArmLoad& pushed, double by) { pushed.wrench[k] += by; }, k < 3 ? 1e-4 : 1e-5,
+            rates.compliance.data() + k, 6, rates.answers_by_wrench.data() + k, 6);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Arm, Rates,
+                         testing::Values(Case{ArmModel::subsegment_rod, 1e-4, false},
+                                         Case{ArmModel::rod, 1e-5, true},
+                                         Case{ArmModel::subsegment_cc, 1e-4, true},
+                                         Case{ArmModel::cc, 0, false}, Case{ArmModel::prb, 1e-4, false}));
+
+}  // namespace arm_rates_test
+}  // namespace sinew::test
