@@ -116,7 +116,56 @@ struct ArmRates {
       0;  ///< lowest eigenvalue of the stiffness over that of the unloaded arm: 0 where it buckles
 };
 /// Rates of the equilibrium in the workspace.
-SINEW_API ArmRates arm_rates(const Arm& arm, ArmWorkspace& work);
+/// @param margin whether it is wanted, which takes longer than all the rest
+SINEW_API ArmRates arm_rates(const Arm& arm, ArmWorkspace& work, bool margin = true);
 /// @}
+
+/// Where the tip is to be; what is not given is free.
+struct ArmTarget {
+  std::optional<std::array<double, 3>> position;    ///< base axes [m]
+  std::optional<std::array<double, 3>> direction;   ///< of the tip's z axis, of any length but 0
+  std::optional<std::array<double, 4>> quaternion;  ///< of the tip, [w, x, y, z], in place of a direction
+};
+struct ArmInverseOptions {
+  ArmOptions arm;
+  double most_tension = 0;  ///< of a tendon [N]; 0: any
+  double precision = 1e-7;  ///< of the tip, over the arm's length; angles [rad] alike
+  int starts = 12;          ///< shapes from which the search begins, one after the other
+};
+/// Tensions that take the tip to a target. What they are free in goes into the least sum of their squares.
+struct ArmInverse {
+  Report report;   ///< its residual is what the tip is off: place over the arm's length, angle [rad]
+  ArmState state;  ///< with tensions, and the changes for motors that hold those
+};
+/// `unreachable`: the nearest that was found is in `state`.
+SINEW_API ArmInverse arm_inverse(const Arm& arm, const ArmTarget& target, const ArmLoad& load,
+                                 const ArmInverseOptions& options, ArmWorkspace& work);
+
+/// What is measured of an arm; what is not a number is not known.
+struct ArmMeasurement {
+  std::vector<TendonCommand> held;           ///< of every tendon, taken as exact
+  std::vector<double> answers;               ///< of every tendon what is not held: tension [N] or change [m]
+  std::optional<std::array<double, 3>> tip;  ///< its place, base axes [m]
+  double tension_deviation = 0.05;           ///< standard deviation of tensions [N]
+  double change_deviation = 2e-5;            ///< of changes [m]
+  double tip_deviation = 5e-4;               ///< of the tip's place [m]
+};
+/// A wrench at the tip that explains what was measured.
+struct ArmSensed {
+  Report report;                        ///< `singular` where the measurement does not tell
+  std::array<double, 6> wrench{};       ///< base axes [N, N m]
+  std::array<double, 36> covariance{};  ///< of it; of a force alone the moment's part is 0
+  double misfit = 0;                    ///< root mean square of what stays, in standard deviations [1]
+  ArmState state;
+};
+/// @param force_alone no moment at the tip is looked for
+SINEW_API ArmSensed arm_sense(const Arm& arm, const ArmMeasurement& measured, const ArmLoad& load,
+                              bool force_alone, const ArmOptions& options, ArmWorkspace& work);
+
+/// Equilibria found from many shapes, that of the lowest potential first. They need not be all.
+/// @param starts how many shapes
+SINEW_API std::vector<ArmState> arm_equilibria(const Arm& arm, std::span<const TendonCommand> commands,
+                                               const ArmLoad& load, const ArmOptions& options, int starts,
+                                               ArmWorkspace& work);
 
 }  // namespace sinew::inline v1

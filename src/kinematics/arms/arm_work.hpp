@@ -24,7 +24,8 @@ struct ArmWorkspace::Impl {
   explicit Impl(const Arm& arm);
 
   std::shared_ptr<const char> robot;  ///< identity of the arm it is for
-  std::vector<double> rest_lengths;   ///< of tendons, straight or as the rest shape has them [m]
+  bool knows_rest = false;
+  std::vector<double> rest_lengths;  ///< of tendons, straight or as the rest shape has them [m]
 
   /// What the rods below are made for.
   ArmModel model = ArmModel::subsegment_rod;

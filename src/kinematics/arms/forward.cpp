@@ -263,10 +263,11 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   const auto ready = [&](int level) -> LoadedRod& {  // with loads and holds of this question
     ArmRod& entry = impl.at(arm, options, breaks, level);
     set_loads(arm, load, entry.model, entry.rod.work().loads);
-    if (impl.rest_lengths.empty()) {
+    if (!impl.knows_rest) {
       std::fill(entry.rod.work().y.begin(), entry.rod.work().y.end(), 0.0);
       sweep_out(entry.model, entry.rod.work());
       impl.rest_lengths = entry.rod.work().lengths;
+      impl.knows_rest = true;
     }
     set_holds(arm, impl, entry.rod);
     return entry.rod;

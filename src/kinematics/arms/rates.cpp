@@ -29,7 +29,7 @@ double product(const double* a, const double* b, int n, int stride) {
 
 }  // namespace
 
-ArmRates arm_rates(const Arm& arm, ArmWorkspace& work) {
+ArmRates arm_rates(const Arm& arm, ArmWorkspace& work, bool margin) {
   ArmWorkspace::Impl& impl = work.impl();
   ArmRates rates;
   const int m = static_cast<int>(arm.tendons.size());
@@ -88,6 +88,7 @@ ArmRates arm_rates(const Arm& arm, ArmWorkspace& work) {
       put(sides.data(), stride, pulls.data(), stride, i, rates.J.data() + i, m, rates.answers.data() + i, m);
     }
   }
+  if (!margin) return rates;
   if (!rod.has_potential()) make_symmetric(rod.model(), rod.work());
   std::vector<double> direction(at(n));
   rates.margin = rod.lowest(direction);
