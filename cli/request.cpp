@@ -183,11 +183,15 @@ Expected<OpenRobot> open_with_platform(const Arguments& arguments) {
              "{} is a serial robot; {} is for robots with a platform in this version. Of a serial robot ask "
              "forward, inverse, analyse or diagram, pose by pose",
              robot->description.text("robot"), arguments.verb)}});
+  if (robot && is_arm(*robot))
+    return tl::unexpected(Errors{{"not_available", "",
+                                  fmt::format("{} is an arm without a platform; {} is for robots with one",
+                                              robot->description.text("robot"), arguments.verb)}});
   return robot;
 }
 
 Member at_home(const OpenRobot& robot) {
-  if (is_serial(robot)) return {.key = "configuration", .value = list_of({})};  // straight
+  if (is_serial(robot) || is_arm(robot)) return {.key = "configuration", .value = list_of({})};  // straight
   const Node& home = *robot.description.find("home");
   if (!robot.is_on_rods || robot.inputs.size() == 6) return {.key = "pose", .value = home};
   std::vector<Member> free;

@@ -28,7 +28,7 @@ struct OpenRobot {
 };
 /// The robot that the command line names, as `--set` and `--theta-is` change it.
 Expected<OpenRobot> open(const Arguments& arguments);
-/// The same; an error where that is a serial robot.
+/// The same; an error where that is a serial robot or an arm.
 Expected<OpenRobot> open_with_platform(const Arguments& arguments);
 
 /// What puts a query at the robot's home: its `pose`, of a serial robot `configuration`, of a robot on rods

@@ -67,6 +67,13 @@ std::string show_serial(const Answer& answer, const OpenRobot& robot);
 std::string show_diagram(const Answer& answer, const OpenRobot& robot, std::size_t section);
 /// @}
 
+/// @name Arms
+/// @{
+bool is_arm(const OpenRobot& robot);
+/// What it is made of.
+std::string show_arm_robot(const OpenRobot& robot);
+/// @}
+
 /// J, K, U, indices, singularities.
 std::string show_velocity(const Answer& answer, const OpenRobot& robot);
 /// U, or what has its form.

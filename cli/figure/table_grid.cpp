@@ -74,7 +74,7 @@ std::string shown_number(double si, std::string_view unit) {
 
 /// What a number in a column of this unit is.
 Dimension dimension_of(std::string_view symbol) {
-  for (int k = 0; k <= static_cast<int>(Dimension::angular_acceleration); ++k)
+  for (int k = 0; k <= static_cast<int>(Dimension::line_mass); ++k)
     if (const auto dimension = static_cast<Dimension>(k); !symbol.empty() && unit(dimension) == symbol)
       return dimension;
   return Dimension::number;

@@ -13,8 +13,11 @@
 namespace sinew::cli {
 namespace {
 
-constexpr std::pair<Mechanics, std::string_view> mechanics[] = {
-    {of_kinematic, "kinematic"}, {of_chains, "chains"}, {of_rods, "rods"}, {of_serial, "serial"}};
+constexpr std::pair<Mechanics, std::string_view> mechanics[] = {{of_kinematic, "kinematic"},
+                                                                {of_chains, "chains"},
+                                                                {of_rods, "rods"},
+                                                                {of_serial, "serial"},
+                                                                {of_arms, "arms"}};
 
 std::string_view name_of(FieldShape shape) {
   constexpr std::string_view names[] = {

@@ -65,7 +65,9 @@ std::vector<std::string> unit_advice() {
                                   Dimension::mass,          Dimension::density,
                                   Dimension::time,          Dimension::acceleration,
                                   Dimension::line_load,     Dimension::speed,
-                                  Dimension::angular_speed, Dimension::angular_acceleration};
+                                  Dimension::angular_speed, Dimension::angular_acceleration,
+                                  Dimension::rigidity,      Dimension::compliance,
+                                  Dimension::line_mass};
   std::vector<std::string> lines;
   for (const Dimension dimension : dimensions) lines.emplace_back(advice(dimension));
   return lines;

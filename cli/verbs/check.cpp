@@ -345,6 +345,10 @@ int run_check(const Arguments& arguments) {
     print(arguments.has("json") ? robot->description.line() + '\n' : show_serial_robot(*robot));
     return solved;
   }
+  if (is_arm(*robot)) {
+    print(arguments.has("json") ? robot->description.line() + '\n' : show_arm_robot(*robot));
+    return solved;
+  }
   const Checked checked = put_questions(std::move(*robot));
   print(arguments.has("json") ? checked.robot.description.line() + '\n' : show(checked));
   if (!arguments.has("quiet")) warn(checked);

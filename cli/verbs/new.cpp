@@ -39,6 +39,7 @@ constexpr std::array kinds{
     Kind{"three-arcs", "three-arcs", "serial: three smooth arcs, 3 tendons each"},
     Kind{"extensible", "extensible", "serial: sections that bend and change their length"},
     Kind{"snake", "snake", "serial: alike sections of twin pivots, in one line"},
+    Kind{"arm", "arm", "serial, elastic: sections that bear loads, tendons of all routes, 7 inputs"},
 };
 
 /// No robots, but files to start from as well.

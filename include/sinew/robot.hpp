@@ -1,6 +1,7 @@
 /// @file robot.hpp
 /// Robots: read from files and text, asked what they have; one workspace a thread.
 #pragma once
+#include "sinew/io/arm_file.hpp"      // IWYU pragma: export
 #include "sinew/io/robot_file.hpp"    // IWYU pragma: export
 #include "sinew/io/serial_file.hpp"   // IWYU pragma: export
 #include "sinew/robot/robot.hpp"      // IWYU pragma: export

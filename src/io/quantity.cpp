@@ -28,7 +28,7 @@ struct Words {
   std::string_view advice;
 };
 
-constexpr std::array<Words, 16> words{{
+constexpr std::array<Words, 19> words{{
     {Dimension::number, "", "a number", "a plain number (0.5)"},
     {Dimension::count, "", "a whole number", "a whole number (3)"},
     {Dimension::length, "m", "a length", R"(a length ("0.2 m", "200 mm", or 0.2 for metres))"},
@@ -50,6 +50,12 @@ constexpr std::array<Words, 16> words{{
      R"(an angular speed ("0.5 rad/s", "30 deg/s", or 0.5 for rad/s))"},
     {Dimension::angular_acceleration, "rad/s^2", "an angular acceleration",
      R"(an angular acceleration ("2 rad/s^2", "90 deg/s^2", or 2 for rad/s^2))"},
+    {Dimension::rigidity, "N m^2", "a rigidity",
+     R"(a rigidity ("0.01 N m^2", "100 N mm^2", or 0.01 for newton square metres))"},
+    {Dimension::compliance, "m/N", "a compliance",
+     R"(a compliance ("5e-5 m/N", "0.05 mm/N", or 5e-5 for metres a newton))"},
+    {Dimension::line_mass, "kg/m", "a mass by length",
+     R"(a mass by length ("0.01 kg/m", "10 g/m", or 0.01 for kilograms a metre))"},
 }};
 static_assert([] {
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -121,6 +127,12 @@ constexpr std::array units{
     Unit{Dimension::angular_speed, "deg/s", 0, false, 1, 180, std::numbers::pi},
     Unit{Dimension::angular_acceleration, "rad/s^2"},
     Unit{Dimension::angular_acceleration, "deg/s^2", 0, false, 1, 180, std::numbers::pi},
+    Unit{Dimension::rigidity, "N m^2"},
+    Unit{Dimension::rigidity, "N mm^2", -6},
+    Unit{Dimension::compliance, "m/N"},
+    Unit{Dimension::compliance, "mm/N", -3},
+    Unit{Dimension::line_mass, "kg/m"},
+    Unit{Dimension::line_mass, "g/m", -3},
 };
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

@@ -17,7 +17,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// What a value outside the range must do: `it must be positive`.
 std::string rule(const Range& range, Dimension dimension, double value) {
   if (std::isnan(value)) return "it must be a number";
-  if (range.low > 0 && value <= 0) return "it must be positive";  // the bound itself is the lesser news
+  // a bound far away is the lesser news
+  if (range.low > 0 && value <= 0) return "it must be positive";
+  if (range.low == 0 && value < 0)
+    return range.low_excluded ? "it must be positive" : "it must not be negative";
   const auto low = [&] { return human(range.low, dimension); };
   const auto high = [&] { return human(range.high, dimension); };
   if (range.high == infinity) {

@@ -9,10 +9,12 @@
 
 #include "io/builtin.hpp"
 #include "io/parse.hpp"
+#include "io/read_material.hpp"
 #include "io/read_pose.hpp"
 #include "io/robot_size.hpp"
 #include "robot/parallel.hpp"
 #include "sinew/base/limits.hpp"
+#include "sinew/io/arm_file.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/serial_file.hpp"
 
@@ -212,13 +214,9 @@ void read_rod_material(Rod& rod, Reader& link) {
     rod.is_cosserat = law->choice({"kirchhoff", "cosserat"}) == "cosserat";
   Reader material = link.required("material", "{E: Young's modulus}");
   rod.youngs_modulus = material.required("E").quantity(Dimension::pressure, Range::positive());
-  const auto shear = material.optional("G"), poisson = material.optional("poisson");
-  if (shear) rod.shear_modulus = shear->quantity(Dimension::pressure, Range::positive());
-  if (poisson)
-    rod.shear_modulus =
-        rod.youngs_modulus / (2 + 2 * poisson->number({.low = -1, .high = 0.5, .low_excluded = true}));
-  if (shear && poisson) poisson->refuse("ambiguous", "G and poisson both say how it shears; keep one");
-  if (rod.is_cosserat && !shear && !poisson)
+  const auto shear = read_shear_modulus(material, rod.youngs_modulus);
+  if (shear) rod.shear_modulus = *shear;
+  if (rod.is_cosserat && !shear)
     material.fail("missing_key", "law: cosserat, which shears, needs G, or poisson: Poisson's ratio");
   if (const auto density = material.optional("density"))
     rod.density = density->quantity(Dimension::density, Range::not_negative());
@@ -585,6 +583,7 @@ Expected<void> check_size(const Document& document) {
 }
 
 Expected<Robot> read_robot(const Document& document) {
+  if (is_arm(document)) return read_arm(document).map([](Arm arm) { return Robot(std::move(arm)); });
   if (is_serial(document))
     return read_serial_robot(document).map([](SerialRobot robot) { return Robot(std::move(robot)); });
   if (auto fits = check_size(document); !fits) return tl::unexpected(fits.error());
@@ -691,10 +690,12 @@ Expected<Document> with(const Document& document, std::span<const Member> settin
                    fmt::format("set has {} values; give at most {} at once, or another robot file.",
                                settings.size(), most));
   Expected<Document> changed = document;
-  for (const bool of_legs : {false, true})
+  const auto is_own = [](const Member& setting) {
+    return setting.key.starts_with("legs") || setting.key.starts_with("sections[");
+  };
+  for (const bool of_one : {false, true})
     for (const Member& setting : settings)
-      if (changed && setting.key.starts_with("legs") == of_legs)
-        changed = with(*changed, setting.key, setting.value);
+      if (changed && is_own(setting) == of_one) changed = with(*changed, setting.key, setting.value);
   return changed;
 }
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <numbers>
 
+#include "io/actuation.hpp"
 #include "io/quantity.hpp"
 #include "io/robot_size.hpp"
 #include "sinew/base/limits.hpp"
+#include "sinew/io/arm_file.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
 
@@ -110,9 +112,9 @@ void read_extension(Reader& section, Section& result) {
 
 Section read_section(Reader& section) {
   Section result;
-  result.backbone = section.required("type", "tpcj or neutral")
-                        .choice_of<kernel::Backbone>(
-                            {{"tpcj", kernel::Backbone::twin_pivot}, {"neutral", kernel::Backbone::neutral}});
+  const std::string type =
+      section.required("type", "tpcj, neutral or elastic").choice({"tpcj", "neutral", "elastic"});
+  result.backbone = type == "tpcj" ? kernel::Backbone::twin_pivot : kernel::Backbone::neutral;
   const Reader segments = section.required("segments", "how many joints, each with a disc");
   result.segments = segments.integer(Range::between(1, max_segments));
   if (segments.node() && result.is_twin() && result.segments % 2 == 1)
@@ -127,34 +129,9 @@ Section read_section(Reader& section) {
   return result;
 }
 
-TendonMotor read_motor(Reader& motor) {
-  constexpr Range ratio{.low = 0, .high = 1e9, .low_excluded = true};
-  TendonMotor m;
-  m.lead = motor.required("lead", "way of the screw in one turn").quantity(Dimension::length, Range::size());
-  m.counts = motor.required("counts", "of the encoder in one turn").number(ratio);
-  if (const auto gear = motor.optional("gear")) m.gear = gear->number(ratio);
-  motor.close();
-  return m;
-}
-
 void read_actuation(Reader& robot, SerialRobot& result) {
   if (auto motor = robot.optional("motor")) result.motor = read_motor(*motor);
-  if (auto stretch = robot.optional("stretch")) {
-    TendonStretch& s = result.stretch.emplace();
-    s.stiffness =
-        stretch->required("stiffness", "EA of a tendon").quantity(Dimension::force, Range::positive());
-    if (const auto outside = stretch->optional("outside"))
-      s.outside = outside->quantity(Dimension::length, {.low = 0, .high = Range::size().high});
-    stretch->close();
-  }
-}
-
-/// Where a file gives none: a steel tendon as long as the robot stretches by 0.03 % at 60 MPa, and no encoder
-/// tells less than its step. With 0 a rounded number would be slack.
-double usual_tolerance(const SerialRobot& robot) {
-  constexpr double strain = 3e-4;
-  const double step = robot.motor ? 1 / robot.motor->counts_per_length() : 0;
-  return std::max(strain * robot.length(), step);
+  if (auto stretch = robot.optional("stretch")) result.stretch = read_stretch(*stretch);
 }
 
 SerialRobot read_serial(Reader& robot) {
@@ -181,7 +158,7 @@ SerialRobot read_serial(Reader& robot) {
     for (Reader& section : items) result.sections.push_back(read_section(section));
   }
   read_actuation(robot, result);
-  if (!tolerance) result.tolerance = usual_tolerance(result);
+  if (!tolerance) result.tolerance = usual_tolerance(result.length(), result.motor);
   robot.close();
   return result;
 }
@@ -202,7 +179,7 @@ Expected<Document> expanded_sections(const Document& document) {
   const auto count = static_cast<std::size_t>(
       shared.required("count", "how many sections there are").integer(Range::between(1, max_sections)));
   std::vector<double> angles(count, 0.0);
-  if (auto tendons = shared.optional("tendons"))
+  if (auto tendons = shared.optional("tendons"); tendons && !tendons->is(Node::Kind::list))
     if (const auto angle = tendons->optional("angle")) angles = section_angles(*angle, count);
   if (!errors.empty()) return tl::unexpected(errors);
   Document longer = document;
@@ -214,6 +191,11 @@ Expected<Document> expanded_sections(const Document& document) {
 }
 
 Expected<SerialRobot> read_serial_robot(const Document& document) {
+  if (is_arm(document))
+    return failure(
+        "wrong_kind", document.source,
+        "its sections are elastic, and their shape depends on loads; give a robot with sections of "
+        "type tpcj or neutral.");
   if (auto fits = check_size(document); !fits) return tl::unexpected(fits.error());
   const Expected<Document> longer = expanded_sections(document);
   if (!longer) return tl::unexpected(longer.error());
@@ -237,7 +219,7 @@ Expected<SerialRobot> load_serial(const std::string& path_or_name) {
 Expected<TendonMotor> read_motor(const Document& document) {
   Errors errors;
   Reader motor(document, errors);
-  const TendonMotor read = read_motor(motor);
+  const TendonMotor read = sinew::read_motor(motor);
   return errors.empty() ? Expected<TendonMotor>(read) : tl::unexpected(errors);
 }
 

@@ -44,6 +44,11 @@ void answer_serial_describe(Context& context);
 void answer_serial_diagram(Context& context);
 /// @}
 
+/// @name Arms
+/// @{
+void answer_arm_describe(Context& context);
+/// @}
+
 void answer_describe(Context& context);  ///< of robots with a platform
 
 }  // namespace sinew::inline v1

@@ -22,10 +22,11 @@ using Handler = void (*)(Context&);
 /// A kind of question, and who answers it; null: nobody does in this version.
 struct Kind {
   std::string_view name;
-  Handler of_kinematic, of_chains, of_rods, of_serial;
+  Handler of_kinematic, of_chains, of_rods, of_serial, of_arms;
 
   Handler handler(const Robot& robot) const {
     if (robot.serial()) return of_serial;
+    if (robot.arm()) return of_arms;
     if (has_rods(robot)) return of_rods;
     return robot.model() == Model::prb ? of_chains : of_kinematic;
   }
@@ -35,16 +36,18 @@ struct Kind {
 
 constexpr std::array kinds{
     Kind{"forward", answer_kinematic_forward, answer_chains_forward, answer_rods_forward,
-         answer_serial_forward},
+         answer_serial_forward, nullptr},
     Kind{"inverse", answer_kinematic_inverse, answer_chains_inverse, answer_rods_inverse,
-         answer_serial_inverse},
+         answer_serial_inverse, nullptr},
     Kind{"velocity", answer_kinematic_velocity, answer_chains_velocity, answer_rods_velocity,
-         answer_serial_velocity},
-    Kind{"shape", answer_kinematic_shape, answer_chains_shape, answer_rods_shape, answer_serial_shape},
-    Kind{"describe", answer_describe, answer_describe, answer_describe, answer_serial_describe},
-    Kind{"statics", nullptr, answer_chains_statics, answer_rods_statics, nullptr},
-    Kind{"track", answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr},
-    Kind{"diagram", nullptr, nullptr, nullptr, answer_serial_diagram},
+         answer_serial_velocity, nullptr},
+    Kind{"shape", answer_kinematic_shape, answer_chains_shape, answer_rods_shape, answer_serial_shape,
+         nullptr},
+    Kind{"describe", answer_describe, answer_describe, answer_describe, answer_serial_describe,
+         answer_arm_describe},
+    Kind{"statics", nullptr, answer_chains_statics, answer_rods_statics, nullptr, nullptr},
+    Kind{"track", answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, nullptr},
+    Kind{"diagram", nullptr, nullptr, nullptr, answer_serial_diagram, nullptr},
 };
 constexpr auto kind_names = [] {
   std::array<std::string_view, kinds.size()> names;
@@ -52,14 +55,16 @@ constexpr auto kind_names = [] {
   return names;
 }();
 
-const Kind& read_kind(Reader& query, bool is_serial) {
+const Kind& read_kind(Reader& query, const Robot& robot) {
   const Reader word = query.required(
       "query", "what is asked: forward, inverse, velocity, statics, track, diagram, shape or describe");
   const Kind& kind = kinds[word.choice_index(kind_names)];
-  if (is_serial ? !kind.of_serial : kind.is_of_serial_alone())
+  const bool is_serial = robot.serial() != nullptr;
+  if (is_serial || robot.arm() ? !kind.handler(robot) : kind.is_of_serial_alone())
     word.fail("not_available",
-              is_serial ? fmt::format("{} is not available of serial robots in this version", kind.name)
-                        : fmt::format("{} is a question to serial robots", kind.name));
+              is_serial     ? fmt::format("{} is not available of serial robots in this version", kind.name)
+              : robot.arm() ? fmt::format("{} is not available of arms in this version", kind.name)
+                            : fmt::format("{} is a question to serial robots", kind.name));
   return kind;
 }
 
@@ -206,7 +211,7 @@ void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
       found = true;
     }
   };
-  if (!opened.robot.serial()) opened = Opened(with_changed_legs(opened.robot, choose));
+  if (!opened.robot.serial() && !opened.robot.arm()) opened = Opened(with_changed_legs(opened.robot, choose));
   if (!found) asked.fail("no_effect", "has no effect: no leg of this robot has an input theta; remove it");
 }
 
@@ -254,6 +259,11 @@ Opened* TreeSession::State::altered(Reader& query, Errors& errors) {
     errors.insert(errors.end(), robot.error().begin(), robot.error().end());
     return nullptr;
   }
+  const Robot &before = opened.robot, &after = robot->robot;
+  if (!before.serial() != !after.serial() || !before.arm() != !after.arm()) {
+    set->fail("wrong_kind", "it makes a robot of another kind; put the question to a file of that robot");
+    return nullptr;
+  }
   if (theta_is) choose_theta(*robot, *theta_is, read_theta_is(*theta_is));
   if (!errors.empty()) return nullptr;
   kept.emplace(Altered{settings, theta, std::move(*robot)});
@@ -281,15 +291,16 @@ Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last
   Errors errors;
   Reader query(document, errors);
   const Value id = read_id(query);
-  const bool is_serial = state_->opened.robot.serial() != nullptr;
-  const Kind& kind = read_kind(query, is_serial);
+  const bool is_serial = state_->opened.robot.serial() != nullptr,
+             has_platform = !is_serial && !state_->opened.robot.arm();
+  const Kind& kind = read_kind(query, state_->opened.robot);
   if (!errors.empty()) return refusal(id, kind, state_->opened.robot, errors);
-  const auto model = is_serial ? std::nullopt : query.optional("model");  // of serial robots that of tendons
+  const auto model = has_platform ? query.optional("model") : std::nullopt;  // else the handler's
   Opened* opened = state_->altered(query, errors);
   if (!errors.empty()) return error_answer(id, errors);
   if (!opened) opened = &state_->opened;
   const Robot& asked = opened->robot;
-  if (!is_serial) opened = opened->by(read_model(query, model, asked, kind), errors);
+  if (has_platform) opened = opened->by(read_model(query, model, asked, kind), errors);
   if (!errors.empty()) return refusal(id, kind, asked, errors);
 
   Value answer = Value::map();

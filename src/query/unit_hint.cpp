@@ -9,6 +9,7 @@
 #include "io/quantity.hpp"
 #include "query/fields/fields.hpp"
 #include "robot/parallel.hpp"
+#include "sinew/robot/arm.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -257,7 +258,7 @@ std::string far_answer(const Value& answer, const RobotScale& scale) {
     double square = 0;
     if (const Value* position = pose->find("position"))
       for (const double part : position->block()->numbers) square += part * part;
-    else
+    else if (pose->find("x"))
       for (const char* axis : {"x", "y"}) square += std::pow(pose->find(axis)->number().value_or(0), 2);
     const double distance = std::sqrt(square);
     if (distance > far_length * scale.length)
@@ -271,6 +272,10 @@ std::string far_answer(const Value& answer, const RobotScale& scale) {
 
 RobotScale scale_of(const Robot& robot) {
   if (robot.serial()) return {.length = robot.serial()->longest()};
+  if (const Arm* arm = robot.arm()) {
+    const double length = arm->length();
+    return {.length = length, .force = arm->sections.front().start.bending_x / (length * length)};
+  }
   RobotScale scale;
   const double height = std::visit(
       []<class Pose>(const Pose& pose) {

@@ -45,8 +45,10 @@ Report explain_misfit(const Robot& robot, const Workspace& work) {
   } else {
     report.status = Status::unsupported;
     report.message.append(
-        "a serial robot has no legs and no platform: its questions are put to robot.serial(), see "
-        "kinematics/serial.hpp");
+        robot.arm()
+            ? "an arm has no legs and no platform: its questions are put to robot.arm()"
+            : "a serial robot has no legs and no platform: its questions are put to robot.serial(), see "
+              "kinematics/serial.hpp");
   }
   return report;
 }

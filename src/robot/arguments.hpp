@@ -13,7 +13,7 @@ inline bool is_planar(const Robot& robot) { return robot.planar() != nullptr; }
 
 /// Whether questions about platforms may be put to this robot in this workspace.
 inline bool fits(const Robot& robot, const Workspace& work) {
-  return work.robot.get() == robot.identity() && !robot.serial() && robot.is_within_limits();
+  return work.robot.get() == robot.identity() && !robot.serial() && !robot.arm() && robot.is_within_limits();
 }
 inline bool fits(const Robot& robot, const AnyPose& pose) {
   return std::holds_alternative<PlanarPose>(pose) == is_planar(robot);
@@ -27,7 +27,7 @@ Report explain_misfit(const Robot& robot, const AnyPose& pose, Numbers coordinat
 /// @}
 
 /// `bad_input` where the workspace was made for another robot, or the robot is beyond the limits;
-/// `unsupported` of serial robots.
+/// `unsupported` of serial robots and arms.
 inline Report check_workspace(const Robot& robot, const Workspace& work) {
   return fits(robot, work) ? Report{} : explain_misfit(robot, work);
 }

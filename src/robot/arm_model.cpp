@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/at.hpp"
+
 namespace sinew::inline v1 {
 namespace {
 
@@ -15,8 +17,6 @@ using strain::RodModel;
 using strain::Six;
 using strain::Span;
 using strain::Three;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// At a share of the section's length.
 CrossSection section_at(const ArmSection& section, double share) {

@@ -8,6 +8,7 @@
 
 #include "robot/make_chains.hpp"
 #include "sinew/base/limits.hpp"
+#include "sinew/robot/arm.hpp"
 #include "sinew/robot/assembly.hpp"
 #include "sinew/robot/serial.hpp"
 
@@ -19,6 +20,7 @@ struct Robot::Data {
   Weight weight;
   bool geometry_inferred;
   std::optional<SerialRobot> sections = {};
+  std::optional<Arm> arm = {};
   /// By the model prb: chains in place of the arcs, and the robot on these.
   std::optional<AnyChains> chains = {};
   PrbDiscretisation discretisation = {};
@@ -30,9 +32,10 @@ Robot::Robot(std::shared_ptr<const Data> data)
       planar_(std::get_if<PlanarRobot>(&data_->legs)),
       spatial_(std::get_if<SpatialRobot>(&data_->legs)),
       serial_(data_->sections ? &*data_->sections : nullptr),
+      arm_(data_->arm ? &*data_->arm : nullptr),
       rods_(spatial_ ? spatial_->rods : 0) {
   model_ = data_->chains               ? Model::prb
-           : rods_ > 0                 ? Model::rod
+           : rods_ > 0 || arm_         ? Model::rod
            : serial_ || has_arc(*this) ? Model::cc
                                        : Model::rigid;
   is_within_limits_ = with_legs(*this, [](const auto& legs) {
@@ -58,6 +61,14 @@ Robot::Robot(SerialRobot sections)
         return std::make_shared<const Data>(std::move(data));
       }()) {}
 
+Robot::Robot(Arm arm)
+    : Robot([&] {
+        const auto& [x, y, z] = arm.gravity;
+        Data data{arm.name, SpatialRobot(), Weight{.gravity = {x, y, z}}, arm.geometry_inferred};
+        data.arm = std::move(arm);
+        return std::make_shared<const Data>(std::move(data));
+      }()) {}
+
 const std::string& Robot::name() const { return data_->name; }
 const Weight& Robot::weight() const { return data_->weight; }
 bool Robot::geometry_inferred() const { return data_->geometry_inferred; }
@@ -65,6 +76,10 @@ bool Robot::geometry_inferred() const { return data_->geometry_inferred; }
 Robot Robot::under(const Weight& weight) const {
   Data data = *data_;
   data.weight = weight;
+  if (data.arm) {
+    data.arm->gravity = {weight.gravity.x(), weight.gravity.y(), weight.gravity.z()};
+    data.arm->identity = std::make_shared<const char>();
+  }
   return Robot(std::make_shared<const Data>(std::move(data)));
 }
 
@@ -103,6 +118,12 @@ const ChainLegs<Spatial>* Robot::spatial_chains() const {
 
 bool has_weight(const Robot& robot) {
   bool has = robot.weight().platform_mass > 0;
+  if (const Arm* arm = robot.arm()) {
+    has = arm->tip_mass > 0;
+    for (const ArmSection& section : arm->sections)
+      has = has || section.start.mass > 0 || section.end.mass > 0 ||
+            (section.discs.count > 0 && section.discs.mass > 0);
+  }
   for_each_rod(robot, [&](const RodLeg& leg, const LegPlace&, int) { has = has || leg.link.density > 0; });
   return has;
 }

@@ -73,6 +73,10 @@ TEST(Quantity, EveryUnitIsTheSiNumber) {
       {"0.5 N/m", Dimension::line_load, 0.5},
       {"500 mN / m", Dimension::line_load, 0.5},
       {"2 N/mm", Dimension::line_load, 2000},
+      {"2 N m^2", Dimension::rigidity, 2},
+      {"200 N·mm²", Dimension::rigidity, 2e-4},
+      {"0.05 mm/N", Dimension::compliance, 5e-5},
+      {"3 g/m", Dimension::line_mass, 0.003},
       {"2 s", Dimension::time, 2},
       {"5 mm/s", Dimension::speed, 0.005},
       {"0.5 rad/s", Dimension::angular_speed, 0.5},
@@ -184,6 +188,7 @@ TEST(Quantity, EveryDimensionHasItsWords) {
   EXPECT_EQ(noun(Dimension::acceleration), "an acceleration");
   EXPECT_EQ(noun(Dimension::time), "a time");
   EXPECT_EQ(noun(Dimension::line_load), "a load by length");
+  EXPECT_EQ(unit(Dimension::line_mass), "kg/m");
 }
 
 }  // namespace quantity_test

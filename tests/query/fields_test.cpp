@@ -63,6 +63,7 @@ const std::map<std::string, Names> refused{
     {"rods",
      {"trace", "with_respect_to", "bending", "elbow", "curvature", "along", "limit", "pose", "independent"}},
     {"serial", {}},
+    {"arms", {}},
 };
 
 class FieldsOf : public testing::TestWithParam<Case> {};
@@ -91,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
     Mechanics, FieldsOf,
     testing::Values(Case{"kinematic", of_kinematic, {"3-rfr", "6-ufs", "3prs", "3-rfrr"}},
                     Case{"chains", of_chains, {"3-rfr"}}, Case{"rods", of_rods, {"3pfs-g2", "hexapod"}},
-                    Case{"serial", of_serial, {"nottingham-tpcj"}}),
+                    Case{"serial", of_serial, {"nottingham-tpcj"}}, Case{"arms", of_arms, {"two-segment"}}),
     [](const auto& one) { return std::string(one.param.name); });
 
 TEST(Fields, AreNamedOnce) {

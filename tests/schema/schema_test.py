@@ -27,7 +27,8 @@ COMMAND = JUDGE = ""
 SCHEMA = json.loads((ROOT / "schema/robot.schema.json").read_text(encoding="utf-8"))
 
 # What a schema cannot say: relations between values. The reader alone refuses these.
-READER_ALONE = {"coincident_base_points", "collapsed_platform", "no_direction", "no_rotation", "longer_than_section"}
+READER_ALONE = {"coincident_base_points", "collapsed_platform", "no_direction", "no_rotation", "longer_than_section",
+                "guide_beyond_tip", "missing_guide"}
 
 VALUES = ["nonsense", "-1 mm", "0 mm", "1 kg", -1, [1]]
 
@@ -334,6 +335,75 @@ class Schema(unittest.TestCase):
                            {"azimuth": None, "quaternion": [1, 0, 0, 0]}, {"tilt": [0.1]}]],
             ("rods in the plane", standing(rods, *three, space="planar", platform={})),
             ("no home", standing(rods, *three, platform={})),
+        ])
+
+    def test_arms_are_judged_alike(self):
+        wire = {"diameter": "1 mm", "material": {"E": "50 GPa", "poisson": 0.3}}
+        section = {"type": "elastic", "length": "100 mm", "backbone": wire, "discs": {"count": 5},
+                   "tendons": {"radius": "5 mm", "angle": "90 deg"}}
+        bare = {key: value for key, value in section.items() if key != "tendons"}
+        tendon = {"radius": "5 mm", "angle": 0}
+
+        def arm(*sections, **more):
+            return {"sinew": 1, "name": "mine", "kind": "serial", "sections": list(sections), **more}
+
+        def repeated(**more):
+            return {**arm(), "sections": {"count": 2, **section, "tendons": {"radius": 1e-3, "angle": [0, 1]}, **more}}
+
+        self.agree([
+            ("an arm", arm(section)),
+            ("no sections", arm()),
+            ("no tendons", arm(bare)),
+            ("tendons of the second section", arm(bare, section)),
+            ("tendons that are null", arm({**section, "tendons": None})),
+            ("a kinematic section", arm(section, {"type": "neutral", "segments": 3, "joint": 1,
+                                                  "tendons": {"radius": 1, "angle": 0}})),
+            ("two sections", repeated()),
+            ("two sections turned", repeated(tendons={"radius": 1e-3, "angle": "60 deg each"})),
+            ("two sections with one angle", repeated(tendons={"radius": 1e-3, "angle": 0})),
+            ("two sections with listed tendons", repeated(tendons=[tendon, tendon])),
+            ("two sections without tendons", repeated(tendons=None)),
+            *[(f"a backbone {backbone}", arm({**section, "backbone": backbone}))
+              for backbone in [
+                  {"diameter": "1 mm"}, {"material": wire["material"]}, {**wire, "hole": "0.5 mm"}, {**wire, "hole": -1},
+                  {**wire, "end_diameter": "0.5 mm"}, {**wire, "end_diameter": 0}, {**wire, "width": "1 mm"},
+                  {"width": "1 mm", "height": "2 mm", "material": wire["material"]},
+                  {"width": "1 mm", "material": wire["material"]},
+                  {"width": "1 mm", "height": "2 mm", "hole": 0, "material": wire["material"]},
+                  {**wire, "law": "kirchhoff"}, {**wire, "law": "hooke"}, {**wire, "bending": 1, "torsion": 1},
+                  {"bending": 1, "torsion": "0.5 N m^2"}, {"bending": [1, "20 N mm^2"], "torsion": 1},
+                  {"bending": [1], "torsion": 1}, {"bending": 1}, {"torsion": 1}, {"bending": "1 N m", "torsion": 1},
+                  {"bending": 1, "torsion": 1, "stretch": "2 kN", "shear": 5, "mass": "3 g/m"},
+                  {"bending": 1, "torsion": 1, "stretch": 0}, {"bending": 1, "torsion": 1, "mass": -1},
+                  {"bending": 1, "torsion": 1, "diameter": 1}, {**wire, "stretch": 1}, [1], "1 mm"]],
+            *[(f"a material {material}", arm({**section, "backbone": {"diameter": "1 mm", "material": material}}))
+              for material in [{"E": 1e9}, {"E": 1e9, "G": 1e9}, {"E": 1e9, "G": 1e9, "poisson": 0.1}, {"G": 1e9},
+                               {"E": 1e9, "poisson": 0.6}, {"E": 1e9, "poisson": 0.5, "density": "6 g/cm^3"},
+                               {"E": 1e9, "poisson": 0.3, "end_E": "2 GPa"}, {"E": 1e9, "poisson": 0.3, "end_E": 0}]],
+            *[(f"guides {guides}", arm({**bare, "discs": None, **guides, "tendons": tendon}))
+              for guides in [{}, {"guides": "channel"}, {"guides": "tube"}, {"discs": {}}, {"discs": {"count": 0}},
+                             {"guides": "channel", "discs": {"count": 3}}, {"discs": {"count": 3, "mass": "-1 g"}},
+                             {"discs": {"count": 3, "mass": "1 g", "radius": "9 mm"}},
+                             {"discs": {"count": 3, "radius": 0}}, {"discs": {"count": 1001}}]],
+            *[(f"a tendon with {more}", arm(section, {**bare, "tendons": tendons}))
+              for more in [{}, {"end_radius": "4 mm"}, {"end_radius": "-4 mm"}, {"turn": "-90 deg"}, {"turn": "1 m"},
+                           {"through": [tendon]}, {"through": [{"radius": 1e-3}]}, {"through": [{"angle": 1}]},
+                           {"through": [{**tendon, "friction": 1}]}, {"through": [3]}, {"through": 3},
+                           {"through": []}, {"through": [tendon, tendon]},
+                           {"compliance": "0.1 mm/N"}, {"compliance": "1 mm"}, {"compliance": -1e-4},
+                           {"stretch": {"stiffness": "1 kN", "outside": "1 m"}}, {"stretch": {"outside": 1}},
+                           {"stretch": {"stiffness": 1}, "compliance": 1}, {"friction": 0.2}, {"friction": "0.2 N"},
+                           {"friction": -1}, {"pretension": "2 N"}, {"pretension": "-2 N"}, {"count": 2}, {"count": 25},
+                           {"colour": "red"}]
+              for tendons in [{**tendon, **more}, [{**tendon, **more}]]],
+            *[(f"the head {head}", arm(section, **head))
+              for head in [{"gravity": [0, 0, "-9.81 m/s^2"]}, {"gravity": [0, 0]}, {"tip": {"mass": "1 g"}},
+                           {"tip": {"place": [0, 0, 0]}}, {"tip": {"mass": 1, "place": ["1 mm", 0, 0]}},
+                           {"tip": {"mass": None}}, {"tip": 3}, {"tolerance": "1 mm"}, {"geometry": "inferred"},
+                           {"stretch": {"stiffness": "1 kN"}}, {"motor": {"lead": 1, "counts": 2}}, {"space": "spatial"},
+                           {"platform": {}}]],
+            *[(f"precurvature: {bent}", arm({**section, "precurvature": bent}))
+              for bent in [None, [0, 0, 1], [0, 0], [0, "1 /mm", "2 1/m"], [0, 0, "1 N"], 3]],
         ])
 
     def test_relations_between_values_are_told_by_the_reader_alone(self):

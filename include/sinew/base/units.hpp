@@ -26,7 +26,11 @@ enum class Dimension {
   line_load,  ///< force per length
   speed,
   angular_speed,
-  angular_acceleration,  // the last: who goes through all ends here
+  angular_acceleration,
+  rigidity,    ///< in bending or torsion: moment per curvature
+  compliance,  ///< length per force
+  line_mass,   ///< mass per length
+  // the last: who goes through all ends here
 };
 
 /// An interval of allowed values, in the SI unit of what they measure; a bound may be excluded.

@@ -49,8 +49,8 @@ SINEW_API Expected<Document> expanded(const Document& document);
 /// The document with the value at `path` (`legs[0].link.length`, `platform.radius`) replaced.
 SINEW_API Expected<Document> with(const Document& document, const std::string& path, Node value);
 
-/// The same with several, `{path: value}`. What legs share comes first: a setting of one leg then wins,
-/// whatever their order.
+/// The same with several, `{path: value}`. What legs or sections share comes first: a setting of one of them
+/// then wins, whatever their order.
 SINEW_API Expected<Document> with(const Document& document, std::span<const Member> settings);
 
 /// `tangent` or `chord`.

@@ -4,11 +4,13 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sinew/base/export.hpp"
 #include "sinew/math/vec.hpp"
+#include "sinew/robot/serial.hpp"
 
 namespace sinew::inline v1 {
 
@@ -20,6 +22,8 @@ struct CrossSection {
   double stretch = 0;    ///< EA [N]; 0: it does not stretch
   double shear = 0;      ///< GA, with its shear factor [N]; 0: it does not shear
   double mass = 0;       ///< of a length [kg/m], ≥ 0
+
+  bool operator==(const CrossSection&) const = default;
 };
 
 /// What a backbone is made of.
@@ -80,6 +84,9 @@ struct Arm {
   std::array<double, 3> gravity{0, 0, 0};         ///< in base axes [m/s²]
   double tip_mass = 0;                            ///< at the tip [kg], ≥ 0
   std::array<double, 3> tip_mass_place{0, 0, 0};  ///< of its centre in the tip's axes [m]
+  bool geometry_inferred = false;                 ///< not printed in its source but inferred from results
+  double tolerance = 0;                           ///< of a tendon's length [m]: encoder step, backlash; ≥ 0
+  std::optional<TendonMotor> motor;
   /// One for a robot and its copies; by it a workspace knows the robot that it was made for.
   std::shared_ptr<const char> identity = std::make_shared<const char>();
 

@@ -1,6 +1,6 @@
 /// @file robot.hpp
 /// A robot: what files load to and what every question is put to. What it is made of is in
-/// robot/parallel.hpp, robot/chains.hpp and robot/serial.hpp; who only asks needs none of it.
+/// robot/parallel.hpp, robot/chains.hpp, robot/serial.hpp and robot/arm.hpp; who only asks needs none of it.
 #pragma once
 #include <memory>
 #include <string>
@@ -20,6 +20,7 @@ struct ParallelRobot;
 struct PlanarRobot;
 struct SpatialRobot;
 struct SerialRobot;
+struct Arm;
 /// Legs as chains of rigid links: robot/chains.hpp.
 template <class Space>
 struct ChainLegs;
@@ -54,6 +55,7 @@ class Robot {
   SINEW_API Robot(std::string name, SpatialRobot legs, const Weight& weight = {},
                   bool geometry_inferred = false);
   SINEW_API explicit Robot(SerialRobot sections);
+  SINEW_API explicit Robot(Arm arm);
   /// Of legs all alike; needs robot/parallel.hpp.
   template <class LegT>
   Robot(std::string name, const ParallelRobot<LegT>& legs);
@@ -74,6 +76,8 @@ class Robot {
 
   /// Its sections, of a serial robot, which has no legs and no platform; else null.
   const SerialRobot* serial() const { return serial_; }
+  /// Of a tendon-driven arm that bears loads, which has no legs and no platform; else null.
+  const Arm* arm() const { return arm_; }
 
   /// Its legs; null of a robot of the other space.
   const PlanarRobot* planar() const { return planar_; }
@@ -105,6 +109,7 @@ class Robot {
   const PlanarRobot* planar_ = nullptr;
   const SpatialRobot* spatial_ = nullptr;
   const SerialRobot* serial_ = nullptr;
+  const Arm* arm_ = nullptr;
   Model model_ = Model::rigid;
   int rods_ = 0;
   bool is_within_limits_ = true;

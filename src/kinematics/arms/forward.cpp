@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
 
 namespace sinew::inline v1 {
@@ -12,8 +13,6 @@ using strain::LoadedRod;
 using strain::NodeLoad;
 using strain::NodeShare;
 using strain::RodModel;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Orders and elements of polynomials, coarse to fine.
 struct Resolution {

@@ -1,11 +1,10 @@
 #include <algorithm>
 
+#include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
 
 namespace sinew::inline v1 {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Twists of the tip by coordinates, in base axes: 6 rows of `size`.
 std::vector<double> tip_rows(const strain::LoadedRod& rod) {

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
 
 namespace sinew::inline v1 {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The piece that an element is in.
 const strain::Piece& piece_of(const strain::RodModel& model, int element) {

@@ -19,7 +19,7 @@ constexpr FieldUses always{.forward = of_all,
                            .statics = of_loads,
                            .track = of_platforms,
                            .diagram = of_serial,
-                           .describe = of_all};
+                           .describe = of_all | of_arms};
 
 constexpr Words models = {"cc", "prb", "rigid", "rod", "pcc", "lsk"}, thetas = {"tangent", "chord"},
                 laws = {"M0w", "M0", "M1"}, holds = {"tension", "length"},

@@ -40,7 +40,7 @@ enum class FieldShape {
 };
 
 /// Kinds of mechanics, as bits.
-enum Mechanics : unsigned { of_kinematic = 1, of_chains = 2, of_rods = 4, of_serial = 8 };
+enum Mechanics : unsigned { of_kinematic = 1, of_chains = 2, of_rods = 4, of_serial = 8, of_arms = 16 };
 inline constexpr unsigned of_platforms = of_kinematic | of_chains | of_rods,
                           of_all = of_platforms | of_serial;
 

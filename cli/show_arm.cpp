@@ -1,0 +1,89 @@
+/// What an arm is made of, as people read it.
+#include <fmt/format.h>
+
+#include "show.hpp"
+#include "text_table.hpp"
+
+namespace sinew::cli {
+namespace {
+
+/// The number at a path in SI, or `-`.
+std::string si_at(const Node& map, std::string_view path) {
+  const Node* value = at(map, path);
+  return value ? six_digits(value->number) : std::string("-");
+}
+std::string shown_at(const Node& map, std::string_view path, std::string_view unit) {
+  const Node* value = at(map, path);
+  return value ? cell(value->number, unit) : std::string("-");
+}
+
+/// Stiffness and mass of each section, where it tapers at both ends, and its discs.
+std::string show_backbone(const Answer& about) {
+  TextTable table({"section", "length[mm]", "bending_x[N m^2]", "bending_y[N m^2]", "torsion[N m^2]",
+                   "stretch[N]", "shear[N]", "mass[kg/m]", "discs", "disc_radius[mm]", "disc_mass[kg]",
+                   "tendons"});
+  const auto& sections = about.find("sections")->items;
+  for (std::size_t m = 0; m < sections.size(); ++m) {
+    const Node& section = sections[m];
+    std::size_t tendons = 0;
+    for (const Node& tendon : about.find("tendons")->items)
+      if (number(tendon, "section") == static_cast<double>(m)) ++tendons;
+    const auto add = [&](std::string name, std::string_view of, bool is_first) {
+      const Node& backbone = *at(section, of);
+      table.add({std::move(name), is_first ? shown_at(section, "length", "m") : "-",
+                 si_at(backbone, "bending[0]"), si_at(backbone, "bending[1]"), si_at(backbone, "torsion"),
+                 si_at(backbone, "stretch"), si_at(backbone, "shear"), si_at(backbone, "mass"),
+                 !is_first                    ? "-"
+                 : at(section, "discs.count") ? si_at(section, "discs.count")
+                                              : "channel",
+                 is_first ? shown_at(section, "discs.radius", "m") : "-",
+                 is_first ? si_at(section, "discs.mass") : "-", is_first ? fmt::format("{}", tendons) : "-"});
+    };
+    add(fmt::format("sections[{}]", m), "backbone", true);
+    if (at(section, "backbone.end")) add(fmt::format("sections[{}].end", m), "backbone.end", false);
+  }
+  return table.text();
+}
+
+/// One row a tendon and the sections that it passes alike.
+std::string show_tendons(const Answer& about, const OpenRobot& robot) {
+  TextTable table({"tendon", "in", "radius[mm]", "angle[deg]", "end_radius[mm]", "turn[deg]",
+                   "compliance[m/N]", "friction", "pretension[N]"});
+  const auto& tendons = about.find("tendons")->items;
+  for (std::size_t i = 0; i < tendons.size(); ++i) {
+    const auto& routes = tendons[i].find("routes")->items;
+    for (std::size_t first = 0, last = 0; first < routes.size(); first = ++last) {
+      while (last + 1 < routes.size() && as_json(routes[last + 1]) == as_json(routes[first])) ++last;
+      const Node& route = routes[first];
+      table.add(
+          {robot.inputs[i].name,
+           first == last ? fmt::format("sections[{}]", first) : fmt::format("sections[{}..{}]", first, last),
+           shown_at(route, "radius", "m"), shown_at(route, "angle", "rad"),
+           shown_at(route, "end_radius", "m"), shown_at(route, "turn", "rad"),
+           si_at(tendons[i], "compliance"), si_at(tendons[i], "friction"), si_at(tendons[i], "pretension")});
+    }
+  }
+  return table.text();
+}
+
+std::string vector_text(const Node* list) { return fmt::format("[{}]", fmt::join(numbers(list), ", ")); }
+
+}  // namespace
+
+bool is_arm(const OpenRobot& robot) { return robot.description.text("kind") == "arm"; }
+
+std::string show_arm_robot(const OpenRobot& robot) {
+  const Answer& about = robot.description;
+  const std::size_t sections = about.find("sections")->items.size();
+  std::string text = fmt::format(
+      "{}: tendon-driven arm, {} section{}, {} tendon{}, {} mm long, geometry: {}\n", about.text("robot"),
+      sections, sections == 1 ? "" : "s", robot.inputs.size(), robot.inputs.size() == 1 ? "" : "s",
+      cell(about.number("length").value_or(0), "m"), about.text("geometry"));
+  text += fmt::format("gravity: {} m/s^2\n", vector_text(about.find("gravity")));
+  if (const double mass = about.number("tip.mass").value_or(0); mass > 0)
+    text += fmt::format("tip: mass {} kg at {} m\n", six_digits(mass), vector_text(about.find("tip.place")));
+  text += fmt::format("tolerance of a tendon {} mm\n\n", cell(about.number("tolerance").value_or(0), "m"));
+  return text + show_backbone(about) + '\n' + show_tendons(about, robot);
+}
+
+}  // namespace sinew::cli
