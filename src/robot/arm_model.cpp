@@ -56,6 +56,12 @@ void legendre(double x, int modes, double scale, std::array<double, strain::max_
   }
 }
 
+/// A beam as four links on three joints, of shares that sum up to 0.999 in the source, and the joints'
+/// stiffness over EI/L: the field's pseudo-rigid-body model.
+constexpr std::array<double, 4> beam_links{0.125, 0.35, 0.388, 0.136};
+constexpr std::array<double, 3> beam_stiffness{3.25, 2.84, 2.95};
+constexpr double beam_length = beam_links[0] + beam_links[1] + beam_links[2] + beam_links[3];
+
 class Builder {
  public:
   Builder(const Arm& arm, const ArmBasis& basis) : arm_(arm), basis_(basis) {
@@ -122,8 +128,13 @@ class Builder {
       if (elements == 0)
         elements = basis_.model == ArmModel::rod ? 8 : basis_.model == ArmModel::subsegment_rod ? 2 : 1;
       if (basis_.model == ArmModel::cc) elements = 1;
+      if (basis_.twist_at_discs) {
+        add_bending(m, start, end, cuts);
+        start = end;
+        continue;
+      }
       if (basis_.model == ArmModel::prb)
-        begin_joints(section, start, end, elements);
+        begin_joints(section, start, end, elements, (end - start) * section.length / elements, true);
       else if (basis_.model != ArmModel::cc)
         begin_piece(section, start, end, modes());
       if (channel) {  // every element is a span of its own: no tendon runs straight
@@ -155,6 +166,45 @@ class Builder {
     place_ += section.length;
   }
 
+  /// What lies between two discs and only bends, then the joint at the disc where it twists.
+  void add_bending(int m, double start, double end, const std::vector<double>& cuts) {
+    const ArmSection& section = arm_.sections[at(m)];
+    const double length = (end - start) * section.length;
+    if (basis_.model == ArmModel::prb) {
+      begin_joints(section, start, end, static_cast<int>(beam_stiffness.size()), length, false);
+      begin_span();
+      double a = start;
+      for (std::size_t k = 0; k < beam_links.size(); ++k) {
+        const double b = k + 1 == beam_links.size() ? end : a + beam_links[k] * (end - start) / beam_length;
+        add_rigid(section, a, b);
+        if (k < beam_stiffness.size()) add_joint(section, b, static_cast<int>(k), length / beam_stiffness[k]);
+        a = b;
+      }
+    } else {
+      begin_piece(section, start, end, 1);
+      begin_span();
+      double a = start;
+      for (const double cut : cuts)
+        if (cut > start + 1e-12 && cut < end - 1e-12) {
+          add_elements(m, a, cut, start, end, 0, 1);
+          a = cut;
+        }
+      add_elements(m, a, end, start, end, 0, 1);
+    }
+    for (Element* e = &rod_.elements[at(rod_.spans.back().first_element)]; e != &rod_.elements.back() + 1;
+         ++e)
+      for (auto& rest : e->rest) rest[5] = 0;
+    add_holes(m, start, end);
+    Piece twist;
+    twist.modes[5] = twist.size = 1;
+    twist.scale[5] = std::sqrt(length / section_at(section, 0.5 * (start + end)).torsion);
+    begin(twist);
+    begin_span();
+    add_joint(section, end, 0, length);
+    rod_.elements.back().rest[0][5] = length * section.curvature[2];
+    rod_.masses.back().amount += section.discs.mass;
+  }
+
   /// Discs of a section that has nodes elsewhere: each falls to two nodes, as a cubic between them says.
   void add_discs(const ArmSection& section, std::size_t node) {
     for (int k = 1; k <= section.discs.count; ++k) {
@@ -177,6 +227,7 @@ class Builder {
     const bool fine = basis_.order < 0;  // what is stiff follows with one order less
     for (std::size_t c = 0; c < 6; ++c) {
       if (stiffness[c] <= 0) continue;
+      if (c == 5 && basis_.twist_at_discs) continue;
       if (c < 3 && (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc)) continue;
       piece.modes[c] = fine && c < 3 && modes > 1 ? modes - 1 : modes;
       piece.scale[c] = 1 / std::sqrt(stiffness[c]);
@@ -188,12 +239,13 @@ class Builder {
     piece_start_ = start;
     piece_end_ = end;
   }
-  void begin_joints(const ArmSection& section, double start, double end, int joints) {
+  /// @param length that the stiffness of a joint stands for [m]
+  void begin_joints(const ArmSection& section, double start, double end, int joints, double length,
+                    bool twists) {
     Piece piece;
-    const double length = (end - start) * section.length / joints;
     const CrossSection here = section_at(section, 0.5 * (start + end));
     const Six stiffness{0, 0, 0, here.bending_x / length, here.bending_y / length, here.torsion / length};
-    for (std::size_t c = 3; c < 6; ++c) {
+    for (std::size_t c = 3; c < (twists ? 6U : 5U); ++c) {
       piece.modes[c] = joints;
       piece.scale[c] = 1 / std::sqrt(stiffness[c]);
       piece.offset[c] = piece.size;

@@ -11,6 +11,9 @@ struct ArmBasis {
   ArmModel model = ArmModel::subsegment_rod;
   int order = -1;    ///< of bending and torsion; −1: 3 along a section, 2 from disc to disc
   int elements = 0;  ///< of a section, or between two discs; of prb joints between two discs
+  /// What lies between discs (subsegment_cc, prb) only bends, and twists at its end, at the disc. The joints
+  /// of prb are then three, where they follow a beam under a moment and a force at its end.
+  bool twist_at_discs = false;
 };
 
 /// @param breaks where point loads act, from the base [m]: nodes are there

@@ -44,9 +44,21 @@ struct ArmLoad {
   std::optional<std::array<double, 3>> gravity;  ///< in place of the arm's [m/s²]
 };
 
+/// How the balance of an arm is written. By energy is what frictionless tendons do; the others are what
+/// published codes compute, to meet their numbers; without stability and rates. Theory:
+/// docs/theory/arm_models.md
+enum class ArmBalance {
+  energy,      ///< forces of tendons are the gradient of their lengths
+  projected,   ///< discs lose what tendons pull along their normals, but where a tendon ends
+  collocated,  ///< projected, and moments balance at the discs before a piece: subsegment_cc, prb
+  closed_form  ///< no balance: bending by lengths of tendons alone, without loads: cc
+};
+
 /// How an arm's equilibrium is looked for.
 struct ArmOptions {
   ArmModel model = ArmModel::subsegment_rod;
+  /// Other than by energy: discs in every section, tensions held (in closed form: changes), one resolution.
+  ArmBalance balance = ArmBalance::energy;
   int order = -1;          ///< of the polynomials of rods; −1: the model's, more where the answer needs it
   int elements = 0;        ///< of a section (rod), between discs (subsegment_rod, prb); 0: the model's
   double accuracy = 1e-6;  ///< of the tip that rods are refined to, over the arm's length; 0: as they are
@@ -62,10 +74,11 @@ struct ArmState {
   std::vector<double> tensions;  ///< of every tendon [N]
   std::vector<double> changes;   ///< Δl of every tendon, > 0: paid out [m]; with its stretch
   std::vector<double> slack;     ///< what a tendon is longer than its way [m]; 0 where it is taut
-  bool stable = true;
-  double energy = 0;      ///< elastic, of weight and dead forces, and of tendons [J]
-  double resolution = 0;  ///< by how much the tip moves with finer polynomials [m]; 0: not asked for
-  int coordinates = 0;    ///< of its strain
+  bool stable = true;            ///< as far as `stability_told`
+  bool stability_told = true;    ///< false where the balance is not by energy: it has no potential
+  double energy = 0;             ///< elastic, of weight and dead forces, and of tendons [J]
+  double resolution = 0;         ///< by how much the tip moves with finer polynomials [m]; 0: not asked for
+  int coordinates = 0;           ///< of its strain
 };
 
 /// Memory for questions to one arm; one per thread.

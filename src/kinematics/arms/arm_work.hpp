@@ -29,6 +29,7 @@ struct ArmWorkspace::Impl {
 
   /// What the rods below are made for.
   ArmModel model = ArmModel::subsegment_rod;
+  ArmBalance balance = ArmBalance::energy;
   int order = -2, elements = 0;
   std::vector<double> breaks;
   std::vector<std::unique_ptr<ArmRod>> levels;  ///< coarse to fine; made when needed

@@ -5,6 +5,7 @@
 
 #include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
+#include "kinematics/arms/published.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -23,7 +24,7 @@ constexpr std::array<Resolution, 4> along_sections{{{3, 8}, {5, 16}, {7, 24}, {9
 
 /// How many resolutions a model has.
 int level_count(const ArmOptions& options) {
-  if (options.order >= 0 || options.elements > 0) return 1;
+  if (options.order >= 0 || options.elements > 0 || options.balance != ArmBalance::energy) return 1;
   return options.model == ArmModel::rod || options.model == ArmModel::subsegment_rod ? 4 : 1;
 }
 
@@ -209,16 +210,17 @@ ArmWorkspace::Impl::Impl(const Arm& arm) : robot(arm.identity), commands(arm.ten
 
 ArmRod& ArmWorkspace::Impl::at(const Arm& arm, const ArmOptions& options,
                                const std::vector<double>& at_breaks, int wanted) {
-  if (options.model != model || options.order != order || options.elements != elements ||
-      at_breaks != breaks) {
+  if (options.model != model || options.balance != balance || options.order != order ||
+      options.elements != elements || at_breaks != breaks) {
     levels.clear();
     level = -1;
-    model = options.model, order = options.order, elements = options.elements, breaks = at_breaks;
+    model = options.model, balance = options.balance, breaks = at_breaks;
+    order = options.order, elements = options.elements;
   }
   if (levels.empty()) levels.resize(4);
   auto& entry = levels[static_cast<std::size_t>(wanted)];
   if (!entry) {
-    ArmBasis basis{model, order, elements};
+    ArmBasis basis{model, order, elements, balance == ArmBalance::collocated};
     if (level_count(options) > 1) {
       const Resolution chosen =
           (model == ArmModel::rod ? along_sections : between_discs)[static_cast<std::size_t>(wanted)];
@@ -248,6 +250,10 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     state.report = {Status::bad_input, 0, 0, text};
     return state;
   }
+  if (const Report found = fits_balance(arm, commands, load, options); !found.ok()) {
+    state.report = found;
+    return state;
+  }
   std::copy(commands.begin(), commands.end(), impl.commands.begin());
   std::vector<double> breaks;
   for (const PointLoad& point : load.points) breaks.push_back(point.place);
@@ -273,7 +279,9 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   };
   LoadedRod* rod = &ready(impl.level);
   if (!warm) std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
-  strain::Relaxed found = rod->relax(relax);
+  const bool by_energy = options.balance == ArmBalance::energy;
+  strain::Relaxed found =
+      by_energy ? rod->relax(relax) : relax_published(arm, commands, options, relax, warm, *rod);
   const double wanted = options.accuracy * arm.length();
   const bool refines = count > 1 && options.accuracy > 0;
   if (!refines) impl.checked = 0;
@@ -299,6 +307,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   // Of the finest the last step was the error of the one before it, whose elements are twice as long.
   state.resolution = impl.level + 1 == count ? impl.checked / 10 : impl.checked;
   set_report(state.report, found);
+  if (!by_energy) state.report.message = FixedText<240>(published_words(found.status));
   if (refines && state.report.ok() && state.resolution > 10 * wanted) {
     state.report.status = Status::stalled;
     state.report.message = FixedText<240>(fmt::format(
@@ -306,6 +315,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
         state.resolution));
   }
   state.stable = found.negative == 0;
+  state.stability_told = by_energy;
   write_state(arm, impl);
   return state;
 }

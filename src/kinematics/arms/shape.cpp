@@ -70,6 +70,12 @@ std::vector<SE3<double>> arm_frames(const Arm&, std::span<const double> places, 
       continue;
     }
     strain_at(entry.model, entry.rod.work(), place, near);
+    if (near + 1 < static_cast<int>(entry.model.elements.size()) &&
+        entry.model.elements[at(near + 1)].points == 1 &&
+        place > entry.model.places[at(near + 1)] - 1e-12 * entry.model.places.back()) {
+      poses.push_back(pose_of(frames[at(near + 2)]));  // a joint at the place has turned
+      continue;
+    }
     const double start = entry.model.places[at(near)], h = std::max(0.0, place - start),
                  side = h / std::sqrt(12.0);
     int same = near;
