@@ -165,6 +165,8 @@ std::optional<Node> OptionReader::read(const Field& field, std::string_view opti
       return twist(option, text);
     case Shape::range:
       return range(option, text);
+    case Shape::point_loads:
+      return json(option, text);
     case Shape::growing_load:
     case Shape::settings:
       break;  // of several options
@@ -360,14 +362,22 @@ std::optional<Node> OptionReader::quantity(std::string_view option, std::string_
   return {};
 }
 
-/// Two values for each leg, legs apart by semicolons; `-` where no length is held.
+/// As in a query.
+std::optional<Node> OptionReader::json(std::string_view option, std::string_view text) {
+  auto document = parse_json(text, option);
+  if (document) return std::move(document->root);
+  errors_.insert(errors_.end(), document.error().begin(), document.error().end());
+  return {};
+}
+
+/// Values for each leg or section, these apart by semicolons; `-` where nothing is held.
 std::optional<Node> OptionReader::pairs(std::string_view option, std::string_view text, Dimension dimension) {
   std::vector<Node> list;
   for (bool more = true; more;) {
     const std::size_t end = text.find(';');
     std::vector<Node> pair;
     for (const std::string_view part : split(text.substr(0, end))) {
-      const bool is_loose = part == "-" && dimension == Dimension::length;
+      const bool is_loose = part == "-" && dimension != Dimension::angle;
       pair.push_back(is_loose ? Node() : make_node(values(option, {&part, 1}, {&dimension, 1}).front()));
     }
     list.push_back(list_of(std::move(pair)));

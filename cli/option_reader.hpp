@@ -33,6 +33,7 @@ class OptionReader {
   std::optional<Node> pose(std::string_view option, std::string_view text);
   std::optional<Node> inputs(std::string_view option, std::string_view text);
   std::optional<Node> wrench(std::string_view option, std::string_view text);
+  std::optional<Node> json(std::string_view option, std::string_view text);
   std::optional<Node> pairs(std::string_view option, std::string_view text, Dimension dimension);
   /// @}
 

@@ -142,6 +142,8 @@ std::string_view spelling(const Field& field) {
       return "\"LOW, HIGH\"";
     case Shape::settings:
       return "PATH=VALUE";
+    case Shape::point_loads:
+      return "JSON";
   }
   return "";
 }

@@ -49,6 +49,15 @@ void answer_serial_diagram(Context& context);
 void answer_arm_describe(Context& context);
 /// @}
 
+/// @name Arms that bear loads
+/// @{
+void answer_arms_forward(Context& context);
+void answer_arms_inverse(Context& context);
+void answer_arms_velocity(Context& context);
+void answer_arms_shape(Context& context);
+void answer_arms_statics(Context& context);
+/// @}
+
 void answer_describe(Context& context);  ///< of robots with a platform
 
 }  // namespace sinew::inline v1

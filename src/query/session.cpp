@@ -36,16 +36,16 @@ struct Kind {
 
 constexpr std::array kinds{
     Kind{"forward", answer_kinematic_forward, answer_chains_forward, answer_rods_forward,
-         answer_serial_forward, nullptr},
+         answer_serial_forward, answer_arms_forward},
     Kind{"inverse", answer_kinematic_inverse, answer_chains_inverse, answer_rods_inverse,
-         answer_serial_inverse, nullptr},
+         answer_serial_inverse, answer_arms_inverse},
     Kind{"velocity", answer_kinematic_velocity, answer_chains_velocity, answer_rods_velocity,
-         answer_serial_velocity, nullptr},
+         answer_serial_velocity, answer_arms_velocity},
     Kind{"shape", answer_kinematic_shape, answer_chains_shape, answer_rods_shape, answer_serial_shape,
-         nullptr},
+         answer_arms_shape},
     Kind{"describe", answer_describe, answer_describe, answer_describe, answer_serial_describe,
          answer_arm_describe},
-    Kind{"statics", nullptr, answer_chains_statics, answer_rods_statics, nullptr, nullptr},
+    Kind{"statics", nullptr, answer_chains_statics, answer_rods_statics, nullptr, answer_arms_statics},
     Kind{"track", answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, nullptr},
     Kind{"diagram", nullptr, nullptr, nullptr, answer_serial_diagram, nullptr},
 };

@@ -8,6 +8,7 @@
 #include "robot/kinematic_group.hpp"
 #include "robot/pose.hpp"
 #include "robot/rod_work.hpp"
+#include "sinew/robot/arm_workspace.hpp"
 #include "sinew/robot/serial_workspace.hpp"
 
 namespace sinew::inline v1 {
@@ -179,6 +180,7 @@ Workspace::Workspace(const Robot& any) : robot(any.shared()) {
   const auto dof_ = static_cast<std::size_t>(sinew::dof(any));
   if (has_rods(any)) rods = std::make_unique<RodWork>(rod_group(any));
   if (any.serial()) serial = std::make_unique<SerialWorkspace>(*any.serial());
+  if (any.arm()) arm = std::make_unique<ArmWorkspace>(*any.arm());
   if (any.model() == Model::prb) arcs = std::make_unique<Workspace>(*any.as(Model::cc));
   coordinates.resize(static_cast<std::size_t>(coordinate_count(any)));
   inputs.resize(inputs_);

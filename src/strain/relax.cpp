@@ -1,5 +1,7 @@
 #include "strain/relax.hpp"
 
+#include "base/at.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,8 +21,6 @@ double dot(std::span<const double> a, std::span<const double> b) {
 }
 /// Eigenvalues down to this count as 0: a round rod that has buckled turns freely.
 constexpr double neutral = 1e-9;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -3,16 +3,15 @@
 /// yields, which inputs take its tip to a place, what pulls at it. Theory: docs/theory/strain_rod.md
 #pragma once
 #include <array>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "sinew/base/export.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/math/linalg.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/robot/arm.hpp"
+#include "sinew/robot/arm_workspace.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {
@@ -79,23 +78,6 @@ struct ArmState {
   double energy = 0;             ///< elastic, of weight and dead forces, and of tendons [J]
   double resolution = 0;         ///< by how much the tip moves with finer polynomials [m]; 0: not asked for
   int coordinates = 0;           ///< of its strain
-};
-
-/// Memory for questions to one arm; one per thread.
-class ArmWorkspace {
- public:
-  SINEW_API explicit ArmWorkspace(const Arm& arm);
-  SINEW_API ~ArmWorkspace();
-  SINEW_API ArmWorkspace(ArmWorkspace&&) noexcept;
-  SINEW_API ArmWorkspace& operator=(ArmWorkspace&&) noexcept;
-
-  StopToken stop;  ///< searches end with `stopped` once it is requested
-
-  struct Impl;
-  Impl& impl() const { return *impl_; }
-
- private:
-  std::unique_ptr<Impl> impl_;
 };
 
 /// The arm's equilibrium under these tendons and this load.

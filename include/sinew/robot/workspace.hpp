@@ -11,6 +11,7 @@
 
 namespace sinew::inline v1 {
 
+class ArmWorkspace;
 struct RodWork;
 struct SerialWorkspace;
 
@@ -48,6 +49,7 @@ struct Workspace {
   std::vector<LegState> legs;
   std::unique_ptr<RodWork> rods;            ///< of a robot on rods; else null
   std::unique_ptr<SerialWorkspace> serial;  ///< of a serial robot; else null
+  std::unique_ptr<ArmWorkspace> arm;        ///< of an arm; else null
   ChainWork chains;                         ///< of a robot by the model prb
   /// Of a robot by the model prb: that of the same on arcs, near which searches for its chains begin; else
   /// null.

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
 
 namespace sinew::inline v1 {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// What the tip is off, and its rates by tensions: rows of places over the arm's length and of angles.
 struct Rows {
@@ -179,7 +178,7 @@ double usual_tension(const Arm& arm) {
   return least;
 }
 
-std::string_view misfit(const Arm& arm, const ArmTarget& target) {
+std::string_view target_misfit(const Arm& arm, const ArmTarget& target) {
   if (arm.tendons.empty()) return "the arm has no tendons that could move its tip";
   if (!target.position && !target.direction && !target.quaternion) return "the target is empty";
   if (target.direction && target.quaternion) return "the target has a direction and a quaternion; keep one";
@@ -208,7 +207,7 @@ ArmInverse arm_inverse(const Arm& arm, const ArmTarget& target, const ArmLoad& l
                        const ArmInverseOptions& options, ArmWorkspace& work) {
   ArmInverse best;
   best.report.residual = 1e300;
-  if (const auto text = misfit(arm, target); !text.empty()) {
+  if (const auto text = target_misfit(arm, target); !text.empty()) {
     best.report = {Status::bad_input, 0, 0, FixedText<240>(text)};
     best.state = work.impl().state;
     best.state.report = best.report;

@@ -19,8 +19,6 @@ using strain::RodModel;
 using strain::RodWork;
 using strain::Span;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 using Matrix3 = Mat<double, 3, 3>;
 
 Vec3<double> vec(const double* x) { return {x[0], x[1], x[2]}; }

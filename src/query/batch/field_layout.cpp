@@ -9,6 +9,7 @@
 
 #include "query/fields/fields.hpp"
 #include "robot/chains.hpp"
+#include "sinew/robot/arm.hpp"
 #include "sinew/robot/assembly.hpp"
 #include "sinew/robot/serial.hpp"
 
@@ -79,6 +80,8 @@ FieldLayouts::FieldLayouts(const Robot& robot, std::string_view query)
       is_statics_(query == "statics") {
   if (const SerialRobot* sections = robot.serial())
     count(*sections);
+  else if (const Arm* arm = robot.arm())
+    count(*arm);
   else
     count(robot);
 }
@@ -105,7 +108,16 @@ void FieldLayouts::count(const SerialRobot& robot) {
   columns_ = sum(configuration_);
 }
 
+void FieldLayouts::count(const Arm& arm) {
+  is_arm_ = true;
+  freedoms_ = rows_ = 6;
+  tendons_.resize(arm.sections.size());
+  for (const ArmTendon& tendon : arm.tendons) ++tendons_[static_cast<std::size_t>(tendon.section())];
+  legs_ = inputs_ = columns_ = arm.tendons.size();
+}
+
 FieldLayout FieldLayouts::lists(std::string_view name) const {
+  if (name == "tensions" && !is_arm_) return matrix_of(legs_, 2);
   if (name == "angles") return matrix_or_lists_of(angles_);
   return name == "configuration" ? matrix_or_lists_of(configuration_) : lists_of(tendons_);
 }
@@ -193,6 +205,7 @@ FieldLayout FieldLayouts::output(std::string_view place) const {
   if (!field) return {};
   const Lengths indices = take_indices(place);
   const FieldLayout layout = whole(field->shape);
+  if (is_arm_ && place == "tensions") return lists_of(tendons_);
   if (indices.empty()) return layout;
   return indices.size() == 1 && indices[0] < layout.lists.size() ? list_of(layout.lists[indices[0]])
                                                                  : FieldLayout();

@@ -39,13 +39,14 @@ class FieldLayouts {
 
   void count(const Robot& robot);
   void count(const SerialRobot& robot);
+  void count(const Arm& arm);
   FieldLayout lists(std::string_view name) const;
   FieldLayout whole(AnswerShape shape) const;
 
-  bool is_diagram_, is_statics_, is_serial_ = false, is_planar_ = false;
+  bool is_diagram_, is_statics_, is_serial_ = false, is_arm_ = false, is_planar_ = false;
   std::size_t inputs_ = 0, freedoms_ = 0, legs_ = 0, rows_ = 0, columns_ = 0;  ///< rows of J, columns of K
   Lengths angles_;                                                             ///< of chains, a leg each
-  Lengths configuration_, tendons_;  ///< of serial robots, a section each
+  Lengths configuration_, tendons_;  ///< of serial robots and arms, a section each
 };
 
 }  // namespace sinew::inline v1

@@ -50,12 +50,14 @@ std::string unit_of_number(const Robot& robot, std::string_view place) {
     const auto one = static_cast<std::size_t>(index);
     return one < inputs.size() ? std::string(unit(inputs[one].kind.dimension)) : std::string();
   }
-  if (field == "wrench" || field == "until.wrench" || field == "to.wrench") return is_linear ? "N" : "N m";
+  if (field == "wrench" || field == "following" || field == "until.wrench" || field == "to.wrench")
+    return is_linear ? "N" : "N m";
   if (field == "twist") return is_linear ? "m/s" : "rad/s";
   if (field == "gravity") return "m/s^2";
   if (field == "lengths") return "m";
   if (field == "angles") return "rad";
-  if (field == "axial_forces" || field == "measured_tensions") return "N";
+  if (field == "axial_forces" || field == "measured_tensions" || field == "tensions") return "N";
+  if (field == "distributed" || field == "distributed_following") return "N/m";
   return std::string(unit_of_answer(place));
 }
 
@@ -135,6 +137,14 @@ Outputs usual_outputs(const Robot& robot, std::string_view query) {
     if (query == "velocity") return {{"J", "J"}, {"K", "K"}};
     Outputs usual{{"position", "tip.position"}, {"quaternion", "tip.quaternion"}, {"changes", "changes"}};
     if (query == "inverse") usual.emplace_back("configuration", "configuration");
+    return usual;
+  }
+  if (robot.arm()) {
+    Outputs usual{{"position", "tip.position"},
+                  {"quaternion", "tip.quaternion"},
+                  {"tensions", "tensions"},
+                  {"changes", "changes"}};
+    if (query == "statics") usual.emplace_back("wrench", "wrench");
     return usual;
   }
   if (query == "inverse") return {{"inputs", "inputs"}};

@@ -72,6 +72,10 @@ return std::array{
     AnswerField{"changes", tendons, "m", "of each tendon, > 0 pays out"},
     AnswerField{"motors", tendons, "", "counts of each tendon's motor"},
     AnswerField{"slack", tendons, "m", "of each tendon"},
+    AnswerField{"resolution", number, "m", "by how much finer polynomials move an arm's tip"},
+    AnswerField{"buckling_margin", number, "", "of an arm's stiffness: 1 without load, 0 where it buckles"},
+    AnswerField{"least_tension", number, "N", "of an arm's tendons"},
+    AnswerField{"misfit", number, "", "of what was measured, in standard deviations"},
     AnswerField{"margin", number, "m", "of a diagram: to the next tendon that goes slack"},
     AnswerField{"over_tension", number, "m", "of a diagram: by which tendons are too short"},
 };

@@ -37,6 +37,7 @@ enum class FieldShape {
   range,           ///< two numbers, the lower one first
   text_or_number,  ///< of `id`, returned as given
   settings,        ///< {path: value}
+  point_loads,     ///< a list of {place, wrench, following}
 };
 
 /// Kinds of mechanics, as bits.
