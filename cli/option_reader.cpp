@@ -364,7 +364,7 @@ std::optional<Node> OptionReader::quantity(std::string_view option, std::string_
 
 /// As in a query.
 std::optional<Node> OptionReader::json(std::string_view option, std::string_view text) {
-  auto document = parse_json(text, option);
+  auto document = parse_json(text, std::string(option));
   if (document) return std::move(document->root);
   errors_.insert(errors_.end(), document.error().begin(), document.error().end());
   return {};

@@ -216,7 +216,7 @@ Expected<Document> request(std::string_view query, const Arguments& arguments, c
   if (query == "statics" && arguments.has("pose")) request.member("inverse", make_node(true));
   if (is_curve && arguments.has("all")) request.member("branches", make_node(true));
   request.changes();
-  if (!arguments.has("json") && !is_serial(robot)) request.want_both();
+  if (!arguments.has("json") && !is_serial(robot) && !is_arm(robot)) request.want_both();
   return request.done();
 }
 

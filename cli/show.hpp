@@ -72,6 +72,8 @@ std::string show_diagram(const Answer& answer, const OpenRobot& robot, std::size
 bool is_arm(const OpenRobot& robot);
 /// What it is made of.
 std::string show_arm_robot(const OpenRobot& robot);
+/// Of a question to an arm.
+std::string show_arm(const Answer& answer, const OpenRobot& robot);
 /// @}
 
 /// J, K, U, indices, singularities.

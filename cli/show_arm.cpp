@@ -68,6 +68,37 @@ std::string show_tendons(const Answer& about, const OpenRobot& robot) {
 
 std::string vector_text(const Node* list) { return fmt::format("[{}]", fmt::join(numbers(list), ", ")); }
 
+/// What each tendon does.
+std::string show_tendon_states(const Answer& answer, const OpenRobot& robot) {
+  TextTable table({"tendon", "tension[N]", "change[mm]", "slack[mm]"});
+  std::size_t next = 0;
+  const auto& tensions = answer.find("tensions")->items;
+  for (std::size_t m = 0; m < tensions.size(); ++m)
+    for (std::size_t i = 0; i < tensions[m].items.size(); ++i) {
+      const auto cell_of = [&](std::string_view key, std::string_view unit) {
+        return cell(answer.find(key)->items[m].items[i].number, unit);
+      };
+      table.add({robot.inputs[next++].name, cell_of("tensions", "N"), cell_of("changes", "m"),
+                 cell_of("slack", "m")});
+    }
+  return table.text();
+}
+
+std::string show_arm_matrix(const Answer& answer, std::string_view key, std::string_view what) {
+  const Node* matrix = answer.find(key);
+  if (!matrix) return {};
+  std::string text = fmt::format("\n{} [{}]\n", key, what);
+  std::vector<std::string> header;
+  for (std::size_t j = 0; j < matrix->items.front().items.size(); ++j) header.push_back(fmt::format("{}", j));
+  TextTable table(std::move(header));
+  for (const Node& line : matrix->items) {
+    std::vector<std::string> row;
+    for (const Node& one : line.items) row.push_back(six_digits(one.number));
+    table.add(std::move(row));
+  }
+  return text + table.text();
+}
+
 }  // namespace
 
 bool is_arm(const OpenRobot& robot) { return robot.description.text("kind") == "arm"; }
@@ -84,6 +115,32 @@ std::string show_arm_robot(const OpenRobot& robot) {
     text += fmt::format("tip: mass {} kg at {} m\n", six_digits(mass), vector_text(about.find("tip.place")));
   text += fmt::format("tolerance of a tendon {} mm\n\n", cell(about.number("tolerance").value_or(0), "m"));
   return text + show_backbone(about) + '\n' + show_tendons(about, robot);
+}
+
+std::string show_arm(const Answer& answer, const OpenRobot& robot) {
+  if (!answer.find("tip")) return {};
+  std::string text = show_pose(*answer.find("tip")) + '\n' + show_tendon_states(answer, robot);
+  if (const Node* wrench = answer.find("wrench"))
+    text += fmt::format("\nwrench at the tip [N, N m]: {}, misfit {}\n", vector_text(wrench),
+                        six_digits(answer.number("misfit").value_or(0)));
+  text += show_arm_matrix(answer, "U", "twist of the tip by what holds each tendon");
+  text += show_arm_matrix(answer, "compliance",
+                          "twist of the tip by a wrench there: m/N, rad/N, m/(N m), rad/(N m)");
+  text += show_arm_matrix(answer, "stiffness", "its inverse");
+  if (const auto margin = answer.number("buckling_margin"))
+    text += fmt::format("\nbuckling margin {} (1 without load, 0 where it buckles)\n", six_digits(*margin));
+  if (const Node* solutions = answer.find("solutions")) {
+    TextTable table({"equilibrium", "x[mm]", "y[mm]", "z[mm]", "potential[J]"});
+    for (std::size_t k = 0; k < solutions->items.size(); ++k) {
+      const auto place = numbers(at(solutions->items[k], "tip.position"));
+      table.add({fmt::format("{}", k), cell(place[0], "m"), cell(place[1], "m"), cell(place[2], "m"),
+                 six_digits(number(solutions->items[k], "potential"))});
+    }
+    text += '\n' + table.text();
+  }
+  if (const auto resolution = answer.number("resolution"))
+    text += fmt::format("\nfiner polynomials move the tip by {} mm\n", six_digits(1000 * *resolution));
+  return text;
 }
 
 }  // namespace sinew::cli

@@ -13,7 +13,7 @@ const std::array table{
         "ROBOT",
         "pose of the platform from the inputs",
         options_of("forward", {"along", "samples", "tilt", "trace"}, {"limit", "json", "quiet", "help"}),
-        {"inputs", "configuration", "changes"},
+        {"inputs", "configuration", "changes", "tensions"},
         "Newton's method from the start; --all finds the other assembly modes too. Exit code 3 where the\n"
         "legs do not close, 4 where the iterations ran out. A platform on rods comes to rest under a load:\n"
         "  sinew forward 3pfs-g2 --inputs \"0.44 m, 0.42 m, 0.41 m\" --wrench \"1 N, -0.5 N, -5 N, 0, 0, 0\" "
@@ -23,7 +23,9 @@ const std::array table{
         "There --all finds equilibria, stable or not. One that does not hold by itself is shown, and the "
         "exit\n"
         "code is 3. A serial robot takes its configuration, or the changes of its tendons:\n"
-        "  sinew forward nottingham-tpcj --configuration \"10 deg, 5 deg; 0, -10 deg\"",
+        "  sinew forward nottingham-tpcj --configuration \"10 deg, 5 deg; 0, -10 deg\"\n"
+        "An arm that bears loads takes tensions or changes:\n"
+        "  sinew forward two-segment --tensions \"4, 0, 0; 0, 2, 0\" --wrench \"0.1, 0, 0, 0, 0, 0\"",
         "sinew forward 3-rfr --inputs \"0.19 m, 190 mm, 0.188\"",
         run_question},
     Verb{
@@ -31,7 +33,7 @@ const std::array table{
         "ROBOT",
         "inputs from the pose of the platform",
         options_of("inverse", {"along", "limit", "samples", "tilt"}, {"json", "quiet", "help"}),
-        {"pose", "independent", "position"},
+        {"pose", "independent", "position", "direction"},
         "Of several solutions the one that bends least is taken, positive where both signs do; with --start "
         "the "
         "one\n"
@@ -50,7 +52,7 @@ const std::array table{
          "ROBOT",
          "a tendon-driven robot under a load, its links pseudo-rigid chains; the load on rods, sensed",
          options_of("statics", {"inverse", "samples", "tilt"}, {"limit", "json", "quiet", "help"}),
-         {"set-at", "tensions", "lengths", "pose", "axial-forces"},
+         {"set-at", "tensions", "lengths", "pose", "axial-forces", "changes"},
          "Tendons are set at a pose, or their tensions or lengths given; or --pose is held under the load, "
          "and "
          "their\ntensions answered. Beside the equilibrium: whether it is stable, the paper's linear model, "
@@ -68,7 +70,7 @@ const std::array table{
          "ROBOT",
          "velocity equations, sensitivities and singularities at a configuration",
          options_of("velocity", {"along", "limit", "samples", "tilt"}, {"json", "quiet", "help"}),
-         {"pose", "independent", "inputs", "configuration", "changes"},
+         {"pose", "independent", "inputs", "configuration", "changes", "tensions"},
          "Give a pose, or inputs, or both. J·(platform velocity) = K·(input rates) is printed in SI as in "
          "the paper,\n"
          "U = J⁻¹K in mm and degrees. A singular configuration is shown, and the exit code is 3. Of a robot "

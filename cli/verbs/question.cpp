@@ -11,6 +11,7 @@ namespace {
 /// What the question itself asks, without wants that have tables of their own.
 std::string show_configuration(const Answer& answer, const OpenRobot& robot) {
   if (is_serial(robot)) return show_serial(answer, robot);
+  if (is_arm(robot)) return show_arm(answer, robot);
   const std::string query = answer.text("query");
   if (is_on_chains(answer)) return show_chains(answer, robot);
   if (answer.find("wrench_sensitivity")) return show_sensed(answer);
@@ -27,9 +28,10 @@ std::string show_configuration(const Answer& answer, const OpenRobot& robot) {
 }
 
 std::string show(const Answer& answer, const OpenRobot& robot) {
-  if (answer.text("query") == "velocity" && !is_serial(robot)) return show_velocity(answer, robot);
+  const bool has_platform = !is_serial(robot) && !is_arm(robot);
+  if (answer.text("query") == "velocity" && has_platform) return show_velocity(answer, robot);
   std::string text = show_configuration(answer, robot);
-  if (answer.find("J") && !is_serial(robot)) text += '\n' + show_velocity(answer, robot);
+  if (answer.find("J") && has_platform) text += '\n' + show_velocity(answer, robot);
   return text;
 }
 
@@ -68,13 +70,14 @@ Expected<Answer> put(std::string_view query, const Arguments& arguments, OpenRob
 }
 
 int run_question(const Arguments& arguments) {
-  auto robot = arguments.verb == "statics" ? open_with_platform(arguments) : open(arguments);
+  auto robot = open(arguments);
+  if (arguments.verb == "statics" && robot && is_serial(*robot)) robot = open_with_platform(arguments);
   if (!robot) return refuse_question(arguments, robot.error());
   const auto answer = put(arguments.verb == "analyse" ? "velocity" : arguments.verb, arguments, *robot);
   if (!answer) return refuse_question(arguments, answer.error());
   const bool can_show = answer->converged() || answer->text("status") == "unstable" || answer->find("J") ||
-                        answer->find("configuration") || answer->find("wrench_sensitivity") ||
-                        is_on_chains(*answer);
+                        answer->find("configuration") || answer->find("tip") ||
+                        answer->find("wrench_sensitivity") || is_on_chains(*answer);
   return conclude(*answer, arguments, can_show ? show(*answer, *robot) : "");
 }
 

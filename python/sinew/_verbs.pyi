@@ -17,6 +17,7 @@ class Verbs:
         max_iterations: int | None = None,
         tilt: bool | None = None,
         start: Any | None = None,
+        tensions: Lists | None = None,
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
         until: Mapping[str, Any] | None = None,
@@ -32,6 +33,14 @@ class Verbs:
         configuration: Lists | None = None,
         changes: Lists | None = None,
         slack: Numbers | None = None,
+        following: Numbers | None = None,
+        distributed: Numbers | None = None,
+        distributed_following: Numbers | None = None,
+        loads: Any | None = None,
+        balance: str | None = None,
+        order: int | None = None,
+        elements: int | None = None,
+        accuracy: Number | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -48,7 +57,8 @@ class Verbs:
                 n rows
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
-                (exact) or lsk (linearised)
+                (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
+                subsegment_cc, cc or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -60,10 +70,12 @@ class Verbs:
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, or last, where the last question with a start ended;
                 default the robot's home
-            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
-                axes; (3,) in the plane, (6,) in space
-            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
-                (3,)
+            tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
+                null for a tendon that `changes` has; a list each, or an array
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
+                arm on its tip, in base axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
+                file's; (3,)
             until (dict) [N]: a wrench that is added again and again until the robot buckles, up to `limit`
                 times
             posture_threshold (number) [rad]: turn of a joint up to which the linear model counts as valid
@@ -85,10 +97,23 @@ class Verbs:
             configuration (lists of numbers) [rad, m]: of a serial robot two angles a section: theta, phi of
                 a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its
                 extension; sections not given are straight; a list each, or an array
-            changes (lists of numbers) [m]: of a serial robot the change of each tendon, > 0 pays out,
-                section after section; a list each, or an array
+            changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
+                out, section after section; a list each, or an array
             slack (numbers) [m]: what the tendons of each section are paid out beyond its configuration; < 0
                 stiffens; (k,)
+            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
+                turn; (3,) in the plane, (6,) in space
+            distributed (numbers): force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers): the same in the backbone's own axes [N/m]; (3,)
+            loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
+                it, wrench and, where it turns with the place, following
+            balance (str): how an arm's equilibrium is written: energy (default), or as published models
+                have it: projected, collocated, closed_form
+            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
+            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
+                discs (prb)
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
+                1e-6
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
         arrays (n, ...). Also by keyword:
@@ -143,6 +168,15 @@ class Verbs:
         samples: int | None = None,
         position: Numbers | None = None,
         direction: Numbers | None = None,
+        following: Numbers | None = None,
+        distributed: Numbers | None = None,
+        distributed_following: Numbers | None = None,
+        loads: Any | None = None,
+        balance: str | None = None,
+        order: int | None = None,
+        elements: int | None = None,
+        accuracy: Number | None = None,
+        tension_limit: Number | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -158,7 +192,8 @@ class Verbs:
                 space x, y, z and a quaternion, on the command line also a rotation vector
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
-                (exact) or lsk (linearised)
+                (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
+                subsegment_cc, cc or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -177,10 +212,10 @@ class Verbs:
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, or last, where the last question with a start ended;
                 default the robot's home
-            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
-                axes; (3,) in the plane, (6,) in space
-            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
-                (3,)
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
+                arm on its tip, in base axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
+                file's; (3,)
             want (list of str): what is answered about the configuration: velocity, shape, stiffness,
                 stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are
                 added unless one of them is named
@@ -195,8 +230,23 @@ class Verbs:
             limit (number): how far to look `along` its direction; of a diagram the envelope's size
             samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
                 curve, at most, default 500
-            position (numbers) [m]: of a serial robot's tip; (3,)
-            direction (numbers): in which a serial robot's tip points; (3,)
+            position (numbers) [m]: of the tip of a serial robot or an arm; of statics where it was seen;
+                (3,)
+            direction (numbers): in which the tip of a serial robot or an arm points; (3,)
+            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
+                turn; (3,) in the plane, (6,) in space
+            distributed (numbers): force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers): the same in the backbone's own axes [N/m]; (3,)
+            loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
+                it, wrench and, where it turns with the place, following
+            balance (str): how an arm's equilibrium is written: energy (default), or as published models
+                have it: projected, collocated, closed_form
+            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
+            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
+                discs (prb)
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
+                1e-6
+            tension_limit (number) [N]: most that a tendon may pull
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
         arrays (n, ...). Also by keyword:
@@ -239,6 +289,7 @@ class Verbs:
         curvature: Numbers | None = None,
         angles: Lists | None = None,
         start: Any | None = None,
+        tensions: Lists | None = None,
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
         want: Sequence[str] | None = None,
@@ -249,6 +300,14 @@ class Verbs:
         samples: int | None = None,
         configuration: Lists | None = None,
         changes: Lists | None = None,
+        following: Numbers | None = None,
+        distributed: Numbers | None = None,
+        distributed_following: Numbers | None = None,
+        loads: Any | None = None,
+        balance: str | None = None,
+        order: int | None = None,
+        elements: int | None = None,
+        accuracy: Number | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -264,7 +323,8 @@ class Verbs:
                 space x, y, z and a quaternion, on the command line also a rotation vector
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
-                (exact) or lsk (linearised)
+                (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
+                subsegment_cc, cc or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -288,10 +348,12 @@ class Verbs:
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, or last, where the last question with a start ended;
                 default the robot's home
-            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
-                axes; (3,) in the plane, (6,) in space
-            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
-                (3,)
+            tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
+                null for a tendon that `changes` has; a list each, or an array
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
+                arm on its tip, in base axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
+                file's; (3,)
             want (list of str): what is answered about the configuration: velocity, shape, stiffness,
                 stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are
                 added unless one of them is named
@@ -308,8 +370,21 @@ class Verbs:
             configuration (lists of numbers) [rad, m]: of a serial robot two angles a section: theta, phi of
                 a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its
                 extension; sections not given are straight; a list each, or an array
-            changes (lists of numbers) [m]: of a serial robot the change of each tendon, > 0 pays out,
-                section after section; a list each, or an array
+            changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
+                out, section after section; a list each, or an array
+            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
+                turn; (3,) in the plane, (6,) in space
+            distributed (numbers): force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers): the same in the backbone's own axes [N/m]; (3,)
+            loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
+                it, wrench and, where it turns with the place, following
+            balance (str): how an arm's equilibrium is written: energy (default), or as published models
+                have it: projected, collocated, closed_form
+            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
+            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
+                discs (prb)
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
+                1e-6
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
         arrays (n, ...). Also by keyword:
@@ -368,6 +443,17 @@ class Verbs:
         twist: Numbers | None = None,
         rates: Numbers | None = None,
         samples: int | None = None,
+        changes: Lists | None = None,
+        position: Numbers | None = None,
+        following: Numbers | None = None,
+        distributed: Numbers | None = None,
+        distributed_following: Numbers | None = None,
+        loads: Any | None = None,
+        balance: str | None = None,
+        order: int | None = None,
+        elements: int | None = None,
+        accuracy: Number | None = None,
+        force_alone: bool | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -383,7 +469,8 @@ class Verbs:
                 space x, y, z and a quaternion, on the command line also a rotation vector
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
-                (exact) or lsk (linearised)
+                (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
+                subsegment_cc, cc or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -404,20 +491,21 @@ class Verbs:
                 default the robot's home
             set_at (pose) [m, rad]: the pose at which the tendons are set without load, the outer ones loose
             hold (str): what stays after `set_at` or with `pose`: tension (default) or length
-            tensions (lists of numbers) [N]: of both tendons of each leg; (legs, 2)
+            tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
+                null for a tendon that `changes` has; a list each, or an array
             lengths (lists of numbers) [m]: of the tendon of each leg whose length is held; null, on the
                 command line -, leaves the other one loose; (legs, 2)
             inverse (bool): `pose` is held under the load, and the tensions for it answered
             axial_forces (numbers) [N]: what each of six rods pulls at its guide; answers the wrench on the
                 platform; (k,)
-            measured_tensions (numbers) [N]: what the tendons at `lengths` pull, a leg each; answers the
-                wrench on the platform; (legs,)
+            measured_tensions (numbers) [N]: what the tendons at `lengths` pull, a leg each, of an arm those
+                at `changes`, one each; answers the wrench on the platform; (legs,)
             deviation (number, list, dict or str) [N]: standard deviation of what is measured, one for all
                 or one each; answers how well the wrench is known
-            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
-                axes; (3,) in the plane, (6,) in space
-            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
-                (3,)
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
+                arm on its tip, in base axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
+                file's; (3,)
             until (dict) [N]: a wrench that is added again and again until the robot buckles, up to `limit`
                 times
             posture_threshold (number) [rad]: turn of a joint up to which the linear model counts as valid
@@ -431,6 +519,24 @@ class Verbs:
                 (k,), or (n, k) for n rows
             samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
                 curve, at most, default 500
+            changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
+                out, section after section; a list each, or an array
+            position (numbers) [m]: of the tip of a serial robot or an arm; of statics where it was seen;
+                (3,)
+            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
+                turn; (3,) in the plane, (6,) in space
+            distributed (numbers): force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers): the same in the backbone's own axes [N/m]; (3,)
+            loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
+                it, wrench and, where it turns with the place, following
+            balance (str): how an arm's equilibrium is written: energy (default), or as published models
+                have it: projected, collocated, closed_form
+            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
+            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
+                discs (prb)
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
+                1e-6
+            force_alone (bool): the wrench that is sensed has no moment; default true
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
         arrays (n, ...). Also by keyword:
@@ -501,7 +607,8 @@ class Verbs:
             poses (list of poses) [m, rad]: the path, pose by pose
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
-                (exact) or lsk (linearised)
+                (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
+                subsegment_cc, cc or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -529,13 +636,14 @@ class Verbs:
                 default the robot's home
             set_at (pose) [m, rad]: the pose at which the tendons are set without load, the outer ones loose
             hold (str): what stays after `set_at` or with `pose`: tension (default) or length
-            tensions (lists of numbers) [N]: of both tendons of each leg; (legs, 2)
+            tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
+                null for a tendon that `changes` has; a list each, or an array
             lengths (lists of numbers) [m]: of the tendon of each leg whose length is held; null, on the
                 command line -, leaves the other one loose; (legs, 2)
-            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
-                axes; (3,) in the plane, (6,) in space
-            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
-                (3,)
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
+                arm on its tip, in base axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
+                file's; (3,)
             samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
                 curve, at most, default 500
             from_ (number, list, dict or str) [m, rad]: first pose of a path, of rods with three inputs z,
@@ -596,7 +704,8 @@ class Verbs:
             section (int): which section, from 0
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
-                (exact) or lsk (linearised)
+                (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
+                subsegment_cc, cc or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -604,8 +713,8 @@ class Verbs:
                 bear torque 400
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             limit (number): how far to look `along` its direction; of a diagram the envelope's size
-            changes (lists of numbers) [m]: of a serial robot the change of each tendon, > 0 pays out,
-                section after section; a list each, or an array
+            changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
+                out, section after section; a list each, or an array
             measured (number, list, dict or str) [m]: changes that encoders read, beside those commanded
             tolerance (number) [m]: of a tendon before it counts as slack or too short; default the file's
             envelope (str): bends that a section is allowed: square, disc or actuator; default its limit
@@ -648,6 +757,7 @@ class Verbs:
         curvature: Numbers | None = None,
         angles: Lists | None = None,
         start: Any | None = None,
+        tensions: Lists | None = None,
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
         want: Sequence[str] | None = None,
@@ -658,6 +768,14 @@ class Verbs:
         samples: int | None = None,
         configuration: Lists | None = None,
         changes: Lists | None = None,
+        following: Numbers | None = None,
+        distributed: Numbers | None = None,
+        distributed_following: Numbers | None = None,
+        loads: Any | None = None,
+        balance: str | None = None,
+        order: int | None = None,
+        elements: int | None = None,
+        accuracy: Number | None = None,
         outputs: Mapping[str, str] | Sequence[str] | None = None,
         path: str | None = None,
         threads: int | None = None,
@@ -673,7 +791,8 @@ class Verbs:
                 space x, y, z and a quaternion, on the command line also a rotation vector
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
-                (exact) or lsk (linearised)
+                (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
+                subsegment_cc, cc or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -697,10 +816,12 @@ class Verbs:
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, or last, where the last question with a start ended;
                 default the robot's home
-            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, in base
-                axes; (3,) in the plane, (6,) in space
-            gravity (numbers) [m/s^2]: of rods and platforms that have a mass [m/s2]; default the file's;
-                (3,)
+            tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
+                null for a tendon that `changes` has; a list each, or an array
+            wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
+                arm on its tip, in base axes; (3,) in the plane, (6,) in space
+            gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
+                file's; (3,)
             want (list of str): what is answered about the configuration: velocity, shape, stiffness,
                 stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are
                 added unless one of them is named
@@ -717,8 +838,21 @@ class Verbs:
             configuration (lists of numbers) [rad, m]: of a serial robot two angles a section: theta, phi of
                 a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its
                 extension; sections not given are straight; a list each, or an array
-            changes (lists of numbers) [m]: of a serial robot the change of each tendon, > 0 pays out,
-                section after section; a list each, or an array
+            changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
+                out, section after section; a list each, or an array
+            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
+                turn; (3,) in the plane, (6,) in space
+            distributed (numbers): force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers): the same in the backbone's own axes [N/m]; (3,)
+            loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
+                it, wrench and, where it turns with the place, following
+            balance (str): how an arm's equilibrium is written: energy (default), or as published models
+                have it: projected, collocated, closed_form
+            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
+            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
+                discs (prb)
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
+                1e-6
 
         An array of one dimension more than one value needs holds n rows; the answer is then `Columns`, of
         arrays (n, ...). Also by keyword:
@@ -761,7 +895,8 @@ class Verbs:
                 as legs[0].link.length; on the command line it may be repeated
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
-                (exact) or lsk (linearised)
+                (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
+                subsegment_cc, cc or prb
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)

@@ -60,7 +60,7 @@ std::vector<std::optional<double>> read_of_tendons(const ArmContext& context, co
 
 /// `tensions` and `changes`: each tendon is held by one of them. What neither names is loose where changes
 /// are not given, else as long as at rest.
-std::vector<TendonCommand> read_commands(ArmContext& context) {
+std::vector<TendonCommand> read_arm_commands(ArmContext& context) {
   const auto tensions = context.query.optional("tensions"), changes = context.query.optional("changes");
   std::vector<TendonCommand> commands(context.robot.tendons.size(),
                                       {changes && !tensions ? TendonHeld::change : TendonHeld::tension, 0});
@@ -85,7 +85,7 @@ std::vector<TendonCommand> read_commands(ArmContext& context) {
   return commands;
 }
 
-std::array<double, 6> read_six(const Reader& list) {
+std::array<double, 6> read_arm_wrench(const Reader& list) {
   std::array<double, 6> numbers{};
   const auto wrench = read_wrench<Spatial>(list);
   for (int i = 0; i < 6; ++i) numbers[static_cast<std::size_t>(i)] = wrench[i];
@@ -97,17 +97,17 @@ PointLoad read_point_load(Reader& load, double length) {
   point.place =
       load.required("place", "of the load, from the base along the backbone")
           .quantity(Dimension::length, {.low = 0, .high = length * (1 + 1e-12), .low_excluded = true});
-  point.wrench = read_six(load.required("wrench", "force and moment there"));
+  point.wrench = read_arm_wrench(load.required("wrench", "force and moment there"));
   if (const auto following = load.optional("following")) point.following = following->boolean();
   load.close();
   return point;
 }
 
-ArmLoad read_load(ArmContext& context) {
+ArmLoad read_arm_load(ArmContext& context) {
   ArmLoad load;
   Reader& query = context.query;
-  if (const auto wrench = query.optional("wrench")) load.wrench = read_six(*wrench);
-  if (const auto following = query.optional("following")) load.following = read_six(*following);
+  if (const auto wrench = query.optional("wrench")) load.wrench = read_arm_wrench(*wrench);
+  if (const auto following = query.optional("following")) load.following = read_arm_wrench(*following);
   const Range any{.low = -1e9, .high = 1e9};
   if (const auto along = query.optional("distributed")) load.along = along->array<3>(Dimension::number, any);
   if (const auto along = query.optional("distributed_following"))
@@ -122,7 +122,7 @@ ArmLoad read_load(ArmContext& context) {
   return load;
 }
 
-ArmOptions read_options(ArmContext& context) {
+ArmOptions read_arm_options(ArmContext& context) {
   ArmOptions options;
   Reader& query = context.query;
   if (const auto model = query.optional("model"))
@@ -148,7 +148,7 @@ ArmOptions read_options(ArmContext& context) {
 }
 
 /// `start`: `last`, where the workspace is.
-void read_start(ArmContext& context, ArmOptions& options) {
+void read_arm_start(ArmContext& context, ArmOptions& options) {
   options.from_last = context.continues == Continues::always && context.last != nullptr;
   const auto start = context.query.optional("start");
   if (!start) return;
@@ -156,7 +156,7 @@ void read_start(ArmContext& context, ArmOptions& options) {
   options.from_last = true;
 }
 
-Value by_section(const Arm& arm, std::span<const double> values) {
+Value by_end_section(const Arm& arm, std::span<const double> values) {
   Value list = Value::list();
   std::size_t first = 0;
   for (const std::size_t count : tendon_counts(arm)) {
@@ -166,14 +166,14 @@ Value by_section(const Arm& arm, std::span<const double> values) {
   return list;
 }
 
-void put_state(ArmContext& context, const ArmState& state) {
+void put_arm_state(ArmContext& context, const ArmState& state) {
   context.report(state.report);
   Value& answer = context.answer;
   if (state.report.status == Status::bad_input || state.report.status == Status::unsupported) return;
   answer["tip"] = pose_value(AnyPose(spatial_pose(state.tip)));
-  answer["tensions"] = by_section(context.robot, state.tensions);
-  answer["changes"] = by_section(context.robot, state.changes);
-  answer["slack"] = by_section(context.robot, state.slack);
+  answer["tensions"] = by_end_section(context.robot, state.tensions);
+  answer["changes"] = by_end_section(context.robot, state.changes);
+  answer["slack"] = by_end_section(context.robot, state.slack);
   if (state.stability_told) answer["stable"] = state.stable;
   answer["potential"] = state.energy;
   answer["residual"] = state.report.residual;
@@ -182,7 +182,7 @@ void put_state(ArmContext& context, const ArmState& state) {
   if (context.robot.motor) {
     std::vector<double> counts = state.changes;
     for (double& count : counts) count *= context.robot.motor->counts_per_length();
-    answer["motors"] = by_section(context.robot, counts);
+    answer["motors"] = by_end_section(context.robot, counts);
   }
 }
 
@@ -196,7 +196,7 @@ ArmWanted read_arm_wants(ArmContext& context, Wants usual) {
   return wanted;
 }
 
-void put_shape(ArmContext& context, int samples) {
+void put_arm_shape(ArmContext& context, int samples) {
   const Arm& arm = context.robot;
   std::vector<double> places, ends;
   for (int k = 0; k < samples; ++k) places.push_back(arm.length() * k / (samples - 1));
@@ -241,9 +241,9 @@ void put_shape(ArmContext& context, int samples) {
 }
 
 /// Of the equilibrium in the workspace.
-void put_wants(ArmContext& context, const ArmState& state, const ArmWanted& wanted) {
+void put_arm_wants(ArmContext& context, const ArmState& state, const ArmWanted& wanted) {
   if (!state.report.is_solved()) return;
-  if (wanted.words.has(Want::shape)) put_shape(context, wanted.samples);
+  if (wanted.words.has(Want::shape)) put_arm_shape(context, wanted.samples);
   const bool margins = wanted.words.has(Want::stability) || wanted.words.has(Want::margins);
   if (!margins && !wanted.words.has(Want::stiffness) && !wanted.words.has(Want::velocity)) return;
   Value& answer = context.answer;
@@ -272,25 +272,25 @@ void put_wants(ArmContext& context, const ArmState& state, const ArmWanted& want
     answer["least_tension"] = std::ranges::min(state.tensions);
 }
 
-void answer_arm(Context& asked, Want usual) {
+void answer_arm_state(Context& asked, Want usual) {
   ArmContext context(asked);
-  ArmOptions options = read_options(context);
-  const auto commands = read_commands(context);
-  const ArmLoad load = read_load(context);
-  read_start(context, options);
+  ArmOptions options = read_arm_options(context);
+  const auto commands = read_arm_commands(context);
+  const ArmLoad load = read_arm_load(context);
+  read_arm_start(context, options);
   bool want_all = false;
   if (usual == Want::pose)
     if (const auto all = context.query.optional("all")) want_all = all->boolean();
   const ArmWanted wanted = read_arm_wants(context, {usual});
   if (!context.ready()) return;
   const ArmState state = arm_forward(context.robot, commands, load, options, context.work);
-  put_state(context, state);
-  put_wants(context, state, wanted);
+  put_arm_state(context, state);
+  put_arm_wants(context, state, wanted);
   if (!want_all || state.report.status == Status::bad_input) return;
   Value solutions = Value::list();
   for (const ArmState& other : arm_equilibria(context.robot, commands, load, options, 40, context.work))
     solutions.push_back({{"tip", pose_value(AnyPose(spatial_pose(other.tip)))},
-                         {"tensions", by_section(context.robot, other.tensions)},
+                         {"tensions", by_end_section(context.robot, other.tensions)},
                          {"potential", other.energy},
                          {"residual", other.report.residual}});
   put_solutions(asked, std::move(solutions));
@@ -321,36 +321,36 @@ ArmTarget read_arm_target(ArmContext& context) {
 
 }  // namespace
 
-void answer_arms_forward(Context& context) { answer_arm(context, Want::pose); }
-void answer_arms_velocity(Context& context) { answer_arm(context, Want::velocity); }
-void answer_arms_shape(Context& context) { answer_arm(context, Want::shape); }
+void answer_arms_forward(Context& context) { answer_arm_state(context, Want::pose); }
+void answer_arms_velocity(Context& context) { answer_arm_state(context, Want::velocity); }
+void answer_arms_shape(Context& context) { answer_arm_state(context, Want::shape); }
 
 void answer_arms_inverse(Context& asked) {
   ArmContext context(asked);
   ArmInverseOptions options;
-  options.arm = read_options(context);
+  options.arm = read_arm_options(context);
   const ArmTarget target = read_arm_target(context);
-  const ArmLoad load = read_load(context);
-  read_start(context, options.arm);
+  const ArmLoad load = read_arm_load(context);
+  read_arm_start(context, options.arm);
   if (const auto limit = context.query.optional("tension_limit"))
     options.most_tension = limit->quantity(Dimension::force, Range::positive());
   const ArmWanted wanted = read_arm_wants(context, {Want::pose});
   if (!context.ready()) return;
   const ArmInverse found = arm_inverse(context.robot, target, load, options, context.work);
-  put_state(context, found.state);
+  put_arm_state(context, found.state);
   context.report(found.report);
   context.answer["residual"] = found.report.residual;
   context.answer["iterations"] = found.report.iterations;
-  put_wants(context, found.state, wanted);
+  put_arm_wants(context, found.state, wanted);
 }
 
 void answer_arms_statics(Context& asked) {
   ArmContext context(asked);
-  ArmOptions options = read_options(context);
+  ArmOptions options = read_arm_options(context);
   ArmMeasurement measured;
-  measured.held = read_commands(context);
-  const ArmLoad load = read_load(context);
-  read_start(context, options);
+  measured.held = read_arm_commands(context);
+  const ArmLoad load = read_arm_load(context);
+  read_arm_start(context, options);
   const auto tensions = context.query.optional("measured_tensions"), tip = context.query.optional("position"),
              deviation = context.query.optional("deviation"), force = context.query.optional("force_alone");
   if (!tensions && !tip)
@@ -368,13 +368,13 @@ void answer_arms_statics(Context& asked) {
   const ArmWanted wanted = read_arm_wants(context, {Want::pose});
   if (!context.ready()) return;
   const ArmSensed sensed = arm_sense(context.robot, measured, load, force_alone, options, context.work);
-  put_state(context, sensed.state);
+  put_arm_state(context, sensed.state);
   context.report(sensed.report);
   if (sensed.report.status == Status::bad_input) return;
   context.answer["wrench"] = sensed.wrench;
   context.answer["covariance"] = Value(MatrixView(sensed.covariance.data(), 6, 6));
   context.answer["misfit"] = sensed.misfit;
-  put_wants(context, sensed.state, wanted);
+  put_arm_wants(context, sensed.state, wanted);
 }
 
 }  // namespace sinew::inline v1

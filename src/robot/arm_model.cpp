@@ -121,7 +121,8 @@ class Builder {
     double start = 0;
     const std::size_t first = rod_.places.size() - 1;
     const auto ends = span_ends(section, cuts);
-    if (basis_.model == ArmModel::cc) begin_piece(section, 0, 1, 1);
+    if (basis_.model == ArmModel::cc) begin_piece(section, 0, 1, 1, {});
+    const std::vector<double> none;
     std::size_t cut = 0;
     for (double end : ends) {
       int elements = basis_.elements;
@@ -136,7 +137,7 @@ class Builder {
       if (basis_.model == ArmModel::prb)
         begin_joints(section, start, end, elements, (end - start) * section.length / elements, true);
       else if (basis_.model != ArmModel::cc)
-        begin_piece(section, start, end, modes());
+        begin_piece(section, start, end, modes(), inner_cuts(channel ? none : cuts, start, end));
       if (channel) {  // every element is a span of its own: no tendon runs straight
         for (int e = 0; e < elements; ++e) {
           const double a = start + (end - start) * e / elements,
@@ -181,7 +182,7 @@ class Builder {
         a = b;
       }
     } else {
-      begin_piece(section, start, end, 1);
+      begin_piece(section, start, end, 1, {});
       begin_span();
       double a = start;
       for (const double cut : cuts)
@@ -219,25 +220,41 @@ class Builder {
     }
   }
 
-  void begin_piece(const ArmSection& section, double start, double end, int modes) {
+  /// Cuts within a span, where a point load makes a kink in the strain.
+  std::vector<double> inner_cuts(const std::vector<double>& cuts, double start, double end) const {
+    std::vector<double> inner;
+    if (modes() == 1) return inner;  // constant is constant
+    for (const double cut : cuts)
+      if (cut > start + 1e-9 && cut < end - 1e-9 && inner.size() < 3 &&
+          (inner.empty() || cut > inner.back() + 1e-9))
+        inner.push_back(cut);
+    return inner;
+  }
+
+  /// @param cuts shares at which its polynomials end and others begin
+  void begin_piece(const ArmSection& section, double start, double end, int modes,
+                   const std::vector<double>& cuts) {
     Piece piece;
-    const double length = (end - start) * section.length, mid = 0.5 * (start + end);
+    const double mid = 0.5 * (start + end);
     const CrossSection here = section_at(section, mid);
     const Six stiffness{here.shear, here.shear, here.stretch, here.bending_x, here.bending_y, here.torsion};
-    const bool fine = basis_.order < 0;  // what is stiff follows with one order less
+    piece.stretches = static_cast<int>(cuts.size()) + 1;
+    modes = std::min(modes, strain::max_piece / 6 / piece.stretches);
+    const bool fine = basis_.order < 0 && cuts.empty();  // what is stiff follows with one order less
     for (std::size_t c = 0; c < 6; ++c) {
       if (stiffness[c] <= 0) continue;
       if (c == 5 && basis_.twist_at_discs) continue;
       if (c < 3 && (basis_.model == ArmModel::cc || basis_.model == ArmModel::subsegment_cc)) continue;
-      piece.modes[c] = fine && c < 3 && modes > 1 ? modes - 1 : modes;
+      piece.modes[c] = piece.stretches * (fine && c < 3 && modes > 1 ? modes - 1 : modes);
       piece.scale[c] = 1 / std::sqrt(stiffness[c]);
       piece.offset[c] = piece.size;
       piece.size += piece.modes[c];
     }
     begin(piece);
-    piece_length_ = length;
-    piece_start_ = start;
-    piece_end_ = end;
+    stretches_ = {start};
+    stretches_.insert(stretches_.end(), cuts.begin(), cuts.end());
+    stretches_.push_back(end);
+    most_modes_ = modes;
   }
   /// @param length that the stiffness of a joint stands for [m]
   void begin_joints(const ArmSection& section, double start, double end, int joints, double length,
@@ -292,13 +309,21 @@ class Builder {
       return;
     }
     Element element = straight(section, a, b);
+    while (at(element.stretch) + 2 < stretches_.size() && stretches_[at(element.stretch) + 1] <= a + 1e-12)
+      ++element.stretch;
+    const double from = stretches_[at(element.stretch)], to = stretches_[at(element.stretch) + 1];
+    element.from = place_ + from * section.length;
+    element.to = place_ + to * section.length;
     for (int g = 0; g < 2; ++g) {
       const double share = point_share(a, b, g);
       const CrossSection here = section_at(section, share);
       element.stiffness[at(g)] = {here.shear,     here.shear,     here.stretch,
                                   here.bending_x, here.bending_y, here.torsion};
-      legendre(2 * (share - piece_start_) / (piece_end_ - piece_start_) - 1, strain::max_modes,
-               1 / std::sqrt(piece_length_), element.modes[at(g)]);
+      std::array<double, strain::max_modes> values{};
+      legendre(2 * (share - from) / (to - from) - 1, most_modes_, 1 / std::sqrt((to - from) * section.length),
+               values);
+      for (int k = 0; k < most_modes_; ++k)
+        element.modes[at(g)][at(element.stretch * most_modes_ + k)] = values[at(k)];
     }
     if (section.discs.count == 0 || basis_.model == ArmModel::rod) add_guides(m, a, b, element);
     push(section, element, a, b);
@@ -375,8 +400,9 @@ class Builder {
   const Arm& arm_;
   ArmBasis basis_;
   RodModel rod_;
-  double place_ = 0;  ///< where the section at hand begins
-  double piece_length_ = 0, piece_start_ = 0, piece_end_ = 1;
+  double place_ = 0;               ///< where the section at hand begins
+  std::vector<double> stretches_;  ///< of the piece at hand: shares where its polynomials begin and end
+  int most_modes_ = 1;             ///< of each stretch
 };
 
 }  // namespace

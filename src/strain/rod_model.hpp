@@ -14,9 +14,9 @@ namespace sinew::inline v1::strain {
 /// Of rows of six numbers: a register of eight lanes.
 inline constexpr int row = 8;
 /// Of a strain component along a piece.
-inline constexpr int max_modes = 10;
+inline constexpr int max_modes = 32;
 /// Coordinates of a piece.
-inline constexpr int max_piece = 64;
+inline constexpr int max_piece = 128;
 
 using Three = std::array<double, 3>;
 using Six = std::array<double, 6>;
@@ -35,6 +35,8 @@ struct Element {
   std::array<Six, 2> rest{};                             ///< strain without load
   std::array<Six, 2> stiffness{};                        ///< its diagonal [N], [N m²]; of a joint [N m]
   std::array<std::array<double, max_modes>, 2> modes{};  ///< values of the basis
+  double from = 0, to = 0;  ///< the places between which its polynomials run [m]
+  int stretch = 0;          ///< which stretch of its piece that is
   int first_row = 0;                ///< in RodModel::rows: the same, scaled, for each point 6 × padded
   int first_guide = 0, guides = 0;  ///< in RodModel::guides: tendons that a channel guides along the rod
 };
@@ -62,6 +64,7 @@ struct Piece {
   int first = 0, size = 0;      ///< of its coordinates
   int padded = 0;               ///< `size` rounded up to whole registers
   std::array<int, 6> modes{};   ///< of each component; 0: the strain stays at rest
+  int stretches = 1;  ///< with polynomials of their own, between point loads; each has an equal part of the modes
   std::array<int, 6> offset{};  ///< of its first coordinate in the piece
   Six scale{};
 };

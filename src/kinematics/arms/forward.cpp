@@ -19,8 +19,8 @@ using strain::RodModel;
 struct Resolution {
   int order, elements;
 };
-constexpr std::array<Resolution, 4> along_sections{{{3, 8}, {5, 16}, {7, 24}, {9, 48}}},
-    between_discs{{{2, 2}, {4, 3}, {6, 4}, {7, 8}}};
+constexpr std::array<Resolution, 4> along_sections{{{3, 8}, {5, 16}, {7, 32}, {9, 64}}},
+    between_discs{{{2, 2}, {3, 4}, {4, 8}, {5, 16}}};
 
 /// How many resolutions a model has.
 int level_count(const ArmOptions& options) {
@@ -133,9 +133,12 @@ double size_of_highest(const RodModel& model, const std::vector<double>& y) {
   double sum = 0;
   for (const strain::Piece& piece : model.pieces)
     for (std::size_t c = 3; c < 6; ++c)
-      if (piece.modes[c] > 1) {
-        const double value = y[at(piece.first + piece.offset[c] + piece.modes[c] - 1)];
-        sum += value * value;
+      if (piece.modes[c] > piece.stretches) {
+        for (int k = 1; k <= piece.stretches; ++k) {
+          const double value =
+              y[at(piece.first + piece.offset[c] + k * (piece.modes[c] / piece.stretches) - 1)];
+          sum += value * value;
+        }
       }
   return std::sqrt(sum / model.energy_scale);
 }

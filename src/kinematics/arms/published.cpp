@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
 #include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v1 {

@@ -31,16 +31,15 @@ strain::Six strain_at(const strain::RodModel& model, const strain::RodWork& work
   while (near + 1 < count && model.places[at(near + 1)] < place) ++near;
   const strain::Element& element = model.elements[at(near)];
   strain::Six xi = element.rest[0];
-  if (element.points == 1 || element.modes[0][0] == 0) return xi;  // a rigid link
+  if (element.points == 1 || !(element.to > element.from)) return xi;  // a rigid link
   const strain::Piece& piece = piece_of(model, near);
-  const strain::Span& last = model.spans[at(piece.first_span + piece.spans - 1)];
-  const double start = model.places[at(model.spans[at(piece.first_span)].first_element)],
-               length = model.places[at(last.first_element + last.elements)] - start,
-               x = 2 * (place - start) / length - 1;
+  const double length = element.to - element.from, x = 2 * (place - element.from) / length - 1;
   for (std::size_t c = 0; c < 6; ++c) {
+    const int modes = piece.modes[c] / piece.stretches;
+    const double* own = work.y.data() + piece.first + piece.offset[c] + element.stretch * modes;
     double before = 0, value = 1, bent = 0;
-    for (int a = 0; a < piece.modes[c]; ++a) {
-      bent += std::sqrt((2.0 * a + 1) / length) * value * work.y[at(piece.first + piece.offset[c] + a)];
+    for (int a = 0; a < modes; ++a) {
+      bent += std::sqrt((2.0 * a + 1) / length) * value * own[a];
       const double next = ((2.0 * a + 1) * x * value - a * before) / (a + 1);
       before = value;
       value = next;

@@ -1,0 +1,125 @@
+/// Arms under load: two sections of ten discs, three tendons each, tensions that walk by about 1 %.
+/// Run: build/dev/bin/bench_arms
+/// Baselines: the equations of the published models by a dense Newton whose Jacobian is made of differences;
+/// a cold start. The last lines are the cost against the number of discs.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "report.hpp"
+#include "sinew/kinematics/arm.hpp"
+
+namespace sinew::bench {
+namespace {
+
+Arm two_sections(int discs) {
+  Arm arm;
+  for (int m = 0; m < 2; ++m) {
+    ArmSection section;
+    section.length = 0.2;
+    section.start = section.end = round_section({54e9, 54e9 / 2.6, 6450}, 0.0014);
+    section.discs.count = discs;
+    arm.sections.push_back(section);
+    for (const double angle : {90.0, -30.0, 210.0}) {
+      ArmTendon tendon;
+      const double a = angle * std::numbers::pi / 180;
+      tendon.routes.assign(static_cast<std::size_t>(m) + 1, {0.01, 0.01, a, a});
+      tendon.compliance = 1e-4;
+      arm.tendons.push_back(tendon);
+    }
+  }
+  arm.gravity = {9.81, 0, 0};
+  return arm;
+}
+
+/// An arm whose tensions go around a circle of 1 % of themselves.
+struct Walk {
+  Arm arm;
+  ArmWorkspace work;
+  ArmOptions options;
+  ArmLoad load;
+  int step = 0;
+  std::vector<TendonCommand> commands = std::vector<TendonCommand>(6);
+
+  Walk(int discs, const ArmOptions& by) : arm(two_sections(discs)), work(arm), options(by) {
+    load.wrench = {0.02, 0.05, 0, 0, 0, 0};
+  }
+  const ArmState& next(bool warm) {
+    const double usual[] = {4, 0.5, 0, 0, 2, 1}, around = 0.7 * step++;
+    for (std::size_t i = 0; i < 6; ++i)
+      commands[i] = {TendonHeld::tension, usual[i] * (1 + 0.005 * std::sin(around + static_cast<double>(i)))};
+    options.from_last = warm;
+    return arm_forward(arm, commands, load, options, work);
+  }
+};
+
+double tip_difference(const ArmState& a, const ArmState& b) { return (a.tip.p - b.tip.p).norm(); }
+
+void row(const std::string& name, const ArmOptions& options, const std::string& baseline,
+         const ArmOptions& other, bool other_warm) {
+  auto ours = std::make_shared<Walk>(10, options), theirs = std::make_shared<Walk>(10, other);
+  ArmOptions fine = options;
+  if (options.model == ArmModel::rod || options.model == ArmModel::subsegment_rod) {
+    fine.order = 7, fine.elements = options.model == ArmModel::rod ? 48 : 6;
+  }
+  fine.accuracy = 0;
+  Walk exact(10, fine);
+  double off = 0;
+  ours->next(false);
+  exact.next(false);
+  for (int k = 0; k < 10; ++k) {
+    ours->step = exact.step = 10 * k;
+    off = std::max(off, tip_difference(ours->next(true), exact.next(true)));
+  }
+  if (theirs->next(false).report.status != Status::converged)
+    std::printf("%s: baseline fails\n", name.c_str());
+  compare({name, baseline, [ours] { benchmark::DoNotOptimize(ours->next(true).energy); },
+           [theirs, other_warm] { benchmark::DoNotOptimize(theirs->next(other_warm).energy); },
+           fmt::format("tip to {:.1e} m of the finest", off)});
+}
+
+/// Time of a warm solve against discs: the exponent of a straight line through the logarithms.
+void print_exponent() {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  int n = 0;
+  for (const int discs : {5, 10, 20, 40, 80}) {
+    Walk walk(discs, {.order = 2, .elements = 2, .accuracy = 0});
+    walk.next(false);
+    double best = 1e300;
+    for (int round = 0; round < 200; ++round) {
+      const auto start = std::chrono::steady_clock::now();
+      walk.next(true);
+      best = std::min(
+          best, std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
+    }
+    std::printf("%3d discs a section: %8.1f us\n", discs, best);
+    const double x = std::log(discs), y = std::log(best);
+    sx += x, sy += y, sxx += x * x, sxy += x * y, ++n;
+  }
+  std::printf("cost grows with discs to the power of %.2f\n", (n * sxy - sx * sy) / (n * sxx - sx * sx));
+}
+
+}  // namespace
+}  // namespace sinew::bench
+
+int main(int argc, char** argv) {
+  using namespace sinew;
+  using namespace sinew::bench;
+  const ArmOptions rod{.accuracy = 2.5e-6}, cold = rod;
+  row("two sections, rod between discs, to 1e-6, warm", rod, "cold", cold, false);
+  row("... to 1e-8, warm", {.order = 4, .elements = 3, .accuracy = 0}, "cold",
+      {.order = 4, .elements = 3, .accuracy = 0}, false);
+  row("rod in channels, warm", {.model = ArmModel::rod, .accuracy = 2.5e-6}, "cold",
+      {.model = ArmModel::rod, .accuracy = 2.5e-6}, false);
+  row("constant between discs, warm", {.model = ArmModel::subsegment_cc}, "collocated, dense differences",
+      {.model = ArmModel::subsegment_cc, .balance = ArmBalance::collocated}, true);
+  row("pseudo-rigid, one joint, warm", {.model = ArmModel::prb}, "cold", {.model = ArmModel::prb}, false);
+  row("pseudo-rigid, four joints, warm", {.model = ArmModel::prb, .elements = 4},
+      "collocated, dense differences", {.model = ArmModel::prb, .balance = ArmBalance::collocated}, true);
+  row("constant in a section, warm", {.model = ArmModel::cc}, "cold", {.model = ArmModel::cc}, false);
+  const int status = sinew::bench::main(argc, argv);
+  print_exponent();
+  return status;
+}
