@@ -53,7 +53,7 @@ Arm random_arm(Draw& draw) {
 
 TEST(ArmAttack, RandomArms) {
   const char* asked = std::getenv("SINEW_ARMS");
-  const int count = asked ? std::atoi(asked) : 200;
+  const int count = asked ? std::atoi(asked) : 40;
   std::map<std::string, int> ended;
   int wrong = 0, other_branch = 0;
   for (int round = 0; round < count; ++round) {
