@@ -148,8 +148,9 @@ class Builder {
       } else {
         begin_span();
         double a = start;
+        if (basis_.model == ArmModel::prb) add_joints(section, start, end, elements, cuts);
         while (cut < cuts.size() && cuts[cut] <= start) ++cut;
-        for (int e = 0; e < elements; ++e) {
+        for (int e = 0; e < (basis_.model == ArmModel::prb ? 0 : elements); ++e) {
           const double b = start + (end - start) * (e + 1) / elements;
           for (; cut < cuts.size() && cuts[cut] < b - 1e-12; ++cut) {
             add_elements(m, a, cuts[cut], start, end, e, elements);
@@ -165,6 +166,23 @@ class Builder {
     }
     if (channel && section.discs.mass > 0) add_discs(section, first);
     place_ += section.length;
+  }
+
+  /// Joints in the middle of even links, and rigid links between them and point loads.
+  void add_joints(const ArmSection& section, double start, double end, int joints,
+                  const std::vector<double>& cuts) {
+    std::vector<std::pair<double, int>> stops;
+    for (int k = 0; k < joints; ++k) stops.emplace_back(start + (end - start) * (k + 0.5) / joints, k);
+    for (const double cut : cuts)
+      if (cut > start + 1e-9 && cut < end - 1e-9) stops.emplace_back(cut, -1);
+    std::ranges::sort(stops);
+    double a = start;
+    for (const auto& [place, joint] : stops) {
+      if (place > a) add_rigid(section, a, place);
+      if (joint >= 0) add_joint(section, place, joint, (end - start) * section.length / joints);
+      a = place;
+    }
+    add_rigid(section, a, end);
   }
 
   /// What lies between two discs and only bends, then the joint at the disc where it twists.
@@ -342,7 +360,9 @@ class Builder {
     return element;
   }
   void add_rigid(const ArmSection& section, double a, double b) {
-    push(section, straight(section, a, b), a, b);
+    Element link = straight(section, a, b);
+    link.points = 0;
+    push(section, link, a, b);
   }
   void add_joint(const ArmSection& section, double place, int joint, double length) {
     Element element;

@@ -25,8 +25,10 @@ HWY_INLINE void strain_at(const Piece& piece, const Element& element, int point,
 }
 
 HWY_INLINE void magnus(const Element& element, const std::array<Six, 2>& xi, Six& omega) {
-  if (element.points == 1) {
-    omega = xi[0];
+  if (element.points < 2) {
+    const double length = element.points == 1 ? 1 : element.length;
+    const Six& strain = element.points == 1 ? xi[0] : element.rest[0];
+    for (std::size_t c = 0; c < 6; ++c) omega[c] = length * strain[c];
     return;
   }
   const double *a = xi[0].data(), *b = xi[1].data(), half = 0.5 * element.length;
@@ -230,6 +232,15 @@ struct Rest {
   double *R, *L;
 };
 
+/// To the start of a rigid link.
+HWY_INLINE void carry_rigid(const Block& A, int padded, bool symmetric, Rest& rest) {
+  Block PA;
+  multiply_rows_back<false>(A, rest.R, padded, rest.R);
+  if (!symmetric) multiply_rows_back<false>(A, rest.L, padded, rest.L);
+  multiply(rest.P, A, PA);
+  multiply_back(A, PA, rest.P);
+}
+
 template <bool hessian>
 HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
   for (double& x : work.gradient) x = 0;
@@ -283,6 +294,22 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
         const double *R = work.steps[at].data(), *p = R + 9, *omega = work.omega[at].data();
         const Entire fn = entire(dot3(omega + 3, omega + 3));
         add_load(work.loads[at + 1], work.frames[at + 1], outer.lambda, hessian ? &outer.P : nullptr);
+        if (element.points == 0) {  // a rigid link carries what lies after it, and no more
+          if constexpr (hessian) {
+            Block A, next;
+            back_adjoint(R, p, A);
+            multiply(along, A, next);
+            along = next;
+            carry_rigid(A, padded, symmetric, outer);
+            if (has_holes && e > span.first_element) carry_rigid(A, padded, symmetric, inner);
+          }
+          carry_back(R, p, outer.lambda, outer.lambda);
+          if (e > span.first_element) {
+            carry_back(R, p, inner.lambda, inner.lambda);
+            for (int i = 0; i < span.holes; ++i) carry_back(R, p, of_hole[i], of_hole[i]);
+          }
+          continue;
+        }
         double lambda[6], by_omega[6], by_strain[2][6];
         for (int i = 0; i < 6; ++i) lambda[i] = outer.lambda[i] + inner.lambda[i];
         Block J;

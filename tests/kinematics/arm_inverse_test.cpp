@@ -46,7 +46,9 @@ TEST(ArmInverse, FindsPlacesThatForwardReached) {
       before += given[i] * given[i];
       now += back.state.tensions[i] * back.state.tensions[i];
     }
-    if (!target.direction) EXPECT_LT(now, before * (1 + 1e-6)) << round;
+    if (!target.direction) {
+      EXPECT_LT(now, before * (1 + 1e-6)) << round;
+    }
     // its changes, held, give the same
     ArmWorkspace third(arm);
     const ArmState again = arm_forward(arm, changes(back.state.changes), load, options, third);

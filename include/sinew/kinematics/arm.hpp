@@ -39,8 +39,8 @@ struct ArmLoad {
   std::array<double, 6> following{};        ///< at the tip, in its axes [N, N m]
   std::array<double, 3> along{};            ///< on all of the backbone, base axes [N/m]
   std::array<double, 3> following_along{};  ///< on all of it, in its own axes [N/m]
-  std::vector<PointLoad> points;
-  std::optional<std::array<double, 3>> gravity;  ///< in place of the arm's [m/s²]
+  std::vector<PointLoad> points = {};
+  std::optional<std::array<double, 3>> gravity = {};  ///< in place of the arm's [m/s²]
 };
 
 /// How the balance of an arm is written. By energy is what frictionless tendons do; the others are what
@@ -117,12 +117,13 @@ SINEW_API ArmRates arm_rates(const Arm& arm, ArmWorkspace& work, bool margin = t
 
 /// Where the tip is to be; what is not given is free.
 struct ArmTarget {
-  std::optional<std::array<double, 3>> position;    ///< base axes [m]
-  std::optional<std::array<double, 3>> direction;   ///< of the tip's z axis, of any length but 0
-  std::optional<std::array<double, 4>> quaternion;  ///< of the tip, [w, x, y, z], in place of a direction
+  std::optional<std::array<double, 3>> position = {};   ///< base axes [m]
+  std::optional<std::array<double, 3>> direction = {};  ///< of the tip's z axis, of any length but 0
+  std::optional<std::array<double, 4>> quaternion =
+      {};  ///< of the tip, [w, x, y, z], in place of a direction
 };
 struct ArmInverseOptions {
-  ArmOptions arm;
+  ArmOptions arm = {};
   double most_tension = 0;  ///< of a tendon [N]; 0: any
   double precision = 1e-7;  ///< of the tip, over the arm's length; angles [rad] alike
   int starts = 12;          ///< shapes from which the search begins, one after the other
@@ -138,12 +139,12 @@ SINEW_API ArmInverse arm_inverse(const Arm& arm, const ArmTarget& target, const 
 
 /// What is measured of an arm; what is not a number is not known.
 struct ArmMeasurement {
-  std::vector<TendonCommand> held;           ///< of every tendon, taken as exact
-  std::vector<double> answers;               ///< of every tendon what is not held: tension [N] or change [m]
-  std::optional<std::array<double, 3>> tip;  ///< its place, base axes [m]
-  double tension_deviation = 0.05;           ///< standard deviation of tensions [N]
-  double change_deviation = 2e-5;            ///< of changes [m]
-  double tip_deviation = 5e-4;               ///< of the tip's place [m]
+  std::vector<TendonCommand> held = {};  ///< of every tendon, taken as exact
+  std::vector<double> answers;           ///< of every tendon what is not held: tension [N] or change [m]
+  std::optional<std::array<double, 3>> tip = {};  ///< its place, base axes [m]
+  double tension_deviation = 0.05;                ///< standard deviation of tensions [N]
+  double change_deviation = 2e-5;                 ///< of changes [m]
+  double tip_deviation = 5e-4;                    ///< of the tip's place [m]
 };
 /// A wrench at the tip that explains what was measured.
 struct ArmSensed {
