@@ -153,7 +153,6 @@ GeneralSystem::GeneralSystem(const ParallelRobot<RodLeg>& robot)
 
 const LimbTraits& GeneralSystem::traits() const {
   static constexpr LimbTraits traits{
-      .is_slow = true,
       // lengths are good to 1e-9 of themselves with the quick truncation
       .best_truncation = 1e-15,
       .quick_truncation = 1e-9,
