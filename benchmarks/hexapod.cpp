@@ -11,12 +11,12 @@
 #include <random>
 
 #include "instruction_sets.hpp"
-#include "link/spatial_rod.hpp"
 #include "report.hpp"
 #include "robot/mechanism.hpp"
 #include "robot/parallel.hpp"
 #include "robot/tangent_system.hpp"
 #include "shooting_hexapod.hpp"
+#include "shooting_rod/shooting_rod.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/equilibrium.hpp"
 

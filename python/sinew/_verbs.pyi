@@ -64,8 +64,7 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
-                bear torque 400
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, or last, where the last question with a start ended;
@@ -199,8 +198,7 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
-                bear torque 400
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             independent (dict) [m]: in place of `pose` where hinges hold the platform in planes, or three
                 rods hold it: height and two components of its quaternion; of hinges a mode, too, tilt or
@@ -330,8 +328,7 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
-                bear torque 400
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -476,8 +473,7 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
-                bear torque 400
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -614,8 +610,7 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
-                bear torque 400
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -709,8 +704,7 @@ class Verbs:
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
-                bear torque 400
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             limit (number): how far to look `along` its direction; of a diagram the envelope's size
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
@@ -798,8 +792,7 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
-                bear torque 400
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -900,8 +893,7 @@ class Verbs:
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of rods that
-                bear torque 400
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:

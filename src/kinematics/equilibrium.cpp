@@ -254,7 +254,7 @@ LoadPath follow_load(const Robot& robot, const SpatialWrench& direction, double 
   RodGroup& system = *rods.system;
   system.evaluate();
   system.linearise();
-  const int most = system.traits().is_slow ? 400 : 4000;
+  constexpr int most = 4000;
   const GrownLoad grown =
       grow_load<Spatial>(system, rods.places, direction, limit, rods.stop, {.steps = most});
   constexpr LoadEnd ends[] = {LoadEnd::limit, LoadEnd::fold,    LoadEnd::bifurcation, LoadEnd::stability,
@@ -312,8 +312,7 @@ std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
   const SE3<double> home = home_of(robot);
   const double size = home.p.norm();
   RodWork& rods = rods_of(work);
-  const int starts =
-      rods.system->traits().is_slow ? 16 : 160;  // of the slow ones each takes a tenth of a second
+  constexpr int starts = 160;
   RodQuestion question = question_of(robot, options, rods);
   question.warm_start = false;
   question.start.reset();
@@ -341,7 +340,7 @@ std::vector<FoundEquilibrium> inverse_equilibria(const Robot& robot, const Spati
     });
   };
   RodWork& rods = rods_of(work);
-  const int ways = rods.system->traits().is_slow ? 4 : 60;
+  constexpr int ways = 60;
   RodQuestion question = question_of(robot, options, rods);
   for (int k = -1; k < ways && !rods.stop.stop_requested(); ++k) {
     question.warm_start = false;

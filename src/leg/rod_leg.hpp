@@ -42,8 +42,7 @@ struct RodLeg {
   static constexpr int inputs = 1;
   /// Of a rod that bends in one plane: θ at the nodes [rad], lateral and axial tip force [N], length [m];
   /// then zeros. Of another without torque: tangents at rod_tangents points, base to tip, tip force [N],
-  /// length [m]. Of any: force [N] and moment [N m] at the base, spin of its section there [rad], length [m];
-  /// then zeros.
+  /// length [m]. Of any: rotation vectors of its sections at those points, tip force [N], length [m].
   static constexpr int coordinates = 3 * rod_tangents + 4;
   using Coordinates = Vec<double, coordinates>;
 

@@ -12,8 +12,8 @@ namespace sinew::inline v1 {
 
 /// Numbers that hold the shape of a rod: the angles of its tangent at so many Gauss nodes.
 inline constexpr int rod_nodes = 24;
-/// Points whose tangents hold it where it does not bend in one plane: the nodes of four spectral elements,
-/// base and tip among them.
+/// Points whose tangents or sections hold it where it does not bend in one plane: the nodes of four spectral
+/// elements, base and tip among them.
 inline constexpr int rod_tangents = 33;
 
 struct Rod {

@@ -156,8 +156,7 @@ void put_velocity(Context& context, const RodMotion& motion, const Report& equil
 
 void put_shape_of(Context& context, const Equilibrium& found, int samples,
                   const std::optional<Vec3<double>>& gravity) {
-  Weight weight =
-      context.robot.weight();  // rods that bear torque are drawn from their bases, under this weight
+  Weight weight = context.robot.weight();  // what shears and stretches is drawn under this weight
   weight.gravity = gravity.value_or(weight.gravity);
   put_shape(context.answer, any_shape(context.robot.under(weight), found.pose, found.coordinates, samples));
   context.answer["frames"] = Value::list({pose_value(found.pose)});

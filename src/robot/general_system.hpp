@@ -1,15 +1,15 @@
 /// @file general_system.hpp
-/// Rods that bear torque between a base and a platform as one system of equations: held against
-/// axial rotation at both ends, of a section that is not round, or bent when free. Each is shot from its
-/// base, and its six unknowns are eliminated in the same step. TangentSystem is the fast special case without
-/// torque. Theory: docs/theory/spatial_rod.md
+/// Rods that bear torque between a base and a platform as one system of equations: held against axial
+/// rotation at both ends, of a section that is not round, or bent when free. Each is a field of frames on
+/// spectral elements. TangentSystem is the fast special case without torque. Theory:
+/// docs/theory/spatial_rod.md
 #pragma once
 #include <array>
-#include <cmath>
 #include <span>
 #include <vector>
 
-#include "link/rod_bvp.hpp"
+#include "link/spatial_rod.hpp"
+#include "robot/frame_lanes.hpp"
 #include "robot/rod_group.hpp"
 
 namespace sinew::inline v1 {
@@ -17,50 +17,51 @@ namespace sinew::inline v1 {
 /// The rod as one that can bear torque. Where its material has no shear modulus nothing may depend on it.
 SpatialRod spatial_rod(const Rod& rod);
 
-/// One rod with all numbers of its Newton step. Its unknowns are dimensionless: force in EI/L², moment in
-/// EI/L about the section's axes at axial rotation 0, where the last is the axial rotation instead if that is
-/// free and matters.
+/// One rod at its ends. Its unknowns are what the tip is free to turn, in the section's axes, and the tip's
+/// force in EI/L²; the shape is eliminated onto them.
 struct GeneralRod {
+  using Square = Mat<double, 3, 3>;
   using Matrix = Mat<double, 6, 6>;
-
-  /// @name What Newton's method moves, and what a path is resumed from: base axes
-  /// @{
-  Vec3<double> force = Vec3<double>::Zero();   ///< internal, at the base [N]
-  Vec3<double> moment = Vec3<double>::Zero();  ///< [N m]
-  double axial_rotation = 0;                   ///< of the section in its guide [rad]
-  double length = 1;                           ///< L, unstretched [m]
-  /// @}
+  using Vector = Vec<double, 6>;
 
   /// @name What it is
   /// @{
-  SpatialRod rod;     ///< its load is weight and own load
   SE3<double> frame;  ///< of the section at the base, at axial rotation 0
   RodEnds ends;
-  bool seeks_axial_rotation = false;
+  SpatialRod rod;  ///< its load is weight and own load
   Vec3<double> platform_point;
   SO3<double> platform_section;  ///< of the section at a clamp, platform axes
   double stiffness = 0;          ///< EI, the geometric mean of both ways [N m²]
   Vec2<double> reach{0, 0};      ///< of a strip from its x and y axes: half its height and width [m]
+  bool is_free(int turn) const {
+    return ends.tip == RodEnds::Tip::ball || (follows() && turn == 2 && ends.tip == RodEnds::Tip::tangent);
+  }
+  bool follows() const { return ends.tip != RodEnds::Tip::ball; }
   /// @}
 
   /// @name At the last evaluation
   /// @{
-  RodState<double> from, tip;
-  double energy = 0, potential = 0;  ///< elastic; of the load, −∫f·(p − p(0)) ds [J]
-  Vec3<double> arm;                  ///< platform point from the reference point, base axes [m]
-  Vec<double, 6> gap;                ///< see TipGaps
+  double error = 0;  ///< of the rod's own equations and its tip's
+  double length = 1, force_unit = 0, moment_unit = 0;
+  Vec3<double> arm;     ///< platform point from the reference point, base axes [m]
+  Vec3<double> way;     ///< from the base to where the platform holds the tip, over L
+  Vec3<double> force;   ///< on the tip [N]
+  Vec3<double> moment;  ///< on the tip, over EI/L, section's axes
+  Square section;       ///< of the tip, to base axes
   /// @}
 
   /// @name Kept from the last linearisation
   /// @{
-  double force_unit = 0, moment_unit = 0;
-  bool is_regular = false;     ///< the gap determines the unknowns; else the rest are no numbers
-  SmallLu<6> factors;          ///< of the gap by the unknowns
-  Matrix by_twist;             ///< the unknowns by the platform's twist, the gap held
-  Vec<double, 6> by_length;    ///< ... by the length
-  Matrix tip_wrench_jacobian;  ///< force and moment on the tip by the unknowns; of a ball no moment
-  Vec<double, 6> feed;         ///< ... by the length, the gap held
-  Vec<double, 6> fix;          ///< of the unknowns: closes the gap at a resting platform
+  bool is_regular = false;    ///< the gap determines the unknowns; else the rest are no numbers
+  SmallLu<6> factors;         ///< of the gap by the unknowns
+  Square turned;              ///< section then
+  Square by_turn, by_force;   ///< the tip's moment by its turns and force
+  Matrix by_twist;            ///< the unknowns by the platform's twist, the gap held
+  Vector by_length;           ///< ... by ln L
+  Matrix stiffness_by_twist;  ///< force and moment on the tip by the platform's twist [N/m], ...
+  Vector feed;                ///< ... by the length
+  Vector fix;                 ///< of the unknowns: closes the gap at a resting platform
+  Vector closed;              ///< force and moment on the tip once it is closed
   /// @}
 };
 
@@ -78,17 +79,17 @@ class GeneralSystem : public HeavyRodGroup {
   Vec3<double> base(int rod) const override { return at(rod).frame.p; }
   Vec3<double> platform_point(int rod) const override { return at(rod).platform_point; }
   double stiffness(int rod) const override { return at(rod).stiffness; }  ///< the mean of both ways
-  double length(int rod) const override { return at(rod).length; }
-  void hold(int rod, double length) override { at(rod).length = length; }
+  double length(int rod) const override { return lanes(rod).length[lane(rod)]; }
+  void hold(int rod, double length) override { lanes(rod).length[lane(rod)] = length; }
   void set_inputs(Numbers inputs) override;
   Wrench wrench() const final { return wrench_; }
   void set_wrench(const Wrench& wrench) final { wrench_ = wrench; }
   double weight_energy() const override;
-  int elements() const { return elements_; }  ///< even steps of the integration along each rod
+  int elements() const { return elements_; }
   bool is_fine() const override { return elements_ > coarse_elements; }
   bool is_finest() const override { return elements_ >= max_elements; }
-  void refine() override { elements_ = is_finest() ? elements_ : 2 * elements_; }
-  void coarsen() override { elements_ = is_fine() ? elements_ / 2 : elements_; }
+  void refine() override;   ///< to more elements, the same shapes
+  void coarsen() override;  ///< to fewer elements, the shapes interpolated
   bool can_coarsen(double truncation) const override;
   /// @}
 
@@ -115,38 +116,65 @@ class GeneralSystem : public HeavyRodGroup {
   Twist effort_jacobian(int rod) const override;
   /// The second number is 0.
   std::array<int, 2> unstable_with_tip_held(int index) const override;
-  /// Estimated error of the integration, of the length and in rad: the worst rod's.
+  /// Of the section in its guide [rad]; 0 where nothing depends on it.
+  double axial_rotation(int rod) const;
+  /// Estimated error of the shapes, of the length and in rad: the worst rod's.
   double truncation() const override;
   std::vector<Vec3<double>> centreline(int index, int samples) const override;
   void get_rod(int index, std::span<double> coordinates) const override;
-  /// With the finest steps.
+  /// On the elements that coordinates are of.
   void set_rods(Numbers coordinates) override;
   /// @}
 
   /// @name To lay rods to a pose
   /// @{
 
-  /// Every rod between its guide and where the platform holds it, as long as the cubic between them: each in
-  /// equilibrium, if possible a stable one. False where that is not found. Expensive.
+  /// Every rod as the cubic between its guide and where the platform holds it, its frames along it by the
+  /// least rotation and evenly twisted to the tip's, with the force and the length that go with it: not in
+  /// equilibrium, a start of Newton's method. False where a tip lies on its base.
   bool draw_rods();
   /// After `linearise`: a step of the rods alone, the platform held, each fed until nothing pulls along the
   /// line from base to tip. By at most `most` of its length; returns the largest part of a length fed.
   double move_to_rest(double most);
+  /// From `draw_rods`, the platform held: the rods at those lengths in equilibrium, grown from round,
+  /// straight ones without load, and turned in their guides to where no torque is left; stable ones, if they
+  /// are found from sections turned at the end that lets them. False where none is found.
+  bool grow_rods();
   /// @}
 
-  static constexpr int coarse_elements = 8, max_elements = 128;
+  static constexpr int coarse_elements = 2, coordinate_elements = (rod_tangents - 1) / FrameState::degree;
 
  private:
   GeneralRod& at(int rod) { return all_[static_cast<std::size_t>(rod)]; }
   const GeneralRod& at(int rod) const { return all_[static_cast<std::size_t>(rod)]; }
-  void weigh(int rod, const Vec3<double>& weight) override { at(rod).rod.load = weight; }
-  /// State as numbers: force, moment, axial rotation, length.
-  static constexpr std::size_t rod_numbers = 8;
-  static void set_rod(GeneralRod& rod, Numbers numbers);
+  FrameRods& lanes(int rod) { return groups_[static_cast<std::size_t>(rod / rod_lanes)]; }
+  const FrameRods& lanes(int rod) const { return groups_[static_cast<std::size_t>(rod / rod_lanes)]; }
+  static int lane(int rod) { return rod % rod_lanes; }
+  void weigh(int rod, const Vec3<double>& weight) override;
+  bool feed_to_rest();
+  bool is_stable_by_rods() const;
+  bool draw_rod(int rod, double spin);
+  void scale_law(int rod, double share);
+  bool grow(std::span<const bool> which, bool keeps_spin);
+  void copy_rod(std::span<const FrameState> from, int rod);
+  bool turn_to_rest();
+  void place_tip(int rod);
+  double read_tip(int rod);
+  void linearise_rod(int rod);
   void sum_closed();
-  static void move_rod(GeneralRod& rod, const Vec<double, 6>& by, double fed);
+  void give_step(int rod, const GeneralRod::Vector& unknowns, const Vec3<double>& turn, double longer);
+  void change_elements(int elements);
+  Vec3<double> lever(int rod) const;
+  Vec3<double> base_moment(int rod) const;
+  int count_unstable(const FrameRods& rods, int rod) const;
+  template <class Use>
+  void each_section(int rod, std::span<const double> places, Use&& use) const;
 
   std::vector<GeneralRod> all_;
+  std::vector<FrameRods> groups_;
+  std::vector<FrameState> spare_, first_;   ///< states to return to
+  mutable std::vector<FrameRods> shifted_;  ///< of the last linearisation, if a rod was not stable
+  mutable bool is_shifted_ = false;
   int elements_ = coarse_elements;
   Wrench wrench_ = Wrench::Zero(), sum_ = Wrench::Zero();
   double rod_error_ = 0;

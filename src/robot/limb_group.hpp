@@ -22,8 +22,6 @@ inline constexpr double coarse_truncation = 1e-12;
 
 /// What differs from one kind of limbs to another in how it is best solved.
 struct LimbTraits {
-  /// Whether a step costs some hundred times as much as one of the others: fewer are tried then.
-  bool is_slow = false;
   /// On LimbGroup::evaluate: what counts as solved, and below which a step along a curve can only lose.
   double tolerance = 1e-12, rounding = 1e-12;
   /// Estimated error of the shapes from which an answer that is not resumed refines them ...

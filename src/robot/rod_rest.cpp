@@ -86,21 +86,30 @@ bool TangentSystem::rest_at(const SE3<double>& platform) {
   return limb_error() < near && settle_rods();
 }
 
-/// From rods held at the lengths of those cubics, each in equilibrium by itself. Where no length is found at
-/// which nothing pulls, those are kept: any equilibrium will do.
-bool GeneralSystem::rest_at(const SE3<double>& platform) {
-  set_platform(platform);
-  if (!draw_rods()) return false;
+/// Of rods in equilibrium: each fed until nothing pulls along its chord.
+bool GeneralSystem::feed_to_rest() {
   constexpr double near = 1e-6;
   double fed = 1;
   evaluate();
   for (int k = 0; k < 30 && !(fed < near && limb_error() < near); ++k) {
+    if (!(limb_error() < 1e6)) return false;
     linearise();
-    fed = move_to_rest(0.02);
+    fed = move_to_rest(0.1);
     evaluate();
   }
-  if (fed < near && limb_error() < near && settle_rods()) return true;
-  return draw_rods() && settle_rods();
+  return fed < near && limb_error() < near && settle_rods();
+}
+
+/// From the cubics; where that does not lead to rods that hold by themselves, from rods that are grown into
+/// what they are at those lengths. Where no length is found at which nothing pulls, those are kept: any
+/// equilibrium will do.
+bool GeneralSystem::rest_at(const SE3<double>& platform) {
+  set_platform(platform);
+  if (!draw_rods()) return false;
+  if (feed_to_rest() && is_stable_by_rods()) return true;
+  if (!grow_rods()) return false;
+  if (feed_to_rest() && is_stable_by_rods()) return true;
+  return grow_rods() && settle_rods();
 }
 
 }  // namespace sinew::inline v1

@@ -31,7 +31,7 @@ struct RodWork {
       false;  ///< `system` is in equilibrium, with factors found there or, after a quick warm answer, near by
   SmallLu<6> feeding;  ///< factors of what the inputs do to the wrench, of the last pose that was held
   bool knows_feeding = false;
-  /// Of each rod, its tip held: counted once for an answer, since rods that bear torque take long to count.
+  /// Of each rod, its tip held: counted once for an answer.
   std::vector<std::array<int, 2>> unstable_rods =
       std::vector<std::array<int, 2>>(static_cast<std::size_t>(system->limbs()));
   /// Of the state that `system` is in, and is linearised at, once they are counted.

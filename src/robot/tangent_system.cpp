@@ -4,38 +4,18 @@
 #include <cmath>
 
 #include "base/at.hpp"
+#include "robot/spectral_rod.hpp"
 #include "robot/tangent_kernels.hpp"
 
 namespace sinew::inline v1 {
-namespace {
 
-constexpr int degree = TangentState::degree;
+using namespace spectral;
+
+namespace {
 
 /// The lanes of so many nodes' tangents.
 void copy_tangents(const RodLane (*from)[3], int nodes, RodLane (*to)[3]) {
   std::copy_n(&from[0][0][0], nodes * 3 * rod_lanes, &to[0][0][0]);
-}
-
-/// ℓⱼ of one element at x in [0, 1].
-void lagrange(double x, double (&value)[degree + 1]) {
-  const auto& node = LobattoBasis<element_degree>::get().node;
-  for (int j = 0; j <= degree; ++j) {
-    value[j] = 1;
-    for (int m = 0; m <= degree; ++m)
-      if (m != j) value[j] *= (x - node[m]) / (node[j] - node[m]);
-  }
-}
-
-/// Of [0, 1], and its share in an integral.
-struct NodePlace {
-  double along, weight;
-};
-NodePlace place_of(int node, int elements) {
-  const auto& basis = LobattoBasis<element_degree>::get();
-  const int element = node == 0 ? 0 : (node - 1) / degree, own = node - element * degree;
-  double weight = basis.weight[own];
-  if (own == degree && element + 1 < elements) weight += basis.weight[0];
-  return {(element + basis.node[own]) / elements, weight / elements};
 }
 
 }  // namespace
@@ -187,14 +167,6 @@ void TangentSystem::set_rods(Numbers coordinates) {
   fill_idle_lanes();
 }
 
-namespace {
-/// The numbers of elements there are, and the place of one among them.
-constexpr std::array<int, 5> levels = {TangentSystem::coarse_elements, 3, 4, 6, max_elements};
-std::size_t level_of(int elements) {
-  return static_cast<std::size_t>(std::ranges::find(levels, elements) - levels.begin());
-}
-}  // namespace
-
 void TangentSystem::refine() {
   if (!is_finest()) change_elements(levels[level_of(elements_) + 1]);
 }
@@ -203,8 +175,6 @@ void TangentSystem::coarsen() {
   if (is_fine()) change_elements(levels[level_of(elements_) - 1]);
 }
 
-/// Errors go with the sixteenth power of the elements' length: the next coarser ones have 100 to 660 times as
-/// much.
 bool TangentSystem::can_coarsen(double wanted) const { return is_fine() && 1000 * truncation() < wanted; }
 
 double TangentSystem::evaluate(bool from_scratch) {

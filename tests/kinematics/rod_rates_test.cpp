@@ -137,7 +137,7 @@ TEST(RodRates, WhatCannotBeFollowedIsRefused) {
   }
 }
 
-/// Of rods that bear torque each takes long to be asked whether it holds by itself: an answer asks once.
+/// Whether each rod holds by itself: an answer asks once.
 class Counting : public v1::GeneralSystem {
  public:
   using v1::GeneralSystem::GeneralSystem;

@@ -1,4 +1,4 @@
-#include "link/rod_bvp.hpp"
+#include "shooting_rod/rod_bvp.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

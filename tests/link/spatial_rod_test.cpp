@@ -1,4 +1,4 @@
-#include "link/spatial_rod.hpp"
+#include "shooting_rod/shooting_rod.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,10 +10,10 @@
 
 #include "check_jacobian.hpp"
 #include "link/elastica.hpp"
-#include "link/rod_steps.hpp"
 #include "random_rod.hpp"
 #include "reference_file.hpp"
 #include "rod_3pfs.hpp"
+#include "shooting_rod/rod_steps.hpp"
 
 namespace sinew {
 namespace spatial_rod_test {
@@ -54,7 +54,7 @@ TEST(SpatialRod, RoundSectionHasItsStiffnesses) {
 }
 
 // The paper's equations in its own variables, integrated by the tests' own method.
-RC_GTEST_PROP(SpatialRod, IsThePapersRodWithoutTorsion, ()) {  // @verifies 3PFS (20)-(23)
+RC_GTEST_PROP(SpatialRod, IsThePapersRodWithoutTorsion, ()) {  // 3PFS (20)-(23)
   SpatialRod rod = any_rod(RodKind::plain);
   const double EI = rod.bending_stiffness[0];
   RodState<double> base;

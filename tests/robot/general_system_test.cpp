@@ -10,6 +10,7 @@
 #include "kinematics/rods/solve.hpp"
 #include "rod_robots.hpp"
 #include "sanitizers.hpp"
+#include "shooting_rod/rod_bvp.hpp"
 #include "thorough.hpp"
 
 namespace sinew::test {
@@ -244,7 +245,7 @@ TEST(GeneralSystem, ForcesDoTheWorkOfTheEnergy) {
 
 /// Rods integrated anew, as finely as they ask for, from what the answer says of their bases: they meet the
 /// platform, and what they hand over is the wrench.
-TEST(GeneralSystem, RodsIntegratedAnewBalanceThePlatform) {
+TEST(GeneralSystem, RodsIntegratedAnewBalanceThePlatform) {  // @verifies 3PFS (20)-(23)
   for (const Kind& kind : general) {
     RodRandom random(31);
     int tried = 0;
@@ -262,11 +263,11 @@ TEST(GeneralSystem, RodsIntegratedAnewBalanceThePlatform) {
       ++tried;
       const SE3<double>& pose = system.platform();
       Wrench6 sum = Wrench6::Zero();
-      std::vector<double> coordinates(RodLeg::coordinates);
       for (int k = 0; k < 6; ++k) {
         const RodLeg& leg = robot.legs[std::size_t(k)];
-        system.get_rod(k, coordinates);
-        const double axial_rotation = coordinates[6], length = coordinates[7];
+        const RodResult reading = system.rod(k);
+        const double axial_rotation = dynamic_cast<const v1::GeneralSystem&>(system).axial_rotation(k),
+                     length = reading.length;
         EXPECT_EQ(length, inputs[std::size_t(k)]);
         const Vec3<double> t0 = leg.tangent(), x0 = leg.base.rotate(Vec3<double>(1, 0, 0));
         Mat<double, 3, 3> axes;
@@ -274,8 +275,8 @@ TEST(GeneralSystem, RodsIntegratedAnewBalanceThePlatform) {
         RodState<double> base;
         base.p = leg.base.p;
         base.R = SO3<double>::exp(Vec3<double>(t0 * axial_rotation)).compose(SO3<double>::from(axes));
-        base.n = {coordinates[0], coordinates[1], coordinates[2]};
-        base.m = {coordinates[3], coordinates[4], coordinates[5]};
+        base.n = reading.force_0;
+        base.m = reading.moment_0;
         SpatialRod rod = spatial_rod(leg.link);
         rod.load += gravity * leg.link.mass_per_length();
         const RodTip tip = integrate(rod, length, base, {0, 1e-14});
@@ -329,12 +330,10 @@ TEST(GeneralSystem, EveryRodIsOneHeldByItself) {
                                         : RodEnds::Tip::clamp;
       const RodResult reading = system.rod(k);
       const Vec3<double> arm = system.platform().R.rotate(leg.platform_point);
-      std::vector<double> own(RodLeg::coordinates);
-      system.get_rod(k, own);
       const RodBvpSolution held = solve_rod_bvp(
           rod, {leg.base.p, SO3<double>::from(base)}, reading.length, ends,
           {system.platform().p + arm, system.platform().R.compose(SO3<double>::from(tip))},
-          RodStart{{own[0], own[1], own[2]}, {own[3], own[4], own[5]}, own[6]}, {.tolerance = 1e-13});
+          RodStart{reading.force_0, reading.moment_0, system.axial_rotation(k)}, {.tolerance = 1e-13});
       ASSERT_TRUE(held.report.ok()) << kind.name << held.report.message.view();
       EXPECT_LT((held.tip.n - reading.force).norm(), 1e-9 * (1 + reading.force.norm())) << kind.name;
       EXPECT_LT((held.base.n - reading.force_0).norm(), 1e-9 * (1 + reading.force.norm())) << kind.name;
@@ -420,12 +419,13 @@ TEST(GeneralSystem, CoordinatesHoldTheState) {
     const RodRobot robot = robot_of(kind, random);
     GeneralSystem system(robot), other(robot);
     ASSERT_TRUE(begin(system, robot, random)) << kind.name;
-    finest(system);
+    while (system.elements() < GeneralSystem::coordinate_elements) system.refine();
+    while (system.elements() > GeneralSystem::coordinate_elements) system.coarsen();
     ASSERT_TRUE(close_rods(system) && balance(system));
     std::vector<double> coordinates(6 * RodLeg::coordinates, 1.0);
     for (std::size_t k = 0; k < 6; ++k)
       system.get_rod(int(k), std::span(coordinates).subspan(k * RodLeg::coordinates, RodLeg::coordinates));
-    EXPECT_EQ(coordinates.back(), 0);
+    EXPECT_EQ(coordinates.back(), system.length(5));
     other.set_gravity(gravity);
     other.set_platform(system.platform());
     other.set_wrench(system.wrench());

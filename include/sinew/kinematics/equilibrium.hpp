@@ -23,8 +23,7 @@ struct EquilibriumOptions {
   /// Begin from the equilibrium the workspace holds, as a controller does whose inputs change a little. What
   /// is found then depends on what was solved before. Where it holds none the search begins at `start`.
   bool warm_start = false;
-  /// No further step of the path is begun after so many Newton steps; a step takes a few. Default 4000, of
-  /// rods that bear torque 400.
+  /// No further step of the path is begun after so many Newton steps; a step takes a few. Default 4000.
   std::optional<int> max_iterations = {};
   /// A warm answer too is asked for stability and resolution. Without, no answer hands out coordinates, and a
   /// warm one is as quick as it can be: shapes to an estimated 1e-10 of the length, of rods that do not bend
@@ -160,7 +159,7 @@ struct FoundEquilibrium {
 
 /// Equilibria at these rod lengths [m] found from many starts around home, in ascending order of energy: a
 /// lower bound of their number, never proven to be all. Allocates; takes tens of milliseconds, of rods that
-/// bear torque, with fewer starts, seconds.
+/// bear torque about a second.
 /// @param options of every search; its start is not asked
 SINEW_API std::vector<FoundEquilibrium> equilibria(const Robot& robot, Numbers inputs,
                                                    const EquilibriumOptions& options, Workspace& work);

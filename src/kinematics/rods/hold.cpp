@@ -203,7 +203,6 @@ bool detour(RodWork& work, const SE3<double>& home, const SE3<double>& wanted, c
 /// Another branch that holds the pose, by another way or through the fold. Says so.
 bool reach_otherwise(RodWork& work, const SE3<double>& home, const SE3<double>& wanted,
                      const RodQuestion& question, const RodWay& way, const RodPathEnd& end, Report& report) {
-  if (work.system->traits().is_slow) return false;  // each way would take seconds
   const LimbState stopped = work.system->state();
   if (detour(work, home, wanted, question, report)) return true;
   work.system->restore(stopped);

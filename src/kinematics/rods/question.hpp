@@ -21,7 +21,7 @@ inline RodQuestion question_of(const Robot& robot, const EquilibriumOptions& opt
   question.wrench.head<3>() += robot.weight().platform_mass * gravity;
   if (options.start) question.start = SE3<double>::from(*options.start);
   question.warm_start = options.warm_start;
-  question.max_iterations = options.max_iterations.value_or(rods.system->traits().is_slow ? 400 : 4000);
+  question.max_iterations = options.max_iterations.value_or(4000);
   question.check_stability = options.check_stability;
   return question;
 }

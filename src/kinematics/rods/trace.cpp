@@ -80,7 +80,7 @@ RodFold find_fold(RodWork& work, const RodWay& way, double parameter) {
     fold.platform = work.system->platform();
     return true;
   };
-  walk_on(work, tracer, work.system->traits().is_slow ? 40 : 200, is_beyond);
+  walk_on(work, tracer, 200, is_beyond);
   fold.residual = tracer.residual();
   if (!fold.arrived) tracer.restore(start);
   return fold;

@@ -3,7 +3,7 @@
 /// length; of a ball the moment in EI/L, of a clamp the turn, of a tangent two parts of the turn and the
 /// torque. Theory: docs/theory/spatial_rod.md
 #pragma once
-#include "link/rod_bvp.hpp"
+#include "shooting_rod/rod_bvp.hpp"
 
 namespace sinew::inline v1 {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "link/rod_bvp.hpp"
-#include "link/rod_tangents.hpp"
+#include "shooting_rod/rod_bvp.hpp"
+#include "shooting_rod/rod_tangents.hpp"
 #include "sinew/math/linalg.hpp"
 
 namespace sinew::inline v1 {

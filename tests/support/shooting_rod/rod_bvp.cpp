@@ -1,10 +1,10 @@
-#include "link/rod_bvp.hpp"
+#include "shooting_rod/rod_bvp.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "link/tip_gaps.hpp"
 #include "math/inverse_sinc.hpp"
+#include "shooting_rod/tip_gaps.hpp"
 #include "sinew/base/numbers.hpp"
 #include "sinew/math/linalg.hpp"
 #include "solve/continuation.hpp"

@@ -2,19 +2,11 @@
 /// A general elastic rod held at both ends: the forces that hold it, what they become when the tip moves or
 /// the rod is fed, and whether it stays where it is. Theory: docs/theory/spatial_rod.md
 #pragma once
-#include "link/spatial_rod.hpp"
+#include "shooting_rod/shooting_rod.hpp"
 #include "sinew/math/se3.hpp"
 #include "sinew/solve/report.hpp"
 
 namespace sinew::inline v1 {
-
-/// What the ends leave free. Wherever a turn is free, its moment is zero.
-struct RodEnds {
-  enum class Base { held, spins };          ///< `spins`: the base turns about its own tangent
-  enum class Tip { ball, clamp, tangent };  ///< `tangent`: held in direction, turns about its own tangent
-  Base base = Base::held;
-  Tip tip = Tip::clamp;
-};
 
 /// Where a search begins: what is known of a rod nearby.
 struct RodStart {
@@ -51,17 +43,16 @@ struct RodBvpSolution {
 /// - `unreachable`: an inextensible rod shorter than the way.
 /// - `singular`: the ends are met, but do not determine the forces (straight; free to turn; about to jump).
 /// - `stalled`: none was found; the numbers are those of the last iterate, and meet nothing.
-SINEW_API RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length,
-                                       const RodEnds& ends, const SE3<double>& tip,
-                                       const HoldOptions& options = {});
-SINEW_API RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length,
-                                       const RodEnds& ends, const SE3<double>& tip, const RodStart& start,
-                                       const HoldOptions& options = {});
+RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length,
+                             const RodEnds& ends, const SE3<double>& tip, const HoldOptions& options = {});
+RodBvpSolution solve_rod_bvp(const SpatialRod& rod, const SE3<double>& base, double length,
+                             const RodEnds& ends, const SE3<double>& tip, const RodStart& start,
+                             const HoldOptions& options = {});
 
 /// In how many directions the energy of an equilibrium falls with its ends held so: 0 where it is stable, −1
 /// where it cannot be counted. A rod that does not stretch is counted as one with 1/EA = 10⁻⁸ L²/EI.
 /// @param base state at the base, as in RodBvpSolution
-SINEW_API int unstable_directions(const SpatialRod& rod, double length, const RodState<double>& base,
-                                  const RodEnds& ends);
+int unstable_directions(const SpatialRod& rod, double length, const RodState<double>& base,
+                        const RodEnds& ends);
 
 }  // namespace sinew::inline v1

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "link/rod_steps.hpp"
+#include "shooting_rod/rod_steps.hpp"
 
 namespace sinew::inline v1::rod_steps {
 

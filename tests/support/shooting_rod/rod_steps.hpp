@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "link/spatial_rod.hpp"
+#include "shooting_rod/shooting_rod.hpp"
 
 namespace sinew::inline v1::rod_steps {
 
@@ -49,7 +49,7 @@ struct Law {
 };
 
 /// What is integrated over s; also its derivative by s. The moment stands for the paper's curvature.
-/// @implements 3PFS (20)
+/// 3PFS (20).
 template <class S>
 struct State {
   Vec<S, 4> q;  ///< [w, x, y, z]
@@ -60,7 +60,7 @@ struct State {
 };
 
 /// |q|² times the rotation matrix: polynomials, so that a step has the derivative of a polynomial.
-/// @implements 3PFS (22)
+/// 3PFS (22).
 template <class S>
 Mat<S, 3, 3> matrix(const Vec<S, 4>& q) {
   const S ww = q[0] * q[0], xx = q[1] * q[1], yy = q[2] * q[2], zz = q[3] * q[3];
@@ -73,7 +73,7 @@ Mat<S, 3, 3> matrix(const Vec<S, 4>& q) {
   return R;
 }
 
-/// q ∘ u, twice q′: of numbers, or of lanes of derivatives.  @implements 3PFS (23), torsion included
+/// q ∘ u, twice q′: of numbers, or of lanes of derivatives.  3PFS (23), torsion included
 template <class Q, class U, class Out>
 void product(const Q& q, const U& u, Out& out) {
   out[0] = -(q[1] * u[0] + q[2] * u[1] + q[3] * u[2]);
@@ -92,7 +92,7 @@ struct Stage {
   State<S> rate;
 };
 
-/// The right-hand sides.  @implements 3PFS (21), in base axes, for m and with the section's whole law
+/// The right-hand sides.  3PFS (21), in base axes, for m and with the section's whole law
 template <class S>
 void evaluate(const Law<S>& law, const S& s, Stage<S>& at) {
   at.R = matrix(at.q);
