@@ -78,6 +78,11 @@ void LoadedRod::spread_tensions() {
     work_.guide_tension[i] = tensions_[at(model_->guides[i].tendon)];
 }
 
+double LoadedRod::give(std::size_t i) const {
+  const double toe = holds[i].toe, low = toe / (2 * stiff_[i]);  // the tension at which it becomes linear
+  return tensions_[i] >= low ? stiff_[i] : stiff_[i] * std::sqrt(low / tensions_[i]);
+}
+
 double LoadedRod::evaluate() {
   sweep_out(*model_, work_);
   double energy = work_.energy;
@@ -88,8 +93,14 @@ double LoadedRod::evaluate() {
       energy += hold.tension * work_.lengths[i];
     } else {
       const double stretch = std::max(0.0, work_.lengths[i] - hold.free_length + offsets_[i]);
-      tensions_[i] = stretch / stiff_[i];
-      energy += 0.5 * stretch * tensions_[i];
+      if (stretch < hold.toe) {
+        tensions_[i] = stretch * stretch / (2 * hold.toe * stiff_[i]);
+        energy += tensions_[i] * stretch / 3;
+      } else {
+        const double beyond = stretch - 0.5 * hold.toe;
+        tensions_[i] = beyond / stiff_[i];
+        energy += 0.5 * beyond * tensions_[i] + hold.toe * hold.toe / (24 * stiff_[i]);
+      }
     }
   }
   spread_tensions();
@@ -121,7 +132,7 @@ int LoadedRod::factor_all(double shift) {
   solve(*model_, work_, columns_.data(), m, stride_);
   for (int i = 0; i < m; ++i)
     for (int j = 0; j < m; ++j) {
-      double sum = i == j ? stiff_[at(active_[at(i)])] : 0;
+      double sum = i == j ? give(at(active_[at(i)])) : 0;
       const double* gradient = work_.length_gradient.data() + active_[at(i)] * n;
       for (int k = 0; k < n; ++k) sum += gradient[k] * columns_[at(k * stride_ + j)];
       small_[at(i * m + j)] = sum;

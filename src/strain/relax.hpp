@@ -19,6 +19,7 @@ struct TendonHold {
   double tension = 0;      ///< [N], where it is held
   double free_length = 0;  ///< from the base, unstretched [m]
   double compliance = 0;   ///< of the whole tendon [m/N]; 0: it does not stretch
+  double toe = 0;          ///< up to this stretch the tension grows with its square [m]; 0: linearly at once
 };
 
 struct RelaxOptions {
@@ -77,6 +78,8 @@ class LoadedRod {
 
  private:
   void spread_tensions();
+  /// How a tendon gives way at its stretch: its derivative by the tension [m/N].
+  double give(std::size_t tendon) const;
   bool newton_step(double& shift, double radius, std::span<double> step, int& negative);
   bool same_active() const;
   bool leave_saddle(Relaxed& result, double& energy);

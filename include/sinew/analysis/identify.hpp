@@ -1,0 +1,179 @@
+/// @file identify.hpp
+/// Identification of an arm: what its stiffness, tendons, drive and marker are, from measured rows. Theory:
+/// docs/theory/identification.md
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/base/error.hpp"
+#include "sinew/base/export.hpp"
+#include "sinew/base/stop.hpp"
+#include "sinew/robot/arm.hpp"
+#include "sinew/solve/report.hpp"
+
+namespace sinew::inline v1 {
+
+/// Between what a motor counts and the end of its tendon. Without numbers a tendon's gain is 1, its offset
+/// and toe 0.
+struct TendonDrive {
+  std::vector<double> gain;    ///< of each tendon: drawn in by what is counted, > 0
+  std::vector<double> offset;  ///< of each: drawn in where 0 is counted [m]
+  std::vector<double> toe;     ///< of each: up to this stretch its tension grows with its square [m], ≥ 0
+  double lag = 0;              ///< time constant with which the tendon follows [s], ≥ 0
+  double play = 0;             ///< lost when a motor turns back, half of it either way [m], ≥ 0
+};
+
+/// Where the marker is on the arm, and the arm in the axes of the measurement.
+struct MarkerMount {
+  std::array<double, 3> place{0, 0, 0};  ///< of the marker in the tip's axes [m]
+  std::array<double, 3> base{0, 0, 0};   ///< of the arm's base in those of the measurement [m]
+  std::array<double, 3> tilt{0, 0,
+                             0};  ///< of the arm's axes in those of the measurement, a rotation vector [rad]
+};
+
+/// An arm, what moves it and what is measured of it.
+struct MeasuredArm {
+  Arm arm;
+  TendonDrive drive;
+  MarkerMount marker;
+};
+
+/// Measured: by how much each tendon is drawn in, and where the marker is. In the order of time.
+struct MeasuredRows {
+  std::vector<double> time;     ///< [s]; empty: at rest
+  std::vector<double> pulls;    ///< rows × tendons, counted at the motors, positive where drawn in [m]
+  std::vector<double> markers;  ///< rows × 3 [m]
+  std::vector<int> blocks;      ///< rows of one number belong together; empty: each is on its own
+
+  std::size_t size() const { return markers.size() / 3; }  ///< rows
+};
+
+/// What a fit can change.
+enum class ArmQuantity {
+  bending,      ///< EI of a section, both
+  bending_x,    ///< about x
+  bending_y,    ///< about y
+  torsion,      ///< GJ of a section
+  curvature_x,  ///< of a section at rest [rad/m]
+  curvature_y,
+  angle,       ///< of a tendon in a section [rad]
+  radius,      ///< of a tendon in a section [m]
+  compliance,  ///< of a tendon [m/N]
+  pretension,  ///< [N]
+  toe,         ///< of a tendon [m]
+  offset,      ///< of a drive [m]
+  gain,
+  lag,   ///< of all drives [s]
+  play,  ///< of all drives [m]
+  gravity_x,
+  gravity_y,
+  gravity_z,  ///< [m/s²]
+  mass,       ///< of backbone and discs, a factor
+  tip_mass,   ///< [kg]
+  marker_x,
+  marker_y,
+  marker_z,  ///< [m]
+  base_x,
+  base_y,
+  base_z,  ///< [m]
+  tilt_x,
+  tilt_y,
+  tilt_z,  ///< [rad]
+};
+
+/// A quantity of a section, of a tendon, of a tendon in a section, or of the arm; −1 where that is not asked.
+struct ArmField {
+  ArmQuantity quantity;
+  int section = -1;
+  int tendon = -1;
+};
+
+/// A number that a fit may change. It changes all its fields alike: those that are positive by a factor, the
+/// others by an addition. Coordinates are the factor's logarithm, and what is added.
+struct FitParameter {
+  std::string name;
+  std::string unit;              ///< of its value
+  std::vector<ArmField> fields;  ///< at least one
+  bool is_factor = false;
+  double lower = 0, upper = 0;  ///< bounds of the coordinate
+  double prior = 0;             ///< standard deviation of the coordinate about its start; 0: no prior
+};
+
+/// @param names `bending,sections.angle,tendons.gain,passages.radius,marker`: a quantity that all have in
+/// common, or one for each section, each tendon, each tendon in each section that it passes; `curvature`,
+/// `gravity`, `marker`, `base`, `tilt` are all of their components. With the usual bounds and priors.
+SINEW_API Expected<std::vector<FitParameter>> fit_parameters(const MeasuredArm& arm, std::string_view names);
+
+/// How a fit is done.
+struct IdentifyOptions {
+  ArmModel model = ArmModel::cc;
+  double noise = 0;        ///< of a marker's coordinate [m]; 0: estimated from what is left
+  double robust = 2.5;     ///< Huber's limit, as multiple of the noise; beyond it a row counts less
+  double correlated = 30;  ///< rows that are worth one independent one, against the priors
+  int max_iterations = 60;
+  double tolerance = 3e-4;     ///< of the relative decrease of the cost
+  std::vector<bool> held_out{}; ///< rows that the fit does not see; empty: none
+  StopToken stop{};
+};
+
+/// Of the distances between markers, measured and computed.
+struct MarkerErrors {
+  int rows = 0, failed = 0;             ///< failed: without an equilibrium, not counted
+  double rms = 0, median = 0, max = 0;  ///< [m]
+};
+
+/// A parameter after a fit.
+struct FittedParameter {
+  double value = 0;      ///< of its first field; of a factor without unit the factor
+  double deviation = 0;  ///< standard one of the value, rows and prior together
+  double coordinate = 0;
+  double coordinate_deviation = 0;
+  bool at_bound = false;
+  double prior_share = 0;  ///< of what is known of it, from its prior; 1: the rows say nothing
+};
+
+/// A combination of parameters that the rows hardly tell.
+struct FlatDirection {
+  double deviation = 0;              ///< along it, in units of the priors
+  std::vector<double> coefficients;  ///< of coordinates over their priors; |.| = 1
+};
+
+struct Identified {
+  Report report;
+  MeasuredArm arm;
+  std::vector<FittedParameter> parameters;
+  std::vector<FlatDirection> flat;  ///< flattest first
+  MarkerErrors before, train, held_out;
+  double noise = 0;            ///< [m]
+  std::vector<double> errors;  ///< of every row [m]; NaN where it failed
+  Eigen::MatrixXd covariance;  ///< of coordinates, by blocks of rows, with priors
+};
+
+/// Robust least squares with exact sensitivities: Levenberg's and Marquardt's steps within the bounds.
+SINEW_API Expected<Identified> identify(const MeasuredArm& start, const std::vector<FitParameter>& parameters,
+                                        const MeasuredRows& rows, const IdentifyOptions& options = {});
+
+/// What the arm would show; rows × 3 [m], NaN where there is no equilibrium.
+SINEW_API Expected<std::vector<double>> predict_markers(const MeasuredArm& arm, const MeasuredRows& rows,
+                                                        ArmModel model = ArmModel::cc);
+
+/// How motors and axes of a measurement belong to an arm's tendons.
+struct TendonMap {
+  int sign = 1;           ///< −1: what is counted is paid out
+  bool mirrored = false;  ///< the tendons run around the arm the other way
+  double turn = 0;        ///< of the measurement's axes about z [rad]; add it to the tendons' angles
+  double agreement = 0;   ///< correlation of the markers across the arm, computed and measured, 0 to 1
+  double next = 0;        ///< of the next best combination
+};
+
+/// By the markers that the arm would show, turned, mirrored or pulled the other way. A half turn is not
+/// the same as a sign: tendons do not push.
+SINEW_API Expected<TendonMap> map_tendons(const MeasuredArm& arm, const MeasuredRows& rows,
+                                          ArmModel model = ArmModel::cc);
+
+/// Every row's fold, of that many: whole blocks, dealt in turn.
+SINEW_API std::vector<int> folds_of(const MeasuredRows& rows, int folds);
+
+}  // namespace sinew::inline v1
