@@ -44,7 +44,7 @@ inline Recording recording(const std::string& name) {
 /// As its file has it, the marker 8 mm beyond the tip, tendons soft at first.
 inline MeasuredArm measured_arm(const std::string& name) {
   MeasuredArm arm;
-  arm.arm = *load_robot(name)->arm();
+  arm.arm = *load(name)->arm();
   arm.marker.place = {0, 0, 0.008};
   arm.drive.toe.assign(arm.arm.tendons.size(), 2e-3);
   return arm;

@@ -1,0 +1,100 @@
+/// Questions to arms through the real `sinew query`.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sinew_query.hpp"
+
+namespace sinew::test {
+namespace arm_test {
+
+TEST(ArmQueries, TensionsAndTheirChangesAgree) {
+  const Json under{
+      {"query", "forward"}, {"tensions", {{4, 0.5, 0}, {0, 2, 1}}}, {"wrench", {0.05, 0, 0, 0, 0, 0}}};
+  const Json pulled = ask("two-segment", {under})[0];
+  ASSERT_EQ(pulled["status"], "converged") << pulled;
+  EXPECT_LT(pulled["resolution"].get<double>(), 4e-7);
+  // tendon 2 of the first section pulls nothing: its change tells nothing but its way
+  Json held = under;
+  held["tensions"] = {{4, nullptr, 0}, nullptr};
+  held["changes"] = {{nullptr, pulled["changes"][0][1], nullptr}, pulled["changes"][1]};
+  const Json again = ask("two-segment", {held})[0];
+  ASSERT_EQ(again["status"], "converged") << again;
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(again["tip"]["position"][i].get<double>(), pulled["tip"]["position"][i].get<double>(), 1e-7);
+  EXPECT_NEAR(again["tensions"][1][1].get<double>(), 2, 1e-5);
+}
+
+TEST(ArmQueries, InverseIsForwardBack) {
+  const Json there = ask("two-segment", {{{"query", "forward"}, {"tensions", {{2, 0, 0}, {0, 1, 0}}}}})[0];
+  const Json back = ask("two-segment", {{{"query", "inverse"}, {"position", there["tip"]["position"]}}})[0];
+  ASSERT_EQ(back["status"], "converged") << back;
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(back["tip"]["position"][i].get<double>(), there["tip"]["position"][i].get<double>(), 1e-6);
+}
+
+TEST(ArmQueries, TheForceThatTensionsTell) {
+  const Json pushed =
+      ask("ftdcr-v4",
+          {{{"query", "forward"},
+            {"changes", {{-0.003, -0.001, -0.001}, {-0.002, -0.001, -0.001}, {-0.001, -0.001, -0.001}}},
+            {"wrench", {0.05, -0.03, 0.02, 0, 0, 0}}}})[0];
+  ASSERT_EQ(pushed["status"], "converged") << pushed;
+  Json measured = Json::array();
+  for (const Json& section : pushed["tensions"])
+    for (const Json& tension : section) measured.push_back(tension);
+  const Json felt =
+      ask("ftdcr-v4",
+          {{{"query", "statics"},
+            {"changes", {{-0.003, -0.001, -0.001}, {-0.002, -0.001, -0.001}, {-0.001, -0.001, -0.001}}},
+            {"measured_tensions", measured}}})[0];
+  ASSERT_EQ(felt["status"], "converged") << felt;
+  EXPECT_NEAR(felt["wrench"][0].get<double>(), 0.05, 1e-4);
+  EXPECT_NEAR(felt["wrench"][1].get<double>(), -0.03, 1e-4);
+  EXPECT_NEAR(felt["wrench"][2].get<double>(), 0.02, 1e-3);
+}
+
+TEST(ArmQueries, EveryWantAndModel) {
+  for (const char* model : {"rod", "subsegment_rod", "subsegment_cc", "cc", "prb"}) {
+    const Json answer = ask(
+        "two-segment", {{{"query", "forward"},
+                         {"model", model},
+                         {"tensions", {{1, 0, 0}}},
+                         {"loads", {{{"place", 0.13}, {"wrench", {0, 0.02, 0, 0, 0, 0}}}}},
+                         {"distributed", {0, 0.01, 0}},
+                         {"following", {0, 0, -0.01, 0, 0, 0}},
+                         {"want", {"pose", "velocity", "shape", "stiffness", "stability", "margins"}}}})[0];
+    ASSERT_EQ(answer["status"], "converged") << answer;
+    EXPECT_EQ(answer["U"].size(), 6U);
+    EXPECT_EQ(answer["U"][0].size(), 6U);
+    EXPECT_EQ(answer["stiffness"].size(), 6U);
+    EXPECT_EQ(answer["tendon_lines"].size(), 2U);
+    EXPECT_GT(answer["buckling_margin"].get<double>(), 0);
+    EXPECT_LT(answer["buckling_margin"].get<double>(), 1.5);
+  }
+}
+
+TEST(ArmQueries, Refusals) {
+  const auto code = [](const Json& query) {
+    const Json answer = ask("two-segment", {query})[0];
+    return answer.contains("error") ? answer["error"]["code"].get<std::string>()
+                                    : answer["status"].get<std::string>();
+  };
+  EXPECT_EQ(code({{"query", "forward"}, {"tensions", {{-1, 0, 0}}}}), "out_of_range");
+  EXPECT_EQ(code({{"query", "forward"}, {"tensions", {{1, 0}}}}), "wrong_length");
+  EXPECT_EQ(code({{"query", "forward"}, {"tensions", {{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}}}), "wrong_length");
+  EXPECT_EQ(code({{"query", "forward"}, {"tensions", {{1, 0, 0}}}, {"changes", {{0.001, nullptr, nullptr}}}}),
+            "ambiguous");
+  EXPECT_EQ(code({{"query", "forward"},
+                  {"tensions", {{1, 0, 0}}},
+                  {"loads", {{{"place", 0.5}, {"wrench", {0, 0, 0, 0, 0, 0}}}}}}),
+            "out_of_range");
+  EXPECT_EQ(code({{"query", "forward"}, {"model", "lsk"}}), "unknown_choice");
+  EXPECT_EQ(code({{"query", "forward"}, {"want", {"legs"}}}), "unsupported");
+  EXPECT_EQ(code({{"query", "track"}, {"poses", Json::array()}}), "unsupported");
+  EXPECT_EQ(code({{"query", "inverse"}}), "missing_key");
+  EXPECT_EQ(code({{"query", "inverse"}, {"position", {0.6, 0, 0}}}), "unreachable");
+}
+
+}  // namespace arm_test
+}  // namespace sinew::test
