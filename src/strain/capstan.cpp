@@ -16,6 +16,7 @@ void CapstanTensions::find(const CapstanSpans& spans) {
   const int n = static_cast<int>(spans.stretch.size());
   tension.assign(at(n), 0.0);
   grips.assign(at(std::max(0, n - 1)), Grip::outward);
+  slip.assign(at(std::max(0, n - 1)), 0.0);
   wanted_.assign(at(n), 0.0);
   force_.assign(1, {0, 0, 0});
   for (int k = n - 1;; --k) {
@@ -48,49 +49,63 @@ void CapstanTensions::find(const CapstanSpans& spans) {
                    : wanted_[k] >= high                        ? Grip::inward
                                                                : Grip::sticks;
   }
-  // The same of each run of spans that slip, from its sums: free of the rounding of the search.
-  for (int first = 0, last; first < n; first = last) {
-    double stretch = 0, compliance = 0, factor = 1;
-    for (last = first; last < n; ++last) {
-      if (last > first) {
-        if (grips[at(last - 1)] == Grip::sticks) break;
-        factor *= std::exp(-static_cast<double>(grips[at(last - 1)]) * spans.grip[at(last - 1)]);
-      }
-      stretch += spans.stretch[at(last)];
-      compliance += spans.compliance[at(last)] * factor;
-    }
-    double T = first == 0 && spans.held ? spans.tension : std::max(0.0, stretch / compliance);
-    for (int k = first; k < last; ++k) {
-      if (k > first) T *= std::exp(-static_cast<double>(grips[at(k - 1)]) * spans.grip[at(k - 1)]);
-      tension[at(k)] = T;
-    }
+  follow(spans);  // free of the rounding of the search
+  for (double& T : tension) T = std::max(0.0, T);
+  double moved = 0;
+  for (std::size_t k = at(n); k-- > 1;) {
+    moved -= spans.stretch[k] - spans.compliance[k] * tension[k];
+    slip[k - 1] = moved;
   }
+}
+
+double CapstanTensions::ratio(const CapstanSpans& spans, std::size_t guide) const {
+  return std::exp(-static_cast<double>(grips[guide]) * spans.grip[guide]);
+}
+
+void CapstanTensions::follow(const CapstanSpans& spans) {
+  const std::size_t n = spans.stretch.size();
+  for (std::size_t first = 0, last; first < n; first = last) {
+    double stretch = 0, compliance = 0, factor = 1;
+    for (last = first; last < n && (last == first || grips[last - 1] != Grip::sticks); ++last) {
+      if (last > first) factor *= ratio(spans, last - 1);
+      stretch += spans.stretch[last];
+      compliance += spans.compliance[last] * factor;
+    }
+    tension[first] = first == 0 && spans.held ? spans.tension : stretch / compliance;
+    for (std::size_t k = first + 1; k < last; ++k) tension[k] = tension[k - 1] * ratio(spans, k - 1);
+  }
+}
+
+void CapstanTensions::loosen(const CapstanSpans& spans, double least) {
+  for (std::size_t k = 0; k < grips.size(); ++k)
+    if (spans.grip[k] > 0 && std::abs(slip[k]) < least) grips[k] = Grip::sticks;
 }
 
 void CapstanTensions::derivatives(const CapstanSpans& spans, std::vector<double>& by_stretch,
                                   std::vector<double>& by_grip) const {
-  const int n = static_cast<int>(tension.size()), guides = n - 1;
-  by_stretch.assign(at(n * n), 0.0);
-  by_grip.assign(at(n * std::max(guides, 0)), 0.0);
-  for (int first = 0, last; first < n; first = last) {
-    for (last = first + 1; last < n && grips[at(last - 1)] != Grip::sticks;) ++last;
-    if (!(tension[at(first)] > 0)) continue;
+  const std::size_t n = tension.size(), guides = n - 1;
+  by_stretch.assign(n * n, 0.0);
+  by_grip.assign(n * guides, 0.0);
+  std::vector<double> factor(n);
+  for (std::size_t first = 0, last; first < n; first = last) {
     // T_k = T f_k with ln f_k = −Σ ±b, and T Σ c f = Σ e
     const bool held = first == 0 && spans.held;
     double sum = 0;
-    for (int k = first; k < last; ++k) sum += spans.compliance[at(k)] * tension[at(k)] / tension[at(first)];
+    for (last = first; last < n && (last == first || grips[last - 1] != Grip::sticks); ++last) {
+      factor[last] = last == first ? 1 : factor[last - 1] * ratio(spans, last - 1);
+      sum += spans.compliance[last] * factor[last];
+    }
     if (!held)
-      for (int k = first; k < last; ++k)
-        for (int j = first; j < last; ++j)
-          by_stretch[at(k * n + j)] = tension[at(k)] / tension[at(first)] / sum;
+      for (std::size_t k = first; k < last; ++k)
+        for (std::size_t j = first; j < last; ++j) by_stretch[k * n + j] = factor[k] / sum;
     double after = 0;  // Σ c T of the spans after a guide
-    for (int g = last - 2; g >= first; --g) {
-      after += spans.compliance[at(g + 1)] * tension[at(g + 1)];
-      const double sign = -static_cast<double>(grips[at(g)]);
-      for (int k = first; k < last; ++k) {
-        double rate = k > g ? sign * tension[at(k)] : 0;
-        if (!held) rate -= sign * after / sum * tension[at(k)] / tension[at(first)];
-        by_grip[at(k * guides + g)] = rate;
+    for (std::size_t g = last - 1; g-- > first;) {
+      after += spans.compliance[g + 1] * tension[g + 1];
+      const double sign = -static_cast<double>(grips[g]);
+      for (std::size_t k = first; k < last; ++k) {
+        double rate = k > g ? sign * tension[k] : 0;
+        if (!held) rate -= sign * after / sum * factor[k];
+        by_grip[k * guides + g] = rate;
       }
     }
   }

@@ -27,10 +27,17 @@ enum class Grip : signed char {
 class CapstanTensions {
  public:
   void find(const CapstanSpans& spans);
+  /// Tensions with guides answering as `grips` says, whether they may or not.
+  void follow(const CapstanSpans& spans);
+  /// T after a guide over that before it, as `grips` says of one that slips.
+  double ratio(const CapstanSpans& spans, std::size_t guide) const;
+  /// Guides at the edge of slipping, where less than this has moved [m], count as those that stick.
+  void loosen(const CapstanSpans& spans, double least);
 
   std::vector<double> tension;  ///< of each span [N]
+  std::vector<double> slip;     ///< what moved outward at each guide [m]
   std::vector<Grip> grips;      ///< of each guide; that of a guide without friction is `outward`
-  /// ∂T/∂e, square, and ∂T/∂b, a row a span, by what find() left.
+  /// ∂T/∂e, square, and ∂T/∂b, a row a span, by what find() or follow() left; of taut tendons.
   void derivatives(const CapstanSpans& spans, std::vector<double>& by_stretch,
                    std::vector<double>& by_grip) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sinew/math/se3.hpp"
@@ -18,7 +19,9 @@ using Turn = Mat<double, 3, 3>;
 using Rows = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
 /// Of a tendon that does not stretch, while it is looked for [m/N]; what it gives is taken back.
-constexpr double give = 1e-6;
+constexpr double give = 1e-5;
+/// Of slip, that rounding may have made [m].
+constexpr double edge = 1e-14;
 
 Vector vector(const double* x) { return {x[0], x[1], x[2]}; }
 Turn skew(const Vector& u) {
@@ -147,11 +150,11 @@ void FrictionRod::forget() {
   }
 }
 
-bool FrictionRod::remember(const FrictionRod& other) {
+bool FrictionRod::remember(const FrictionRod& other, std::span<const NodeLoad> loads) {
   if (other.chains_.size() != chains_.size() || other.model_->size != model_->size) return false;
   for (std::size_t i = 0; i < chains_.size(); ++i)
     if (chains_[i].units.size() != other.chains_[i].units.size()) return false;
-  if (other.now_.loads.size() == now_.loads.size()) now_.loads = other.now_.loads;
+  now_.loads.assign(loads.begin(), loads.end());
   now_.y = other.now_.y;
   now_.tendons = other.now_.tendons;
   now_.stored = other.now_.stored;
@@ -343,64 +346,66 @@ void FrictionRod::linearise() {
   gradients();
   columns_ = 0;
   for (Chain& chain : chains_) {
-    chain.tensions.derivatives(chain.spans, chain.by_stretch, chain.by_grip);
-    const auto any = [](const std::vector<double>& x) {
-      return std::ranges::any_of(x, [](double v) { return v != 0; });
-    };
-    chain.moves = any(chain.by_stretch) || (chain.tendon.friction > 0 && any(chain.by_grip));
+    chain.moves = chain.tensions.tension.back() > 0 && (chain.tendon.friction > 0 || !chain.spans.held);
     chain.first_column = columns_;
     if (chain.moves) columns_ += static_cast<int>(chain.units.size());
   }
 }
 
-/// ∂T/∂y · x of all spans of tendons that move, x eight columns or more.
-void FrictionRod::tension_rates(const double* x, int stride, int columns, Eigen::MatrixXd& rates) const {
-  rates.setZero(columns_, columns);
+/// ∂l/∂y · x and ∂b/∂y · x of all spans of tendons that move, and of the guide before each.
+void FrictionRod::geometry_rates(const double* x, int stride, int columns, Eigen::MatrixXd& lengths_of,
+                                 Eigen::MatrixXd& angles_of) const {
+  lengths_of.setZero(columns_, columns);
+  angles_of.setZero(columns_, columns);
+  Eigen::RowVectorXd line(columns);
+  const auto product = [&](const std::vector<double>& gradient, int first) {
+    line.setZero();
+    for (std::size_t i = 0; i < gradient.size(); ++i) {
+      const double* from = x + (first + static_cast<int>(i)) * stride;
+      for (int j = 0; j < columns; ++j) line[j] += gradient[i] * from[j];
+    }
+  };
+  for (const Chain& chain : chains_) {
+    if (!chain.moves) continue;
+    for (std::size_t k = 0; k < chain.units.size(); ++k) {
+      const Unit& unit = chain.units[k];
+      product(unit.gradient, model_->pieces[at(segments_[at(unit.segment)].piece)].first);
+      lengths_of.row(chain.first_column + static_cast<int>(k)) = line;
+      if (!(chain.tendon.friction > 0)) continue;
+      product(chain.turns[k], chain.first[k]);
+      angles_of.row(chain.first_column + static_cast<int>(k)) = chain.tendon.friction * line;
+    }
+  }
+}
+
+/// From these to ∂T/∂y · x.
+void FrictionRod::tension_rates(const Eigen::MatrixXd& lengths_of, const Eigen::MatrixXd& angles_of,
+                                Eigen::MatrixXd& rates) const {
+  rates.setZero(columns_, lengths_of.cols());
   for (const Chain& chain : chains_) {
     if (!chain.moves) continue;
     const int count = static_cast<int>(chain.units.size()), outer = chain.has_outer ? 1 : 0,
-              spans = count + outer, guides = spans - 1;
-    const auto add = [&](const std::vector<double>& gradient, int first, Eigen::Ref<Eigen::RowVectorXd> out) {
-      for (std::size_t i = 0; i < gradient.size(); ++i) {
-        const double* line = x + (first + static_cast<int>(i)) * stride;
-        for (int j = 0; j < columns; ++j) out[j] += gradient[i] * line[j];
-      }
-    };
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> of_length(count, columns),
-        of_turn(count, columns);
-    of_length.setZero();
-    of_turn.setZero();
+              spans = count + outer, guides = spans - 1, from = chain.first_column;
     for (int k = 0; k < count; ++k) {
-      const Unit& unit = chain.units[at(k)];
-      Eigen::RowVectorXd line = Eigen::RowVectorXd::Zero(columns);
-      add(unit.gradient, model_->pieces[at(segments_[at(unit.segment)].piece)].first, line);
-      of_length.row(k) = line;
-      if (chain.tendon.friction > 0 && k + outer > 0) {
-        line.setZero();
-        add(chain.turns[at(k)], chain.first[at(k)], line);
-        of_turn.row(k) = chain.tendon.friction * line;
-      }
-    }
-    for (int k = 0; k < count; ++k) {
-      auto out = rates.row(chain.first_column + k);
+      auto out = rates.row(from + k);
       for (int j = 0; j < count; ++j) {
         const double rate = chain.by_stretch[at((k + outer) * spans + j + outer)];
-        if (rate != 0) out += rate * of_length.row(j);
+        if (rate != 0) out += rate * lengths_of.row(from + j);
       }
       if (!(chain.tendon.friction > 0)) continue;
       for (int g = 0; g < guides; ++g) {
         const double rate = chain.by_grip[at((k + outer) * guides + g)];
-        if (rate != 0) out += rate * of_turn.row(g + 1 - outer);
+        if (rate != 0) out += rate * angles_of.row(from + g + 1 - outer);
       }
     }
   }
 }
 
-bool FrictionRod::factor_all(double shift) {
+/// Factors the Hessian at these tensions; how lengths and angles answer to tensions.
+bool FrictionRod::factor_rod(double shift) {
   const Inertia inertia = factor(*model_, work_, shift);
   if (!inertia.ok) return false;
   negative_ = inertia.negative;
-  same_sign_ = negative_ % 2 == 0;
   if (columns_ == 0) return true;
   std::fill(fed_.begin(), fed_.end(), 0.0);
   for (const Chain& chain : chains_) {
@@ -414,7 +419,17 @@ bool FrictionRod::factor_all(double shift) {
     }
   }
   solve(*model_, work_, fed_.data(), columns_, stride_);
-  tension_rates(fed_.data(), stride_, columns_, small_);
+  geometry_rates(fed_.data(), stride_, columns_, length_answers_, angle_answers_);
+  return length_answers_.allFinite() && angle_answers_.allFinite();
+}
+
+/// Tensions as the guides' grips say, and how they answer to the coordinates.
+bool FrictionRod::factor_tendons() {
+  same_sign_ = negative_ % 2 == 0;
+  if (columns_ == 0) return true;
+  for (Chain& chain : chains_)
+    if (chain.moves) chain.tensions.derivatives(chain.spans, chain.by_stretch, chain.by_grip);
+  tension_rates(length_answers_, angle_answers_, small_);
   small_.diagonal().array() += 1;
   if (!small_.allFinite()) return false;
   lu_.compute(small_);
@@ -428,17 +443,157 @@ bool FrictionRod::factor_all(double shift) {
   return true;
 }
 
-/// One column, its rows eight numbers apart.
-void FrictionRod::solve_all(std::span<double> sides) {
-  solve(*model_, work_, sides.data(), 1, row);
+bool FrictionRod::factor_all(double shift) {
+  for (Chain& chain : chains_) chain.tensions.loosen(chain.spans, edge);
+  return factor_rod(shift) && factor_tendons();
+}
+
+/// One column, its rows eight numbers apart, solved with the rod's Hessian; then what tendons make of it.
+/// @param jumps by how much tensions differ from those that the gradient was taken at; may be empty
+void FrictionRod::add_tendons(std::span<double> sides, const Eigen::VectorXd& jumps) {
   if (columns_ == 0) return;
-  Eigen::MatrixXd rates;
-  tension_rates(sides.data(), row, 1, rates);
-  const Eigen::VectorXd t = lu_.solve(rates.col(0));
+  Eigen::MatrixXd lengths, angles, rates;
+  geometry_rates(sides.data(), row, 1, lengths, angles);
+  tension_rates(lengths, angles, rates);
+  Eigen::VectorXd t = rates.col(0);
+  if (jumps.size() > 0) t += jumps;
+  t = lu_.solve(t).eval();
   for (int i = 0; i < model_->size; ++i) {
     double sum = 0;
     for (int j = 0; j < columns_; ++j) sum += fed_[at(i * stride_ + j)] * t[j];
     sides[at(i * row)] -= sum;
+  }
+}
+
+void FrictionRod::solve_all(std::span<double> sides) {
+  solve(*model_, work_, sides.data(), 1, row);
+  add_tendons(sides, {});
+}
+
+/// Newton's step into `side_`. How each guide answers is chosen so that it is right at the step's end, as far
+/// as lengths are linear: a complementarity problem in the spans' tensions, solved by exchanging what is
+/// wrong.
+bool FrictionRod::find_step() {
+  if (!factor_rod(0)) return false;
+  std::fill(side_.begin(), side_.end(), 0.0);
+  for (int i = 0; i < model_->size; ++i) side_[at(i * row)] = -work_.gradient[at(i)];
+  solve(*model_, work_, side_.data(), 1, row);
+  Eigen::VectorXd jumps = Eigen::VectorXd::Zero(columns_);
+  if (columns_ > 0) {
+    for (Chain& chain : chains_) {
+      if (!chain.moves) continue;
+      const int outer = chain.has_outer ? 1 : 0;
+      for (int k = 0; k < static_cast<int>(chain.units.size()); ++k)
+        jumps[chain.first_column + k] = -chain.tensions.tension[at(k + outer)];
+    }
+    choose_grips(-jumps);
+    for (Chain& chain : chains_) {
+      if (!chain.moves) continue;
+      const int outer = chain.has_outer ? 1 : 0;
+      chain.tensions.follow(chain.spans);
+      for (int k = 0; k < static_cast<int>(chain.units.size()); ++k)
+        jumps[chain.first_column + k] += chain.tensions.tension[at(k + outer)];
+    }
+  }
+  if (!factor_tendons()) return false;
+  add_tendons(side_, jumps);
+  return true;
+}
+
+/// @param tensions those at which the gradient was taken
+void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
+  bool any = false;
+  int size = 0;
+  for (Chain& chain : chains_) {
+    chain.first_span = size;
+    if (!chain.moves) continue;
+    any = any || chain.tendon.friction > 0;
+    size += static_cast<int>(chain.spans.stretch.size());
+  }
+  if (!any) return;
+  Eigen::MatrixXd ahead, unused;
+  geometry_rates(side_.data(), row, 1, ahead, unused);
+  // (c + LH⁻¹Lᵀ) t = e − what has come by slip
+  Eigen::MatrixXd yields = Eigen::MatrixXd::Zero(size, size), rows(size, size);
+  Eigen::VectorXd stretch(size), right(size), t(size), content(size);
+  const Eigen::VectorXd now = ahead.col(0) + length_answers_ * tensions;
+  for (const Chain& a : chains_) {
+    if (!a.moves) continue;
+    const int outer = a.has_outer ? 1 : 0, count = static_cast<int>(a.units.size());
+    for (int k = 0; k < count + outer; ++k) {
+      stretch[a.first_span + k] = a.spans.stretch[at(k)];
+      yields(a.first_span + k, a.first_span + k) = a.spans.compliance[at(k)];
+    }
+    for (int k = 0; k < count; ++k) stretch[a.first_span + outer + k] += now[a.first_column + k];
+    for (const Chain& b : chains_) {
+      if (!b.moves) continue;
+      yields.block(a.first_span + outer, b.first_span + (b.has_outer ? 1 : 0), count,
+                   static_cast<int>(b.units.size())) +=
+          length_answers_.block(a.first_column, b.first_column, count, static_cast<int>(b.units.size()));
+    }
+  }
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  int patience = 6;
+  for (int round = 0; round < 100 + 4 * size; ++round) {
+    rows.setZero();
+    right.setZero();
+    for (const Chain& chain : chains_) {
+      if (!chain.moves) continue;
+      const int spans = static_cast<int>(chain.spans.stretch.size());
+      int base = chain.first_span;
+      for (int k = 0; k < spans; ++k) {
+        const int line = chain.first_span + k;
+        if (k > 0 && chain.tensions.grips[at(k - 1)] != Grip::sticks) {  // its own row says how it follows
+          rows(line, line) = 1;
+          rows(line, line - 1) = -chain.tensions.ratio(chain.spans, at(k - 1));
+        } else {
+          base = line;
+        }
+        if (base == chain.first_span && chain.spans.held) {
+          if (k == 0) rows(line, line) = 1, right[line] = chain.spans.tension;
+        } else {
+          rows.row(base) += yields.row(line);
+          right[base] += stretch[line];
+        }
+      }
+    }
+    t = rows.partialPivLu().solve(right);
+    if (!t.allFinite()) return;
+    content = stretch - yields * t;
+    struct Wrong {
+      Chain* chain;
+      std::size_t guide;
+      Grip to;
+    };
+    std::vector<Wrong> wrong;
+    const double small = 1e-12 * t.cwiseAbs().maxCoeff();
+    for (Chain& chain : chains_) {
+      if (!chain.moves || !(chain.tendon.friction > 0)) continue;
+      double moved = 0;
+      for (std::size_t k = chain.spans.stretch.size(); k-- > 1;) {
+        const std::size_t g = k - 1;
+        const int line = chain.first_span + static_cast<int>(k);
+        moved -= content[line];
+        if (!(chain.spans.grip[g] > 0)) continue;
+        const Grip grip = chain.tensions.grips[g];
+        const double f = std::exp(chain.spans.grip[g]);
+        if (grip == Grip::sticks) {
+          if (t[line - 1] > f * t[line] + small) wrong.push_back({&chain, g, Grip::outward});
+          if (t[line] > f * t[line - 1] + small) wrong.push_back({&chain, g, Grip::inward});
+        } else if (static_cast<double>(grip) * moved < -edge) {
+          wrong.push_back({&chain, g, Grip::sticks});
+        }
+      }
+    }
+    if (wrong.empty()) return;
+    if (wrong.size() < fewest) {
+      fewest = wrong.size();
+      patience = 6;
+    } else {
+      --patience;
+    }
+    const std::size_t changed = patience > 0 ? wrong.size() : 1;  // one by one it does not go round
+    for (std::size_t i = 0; i < changed; ++i) wrong[i].chain->tensions.grips[wrong[i].guide] = wrong[i].to;
   }
 }
 
@@ -456,7 +611,9 @@ bool FrictionRod::holds() {
   Eigen::MatrixXd V, L(m, n);
   std::vector<double> unit(at(n * n), 0.0);
   for (int i = 0; i < n; ++i) unit[at(i * n + i)] = 1;
-  tension_rates(unit.data(), n, n, V);
+  Eigen::MatrixXd lengths_of, angles_of;
+  geometry_rates(unit.data(), n, n, lengths_of, angles_of);
+  tension_rates(lengths_of, angles_of, V);
   L.setZero();
   for (const Chain& chain : chains_) {
     if (!chain.moves) continue;
@@ -485,20 +642,37 @@ bool FrictionRod::holds() {
   return negative_ + static_cast<int>(below) - m == 0 || same_sign_;
 }
 
-/// Newton's steps that lower the residual.
+/// Newton's steps. At the edge between slip and stick the residual has a kink, across which a step may raise
+/// it before the next one lowers it: some such steps are let pass.
 Relaxed FrictionRod::newton(const RelaxOptions& options) {
   Relaxed result;
-  const double scale = std::sqrt(model_->energy_scale);
+  const double scale = std::sqrt(model_->energy_scale), most = std::numbers::pi * scale;
+  constexpr int patience = 6;
   evaluate();
   linearise();
   ++result.evaluations;
   result.residual = residual();
-  for (;; ++result.iterations) {
+  double best = result.residual;
+  std::copy(work_.y.begin(), work_.y.end(), start_.begin());  // the best
+  const auto back = [&] {
+    std::copy(start_.begin(), start_.end(), work_.y.begin());
+    evaluate();
+    linearise();
+    result.residual = best;
+  };
+  for (int waits = 0;; ++result.iterations) {
     if (!std::isfinite(result.residual)) {
-      result.status = Status::left_domain;
+      back();
+      result.status = std::isfinite(best) ? Status::stalled : Status::left_domain;
       return result;
     }
     if (result.residual <= options.tolerance) return result;
+    if (waits > patience) {
+      back();
+      if (best > 1e3 * options.tolerance)
+        result.status = Status::stalled;  // else as near as rounding lets it
+      return result;
+    }
     if (result.iterations >= options.max_iterations) {
       result.status = Status::iteration_limit;
       return result;
@@ -507,38 +681,24 @@ Relaxed FrictionRod::newton(const RelaxOptions& options) {
       result.status = Status::stopped;
       return result;
     }
-    if (!factor_all(0)) {
+    if (!find_step()) {
       result.status = Status::singular;
       return result;
     }
-    std::fill(side_.begin(), side_.end(), 0.0);
-    for (int i = 0; i < model_->size; ++i) side_[at(i * row)] = -work_.gradient[at(i)];
-    solve_all(side_);
     double length = 0;
     for (int i = 0; i < model_->size; ++i) length += side_[at(i * row)] * side_[at(i * row)];
-    length = std::sqrt(length);
-    const double before = result.residual, most = std::numbers::pi * scale;
-    std::copy(work_.y.begin(), work_.y.end(), start_.begin());
-    double share = length > most ? most / length : 1;
-    bool accept = false;
-    for (int tries = 0; tries < 8 && !accept; ++tries, share *= 0.5) {
-      for (int i = 0; i < model_->size; ++i) work_.y[at(i)] = start_[at(i)] + share * side_[at(i * row)];
-      evaluate();
-      sweep_back(*model_, work_);
-      ++result.evaluations;
-      result.residual = residual();
-      accept = result.residual <= before * (1 - 1e-4 * share);
-    }
-    if (!accept) {
-      std::copy(start_.begin(), start_.end(), work_.y.begin());
-      evaluate();
-      linearise();
-      result.residual = before;
-      if (before > 1e3 * options.tolerance)
-        result.status = Status::stalled;  // else as near as rounding lets it
-      return result;
-    }
+    const double share = std::min(1.0, most / std::sqrt(length));
+    for (int i = 0; i < model_->size; ++i) work_.y[at(i)] += share * side_[at(i * row)];
+    evaluate();
     linearise();
+    ++result.evaluations;
+    result.residual = residual();
+    ++waits;
+    if (result.residual < best) {
+      if (result.residual < 0.9 * best) waits = 0;
+      best = result.residual;
+      std::copy(work_.y.begin(), work_.y.end(), start_.begin());
+    }
   }
 }
 

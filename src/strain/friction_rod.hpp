@@ -48,7 +48,8 @@ class FrictionRod {
   /// Straight, free, never pulled.
   void forget();
   /// Takes over what another rod of the same tendons and coordinates remembers; false if it is not the same.
-  bool remember(const FrictionRod& other);
+  /// @param loads the other's, on the nodes of this one
+  bool remember(const FrictionRod& other, std::span<const NodeLoad> loads);
 
   /// Inputs and loads change evenly from those of the last step to these. Where no equilibrium is found the
   /// rod stays at the last one that was.
@@ -106,6 +107,7 @@ class FrictionRod {
     CapstanTensions tensions;
     bool moves = false;     ///< tensions depend on the coordinates
     int first_column = 0;   ///< of its spans in the update below
+    int first_span = 0;     ///< the same with those outside of the rod
     bool has_outer = true;  ///< the part outside of the rod is a span
     std::vector<double> by_stretch, by_grip;
   };
@@ -131,8 +133,16 @@ class FrictionRod {
   Vec3<double> guided(const Segment& segment, const Guide& guide, std::size_t g) const;
   void linearise();
   void gradients();
-  void tension_rates(const double* x, int stride, int columns, Eigen::MatrixXd& rates) const;
+  void geometry_rates(const double* x, int stride, int columns, Eigen::MatrixXd& lengths_of,
+                      Eigen::MatrixXd& angles_of) const;
+  void tension_rates(const Eigen::MatrixXd& lengths_of, const Eigen::MatrixXd& angles_of,
+                     Eigen::MatrixXd& rates) const;
+  bool factor_rod(double shift);
+  bool factor_tendons();
   bool factor_all(double shift);
+  void add_tendons(std::span<double> sides, const Eigen::VectorXd& jumps);
+  bool find_step();
+  void choose_grips(const Eigen::VectorXd& tensions);
   void solve_all(std::span<double> sides);
   double residual() const;
   bool holds();
@@ -153,7 +163,7 @@ class FrictionRod {
   int columns_ = 0, stride_ = 8, negative_ = 0;
   bool same_sign_ = true;  ///< of the Jacobian's determinant as of the unloaded rod's
   std::vector<double> fed_, side_, start_;
-  Eigen::MatrixXd small_;
+  Eigen::MatrixXd small_, length_answers_, angle_answers_;  ///< of lengths and angles to tensions
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
 };
 
