@@ -63,16 +63,16 @@ double CapstanTensions::ratio(const CapstanSpans& spans, std::size_t guide) cons
 }
 
 void CapstanTensions::follow(const CapstanSpans& spans) {
-  const std::size_t n = spans.stretch.size();
-  for (std::size_t first = 0, last; first < n; first = last) {
+  const int n = static_cast<int>(spans.stretch.size());
+  for (int first = 0, last; first < n; first = last) {
     double stretch = 0, compliance = 0, factor = 1;
-    for (last = first; last < n && (last == first || grips[last - 1] != Grip::sticks); ++last) {
-      if (last > first) factor *= ratio(spans, last - 1);
-      stretch += spans.stretch[last];
-      compliance += spans.compliance[last] * factor;
+    for (last = first; last < n && (last == first || grips[at(last - 1)] != Grip::sticks); ++last) {
+      if (last > first) factor *= ratio(spans, at(last - 1));
+      stretch += spans.stretch[at(last)];
+      compliance += spans.compliance[at(last)] * factor;
     }
-    tension[first] = first == 0 && spans.held ? spans.tension : stretch / compliance;
-    for (std::size_t k = first + 1; k < last; ++k) tension[k] = tension[k - 1] * ratio(spans, k - 1);
+    tension[at(first)] = first == 0 && spans.held ? spans.tension : stretch / compliance;
+    for (int k = first + 1; k < last; ++k) tension[at(k)] = tension[at(k - 1)] * ratio(spans, at(k - 1));
   }
 }
 

@@ -242,6 +242,7 @@ void FrictionRod::evaluate() {
       }
     }
     chain.tensions.find(spans);
+    chain.taut = chain.tensions.tension.back() > 0;
     for (std::size_t k = 0; k < count; ++k) {
       const Unit& unit = chain.units[k];
       (unit.hole ? work_.hole_tension : work_.guide_tension)[at(unit.entry)] =
@@ -346,7 +347,7 @@ void FrictionRod::linearise() {
   gradients();
   columns_ = 0;
   for (Chain& chain : chains_) {
-    chain.moves = chain.tensions.tension.back() > 0 && (chain.tendon.friction > 0 || !chain.spans.held);
+    chain.moves = chain.spans.held ? chain.tendon.friction > 0 && chain.spans.tension > 0 : true;
     chain.first_column = columns_;
     if (chain.moves) columns_ += static_cast<int>(chain.units.size());
   }
@@ -383,7 +384,7 @@ void FrictionRod::tension_rates(const Eigen::MatrixXd& lengths_of, const Eigen::
                                 Eigen::MatrixXd& rates) const {
   rates.setZero(columns_, lengths_of.cols());
   for (const Chain& chain : chains_) {
-    if (!chain.moves) continue;
+    if (!chain.moves || !chain.taut) continue;
     const int count = static_cast<int>(chain.units.size()), outer = chain.has_outer ? 1 : 0,
               spans = count + outer, guides = spans - 1, from = chain.first_column;
     for (int k = 0; k < count; ++k) {
@@ -428,7 +429,7 @@ bool FrictionRod::factor_tendons() {
   same_sign_ = negative_ % 2 == 0;
   if (columns_ == 0) return true;
   for (Chain& chain : chains_)
-    if (chain.moves) chain.tensions.derivatives(chain.spans, chain.by_stretch, chain.by_grip);
+    if (chain.moves && chain.taut) chain.tensions.derivatives(chain.spans, chain.by_stretch, chain.by_grip);
   tension_rates(length_answers_, angle_answers_, small_);
   small_.diagonal().array() += 1;
   if (!small_.allFinite()) return false;
@@ -457,10 +458,10 @@ void FrictionRod::add_tendons(std::span<double> sides, const Eigen::VectorXd& ju
   tension_rates(lengths, angles, rates);
   Eigen::VectorXd t = rates.col(0);
   if (jumps.size() > 0) t += jumps;
-  t = lu_.solve(t).eval();
+  change_ = lu_.solve(t);
   for (int i = 0; i < model_->size; ++i) {
     double sum = 0;
-    for (int j = 0; j < columns_; ++j) sum += fed_[at(i * stride_ + j)] * t[j];
+    for (int j = 0; j < columns_; ++j) sum += fed_[at(i * stride_ + j)] * change_[j];
     sides[at(i * row)] -= sum;
   }
 }
@@ -474,25 +475,23 @@ void FrictionRod::solve_all(std::span<double> sides) {
 /// as lengths are linear: a complementarity problem in the spans' tensions, solved by exchanging what is
 /// wrong.
 bool FrictionRod::find_step() {
-  if (!factor_rod(0)) return false;
+  if (!factor_rod(drag_)) return false;
   std::fill(side_.begin(), side_.end(), 0.0);
   for (int i = 0; i < model_->size; ++i) side_[at(i * row)] = -work_.gradient[at(i)];
   solve(*model_, work_, side_.data(), 1, row);
   Eigen::VectorXd jumps = Eigen::VectorXd::Zero(columns_);
   if (columns_ > 0) {
-    for (Chain& chain : chains_) {
-      if (!chain.moves) continue;
-      const int outer = chain.has_outer ? 1 : 0;
-      for (int k = 0; k < static_cast<int>(chain.units.size()); ++k)
-        jumps[chain.first_column + k] = -chain.tensions.tension[at(k + outer)];
-    }
+    for (const Chain& chain : chains_)
+      if (chain.moves)
+        for (std::size_t k = 0; k < chain.units.size(); ++k)
+          jumps[chain.first_column + static_cast<int>(k)] = -chain.pull[k];
     choose_grips(-jumps);
     for (Chain& chain : chains_) {
-      if (!chain.moves) continue;
-      const int outer = chain.has_outer ? 1 : 0;
+      if (!chain.moves || !chain.taut) continue;
+      const std::size_t outer = chain.has_outer ? 1 : 0;
       chain.tensions.follow(chain.spans);
-      for (int k = 0; k < static_cast<int>(chain.units.size()); ++k)
-        jumps[chain.first_column + k] += chain.tensions.tension[at(k + outer)];
+      for (std::size_t k = 0; k < chain.units.size(); ++k)
+        jumps[chain.first_column + static_cast<int>(k)] += chain.tensions.tension[k + outer];
     }
   }
   if (!factor_tendons()) return false;
@@ -507,7 +506,7 @@ void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
   for (Chain& chain : chains_) {
     chain.first_span = size;
     if (!chain.moves) continue;
-    any = any || chain.tendon.friction > 0;
+    any = any || chain.tendon.friction > 0 || !chain.spans.held;
     size += static_cast<int>(chain.spans.stretch.size());
   }
   if (!any) return;
@@ -540,6 +539,10 @@ void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
     for (const Chain& chain : chains_) {
       if (!chain.moves) continue;
       const int spans = static_cast<int>(chain.spans.stretch.size());
+      if (!chain.taut) {
+        for (int k = 0; k < spans; ++k) rows(chain.first_span + k, chain.first_span + k) = 1;
+        continue;
+      }
       int base = chain.first_span;
       for (int k = 0; k < spans; ++k) {
         const int line = chain.first_span + k;
@@ -564,11 +567,19 @@ void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
       Chain* chain;
       std::size_t guide;
       Grip to;
+      bool taut = true, exchanges = false;  ///< all of the tendon
     };
     std::vector<Wrong> wrong;
     const double small = 1e-12 * t.cwiseAbs().maxCoeff();
     for (Chain& chain : chains_) {
-      if (!chain.moves || !(chain.tendon.friction > 0)) continue;
+      if (!chain.moves) continue;
+      const auto spans = static_cast<Eigen::Index>(chain.spans.stretch.size());
+      if (chain.taut ? !chain.spans.held && t.segment(chain.first_span, spans).maxCoeff() <= 0
+                     : content.segment(chain.first_span, spans).sum() > edge) {
+        wrong.push_back({&chain, 0, Grip::sticks, !chain.taut, true});
+        continue;
+      }
+      if (!chain.taut || !(chain.tendon.friction > 0)) continue;
       double moved = 0;
       for (std::size_t k = chain.spans.stretch.size(); k-- > 1;) {
         const std::size_t g = k - 1;
@@ -593,7 +604,13 @@ void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
       --patience;
     }
     const std::size_t changed = patience > 0 ? wrong.size() : 1;  // one by one it does not go round
-    for (std::size_t i = 0; i < changed; ++i) wrong[i].chain->tensions.grips[wrong[i].guide] = wrong[i].to;
+    for (std::size_t i = 0; i < changed; ++i) {
+      Chain& chain = *wrong[i].chain;
+      if (wrong[i].exchanges)
+        chain.taut = wrong[i].taut;
+      else
+        chain.tensions.grips[wrong[i].guide] = wrong[i].to;
+    }
   }
 }
 
@@ -642,37 +659,25 @@ bool FrictionRod::holds() {
   return negative_ + static_cast<int>(below) - m == 0 || same_sign_;
 }
 
-/// Newton's steps. At the edge between slip and stick the residual has a kink, across which a step may raise
-/// it before the next one lowers it: some such steps are let pass.
+/// Newton's steps in coordinates and tensions: the Hessian is taken at the tensions that the last step
+/// foresaw, since those of stiff tendons at its end are far off.
 Relaxed FrictionRod::newton(const RelaxOptions& options) {
   Relaxed result;
   const double scale = std::sqrt(model_->energy_scale), most = std::numbers::pi * scale;
   constexpr int patience = 6;
-  evaluate();
-  linearise();
-  ++result.evaluations;
-  result.residual = residual();
-  double best = result.residual;
-  std::copy(work_.y.begin(), work_.y.end(), start_.begin());  // the best
-  const auto back = [&] {
-    std::copy(start_.begin(), start_.end(), work_.y.begin());
-    evaluate();
-    linearise();
-    result.residual = best;
-  };
+  double best = std::numeric_limits<double>::max();
   for (int waits = 0;; ++result.iterations) {
-    if (!std::isfinite(result.residual)) {
-      back();
-      result.status = std::isfinite(best) ? Status::stalled : Status::left_domain;
-      return result;
+    evaluate();
+    sweep_back(*model_, work_);
+    add_drag();
+    ++result.evaluations;
+    result.residual = residual();
+    if (result.residual < best) {
+      if (result.residual < 0.9 * best) waits = 0;
+      best = result.residual;
+      std::copy(work_.y.begin(), work_.y.end(), start_.begin());
     }
-    if (result.residual <= options.tolerance) return result;
-    if (waits > patience) {
-      back();
-      if (best > 1e3 * options.tolerance)
-        result.status = Status::stalled;  // else as near as rounding lets it
-      return result;
-    }
+    if (result.residual <= options.tolerance || waits > patience || !std::isfinite(result.residual)) break;
     if (result.iterations >= options.max_iterations) {
       result.status = Status::iteration_limit;
       return result;
@@ -681,6 +686,13 @@ Relaxed FrictionRod::newton(const RelaxOptions& options) {
       result.status = Status::stopped;
       return result;
     }
+    for (const Chain& chain : chains_)
+      if (!chain.spans.held || chain.tendon.friction > 0)
+        for (std::size_t k = 0; k < chain.units.size(); ++k)
+          (chain.units[k].hole ? work_.hole_tension : work_.guide_tension)[at(chain.units[k].entry)] =
+              chain.pull[k];
+    linearise();
+    add_drag();
     if (!find_step()) {
       result.status = Status::singular;
       return result;
@@ -689,81 +701,69 @@ Relaxed FrictionRod::newton(const RelaxOptions& options) {
     for (int i = 0; i < model_->size; ++i) length += side_[at(i * row)] * side_[at(i * row)];
     const double share = std::min(1.0, most / std::sqrt(length));
     for (int i = 0; i < model_->size; ++i) work_.y[at(i)] += share * side_[at(i * row)];
-    evaluate();
-    linearise();
-    ++result.evaluations;
-    result.residual = residual();
+    for (Chain& chain : chains_)
+      if (chain.moves)
+        for (std::size_t k = 0; k < chain.units.size(); ++k)
+          chain.pull[k] += share * change_[chain.first_column + static_cast<int>(k)];
     ++waits;
-    if (result.residual < best) {
-      if (result.residual < 0.9 * best) waits = 0;
-      best = result.residual;
-      std::copy(work_.y.begin(), work_.y.end(), start_.begin());
-    }
   }
+  if (result.residual > options.tolerance ||
+      !std::isfinite(result.residual)) {  // as near as rounding lets it?
+    std::copy(start_.begin(), start_.end(), work_.y.begin());
+    evaluate();
+    result.residual = best;
+    if (!(best <= 1e3 * options.tolerance)) result.status = Status::stalled;
+  }
+  linearise();
+  return result;
 }
 
-/// Implicit steps of ẏ = −residual from where the rod was, as far as it then moves by itself.
+/// With what resists a motion that has no time to be slow.
+void FrictionRod::add_drag() {
+  if (drag_ == 0) return;
+  for (std::size_t i = 0; i < work_.gradient.size(); ++i)
+    work_.gradient[i] += drag_ * (work_.y[i] - anchor_[i]);
+}
+
+/// Implicit steps of ẏ = −residual from where the rod was, ever longer, until Newton's method finds the end:
+/// as far as it then moves by itself.
 Relaxed FrictionRod::flow(const RelaxOptions& options) {
   Relaxed result;
-  const double scale = std::sqrt(model_->energy_scale);
-  double shift = 1;
-  evaluate();
-  linearise();
-  ++result.evaluations;
-  result.residual = residual();
-  for (;; ++result.iterations) {
-    if (!std::isfinite(result.residual)) {
-      result.status = Status::left_domain;
-      return result;
+  RelaxOptions each = options;
+  each.max_iterations = 25;
+  std::vector<std::vector<double>> pulls(chains_.size());
+  const auto keep = [&] {
+    anchor_ = work_.y;
+    for (std::size_t i = 0; i < chains_.size(); ++i) pulls[i] = chains_[i].pull;
+  };
+  keep();
+  double drag = 1;
+  bool ended = false;
+  while (!ended) {
+    drag_ = drag < 1e-3 ? 0 : drag;
+    const Relaxed one = newton(each);
+    ended = drag_ == 0 && one.status == Status::converged;
+    drag_ = 0;
+    result.iterations += one.iterations;
+    result.evaluations += one.evaluations;
+    result.residual = one.residual;
+    result.status = one.status;
+    if (one.status == Status::stopped) break;
+    if (one.status == Status::converged) {
+      keep();
+      drag *= 0.3;
+    } else {
+      work_.y = anchor_;
+      for (std::size_t i = 0; i < chains_.size(); ++i) chains_[i].pull = pulls[i];
+      drag = std::max(0.01, 4 * drag);
+      if (drag > 1e5) break;
     }
-    if (result.residual <= options.tolerance) return result;
-    if (result.iterations >= options.max_iterations) {
+    if (!ended && result.iterations >= 4 * options.max_iterations) {
       result.status = Status::iteration_limit;
-      return result;
+      break;
     }
-    if (options.stop && options.stop()) {
-      result.status = Status::stopped;
-      return result;
-    }
-    const double before = result.residual;
-    std::copy(work_.y.begin(), work_.y.end(), start_.begin());
-    bool accept = false;
-    for (int tries = 0; tries < 16 && !accept; ++tries) {
-      double length = 0;
-      if (factor_all(shift)) {
-        std::fill(side_.begin(), side_.end(), 0.0);
-        for (int i = 0; i < model_->size; ++i) side_[at(i * row)] = -work_.gradient[at(i)];
-        solve_all(side_);
-        for (int i = 0; i < model_->size; ++i) length += side_[at(i * row)] * side_[at(i * row)];
-        length = std::sqrt(length);
-      }
-      if (!(length > 0) || !(length <= scale)) {
-        shift = std::max(4 * shift, 0.01);
-        continue;
-      }
-      for (int i = 0; i < model_->size; ++i) work_.y[at(i)] = start_[at(i)] + side_[at(i * row)];
-      evaluate();
-      linearise();
-      ++result.evaluations;
-      result.residual = residual();
-      accept = result.residual < 3 * before;
-      if (!accept) {
-        std::copy(start_.begin(), start_.end(), work_.y.begin());
-        evaluate();
-        linearise();
-        shift = std::max(4 * shift, 0.01);
-      }
-    }
-    const bool by_rounding = before < 1e3 * options.tolerance && result.residual > 0.3 * before;
-    if (!accept) {
-      result.residual = before;
-      if (!by_rounding) result.status = Status::stalled;
-      return result;
-    }
-    if (by_rounding) return result;
-    shift *= std::clamp(result.residual / before, 0.1, 2.0);
-    if (shift < 1e-4) shift = 0;
   }
+  return result;
 }
 
 /// Tendons that do not stretch are let give way, and what they gave is taken back.
@@ -794,7 +794,11 @@ Relaxed FrictionRod::rigid(const RelaxOptions& options, bool flows) {
 
 Relaxed FrictionRod::equilibrium(const RelaxOptions& options, bool flows) {
   std::vector<std::vector<double>> offsets;
-  for (const Chain& chain : chains_) offsets.push_back(chain.offset);
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    const auto& tension = now_.tendons[i].tension;
+    chains_[i].pull.assign(tension.begin() + 1, tension.end());
+    offsets.push_back(chains_[i].offset);
+  }
   Relaxed result = rigid(options, flows);
   if (result.status == Status::converged && !holds()) {
     result.negative = 1;

@@ -105,7 +105,9 @@ class FrictionRod {
     std::vector<int> first;
     CapstanSpans spans;
     CapstanTensions tensions;
-    bool moves = false;     ///< tensions depend on the coordinates
+    std::vector<double> pull;  ///< of each span, where the Hessian is taken [N]
+    bool moves = false;        ///< tensions may depend on the coordinates
+    bool taut = false;
     int first_column = 0;   ///< of its spans in the update below
     int first_span = 0;     ///< the same with those outside of the rod
     bool has_outer = true;  ///< the part outside of the rod is a span
@@ -141,6 +143,7 @@ class FrictionRod {
   bool factor_tendons();
   bool factor_all(double shift);
   void add_tendons(std::span<double> sides, const Eigen::VectorXd& jumps);
+  void add_drag();
   bool find_step();
   void choose_grips(const Eigen::VectorXd& tensions);
   void solve_all(std::span<double> sides);
@@ -162,7 +165,9 @@ class FrictionRod {
   bool potential_ = true;
   int columns_ = 0, stride_ = 8, negative_ = 0;
   bool same_sign_ = true;  ///< of the Jacobian's determinant as of the unloaded rod's
-  std::vector<double> fed_, side_, start_;
+  double drag_ = 0;        ///< of a motion away from `anchor_`
+  std::vector<double> fed_, side_, start_, anchor_;
+  Eigen::VectorXd change_;                                  ///< of tensions
   Eigen::MatrixXd small_, length_answers_, angle_answers_;  ///< of lengths and angles to tensions
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
 };

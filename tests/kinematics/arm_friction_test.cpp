@@ -107,7 +107,7 @@ TEST(ArmFriction, WithoutItAPathIsReversibleAndThatOfArmForward) {
 /// Of the second cycle from one change to another and back.
 struct Cycle {
   double work = 0, loss = 0, gap = 0;  ///< [J, J, m]: gap between its begin and its end
-  double most = 0, least = 0;          ///< of the tip's way across where half of the pull is left [m]
+  double out = 0, back = 0;            ///< the tip's way across at the same change, let go and pulled [m]
 };
 Cycle cycle(const Arm& arm, double far, double near, int count, const ArmOptions& options) {
   ArmWorkspace work(arm);
@@ -136,8 +136,8 @@ Cycle cycle(const Arm& arm, double far, double near, int count, const ArmOptions
       }
     found.gap = distance(begin.state.tip, back.back().state.tip);
     const auto middle = static_cast<std::size_t>(count) / 2 - 1;
-    found.most = across(out[middle]);
-    found.least = across(back[middle]);
+    found.out = across(out[middle]);
+    found.back = across(back[middle]);
   }
   return found;
 }
@@ -164,7 +164,7 @@ TEST(ArmFriction, LoopsOfTheTipCloseInTheSecondCycle) {
         .model = discs > 0 ? ArmModel::subsegment_rod : ArmModel::rod, .accuracy = 0, .tolerance = 1e-12};
     const Cycle found = cycle(two_tendons(discs, 0.3), -0.008, -0.001, 20, options);
     EXPECT_LT(found.gap, 1e-11);
-    EXPECT_GT(found.most, found.least + 1e-3);  // on the way out it lags behind
+    EXPECT_GT(found.back, found.out + 1e-3);  // pulled, it bends more near its base
     EXPECT_GT(found.loss, 1e-4);
   }
 }
@@ -206,7 +206,7 @@ TEST(ArmFriction, WhatHasSlippedIsRemembered) {
   const auto later = arm_follow(arm, steps, options, two);
   expect_all_found(later, 10);
   EXPECT_LT(distance(at_once.back().state.tip, later.back().state.tip), 1e-7);
-  EXPECT_GT(distance(at_once.back().state.tip, anew.back().state.tip), 1e-3);
+  EXPECT_GT(distance(at_once.back().state.tip, anew.back().state.tip), 5e-4);
   EXPECT_FALSE(arm_rates(arm, two).regular);
   EXPECT_LT(distance(arm_frames(arm, std::array{0.2}, two)[0], later.back().state.tip), 1e-12);
   options.model = ArmModel::cc;
