@@ -22,6 +22,8 @@ using Rows = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 constexpr double give = 1e-5;
 /// Of slip, that rounding may have made [m].
 constexpr double edge = 1e-14;
+/// Of exchanges of grips; where the rod is not stable at its tensions they may not end.
+constexpr int most_rounds = 30;
 
 Vector vector(const double* x) { return {x[0], x[1], x[2]}; }
 Turn skew(const Vector& u) {
@@ -487,6 +489,10 @@ bool FrictionRod::find_step() {
           jumps[chain.first_column + static_cast<int>(k)] = -chain.pull[k];
     choose_grips(-jumps);
     for (Chain& chain : chains_) {
+      chain.chosen = chain.tensions.grips;
+      chain.was_taut = chain.taut;
+    }
+    for (Chain& chain : chains_) {
       if (!chain.moves || !chain.taut) continue;
       const std::size_t outer = chain.has_outer ? 1 : 0;
       chain.tensions.follow(chain.spans);
@@ -531,9 +537,14 @@ void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
           length_answers_.block(a.first_column, b.first_column, count, static_cast<int>(b.units.size()));
     }
   }
+  for (Chain& chain : chains_)  // as the last step had it
+    if (chain.moves && chain.chosen.size() == chain.tensions.grips.size()) {
+      chain.tensions.grips = chain.chosen;
+      chain.taut = chain.was_taut;
+    }
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   int patience = 6;
-  for (int round = 0; round < 100 + 4 * size; ++round) {
+  for (int round = 0; round < most_rounds; ++round) {
     rows.setZero();
     right.setZero();
     for (const Chain& chain : chains_) {
@@ -665,6 +676,7 @@ Relaxed FrictionRod::newton(const RelaxOptions& options) {
   Relaxed result;
   const double scale = std::sqrt(model_->energy_scale), most = std::numbers::pi * scale;
   constexpr int patience = 6;
+  for (Chain& chain : chains_) chain.chosen.clear();
   double best = std::numeric_limits<double>::max();
   for (int waits = 0;; ++result.iterations) {
     evaluate();

@@ -107,10 +107,11 @@ class FrictionRod {
     CapstanTensions tensions;
     std::vector<double> pull;  ///< of each span, where the Hessian is taken [N]
     bool moves = false;        ///< tensions may depend on the coordinates
-    bool taut = false;
-    int first_column = 0;   ///< of its spans in the update below
-    int first_span = 0;     ///< the same with those outside of the rod
-    bool has_outer = true;  ///< the part outside of the rod is a span
+    bool taut = false, was_taut = false;
+    std::vector<Grip> chosen;  ///< in the last step
+    int first_column = 0;      ///< of its spans in the update below
+    int first_span = 0;        ///< the same with those outside of the rod
+    bool has_outer = true;     ///< the part outside of the rod is a span
     std::vector<double> by_stretch, by_grip;
   };
   /// What is remembered of a tendon.

@@ -252,7 +252,7 @@ TEST(ArmFriction, RandomPathsEndInEquilibriaOrSayNo) {
     std::vector<TendonHeld> held(6);
     for (std::size_t i = 0; i < 6; ++i)
       held[i] = gen() % 2 == 0 || (rigid && i % 3 > 0) ? TendonHeld::tension : TendonHeld::change;
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k < 4; ++k) {
       ArmStep step;
       for (std::size_t i = 0; i < 6; ++i) {
         if (gen() % 10 == 0 && !rigid)
@@ -292,9 +292,8 @@ TEST(ArmFriction, RandomPathsEndInEquilibriaOrSayNo) {
         }
     }
   }
-  EXPECT_GT(found, all * 9 / 10);
+  EXPECT_GT(found, all * 97 / 100);
   RecordProperty("found", std::to_string(found) + " of " + std::to_string(all));
-  std::printf("found %d of %d\n", found, all);
 }
 
 TEST(ArmFriction, RefusesWhatDoesNotFit) {
