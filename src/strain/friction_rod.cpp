@@ -152,12 +152,13 @@ void FrictionRod::forget() {
   }
 }
 
-bool FrictionRod::remember(const FrictionRod& other, std::span<const NodeLoad> loads) {
-  if (other.chains_.size() != chains_.size() || other.model_->size != model_->size) return false;
+bool FrictionRod::remember(const FrictionRod& other, std::span<const NodeLoad> loads,
+                           std::span<const double> y) {
+  if (other.chains_.size() != chains_.size()) return false;
   for (std::size_t i = 0; i < chains_.size(); ++i)
     if (chains_[i].units.size() != other.chains_[i].units.size()) return false;
   now_.loads.assign(loads.begin(), loads.end());
-  now_.y = other.now_.y;
+  now_.y.assign(y.begin(), y.end());
   now_.tendons = other.now_.tendons;
   now_.stored = other.now_.stored;
   for (std::size_t i = 0; i < chains_.size(); ++i) chains_[i].offset = other.chains_[i].offset;

@@ -47,9 +47,9 @@ class FrictionRod {
   const RodWork& work() const { return work_; }
   /// Straight, free, never pulled.
   void forget();
-  /// Takes over what another rod of the same tendons and coordinates remembers; false if it is not the same.
-  /// @param loads the other's, on the nodes of this one
-  bool remember(const FrictionRod& other, std::span<const NodeLoad> loads);
+  /// Takes over what another rod of the same tendons and guides remembers; false if they are not the same.
+  /// @param loads,y the other's, on the nodes and in the coordinates of this one
+  bool remember(const FrictionRod& other, std::span<const NodeLoad> loads, std::span<const double> y);
 
   /// Inputs and loads change evenly from those of the last step to these. Where no equilibrium is found the
   /// rod stays at the last one that was.

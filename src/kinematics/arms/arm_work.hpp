@@ -58,6 +58,10 @@ FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, c
 void set_loads(const Arm& arm, const ArmLoad& load, const strain::RodModel& model,
                std::vector<strain::NodeLoad>& loads);
 
+/// Strains of one rod as coordinates of another of the same arm.
+void carry_over(const strain::RodModel& from, const strain::RodWork& work, const strain::RodModel& to,
+                std::vector<double>& y);
+
 /// The strain at a place from the base [m].
 /// @param near an element to look from; becomes the one that the place is in
 strain::Six strain_at(const strain::RodModel& model, const strain::RodWork& work, double place, int& near);

@@ -53,6 +53,30 @@ int level_of(const ArmOptions& options) {
   return !chosen && refines && options.accuracy > 0 ? 1 : 0;
 }
 
+/// The state of the workspace becomes that of the path.
+void show(const Arm& arm, ArmWorkspace::Impl& impl) {
+  ArmPath& path = *impl.path;
+  ArmRod& entry = impl.at(arm, path.options, path.breaks, path.level);
+  impl.level = path.level;
+  entry.rod.work().y = path.rod.work().y;
+  entry.rod.work().loads = path.rod.work().loads;
+  ArmState& state = impl.state;
+  for (std::size_t i = 0; i < arm.tendons.size(); ++i) {
+    state.tensions[i] = path.rod.tension_at_motor(i);
+    state.changes[i] = -path.rod.pulled_in(i);
+    state.slack[i] = path.rod.slack(i);
+    entry.rod.holds[i] = {true, state.tensions[i], 0, arm.tendons[i].compliance};
+    impl.rubs = impl.rubs || arm.tendons[i].friction > 0;
+  }
+  entry.rod.evaluate();
+  state.tip = pose_of(entry.rod.work().frames.back());
+  state.energy = path.rod.stored();
+  state.coordinates = path.model.size;
+  state.resolution = 0;
+  state.stable = true;
+  state.stability_told = true;
+}
+
 /// The path to go on with, or a new one; what forbids it, in words.
 FixedText<240> begin(const Arm& arm, std::span<const ArmStep> steps, const ArmOptions& options,
                      ArmWorkspace::Impl& impl) {
@@ -76,40 +100,22 @@ FixedText<240> begin(const Arm& arm, std::span<const ArmStep> steps, const ArmOp
   if (last) {
     std::vector<NodeLoad> loads(path->rod.work().loads.size());
     set_loads(arm, last->load, path->model, loads);
-    if (last->between || !path->rod.remember(last->rod, loads))
+    std::vector<double> y = last->rod.work().y;  // to start from
+    if (path->model.size != last->model.size) {
+      y.assign(path->rod.work().y.size(), 0.0);
+      carry_over(last->model, last->rod.work(), path->model, y);
+    }
+    if (last->between || !path->rod.remember(last->rod, loads, y)) {
+      show(arm, impl);
       return FixedText<240>(
           "a load acts where none did when the path began, and channels are divided there: give it a load of "
           "0 "
           "from the beginning");
+    }
     path->load = last->load;
   }
   impl.path = path;
   return {};
-}
-
-/// The state of the workspace becomes that of the path.
-void write_state(const Arm& arm, const ArmStep& step, ArmWorkspace::Impl& impl) {
-  ArmPath& path = *impl.path;
-  ArmRod& entry = impl.at(arm, path.options, path.breaks, path.level);
-  impl.level = path.level;
-  std::copy(step.commands.begin(), step.commands.end(), impl.commands.begin());
-  entry.rod.work().y = path.rod.work().y;
-  entry.rod.work().loads = path.rod.work().loads;
-  ArmState& state = impl.state;
-  for (std::size_t i = 0; i < arm.tendons.size(); ++i) {
-    state.tensions[i] = path.rod.tension_at_motor(i);
-    state.changes[i] = -path.rod.pulled_in(i);
-    state.slack[i] = path.rod.slack(i);
-    entry.rod.holds[i] = {true, state.tensions[i], 0, arm.tendons[i].compliance};
-    impl.rubs = impl.rubs || arm.tendons[i].friction > 0;
-  }
-  entry.rod.evaluate();
-  state.tip = pose_of(entry.rod.work().frames.back());
-  state.energy = path.rod.stored();
-  state.coordinates = path.model.size;
-  state.resolution = 0;
-  state.stable = true;
-  state.stability_told = true;
 }
 
 }  // namespace
@@ -151,7 +157,8 @@ std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> st
       inputs[i].value = inputs[i].by_tension ? command.value : -command.value;
     }
     const strain::PathStep went = path.rod.step(inputs, loads, relax);
-    write_state(arm, step, impl);
+    std::copy(step.commands.begin(), step.commands.end(), impl.commands.begin());
+    show(arm, impl);
     Report& report = impl.state.report;
     report = {went.found.status, went.found.iterations, went.found.residual, {}};
     if (report.status == Status::stopped)

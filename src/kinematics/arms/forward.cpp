@@ -111,9 +111,6 @@ FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, c
   return text;
 }
 
-namespace {
-
-/// Strains of one rod as coordinates of another of the same arm.
 void carry_over(const RodModel& from, const strain::RodWork& work, const RodModel& to,
                 std::vector<double>& y) {
   std::fill(y.begin(), y.end(), 0.0);
@@ -134,6 +131,8 @@ void carry_over(const RodModel& from, const strain::RodWork& work, const RodMode
     }
   }
 }
+
+namespace {
 
 /// Of the highest modes of bending: what a polynomial of this order may lack.
 double size_of_highest(const RodModel& model, const std::vector<double>& y) {
