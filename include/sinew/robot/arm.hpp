@@ -71,6 +71,8 @@ struct ArmTendon {
   double compliance = 0;  ///< of all of it, what lies outside of the arm, too [m/N]; 0: it does not stretch
   double friction = 0;    ///< Coulomb's, at discs or in the channel, ≥ 0
   double pretension = 0;  ///< at no change of its length, straight and without load [N], ≥ 0
+  /// Share of its compliance that lies between its motor and the arm, 0 to 1; matters where it rubs.
+  double outside = 0;
 
   /// Index of the section at whose end it is fixed.
   int section() const { return static_cast<int>(routes.size()) - 1; }

@@ -20,6 +20,9 @@ struct ArmRod {
   ArmRod& operator=(const ArmRod&) = delete;
 };
 
+/// What arm_follow remembers: follow.cpp.
+struct ArmPath;
+
 struct ArmWorkspace::Impl {
   explicit Impl(const Arm& arm);
 
@@ -40,10 +43,24 @@ struct ArmWorkspace::Impl {
   double checked = 0;                   ///< what that check gave [m]
   ArmState state;
 
+  std::shared_ptr<ArmPath> path;  ///< of arm_follow; none: it begins anew
+  bool rubs = false;              ///< tensions of the last equilibrium differ along tendons
+
   /// The rod of a level for this question.
   ArmRod& at(const Arm& arm, const ArmOptions& options, const std::vector<double>& at_breaks, int wanted);
   strain::LoadedRod& rod() { return levels[static_cast<std::size_t>(level)]->rod; }
 };
+
+SE3<double> pose_of(const strain::RodFrame& frame);
+/// What does not fit the arm, in words; empty if all does.
+FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, const ArmLoad& load);
+/// A load as what falls to each node.
+void set_loads(const Arm& arm, const ArmLoad& load, const strain::RodModel& model,
+               std::vector<strain::NodeLoad>& loads);
+
+/// Strains of one rod as coordinates of another of the same arm.
+void carry_over(const strain::RodModel& from, const strain::RodWork& work, const strain::RodModel& to,
+                std::vector<double>& y);
 
 /// The strain at a place from the base [m].
 /// @param near an element to look from; becomes the one that the place is in

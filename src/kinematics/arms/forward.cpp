@@ -54,6 +54,8 @@ void add_wrench(NodeLoad& load, const std::array<double, 6>& wrench, bool follow
   }
 }
 
+}  // namespace
+
 void set_loads(const Arm& arm, const ArmLoad& load, const RodModel& model, std::vector<NodeLoad>& loads) {
   const std::array<double, 3> gravity = load.gravity.value_or(arm.gravity);
   for (std::size_t k = 1; k < loads.size(); ++k) {
@@ -73,11 +75,14 @@ void set_loads(const Arm& arm, const ArmLoad& load, const RodModel& model, std::
   }
 }
 
+namespace {
+
 bool finite(std::span<const double> values) {
   return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
 }
 
-/// What does not fit the arm, in words; empty if all does.
+}  // namespace
+
 FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, const ArmLoad& load) {
   FixedText<240> text;
   const auto say = [&](const std::string& words) { text = FixedText<240>(words); };
@@ -106,7 +111,6 @@ FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, c
   return text;
 }
 
-/// Strains of one rod as coordinates of another of the same arm.
 void carry_over(const RodModel& from, const strain::RodWork& work, const RodModel& to,
                 std::vector<double>& y) {
   std::fill(y.begin(), y.end(), 0.0);
@@ -127,6 +131,8 @@ void carry_over(const RodModel& from, const strain::RodWork& work, const RodMode
     }
   }
 }
+
+namespace {
 
 /// Of the highest modes of bending: what a polynomial of this order may lack.
 double size_of_highest(const RodModel& model, const std::vector<double>& y) {
@@ -213,6 +219,7 @@ ArmWorkspace::Impl::Impl(const Arm& arm) : robot(arm.identity), commands(arm.ten
 
 ArmRod& ArmWorkspace::Impl::at(const Arm& arm, const ArmOptions& options,
                                const std::vector<double>& at_breaks, int wanted) {
+  rubs = false;
   if (options.model != model || options.balance != balance || options.order != order ||
       options.elements != elements || at_breaks != breaks) {
     levels.clear();

@@ -37,7 +37,7 @@ ArmRates arm_rates(const Arm& arm, ArmWorkspace& work, bool margin) {
   rates.compliance.assign(36, 0.0);
   rates.answers.assign(at(m * m), 0.0);
   rates.answers_by_wrench.assign(at(6 * m), 0.0);
-  if (impl.level < 0 || impl.balance != ArmBalance::energy) return rates;
+  if (impl.level < 0 || impl.balance != ArmBalance::energy || impl.rubs) return rates;
   strain::LoadedRod& rod = impl.rod();
   const int n = rod.model().size;
   rod.linearise(true);

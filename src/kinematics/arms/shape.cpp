@@ -16,14 +16,14 @@ const strain::Piece& piece_of(const strain::RodModel& model, int element) {
   return *found;
 }
 
+}  // namespace
+
 SE3<double> pose_of(const strain::RodFrame& frame) {
   Mat<double, 3, 3> turn;
   turn << frame.R[0], frame.R[1], frame.R[2], frame.R[3], frame.R[4], frame.R[5], frame.R[6], frame.R[7],
       frame.R[8];
   return {{frame.p[0], frame.p[1], frame.p[2]}, SO3<double>::from(turn)};
 }
-
-}  // namespace
 
 strain::Six strain_at(const strain::RodModel& model, const strain::RodWork& work, double place, int& near) {
   const int count = static_cast<int>(model.elements.size());

@@ -1,0 +1,44 @@
+/// @file arm_path.hpp
+/// An arm followed along a path of inputs and loads: tendons rub at discs or in channels (Coulomb), so that
+/// where the arm is depends on how it came there. Theory: docs/theory/tendon_friction.md
+#pragma once
+#include <span>
+#include <vector>
+
+#include "sinew/base/export.hpp"
+#include "sinew/kinematics/arm.hpp"
+
+namespace sinew::inline v1 {
+
+/// What a path comes to.
+struct ArmStep {
+  std::vector<TendonCommand> commands;  ///< of every tendon, those of the first section first
+  ArmLoad load;
+};
+
+/// An equilibrium of a path.
+struct ArmPathPoint {
+  ArmState state;  ///< tensions are those at the motors; energy: elastic, of weight, dead forces, stretch
+  /// Of each tendon: between motor and arm, then from guide to guide to its end [N].
+  std::vector<std::vector<double>> tensions;
+  /// Of each tendon by how much it turns at the base, then at every guide but the last [rad].
+  std::vector<std::vector<double>> angles;
+  double motor_work = 0;     ///< of the tendons' ends since the point before [J]
+  double friction_loss = 0;  ///< at guides since then [J]
+  int parts = 0;             ///< equilibria that were found on the way, this one too
+};
+
+/// From the straight arm, free of tensions but for pretension, or where `options.from_last` says so from the
+/// end of the path that the workspace remembers: to each step inputs and loads change evenly. Steps are cut
+/// where they have to be; smaller ones tell more of what slips first.
+///
+/// Strains have one resolution along a path: that of `options.order` and `elements`; else, where `accuracy`
+/// is not 0, finer than the coarsest. What a tendon does not stretch by is known: without friction the
+/// equilibria are those of arm_forward(). arm_rates() does not know those of tendons that rub.
+///
+/// The answer ends with the first step that was not reached: `stalled` where no equilibrium was found; its
+/// state is the last one that was, from where a path may go on.
+SINEW_API std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> steps,
+                                               const ArmOptions& options, ArmWorkspace& work);
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kinematics/arms/arm_work.hpp"
+#include "sinew/kinematics/arm_path.hpp"
+#include "strain/friction_rod.hpp"
+
+namespace sinew::inline v1 {
+namespace {
+
+using strain::NodeLoad;
+using strain::RubbingTendon;
+
+std::vector<RubbingTendon> tendons_of(const Arm& arm) {
+  std::vector<RubbingTendon> tendons;
+  for (const ArmTendon& tendon : arm.tendons) {
+    const double outside = std::clamp(tendon.outside, 0.0, 1.0);
+    tendons.push_back(
+        {tendon.friction, (1 - outside) * tendon.compliance, outside * tendon.compliance, tendon.pretension});
+  }
+  return tendons;
+}
+
+}  // namespace
+
+struct ArmPath {
+  ArmOptions options;
+  int level = 0;
+  std::vector<double> breaks;
+  strain::RodModel model;
+  strain::FrictionRod rod;
+  ArmLoad load;          ///< of the last point
+  bool between = false;  ///< the last step was not reached: its loads are not
+
+  ArmPath(const Arm& arm, const ArmOptions& chosen, int chosen_level, std::vector<double> places,
+          const strain::RodModel& made)
+      : options(chosen),
+        level(chosen_level),
+        breaks(std::move(places)),
+        model(made),
+        rod(model, tendons_of(arm)) {
+    load.gravity = {0, 0, 0};
+  }
+};
+
+namespace {
+
+/// Of the workspace's levels: where the order is chosen by the arm, one finer than the coarsest.
+int level_of(const ArmOptions& options) {
+  const bool chosen = options.order >= 0 || options.elements > 0,
+             refines = options.model == ArmModel::rod || options.model == ArmModel::subsegment_rod;
+  return !chosen && refines && options.accuracy > 0 ? 1 : 0;
+}
+
+/// The state of the workspace becomes that of the path.
+void show(const Arm& arm, ArmWorkspace::Impl& impl) {
+  ArmPath& path = *impl.path;
+  ArmRod& entry = impl.at(arm, path.options, path.breaks, path.level);
+  impl.level = path.level;
+  entry.rod.work().y = path.rod.work().y;
+  entry.rod.work().loads = path.rod.work().loads;
+  ArmState& state = impl.state;
+  for (std::size_t i = 0; i < arm.tendons.size(); ++i) {
+    state.tensions[i] = path.rod.tension_at_motor(i);
+    state.changes[i] = -path.rod.pulled_in(i);
+    state.slack[i] = path.rod.slack(i);
+    entry.rod.holds[i] = {true, state.tensions[i], 0, arm.tendons[i].compliance};
+    impl.rubs = impl.rubs || arm.tendons[i].friction > 0;
+  }
+  entry.rod.evaluate();
+  state.tip = pose_of(entry.rod.work().frames.back());
+  state.energy = path.rod.stored();
+  state.coordinates = path.model.size;
+  state.resolution = 0;
+  state.stable = true;
+  state.stability_told = true;
+}
+
+/// The path to go on with, or a new one; what forbids it, in words.
+FixedText<240> begin(const Arm& arm, std::span<const ArmStep> steps, const ArmOptions& options,
+                     ArmWorkspace::Impl& impl) {
+  std::shared_ptr<ArmPath> last = options.from_last ? impl.path : nullptr;
+  const int level = level_of(options);
+  std::vector<double> breaks;
+  if (last) breaks = last->breaks;
+  for (const ArmStep& step : steps)
+    for (const PointLoad& point : step.load.points) breaks.push_back(point.place);
+  std::ranges::sort(breaks);
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  const auto same = [&] {
+    return last->options.model == options.model && last->options.order == options.order &&
+           last->options.elements == options.elements && last->level == level;
+  };
+  if (last && !same())
+    return FixedText<240>("the path that is remembered is of another model, order or number of elements");
+  if (last && last->breaks == breaks) return {};
+  auto path =
+      std::make_shared<ArmPath>(arm, options, level, breaks, impl.at(arm, options, breaks, level).model);
+  if (last) {
+    std::vector<NodeLoad> loads(path->rod.work().loads.size());
+    set_loads(arm, last->load, path->model, loads);
+    std::vector<double> y = last->rod.work().y;  // to start from
+    if (path->model.size != last->model.size) {
+      y.assign(path->rod.work().y.size(), 0.0);
+      carry_over(last->model, last->rod.work(), path->model, y);
+    }
+    if (last->between || !path->rod.remember(last->rod, loads, y)) {
+      show(arm, impl);
+      return FixedText<240>(
+          "a load acts where none did when the path began, and channels are divided there: give it a load of "
+          "0 "
+          "from the beginning");
+    }
+    path->load = last->load;
+  }
+  impl.path = path;
+  return {};
+}
+
+}  // namespace
+
+std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> steps,
+                                     const ArmOptions& options, ArmWorkspace& work) {
+  ArmWorkspace::Impl& impl = work.impl();
+  std::vector<ArmPathPoint> points;
+  const auto refuse = [&](Status status, const FixedText<240>& text) {
+    impl.state.report = {status, 0, 0, text};
+    points.emplace_back().state = impl.state;
+    return points;
+  };
+  if (impl.robot != arm.identity)
+    return refuse(Status::bad_input, FixedText<240>("the workspace is for another robot"));
+  if (options.balance != ArmBalance::energy)
+    return refuse(Status::unsupported, FixedText<240>("paths are followed with the balance by energy alone"));
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    if (const auto text = misfit(arm, steps[k].commands, steps[k].load); !text.empty())
+      return refuse(Status::bad_input, FixedText<240>(fmt::format("step {}: {}", k + 1, text.view())));
+  if (steps.empty()) return points;
+  if (const auto text = begin(arm, steps, options, impl); !text.empty())
+    return refuse(Status::bad_input, text);
+  ArmPath& path = *impl.path;
+  for (std::size_t i = 0; i < arm.tendons.size(); ++i)
+    if (path.rod.angles(i).empty())
+      return refuse(Status::unsupported, FixedText<240>("this model has no guides where a tendon runs"));
+  strain::RelaxOptions relax;
+  relax.max_iterations = options.max_iterations;
+  relax.tolerance = options.tolerance;
+  relax.stop = [&work] { return work.stop.stop_requested(); };
+  std::vector<NodeLoad> loads(path.rod.work().loads.size());
+  std::vector<strain::TendonInput> inputs(arm.tendons.size());
+  for (const ArmStep& step : steps) {
+    set_loads(arm, step.load, path.model, loads);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      const TendonCommand& command = step.commands[i];
+      inputs[i].by_tension = command.held == TendonHeld::tension;
+      inputs[i].value = inputs[i].by_tension ? command.value : -command.value;
+    }
+    const strain::PathStep went = path.rod.step(inputs, loads, relax);
+    std::copy(step.commands.begin(), step.commands.end(), impl.commands.begin());
+    show(arm, impl);
+    Report& report = impl.state.report;
+    report = {went.found.status, went.found.iterations, went.found.residual, {}};
+    if (report.status == Status::stopped)
+      report.message = FixedText<240>("stopped");
+    else if (!report.ok())
+      report.message = FixedText<240>(
+          fmt::format("no equilibrium was found: the path led to one up to {:.0f} % of the step",
+                      100 * went.found.reached));
+    ArmPathPoint& point = points.emplace_back();
+    point.state = impl.state;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      const auto tensions = path.rod.tensions(i), angles = path.rod.angles(i);
+      point.tensions.emplace_back(tensions.begin(), tensions.end());
+      point.angles.emplace_back(angles.begin(), angles.end());
+    }
+    point.motor_work = went.motors;
+    point.friction_loss = went.friction;
+    point.parts = went.parts;
+    path.between = !report.ok();
+    if (path.between) break;
+    path.load = step.load;
+    path.load.gravity = step.load.gravity.value_or(arm.gravity);
+  }
+  return points;
+}
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,312 @@
+/// Arms whose tendons rub, followed along paths (docs/theory/tendon_friction.md).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "arms.hpp"
+#include "sinew/kinematics/arm_path.hpp"
+
+namespace sinew::test {
+namespace arm_friction_test {
+
+/// One section of so many discs (0: channels) with tendons on opposite sides.
+Arm two_tendons(int discs, double friction, double compliance = 5e-5, double outside = 0.2) {
+  Arm arm;
+  ArmSection section;
+  section.length = 0.2;
+  section.start = section.end = round_section({54e9, 54e9 / 2.6, 0}, 0.0014);
+  section.discs.count = discs;
+  arm.sections = {section};
+  for (const double angle : {0.3, 0.3 + std::numbers::pi}) {
+    arm.tendons.push_back(tendon_at(0, 0.01, angle, compliance));
+    arm.tendons.back().friction = friction;
+    arm.tendons.back().outside = outside;
+  }
+  return arm;
+}
+/// Of tip and tendon along the path.
+double distance(const SE3<double>& a, const SE3<double>& b) { return (a.p - b.p).norm(); }
+double sum(const std::vector<double>& x) { return std::accumulate(x.begin(), x.end(), 0.0); }
+
+/// The first tendon goes through these values, the second is held by a tension.
+std::vector<ArmStep> pulls(const std::vector<double>& values, TendonHeld held = TendonHeld::change,
+                           double other = 0) {
+  std::vector<ArmStep> steps;
+  for (const double value : values) steps.push_back({{{held, value}, {TendonHeld::tension, other}}, {}});
+  return steps;
+}
+/// From a to b in so many steps, a left out.
+std::vector<double> ramp(double a, double b, int count) {
+  std::vector<double> values;
+  for (int k = 1; k <= count; ++k) values.push_back(a + (b - a) * k / count);
+  return values;
+}
+void expect_all_found(const std::vector<ArmPathPoint>& points, std::size_t count) {
+  ASSERT_EQ(points.size(), count) << to_string(points.back().state.report);
+  for (const ArmPathPoint& point : points)
+    ASSERT_TRUE(point.state.report.ok()) << to_string(point.state.report);
+}
+
+TEST(ArmFriction, APulledTendonLosesTensionByCapstanLaw) {
+  for (const int discs : {0, 10})
+    for (const TendonHeld held : {TendonHeld::change, TendonHeld::tension})
+      for (const double friction : {0.05, 0.3, 0.8}) {
+        const Arm arm = two_tendons(discs, friction);
+        ArmWorkspace work(arm);
+        const auto values = held == TendonHeld::change ? ramp(0, -0.012, 12) : ramp(0, 12, 12);
+        const auto points = arm_follow(
+            arm, pulls(values, held),
+            {.model = discs > 0 ? ArmModel::subsegment_rod : ArmModel::rod, .tolerance = 1e-12}, work);
+        expect_all_found(points, 12);
+        for (const ArmPathPoint& point : points) {
+          const auto& T = point.tensions[0];
+          EXPECT_NEAR(T.back() / T.front() / std::exp(-friction * sum(point.angles[0])), 1, 1e-9);
+          EXPECT_EQ(T.front(), point.state.tensions[0]);
+        }
+        EXPECT_GT(sum(points.back().angles[0]), 0.5);
+      }
+}
+
+TEST(ArmFriction, WithoutItAPathIsReversibleAndThatOfArmForward) {
+  for (const ArmModel model :
+       {ArmModel::subsegment_rod, ArmModel::rod, ArmModel::subsegment_cc, ArmModel::cc, ArmModel::prb}) {
+    const Arm arm = two_sections(5, 1e-4);
+    ArmOptions options{.model = model, .accuracy = 0, .tolerance = 1e-12};
+    std::mt19937 gen(4);
+    std::uniform_real_distribution<double> any(0, 1);
+    std::vector<ArmStep> steps;
+    for (int k = 0; k < 8; ++k) {
+      ArmStep step;
+      for (int i = 0; i < 6; ++i)
+        step.commands.push_back(i % 3 == 0 ? TendonCommand{TendonHeld::tension, 3 * any(gen)}
+                                           : TendonCommand{TendonHeld::change, 0.002 - 0.005 * any(gen)});
+      step.load.wrench = {0.2 * any(gen), -0.1 * any(gen), 0.1 * any(gen)};
+      steps.push_back(step);
+    }
+    for (int k = 6; k >= 0; --k) steps.push_back(steps[static_cast<std::size_t>(k)]);
+    ArmWorkspace work(arm), other(arm);
+    const auto points = arm_follow(arm, steps, options, work);
+    expect_all_found(points, 15);
+    for (std::size_t k = 0; k < 15; ++k) {
+      const ArmState& alone = arm_forward(arm, steps[k].commands, steps[k].load, options, other);
+      ASSERT_TRUE(alone.report.ok());
+      EXPECT_LT(distance(points[k].state.tip, alone.tip), 1e-9) << k;
+      EXPECT_LT(distance(points[k].state.tip, points[14 - k].state.tip), 1e-10) << k;
+      for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_NEAR(points[k].state.tensions[i], alone.tensions[i], 1e-7);
+        EXPECT_NEAR(points[k].state.changes[i], alone.changes[i], 1e-9);
+        EXPECT_NEAR(points[k].state.slack[i], alone.slack[i], 1e-9);
+      }
+      EXPECT_NEAR(points[k].friction_loss, 0, 1e-15);
+    }
+  }
+}
+
+/// Of the second cycle from one change to another and back.
+struct Cycle {
+  double work = 0, loss = 0, gap = 0;  ///< [J, J, m]: gap between its begin and its end
+  double out = 0, back = 0;            ///< the tip's way across at the same change, let go and pulled [m]
+};
+Cycle cycle(const Arm& arm, double far, double near, int count, const ArmOptions& options) {
+  ArmWorkspace work(arm);
+  arm_follow(arm, pulls(ramp(0, far, 20)), options, work);
+  ArmOptions on = options;
+  on.from_last = true;
+  const auto across = [](const ArmPathPoint& point) {
+    return std::hypot(point.state.tip.p.x(), point.state.tip.p.y());
+  };
+  Cycle found;
+  ArmPathPoint begin;
+  for (int round = 0; round < 2; ++round) {
+    const auto out = arm_follow(arm, pulls(ramp(far, near, count)), on, work),
+               back = arm_follow(arm, pulls(ramp(near, far, count)), on, work);
+    EXPECT_EQ(out.size(), static_cast<std::size_t>(count));
+    EXPECT_EQ(back.size(), static_cast<std::size_t>(count));
+    EXPECT_TRUE(out.back().state.report.ok() && back.back().state.report.ok());
+    if (round == 0) {
+      begin = back.back();
+      continue;
+    }
+    for (const auto* half : {&out, &back})
+      for (const ArmPathPoint& point : *half) {
+        found.work += point.motor_work;
+        found.loss += point.friction_loss;
+      }
+    found.gap = distance(begin.state.tip, back.back().state.tip);
+    const auto middle = static_cast<std::size_t>(count) / 2 - 1;
+    found.out = across(out[middle]);
+    found.back = across(back[middle]);
+  }
+  return found;
+}
+
+/// What motors put in over a cycle is what guides lose: both are summed by trapezoids, whose error falls with
+/// the square of the step.
+TEST(ArmFriction, WorkOfACycleIsWhatGuidesLose) {
+  const ArmOptions options{.model = ArmModel::subsegment_cc, .accuracy = 0, .tolerance = 1e-13};
+  const Arm arm = two_tendons(3, 0.2);
+  double coarse = 0;
+  for (const int count : {125, 500, 2000}) {
+    const Cycle found = cycle(arm, -0.006, -0.005, count, options);
+    const double off = std::abs(found.work - found.loss) / found.work;
+    EXPECT_GT(found.loss, 1e-6);
+    EXPECT_LT(off, count == 125 ? 1e-6 : coarse / 8);
+    coarse = off;
+  }
+  EXPECT_LT(coarse, 1e-9);
+}
+
+TEST(ArmFriction, LoopsOfTheTipCloseInTheSecondCycle) {
+  for (const int discs : {0, 6}) {
+    const ArmOptions options{
+        .model = discs > 0 ? ArmModel::subsegment_rod : ArmModel::rod, .accuracy = 0, .tolerance = 1e-12};
+    const Cycle found = cycle(two_tendons(discs, 0.3), -0.008, -0.001, 20, options);
+    EXPECT_LT(found.gap, 1e-11);
+    EXPECT_GT(found.back, found.out + 1e-3);  // pulled, it bends more near its base
+    EXPECT_GT(found.loss, 1e-4);
+  }
+}
+
+TEST(ArmFriction, MoreOfItBendsLessAndLosesMore) {
+  const ArmOptions options{.accuracy = 0, .tolerance = 1e-12};
+  double across = 1, loss = -1;
+  for (const double friction : {0.0, 0.02, 0.05, 0.1, 0.2, 0.4}) {
+    const Arm arm = two_tendons(6, friction);
+    ArmWorkspace work(arm);
+    const auto points = arm_follow(arm, pulls(ramp(0, 8, 10), TendonHeld::tension, 1), options, work);
+    expect_all_found(points, 10);
+    const auto& p = points.back().state.tip.p;
+    EXPECT_LT(std::hypot(p.x(), p.y()), across);
+    across = std::hypot(p.x(), p.y());
+    const double lost = cycle(arm, -0.008, -0.001, 20, options).loss;
+    EXPECT_GT(lost, loss);
+    loss = lost;
+  }
+}
+
+/// A path in one piece and in two; the other workspace forgets between them.
+TEST(ArmFriction, WhatHasSlippedIsRemembered) {
+  const Arm arm = two_tendons(6, 0.3);
+  ArmOptions options{.elements = 4, .accuracy = 0, .tolerance = 1e-12};
+  auto way = ramp(0, -0.008, 10);
+  const auto back = ramp(-0.008, -0.003, 10);
+  ArmWorkspace one(arm), two(arm), forgets(arm);
+  auto whole = way;
+  whole.insert(whole.end(), back.begin(), back.end());
+  const auto at_once = arm_follow(arm, pulls(whole), options, one);
+  arm_follow(arm, pulls(way), options, two);
+  arm_follow(arm, pulls(way), options, forgets);
+  arm_forward(arm, changes({0, 0}), {}, options, two);  // another question does not disturb it
+  const auto anew = arm_follow(arm, pulls(ramp(0, -0.003, 10)), options, forgets);
+  options.from_last = true;
+  auto steps = pulls(back);
+  for (ArmStep& step : steps) step.load.points = {{0.11, {}}};  // its strain may have a kink there
+  const auto later = arm_follow(arm, steps, options, two);
+  expect_all_found(later, 10);
+  EXPECT_LT(distance(at_once.back().state.tip, later.back().state.tip), 1e-7);
+  EXPECT_GT(distance(at_once.back().state.tip, anew.back().state.tip), 5e-4);
+  EXPECT_FALSE(arm_rates(arm, two).regular);
+  EXPECT_LT(distance(arm_frames(arm, std::array{0.2}, two)[0], later.back().state.tip), 1e-12);
+  options.model = ArmModel::cc;
+  EXPECT_EQ(arm_follow(arm, steps, options, two).back().state.report.status, Status::bad_input);
+}
+
+/// Tendons that do not stretch are the limit of those that hardly do.
+TEST(ArmFriction, TendonsNeedNotStretch) {
+  const ArmOptions options{.model = ArmModel::subsegment_rod, .accuracy = 0, .tolerance = 1e-12};
+  auto way = ramp(0, -0.008, 8);
+  const auto back = ramp(-0.008, -0.003, 8);
+  way.insert(way.end(), back.begin(), back.end());
+  std::vector<SE3<double>> tips;
+  for (const double compliance : {0.0, 1e-7, 1e-6}) {
+    const Arm arm = two_tendons(4, 0.2, compliance);
+    ArmWorkspace work(arm);
+    const auto points = arm_follow(arm, pulls(way, TendonHeld::change, 1), options, work);
+    expect_all_found(points, 16);
+    tips.push_back(points.back().state.tip);
+  }
+  EXPECT_LT(distance(tips[0], tips[1]), 1e-4);
+  EXPECT_LT(distance(tips[0], tips[1]), 0.2 * distance(tips[0], tips[2]));
+}
+
+TEST(ArmFriction, RandomPathsEndInEquilibriaOrSayNo) {
+  std::mt19937 gen(31);
+  std::uniform_real_distribution<double> any(0, 1), side(-1, 1);
+  int found = 0, all = 0;
+  for (int round = 0; round < 200; ++round) {
+    Arm arm = two_sections(static_cast<int>(gen() % 5) + 2, 1e-5 * std::pow(20, any(gen)));
+    if (round % 10 == 0)
+      for (ArmSection& section : arm.sections) section.discs.count = 0;
+    const bool rigid = round % 10 == 5;
+    for (ArmTendon& tendon : arm.tendons) {
+      tendon.friction = gen() % 4 == 0 ? 0 : 0.6 * any(gen);
+      tendon.outside = 0.5 * any(gen);
+      tendon.pretension = 2 * any(gen);
+      if (rigid) tendon.compliance = 0;
+      for (TendonRoute& route : tendon.routes) route.end_angle += 0.5 * side(gen);
+    }
+    arm.gravity = {3 * side(gen), 3 * side(gen), -9.81};
+    std::vector<ArmStep> steps;
+    std::vector<TendonHeld> held(6);
+    for (std::size_t i = 0; i < 6; ++i)
+      held[i] = gen() % 2 == 0 || (rigid && i % 3 > 0) ? TendonHeld::tension : TendonHeld::change;
+    for (int k = 0; k < 4; ++k) {
+      ArmStep step;
+      for (std::size_t i = 0; i < 6; ++i) {
+        if (gen() % 10 == 0 && !rigid)
+          held[i] = held[i] == TendonHeld::tension ? TendonHeld::change : TendonHeld::tension;
+        step.commands.push_back(
+            {held[i], held[i] == TendonHeld::tension ? 5 * any(gen) : 0.004 * side(gen) - 0.001});
+      }
+      for (std::size_t i = 0; i < 3; ++i) step.load.wrench[i] = 0.2 * side(gen);
+      if (round % 3 == 0)
+        step.load.following = {0.1 * side(gen), 0.1 * side(gen), 0, 0, 0, 0.002 * side(gen)};
+      steps.push_back(step);
+    }
+    const ArmOptions options{.model = arm.sections[0].discs.count == 0 ? ArmModel::rod
+                                      : round % 2 == 0                 ? ArmModel::subsegment_rod
+                                                                       : ArmModel::subsegment_cc,
+                             .accuracy = 0};
+    ArmWorkspace work(arm);
+    const auto points = arm_follow(arm, steps, options, work);
+    for (const ArmPathPoint& point : points) {
+      ++all;
+      const Report& report = point.state.report;
+      ASSERT_TRUE(report.ok() || report.status == Status::stalled || report.status == Status::unstable)
+          << to_string(report);
+      ASSERT_TRUE(std::isfinite(point.state.tip.p.sum()) && std::isfinite(point.state.energy));
+      if (!report.ok()) ASSERT_FALSE(report.message.empty());
+      if (report.ok()) ++found;
+      for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t k = 0; k + 1 < point.tensions[i].size(); ++k) {
+          const double before = point.tensions[i][k], after = point.tensions[i][k + 1],
+                       most = std::exp(arm.tendons[i].friction * point.angles[i][k]);
+          ASSERT_TRUE(std::isfinite(before) && std::isfinite(after));
+          ASSERT_GE(after, 0);
+          if (report.ok()) {
+            EXPECT_LE(after, before * most + 1e-9);
+            EXPECT_LE(before, after * most + 1e-9);
+          }
+        }
+    }
+  }
+  EXPECT_GT(found, all * 97 / 100);
+  RecordProperty("found", std::to_string(found) + " of " + std::to_string(all));
+}
+
+TEST(ArmFriction, RefusesWhatDoesNotFit) {
+  const Arm arm = two_tendons(4, 0.1), other = two_tendons(4, 0.1);
+  ArmWorkspace work(arm);
+  EXPECT_TRUE(arm_follow(arm, {}, {}, work).empty());
+  EXPECT_EQ(arm_follow(other, pulls({1}), {}, work)[0].state.report.status, Status::bad_input);
+  EXPECT_EQ(arm_follow(arm, pulls({1, -1}, TendonHeld::tension), {}, work)[0].state.report.status,
+            Status::bad_input);
+  EXPECT_EQ(arm_follow(arm, pulls({1}), {.balance = ArmBalance::projected}, work)[0].state.report.status,
+            Status::unsupported);
+  work.stop = StopToken();
+}
+
+}  // namespace arm_friction_test
+}  // namespace sinew::test
