@@ -72,6 +72,7 @@ class Builder {
   }
 
   RodModel build(std::vector<double> breaks) {
+    std::ranges::sort(breaks);
     double from = 0, bending = 0;
     for (std::size_t m = 0; m < arm_.sections.size(); ++m) {
       const ArmSection& section = arm_.sections[m];
@@ -123,7 +124,6 @@ class Builder {
     const auto ends = span_ends(section, cuts);
     if (basis_.model == ArmModel::cc) begin_piece(section, 0, 1, 1, {});
     const std::vector<double> none;
-    std::size_t cut = 0;
     for (double end : ends) {
       int elements = basis_.elements;
       if (elements == 0)
@@ -147,17 +147,20 @@ class Builder {
         }
       } else {
         begin_span();
-        double a = start;
-        if (basis_.model == ArmModel::prb) add_joints(section, start, end, elements, cuts);
-        while (cut < cuts.size() && cuts[cut] <= start) ++cut;
-        for (int e = 0; e < (basis_.model == ArmModel::prb ? 0 : elements); ++e) {
-          const double b = start + (end - start) * (e + 1) / elements;
-          for (; cut < cuts.size() && cuts[cut] < b - 1e-12; ++cut) {
-            add_elements(m, a, cuts[cut], start, end, e, elements);
-            a = cuts[cut];
-          }
-          add_elements(m, a, b, start, end, e, elements);
-          a = b;
+        if (basis_.model == ArmModel::prb) {
+          add_joints(section, start, end, elements, cuts);
+        } else {
+          // Each stretch has as many elements as a whole span: its polynomials need their Gauss points.
+          std::vector<double> stops{start};
+          for (const double cut : cuts)
+            if (cut > start + 1e-9 && cut < end - 1e-9 && cut > stops.back() + 1e-9) stops.push_back(cut);
+          stops.push_back(end);
+          for (std::size_t k = 0; k + 1 < stops.size(); ++k)
+            for (int e = 0; e < elements; ++e) {
+              const double length = stops[k + 1] - stops[k];
+              add_elements(m, stops[k] + length * e / elements, stops[k] + length * (e + 1) / elements, start,
+                           end, e, elements);
+            }
         }
         add_holes(m, start, end);
         rod_.masses.back().amount += section.discs.mass;
