@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/at.hpp"
+
 namespace sinew::inline v1::strain {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 /// Least Σ c e^τ − e τ over τ = ln T with |τ₋ − τ₊| ≤ b, span after span from the fixed end: what the spans
 /// passed want of the next one's T is a polyline, which a guide cuts where it is 0 and moves apart.

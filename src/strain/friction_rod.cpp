@@ -5,14 +5,13 @@
 #include <limits>
 #include <numbers>
 
+#include "base/at.hpp"
 #include "sinew/math/se3.hpp"
 #include "strain/condense.hpp"
 #include "strain/sweep.hpp"
 
 namespace sinew::inline v1::strain {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Vector = Vec3<double>;
 using Turn = Mat<double, 3, 3>;
@@ -31,7 +30,7 @@ Turn skew(const Vector& u) {
   m << 0, -u[2], u[1], u[2], 0, -u[0], -u[1], u[0], 0;
   return m;
 }
-double norm(std::span<const double> x) {
+double size_of_vector(std::span<const double> x) {
   double sum = 0;
   for (double v : x) sum += v * v;
   return std::sqrt(sum);
@@ -626,7 +625,9 @@ void FrictionRod::choose_grips(const Eigen::VectorXd& tensions) {
   }
 }
 
-double FrictionRod::residual() const { return norm(work_.gradient) / std::sqrt(model_->energy_scale); }
+double FrictionRod::residual() const {
+  return size_of_vector(work_.gradient) / std::sqrt(model_->energy_scale);
+}
 
 /// Whether the equilibrium holds, after linearise(): where the symmetric part of its Jacobian is positive
 /// definite it does; else as the sign of the determinant says.

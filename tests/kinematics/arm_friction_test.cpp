@@ -277,7 +277,7 @@ TEST(ArmFriction, RandomPathsEndInEquilibriaOrSayNo) {
       ASSERT_TRUE(report.ok() || report.status == Status::stalled || report.status == Status::unstable)
           << to_string(report);
       ASSERT_TRUE(std::isfinite(point.state.tip.p.sum()) && std::isfinite(point.state.energy));
-      if (!report.ok()) ASSERT_FALSE(report.message.empty());
+      ASSERT_TRUE(report.ok() || !report.message.empty());
       if (report.ok()) ++found;
       for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t k = 0; k + 1 < point.tensions[i].size(); ++k) {

@@ -57,7 +57,9 @@ TEST(Capstan, ATendonSlipsWhereItMustAndOnlyThere) {
         EXPECT_GE(sign * slip, -1e-13);
       }
     }
-    if (!spans.held) EXPECT_NEAR(spans.stretch[0] - spans.compliance[0] * found.tension[0], slip, 1e-13);
+    if (!spans.held) {
+      EXPECT_NEAR(spans.stretch[0] - spans.compliance[0] * found.tension[0], slip, 1e-13);
+    }
   }
 }
 
