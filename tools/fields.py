@@ -141,6 +141,7 @@ PYTHON_KINDS = {
 }
 PYTHON_UNITS = {"inputs": "m, rad", "pose": "m, rad", "independent": "m", "wrench": "N, N m", "twist": "m/s, rad/s",
                 "places": "m, rad", "place": "m, rad", "start": "", "target": ""}
+UNITS_BY_NAME = {"distributed": "N/m", "distributed_following": "N/m"}  # of no dimension that has a name
 PYTHON_ARRAYS = {"inputs": "(k,), or (n, k) for n rows", "point": "(3,)", "per_leg": "(legs,)", "signs": "(legs,)",
                  "pairs": "(legs, 2)", "wrench": "(3,) in the plane, (6,) in space", "twist": "(3,) in the plane, (6,) in space",
                  "range": "(2,)"}
@@ -157,7 +158,7 @@ def python_table(fields, answers):
     for field in fields:
         shape = field["shape"]
         kind = "any" if field["name"] in ("measured", "deviation") else PYTHON_KINDS[shape]
-        unit = "m/s" if field["name"] == "rates" else "rad, m" if field["name"] == "configuration" else PYTHON_UNITS.get(shape, field["unit"])
+        unit = "m/s" if field["name"] == "rates" else "rad, m" if field["name"] == "configuration" else UNITS_BY_NAME.get(field["name"], PYTHON_UNITS.get(shape, field["unit"]))
         array = f'; {PYTHON_ARRAYS[shape]}' if shape in PYTHON_ARRAYS else ""
         lines.append(f"    {(name_of(field), kind, unit, field['meaning'] + array)!r},")
     lines += [")", "", "QUESTIONS = {"]

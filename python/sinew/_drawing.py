@@ -60,6 +60,8 @@ def shape_of(robot: Robot, answer: Any) -> dict[str, Any]:
 def shape_at_home(robot: Robot) -> dict[str, Any]:
     about = robot._about()._plain()
     candidates: list[dict[str, Any]] = [{"configuration": [[0.0, 0.0] for _ in about["sections"]]}] if "sections" in about else []
+    if about.get("kind") == "arm":
+        candidates = [{"changes": []}]
     home = about.get("home")
     if home:
         candidates.append({"pose": home})

@@ -574,8 +574,21 @@ Expected<std::vector<double>> predict_markers(const MeasuredArm& arm, const Meas
   return fit.predicted();
 }
 
-Expected<TendonMap> map_tendons(const MeasuredArm& arm, const MeasuredRows& rows, ArmModel model) {
+Expected<TendonMap> map_tendons(const MeasuredArm& given, const MeasuredRows& rows, ArmModel model) {
   TendonMap best;
+  // Soft tendons and no weight: only directions count here, and numbers of a file that are far off buckle the
+  // arm.
+  MeasuredArm arm = given;
+  arm.arm.gravity = {0, 0, 0};
+  for (ArmTendon& tendon : arm.arm.tendons) {
+    double bends = 0;
+    for (std::size_t m = 0; m < tendon.routes.size(); ++m) {
+      const double radius = tendon.routes[m].start_radius;
+      bends += radius * radius * arm.arm.sections[m].length / arm.arm.sections[m].start.bending_x;
+    }
+    tendon.compliance = std::max(tendon.compliance, bends);
+    tendon.pretension = 0;
+  }
   for (int sign : {1, -1}) {
     MeasuredRows turned = rows;
     for (double& pull : turned.pulls) pull *= sign;
@@ -723,8 +736,6 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
     all.push_back(k);
   }
   Identified result;
-  fit.predict(fit.start(), all);
-  result.before = fit.errors(train);
   VectorXd x = VectorXd::Zero(size), lower(size), upper(size), precision(size);
   for (Index p = 0; p < size; ++p) {
     const FitParameter& parameter = parameters[static_cast<std::size_t>(p)];
@@ -741,13 +752,15 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
     stages.push_back(std::move(few));
   }
   stages.push_back(train);
+  fit.predict(fit.start(), stages.front());
+  result.before = fit.errors(stages.front());
   result.report.status = Status::iteration_limit;
   MatrixXd normal;
   for (const std::vector<int>& chosen : stages) {
     double damping = 1e-3, grow = 4;
     bool done = false;
     const bool is_last = &chosen == &stages.back();
-    const int rounds = stages.size() == 1 ? 3 : is_last ? 1 : 3;
+    const int rounds = options.noise > 0 || (is_last && stages.size() > 1) ? 1 : 3;
     for (int round = 0; round < rounds && !done; ++round) {
       if (round > 0 || stages.size() == 1 || !is_last) {
         if (round == 0) fit.predict(changed(fit.start(), parameters, x), chosen);
@@ -779,7 +792,7 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
         const VectorXd next = (x + step).cwiseMax(lower).cwiseMin(upper);
         step = next - x;
         const double predicted = -gradient.dot(step) - 0.5 * step.dot(H * step);
-        if (!(predicted > options.tolerance * now.cost * (is_last ? 1 : 3))) {
+        if (!(predicted > options.tolerance * (now.cost + 1e-6) * (is_last ? 1 : 3))) {
           result.report.status = Status::converged;
           break;
         }
@@ -793,11 +806,14 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
         } else {
           damping *= grow;
           grow *= 2;
-          if (damping > 1e9) break;
+          if (damping > 1e9) {
+            result.report.status = Status::stalled;
+            break;
+          }
         }
       }
       normal = now.normal;
-      if (std::abs(fit.noise(chosen) / first_noise - 1) < 0.1) break;
+      if (std::abs(fit.noise(chosen) / first_noise - 1) < 0.1) round = std::max(round, rounds - 2);
     }
   }
   result.arm = changed(fit.start(), parameters, x);
@@ -837,7 +853,7 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
   for (Index p = 0; p < size; ++p) {
     if (eigen.eigenvalues()[p] > 1) break;
     FlatDirection flat;
-    flat.deviation = 1 / std::sqrt(std::max(eigen.eigenvalues()[p], 1e-300));
+    flat.deviation = 1 / std::sqrt(std::max(eigen.eigenvalues()[p], 1e-14 * eigen.eigenvalues()[size - 1]));
     const VectorXd v = eigen.eigenvectors().col(p);
     flat.coefficients.assign(v.data(), v.data() + size);
     result.flat.push_back(std::move(flat));

@@ -205,7 +205,7 @@ void Search::field(const Field& field, const std::string& path, const Node& node
 /// pulls more than it bends.
 void Search::numbers(const Field& field, const std::string& path, const Node& node) {
   const bool is_change =
-      field.shape != FieldShape::point && (field.uses.diagram | field.uses.forward) == of_serial;
+      field.shape != FieldShape::point && ((field.uses.diagram | field.uses.forward) & ~of_arms) == of_serial;
   each(path, node, [&](const std::string& at, const Node& one) {
     if (field.dimension == Dimension::length)
       length(at, one, is_change ? far_change : far_length);

@@ -79,9 +79,8 @@ void LoadedRod::spread_tensions() {
 }
 
 double LoadedRod::give(std::size_t i) const {
-  const double toe = holds[i].toe;
-  if (toe <= 0) return stiff_[i];
-  const double low = toe / (2 * stiff_[i]);  // the tension at which it becomes linear
+  if (!(holds[i].toe > 0)) return stiff_[i];
+  const double low = holds[i].toe / (2 * stiff_[i]);  // the tension at which it becomes linear
   return tensions_[i] >= low ? stiff_[i] : stiff_[i] * std::sqrt(low / tensions_[i]);
 }
 

@@ -78,6 +78,12 @@ function questions = questions_of (r)
                  ask('track', 'from', f.tip, 'to', f.tip), ask('statics')};
     return
   end
+  if strcmp (d.kind, 'arm')
+    f = r.forward ('changes', []);
+    questions = {ask('forward', 'changes', []), ask('inverse', 'position', f.tip.position), ask('shape', 'changes', []), ...
+                 ask('velocity', 'changes', []), ask('track', 'from', f.tip, 'to', f.tip)};
+    return
+  end
   if isfield (d.home, 'x')
     pose = d.home;  beyond = setfield (pose, 'x', pose.x + 0.001);  wrench = [0.01 -0.02 0.001];
   else

@@ -24,6 +24,15 @@ def questions(robot):
         yield "shape", {"configuration": bends}
         yield "diagram", {"section": 0, "changes": tip.changes[0]}
         return
+    if about.kind == "arm":
+        rest = robot.forward(changes=[])
+        yield "forward", {"changes": rest.changes}
+        yield "forward", {"tensions": rest.tensions}
+        yield "inverse", {"position": rest.tip.position}
+        yield "velocity", {"changes": rest.changes}
+        yield "shape", {"changes": rest.changes}
+        yield "statics", {"changes": rest.changes, "position": rest.tip.position}
+        return
     home = about.home.to_dict()
     yield "inverse", {"pose": home}
     yield "velocity", {"pose": home}

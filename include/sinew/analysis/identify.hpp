@@ -18,7 +18,7 @@ namespace sinew::inline v1 {
 /// Between what a motor counts and the end of its tendon. Without numbers a tendon's gain is 1, its offset
 /// and toe 0.
 struct TendonDrive {
-  std::vector<double> gain;    ///< of each tendon: drawn in by what is counted, > 0
+  std::vector<double> gain;    ///< of each tendon: drawn in by what is counted, > 0 [1]
   std::vector<double> offset;  ///< of each: drawn in where 0 is counted [m]
   std::vector<double> toe;     ///< of each: up to this stretch its tension grows with its square [m], ≥ 0
   double lag = 0;              ///< time constant with which the tendon follows [s], ≥ 0
@@ -97,8 +97,9 @@ struct FitParameter {
   std::string unit;              ///< of its value
   std::vector<ArmField> fields;  ///< at least one
   bool is_factor = false;
-  double lower = 0, upper = 0;  ///< bounds of the coordinate
-  double prior = 0;             ///< standard deviation of the coordinate about its start; 0: no prior
+  double lower = 0;  ///< bound of the coordinate, in its unit
+  double upper = 0;  ///< its other bound, in its unit
+  double prior = 0;  ///< standard deviation of the coordinate about its start; 0: no prior
 };
 
 /// @param names `bending,sections.angle,tendons.gain,passages.radius,marker`: a quantity that all have in
@@ -110,42 +111,46 @@ SINEW_API Expected<std::vector<FitParameter>> fit_parameters(const MeasuredArm& 
 struct IdentifyOptions {
   ArmModel model = ArmModel::cc;
   double noise = 0;        ///< of a marker's coordinate [m]; 0: estimated from what is left
-  double robust = 2.5;     ///< Huber's limit, as multiple of the noise; beyond it a row counts less
-  double correlated = 30;  ///< rows that are worth one independent one, against the priors
+  double robust = 2.5;     ///< Huber's limit, as multiple of the noise; beyond it a row counts less [1]
+  double correlated = 30;  ///< rows that are worth one independent one, against the priors [1]
   int max_iterations = 60;
-  double tolerance = 3e-4;     ///< of the relative decrease of the cost
-  std::vector<bool> held_out{}; ///< rows that the fit does not see; empty: none
+  double tolerance = 3e-4;       ///< of the relative decrease of the cost [1]
+  std::vector<bool> held_out{};  ///< rows that the fit does not see; empty: none
   StopToken stop{};
 };
 
 /// Of the distances between markers, measured and computed.
 struct MarkerErrors {
-  int rows = 0, failed = 0;             ///< failed: without an equilibrium, not counted
-  double rms = 0, median = 0, max = 0;  ///< [m]
+  int rows = 0, failed = 0;  ///< failed: without an equilibrium, not counted
+  double rms = 0;            ///< root mean square [m]
+  double median = 0;         ///< half are smaller [m]
+  double max = 0;            ///< the largest [m]
 };
 
 /// A parameter after a fit.
 struct FittedParameter {
-  double value = 0;      ///< of its first field; of a factor without unit the factor
-  double deviation = 0;  ///< standard one of the value, rows and prior together
-  double coordinate = 0;
-  double coordinate_deviation = 0;
+  double value = 0;                 ///< of its first field; of a factor without unit the factor
+  double deviation = 0;             ///< standard one of the value, rows and prior together, in its unit
+  double coordinate = 0;            ///< in which it was fitted, in its unit
+  double coordinate_deviation = 0;  ///< standard one of it, in its unit
   bool at_bound = false;
-  double prior_share = 0;  ///< of what is known of it, from its prior; 1: the rows say nothing
+  double prior_share = 0;  ///< of what is known of it, from its prior; 1: the rows say nothing [1]
 };
 
 /// A combination of parameters that the rows hardly tell.
 struct FlatDirection {
   double deviation = 0;              ///< along it, in units of the priors
-  std::vector<double> coefficients;  ///< of coordinates over their priors; |.| = 1
+  std::vector<double> coefficients;  ///< of coordinates over their priors; |.| = 1 [1]
 };
 
+/// An arm as rows have it, and how well they do.
 struct Identified {
   Report report;
   MeasuredArm arm;
   std::vector<FittedParameter> parameters;
   std::vector<FlatDirection> flat;  ///< flattest first
-  MarkerErrors before, train, held_out;
+  MarkerErrors before;              ///< of the start, at the rows that the fit begins with
+  MarkerErrors train, held_out;
   double noise = 0;            ///< [m]
   std::vector<double> errors;  ///< of every row [m]; NaN where it failed
   Eigen::MatrixXd covariance;  ///< of coordinates, by blocks of rows, with priors
@@ -164,8 +169,8 @@ struct TendonMap {
   int sign = 1;           ///< −1: what is counted is paid out
   bool mirrored = false;  ///< the tendons run around the arm the other way
   double turn = 0;        ///< of the measurement's axes about z [rad]; add it to the tendons' angles
-  double agreement = 0;   ///< correlation of the markers across the arm, computed and measured, 0 to 1
-  double next = 0;        ///< of the next best combination
+  double agreement = 0;   ///< correlation of the markers across the arm, computed and measured, 0 to 1 [1]
+  double next = 0;        ///< of the next best combination [1]
 };
 
 /// By the markers that the arm would show, turned, mirrored or pulled the other way. A half turn is not

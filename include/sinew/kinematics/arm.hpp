@@ -21,9 +21,10 @@ enum class TendonHeld {
   tension,  ///< [N]
   change,   ///< Δl of its end, > 0 pays out [m]
 };
+/// How a tendon is held.
 struct TendonCommand {
   TendonHeld held = TendonHeld::tension;
-  double value = 0;
+  double value = 0;  ///< [N] or [m]
 };
 
 /// A load at a place of the backbone.
@@ -60,8 +61,8 @@ struct ArmOptions {
   ArmBalance balance = ArmBalance::energy;
   int order = -1;          ///< of the polynomials of rods; −1: the model's, more where the answer needs it
   int elements = 0;        ///< of a section (rod), between discs (subsegment_rod, prb); 0: the model's
-  double accuracy = 1e-6;  ///< of the tip that rods are refined to, over the arm's length; 0: as they are
-  double tolerance = 1e-10;  ///< of the residual
+  double accuracy = 1e-6;  ///< of the tip that rods are refined to, over the arm's length; 0: as they are [1]
+  double tolerance = 1e-10;  ///< of the residual [1]
   int max_iterations = 200;
   bool from_last = false;  ///< from where the workspace is, not from the straight arm
 };
@@ -89,6 +90,7 @@ SINEW_API const ArmState& arm_forward(const Arm& arm, std::span<const TendonComm
 
 /// @name Of the equilibrium that the workspace is in
 /// @{
+
 /// Frames at these places from the base [m], base axes.
 SINEW_API std::vector<SE3<double>> arm_frames(const Arm& arm, std::span<const double> places,
                                               const ArmWorkspace& work);
@@ -118,10 +120,11 @@ SINEW_API ArmRates arm_rates(const Arm& arm, ArmWorkspace& work, bool margin = t
 /// Where the tip is to be; what is not given is free.
 struct ArmTarget {
   std::optional<std::array<double, 3>> position = {};   ///< base axes [m]
-  std::optional<std::array<double, 3>> direction = {};  ///< of the tip's z axis, of any length but 0
+  std::optional<std::array<double, 3>> direction = {};  ///< of the tip's z axis, of any length but 0 [1]
   std::optional<std::array<double, 4>> quaternion =
       {};  ///< of the tip, [w, x, y, z], in place of a direction
 };
+/// How tensions for a target are looked for.
 struct ArmInverseOptions {
   ArmOptions arm = {};
   double most_tension = 0;  ///< of a tendon [N]; 0: any
@@ -150,7 +153,7 @@ struct ArmMeasurement {
 struct ArmSensed {
   Report report;                        ///< `singular` where the measurement does not tell
   std::array<double, 6> wrench{};       ///< base axes [N, N m]
-  std::array<double, 36> covariance{};  ///< of it; of a force alone the moment's part is 0
+  std::array<double, 36> covariance{};  ///< of it; of a force alone the moment's part is 0 [N², N² m, N² m²]
   double misfit = 0;                    ///< root mean square of what stays, in standard deviations [1]
   ArmState state;
 };

@@ -61,15 +61,17 @@ struct ArmSection {
 
 /// How a tendon runs through a section: its distance from the backbone and the angle there, from +x about z.
 struct TendonRoute {
-  double start_radius = 0, end_radius = 0;  ///< [m], > 0
-  double start_angle = 0, end_angle = 0;    ///< [rad]; a helix where they differ
+  double start_radius = 0;  ///< at the section's start [m], > 0
+  double end_radius = 0;    ///< at its end [m], > 0
+  double start_angle = 0;   ///< at the section's start [rad]
+  double end_angle = 0;     ///< at its end [rad]; a helix where they differ
 };
 
 /// A tendon, fixed at the end of a section.
 struct ArmTendon {
   std::vector<TendonRoute> routes;  ///< through its section and all before it, base first
   double compliance = 0;  ///< of all of it, what lies outside of the arm, too [m/N]; 0: it does not stretch
-  double friction = 0;    ///< Coulomb's, at discs or in the channel, ≥ 0
+  double friction = 0;    ///< Coulomb's, at discs or in the channel, ≥ 0 [1]
   double pretension = 0;  ///< at no change of its length, straight and without load [N], ≥ 0
   /// Share of its compliance that lies between its motor and the arm, 0 to 1; matters where it rubs.
   double outside = 0;

@@ -12,6 +12,7 @@ namespace sinew::inline v1 {
 /// Memory for questions to one arm; one per thread.
 class ArmWorkspace {
  public:
+  /// For this arm and its copies.
   SINEW_API explicit ArmWorkspace(const Arm& arm);
   SINEW_API ~ArmWorkspace();
   SINEW_API ArmWorkspace(ArmWorkspace&&) noexcept;
@@ -20,6 +21,7 @@ class ArmWorkspace {
   StopToken stop;  ///< searches end with `stopped` once it is requested
 
   struct Impl;
+  /// What solvers keep in it.
   Impl& impl() const { return *impl_; }
 
  private:

@@ -206,6 +206,8 @@ FieldLayout FieldLayouts::output(std::string_view place) const {
   const Lengths indices = take_indices(place);
   const FieldLayout layout = whole(field->shape);
   if (is_arm_ && place == "tensions") return lists_of(tendons_);
+  if (is_arm_ && place == "answer_rates") return matrix_of(columns_, columns_);
+  if (is_arm_ && place == "answers_by_wrench") return matrix_of(columns_, freedoms_);
   if (indices.empty()) return layout;
   return indices.size() == 1 && indices[0] < layout.lists.size() ? list_of(layout.lists[indices[0]])
                                                                  : FieldLayout();

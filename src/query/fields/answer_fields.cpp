@@ -75,6 +75,8 @@ return std::array{
     AnswerField{"resolution", number, "m", "by how much finer polynomials move an arm's tip"},
     AnswerField{"buckling_margin", number, "", "of an arm's stiffness: 1 without load, 0 where it buckles"},
     AnswerField{"least_tension", number, "N", "of an arm's tendons"},
+    AnswerField{"answer_rates", input_jacobian, "", "of an arm what its tendons answer, by what holds each"},
+    AnswerField{"answers_by_wrench", input_jacobian, "", "the same by a wrench at its tip"},
     AnswerField{"misfit", number, "", "of what was measured, in standard deviations"},
     AnswerField{"margin", number, "m", "of a diagram: to the next tendon that goes slack"},
     AnswerField{"over_tension", number, "m", "of a diagram: by which tendons are too short"},
