@@ -102,8 +102,8 @@ class Verbs:
                 stiffens; (k,)
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers): force on all of an arm's backbone, in base axes [N/m]; (3,)
-            distributed_following (numbers): the same in the backbone's own axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
                 it, wrench and, where it turns with the place, following
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
@@ -233,8 +233,8 @@ class Verbs:
             direction (numbers): in which the tip of a serial robot or an arm points; (3,)
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers): force on all of an arm's backbone, in base axes [N/m]; (3,)
-            distributed_following (numbers): the same in the backbone's own axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
                 it, wrench and, where it turns with the place, following
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
@@ -371,8 +371,8 @@ class Verbs:
                 out, section after section; a list each, or an array
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers): force on all of an arm's backbone, in base axes [N/m]; (3,)
-            distributed_following (numbers): the same in the backbone's own axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
                 it, wrench and, where it turns with the place, following
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
@@ -521,8 +521,8 @@ class Verbs:
                 (3,)
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers): force on all of an arm's backbone, in base axes [N/m]; (3,)
-            distributed_following (numbers): the same in the backbone's own axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
                 it, wrench and, where it turns with the place, following
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
@@ -835,8 +835,8 @@ class Verbs:
                 out, section after section; a list each, or an array
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
-            distributed (numbers): force on all of an arm's backbone, in base axes [N/m]; (3,)
-            distributed_following (numbers): the same in the backbone's own axes [N/m]; (3,)
+            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
                 it, wrench and, where it turns with the place, following
             balance (str): how an arm's equilibrium is written: energy (default), or as published models

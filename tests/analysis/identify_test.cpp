@@ -293,8 +293,7 @@ TEST_P(MeasuredArms, AreIdentified) {
   EXPECT_TRUE(found->report.ok()) << to_string(found->report);
   EXPECT_EQ(found->train.failed, 0);
   EXPECT_LT(found->train.rms, GetParam().train);
-  std::printf("%s: train %.2f mm in %.2f s
-", GetParam().name, 1e3 * found->train.rms, seconds);
+  std::printf("%s: train %.2f mm in %.2f s\n", GetParam().name, 1e3 * found->train.rms, seconds);
   // bounds are kept, and pulls meet slack tendons
   for (std::size_t p = 0; p < parameters->size(); ++p) {
     EXPECT_GE(found->parameters[p].coordinate, (*parameters)[p].lower);
@@ -303,8 +302,8 @@ TEST_P(MeasuredArms, AreIdentified) {
   double pulls = 0, count = 0;
   for (std::size_t k = 0; k < read.labels.size(); ++k)
     if (read.labels[k].find("pull") != std::string::npos) {
-    pulls += found->errors[k] * found->errors[k];
-    ++count;
+      pulls += found->errors[k] * found->errors[k];
+      ++count;
     }
   pulls = std::sqrt(pulls / count);
   EXPECT_LT(pulls, GetParam().pulls);
