@@ -294,14 +294,15 @@ Panel space(std::vector<Series> all, std::array<Axis, 3> axes, const Answer& sha
 }  // namespace
 
 Figure robot_figure(const Answer& shape, const OpenRobot& robot, const std::optional<Eye>& eye) {
-  const auto all = is_serial(robot) ? serial_drawing(shape) : drawing(shape, *robot.description.find("legs"));
+  const bool is_row = is_serial(robot) || is_arm(robot);
+  const auto all = is_row ? serial_drawing(shape) : drawing(shape, *robot.description.find("legs"));
   const auto axes = axes_around(all);
   Figure figure;
   figure.title = shape.text("robot");
   figure.width = figure.height = 800;
   if (eye) {
     figure.panels = {space(all, axes, shape, *eye)};
-  } else if (is_serial(robot)) {
+  } else if (is_row) {
     figure.panels = {projection(all, axes, 0, 2, {}), projection(all, axes, 1, 2, {})};
   } else {
     figure.height = 700;

@@ -160,7 +160,7 @@ std::optional<Figure> picture(const Arguments& arguments, std::string_view kind,
     if (!answer) return {};
     return diagram_figure(*answer, *robot, section_of(arguments));
   }
-  if (kind == "3d" && !robot->is_spatial && !is_serial(*robot))
+  if (kind == "3d" && !robot->is_spatial && !is_serial(*robot) && !is_arm(*robot))
     return fail({{"not_available", "--as",
                   fmt::format("{} moves in a plane, and is drawn in it: leave out --as 3d.",
                               robot->description.text("robot"))}});

@@ -227,7 +227,7 @@ void put_arm_shape(ArmContext& context, int samples) {
     for (int k = 1; k <= section.discs.count; ++k)
       at_discs.push_back(from + section.length * k / section.discs.count);
     for (const SE3<double>& frame : arm_frames(arm, at_discs, context.work))
-      discs.push_back({{"pose", pose_value(AnyPose(spatial_pose(frame)))}, {"radius", section.discs.radius}});
+      discs.push_back({{"pose", pose_value(AnyPose(spatial_pose(frame)))}, {"height", 0.0}, {"radius", section.discs.radius}});
     from += section.length;
   }
   backbones.push_back(Value(backbone, 3));
@@ -235,7 +235,7 @@ void put_arm_shape(ArmContext& context, int samples) {
   answer["places"] = places;
   answer["backbones"] = std::move(backbones);
   answer["curvatures"] = Value(curvature, 3);
-  answer["tendon_lines"] = std::move(tendons);
+  answer["tendons"] = std::move(tendons);
   answer["discs"] = std::move(discs);
   answer["frames"] = std::move(frames);
 }

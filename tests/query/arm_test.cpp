@@ -68,7 +68,7 @@ TEST(ArmQueries, EveryWantAndModel) {
     EXPECT_EQ(answer["U"].size(), 6U);
     EXPECT_EQ(answer["U"][0].size(), 6U);
     EXPECT_EQ(answer["compliance"].size(), 6U);
-    EXPECT_EQ(answer["tendon_lines"].size(), 2U);
+    EXPECT_EQ(answer["tendons"].size(), 2U);
     EXPECT_GT(answer["buckling_margin"].get<double>(), 0);
     EXPECT_LT(answer["buckling_margin"].get<double>(), 1.5);
   }
