@@ -191,7 +191,7 @@ Expected<OpenRobot> open_with_platform(const Arguments& arguments) {
 }
 
 Member at_home(const OpenRobot& robot) {
-  if (is_arm(robot)) return {.key = "changes", .value = list_of({})};  // as long as at rest
+  if (is_arm(robot)) return {.key = "changes", .value = list_of({})};           // as long as at rest
   if (is_serial(robot)) return {.key = "configuration", .value = list_of({})};  // straight
   const Node& home = *robot.description.find("home");
   if (!robot.is_on_rods || robot.inputs.size() == 6) return {.key = "pose", .value = home};

@@ -227,7 +227,9 @@ void put_arm_shape(ArmContext& context, int samples) {
     for (int k = 1; k <= section.discs.count; ++k)
       at_discs.push_back(from + section.length * k / section.discs.count);
     for (const SE3<double>& frame : arm_frames(arm, at_discs, context.work))
-      discs.push_back({{"pose", pose_value(AnyPose(spatial_pose(frame)))}, {"height", 0.0}, {"radius", section.discs.radius}});
+      discs.push_back({{"pose", pose_value(AnyPose(spatial_pose(frame)))},
+                       {"height", 0.0},
+                       {"radius", section.discs.radius}});
     from += section.length;
   }
   backbones.push_back(Value(backbone, 3));

@@ -35,8 +35,8 @@ struct Element {
   std::array<Six, 2> rest{};                             ///< strain without load
   std::array<Six, 2> stiffness{};                        ///< its diagonal [N], [N m²]; of a joint [N m]
   std::array<std::array<double, max_modes>, 2> modes{};  ///< values of the basis
-  double from = 0, to = 0;  ///< the places between which its polynomials run [m]
-  int stretch = 0;          ///< which stretch of its piece that is
+  double from = 0, to = 0;                               ///< the places between which its polynomials run [m]
+  int stretch = 0;                                       ///< which stretch of its piece that is
   int first_row = 0;                ///< in RodModel::rows: the same, scaled, for each point 6 × padded
   int first_guide = 0, guides = 0;  ///< in RodModel::guides: tendons that a channel guides along the rod
 };
@@ -61,10 +61,11 @@ struct Span {
 /// Strains of a piece are rest + scale_c Σ modes_a y_{c,a}; the scale makes the elastic energy ½|y|².
 struct Piece {
   int first_span = 0, spans = 0;
-  int first = 0, size = 0;      ///< of its coordinates
-  int padded = 0;               ///< `size` rounded up to whole registers
-  std::array<int, 6> modes{};   ///< of each component; 0: the strain stays at rest
-  int stretches = 1;  ///< with polynomials of their own, between point loads; each has an equal part of the modes
+  int first = 0, size = 0;     ///< of its coordinates
+  int padded = 0;              ///< `size` rounded up to whole registers
+  std::array<int, 6> modes{};  ///< of each component; 0: the strain stays at rest
+  int stretches =
+      1;  ///< with polynomials of their own, between point loads; each has an equal part of the modes
   std::array<int, 6> offset{};  ///< of its first coordinate in the piece
   Six scale{};
 };
