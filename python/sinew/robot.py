@@ -144,11 +144,19 @@ class Robot(Verbs):
     def _by_sections(self, numbers: list[float]) -> list[list[float]]:
         """Numbers of all tendons, in order, as a list a section."""
         left = iter(numbers)
-        return [list(itertools.islice(left, section["tendons"]["count"])) for section in self._about()._plain()["sections"]]
+        return [list(itertools.islice(left, count)) for count in self._tendon_counts()]
+
+    def _tendon_counts(self) -> list[int]:
+        """How many tendons end at each section."""
+        about = self._about()._plain()
+        sections = about.get("sections", [])
+        if about.get("kind") == "arm":
+            return [sum(tendon["section"] == m for tendon in about["tendons"]) for m in range(len(sections))]
+        return [section["tendons"]["count"] for section in sections]
 
     def _rows_of_tendons(self, changes: Any) -> Any:
         """Rows of all tendons, as columns have them (n, 15), as columns (n, 1, 15); a list a section (5, 3) as it is."""
-        counts = [section["tendons"]["count"] for section in self._about()._plain().get("sections", [])]
+        counts = self._tendon_counts()
         rows, width = changes.shape
         is_of_rows = width == sum(counts) and (rows > 1 or len(counts) > 1)
         return changes.reshape(rows, 1, width) if is_of_rows else changes
