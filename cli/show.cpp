@@ -216,10 +216,12 @@ std::string show_report(const Answer& answer) {
   report.iterations = static_cast<int>(answer.number("iterations").value_or(0));
   std::string text = to_string(report);
   if (!answer.number("residual")) text = "converged";  // in closed form
-  if (is_on_rods(answer) || (answer.find("wrench_sensitivity") && !is_on_chains(answer)) ||
+  const bool is_of_arm = answer.find("tip") && answer.find("potential");
+  if (is_on_rods(answer) || is_of_arm || (answer.find("wrench_sensitivity") && !is_on_chains(answer)) ||
       answer.find("curves") || answer.find("rows[0].unstable_directions")) {
-    text.resize(text.size() - 2);                    // a residual of rods is relative, and has no unit
-    if (!answer.find("curves")) text += ", stable";  // else the answer is not a converged one
+    text.resize(text.size() - 2);  // a residual of rods is relative, and has no unit
+    if (!answer.find("curves") && (!is_of_arm || answer.find("stable")))
+      text += ", stable";  // else the answer is not a converged one
   }
   return styled(text, Style::good) + '\n';
 }

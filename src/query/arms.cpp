@@ -168,6 +168,8 @@ Value by_end_section(const Arm& arm, std::span<const double> values) {
 
 void put_arm_state(ArmContext& context, const ArmState& state) {
   context.report(state.report);
+  if (std::ranges::any_of(context.robot.tendons, [](const ArmTendon& tendon) { return tendon.friction > 0; }))
+    context.add_message("its tendons are taken without their friction");
   Value& answer = context.answer;
   if (state.report.status == Status::bad_input || state.report.status == Status::unsupported) return;
   answer["tip"] = pose_value(AnyPose(spatial_pose(state.tip)));

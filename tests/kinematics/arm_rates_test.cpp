@@ -87,5 +87,19 @@ INSTANTIATE_TEST_SUITE_P(Arm, Rates,
                                          Case{ArmModel::subsegment_cc, 1e-4, true},
                                          Case{ArmModel::cc, 0, false}, Case{ArmModel::prb, 1e-4, false}));
 
+/// A channel is not as long as the way between discs: what one model was asked does not change another's
+/// answer.
+TEST(ArmRates, ModelsDoNotShareLengthsAtRest) {
+  Arm arm = two_sections(5, 1e-4);
+  for (ArmTendon& tendon : arm.tendons) tendon.routes.back().end_angle += 1;
+  const std::vector<TendonCommand> commands(6, {TendonHeld::change, -0.0005});
+  ArmWorkspace fresh(arm), used(arm);
+  const ArmState alone = arm_forward(arm, commands, {}, {.accuracy = 0}, fresh);
+  ASSERT_TRUE(arm_forward(arm, commands, {}, {.model = ArmModel::rod, .accuracy = 0}, used).report.ok());
+  const ArmState after = arm_forward(arm, commands, {}, {.accuracy = 0}, used);
+  ASSERT_TRUE(alone.report.ok() && after.report.ok());
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(after.tensions[i], alone.tensions[i], 1e-6);
+}
+
 }  // namespace arm_rates_test
 }  // namespace sinew::test

@@ -1,9 +1,7 @@
 /// @file arm_work.hpp
 /// What a workspace keeps for an arm: the rod at every resolution that a question has needed.
 #pragma once
-#include <map>
 #include <memory>
-#include <optional>
 
 #include "robot/arm_model.hpp"
 #include "sinew/kinematics/arm.hpp"

@@ -224,6 +224,7 @@ ArmRod& ArmWorkspace::Impl::at(const Arm& arm, const ArmOptions& options,
       options.elements != elements || at_breaks != breaks) {
     levels.clear();
     level = -1;
+    knows_rest = false;  // a channel is not as long as the way between discs
     model = options.model, balance = options.balance, breaks = at_breaks;
     order = options.order, elements = options.elements;
   }
