@@ -227,9 +227,15 @@ async function names(browser, url) {
   const on = await stand(browser, url, {width: 670, height: 544}), {page} = on, tip = page.locator('.tip');
   await on.draw('6-ufs');
   const middle = (what) => on.get(`picture.lookout.project(${what})`), [x, y] = await middle('drawn.shape.backbones[5][8]');
+  // Both times are the page's own: a busy machine may look at it late.
+  await page.evaluate(() => {
+    const tip = document.querySelector('.tip');
+    document.addEventListener('pointermove', ({timeStamp}) => { window.moved ??= timeStamp; }, {capture: true});
+    new MutationObserver(() => { if (!tip.hidden) window.named ??= performance.now(); }).observe(tip, {attributes: true});
+  });
   await page.mouse.move(x, y);
-  assert.ok(await tip.isHidden(), 'named at once');
   await tip.waitFor();
+  assert.ok(await page.evaluate('named - moved') >= 149, 'named at once');
   assert.equal(await tip.innerText(), 'backbone 5');
   await page.mouse.move(x - 60, y + 60);
   await tip.waitFor({state: 'hidden'});
