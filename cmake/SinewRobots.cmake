@@ -23,6 +23,14 @@ foreach(file IN LISTS firmware_files)
   string(APPEND firmware_rows "    {\"${name}\", R\"sinew(${text})sinew\"},\n")
 endforeach()
 
+# Numbers of others that `sinew reproduce truth` is judged by.
+file(GLOB files RELATIVE ${PROJECT_SOURCE_DIR}/data CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/data/*/*.csv)
+foreach(file IN LISTS files)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/data/${file})
+  file(READ ${PROJECT_SOURCE_DIR}/data/${file} text)
+  string(APPEND data_rows "    {\"${file}\", R\"sinew(${text})sinew\"},\n")
+endforeach()
+
 sinew_robot_rows(studies study_rows)
 sinew_robot_rows(robots robot_rows)
 sinew_robot_rows(examples/robots template_rows)
@@ -53,7 +61,7 @@ std::string_view scene_template() { return R"sinew(@scene_text@)sinew"; }
 ]])
 
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/builtin_studies.cpp @ONLY CONTENT
-[[// Generated from studies/*.yaml, firmware/cycles and kernel/include.
+[[// Generated from studies/*.yaml, data, firmware/cycles and kernel/include.
 #include "study/builtin.hpp"
 
 namespace sinew::inline v1 {
@@ -62,6 +70,14 @@ std::span<const BuiltinFile> builtin_studies() {
   static constexpr BuiltinFile studies[] = {
 @study_rows@  };
   return studies;
+}
+
+std::string_view builtin_data(std::string_view name) {
+  static constexpr BuiltinFile tables[] = {
+@data_rows@  };
+  for (const BuiltinFile& table : tables)
+    if (table.name == name) return table.text;
+  return {};
 }
 
 std::span<const BuiltinFile> builtin_firmware() {

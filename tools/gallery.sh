@@ -62,5 +62,8 @@ tile branches 220mm branches 3pfs-g2 --independent "400 mm, 0.05, 0" \
 row map map
 row branches branches
 
+# docs/arm-models.md: with the times of the run
+"$sinew" reproduce truth/models -o . -q >/dev/null && cp truth/models.png "$out/arm-models.png"
+
 # docs/scenes.md: where planning is built
 if "$sinew" reproduce lsk/fig12 -o . -q >/dev/null; then cp lsk/fig12.png "$out/way-in.png"; fi

@@ -1,6 +1,6 @@
 /// @file builtin.hpp
-/// Files that are part of the library: studies/*.yaml, and the program that counts cycles on a controller
-/// with the kernel that it includes.
+/// Files that are part of the library: studies/*.yaml, data/, and the program that counts cycles on a
+/// controller with the kernel that it includes.
 #pragma once
 #include <span>
 #include <string_view>
@@ -13,6 +13,8 @@ struct BuiltinFile {
 };
 
 std::span<const BuiltinFile> builtin_studies();
+/// A table below data/: `rods/steel.csv`.
+std::string_view builtin_data(std::string_view name);
 std::span<const BuiltinFile> builtin_firmware();
 
 }  // namespace sinew::inline v1

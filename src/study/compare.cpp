@@ -29,6 +29,13 @@ Finding given(std::string quantity, std::string paper, std::string ours, double 
           off <= bound ? "agrees" : "differs"};
 }
 
+Finding within(std::string quantity, std::string reference, std::string ours, double off, double tolerance,
+               const char* unit) {
+  return {std::move(quantity), std::move(reference), std::move(ours),
+          fmt::format("{}, tolerance {:g}{}{}", small(off), tolerance, *unit ? " " : "", unit),
+          off <= tolerance ? "agrees" : "differs"};
+}
+
 Finding claimed(std::string quantity, std::string paper, std::string ours, double off, double bound,
                 const char* unit) {
   Finding finding = given(std::move(quantity), std::move(paper), std::move(ours), off, bound, unit);

@@ -22,6 +22,10 @@ Finding printed(std::string quantity, double paper, double ours, const char* uni
 Finding given(std::string quantity, std::string paper, std::string ours, double off, double bound,
               const char* unit);
 
+/// A reference beside ours, with the tolerance that is asked: `agrees` within it.
+Finding within(std::string quantity, std::string reference, std::string ours, double off, double tolerance,
+               const char* unit);
+
 /// A claim: `holds` where `off`, how far ours is from it, is at most `bound`. NaN fails.
 Finding claimed(std::string quantity, std::string paper, std::string ours, double off, double bound,
                 const char* unit);

@@ -1,5 +1,5 @@
 /// Identification of arms: sensitivities against differences, arms that are known found again, and two
-/// measured ones (tests/data/measured/).
+/// measured ones (data/measured/).
 #include "sinew/analysis/identify.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-/// Arms under load against other people's codes, closed forms and published tables (docs/validation.md).
+/// Arms under load against other people's codes (docs/validation.md); rods without tendons:
+/// tests/study/truth_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -79,109 +80,6 @@ TEST(ArmReference, TwoSections) {
     // The public code leaves out the force of distal tendons at the end of the first section.
     check(ArmModel::rod, "VC_CosseratRod", 2e-3);
   }
-}
-
-/// Rods of another code, rounded to 1e-4 m: world x is the rod's z.
-class OtherRods : public testing::TestWithParam<const char*> {};
-TEST_P(OtherRods, Shapes) {
-  const Json& file = reference_file(std::string("data/outside/") + GetParam());
-  const Json& rod = file["rod"];
-  const double E = rod["E"].get<double>(), radius = rod["radius"].get<double>(),
-               length = rod["length"].get<double>();
-  const Arm arm = cantilever(
-      length,
-      round_section({E, E / 2 / (1 + rod["nu"].get<double>()), rod["rho"].get<double>()}, 2 * radius));
-  const auto turned = [](const Json& v, std::size_t from = 0) {
-    return std::array{-v[from + 2].get<double>(), v[from + 1].get<double>(), v[from].get<double>()};
-  };
-  std::vector<double> errors;
-  const auto stations = rod["stations_of_each_half"].get<std::vector<double>>();
-  for (const Json& c : file["cases"]) {
-    ArmLoad load;
-    load.gravity = turned(c["gravity"]);
-    PointLoad middle;
-    middle.place = length / 2;
-    const auto put = [&](const Json& from, std::array<double, 6>& to) {
-      const auto force = turned(from), moment = turned(from, 3);
-      for (std::size_t i = 0; i < 3; ++i) to[i] = force[i], to[i + 3] = moment[i];
-    };
-    put(c["mid_wrench"], middle.wrench);
-    put(c["tip_wrench"], load.wrench);
-    load.points = {middle};
-    ArmWorkspace work(arm);
-    const ArmState& state = arm_forward(arm, {}, load, {.model = ArmModel::rod}, work);
-    ASSERT_TRUE(state.report.ok()) << c["id"] << to_string(state.report);
-    std::vector<double> places;
-    for (const double half : {0.0, 0.5})
-      for (const double s : stations) places.push_back(length * (half + s / 2));
-    const auto frames = arm_frames(arm, places, work);
-    double worst = 0;
-    for (const std::size_t k : {6U, 13U}) {  // the middle and the tip
-      const auto expected = turned(c["points"][k]);
-      worst = std::max(worst, (frames[k].p - Vec3<double>(expected[0], expected[1], expected[2])).norm());
-    }
-    errors.push_back(worst);
-  }
-  std::ranges::sort(errors);
-  EXPECT_LE(errors[errors.size() / 2], 0.15e-3);
-  EXPECT_LE(errors.back(), 0.6e-3);
-  RecordProperty("median_mm", std::to_string(1e3 * errors[errors.size() / 2]));
-  RecordProperty("most_mm", std::to_string(1e3 * errors.back()));
-}
-INSTANTIATE_TEST_SUITE_P(ArmReference, OtherRods,
-                         testing::Values("rod_statics_steel.json", "rod_statics_tpu.json"));
-
-/// EI = 1, L = 1, neither stretch nor shear: the elastica.
-Arm elastica() {
-  CrossSection section;
-  section.bending_x = section.bending_y = section.torsion = 1;
-  return cantilever(1, section);
-}
-
-TEST(ArmTables, CantileverUnderTipForce) {
-  const double table[][4] = {{1, 0.46135195, 0.30172077, 0.05643324},
-                             {5, 1.21536812, 0.71379152, 0.38762836}};
-  const Arm arm = elastica();
-  for (const auto& [alpha, slope, deflection, shortening] : table) {
-    ArmWorkspace work(arm);
-    const ArmState& state =
-        arm_forward(arm, {}, {.wrench = {alpha}}, {.model = ArmModel::rod, .accuracy = 1e-8}, work);
-    ASSERT_TRUE(state.report.ok()) << to_string(state.report);
-    EXPECT_NEAR(state.tip.p.x(), deflection, 1e-7);
-    EXPECT_NEAR(1 - state.tip.p.z(), shortening, 1e-7);
-    EXPECT_NEAR(state.tip.R.log().norm(), slope, 1e-7);
-  }
-}
-
-TEST(ArmTables, UniformLoadDeadAndFollowing) {
-  const Arm arm = elastica();
-  ArmWorkspace work(arm);
-  const ArmState dead =
-      arm_forward(arm, {}, {.along = {5}}, {.model = ArmModel::rod, .accuracy = 1e-8}, work);
-  ASSERT_TRUE(dead.report.ok()) << to_string(dead.report);
-  EXPECT_NEAR(dead.tip.p.z(), 0.84666, 1e-5);
-  EXPECT_NEAR(dead.tip.p.x(), 0.49591, 1e-5);
-  const ArmState following =
-      arm_forward(arm, {}, {.following_along = {5}}, {.model = ArmModel::rod, .accuracy = 1e-7}, work);
-  ASSERT_TRUE(following.report.ok()) << to_string(following.report);
-  EXPECT_NEAR(following.tip.p.z(), 0.79552, 1e-5);
-  EXPECT_NEAR(following.tip.p.x(), 0.56042, 1e-5);
-}
-
-/// Bathe and Bolourchi's bend of 45°, radius 100, force 300 out of its plane.
-TEST(ArmTables, BendOf45Degrees) {
-  const double E = 1e7, G = E / 2;
-  CrossSection section{E / 12, E / 12, G / 6, E, G * 5 / 6, 0};
-  Arm arm = cantilever(100 * std::numbers::pi / 4, section);
-  arm.sections[0].curvature = {0, 0.01, 0};  // from z towards x
-  ArmWorkspace work(arm);
-  const ArmState& state =
-      arm_forward(arm, {}, {.wrench = {0, 300}}, {.model = ArmModel::rod, .accuracy = 1e-8}, work);
-  ASSERT_TRUE(state.report.ok()) << to_string(state.report);
-  // the table's axes: along, in the plane, out of it
-  EXPECT_NEAR(state.tip.p.z(), 58.778897, 1e-5);
-  EXPECT_NEAR(state.tip.p.x(), 22.244679, 1e-5);
-  EXPECT_NEAR(state.tip.p.y(), 40.192392, 1e-5);
 }
 
 }  // namespace arm_reference_test

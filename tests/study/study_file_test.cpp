@@ -57,6 +57,18 @@ TEST(StudyFile, BareNumbersTakeTheUnitOfTheirAxis) {
   EXPECT_EQ(study->axes[1].unit, "m");
 }
 
+TEST(StudyFile, WordsAreNumbered) {
+  const Folder folder;
+  const std::string words = with_part(with_part(good, "x: $x", "x: 0"), "phi: 0}", "phi: 0}, model: $m");
+  const auto study = study_of(folder, with_part(words, "x: [0 mm, 5 mm, 7.5 mm]", "m: [cc, prb]"));
+  ASSERT_TRUE(study) << to_string(study.error());
+  EXPECT_EQ(study->axes[1].words, (std::vector<std::string>{"cc", "prb"}));
+  EXPECT_EQ(study->axes[1].values, (std::vector<double>{0, 1}));
+  EXPECT_EQ(code_of(with_part(words, "x: [0 mm, 5 mm, 7.5 mm]", "m: [cc, cc]")), "duplicate_word");
+  EXPECT_EQ(code_of(with_part(words, "x: [0 mm, 5 mm, 7.5 mm]", "m: [cc, \"c c\"]")), "bad_word");
+  EXPECT_EQ(code_of(with_part(words, "x: [0 mm, 5 mm, 7.5 mm]", "m: [cc, 5 mm]")), "not_a_number");
+}
+
 TEST(StudyFile, SaysWhatIsWrong) {
   EXPECT_EQ(code_of(good), "");
   EXPECT_EQ(code_of(with_part(good, "$x", "$q")), "unknown_axis");

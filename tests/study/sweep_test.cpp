@@ -68,6 +68,28 @@ TEST(Sweep, GivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 /// Whatever a thread computed before, a chunk is computed alike: also behind samples that have no solution.
+/// Each word's samples are those of the study that has it written out.
+TEST(Sweep, WordsGoIntoTheQuery) {
+  const Folder folder;
+  const auto text = [](const std::string& model, const std::string& axis) {
+    return "sinew: 1\nrobot: two-segment\nquery: {query: forward, model: " + model +
+           ", tensions: [[$t, 0, 0], [0, 1, 0]]}\naxes:\n" + axis +
+           "  t: [1 N, 2 N, 3 N]\npath: anew\noutputs:\n  x: tip.position[0]\n  z: tip.position[2]\n";
+  };
+  const auto all = sweep_to(folder, text("$m", "  m: [rod, cc, prb]\n"), "all.csv");
+  ASSERT_TRUE(all) << to_string(all.error());
+  EXPECT_NE(bytes(folder.path / "all.csv").find("# m: 0 rod, 1 cc, 2 prb\n"), std::string::npos);
+  const Table together = read_csv(folder.path / "all.csv").value();
+  for (const std::size_t m : {0U, 1U, 2U}) {
+    const char* names[] = {"rod", "cc", "prb"};
+    ASSERT_TRUE(sweep_to(folder, text(names[m], ""), std::string(names[m]) + ".csv"));
+    const Table one = read_csv(folder.path / (std::string(names[m]) + ".csv")).value();
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const char* name : {"x", "z"})
+        EXPECT_EQ(together.find(name)->values[3 * m + k], one.find(name)->values[k]) << names[m];
+  }
+}
+
 TEST(Sweep, NoChunkShowsWhatWasComputedBefore) {
   const Folder folder;
   for (const std::string& text :

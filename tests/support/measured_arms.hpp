@@ -1,5 +1,5 @@
 /// @file measured_arms.hpp
-/// Recordings of two arms, tests/data/measured/, and the arms as their files have them.
+/// Recordings of two arms, data/measured/, and the arms as their files have them.
 #pragma once
 #include <fstream>
 #include <map>
@@ -21,8 +21,8 @@ struct Recording {
 
 /// Rows of one pattern are a block.
 inline Recording recording(const std::string& name) {
-  std::ifstream file(std::string(source_folder) + "/tests/data/measured/" + name + ".csv");
-  if (!file) throw std::runtime_error("missing tests/data/measured/" + name + ".csv");
+  std::ifstream file(std::string(source_folder) + "/data/measured/" + name + ".csv");
+  if (!file) throw std::runtime_error("missing data/measured/" + name + ".csv");
   Recording read;
   std::map<std::string, int> blocks;
   std::string line, cell;

@@ -27,9 +27,10 @@ struct StudyAxis {
   std::string name;
   std::string unit;  ///< SI; empty for a plain number
   Kind kind = Kind::values;
-  std::vector<double> values;  ///< in `unit`
-  double low = 0;              ///< least value, or mean, in `unit`
-  double high = 0;             ///< largest value, or standard deviation, in `unit`
+  std::vector<double> values;      ///< in `unit`; of words 0, 1, ...
+  std::vector<std::string> words;  ///< what `values` count, where texts go into the query
+  double low = 0;                  ///< least value, or mean, in `unit`
+  double high = 0;                 ///< largest value, or standard deviation, in `unit`
 };
 
 /// A column of the results: a number of the answer.

@@ -35,6 +35,13 @@ void put(Node& node, double value) {
   node.text = si_text(value);
 }
 
+void put(Node& node, double value, std::span<const std::string> words) {
+  put(node, value);
+  if (words.empty()) return;
+  node.kind = Node::Kind::string;
+  node.text = words[std::min(static_cast<std::size_t>(value), words.size() - 1)];
+}
+
 void put(Node& node, double value, std::string_view unit) {
   put(node, value);
   if (unit.empty()) return;

@@ -25,6 +25,8 @@ SINEW_API std::vector<Placeholder> placeholders(Node& query, std::span<const std
 
 /// Makes the node this number ...
 SINEW_API void put(Node& node, double value);
+/// ... or the word that it counts, from 0; the number where there are no words ...
+SINEW_API void put(Node& node, double value, std::span<const std::string> words);
 /// ... or a text with its unit, which the query's reader then checks.
 SINEW_API void put(Node& node, double value, std::string_view unit);
 

@@ -28,12 +28,17 @@ class QuerySampler {
     session.stop_on(StopToken(*block.stop));
     last_.reset();
     for (std::size_t k = 0; k < block.count && !*block.stop; ++k, ++*block.done) {
-      for (const Placeholder& place : places_) put(*place.node, block.input(*place.input, k));
+      for (const Placeholder& place : places_)
+        put(*place.node, block.input(*place.input, k), words(*place.input));
       block.statuses[k] = sample(session, block, k);
     }
   }
 
  private:
+  std::span<const std::string> words(std::size_t input) const {
+    return input < question_->words.size() ? question_->words[input] : std::span<const std::string>();
+  }
+
   SampleStatus sample(TreeSession& session, const SampleBlock& block, std::size_t k) {
     for (std::size_t o = 0; o < paths_.size(); ++o) block.output(o, k) = not_a_number;
     try {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -58,12 +59,36 @@ void read_distribution(Reader& place, ColumnValues& values, StudyAxis& axis) {
   }
 }
 
+/// `[rod, cc]`: texts that begin with a letter, which no quantity does.
+bool are_words(const Reader& place) {
+  return std::ranges::all_of(place.node()->items, [](const Node& item) {
+    return item.kind == Node::Kind::string && !item.text.empty() &&
+           std::isalpha(static_cast<unsigned char>(item.text.front())) != 0;
+  });
+}
+
+/// Values are their numbers.
+void read_words(const Reader& place, StudyAxis& axis) {
+  for (const Reader& item : place.items()) {
+    const std::string word = item.text();
+    if (word.find_first_of(", \t\n\r") != std::string::npos)
+      item.fail("bad_word", "has a blank or a comma, which the heading of results cannot hold");
+    if (std::ranges::find(axis.words, word) != axis.words.end())
+      item.fail("duplicate_word", "stands in the list twice");
+    axis.values.push_back(static_cast<double>(axis.words.size()));
+    axis.words.push_back(word);
+  }
+}
+
 StudyAxis read_axis(const std::string& name, Reader place, bool is_random) {
-  StudyAxis axis{.name = name, .unit = {}, .values = {}};
+  StudyAxis axis{.name = name, .unit = {}, .values = {}, .words = {}};
   check_name(place, name);
   if (place.is(Node::Kind::list)) {
     ColumnValues values(axis.unit, {}, "axis");
-    for (const Reader& item : place.items()) axis.values.push_back(values.value(item));
+    if (!place.node()->items.empty() && are_words(place))
+      read_words(place, axis);
+    else
+      for (const Reader& item : place.items()) axis.values.push_back(values.value(item));
     if (axis.values.empty()) place.fail("empty_list", "has no values; give at least one");
     if (is_random) place.fail("not_random", "is a list; a random axis is {from, to} or {mean, deviation}");
     return axis;
@@ -186,8 +211,10 @@ class StudyReader {
                                               in_quotes(column.name), in_quotes(column.unit)));
         continue;
       }
-      StudyAxis axis{
-          .name = column.name, .unit = std::string(unit(scale->dimension)), .values = column.values};
+      StudyAxis axis{.name = column.name,
+                     .unit = std::string(unit(scale->dimension)),
+                     .values = column.values,
+                     .words = {}};
       for (double& value : axis.values) {
         if (scale->value != 1) value *= scale->value;
         if (!std::isfinite(value)) {

@@ -38,10 +38,19 @@ void write_tree(const Node& node, std::string& text) {
   text += ')';
 }
 
+/// `0 rod, 1 cc`
+std::string numbered(std::span<const std::string> words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    text += fmt::format("{}{} {}", k == 0 ? "" : ", ", k, words[k]);
+  return text;
+}
+
 }  // namespace
 
 BatchQuestion question_of(const Study& study) {
   BatchQuestion question{study.robot_document, study.query, study.variable_names(), {}, study.is_path};
+  for (const StudyAxis& axis : study.axes) question.words.push_back(axis.words);
   for (const StudyOutput& output : study.outputs) question.outputs.push_back(output.path);
   return question;
 }
@@ -96,6 +105,8 @@ std::vector<Fact> SweepPlan::provenance(const SweepOptions& options) const {
                           {"robot", study_.robot},
                           {"robot_sha256", sha256_of(study_.robot_text)}};
   if (!study_.list_text.empty()) facts.push_back({"list_sha256", sha256_of(study_.list_text)});
+  for (const StudyAxis& axis : study_.axes)
+    if (!axis.words.empty()) facts.push_back({axis.name, numbered(axis.words)});
   facts.push_back({"study", study_.text});
   facts.push_back({"robot_file", study_.robot_text});
   return facts;

@@ -105,7 +105,10 @@ class Trial {
       if (takes_long && solved_ > 0) break;  // some queries take seconds
       axis_values(study_, {sample, 1}, false, values_);
       for (const Placeholder& place : places)
-        put(*place.node, values_[*place.input], study_.column_unit(*place.input));
+        if (const auto words = words_of(*place.input); words.empty())
+          put(*place.node, values_[*place.input], study_.column_unit(*place.input));
+        else
+          put(*place.node, values_[*place.input], words);
       Value answer = session.answer(query);
       if (answer.text_at("status") == to_string(Status::unsupported)) {
         if (errors_.empty())
@@ -122,6 +125,10 @@ class Trial {
       solved_ += is_solved(answer);
       answers_.push_back(std::move(answer));
     }
+  }
+
+  std::span<const std::string> words_of(std::size_t variable) const {
+    return variable < study_.axes.size() ? study_.axes[variable].words : std::span<const std::string>();
   }
 
   std::string all_out() const {
