@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "base/at.hpp"
 #include "kinematics/arms/arm_work.hpp"
@@ -15,17 +16,33 @@ using strain::NodeLoad;
 using strain::NodeShare;
 using strain::RodModel;
 
-/// Orders and elements of polynomials, coarse to fine.
+/// Orders and elements of polynomials.
 struct Resolution {
-  int order, elements;
+  int order;  ///< −1: the model's, which has one less of what is stiff
+  int elements;
 };
-constexpr std::array<Resolution, 4> along_sections{{{3, 8}, {5, 16}, {7, 32}, {9, 64}}},
-    between_discs{{{2, 2}, {3, 4}, {4, 8}, {5, 16}}};
+constexpr std::array<Resolution, 4> along_sections{{{-1, 8}, {5, 16}, {7, 32}, {9, 64}}};
+constexpr std::array<Resolution, 6> between_discs{{{-1, 2}, {-1, 3}, {-1, 5}, {3, 8}, {3, 13}, {4, 20}}};
 
-/// How many resolutions a model has.
+/// What a model is refined by, coarse to fine; empty where it has one resolution.
+std::span<const Resolution> resolutions_of(const ArmOptions& options) {
+  if (options.order >= 0 || options.elements > 0 || options.balance != ArmBalance::energy) return {};
+  if (options.model == ArmModel::rod) return along_sections;
+  if (options.model == ArmModel::subsegment_rod) return between_discs;
+  return {};
+}
+
 int level_count(const ArmOptions& options) {
-  if (options.order >= 0 || options.elements > 0 || options.balance != ArmBalance::energy) return 1;
-  return options.model == ArmModel::rod || options.model == ArmModel::subsegment_rod ? 4 : 1;
+  return std::max(1, static_cast<int>(resolutions_of(options).size()));
+}
+
+/// By how much finer elements lower the error of a resolution: as the third power of their length, with the
+/// fourth seen (the frames' and the quadrature's order).
+double error_ratio(const ArmOptions& options, int level) {
+  const auto resolutions = resolutions_of(options);
+  const double finer = static_cast<double>(resolutions[at(level + 1)].elements) /
+                       static_cast<double>(resolutions[at(level)].elements);
+  return finer * finer * finer;
 }
 
 void add_dead(NodeLoad& load, const NodeShare& share, const std::array<double, 3>& by) {
@@ -228,16 +245,12 @@ ArmRod& ArmWorkspace::Impl::at(const Arm& arm, const ArmOptions& options,
     model = options.model, balance = options.balance, breaks = at_breaks;
     order = options.order, elements = options.elements;
   }
-  if (levels.empty()) levels.resize(4);
-  auto& entry = levels[static_cast<std::size_t>(wanted)];
+  if (levels.empty()) levels.resize(v1::at(level_count(options)));
+  auto& entry = levels[v1::at(wanted)];
   if (!entry) {
     ArmBasis basis{model, order, elements, balance == ArmBalance::collocated};
-    if (level_count(options) > 1) {
-      const Resolution chosen =
-          (model == ArmModel::rod ? along_sections : between_discs)[static_cast<std::size_t>(wanted)];
-      if (wanted > 0) basis.order = chosen.order;  // the coarsest has one order less of what is stiff
-      basis.elements = chosen.elements;
-    }
+    if (const auto resolutions = resolutions_of(options); !resolutions.empty())
+      basis.order = resolutions[v1::at(wanted)].order, basis.elements = resolutions[v1::at(wanted)].elements;
     entry = std::make_unique<ArmRod>(make_rod(arm, basis, breaks));
   }
   return *entry;
@@ -299,14 +312,15 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   while (refines && found.status == Status::converged) {
     const double size = size_of_highest(rod->model(), rod->work().y);
     if (warm && size <= 1.5 * impl.checked_size && impl.checked <= wanted) break;
-    if (impl.level + 1 == count) break;  // `checked` is what the step to this resolution changed
+    if (impl.level + 1 == count) break;
     LoadedRod& finer = ready(impl.level + 1);
     carry_over(rod->model(), rod->work(), finer.model(), finer.work().y);
     const strain::Relaxed again = finer.relax(relax);
     found.iterations += again.iterations;
     const auto coarse = tip_of(*rod), fine = tip_of(finer);
-    impl.checked = 0;
-    for (std::size_t i = 0; i < 3; ++i) impl.checked = std::max(impl.checked, std::abs(fine[i] - coarse[i]));
+    const double moved = std::hypot(fine[0] - coarse[0], fine[1] - coarse[1], fine[2] - coarse[2]);
+    const double ratio = error_ratio(options, impl.level);
+    impl.checked = moved * ratio / (ratio - 1);
     impl.checked_size = size;
     if (again.status == Status::converged && impl.checked <= wanted) break;
     ++impl.level;
@@ -314,9 +328,11 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     const int spent = found.iterations;
     found = again;
     found.iterations = spent;
+    impl.checked = moved / (ratio - 1);
+    impl.checked_size = size_of_highest(finer.model(), finer.work().y);
+    if (impl.checked <= wanted && moved < 1e-3 * arm.length()) break;
   }
-  // Of the finest the last step was the error of the one before it, whose elements are twice as long.
-  state.resolution = impl.level + 1 == count ? impl.checked / 10 : impl.checked;
+  state.resolution = impl.checked;
   set_report(state.report, found);
   if (!by_energy) state.report.message = FixedText<240>(published_words(found.status));
   if (refines && state.report.ok() && state.resolution > 10 * wanted) {
