@@ -110,8 +110,7 @@ int main(int argc, char** argv) {
   const ArmOptions rod{}, cold = rod;
   row("two sections, rod between discs, to 1e-6 of its length, warm", rod, "cold", cold, false);
   row("... to 1e-8 m, warm", {.elements = 8, .accuracy = 0}, "cold", {.elements = 8, .accuracy = 0}, false);
-  row("rod in channels, warm", {.model = ArmModel::rod}, "cold",
-      {.model = ArmModel::rod}, false);
+  row("rod in channels, warm", {.model = ArmModel::rod}, "cold", {.model = ArmModel::rod}, false);
   row("constant between discs, warm", {.model = ArmModel::subsegment_cc}, "collocated, dense differences",
       {.model = ArmModel::subsegment_cc, .balance = ArmBalance::collocated}, true);
   row("pseudo-rigid, one joint, warm", {.model = ArmModel::prb}, "cold", {.model = ArmModel::prb}, false);

@@ -286,12 +286,17 @@ const std::array table{
     Verb{"plot",
          "RESULT|ROBOT|SCENE",
          "a figure of a table of results, of a robot, or of a way in",
-         {"output",   "along",       "as",       "title",   "width",     "font",      "x",
-          "y",        "value",       "at",       "colour",  "log-y",     "log-value", "view",
-          "pose",     "independent", "bending",  "elbow",   "curvature", "inputs",    "configuration",
-          "changes",  "start",       "wrench",   "gravity", "theta-is",  "model",     "section",
-          "measured", "tolerance",   "envelope", "limit",   "set",       "force",     "all-statuses",
-          "quiet",    "help"},
+         {"output",        "along",     "as",          "title",
+          "width",         "font",      "x",           "y",
+          "value",         "at",        "colour",      "log-y",
+          "log-value",     "view",      "pose",        "independent",
+          "bending",       "elbow",     "curvature",   "inputs",
+          "configuration", "changes",   "tensions",    "start",
+          "wrench",        "following", "distributed", "distributed-following",
+          "loads",         "gravity",   "theta-is",    "model",
+          "section",       "measured",  "tolerance",   "envelope",
+          "limit",         "set",       "force",       "all-statuses",
+          "quiet",         "help"},
          {"output"},
          "RESULT is an .h5 or .csv file of sweep, track or map; lengths are drawn in mm, angles in deg. "
          "Lines, or "
@@ -307,6 +312,10 @@ const std::array table{
          "of one section:\n"
          "  sinew plot hexapod --as 3d -o hexapod.svg\n"
          "  sinew plot nottingham-tpcj --section 0 --changes \"-1.1 mm, 2 mm, -0.5 mm\" -o section.svg\n"
+         "An arm is drawn under its tendons and loads, tendons in the colours of their tensions, and its "
+         "curvature along it:\n"
+         "  sinew plot two-segment --tensions \"4 N, 0, 0; 0, 2 N, 0\" --wrench \"0.1 N, 0, 0, 0, 0, 0\" -o "
+         "arm.svg\n"
          "A scene with --along PLAN is drawn with the robot in four phases of its way, or with --as line as "
          "clearance and bends:\n"
          "  sinew plot wall.yaml --along plan.csv -o way.svg\n"

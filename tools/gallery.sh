@@ -48,6 +48,10 @@ tile serial-bent 120mm plot --title "five sections, fifteen tendons" nottingham-
 tile serial-section 120mm plot nottingham-tpcj --section 0 --changes "-1.1 mm, 2 mm, -0.5 mm" --title "the bends that three tendons allow"
 row serial serial-bent serial-section
 
+tile arm 240mm plot two-segment --tensions "4 N, 0, 0; 0, 2 N, 0" --wrench "0.1 N, 0, 0, 0, 0, 0" \
+  --title "two sections, six tendons, a force of 0.1 N at the tip"
+row arms arm
+
 tile planar 120mm plot 3-rfr --pose "10 mm, -5 mm, 10 deg" --title "3-RFR"
 tile spatial 120mm plot 6-ufs --as 3d --title "6-UFS"
 row tendons planar spatial

@@ -81,7 +81,7 @@ std::vector<Series> drawing(const Answer& shape, const Node& legs) {
 }
 
 /// Rim of a disc in the base frame, its proximal face and then its distal one.
-Node rim(const Node& disc) {
+Node rim(const Node& disc, double radius) {
   const auto p = numbers(at(disc, "pose.position")), q = numbers(at(disc, "pose.quaternion"));
   const SO3<double> turn{q.at(0), Vec3<double>(q.at(1), q.at(2), q.at(3))};
   Node points;
@@ -89,7 +89,7 @@ Node rim(const Node& disc) {
   constexpr int corners = 24;
   for (const double height : {0.0, number(disc, "height")})
     for (int k = 0; k <= corners; ++k) {
-      const double angle = 2 * std::numbers::pi * k / corners, radius = number(disc, "radius");
+      const double angle = 2 * std::numbers::pi * k / corners;
       const Vec3<double> corner =
           turn.rotate(Vec3<double>(radius * std::cos(angle), radius * std::sin(angle), height));
       Node point;
@@ -106,7 +106,8 @@ std::vector<Series> serial_drawing(const Answer& shape) {
   std::vector<Series> all;
   const auto& discs = shape.find("discs")->items;
   for (std::size_t i = 0; i < discs.size(); ++i)
-    all.push_back(curve(rim(discs[i]), Mark::line, Colour::grey, 0.8, once(i, "disc")));
+    all.push_back(
+        curve(rim(discs[i], number(discs[i], "radius")), Mark::line, Colour::grey, 0.8, once(i, "disc")));
   const auto& sections = shape.find("tendons")->items;
   for (std::size_t m = 0; m < sections.size(); ++m)
     for (std::size_t i = 0; i < sections[m].items.size(); ++i)
@@ -116,6 +117,86 @@ std::vector<Series> serial_drawing(const Answer& shape) {
     all.push_back(
         curve(backbones[m], Mark::line, m % 2 == 0 ? Colour::blue : Colour::green, 2.5, once(m, "backbone")));
   return all;
+}
+
+/// Points along a curve so dense that they look like it, which one series can colour.
+void add_dense(Series& to, const Series& from, double shade) {
+  constexpr double step = 0.8;  // [mm]
+  for (std::size_t k = 0; k + 1 < from.x.size(); ++k) {
+    const double length =
+        std::hypot(from.x[k + 1] - from.x[k], from.y[k + 1] - from.y[k], from.z[k + 1] - from.z[k]);
+    const int count = std::clamp(static_cast<int>(length / step), 1, 400);
+    for (int j = 0; j <= count; ++j) {
+      for (const auto coordinate : coordinates)
+        (to.*coordinate)
+            .push_back(std::lerp((from.*coordinate)[k], (from.*coordinate)[k + 1], double(j) / count));
+      to.shades.push_back(shade);
+    }
+  }
+}
+
+/// An arm: discs, its tendons in the colours of their tensions, those that are slack dashed, its backbone.
+std::vector<Series> arm_drawing(const Answer& shape) {
+  std::vector<Series> all;
+  const auto& discs = shape.find("discs")->items;
+  const auto& tendons = shape.find("tendons")->items;
+  double around = 0;  // tendons run within the discs
+  for (const Node& section : tendons)
+    for (const Node& tendon : section.items) {
+      const auto start = numbers(&tendon.items.front());
+      around = std::max(around, 1.15 * std::hypot(start[0], start[1]));
+    }
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const double radius = number(discs[i], "radius");
+    all.push_back(
+        curve(rim(discs[i], radius > 0 ? radius : around), Mark::line, Colour::grey, 0.8, once(i, "disc")));
+  }
+  Series taut{.label = {}, .x = {}, .y = {}, .mark = Mark::points, .width = 2};
+  const Node* tensions = shape.find("tensions");
+  std::size_t slack = 0;
+  for (std::size_t m = 0; m < tendons.size(); ++m)
+    for (std::size_t i = 0; i < tendons[m].items.size(); ++i) {
+      Series line = curve(tendons[m].items[i], Mark::dashed, Colour::grey, 1);
+      const double tension = tensions ? tensions->items[m].items[i].number : 0;
+      if (tension > 0)
+        add_dense(taut, line, tension);
+      else
+        line.label = once(slack++, "tendon, 0 N"), all.push_back(std::move(line));
+    }
+  const auto& backbones = shape.find("backbones")->items;
+  for (std::size_t m = 0; m < backbones.size(); ++m)
+    all.push_back(curve(backbones[m], Mark::line, Colour::blue, 2.5, once(m, "backbone")));
+  if (!taut.x.empty()) all.push_back(std::move(taut));
+  return all;
+}
+
+/// Of the colours of taut tendons, where there are any.
+std::optional<ColourScale> tension_scale(const Panel& panel) {
+  for (const Series& series : panel.series)
+    if (!series.shades.empty())
+      return ColourScale{.label = "tension (N)", .low = 0, .high = *std::ranges::max_element(series.shades)};
+  return {};
+}
+
+/// How much an arm bends and twists along itself.
+Panel curvature_panel(const Answer& shape) {
+  constexpr std::array names{"about x", "about y", "torsion"};
+  constexpr std::array colours{Colour::vermillion, Colour::green, Colour::black};
+  Panel panel{.title = "curvature of the backbone, in its axes",
+              .x = {.label = "from the base along the arm", .unit = "mm"},
+              .y = {.label = "curvature", .unit = "1/m"},
+              .series = {},
+              .legend = Legend::below};
+  const auto places = numbers(shape.find("places"));
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    Series series{.label = names[c], .x = {}, .y = {}, .colour = colours[c]};
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      series.x.push_back(1e3 * places[k]);
+      series.y.push_back(shape.find("curvatures")->items[k].items[c].number);
+    }
+    panel.series.push_back(std::move(series));
+  }
+  return panel;
 }
 
 /// Axes around the drawing: larger than it, so that the numbers of its legs have room, and none so much
@@ -295,7 +376,9 @@ Panel space(std::vector<Series> all, std::array<Axis, 3> axes, const Answer& sha
 
 Figure robot_figure(const Answer& shape, const OpenRobot& robot, const std::optional<Eye>& eye) {
   const bool is_row = is_serial(robot) || is_arm(robot);
-  const auto all = is_row ? serial_drawing(shape) : drawing(shape, *robot.description.find("legs"));
+  const auto all = is_arm(robot)      ? arm_drawing(shape)
+                   : is_serial(robot) ? serial_drawing(shape)
+                                      : drawing(shape, *robot.description.find("legs"));
   const auto axes = axes_around(all);
   Figure figure;
   figure.title = shape.text("robot");
@@ -309,6 +392,11 @@ Figure robot_figure(const Answer& shape, const OpenRobot& robot, const std::opti
     const auto starts = feet(shape);
     figure.panels = {projection(all, axes, 0, 1, starts)};
     if (robot.is_spatial) figure.panels.insert(figure.panels.begin(), projection(all, axes, 0, 2, starts));
+  }
+  if (is_arm(robot)) {
+    for (Panel& panel : figure.panels)
+      if (const auto scale = tension_scale(panel)) panel.scale = scale;
+    if (!eye) figure.panels.push_back(curvature_panel(shape));
   }
   figure.columns = static_cast<int>(figure.panels.size());
   if (!eye) figure.width = 700 * figure.columns;

@@ -34,8 +34,10 @@ struct Kind {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<std::string_view> place{
-      "pose",    "independent", "bending", "elbow",   "curvature", "inputs", "configuration",
-      "changes", "start",       "wrench",  "gravity", "theta-is",  "model",  "set"};
+      "pose",          "independent", "bending",  "elbow",     "curvature",   "inputs",
+      "configuration", "changes",     "start",    "wrench",    "gravity",     "theta-is",
+      "model",         "set",         "tensions", "following", "distributed", "distributed-following",
+      "loads"};
   static const std::vector<Kind> all = [] {
     std::vector<std::string_view> seen = place;
     seen.push_back("view");
@@ -137,7 +139,7 @@ Expected<Eye> eye_of(const Arguments& arguments) {
 /// The robot's shape at the asked configuration, default its home.
 Expected<Document> shape_query(const Arguments& arguments, const OpenRobot& robot) {
   auto query = request("shape", arguments, robot);
-  constexpr std::array places{"pose", "independent", "inputs", "configuration", "changes"};
+  constexpr std::array places{"pose", "independent", "inputs", "configuration", "changes", "tensions"};
   if (!query || std::ranges::any_of(places, [&](auto place) { return arguments.has(place); })) return query;
   if (robot.is_on_rods && robot.inputs.size() != 3 && robot.inputs.size() != 6)
     return failure("missing_option", "",

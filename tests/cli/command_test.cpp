@@ -332,6 +332,20 @@ TEST(Plot, DrawsRobotsInSpace) {
   }
 }
 
+/// Tendons in the colours of their tensions, the others dashed, and a panel of the curvature.
+TEST(Plot, DrawsArmsUnderTendonsAndLoads) {
+  const Scratch here;
+  const Outcome outcome = run_command({"plot", "two-segment", "--tensions", "4 N, 0, 0; 0, 2 N, 0",
+                                       "--wrench", "0.1 N, 0, 0, 0, 0, 0", "-o", "arm.svg"},
+                                      here.path());
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const std::string script = read_text(here.path() / "arm.gp");
+  for (const char* word : {"tension (N)", "tendon, 0 N", "curvature (1/m)"})
+    EXPECT_NE(script.find(word), std::string::npos) << word;
+  const Outcome home = run_command({"plot", "tendon-rod", "--as", "3d", "-o", "home.svg"}, here.path());
+  EXPECT_EQ(home.exit, 0) << home.err;
+}
+
 TEST(Plot, DrawsTheDiagramOfASectionAsDiagramDoes) {
   const Scratch here;
   const std::vector<std::string> words{"nottingham-tpcj",        "--section", "0",      "--changes",
