@@ -300,8 +300,8 @@ TEST_P(MeasuredArms, AreIdentified) {
     EXPECT_LE(found->parameters[p].coordinate, (*parameters)[p].upper);
   }
   double pulls = 0, count = 0;
-  for (std::size_t k = 0; k < read.labels.size(); ++k)
-    if (read.labels[k].find("pull") != std::string::npos) {
+  for (std::size_t k = 0; k < read.single_pulls.size(); ++k)
+    if (read.single_pulls[k]) {
       pulls += found->errors[k] * found->errors[k];
       ++count;
     }

@@ -1,42 +1,33 @@
 /// @file measured_arms.hpp
 /// Recordings of two arms, data/measured/, and the arms as their files have them.
 #pragma once
-#include <fstream>
-#include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "paths.hpp"
 #include "sinew/analysis/identify.hpp"
+#include "sinew/io/table.hpp"
 #include "sinew/robot.hpp"
 
 namespace sinew::test {
 
 struct Recording {
   MeasuredRows rows;
-  std::vector<std::string> labels;
+  std::vector<bool> single_pulls;  ///< rows where one tendon is drawn in and the others are paid out
 };
 
-/// Rows of one pattern are a block.
 inline Recording recording(const std::string& name) {
-  std::ifstream file(std::string(source_folder) + "/data/measured/" + name + ".csv");
-  if (!file) throw std::runtime_error("missing data/measured/" + name + ".csv");
+  const auto table = read_csv(std::string(source_folder) + "/data/measured/" + name + ".csv");
+  if (!table) throw std::runtime_error(to_string(table.error()));
   Recording read;
-  std::map<std::string, int> blocks;
-  std::string line, cell;
-  std::getline(file, line);
-  while (std::getline(file, line)) {
-    std::istringstream cells(line);
-    std::vector<std::string> row;
-    while (std::getline(cells, cell, ',')) row.push_back(cell);
-    std::string label = row[1].substr(0, row[1].find("_hold"));
-    read.rows.time.push_back(std::stod(row[0]));
-    for (std::size_t i = 2; i < 11; ++i) read.rows.pulls.push_back(1e-3 * std::stod(row[i]));
-    for (std::size_t i = 11; i < 14; ++i) read.rows.markers.push_back(1e-3 * std::stod(row[i]));
-    read.rows.blocks.push_back(blocks.emplace(label, static_cast<int>(blocks.size())).first->second);
-    read.labels.push_back(std::move(label));
+  const std::vector<Column>& columns = table->columns;  // time, block, single_pull, nine tendons, x, y, z
+  for (std::size_t k = 0; k < table->row_count(); ++k) {
+    read.rows.time.push_back(columns[0].values[k]);
+    read.rows.blocks.push_back(static_cast<int>(columns[1].values[k]));
+    read.single_pulls.push_back(columns[2].values[k] == 1);
+    for (std::size_t i = 3; i < 12; ++i) read.rows.pulls.push_back(1e-3 * columns[i].values[k]);
+    for (std::size_t i = 12; i < 15; ++i) read.rows.markers.push_back(1e-3 * columns[i].values[k]);
   }
   return read;
 }
