@@ -1,54 +1,39 @@
 /// @file measured_arms.hpp
 /// Recordings of two arms, tests/data/measured/, and the arms as their files have them.
 #pragma once
-#include <fstream>
-#include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "paths.hpp"
 #include "sinew/analysis/identify.hpp"
+#include "sinew/io/measured_arm.hpp"
 #include "sinew/robot.hpp"
 
 namespace sinew::test {
 
 struct Recording {
   MeasuredRows rows;
-  std::vector<std::string> labels;
+  std::vector<std::string> labels;  ///< of each row, its block's
 };
 
 /// Rows of one pattern are a block.
 inline Recording recording(const std::string& name) {
-  std::ifstream file(std::string(source_folder) + "/tests/data/measured/" + name + ".csv");
-  if (!file) throw std::runtime_error("missing tests/data/measured/" + name + ".csv");
-  Recording read;
-  std::map<std::string, int> blocks;
-  std::string line, cell;
-  std::getline(file, line);
-  while (std::getline(file, line)) {
-    std::istringstream cells(line);
-    std::vector<std::string> row;
-    while (std::getline(cells, cell, ',')) row.push_back(cell);
-    std::string label = row[1].substr(0, row[1].find("_hold"));
-    read.rows.time.push_back(std::stod(row[0]));
-    for (std::size_t i = 2; i < 11; ++i) read.rows.pulls.push_back(1e-3 * std::stod(row[i]));
-    for (std::size_t i = 11; i < 14; ++i) read.rows.markers.push_back(1e-3 * std::stod(row[i]));
-    read.rows.blocks.push_back(blocks.emplace(label, static_cast<int>(blocks.size())).first->second);
-    read.labels.push_back(std::move(label));
-  }
+  const std::string path = std::string(source_folder) + "/tests/data/measured/" + name + ".csv";
+  const auto table = read_csv(path);
+  if (!table) throw std::runtime_error(to_string(table.error()));
+  auto rows = read_measured_rows(*table, *load(name)->arm(), path);
+  if (!rows) throw std::runtime_error(to_string(rows.error()));
+  std::vector<std::string> labels;
+  for (const std::string& comment : table->comments)
+    if (comment.starts_with("block ")) labels.push_back(comment.substr(comment.find(": ") + 2));
+  Recording read{std::move(*rows), {}};
+  for (const int block : read.rows.blocks) read.labels.push_back(labels.at(static_cast<std::size_t>(block)));
   return read;
 }
 
-/// As its file has it, the marker 8 mm beyond the tip, tendons soft at first.
-inline MeasuredArm measured_arm(const std::string& name) {
-  MeasuredArm arm;
-  arm.arm = *load(name)->arm();
-  arm.marker.place = {0, 0, 0.008};
-  arm.drive.toe.assign(arm.arm.tendons.size(), 2e-3);
-  return arm;
-}
+/// As its file has it: the marker 8 mm beyond the tip, tendons soft at first.
+inline MeasuredArm measured_arm(const std::string& name) { return measured(*load(name)->arm()); }
 
 /// What these recordings can tell.
 inline constexpr const char* measured_names =
