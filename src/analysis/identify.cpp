@@ -600,9 +600,10 @@ Expected<void> check(const MeasuredArm& arm, const MeasuredRows& rows) {
           fmt::format("{} numbers for {} tendons; give one for each, or none.", values.size(), tendons));
   for (std::size_t i = 0; i < tendons; ++i)
     if (!(arm.arm.tendons[i].compliance > 0))
-      return failure("out_of_range", fmt::format("tendons[{}].compliance", i),
-                     "tendons that do not stretch are not identified in this version; give a compliance to "
-                     "start from.");
+      return failure(
+          "out_of_range", fmt::format("tendons[{}].compliance", i),
+          "tendons that do not stretch are not identified in this version; give them a compliance, "
+          "or a stretch, to start from.");
   return {};
 }
 
@@ -651,6 +652,21 @@ MeasuredArm softened(MeasuredArm arm) {
   return arm;
 }
 
+/// Some of the rows, evenly: a map is of few numbers, and rows may be many.
+MeasuredRows thinned(const MeasuredRows& rows, std::size_t most) {
+  const std::size_t count = rows.size(), stride = (count + most - 1) / std::max<std::size_t>(most, 1),
+                    tendons = count > 0 ? rows.pulls.size() / count : 0;
+  if (stride <= 1) return rows;
+  MeasuredRows few;
+  for (std::size_t k = 0; k < count; k += stride) {
+    few.pulls.insert(few.pulls.end(), rows.pulls.begin() + static_cast<long>(k * tendons),
+                     rows.pulls.begin() + static_cast<long>((k + 1) * tendons));
+    few.markers.insert(few.markers.end(), rows.markers.begin() + static_cast<long>(3 * k),
+                       rows.markers.begin() + static_cast<long>(3 * k + 3));
+  }
+  return few;
+}
+
 /// Correlation of markers across the arm as complex numbers: its argument is a turn, its size the agreement.
 std::complex<double> correlation(const std::vector<double>& predicted, const std::vector<double>& measured,
                                  bool mirrored) {
@@ -679,7 +695,9 @@ std::complex<double> correlation(const std::vector<double>& predicted, const std
 
 }  // namespace
 
-Expected<TendonMap> map_tendons(const MeasuredArm& arm, const MeasuredRows& rows, ArmModel model) {
+Expected<TendonMap> map_tendons(const MeasuredArm& arm, const MeasuredRows& all, ArmModel model) {
+  if (auto fits = check(arm, all); !fits) return tl::unexpected(fits.error());
+  const MeasuredRows rows = thinned(all, 400);
   // As long as no tendon is slack, counts the other way are a half turn: then counts are what they should be.
   constexpr double least_gain = 0.02;
   TendonMap best;
