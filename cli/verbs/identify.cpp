@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "io/quantity.hpp"
 #include "io/visible.hpp"
@@ -93,9 +94,7 @@ MeasuredRows in_stretches(const MeasuredRows& rows, int folds) {
 }
 
 std::size_t block_count(const MeasuredRows& rows) {
-  std::vector<int> blocks = rows.blocks;
-  std::ranges::sort(blocks);
-  return static_cast<std::size_t>(std::ranges::unique(blocks).begin() - blocks.begin());
+  return std::set<int>(rows.blocks.begin(), rows.blocks.end()).size();
 }
 
 /// In how many parts rows are held out in turn; 0: none are.
@@ -223,10 +222,53 @@ Expected<void> write_files(const Identification& done, ArmModel model, const Arg
   return write_csv(error_table(done, *computed, arguments), *errors);
 }
 
-int code_of(Status status) {
-  if (status == Status::converged) return solved;
-  return status == Status::stopped || status == Status::iteration_limit ? stopped : no_solution;
+/// Fits, and judges by parts that were held out, as long as nobody interrupts it.
+Expected<void> fit(const MeasuredArm& arm, IdentifyOptions options, bool is_quiet, Identification& done) {
+  const auto begin = Clock::now();
+  Waiting waiting(is_quiet);
+  std::string part = "fitting";
+  options.stop = stop_token();
+  options.progress = [&](int steps, double rms) {
+    waiting.say(fmt::format("{}, step {}, error {:.3g} mm", part, steps, 1e3 * rms));
+  };
+  auto found = identify(arm, done.parameters, done.rows, options);
+  if (!found) return tl::unexpected(found.error());
+  done.found = std::move(*found);
+  done.seconds = seconds_since(begin);
+  if (done.folds == 0 || interrupted()) return {};
+  part = fmt::format("holding out {} parts", done.folds);
+  const std::vector<int> folds = folds_of(in_stretches(done.rows, done.folds), done.folds);
+  auto held_out = hold_out(arm, done.parameters, done.rows, folds, options);
+  if (!held_out) return tl::unexpected(held_out.error());
+  if (held_out->is_complete) done.held_out = std::move(*held_out);
+  done.held_out_seconds = seconds_since(begin) - done.seconds;
+  return {};
 }
+
+/// Why it is no complete fit, if it is none. The answer is the exit code.
+int say_how_it_ended(const Identification& done, bool is_quiet) {
+  const Report& report = done.found.report;
+  const MarkerErrors& fitted = done.found.train;
+  if (fitted.failed > 0 && fitted.rows > 0 && !is_quiet)
+    message(fmt::format(
+        "warning: at {} of {} rows no equilibrium of the fitted arm was found; they count in no error "
+        "and change no parameter",
+        fitted.failed, fitted.failed + fitted.rows));
+  if (!report.ok()) {
+    std::string why = "the parameters still change; fit fewer, or start closer";
+    if (report.status == Status::stopped) why = "this is what it has so far";
+    if (!report.message.empty()) why = report.message.view();
+    message(fmt::format("sinew identify: {}: {}", to_string(report.status), why));
+    return report.status == Status::stopped || report.status == Status::iteration_limit ? stopped
+                                                                                        : no_solution;
+  }
+  if (done.folds == 0 || done.held_out) return solved;
+  message("sinew identify: stopped while rows were held out; the fit itself is complete");
+  return stopped;
+}
+
+/// An arm that stands at no row is none to keep.
+bool is_worth_keeping(const Identification& done) { return done.found.report.status != Status::unreachable; }
 
 }  // namespace
 
@@ -237,7 +279,7 @@ int run_identify(const Arguments& arguments) {
                                             find_verb("identify")->example)}});
   Errors errors;
   const ArmModel model = read_arm_model(arguments, errors);
-  IdentifyOptions options{.model = model, .noise = read_noise(arguments, errors)};
+  const IdentifyOptions options{.model = model, .noise = read_noise(arguments, errors)};
   if (!errors.empty()) return refuse("identify", errors);
   auto arm = read_arm_to_fit(arguments);
   if (!arm) return refuse("identify", arm.error());
@@ -245,11 +287,11 @@ int run_identify(const Arguments& arguments) {
   auto rows =
       read_csv(file).and_then([&](const Table& table) { return read_measured_rows(table, arm->arm, file); });
   if (!rows) return refuse("identify", rows.error());
-  const int folds = read_folds(arguments, *rows, errors);
+  Identification done;
+  done.folds = read_folds(arguments, *rows, errors);
   if (!errors.empty()) return refuse("identify", errors);
 
   finish_what_is_begun();
-  Identification done;
   done.model = std::ranges::find(models, model, &Named::second)->first;
   const auto map = find_map(arguments, model, *arm, *rows);
   if (!map) return refuse("identify", map.error());
@@ -263,51 +305,22 @@ int run_identify(const Arguments& arguments) {
   done.parameters = std::move(*parameters);
   if (done.parameters.empty())
     return refuse("identify", {{"missing_value", "--fit", "names nothing; see sinew identify --help"}});
-  if (!arguments.has("quiet")) warn(*arm, *rows, done.parameters.size());
-
-  options.stop = stop_token();
-  const auto begin = Clock::now();
-  {
-    Waiting waiting(arguments.has("quiet"));
-    std::string part = "fitting";
-    options.progress = [&](int steps, double rms) {
-      waiting.say(fmt::format("{}, step {}, error {:.3g} mm", part, steps, 1e3 * rms));
-    };
-    auto found = identify(*arm, done.parameters, *rows, options);
-    if (!found) return refuse("identify", found.error());
-    done.found = std::move(*found);
-    done.seconds = seconds_since(begin);
-    if (folds > 0 && !interrupted()) {
-      const std::vector<int> folds_of_rows = folds_of(in_stretches(*rows, folds), folds);
-      part = fmt::format("holding out {} parts", folds);
-      auto held_out = hold_out(*arm, done.parameters, *rows, folds_of_rows, options);
-      if (!held_out) return refuse("identify", held_out.error());
-      if (held_out->is_complete) done.held_out = std::move(*held_out);
-      done.held_out_seconds = seconds_since(begin) - done.seconds;
-    }
-  }
-  done.folds = folds;
+  const bool is_quiet = arguments.has("quiet");
+  if (!is_quiet) warn(*arm, *rows, done.parameters.size());
   done.blocks = rows->blocks.empty() ? 0 : block_count(*rows);
   done.rows = std::move(*rows);
-  const Report& report = done.found.report;
-  // An arm that stands at no row is none to keep.
-  if (report.status != Status::unreachable)
-    if (const auto written = write_files(done, model, arguments); !written)
-      return refuse("identify", written.error());
+  if (const auto fitted = fit(*arm, options, is_quiet, done); !fitted)
+    return refuse("identify", fitted.error());
+
+  // what was waited for is shown, whether or not it can be written
+  const auto written = is_worth_keeping(done) ? write_files(done, model, arguments) : Expected<void>();
   if (arguments.has("json"))
-    print(identified_json(done, arguments.text("output")) + '\n');
+    print(identified_json(done, written && is_worth_keeping(done) ? arguments.text("output") : nullptr) +
+          '\n');
   else
-    print(show_identified(done, arguments.has("quiet")));
-  if (!report.ok())
-    message(fmt::format("sinew identify: {}{}", to_string(report.status),
-                        report.status == Status::stopped ? ": this is what it has so far"
-                        : report.message.empty()
-                            ? std::string(": the parameters still change; fit fewer, or start closer")
-                            : fmt::format(": {}", report.message.view())));
-  else if (folds > 0 && !done.held_out)
-    message("sinew identify: stopped while rows were held out; the fit itself is complete");
-  if (report.ok() && folds > 0 && !done.held_out) return stopped;
-  return code_of(report.status);
+    print(show_identified(done, is_quiet));
+  const int code = say_how_it_ended(done, is_quiet);
+  return written ? code : refuse("identify", written.error());
 }
 
 }  // namespace sinew::cli
