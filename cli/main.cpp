@@ -104,7 +104,9 @@ int run(const Verb& verb, std::vector<std::string> words) {
     return solved;
   }
   if (const auto rest = app.remaining(); !rest.empty()) return refuse_option(verb, rest.front());
-  if (arguments.operands.size() > 1) return refuse_operand(verb, arguments.operands[1]);
+  const auto most =
+      static_cast<std::size_t>(1 + std::ranges::count(verb.operand, ' '));  // `ROBOT ROWS` are two
+  if (arguments.operands.size() > most) return refuse_operand(verb, arguments.operands[most]);
   for (const auto& [name, texts] : arguments.options)
     if (texts.size() > 1 && !option(name).repeats)
       return usage(verb.name, "duplicate_option",

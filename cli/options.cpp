@@ -54,6 +54,20 @@ constexpr std::array own_options{
            "of drive: stage_speed, stage_acceleration, bend_speed, bend_acceleration, tendon_speed, "
            "tendon_acceleration; may be repeated",
            0, true},
+    Option{"fit", "NAMES",
+           "of identify what may change, with commas between; default stiffness, angles, compliance and "
+           "curvature of "
+           "sections, offsets and toes of tendons, weight, marker, base, tilt.x, tilt.y and the lag"},
+    Option{"hold-out", "N",
+           "of identify: in how many parts blocks of rows are held out in turn, and judged by a fit without "
+           "them; "
+           "default 5, 0 for none"},
+    Option{"noise", "LENGTH", "of a coordinate of the marker; default what the fit leaves"},
+    Option{"map", "",
+           "of identify: take motors and axes as the rows say, should counts be paid out, or tendons turned "
+           "or the "
+           "other way round"},
+    Option{"errors", "FILE", "of identify a .csv file of measured and computed places, a row each"},
     Option{"rate", "HZ", "of drive: points a second; default 50"},
     Option{"reverse", "", "of drive: from the last posture to the first, out again"},
     Option{"stage-motor", "\"{lead: L, counts: N}\"",

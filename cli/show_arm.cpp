@@ -99,6 +99,28 @@ std::string show_arm_matrix(const Answer& answer, std::string_view key, std::str
   return text + table.text();
 }
 
+/// Between motors and tendons, and where the marker is.
+std::string show_measurement(const Answer& about, const OpenRobot& robot) {
+  if (!about.find("measurement")) return {};
+  const auto values = [&](std::string_view path) { return numbers(about.find(path)); };
+  std::string text = fmt::format("\nmeasured (for identify alone): lag {} s, play {} mm\n",
+                                 six_digits(about.number("measurement.drive.lag").value_or(0)),
+                                 cell(about.number("measurement.drive.play").value_or(0), "m"));
+  TextTable drive({"tendon", "gain", "offset[mm]", "toe[mm]"});
+  const auto gains = values("measurement.drive.gain"), offsets = values("measurement.drive.offset"),
+             toes = values("measurement.drive.toe");
+  for (std::size_t i = 0; i < gains.size(); ++i)
+    drive.add({robot.inputs[i].name, six_digits(gains[i]), cell(offsets[i], "m"), cell(toes[i], "m")});
+  TextTable marker({"marker", "x", "y", "z"});
+  for (const auto& [name, path, unit] : {std::array{"place[mm]", "measurement.marker.place", "m"},
+                                         std::array{"base[mm]", "measurement.marker.base", "m"},
+                                         std::array{"tilt[deg]", "measurement.marker.tilt", "rad"}}) {
+    const auto three = values(path);
+    marker.add({name, cell(three[0], unit), cell(three[1], unit), cell(three[2], unit)});
+  }
+  return text + drive.text() + '\n' + marker.text();
+}
+
 }  // namespace
 
 bool is_arm(const OpenRobot& robot) { return robot.description.text("kind") == "arm"; }
@@ -114,7 +136,7 @@ std::string show_arm_robot(const OpenRobot& robot) {
   if (const double mass = about.number("tip.mass").value_or(0); mass > 0)
     text += fmt::format("tip: mass {} kg at {} m\n", six_digits(mass), vector_text(about.find("tip.place")));
   text += fmt::format("tolerance of a tendon {} mm\n\n", cell(about.number("tolerance").value_or(0), "m"));
-  return text + show_backbone(about) + '\n' + show_tendons(about, robot);
+  return text + show_backbone(about) + '\n' + show_tendons(about, robot) + show_measurement(about, robot);
 }
 
 std::string show_arm(const Answer& answer, const OpenRobot& robot) {

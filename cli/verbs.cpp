@@ -238,6 +238,29 @@ const std::array table{
          "Without a kind the kinds are listed. Every file works as it is; change it and check it.",
          "sinew new 3-RFR > mine.yaml",
          run_new},
+    Verb{"identify",
+         "ROBOT ROWS",
+         "stiffness, angles, offsets and more of an arm from measured rows",
+         {"fit", "model", "hold-out", "noise", "map", "output", "errors", "set", "json", "quiet", "help"},
+         {},
+         "ROWS is a .csv file: by how much each motor draws its tendon in, sections[0].tendons[0][mm] and so "
+         "on, "
+         "and\nwhere a marker then is, x[mm], y[mm], z[mm]; where known time[s], and block, a number that "
+         "rows of "
+         "one\nmotion share. The robot is an arm with elastic tendons; its file says where the fit begins "
+         "(docs/identify.md).\n-o writes the fitted arm as a file of its own. --fit names what may change, "
+         "and who "
+         "has one of its own:\n"
+         "  sinew identify ftdcr-v4 rows.csv --fit sections.bending,tendons.offset,compliance,marker,lag\n"
+         "  bending, bending.x, bending.y, torsion, curvature       of all sections, or sections.\n"
+         "  compliance, pretension, toe, offset, gain               of all tendons, or tendons., or "
+         "sections.\n"
+         "  angle, radius                                           the same, or passages.\n"
+         "  lag, play, gravity, mass, tip_mass, marker, base, tilt  of the arm; marker.x, tilt.z and so on "
+         "alone\n"
+         "Exit code 4 where it was stopped or the steps ran out: the best so far is shown and written.",
+         "sinew identify ftdcr-v4 rows.csv -o fitted.yaml",
+         run_identify},
     Verb{
         "plan",
         "SCENE",

@@ -37,7 +37,7 @@ struct Option {
 
 struct Verb {
   std::string_view name;
-  std::string_view operand;  ///< `ROBOT`; in brackets where it may be left out
+  std::string_view operand;  ///< `ROBOT`, or two of them; in brackets where it may be left out
   std::string_view summary;
   std::vector<std::string_view> options;
   std::vector<std::string_view> needs;  ///< at least one of these options
@@ -88,6 +88,7 @@ int new_study(const Arguments& arguments);  ///< of new, a study
 int run_scene(const Arguments& arguments);
 int run_plan(const Arguments& arguments);
 int run_drive(const Arguments& arguments);
+int run_identify(const Arguments& arguments);
 int run_list(const Arguments& arguments);
 int run_reproduce(const Arguments& arguments);
 int run_plot(const Arguments& arguments);

@@ -4,7 +4,7 @@
 usage: readme.py [--update] --command FOLDER [--examples FOLDER --programs FOLDER] [--python PYTHON] [--octave OCTAVE] PAGE...
 
 Console blocks: each `$ command` runs with the command's folder on the path. One page has one folder of its own, where
-a yaml block that begins with `# name.yaml` is a file. A shown line `...` stands for any lines, `...` within a line for
+a yaml block that begins with `# name.yaml` is a file; `data` in it is that of the tree. A shown line `...` stands for any lines, `...` within a line for
 any text. Residuals and numbers of iterations are not compared: they differ between processors.
 C++ blocks: each is part of one program of the examples; the block without a language that follows the word `prints`
 is what this program writes to standard output. After the words `Each prints` it is what every program of the section
@@ -13,6 +13,7 @@ With --update the outputs in the console blocks are rewritten, and keep as many 
 """
 import argparse
 import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -118,6 +119,7 @@ class Page:
 
     def check(self):
         with tempfile.TemporaryDirectory() as here:
+            os.symlink(pathlib.Path(__file__).resolve().parents[1] / "data", os.path.join(here, "data"))
 
             def replayed(match):
                 language, block = match.groups()

@@ -56,6 +56,9 @@ Operand operand_of(const Verb& verb) {
   return operand;
 }
 
+/// Whether a table of rows comes second.
+bool has_rows(const Verb& verb) { return verb.operand.ends_with(" ROWS"); }
+
 /// Of an option, whether its value is a file.
 bool takes_file(const Option& known) { return known.value == "FILE"; }
 
@@ -153,8 +156,9 @@ std::string zsh() {
     for (const std::string_view word : operand.words) words += fmt::format(" {}", word);
     cases += fmt::format(
         "    {})\n      words_of=({})\n      files='{}'\n      _arguments -s -S{} \\\n"
-        "        '1:operand:_sinew_operand' ;;\n",
-        verb.name, words.empty() ? words : words.substr(1), fmt::join(operand.endings, "|"), specs);
+        "        '1:operand:_sinew_operand'{} ;;\n",
+        verb.name, words.empty() ? words : words.substr(1), fmt::join(operand.endings, "|"), specs,
+        has_rows(verb) ? " '2:rows:_files -g \"*.csv\"'" : "");
   }
   return fmt::format(R"sh(#compdef sinew
 # Completion of sinew for zsh: save it as _sinew in a folder of $fpath, before compinit runs.
@@ -206,6 +210,9 @@ std::string fish() {
       words += fmt::format("{}(__fish_complete_suffix .{})", words.ends_with(' ') ? "" : " ", ending);
     if (!words.empty())
       lines += fmt::format("complete -c sinew -n '__sinew_operand {}' -a '{}'\n", verb.name, words);
+    if (has_rows(verb))
+      lines += fmt::format("complete -c sinew -n '__sinew_rows {}' -a '(__fish_complete_suffix .csv)'\n",
+                           verb.name);
     for (const std::string_view name : verb.options) {
       const Option& known = option(name);
       lines += fmt::format("complete -c sinew -n '__sinew_verb {}' -l {}{}{} -d {}\n", verb.name, name,
@@ -226,6 +233,9 @@ function __sinew_verb
 end
 function __sinew_operand
   __sinew_verb $argv; and test (count (commandline -opc)) -eq 2
+end
+function __sinew_rows
+  __sinew_verb $argv; and test (count (commandline -opc)) -eq 3
 end
 complete -c sinew -f
 )" + lines;

@@ -185,7 +185,13 @@ MeasuredArm completed(MeasuredArm arm) {
   return arm;
 }
 
+/// Masses change by a factor, and have no value in common.
+bool is_of_masses(const FitParameter& parameter) {
+  return parameter.fields.front().quantity == ArmQuantity::mass;
+}
+
 double value_of(const MeasuredArm& arm, const FitParameter& parameter) {
+  if (is_of_masses(parameter)) return 1;
   MeasuredArm copy = arm;
   double value = 0;
   bool found = false;
@@ -196,6 +202,21 @@ double value_of(const MeasuredArm& arm, const FitParameter& parameter) {
     });
   });
   return value;
+}
+
+/// Where the fit begins. A toe of 0 has no derivative of its own: it begins at its prior, and 0 stays what
+/// the prior draws it to.
+double first_coordinate(const MeasuredArm& start, const FitParameter& parameter) {
+  MeasuredArm copy = start;
+  bool has_zero = false;
+  for (const ArmField& field : parameter.fields)
+    if (field.quantity == ArmQuantity::toe)
+      each(start, field, [&](int tendon, int section) {
+        numbers_of(copy, field.quantity, tendon, section,
+                   [&](double& toe) { has_zero = has_zero || toe == 0; });
+      });
+  constexpr double usual_toe = 2e-3;  // [m]
+  return has_zero ? std::min(usual_toe, parameter.upper) : 0;
 }
 
 MeasuredArm changed(const MeasuredArm& start, const std::vector<FitParameter>& parameters,
@@ -260,6 +281,26 @@ struct Driven {
 
 // ---------------------------------------------------------------- the fit
 
+/// @param distances NaN where a row failed
+MarkerErrors errors_of(std::vector<double> distances) {
+  MarkerErrors result;
+  const std::size_t all = distances.size();
+  std::erase_if(distances, [](double d) { return std::isnan(d); });
+  result.rows = static_cast<int>(distances.size());
+  result.failed = static_cast<int>(all) - result.rows;
+  if (distances.empty()) return result;
+  double sum = 0;
+  for (const double d : distances) {
+    sum += d * d;
+    result.max = std::max(result.max, d);
+  }
+  result.rms = std::sqrt(sum / static_cast<double>(distances.size()));
+  std::nth_element(distances.begin(), distances.begin() + static_cast<long>(distances.size() / 2),
+                   distances.end());
+  result.median = distances[distances.size() / 2];
+  return result;
+}
+
 /// A column of a row's sensitivities and what it counts: in a parameter's derivative.
 struct Term {
   enum class Kind { plain, by_lag, by_play, by_gain } kind = Kind::plain;
@@ -288,27 +329,12 @@ class Fit {
   void predict(const MeasuredArm& arm, std::span<const int> chosen) { run(arm, chosen, false); }
 
   MarkerErrors errors(std::span<const int> chosen, std::vector<double>* all = nullptr) const {
-    MarkerErrors result;
     std::vector<double> distances;
-    double sum = 0;
     for (int k : chosen) {
-      const double d = distance(k);
-      if (all) (*all)[at(k)] = d;
-      if (std::isnan(d)) {
-        ++result.failed;
-        continue;
-      }
-      distances.push_back(d);
-      sum += d * d;
-      result.max = std::max(result.max, d);
+      distances.push_back(distance(k));
+      if (all) (*all)[at(k)] = distances.back();
     }
-    result.rows = static_cast<int>(distances.size());
-    if (distances.empty()) return result;
-    result.rms = std::sqrt(sum / static_cast<double>(distances.size()));
-    std::nth_element(distances.begin(), distances.begin() + static_cast<long>(distances.size() / 2),
-                     distances.end());
-    result.median = distances[distances.size() / 2];
-    return result;
+    return errors_of(std::move(distances));
   }
 
   /// Of a coordinate, from the distances' median: that of three normal coordinates is 1.538 of theirs.
@@ -322,9 +348,12 @@ class Fit {
     VectorXd gradient;
     MatrixXd normal;
   };
-  /// Cost of the rows chosen at these coordinates, with its derivatives; `noise_` scales it.
+  /// Cost of the rows chosen at these coordinates, with its derivatives; `noise_` scales it. Not all of it
+  /// where a stop was requested.
   Sums sums(const VectorXd& x, std::span<const int> chosen) {
+    is_fitting_ = true;
     run(changed(start_, parameters_, x), chosen, true);
+    is_fitting_ = false;
     Sums s = sums_;
     for (std::size_t p = 0; p < parameters_.size(); ++p) {
       const double prior = parameters_[p].prior, c = x[static_cast<Index>(p)];
@@ -472,6 +501,7 @@ class Fit {
       filled = 0;
     };
     for (int k : chosen) {
+      if (is_fitting_ && options_.stop.stop_requested()) return;
       for (std::size_t i = 0; i < width; ++i) {
         const ArmTendon& tendon = arm.arm.tendons[i];
         free_lengths[i] = solver_.straight_length(static_cast<int>(i)) -
@@ -536,6 +566,7 @@ class Fit {
   double noise_ = 1e-3;
   Sums sums_;
   bool collect_scores_ = false;
+  bool is_fitting_ = false;  ///< a stop may end it among the rows: what it sums is then left aside
   std::map<int, VectorXd> scores_;
 };
 
@@ -550,15 +581,44 @@ Expected<void> check(const MeasuredArm& arm, const MeasuredRows& rows) {
     return failure("wrong_size", "time", fmt::format("{} times for {} rows.", rows.time.size(), n));
   if (!rows.blocks.empty() && rows.blocks.size() != n)
     return failure("wrong_size", "blocks", fmt::format("{} blocks for {} rows.", rows.blocks.size(), n));
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  for (const auto& [name, values] :
+       {std::pair<std::string_view, const std::vector<double>&>{"pulls", rows.pulls},
+        {"markers", rows.markers},
+        {"time", rows.time}})
+    if (const auto bad = std::ranges::find_if_not(values, is_finite); bad != values.end())
+      return failure(
+          "not_a_number", name,
+          fmt::format("number {} is not finite; leave out rows that lack one.", bad - values.begin()));
+  for (const auto& [name, values] :
+       {std::pair<std::string_view, const std::vector<double>&>{"drive.gain", arm.drive.gain},
+        {"drive.offset", arm.drive.offset},
+        {"drive.toe", arm.drive.toe}})
+    if (!values.empty() && values.size() != tendons)
+      return failure(
+          "wrong_size", name,
+          fmt::format("{} numbers for {} tendons; give one for each, or none.", values.size(), tendons));
   for (std::size_t i = 0; i < tendons; ++i)
     if (!(arm.arm.tendons[i].compliance > 0))
-      return failure("out_of_range", fmt::format("tendons[{}].compliance", i),
-                     "tendons that do not stretch are not identified in this version; give a compliance to "
-                     "start from.");
+      return failure(
+          "out_of_range", fmt::format("tendons[{}].compliance", i),
+          "tendons that do not stretch are not identified in this version; give them a compliance, "
+          "or a stretch, to start from.");
   return {};
 }
 
 }  // namespace
+
+MeasuredArm measured(const Arm& arm) {
+  const MeasuringSetup known = arm.measurement.value_or(MeasuringSetup{});
+  return {arm, known.drive, known.marker};
+}
+
+Arm as_file(const MeasuredArm& arm) {
+  Arm result = arm.arm;
+  result.measurement = MeasuringSetup{arm.drive, arm.marker};
+  return result;
+}
 
 Expected<std::vector<double>> predict_markers(const MeasuredArm& arm, const MeasuredRows& rows,
                                               ArmModel model) {
@@ -574,11 +634,11 @@ Expected<std::vector<double>> predict_markers(const MeasuredArm& arm, const Meas
   return fit.predicted();
 }
 
-Expected<TendonMap> map_tendons(const MeasuredArm& given, const MeasuredRows& rows, ArmModel model) {
-  TendonMap best;
-  // Soft tendons and no weight: only directions count here, and numbers of a file that are far off buckle the
-  // arm.
-  MeasuredArm arm = given;
+namespace {
+
+/// Soft tendons and no weight: only directions count here, and numbers of a file that are far off buckle the
+/// arm.
+MeasuredArm softened(MeasuredArm arm) {
   arm.arm.gravity = {0, 0, 0};
   for (ArmTendon& tendon : arm.arm.tendons) {
     double bends = 0;
@@ -589,40 +649,82 @@ Expected<TendonMap> map_tendons(const MeasuredArm& given, const MeasuredRows& ro
     tendon.compliance = std::max(tendon.compliance, bends);
     tendon.pretension = 0;
   }
+  return arm;
+}
+
+/// Some of the rows, evenly: a map is of few numbers, and rows may be many.
+MeasuredRows thinned(const MeasuredRows& rows, std::size_t most) {
+  const std::size_t count = rows.size(), stride = (count + most - 1) / std::max<std::size_t>(most, 1),
+                    tendons = count > 0 ? rows.pulls.size() / count : 0;
+  if (stride <= 1) return rows;
+  MeasuredRows few;
+  for (std::size_t k = 0; k < count; k += stride) {
+    few.pulls.insert(few.pulls.end(), rows.pulls.begin() + static_cast<long>(k * tendons),
+                     rows.pulls.begin() + static_cast<long>((k + 1) * tendons));
+    few.markers.insert(few.markers.end(), rows.markers.begin() + static_cast<long>(3 * k),
+                       rows.markers.begin() + static_cast<long>(3 * k + 3));
+  }
+  return few;
+}
+
+/// Correlation of markers across the arm as complex numbers: its argument is a turn, its size the agreement.
+std::complex<double> correlation(const std::vector<double>& predicted, const std::vector<double>& measured,
+                                 bool mirrored) {
+  const auto across = [](const std::vector<double>& markers, std::size_t k) {
+    return std::complex<double>(markers[3 * k], markers[3 * k + 1]);
+  };
+  std::vector<std::size_t> known;
+  for (std::size_t k = 0; 3 * k < predicted.size(); ++k)
+    if (!std::isnan(predicted[3 * k])) known.push_back(k);
+  std::complex<double> mean_predicted, mean_measured, sum;
+  for (const std::size_t k : known) {
+    mean_predicted += across(predicted, k);
+    mean_measured += across(measured, k);
+  }
+  const auto count = static_cast<double>(std::max<std::size_t>(known.size(), 1));
+  double of_predicted = 0, of_measured = 0;
+  for (const std::size_t k : known) {
+    const std::complex<double> p = across(predicted, k) - mean_predicted / count,
+                               m = across(measured, k) - mean_measured / count;
+    sum += m * (mirrored ? p : std::conj(p));
+    of_predicted += std::norm(p);
+    of_measured += std::norm(m);
+  }
+  return sum / std::sqrt(std::max(1e-300, of_predicted * of_measured));
+}
+
+}  // namespace
+
+Expected<TendonMap> map_tendons(const MeasuredArm& arm, const MeasuredRows& all, ArmModel model) {
+  if (auto fits = check(arm, all); !fits) return tl::unexpected(fits.error());
+  const MeasuredRows rows = thinned(all, 400);
+  // As long as no tendon is slack, counts the other way are a half turn: then counts are what they should be.
+  constexpr double least_gain = 0.02;
+  TendonMap best;
   for (int sign : {1, -1}) {
     MeasuredRows turned = rows;
     for (double& pull : turned.pulls) pull *= sign;
-    const auto predicted = predict_markers(arm, turned, model);
-    if (!predicted) return tl::unexpected(predicted.error());
-    std::complex<double> mean_predicted, mean_measured, count;
-    const auto across = [](const std::vector<double>& markers, std::size_t k) {
-      return std::complex<double>(markers[3 * k], markers[3 * k + 1]);
-    };
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      if (std::isnan((*predicted)[3 * k])) continue;
-      mean_predicted += across(*predicted, k);
-      mean_measured += across(rows.markers, k);
-      count += 1;
+    std::complex<double> straight, mirrored;
+    // The arm as it is, where it is about right, tells a sign from a half turn by which tendons are slack.
+    for (const MeasuredArm& one : {arm, softened(arm)}) {
+      const auto predicted = predict_markers(one, turned, model);
+      if (!predicted) return tl::unexpected(predicted.error());
+      const auto better = [](std::complex<double>& known, std::complex<double> found) {
+        if (std::abs(found) > std::abs(known)) known = found;
+      };
+      const auto found = correlation(*predicted, rows.markers, false);
+      if (sign > 0) best.as_given = std::max(best.as_given, found.real());
+      better(straight, found);
+      better(mirrored, correlation(*predicted, rows.markers, true));
     }
-    mean_predicted /= std::max(1.0, count.real());
-    mean_measured /= std::max(1.0, count.real());
-    for (bool mirrored : {false, true}) {
-      std::complex<double> sum;
-      double of_predicted = 0, of_measured = 0;
-      for (std::size_t k = 0; k < rows.size(); ++k) {
-        if (std::isnan((*predicted)[3 * k])) continue;
-        const std::complex<double> p = across(*predicted, k) - mean_predicted,
-                                   m = across(rows.markers, k) - mean_measured;
-        sum += m * (mirrored ? p : std::conj(p));
-        of_predicted += std::norm(p);
-        of_measured += std::norm(m);
-      }
-      const double agreement = std::abs(sum) / std::sqrt(std::max(1e-300, of_predicted * of_measured));
-      if (agreement > best.agreement) {
-        best.next = best.agreement;
+    for (const auto& [found, is_mirrored] : {std::pair{straight, false}, std::pair{mirrored, true}}) {
+      const double agreement = std::abs(found);
+      const bool is_first = sign > 0 && !is_mirrored;
+      if (is_first || agreement > best.agreement + least_gain) {
+        if (!is_first) best.next = std::max(best.next, best.agreement);
         best.sign = sign;
-        best.mirrored = mirrored;
-        best.turn = std::arg(sum);
+        best.mirrored = is_mirrored;
+        best.turn = std::arg(found);
         best.agreement = agreement;
       } else {
         best.next = std::max(best.next, agreement);
@@ -638,9 +740,34 @@ std::vector<int> folds_of(const MeasuredRows& rows, int folds) {
   for (std::size_t k = 0; k < result.size(); ++k) {
     const int block = rows.blocks.empty() ? static_cast<int>(k) : rows.blocks[k];
     const auto [found, is_new] = seen.emplace(block, static_cast<int>(seen.size()));
-    result[k] = found->second % folds;
+    result[k] = found->second % std::max(1, folds);
   }
   return result;
+}
+
+MeasuredArm mapped(const MeasuredArm& arm, const TendonMap& map) {
+  MeasuredArm result = arm;
+  const double sense = map.mirrored ? -1 : 1;
+  for (ArmTendon& tendon : result.arm.tendons)
+    for (TendonRoute& route : tendon.routes) {
+      route.start_angle = map.turn + sense * route.start_angle;
+      route.end_angle = map.turn + sense * route.end_angle;
+    }
+  return result;
+}
+
+std::string usual_fit(const MeasuredArm& arm, const MeasuredRows& rows, ArmModel model) {
+  std::string names = "sections.bending,sections.angle,sections.compliance";
+  if (model != ArmModel::prb) names += ",sections.curvature";
+  names += ",tendons.offset,tendons.toe";
+  const bool has_mass =
+      arm.arm.tip_mass > 0 || std::ranges::any_of(arm.arm.sections, [](const ArmSection& one) {
+        return one.start.mass > 0 || one.end.mass > 0 || (one.discs.count > 0 && one.discs.mass > 0);
+      });
+  if (has_mass) names += ",gravity";
+  names += ",marker,base,tilt.x,tilt.y";
+  if (!rows.time.empty()) names += ",lag";
+  return names;
 }
 
 Expected<std::vector<FitParameter>> fit_parameters(const MeasuredArm& given, std::string_view names) {
@@ -666,12 +793,19 @@ Expected<std::vector<FitParameter>> fit_parameters(const MeasuredArm& given, std
         if (words.name.size() == name.size() + 2 && words.name.starts_with(name) &&
             words.name[name.size()] == '.')
           found.push_back(&words);
+    if (found.empty() && name == "friction")
+      return failure(
+          "not_available", name,
+          "rows are compared as if tendons slid freely: friction depends on the way that they came, "
+          "which rows at rest do not tell. What motors lose when they turn back is play, and "
+          "what comes late is lag; fit these.");
     if (found.empty()) {
       std::string known;
       for (const QuantityWords& words : quantities)
         known += (known.empty() ? "" : ", ") + std::string(words.name);
       return failure("unknown_name", name, fmt::format("no quantity of an arm; there are {}.", known));
     }
+    bool is_double = false;
     for (const QuantityWords* words : found) {
       const auto one = [&](std::string label, int section, int tendon, std::vector<ArmField> fields) {
         if (fields.empty()) fields.push_back({words->quantity, section, tendon});
@@ -688,6 +822,8 @@ Expected<std::vector<FitParameter>> fit_parameters(const MeasuredArm& given, std
           p.lower = std::min(p.lower - value, 0.0);
           p.upper = std::max(p.upper - value, 0.0);
         }
+        const auto has_name = [&](const FitParameter& other) { return other.name == p.name; };
+        is_double = is_double || std::ranges::any_of(result, has_name);
         result.push_back(std::move(p));
       };
       const std::string base(words->name);
@@ -712,6 +848,8 @@ Expected<std::vector<FitParameter>> fit_parameters(const MeasuredArm& given, std
         return failure("not_available", name, fmt::format("{} have no {} of their own.", of, base));
       }
     }
+    if (is_double)
+      return failure("duplicate_name", name, "is named twice; the rows could not tell which; keep one.");
   }
   return result;
 }
@@ -721,6 +859,10 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
   if (auto fits = check(given, rows); !fits) return tl::unexpected(fits.error());
   if (parameters.empty())
     return failure("too_few", "parameters", "there is nothing to fit; name a quantity.");
+  if (!options.held_out.empty() && options.held_out.size() != rows.size())
+    return failure("wrong_size", "held_out",
+                   fmt::format("{} entries for {} rows; give one for each, or none.", options.held_out.size(),
+                               rows.size()));
   for (const FitParameter& parameter : parameters)
     for (const ArmField& field : parameter.fields)
       if (options.model == ArmModel::prb &&
@@ -735,12 +877,15 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
     (held ? held_out : train).push_back(k);
     all.push_back(k);
   }
+  if (train.empty())
+    return failure("too_few", "held_out", "all rows are held out, and none is left to fit; hold out fewer.");
   Identified result;
   VectorXd x = VectorXd::Zero(size), lower(size), upper(size), precision(size);
   for (Index p = 0; p < size; ++p) {
     const FitParameter& parameter = parameters[static_cast<std::size_t>(p)];
     lower[p] = parameter.lower;
     upper[p] = parameter.upper;
+    x[p] = first_coordinate(fit.start(), parameter);
     precision[p] = parameter.prior > 0 ? 1 / (parameter.prior * parameter.prior) : 0;
   }
   // a few hundred rows first, then all
@@ -752,13 +897,22 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
     stages.push_back(std::move(few));
   }
   stages.push_back(train);
-  fit.predict(fit.start(), stages.front());
-  result.before = fit.errors(stages.front());
-  result.report.status = Status::iteration_limit;
-  MatrixXd normal;
+  {
+    Fit first(given, parameters, rows, options);  // another one: its rows are no start for those of the fit
+    first.predict(first.start(), train);
+    result.before = first.errors(train);
+  }
+  fit.predict(changed(fit.start(), parameters, x), stages.front());
+  MatrixXd normal = MatrixXd::Zero(size, size);
+  const auto stop_requested = [&] {
+    if (!options.stop.stop_requested()) return false;
+    result.report.status = Status::stopped;
+    return true;
+  };
+  bool done = false;
   for (const std::vector<int>& chosen : stages) {
+    if (done) break;
     double damping = 1e-3, grow = 4;
-    bool done = false;
     const bool is_last = &chosen == &stages.back();
     const int rounds = options.noise > 0 || (is_last && stages.size() > 1) ? 1 : 3;
     for (int round = 0; round < rounds && !done; ++round) {
@@ -766,16 +920,17 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
         if (round == 0) fit.predict(changed(fit.start(), parameters, x), chosen);
         fit.set_noise(fit.noise(chosen));
       }
+      result.report.status = Status::iteration_limit;
       Fit::Sums now = fit.sums(x, chosen);
+      if (stop_requested()) {
+        done = true;
+        break;
+      }
       const double first_noise = fit.noise_now();
       const int most = round + 1 < rounds ? std::min(4, options.max_iterations) : options.max_iterations;
       for (int i = 0; i < most; ++i) {
-        if (options.stop.stop_requested()) {
-          result.report.status = Status::stopped;
-          done = true;
-          break;
-        }
         ++result.report.iterations;
+        if (options.progress) options.progress(result.report.iterations, fit.errors(chosen).rms);
         VectorXd gradient = now.gradient + precision.cwiseProduct(x);
         MatrixXd H = now.normal;
         H.diagonal() += precision;
@@ -797,6 +952,10 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
           break;
         }
         const Fit::Sums there = fit.sums(next, chosen);
+        if (stop_requested()) {
+          done = true;
+          break;
+        }
         const double ratio = (now.cost - there.cost) / predicted;
         if (ratio > 1e-3) {
           x = next;
@@ -822,6 +981,12 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
   fit.predict(result.arm, all);
   result.train = fit.errors(train);
   result.held_out = fit.errors(held_out);
+  if (result.train.rows == 0) {
+    result.report.status = Status::unreachable;
+    result.report.message = std::string_view(
+        "the arm has no equilibrium at any row; are counts positive where tendons are drawn in, and units "
+        "right?");
+  }
   result.errors.resize(rows.size());
   fit.errors(all, &result.errors);
   result.noise = fit.noise_now();
@@ -839,7 +1004,8 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
     FittedParameter fitted;
     fitted.coordinate = x[p];
     fitted.coordinate_deviation = std::sqrt(result.covariance(p, p));
-    fitted.value = value_of(result.arm, parameter);
+    fitted.start = value_of(fit.start(), parameter);
+    fitted.value = is_of_masses(parameter) ? std::exp(x[p]) : value_of(result.arm, parameter);
     fitted.deviation = parameter.is_factor ? std::abs(fitted.value) * fitted.coordinate_deviation
                                            : fitted.coordinate_deviation;
     fitted.at_bound = x[p] <= lower[p] || x[p] >= upper[p];
@@ -851,13 +1017,38 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
   const MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
   for (Index p = 0; p < size; ++p) {
-    if (eigen.eigenvalues()[p] > 1) break;
+    if (eigen.eigenvalues()[p] > 1 || !(eigen.eigenvalues()[size - 1] > 0)) break;
     FlatDirection flat;
     flat.deviation = 1 / std::sqrt(std::max(eigen.eigenvalues()[p], 1e-14 * eigen.eigenvalues()[size - 1]));
     const VectorXd v = eigen.eigenvectors().col(p);
     flat.coefficients.assign(v.data(), v.data() + size);
     result.flat.push_back(std::move(flat));
   }
+  return result;
+}
+
+Expected<HeldOut> hold_out(const MeasuredArm& start, const std::vector<FitParameter>& parameters,
+                           const MeasuredRows& rows, const std::vector<int>& folds, IdentifyOptions options) {
+  if (folds.size() != rows.size())
+    return failure("wrong_size", "folds",
+                   fmt::format("{} folds for {} rows; give one for each.", folds.size(), rows.size()));
+  HeldOut result;
+  result.by_row.assign(rows.size(), not_known);
+  const int count = folds.empty() ? 0 : *std::ranges::max_element(folds) + 1;
+  std::vector<double> seen;  // at rows of parts that are done
+  for (int fold = 0; fold < count; ++fold) {
+    options.held_out.assign(rows.size(), false);
+    for (std::size_t k = 0; k < folds.size(); ++k) options.held_out[k] = folds[k] == fold;
+    const auto part = identify(start, parameters, rows, options);
+    if (!part) return tl::unexpected(part.error());
+    if (part->report.status == Status::stopped) {
+      result.is_complete = false;
+      break;
+    }
+    for (std::size_t k = 0; k < folds.size(); ++k)
+      if (folds[k] == fold) seen.push_back(result.by_row[k] = part->errors[k]);
+  }
+  result.errors = errors_of(std::move(seen));
   return result;
 }
 

@@ -59,10 +59,7 @@ void read_rectangle(ArmSection& section, Reader& backbone, const Material& start
   section.end = rectangular_section(end, width, height);
 }
 
-/// What a geometry that no sizes describe resists with, as it was measured.
-void read_stiffness(ArmSection& section, Reader& backbone) {
-  CrossSection& s = section.start;
-  const Reader bending = backbone.required("bending", "E I: one rigidity, or [about x, about y]");
+void read_bending(CrossSection& s, const Reader& bending) {
   if (bending.is(Node::Kind::list)) {
     const auto [x, y] = bending.array<2>(Dimension::rigidity, Range::positive());
     s.bending_x = x;
@@ -70,14 +67,36 @@ void read_stiffness(ArmSection& section, Reader& backbone) {
   } else {
     s.bending_x = s.bending_y = bending.quantity(Dimension::rigidity, Range::positive());
   }
-  s.torsion = backbone.required("torsion", "G J").quantity(Dimension::rigidity, Range::positive());
-  if (const auto stretch = backbone.optional("stretch"))
+}
+
+void read_rest_of_stiffness(CrossSection& s, Reader& map) {
+  if (const auto stretch = map.optional("stretch"))
     s.stretch = stretch->quantity(Dimension::force, Range::positive());
-  if (const auto shear = backbone.optional("shear"))
+  if (const auto shear = map.optional("shear"))
     s.shear = shear->quantity(Dimension::force, Range::positive());
-  if (const auto mass = backbone.optional("mass"))
+  if (const auto mass = map.optional("mass"))
     s.mass = mass->quantity(Dimension::line_mass, Range::not_negative());
+}
+
+/// What a geometry that no sizes describe resists with, as it was measured.
+void read_stiffness(ArmSection& section, Reader& backbone) {
+  CrossSection& s = section.start;
+  read_bending(s, backbone.required("bending", "E I: one rigidity, or [about x, about y]"));
+  s.torsion = backbone.required("torsion", "G J").quantity(Dimension::rigidity, Range::positive());
+  read_rest_of_stiffness(s, backbone);
   section.end = s;
+  auto end = backbone.optional("end");
+  if (end) {
+    if (const auto bending = end->optional("bending")) read_bending(section.end, *bending);
+    if (const auto torsion = end->optional("torsion"))
+      section.end.torsion = torsion->quantity(Dimension::rigidity, Range::positive());
+    read_rest_of_stiffness(section.end, *end);
+    end->close();
+  }
+  if (const auto taper = backbone.optional("taper")) {
+    section.round_taper = taper->choice({"linear", "round"}) == "round";
+    if (!end) taper->fail("no_effect", "without end nothing tapers; give end, or leave taper out");
+  }
 }
 
 void read_sizes(ArmSection& section, Reader& backbone) {

@@ -8,6 +8,7 @@
 
 #include "io/actuation.hpp"
 #include "io/arm_backbone.hpp"
+#include "io/measured/measurement.hpp"
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
 #include "io/robot_size.hpp"
@@ -54,6 +55,8 @@ class ArmReader {
     read_head();
     Reader sections = robot_.required("sections", "a list, one entry a section, or {count, ...}");
     if (sections.node()) read_sections(sections);
+    if (auto measurement = robot_.optional("measurement"); measurement && errors_.empty())
+      arm_.measurement = read_measurement(*measurement, arm_);  // asks how many tendons there are
     if (!has_tolerance_) arm_.tolerance = usual_tolerance(arm_.length(), arm_.motor);
     robot_.close();
     return std::move(arm_);

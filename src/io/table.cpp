@@ -167,7 +167,12 @@ std::string Column::heading() const { return unit.empty() ? name : name + '[' + 
 
 Column Column::named(std::string_view heading) {
   const std::size_t open = heading.rfind('[');
-  if (!heading.ends_with(']') || open == std::string_view::npos) return {std::string(heading), "", {}};
+  const bool is_index =  // `inputs[0]` is a name
+      open != std::string_view::npos && open + 2 < heading.size() &&
+      heading.substr(open + 1, heading.size() - open - 2).find_first_not_of("0123456789") ==
+          std::string_view::npos;
+  if (!heading.ends_with(']') || open == std::string_view::npos || is_index)
+    return {std::string(heading), "", {}};
   return {std::string(trimmed(heading.substr(0, open))),
           std::string(heading.substr(open + 1, heading.size() - open - 2)),
           {}};

@@ -35,6 +35,22 @@ Value route_value(const TendonRoute& route) {
   return value;
 }
 
+/// What the file says of how the arm is measured, with a number for each tendon.
+Value measurement_value(const MeasuringSetup& measurement, std::size_t tendons) {
+  const auto& [drive, marker] = measurement;
+  const auto filled = [&](std::vector<double> values, double usual) {
+    values.resize(tendons, usual);
+    return values;
+  };
+  return {{"drive",
+           {{"gain", filled(drive.gain, 1)},
+            {"offset", filled(drive.offset, 0)},
+            {"toe", filled(drive.toe, 0)},
+            {"lag", drive.lag},
+            {"play", drive.play}}},
+          {"marker", {{"place", marker.place}, {"base", marker.base}, {"tilt", marker.tilt}}}};
+}
+
 }  // namespace
 
 void answer_arm_describe(Context& context) {
@@ -68,6 +84,7 @@ void answer_arm_describe(Context& context) {
   answer["tolerance"] = arm.tolerance;
   if (const auto& motor = arm.motor)
     answer["motor"] = {{"lead", motor->lead}, {"counts", motor->counts}, {"gear", motor->gear}};
+  if (arm.measurement) answer["measurement"] = measurement_value(*arm.measurement, arm.tendons.size());
   answer["models"] = Value::list({"rod", "subsegment_rod", "subsegment_cc", "cc", "prb"});
   answer["model"] = "subsegment_rod";
   answer["geometry"] = arm.geometry_inferred ? "inferred" : "given";

@@ -49,6 +49,7 @@ Expected<ItemResult> lsk_fig9(const StudyItem& item, const std::filesystem::path
 Expected<ItemResult> lsk_numbers(const StudyItem& item, const std::filesystem::path& folder);
 Expected<ItemResult> truth_tables(const StudyItem& item, const std::filesystem::path& folder);
 Expected<ItemResult> truth_rods(const StudyItem& item, const std::filesystem::path& folder);
+Expected<ItemResult> truth_arms(const StudyItem& item, const std::filesystem::path& folder);
 Expected<ItemResult> truth_models(const StudyItem& item, const std::filesystem::path& folder);
 
 }  // namespace sinew::inline v1

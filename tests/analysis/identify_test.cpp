@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -230,6 +231,140 @@ TEST(Identify, NamesWhatRowsDoNotTell) {
   EXPECT_TRUE(scaled);
 }
 
+/// A toe that the file does not have is found, and stays away where there is none.
+TEST(Identify, FindsAToeThatStartsAtNothing) {
+  for (const double toe : {5e-4, 0.0}) {
+    MeasuredArm truth = some_arm();
+    truth.drive.toe.assign(6, toe);
+    const MeasuredRows rows = some_rows(truth, 80);
+    MeasuredArm start = truth;
+    start.drive.toe.clear();
+    auto parameters = fit_parameters(start, "toe,marker.x");
+    ASSERT_TRUE(parameters);
+    for (FitParameter& parameter : *parameters) parameter.prior = 0;
+    const auto found =
+        identify(start, *parameters, rows, {.noise = 1e-4, .correlated = 1, .tolerance = 1e-8});
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->report.ok()) << to_string(found->report);
+    EXPECT_EQ(found->parameters[0].start, 0);
+    EXPECT_NEAR(found->parameters[0].value, toe, 2e-6);
+    EXPECT_EQ(found->arm.drive.toe[3], found->parameters[0].value);
+  }
+}
+
+TEST(Identify, ValuesOfMassesAreFactors) {
+  const MeasuredArm truth = some_arm();
+  const MeasuredRows rows = some_rows(truth, 60);
+  MeasuredArm start = truth;
+  for (ArmSection& section : start.arm.sections) {
+    for (CrossSection* one : {&section.start, &section.end}) one->mass *= 2;
+    section.discs.mass *= 2;
+  }
+  auto parameters = fit_parameters(start, "mass");
+  parameters->front().prior = 0;
+  const auto found = identify(start, *parameters, rows, {.noise = 1e-4, .correlated = 1, .tolerance = 1e-6});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->parameters[0].start, 1);
+  EXPECT_NEAR(found->parameters[0].value, 0.5, 1e-3);
+  EXPECT_NEAR(found->arm.arm.sections[0].discs.mass, truth.arm.sections[0].discs.mass, 1e-6);
+}
+
+TEST(Identify, StopsWithWhatItHas) {
+  const MeasuredArm truth = some_arm();
+  const MeasuredRows rows = some_rows(truth, 60);
+  MeasuredArm start = truth;
+  start.marker.place[2] += 5e-3;
+  const auto parameters = fit_parameters(start, "sections.bending,marker,tendons.offset");
+  std::atomic<bool> flag = true;
+  IdentifyOptions options{.stop = StopToken(flag)};
+  const auto at_once = identify(start, *parameters, rows, options);
+  ASSERT_TRUE(at_once);
+  EXPECT_EQ(at_once->report.status, Status::stopped);
+  EXPECT_EQ(at_once->arm.marker.place, start.marker.place);
+  for (const FittedParameter& one : at_once->parameters) EXPECT_TRUE(std::isfinite(one.deviation));
+  EXPECT_FALSE(hold_out(start, *parameters, rows, folds_of(rows, 3), options)->is_complete);
+  flag = false;
+  int steps = 0;
+  double last = 1;
+  options.progress = [&](int step, double rms) {
+    steps = step;
+    last = rms;
+    flag = step == 2;
+  };
+  const auto later = identify(start, *parameters, rows, options);
+  EXPECT_EQ(later->report.status, Status::stopped);
+  EXPECT_EQ(steps, 2);
+  EXPECT_LT(later->train.rms, at_once->train.rms);
+  EXPECT_LE(last, at_once->train.rms);
+}
+
+TEST(Identify, HoldsOutEveryRowOnce) {
+  const MeasuredArm arm = some_arm();
+  MeasuredRows rows = some_rows(arm, 60);
+  for (std::size_t k = 0; k < rows.markers.size(); ++k)
+    rows.markers[k] += 1e-3 * std::sin(37.0 * static_cast<double>(k));
+  const auto parameters = fit_parameters(arm, "bending,marker");
+  const std::vector<int> folds = folds_of(rows, 3);
+  const auto held_out = hold_out(arm, *parameters, rows, folds);
+  ASSERT_TRUE(held_out);
+  EXPECT_TRUE(held_out->is_complete);
+  EXPECT_EQ(held_out->errors.rows, 60);
+  double squares = 0, largest = 0;
+  for (int fold = 0; fold < 3; ++fold) {
+    IdentifyOptions options;
+    for (const int one : folds) options.held_out.push_back(one == fold);
+    const auto part = identify(arm, *parameters, rows, options);
+    for (std::size_t k = 0; k < folds.size(); ++k)
+      if (folds[k] == fold) {
+        EXPECT_EQ(held_out->by_row[k], part->errors[k]);
+      }
+    squares += part->held_out.rms * part->held_out.rms * part->held_out.rows;
+    largest = std::max(largest, part->held_out.max);
+  }
+  EXPECT_NEAR(held_out->errors.rms, std::sqrt(squares / 60), 1e-12);
+  EXPECT_EQ(held_out->errors.max, largest);
+  EXPECT_EQ(hold_out(arm, *parameters, rows, {0, 1}).error().front().code, "wrong_size");
+  EXPECT_EQ(hold_out(arm, *parameters, rows, std::vector<int>(60, 0)).error().front().code, "too_few");
+}
+
+/// As long as no tendon is slack, counts the other way are a half turn. Then they are what they should be.
+TEST(Identify, TakesCountsAsDrawnInWhereATurnSaysTheSame) {
+  MeasuredArm arm = some_arm();
+  for (ArmTendon& tendon : arm.arm.tendons) tendon.pretension = 20;
+  const MeasuredRows rows = some_rows(arm, 40);
+  for (const double turn : {0.0, 1.7, -2.9}) {
+    TendonMap back;
+    back.turn = -turn;
+    const auto found = map_tendons(mapped(arm, back), rows);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->sign, 1);
+    EXPECT_FALSE(found->mirrored);
+    EXPECT_NEAR(found->turn, turn, 0.3);
+    EXPECT_NEAR(found->as_given, std::max(0.0, found->agreement * std::cos(found->turn)), 0.1);
+  }
+  TendonMap other;
+  other.mirrored = true;
+  other.turn = 0.5;
+  const auto found = map_tendons(mapped(arm, other), rows);
+  EXPECT_TRUE(found->mirrored);
+  const MeasuredArm again = mapped(mapped(arm, other), *found);
+  EXPECT_NEAR(
+      std::remainder(again.arm.tendons[4].routes[0].start_angle - arm.arm.tendons[4].routes[0].start_angle,
+                     2 * pi),
+      0, 0.4);
+}
+
+TEST(Identify, UsuallyFitsWhatRowsCanTell) {
+  MeasuredRows rows;
+  const MeasuredArm arm = measured_arm("ftdcr-v4");
+  EXPECT_EQ(usual_fit(arm, rows).find("lag"), std::string::npos);
+  rows.time = {0, 1};
+  EXPECT_NE(usual_fit(arm, rows).find(",lag"), std::string::npos);
+  EXPECT_EQ(fit_parameters(arm, usual_fit(arm, rows))->size(), fit_parameters(arm, measured_names)->size());
+  EXPECT_EQ(usual_fit(arm, rows, ArmModel::prb).find("curvature"), std::string::npos);
+  EXPECT_EQ(usual_fit(measured(*load("two-segment")->arm()), rows).find("gravity"), std::string::npos);
+}
+
 TEST(Identify, SaysWhatIsWrong) {
   const MeasuredArm arm = some_arm();
   EXPECT_EQ(fit_parameters(arm, "stiffness").error().front().code, "unknown_name");
@@ -240,6 +375,27 @@ TEST(Identify, SaysWhatIsWrong) {
   EXPECT_EQ(identify(arm, {}, rows).error().front().code, "too_few");
   rows.pulls.pop_back();
   EXPECT_EQ(identify(arm, *parameters, rows).error().front().code, "wrong_size");
+  rows = some_rows(arm, 4);
+  rows.markers[5] = std::nan("");
+  EXPECT_EQ(identify(arm, *parameters, rows).error().front().code, "not_a_number");
+  rows = some_rows(arm, 4);
+  EXPECT_EQ(identify(arm, *parameters, rows, {.held_out = {true}}).error().front().code, "wrong_size");
+  EXPECT_EQ(identify(arm, *parameters, rows, {.held_out = {true, true, true, true}}).error().front().code,
+            "too_few");
+  MeasuredArm other = arm;
+  other.drive.toe.pop_back();
+  EXPECT_EQ(identify(other, *parameters, rows).error().front().code, "wrong_size");
+  EXPECT_EQ(fit_parameters(arm, "friction").error().front().code, "not_available");
+  EXPECT_EQ(fit_parameters(arm, "tendons.friction").error().front().code, "not_available");
+  EXPECT_EQ(fit_parameters(arm, "bending,lag,bending").error().front().code, "duplicate_name");
+  EXPECT_EQ(fit_parameters(arm, "marker,marker.x").error().front().code, "duplicate_name");
+  EXPECT_EQ(fit_parameters(arm, "bending,,lag").error().front().code, "unknown_name");
+  for (double& pull : rows.pulls) pull = 0.5;  // metres of tendon drawn into an arm of centimetres
+  const auto lost = identify(arm, *parameters, rows);
+  ASSERT_TRUE(lost);
+  if (lost->train.rows == 0) {
+    EXPECT_EQ(lost->report.status, Status::unreachable);
+  }
   MeasuredArm rigid = arm;
   rigid.arm.tendons[2].compliance = 0;
   EXPECT_EQ(identify(rigid, *parameters, some_rows(arm, 4)).error().front().code, "out_of_range");
@@ -300,8 +456,8 @@ TEST_P(MeasuredArms, AreIdentified) {
     EXPECT_LE(found->parameters[p].coordinate, (*parameters)[p].upper);
   }
   double pulls = 0, count = 0;
-  for (std::size_t k = 0; k < read.single_pulls.size(); ++k)
-    if (read.single_pulls[k]) {
+  for (std::size_t k = 0; k < read.labels.size(); ++k)
+    if (read.labels[k].find("pull") != std::string::npos) {
       pulls += found->errors[k] * found->errors[k];
       ++count;
     }

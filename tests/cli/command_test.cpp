@@ -32,6 +32,16 @@ const std::string two_postures =
     "S3_beta_1[rad],S3_beta_2[rad],S4_beta_1[rad],S4_beta_2[rad]\n0,0,0,0,0,0,0,0,0,0,0\n"
     "0.01,0.1,0,0,0,0,0,0,0,0,0\n";
 
+/// The first rows that were measured of ftdcr-v4.
+std::string few_rows() {
+  std::string text;
+  std::size_t rows = 0;
+  for (const std::string& line : lines_of(
+           read_text(std::filesystem::path(source_folder) / "tests" / "data" / "measured" / "ftdcr-v4.csv")))
+    if (line.starts_with('#') || rows++ < 40) text += line + '\n';
+  return text;
+}
+
 TEST(Help, TheExampleOfEveryVerbWorksAsPrinted) {
   ASSERT_GE(verbs().size(), 9U);
   for (const std::string& verb : verbs()) {
@@ -47,6 +57,7 @@ TEST(Help, TheExampleOfEveryVerbWorksAsPrinted) {
               "sleep 0.02; done; kill $!; wait $!"
             : line;
     if (verb == "drive") write_text(here.path() / "plan.csv", two_postures);
+    if (verb == "identify") write_text(here.path() / "rows.csv", few_rows());
     const Outcome outcome = run_shell(call, here.path());
 #ifndef SINEW_WITH_PLAN
     if (verb == "plan" || verb == "scene") {

@@ -138,6 +138,8 @@ INSTANTIATE_TEST_SUITE_P(
                           "0, 0, -20 N, 0, 0, 0", "--range", "0, 5", "--samples", "20000", "--all", "--json"},
                     Words{"track", "6-ufs", "--from", "0, 0, 180 mm, 0, 0, 0", "--to",
                           "10 mm, 5 mm, 180 mm, 0, 10 deg, 0", "--samples", "100000", "--json"},
+                    Words{"identify", "ftdcr-v6", std::string(source_folder) + "/data/measured/ftdcr-v6.csv",
+                          "--json"},
                     Words{"map", "6-ufs", "--x", "-20 mm : 20 mm : 1000", "--y", "-20 mm : 20 mm : 1000",
                           "--z", "180 mm : 190 mm : 10"}),
     [](const auto& test) { return fmt::format("{}{}", test.param.front(), test.index); });

@@ -102,6 +102,8 @@ TEST(Texts, BashCompletesVerbsOptionsAndOperands) {
   EXPECT_EQ(completed("check 6-", 2), "6-ufs\n");
   EXPECT_EQ(completed("check 3pfs-t", 2), "3pfs-tilt\n");
   EXPECT_EQ(completed("check m", 2), "mine.yaml\n");
+  EXPECT_EQ(completed("identify mi", 2), "mine.yaml\n");
+  EXPECT_EQ(completed("identify ftdcr-v4 --hold", 3), "--hold-out\n");
   EXPECT_EQ(completed("reproduce tdpcr/fig9", 2), "tdpcr/fig9\n");
   EXPECT_EQ(completed("new hexa", 2), "hexapod\n");
   EXPECT_EQ(completed("list s", 2), "studies\n");

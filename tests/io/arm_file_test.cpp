@@ -85,6 +85,26 @@ TEST(ArmFile, ChannelsGravityAndComplianceOfTheTendonRod) {
   EXPECT_NEAR(arm.tendons[3].routes[0].start_angle, 1.5 * std::numbers::pi, 1e-15);
 }
 
+TEST(ArmFile, StiffnessMayBeAnotherAtTheEnd) {
+  const auto backbone = [](std::string_view more) {
+    return read("[" +
+                changed("{diameter: 1 mm, material: {E: 50 GPa, poisson: 0.25}}",
+                        fmt::format("{{bending: [2, 3], torsion: 4, stretch: 5, mass: 6{}}}", more)) +
+                "]");
+  };
+  const Arm arm = backbone(", end: {bending: 1, mass: 7}, taper: round").value();
+  EXPECT_EQ(arm.sections[0].start, (CrossSection{2, 3, 4, 5, 0, 6}));
+  EXPECT_EQ(arm.sections[0].end, (CrossSection{1, 1, 4, 5, 0, 7}));
+  EXPECT_TRUE(arm.sections[0].round_taper);
+  EXPECT_FALSE(backbone(", end: {torsion: 1}")->sections[0].round_taper);
+  EXPECT_FALSE(backbone(", end: {torsion: 1}, taper: linear")->sections[0].round_taper);
+  EXPECT_EQ(backbone(", taper: round").error().front().code, "no_effect");
+  EXPECT_EQ(backbone(", end: {bending: -1}").error().front().code, "out_of_range");
+  EXPECT_EQ(backbone(", end: {diameter: 1 mm}").error().front().code, "unknown_key");
+  EXPECT_EQ(backbone(", end: 3").error().front().code, "wrong_type");
+  EXPECT_ERROR(error_of("diameter: 1 mm", "diameter: 1 mm, end: {bending: 1}"), "unknown_key", "end");
+}
+
 TEST(ArmFile, MeasuredArmsRead) {
   for (const char* name : {"ftdcr-v4", "ftdcr-v6"}) {
     const Robot robot = load(name).value();

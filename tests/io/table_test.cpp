@@ -59,6 +59,17 @@ TEST(Table, ReadsBackWhatItWrote) {
   EXPECT_EQ(to_csv(*read), to_csv(table));
 }
 
+TEST(Table, AnIndexIsPartOfTheName) {
+  const auto read = parse_csv("gain[0],gain[1],pull[2][mm],x[1/m]\n1,2,3,4\n", "t.csv");
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ(read->columns[1].name, "gain[1]");
+  EXPECT_EQ(read->columns[1].unit, "");
+  EXPECT_EQ(read->columns[2].name, "pull[2]");
+  EXPECT_EQ(read->columns[2].unit, "mm");
+  EXPECT_EQ(read->columns[3].unit, "1/m");
+  EXPECT_EQ(to_csv(*read), "gain[0],gain[1],pull[2][mm],x[1/m]\n1,2,3,4\n");
+}
+
 TEST(Table, HeadingsOfBlanksComeBack) {
   for (const char* name : {"", " ", " a ", "\xEF\xBB\xBF",
                            "\xEF\xBB\xBF"

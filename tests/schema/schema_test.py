@@ -28,7 +28,7 @@ SCHEMA = json.loads((ROOT / "schema/robot.schema.json").read_text(encoding="utf-
 
 # What a schema cannot say: relations between values. The reader alone refuses these.
 READER_ALONE = {"coincident_base_points", "collapsed_platform", "no_direction", "no_rotation", "longer_than_section",
-                "guide_beyond_tip", "missing_guide"}
+                "guide_beyond_tip", "missing_guide", "wrong_tendon_count"}
 
 VALUES = ["nonsense", "-1 mm", "0 mm", "1 kg", -1, [1]]
 
@@ -155,6 +155,16 @@ class Schema(unittest.TestCase):
                     continue  # its platform needs its three points, a leg is tied: relations, told by the reader
                 cases.setdefault(json.dumps(broken), (f"{file.parent.name}/{file.name}: {what}", broken))
         self.agree(list(cases.values()))
+
+    def test_measured_arms_are_judged_alike(self):
+        root = yaml.safe_load((ROOT / "robots/ftdcr-v4.yaml").read_text(encoding="utf-8"))
+        root["measurement"] = {"drive": {"gain": [1, 1, "1.1", 1, 1, 1, 1, 1, 1], "offset": ["-1 mm"] * 9,
+                                         "toe": [[0, "1 mm", 0]] * 3, "lag": "50 ms", "play": 0},
+                               "marker": {"place": [0, 0, "8 mm"], "base": ["-1 cm", 0, 0], "tilt": [0, 0, "5 deg"]}}
+        root["sections"][0]["backbone"] = {
+            "bending": "0.002 N m^2", "torsion": "0.001 N m^2", "stretch": "30 kN", "shear": 1, "mass": 0, "taper": "round",
+            "end": {"bending": ["0.002 N m^2", 0.001], "torsion": "0.001 N m^2", "stretch": "30 kN", "shear": 1, "mass": 0}}
+        self.agree(list(mutations(root)))
 
     def test_other_ways_to_write_are_judged_alike(self):
         head = {"sinew": 1, "name": "mine"}

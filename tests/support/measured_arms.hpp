@@ -7,39 +7,33 @@
 
 #include "paths.hpp"
 #include "sinew/analysis/identify.hpp"
-#include "sinew/io/table.hpp"
+#include "sinew/io/measured_arm.hpp"
 #include "sinew/robot.hpp"
 
 namespace sinew::test {
 
 struct Recording {
   MeasuredRows rows;
-  std::vector<bool> single_pulls;  ///< rows where one tendon is drawn in and the others are paid out
+  std::vector<std::string> labels;  ///< of each row, its block's
 };
 
+/// Rows of one pattern are a block.
 inline Recording recording(const std::string& name) {
-  const auto table = read_csv(std::string(source_folder) + "/data/measured/" + name + ".csv");
+  const std::string path = std::string(source_folder) + "/data/measured/" + name + ".csv";
+  const auto table = read_csv(path);
   if (!table) throw std::runtime_error(to_string(table.error()));
-  Recording read;
-  const std::vector<Column>& columns = table->columns;  // time, block, single_pull, nine tendons, x, y, z
-  for (std::size_t k = 0; k < table->row_count(); ++k) {
-    read.rows.time.push_back(columns[0].values[k]);
-    read.rows.blocks.push_back(static_cast<int>(columns[1].values[k]));
-    read.single_pulls.push_back(columns[2].values[k] == 1);
-    for (std::size_t i = 3; i < 12; ++i) read.rows.pulls.push_back(1e-3 * columns[i].values[k]);
-    for (std::size_t i = 12; i < 15; ++i) read.rows.markers.push_back(1e-3 * columns[i].values[k]);
-  }
+  auto rows = read_measured_rows(*table, *load(name)->arm(), path);
+  if (!rows) throw std::runtime_error(to_string(rows.error()));
+  std::vector<std::string> labels;
+  for (const std::string& comment : table->comments)
+    if (comment.starts_with("block ")) labels.push_back(comment.substr(comment.find(": ") + 2));
+  Recording read{std::move(*rows), {}};
+  for (const int block : read.rows.blocks) read.labels.push_back(labels.at(static_cast<std::size_t>(block)));
   return read;
 }
 
-/// As its file has it, the marker 8 mm beyond the tip, tendons soft at first.
-inline MeasuredArm measured_arm(const std::string& name) {
-  MeasuredArm arm;
-  arm.arm = *load(name)->arm();
-  arm.marker.place = {0, 0, 0.008};
-  arm.drive.toe.assign(arm.arm.tendons.size(), 2e-3);
-  return arm;
-}
+/// As its file has it: the marker 8 mm beyond the tip, tendons soft at first.
+inline MeasuredArm measured_arm(const std::string& name) { return measured(*load(name)->arm()); }
 
 /// What these recordings can tell.
 inline constexpr const char* measured_names =

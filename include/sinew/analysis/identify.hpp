@@ -3,6 +3,7 @@
 /// docs/theory/identification.md
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,30 +16,19 @@
 
 namespace sinew::inline v1 {
 
-/// Between what a motor counts and the end of its tendon. Without numbers a tendon's gain is 1, its offset
-/// and toe 0.
-struct TendonDrive {
-  std::vector<double> gain;    ///< of each tendon: drawn in by what is counted, > 0 [1]
-  std::vector<double> offset;  ///< of each: drawn in where 0 is counted [m]
-  std::vector<double> toe;     ///< of each: up to this stretch its tension grows with its square [m], ≥ 0
-  double lag = 0;              ///< time constant with which the tendon follows [s], ≥ 0
-  double play = 0;             ///< lost when a motor turns back, half of it either way [m], ≥ 0
-};
-
-/// Where the marker is on the arm, and the arm in the axes of the measurement.
-struct MarkerMount {
-  std::array<double, 3> place{0, 0, 0};  ///< of the marker in the tip's axes [m]
-  std::array<double, 3> base{0, 0, 0};   ///< of the arm's base in those of the measurement [m]
-  std::array<double, 3> tilt{0, 0,
-                             0};  ///< of the arm's axes in those of the measurement, a rotation vector [rad]
-};
-
 /// An arm, what moves it and what is measured of it.
 struct MeasuredArm {
   Arm arm;
   TendonDrive drive;
   MarkerMount marker;
 };
+
+/// An arm with what its file says of how it is measured; with nothing between motors and tendons and the
+/// marker at the tip where it says nothing.
+SINEW_API MeasuredArm measured(const Arm& arm);
+
+/// An arm as its file would have it: `measurement` is what stands beside it.
+SINEW_API Arm as_file(const MeasuredArm& arm);
 
 /// Measured: by how much each tendon is drawn in, and where the marker is. In the order of time.
 struct MeasuredRows {
@@ -104,8 +94,15 @@ struct FitParameter {
 
 /// @param names `bending,sections.angle,tendons.gain,passages.radius,marker`: a quantity that all have in
 /// common, or one for each section, each tendon, each tendon in each section that it passes; `curvature`,
-/// `gravity`, `marker`, `base`, `tilt` are all of their components. With the usual bounds and priors.
+/// `gravity`, `marker`, `base`, `tilt` are all of their components. With the usual bounds and priors. Codes:
+/// `unknown_name`, `not_available`, `duplicate_name`.
 SINEW_API Expected<std::vector<FitParameter>> fit_parameters(const MeasuredArm& arm, std::string_view names);
+
+/// What rows can usually tell of this arm, as `fit_parameters` takes it: of each section the stiffness, and
+/// the angle, compliance and curvature; of each tendon offset and toe; marker, base and tilt. Weight where
+/// the arm has masses, the lag where rows have a time.
+SINEW_API std::string usual_fit(const MeasuredArm& arm, const MeasuredRows& rows,
+                                ArmModel model = ArmModel::cc);
 
 /// How a fit is done.
 struct IdentifyOptions {
@@ -116,7 +113,9 @@ struct IdentifyOptions {
   int max_iterations = 60;
   double tolerance = 3e-4;       ///< of the relative decrease of the cost [1]
   std::vector<bool> held_out{};  ///< rows that the fit does not see; empty: none
-  StopToken stop{};
+  StopToken stop{};              ///< then the best so far is the answer
+  /// Told after each step: how many there were, and the root mean square of the distances so far [m].
+  std::function<void(int steps, double rms)> progress{};
 };
 
 /// Of the distances between markers, measured and computed.
@@ -129,7 +128,8 @@ struct MarkerErrors {
 
 /// A parameter after a fit.
 struct FittedParameter {
-  double value = 0;                 ///< of its first field; of a factor without unit the factor
+  double start = 0;                 ///< its value before the fit, in its unit
+  double value = 0;                 ///< of its first field; of masses the factor, in its unit
   double deviation = 0;             ///< standard one of the value, rows and prior together, in its unit
   double coordinate = 0;            ///< in which it was fitted, in its unit
   double coordinate_deviation = 0;  ///< standard one of it, in its unit
@@ -149,7 +149,7 @@ struct Identified {
   MeasuredArm arm;
   std::vector<FittedParameter> parameters;
   std::vector<FlatDirection> flat;  ///< flattest first
-  MarkerErrors before;              ///< of the start, at the rows that the fit begins with
+  MarkerErrors before;              ///< of the start, at the rows that the fit sees
   MarkerErrors train, held_out;
   double noise = 0;            ///< [m]
   std::vector<double> errors;  ///< of every row [m]; NaN where it failed
@@ -159,6 +159,19 @@ struct Identified {
 /// Robust least squares with exact sensitivities: Levenberg's and Marquardt's steps within the bounds.
 SINEW_API Expected<Identified> identify(const MeasuredArm& start, const std::vector<FitParameter>& parameters,
                                         const MeasuredRows& rows, const IdentifyOptions& options = {});
+
+/// Errors at rows that a fit has not seen.
+struct HeldOut {
+  MarkerErrors errors;         ///< of all parts together
+  std::vector<double> by_row;  ///< of every row [m]; NaN where it failed
+  bool is_complete = true;     ///< false where a stop was requested before all parts were done
+};
+
+/// As many fits as there are folds: each without one of them, at which it is then judged.
+/// @param folds of every row, from 0, see `folds_of`
+SINEW_API Expected<HeldOut> hold_out(const MeasuredArm& start, const std::vector<FitParameter>& parameters,
+                                     const MeasuredRows& rows, const std::vector<int>& folds,
+                                     IdentifyOptions options = {});
 
 /// What the arm would show; rows × 3 [m], NaN where there is no equilibrium.
 SINEW_API Expected<std::vector<double>> predict_markers(const MeasuredArm& arm, const MeasuredRows& rows,
@@ -171,14 +184,19 @@ struct TendonMap {
   double turn = 0;        ///< of the measurement's axes about z [rad]; add it to the tendons' angles
   double agreement = 0;   ///< correlation of the markers across the arm, computed and measured, 0 to 1 [1]
   double next = 0;        ///< of the next best combination [1]
+  double as_given = 0;    ///< of counts and tendons as they are given, not turned, 0 at least [1]
 };
 
 /// By the markers that the arm would show, turned, mirrored or pulled the other way. A half turn is not
-/// the same as a sign: tendons do not push.
+/// the same as a sign, where tendons are slack at times: they do not push. Else counts are taken as drawn in.
 SINEW_API Expected<TendonMap> map_tendons(const MeasuredArm& arm, const MeasuredRows& rows,
                                           ArmModel model = ArmModel::cc);
 
 /// Every row's fold, of that many: whole blocks, dealt in turn.
 SINEW_API std::vector<int> folds_of(const MeasuredRows& rows, int folds);
+
+/// The arm with its tendons where the map says: turned, or run around the other way. The sign is that of
+/// rows.
+SINEW_API MeasuredArm mapped(const MeasuredArm& arm, const TendonMap& map);
 
 }  // namespace sinew::inline v1

@@ -80,6 +80,36 @@ struct ArmTendon {
   int section() const { return static_cast<int>(routes.size()) - 1; }
 };
 
+/// Between what a motor counts and the end of its tendon. Without numbers a tendon's gain is 1, its offset
+/// and toe 0.
+struct TendonDrive {
+  std::vector<double> gain;    ///< of each tendon: drawn in by what is counted, > 0 [1]
+  std::vector<double> offset;  ///< of each: drawn in where 0 is counted [m]
+  std::vector<double> toe;     ///< of each: up to this stretch its tension grows with its square [m], ≥ 0
+  double lag = 0;              ///< time constant with which the tendon follows [s], ≥ 0
+  double play = 0;             ///< lost when a motor turns back, half of it either way [m], ≥ 0
+
+  bool operator==(const TendonDrive&) const = default;
+};
+
+/// Where the marker is on the arm, and the arm in the axes of the measurement.
+struct MarkerMount {
+  std::array<double, 3> place{0, 0, 0};  ///< of the marker in the tip's axes [m]
+  std::array<double, 3> base{0, 0, 0};   ///< of the arm's base in those of the measurement [m]
+  /// Of the arm's axes in those of the measurement, a rotation vector [rad].
+  std::array<double, 3> tilt{0, 0, 0};
+
+  bool operator==(const MarkerMount&) const = default;
+};
+
+/// How an arm is measured: counts of motors in, the place of a marker out. Only `identify` looks at it.
+struct MeasuringSetup {
+  TendonDrive drive = {};
+  MarkerMount marker = {};
+
+  bool operator==(const MeasuringSetup&) const = default;
+};
+
 /// Constant once built, and shared between threads.
 struct Arm {
   std::string name;
@@ -91,6 +121,7 @@ struct Arm {
   bool geometry_inferred = false;                 ///< not printed in its source but inferred from results
   double tolerance = 0;                           ///< of a tendon's length [m]: encoder step, backlash; ≥ 0
   std::optional<TendonMotor> motor;
+  std::optional<MeasuringSetup> measurement = {};  ///< where the file tells
   /// One for a robot and its copies; by it a workspace knows the robot that it was made for.
   std::shared_ptr<const char> identity = std::make_shared<const char>();
 
