@@ -51,6 +51,7 @@ constexpr std::array items{
     StudyItem{"truth/tables",
               "Rods whose shapes are published: cantilever, loads along it, bend of 45 degrees"},
     StudyItem{"truth/rods", "250 shapes each of two rods under gravity and wrenches, by another code"},
+    StudyItem{"truth/arms", "Two measured arms, identified: rows of the fit, single pulls, rows not seen"},
     StudyItem{"truth/models", "An arm by five models of its backbone: how far apart, and what each costs"},
 };
 constexpr std::array<StudyFunction, items.size()> functions{
@@ -58,7 +59,7 @@ constexpr std::array<StudyFunction, items.size()> functions{
     tripod_fig5,   tripod_fig6,       tripod_fig7,  tripod_fig9,  tripod_fig10, tripod_fig11,  tripod_fig12,
     tripod_fig13,  tripod_equation36, tripod_fig14, tripod_fig15, tripod_fig16, tripod_table1, tripod_table2,
     tripod_design, lsk_fig3,          lsk_fig4,     lsk_fig5,     lsk_fig6,     lsk_fig7,      lsk_fig8,
-    lsk_fig9,      lsk_numbers,       truth_tables, truth_rods,   truth_models};
+    lsk_fig9,      lsk_numbers,       truth_tables, truth_rods,   truth_arms,   truth_models};
 
 /// A bar would end the cell, and a line break the table.
 std::string cell(const std::string& text) {

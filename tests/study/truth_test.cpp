@@ -22,7 +22,8 @@ TEST_P(Truth, AgreesWithinItsTolerances) {
         << finding.quantity << ": " << finding.ours << ", " << finding.difference;
 }
 
-INSTANTIATE_TEST_SUITE_P(Study, Truth, testing::Values("truth/tables", "truth/rods", "truth/models"),
+INSTANTIATE_TEST_SUITE_P(Study, Truth,
+                         testing::Values("truth/tables", "truth/rods", "truth/arms", "truth/models"),
                          [](const auto& item) { return std::string(item.param).substr(6); });
 
 }  // namespace truth_test

@@ -57,7 +57,8 @@ Expected<Judged> judge(const Recording& recording) {
   if (!table) return tl::unexpected(table.error());
   auto rows = read_measured_rows(*table, start.arm, file);
   if (!rows) return tl::unexpected(rows.error());
-  Judged judged{.rows = std::move(*rows)};
+  Judged judged;
+  judged.rows = std::move(*rows);
   judged.single = single_pulls(*table, judged.rows);
   const auto parameters = fit_parameters(start, names);
   if (!parameters) return tl::unexpected(parameters.error());
