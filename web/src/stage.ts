@@ -1,12 +1,14 @@
 // The picture with what belongs to it: views, layers, ghost, names of what the pointer is on.
 import {coordinates, withUnit} from './answer';
 import type {Json} from './client';
-import {bearsLoad, type Described} from './described';
+import type {Described} from './described';
+import {drawingOf} from './drawn';
 import type {Ghost} from './ghost';
 import {button, byId, make} from './make';
 import {type Drawing, type Layer, layerNames, type Part, shownAtFirst, type View} from './picture';
 import {makePicture} from './picture_of';
 import type {State} from './state';
+import {isSlack} from './tendon_lines';
 import {toast} from './toast';
 import type {System} from './units';
 
@@ -47,6 +49,7 @@ export class Stage {
   clear(camera: string | null, isPlanar: boolean): void {
     for (const side of this.sides) side.hidden = isPlanar;
     this.shown = null;
+    byId('legend').hidden = true;
     this.picture.clear();
     if (camera !== null) this.picture.camera = camera;
   }
@@ -54,7 +57,20 @@ export class Stage {
   draw(shown = this.shown): void {
     this.shown = shown;
     if (!shown) return;
-    this.picture.draw(this.drawing(shown));
+    const drawing = this.drawing(shown);
+    this.picture.draw(drawing);
+    this.legend(drawing);
+  }
+
+  /** What colours of tendons mean. */
+  private legend({pulls}: Drawing): void {
+    const legend = byId('legend'), isShown = !!pulls && this.layers.has('tendons');
+    legend.hidden = !isShown;
+    if (!pulls || !isShown) return;
+    const most = `${Number(pulls.most.toPrecision(3))} N`, hasLoose = pulls.tensions.flat().some((one) => isSlack(one, pulls));
+    legend.ariaLabel = `Tension of the tendons, from 0 to ${most}${hasLoose ? '; dashed: slack' : ''}`;
+    legend.replaceChildren('Tension', make('span', {className: 'ramp'}), make('span', {className: 'ends'}, make('span', {textContent: '0'}), make('span', {textContent: most})),
+                           ...(hasLoose ? [make('span', {className: 'loose', textContent: 'slack'})] : []));
   }
 
   paint(system: System): void {
@@ -96,30 +112,30 @@ export class Stage {
     if (is) this.layers.add(layer);
     else this.layers.delete(layer);
     this.picture.show(layer, is);
+    if (layer === 'tendons') this.draw();
     document.querySelector<HTMLInputElement>(`[data-layer="${layer}"]`)!.checked = is;
     this.moved();
   }
 
   private drawing({described, state, answer, shape, isStale}: Shown): Drawing {
-    const legs: Json[] = described.answer.legs ?? [], two = answer.velocity?.type_2;
-    return {
-      shape, isPlanar: described.isPlanar, radius: (legs.find((leg) => leg.link.diameter)?.link.diameter ?? 0.001) / 2,
-      struts: legs.map((leg) => /strut/.test(leg.closure.type)), isStale, ghost: this.ghost?.shape ?? null, states: [],
-      isUnstable: answer.status === 'unstable', directions: answer.unstable ?? [], meeting: two?.singular ? two.point ?? null : null,
-      wrench: bearsLoad(state.model) && state.load.some((part) => part !== 0) ? state.load : null,
-    };
+    return {...drawingOf(described, state, answer, shape), isStale, ghost: this.ghost?.shape ?? null};
   }
 
   private labelOf({kind, index, tendon}: Part): string {
     if (!this.shown) return '';
-    const {answer, described} = this.shown, leg: Json = answer.legs?.[index] ?? {}, name = `${described.isSerial ? 'section' : 'leg'} ${index + 1}`;
-    const text = (value: number, unit: 'm' | 'rad' | '1/m') => withUnit(value, unit, this.system);
+    const {answer, described} = this.shown, leg: Json = answer.legs?.[index] ?? {}, name = `${described.isSerial || described.isArm ? 'section' : 'leg'} ${index + 1}`;
+    const text = (value: number, unit: 'm' | 'rad' | '1/m' | 'N') => withUnit(value, unit, this.system);
     if (kind === 'platform') return coordinates(answer.pose ?? answer.tip).map(([of, value, unit]) => `${of} ${withUnit(value, unit, this.system)}`).join(', ');
+    if (kind === 'tendon' && described.isArm) {
+      const [pulls, changes, slack]: (number | undefined)[] = [answer.tensions, answer.changes, answer.slack].map((of) => of?.[index]?.[tendon ?? 0]);
+      return [`${name}, tendon ${(tendon ?? 0) + 1}`, ...(pulls === undefined ? [] : [text(pulls, 'N')]), ...(changes === undefined ? [] : [`Δ ${text(changes, 'm')}`]), ...(slack ? [`slack by ${text(slack, 'm')}`] : [])].join(', ');
+    }
     if (kind === 'tendon') {
       const length = described.isSerial ? answer.changes?.[index]?.[tendon ?? 0] : leg.tendon_lengths?.[tendon ?? 0];
       return `${name}, tendon ${(tendon ?? 0) + 1}${length === undefined ? '' : ` ${text(length, 'm')}`}`;
     }
     if (kind !== 'backbone') return name;
+    if (described.isArm) return `backbone, ${text(described.answer.length, 'm')}`;
     const parts = [name];
     if (leg.length !== undefined) parts.push(text(leg.length, 'm'));
     if (leg.curvature !== undefined) parts.push(`κ ${text(leg.curvature, '1/m')}`);
