@@ -78,7 +78,7 @@ function slackRows({least_tension: least, slack, tensions}: Json, system: System
   if (least === undefined) return [];
   const most = largest(tensions.flat()), count = tensions.flat().filter((one: number) => isSlack(one, {most})).length, longest = Math.max(...slack.flat());
   if (count === 0) return [['to slack', withUnit(least, 'N', system)]];
-  return [['slack', `${count} of ${tensions.flat().length}${longest > 0 ? `, by ≤ ${withUnit(longest, 'm', system)}` : ''}`]];
+  return [['slack', `${count} of ${tensions.flat().length} tendons`], ...(longest > 0 ? [['slack by at most', withUnit(longest, 'm', system)] as [string, string]] : [])];
 }
 
 function marginRows(answer: Json, system: System): [string, string][] {

@@ -232,6 +232,7 @@ class Composition {
 export function compose(drawing: Drawing, pen: Pen, labels: Labels, setting: Setting): void {
   pen.begin(drawing.isPlanar, setting.pixels);
   labels.begin();
+  labels.pulls.show(setting.shown.has('tendons') ? drawing.pulls ?? null : null);
   new Composition(drawing, pen, labels, setting).all();
   pen.end();
   labels.end();

@@ -8,6 +8,7 @@ import {format, shownValue, type System, unitName} from './units';
 
 const [width, height] = [258, 92], [left, right, top, bottom] = [40, 6, 6, 18];  // [px], of the plot and beside it
 const twisting = 1e-2;  // of the largest curvature: less is not drawn
+const straight = 0.02;  // rad along the whole arm: of less the plot is as high
 
 const textAt = (x: number, y: number, anchor: string, words: string): SVGElement => {
   const text = document.createElementNS('http://www.w3.org/2000/svg', 'text');
@@ -21,7 +22,7 @@ export function profile(answer: Json, described: Described, system: System): HTM
   const places: number[] | undefined = answer.places, curvatures: number[][] | undefined = answer.curvatures;
   if (!places || !curvatures) return null;
   const bends = curvatures.map(([x, y]) => Math.hypot(x!, y!)), twists = curvatures.map((one) => one[2]!), most = Math.max(...bends, ...twists.map(Math.abs));
-  const hasTwist = twists.some((one) => Math.abs(one) > twisting * most), low = hasTwist ? Math.min(0, ...twists) : 0, high = Math.max(...bends, hasTwist ? Math.max(...twists) : 0, 1e-6);
+  const hasTwist = twists.some((one) => Math.abs(one) > twisting * most), low = hasTwist ? Math.min(0, ...twists) : 0, high = Math.max(...bends, hasTwist ? Math.max(...twists) : 0, straight / described.answer.length);
   const x = (place: number) => left + ((width - left - right) * place) / described.answer.length, y = (value: number) => top + ((high - value) / (high - low)) * (height - top - bottom);
   const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg'), line = (kind: string, points: [number, number][]) =>
     svg.append(shapeOf('path', {class: `pf-${kind}`, d: `M${points.map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`).join('L')}`}));

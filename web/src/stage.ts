@@ -8,7 +8,6 @@ import {button, byId, make} from './make';
 import {type Drawing, type Layer, layerNames, type Part, shownAtFirst, type View} from './picture';
 import {makePicture} from './picture_of';
 import type {State} from './state';
-import {isSlack} from './tendon_lines';
 import {toast} from './toast';
 import type {System} from './units';
 
@@ -49,7 +48,6 @@ export class Stage {
   clear(camera: string | null, isPlanar: boolean): void {
     for (const side of this.sides) side.hidden = isPlanar;
     this.shown = null;
-    byId('legend').hidden = true;
     this.picture.clear();
     if (camera !== null) this.picture.camera = camera;
   }
@@ -57,20 +55,7 @@ export class Stage {
   draw(shown = this.shown): void {
     this.shown = shown;
     if (!shown) return;
-    const drawing = this.drawing(shown);
-    this.picture.draw(drawing);
-    this.legend(drawing);
-  }
-
-  /** What colours of tendons mean. */
-  private legend({pulls}: Drawing): void {
-    const legend = byId('legend'), isShown = !!pulls && this.layers.has('tendons');
-    legend.hidden = !isShown;
-    if (!pulls || !isShown) return;
-    const most = `${Number(pulls.most.toPrecision(3))} N`, hasLoose = pulls.tensions.flat().some((one) => isSlack(one, pulls));
-    legend.ariaLabel = `Tension of the tendons, from 0 to ${most}${hasLoose ? '; dashed: slack' : ''}`;
-    legend.replaceChildren('Tension', make('span', {className: 'ramp'}), make('span', {className: 'ends'}, make('span', {textContent: '0'}), make('span', {textContent: most})),
-                           ...(hasLoose ? [make('span', {className: 'loose', textContent: 'slack'})] : []));
+    this.picture.draw(this.drawing(shown));
   }
 
   paint(system: System): void {
@@ -112,7 +97,6 @@ export class Stage {
     if (is) this.layers.add(layer);
     else this.layers.delete(layer);
     this.picture.show(layer, is);
-    if (layer === 'tendons') this.draw();
     document.querySelector<HTMLInputElement>(`[data-layer="${layer}"]`)!.checked = is;
     this.moved();
   }

@@ -152,6 +152,10 @@ async function tendons(browser, url, kind) {
     assert.deepEqual(await loads(), what === 'force' ? ['0.35 N'] : []);
     same(await on.draw('two-segment'), before, `the picture after ${what}`);
   }
+  // The scale of their colours is in what is saved, too.
+  const large = decode(Buffer.from(await on.page.evaluate(async () => [...new Uint8Array(await (await bench.picture.save('')).arrayBuffer())]))), {x, y, width, height} = await on.page.locator('.pulls .ramp').boundingBox();
+  const [low, high] = [0.02, 0.98].map((part) => large.colour(Math.round(2 * (x + part * width)), Math.round(2 * y + height)));
+  assert.ok([[low, [0x7C, 0x7B, 0x78]], [high, [0x00, 0x22, 0x4E]]].every(([seen, wanted]) => seen.every((part, k) => Math.abs(part - wanted[k]) < 8)), `the scale goes from ${low} to ${high}`);
   // An arc of the slack between each two guides is as much longer as it says.
   const longer = await on.page.evaluate(() => {
     const {tendons} = bench.picture.drawing.shape, lengthOf = (points) => points.reduce((sum, point, i) => (i > 0 ? sum + Math.hypot(...point.map((part, k) => part - points[i - 1][k])) : 0), 0);
