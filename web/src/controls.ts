@@ -6,6 +6,7 @@ import {bearsLoad, type Described} from './described';
 import {button, byId, make} from './make';
 import {ModelTab} from './model_tab';
 import {signsOf} from './questions';
+import {Sense} from './sense';
 import {Sliders} from './sliders';
 import {homes, type Side, type State} from './state';
 import type {System} from './units';
@@ -15,6 +16,7 @@ export interface Wishes {
   turn(side: Side | 'load', index: number, value: number): void;  ///< one number
   change(part: Partial<State>): void;
   bend(bending: number[] | null): void;
+  sense(place: number[]): Promise<string>;  ///< the force at an arm's tip that was seen there [m]; why there is none
   hold(held: Held[]): void;  ///< what holds each tendon of an arm
   goHome(): void;
   release(): void;  ///< a hand has let go
@@ -23,6 +25,7 @@ export interface Wishes {
 export class Controls {
   private readonly sides: Record<Side | 'load', Sliders>;
   private readonly bending: Bending;
+  private readonly sense: Sense;
   private readonly model: ModelTab;
   private readonly gravity = make('input', {type: 'checkbox', id: 'gravity'});
   private readonly gravityChoice = make('label', {className: 'choice'}, this.gravity, 'Gravity as in the file');
@@ -43,6 +46,7 @@ export class Controls {
     this.model = new ModelTab(byId('model'), (part) => wishes.change(part));
     this.gravity.addEventListener('change', () => wishes.change({gravity: this.gravity.checked}));
     byId('load').append(this.gravityChoice, this.note);
+    this.sense = new Sense(byId('load'), (place) => wishes.sense(place));
   }
 
   /** All of them say what the state is. */
@@ -56,6 +60,7 @@ export class Controls {
     this.sides.load.show(described.isArm ? 'Load on the tip, and at s' : 'Load on the platform', described.load, state.load);
     this.gravityChoice.hidden = !described.hasGravity;
     this.gravity.checked = state.gravity;
+    this.sense.show(described.isArm);
     const bears = bearsLoad(described, state.model);
     this.note.replaceChildren(...(bears ? [] : ['Links of this model bear no load. ', button('Take pseudo-rigid chains', () => this.wishes.change({model: 'prb'}))]));
     byId('load').classList.toggle('idle', !bears);
@@ -79,6 +84,7 @@ export class Controls {
 
   use(system: System): void {
     for (const side of Object.values(this.sides)) side.use(system);
+    this.sense.use(system);
   }
 
   private holdAll(of: Held): void {

@@ -14,7 +14,7 @@ import {Rival} from './ghost';
 import {fillHelp, type Key, listen} from './keys';
 import {byId} from './make';
 import {margins, startOf} from './margins';
-import {everything, inputsOf, isSolved, plain, poseOf, told} from './questions';
+import {everything, inputsOf, isSolved, plain, poseOf, sensing, told} from './questions';
 import {type ScreenName, Screens} from './screens';
 import {findDevice} from './operate/device';
 import type {DeviceInfo} from './operate/frame';
@@ -40,6 +40,7 @@ import {VerdictBox, verdictOf, type Way} from './verdict';
 
 const protocol = 1;
 const rest = 100;  // ms without a change, after which the slower questions are asked
+const farthest = 3;  // standard deviations by which what was seen may differ from what a force explains
 const longest = 16;  // s between tries of a server that is busy
 
 class Page {
@@ -66,7 +67,7 @@ class Page {
   private readonly shell = new Shell(() => this.paint());
   private readonly stage = new Stage(() => this.link(), () => this.save());
   private readonly controls = new Controls({
-    turn: (side, index, value) => this.turn(side, index, value), change: (part) => this.change(part), bend: (bending) => this.bend(bending), hold: (held) => this.hold(held), goHome: () => this.goHome(),
+    turn: (side, index, value) => this.turn(side, index, value), change: (part) => this.change(part), bend: (bending) => this.bend(bending), hold: (held) => this.hold(held), sense: (place) => this.sense(place), goHome: () => this.goHome(),
     release: () => this.history.end(),
   });
   private readonly connection = new Connection();
@@ -544,6 +545,22 @@ class Page {
     const inputs = held.map((of, i) => (of === state.held?.[i] ? state.inputs[i]! : now?.[i] ?? described.inputs[i]!.home));
     this.described = described;
     this.change({held, inputs});
+  }
+
+  /** The force that takes an arm's tip to where it was seen becomes its load. */
+  private async sense(place: number[]): Promise<string> {
+    const {robot, described} = this, state = structuredClone(this.state), {system} = this.shell;
+    let why = 'not answered';
+    if (robot && described) await this.guarded(async () => {
+      const [found] = await robot.ask([sensing(described, state, place)]) as [Json], {wrench, misfit, covariance} = found;
+      if (robot !== this.robot) return;
+      why = found.error?.message ?? (found.status === 'converged' && misfit < farthest ? '' : `no force at the tip explains it: ${found.message ?? (misfit === undefined ? found.status : `what stays is ${misfit.toPrecision(3)} standard deviations`)}`);
+      if (why) return;
+      const deviation = Math.sqrt(covariance[0][0] + covariance[1][1] + covariance[2][2]);
+      this.change({asked: 'inputs', load: [...wrench, ...state.load.slice(wrench.length)]});
+      toast(`${Math.hypot(...wrench.slice(0, 3)).toPrecision(3)} N at the tip, ± ${deviation.toPrecision(2)} N where it is seen to ${withUnit(5e-4, 'm', system)}`);
+    });
+    return why;
   }
 
   private jump({inputs, pose}: Solution): void {

@@ -105,6 +105,12 @@ export function inverse(described: Described, state: State): Json {
   return state.bending && described.canBend ? {...query, bending: state.bending} : {...query, start: state.inputs};
 }
 
+/** The force at an arm's tip by where that was seen [m]; what is at the tip so far is not known. */
+export function sensing(described: Described, state: State, position: number[]): Json {
+  const {wrench: _, ...query} = given(described, state);
+  return {query: 'statics', ...query, position};
+}
+
 /** Where an answer has the platform, or the tip, in the words of the pose's rows; null where it says nothing of it. */
 export function poseOf(described: Described, answer: Json): number[] | null {
   const pose = answer.pose ?? answer.tip;

@@ -141,6 +141,29 @@ export async function arm_loads(browser, url) {
   await done(/422|400/);
 }
 
+/** Where the tip was seen tells the force at it: that force as a load takes the tip there. */
+export async function arm_senses(browser, url) {
+  const {page, done} = await open(browser, url, 'two-segment');
+  await then(page, () => fill(page, 'inputs-0', '3'));
+  await tab(page, 'Load');
+  await then(page, () => fill(page, 'load-0', '0.03'));
+  await then(page, () => fill(page, 'load-1', '-0.02'));
+  const seen = (await said(page)).tip.position.map((part) => (1000 * part).toFixed(6)).join(', ');
+  await then(page, () => page.getByRole('button', {name: 'Zero'}).click());
+  const straight = await tip(page);
+  await then(page, () => fill(page, 'sensed', seen));
+  const values = await Promise.all([0, 1, 2].map((i) => page.locator(`#load-${i}`).inputValue()));
+  assert.deepEqual(values, ['0.030', '-0.020', '0.000']);
+  assert.match(await page.locator('#toast').innerText(), /^0\.0361 N at the tip, ± [\d.]+ N where it is seen to 0\.500 mm$/);
+  assert.notEqual(await tip(page), straight);
+  for (const [text, why] of [['1, 2', /^give three numbers, x, y, z; found 2$/], ['1 N, 2, 3', /^N is no unit of length$/], ['0, 0, 300', /^no force at the tip explains it: /]]) {
+    await fill(page, 'sensed', text);
+    await page.locator('.sense .why', {hasText: why}).waitFor();
+  }
+  assert.equal(await page.locator('#load-0').inputValue(), '0.030', 'a load that was not sensed');
+  await done();
+}
+
 /** The tip is placed where there are sections enough, else it is turned; what cannot be reached says so, and goes back. */
 export async function arm_poses(browser, url) {
   const {page, done} = await open(browser, url, 'two-segment');
