@@ -8,12 +8,15 @@ import {wrenchOf} from './questions';
 import type {State} from './state';
 import {plus, type Point} from './vector';
 
-/** The file of an arm need not say how wide its discs are; they are drawn a little wider than its tendons lie. */
+/** The file of an arm need not say how wide its discs are; they are drawn a little wider than its tendons lie. None says how thick; what has no thickness has no shade. */
 const wider = 1.15, flat = 0.06;
 
 function withDiscs({answer}: Described, shape: Json): Json {
-  const radius = wider * Math.max(0, ...answer.tendons.flatMap(({routes}: Json) => routes.flatMap((route: Json) => [route.radius, route.end_radius ?? 0])));
-  return {...shape, discs: (shape.discs ?? []).map((disc: Json) => (disc.radius > 0 ? disc : {...disc, radius, height: flat * radius}))};
+  const usual = wider * Math.max(0, ...answer.tendons.flatMap(({routes}: Json) => routes.flatMap((route: Json) => [route.radius, route.end_radius ?? 0])));
+  return {...shape, discs: (shape.discs ?? []).map((disc: Json) => {
+    const radius = disc.radius || usual;
+    return {...disc, radius, height: disc.height || flat * radius};
+  })};
 }
 
 /** Where on a backbone so much of it lies before [m]. */

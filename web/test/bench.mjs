@@ -28,12 +28,13 @@ picture.moved = () => { ++told.moved; };
 picture.labelOf = ({kind, index, tendon}) => [kind, index, tendon].filter((part) => part !== undefined).join(' ');
 
 /** What would be drawn of a robot at its home, or where change(inputs) leads to. */
-async function drawing(name, change = (inputs) => inputs) {
+async function drawing(name, change = (inputs) => inputs, alter = (shape) => shape) {
   known[name] ??= await robotText(name).then(Robot.open).then(async (robot) => ({robot, described: await describe(robot)}));
   const {robot, described} = known[name], home = stateOf(described), state = {...home, inputs: change(home.inputs, described.inputs)};
   const [found] = await robot.ask([shape(described, state)]);
   if (!found.backbones) throw new Error(name + ': ' + JSON.stringify(found));
-  return drawingOf(described, state, found, found);
+  const altered = alter(found);
+  return drawingOf(described, state, altered, altered);
 }
 const paint = () => picture.paint(getComputedStyle(document.documentElement));
 const still = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));

@@ -152,6 +152,13 @@ async function tendons(browser, url, kind) {
     assert.deepEqual(await loads(), what === 'force' ? ['0.35 N'] : []);
     same(await on.draw('two-segment'), before, `the picture after ${what}`);
   }
+  // Discs have a thickness, whether the file says their radius or not: flat ones are black.
+  for (const radius of [0, 0.014]) {
+    await on.draw('two-segment', `(await drawing('two-segment', ${pose}, (shape) => ({...shape, discs: shape.discs.map((disc) => ({...disc, radius: ${radius}}))})))`);
+    const discs = await on.get('drawn.shape.discs.map(({radius, height}) => [radius, height])');
+    assert.ok(discs.every(([wide, high]) => wide === (radius || 0.0115) && high > 0), JSON.stringify(discs));
+  }
+  await on.draw('two-segment', pulls('[[5, 0, 0], [0, 1, 0]]'));
   // The scale of their colours is in what is saved, too.
   const large = decode(Buffer.from(await on.page.evaluate(async () => [...new Uint8Array(await (await bench.picture.save('')).arrayBuffer())]))), {x, y, width, height} = await on.page.locator('.pulls .ramp').boundingBox();
   const [low, high] = [0.02, 0.98].map((part) => large.colour(Math.round(2 * (x + part * width)), Math.round(2 * y + height)));
