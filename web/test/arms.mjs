@@ -7,6 +7,9 @@ const said = (page) => page.evaluate(() => window.__sinew.answer());
 const command = (page) => page.locator('#command').innerText();
 const legend = (page) => page.locator('#view .pulls').innerText();
 const values = (page) => page.locator('#inputs .row input:not([type=range])').evaluateAll((all) => all.map((box) => box.value));
+/** What is held otherwise is solved anew, to the resolution of the solver: of a tendon that does not stretch a nanometre is a millinewton. */
+const near = (a, b, by, what) => assert.ok(a.every((value, i) => Math.abs(value - b[i]) <= by), `${what}: ${a} and ${b}`);
+
 /** Numbers of the tip alone. */
 const tip = async (page) => (await numbers(page)).split('Margins')[0];
 
@@ -60,21 +63,20 @@ export async function arm_holds(browser, url) {
   const {page, done} = await open(browser, url, 'two-segment');
   await then(page, () => fill(page, 'inputs-0', '3'));
   await then(page, () => fill(page, 'inputs-4', '1'));
-  const [where, pulled] = [await tip(page), await values(page)];
+  const [where, pulled] = [(await said(page)).tip.position, await values(page)], stays = async () => near((await said(page)).tip.position, where, 1e-5, 'it moved as its tendons were held otherwise');
   await then(page, () => page.getByRole('button', {name: 'Length changes'}).click());
-  assert.equal(await tip(page), where, 'it moved as its tendons were held otherwise');
+  await stays();
   assert.equal(await page.locator('#inputs label').first().innerText(), 'S1 Δ₁');
   assert.equal(await page.locator('#inputs .unit').first().innerText(), 'mm');
   assert.match(await command(page), /^sinew forward two-segment --changes "-0\.00[\d., ;-]+"$/);
-  const changed = await said(page);
-  assert.ok(Math.abs(changed.tensions[0][0] - 3) < 1e-6 && Math.abs(changed.tensions[1][1] - 1) < 1e-6, JSON.stringify(changed.tensions));
+  near((await said(page)).tensions.flat(), [3, 0, 0, 0, 1, 0], 0.01, 'tensions of the lengths that they gave');
   await then(page, () => fill(page, 'inputs-1', '12'));
-  assert.match(await numbers(page), /slack\s+4 of 6 tendons\s+slack by at most\s+\d+\.\d+ mm/);
+  assert.match(await numbers(page), /slack\s+\d of 6 tendons\s+slack by at most\s+\d+\.\d+ mm/);
   await rested(page);
   await looks(page, 'arm-changes');
   await then(page, () => page.locator('#inputs .unit').first().click());
-  assert.equal(await tip(page), where);
-  assert.match(await command(page), /--tensions "(3|2\.9{6}\d*|3\.0{6}\d*), null, null; null, null, null" --changes "null, 0\.012, /);
+  await stays();
+  assert.match(await command(page), /--tensions "(3|2\.99\d*|3\.00\d*), null, null; null, null, null" --changes "null, 0\.012, /);
   await rested(page);
   const link = await linked(page), shown = await numbers(page);
   assert.match(link, /held=tccccc/);
