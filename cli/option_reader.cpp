@@ -33,6 +33,11 @@ std::vector<Dimension> lengths_then(std::size_t lengths, Dimension other, std::s
   return dimensions;
 }
 
+/// A tension or a length that is left to what else holds: `null` as in a query, or `-`.
+bool holds_nothing(std::string_view part, Dimension dimension) {
+  return (part == "null" || part == "-") && dimension != Dimension::angle;
+}
+
 Node numbers_node(std::span<const double> values) {
   std::vector<Node> items;
   for (const double value : values) items.push_back(make_node(value));
@@ -335,18 +340,22 @@ std::optional<Node> OptionReader::range(std::string_view option, std::string_vie
   return {};
 }
 
-/// Some values for each section, sections apart by semicolons; of one section they are a plain list where the
-/// query takes that for the section's own.
+/// Some values for each section, sections apart by semicolons; `null` or `-` where nothing is held. Of one
+/// section they are a plain list where the query takes that for the section's own.
 std::optional<Node> OptionReader::sections(std::string_view option, std::string_view text,
                                            Dimension dimension) {
   std::vector<Node> list;
   for (bool more = true; more;) {
     const std::size_t end = text.find(';');
-    const auto parts = split(text.substr(0, end));
+    auto parts = split(text.substr(0, end));
     std::vector<Dimension> dimensions(parts.size(), dimension);
     if (dimension == Dimension::angle && parts.size() == 3)
       dimensions[2] = Dimension::length;  // the extension
+    std::vector<std::size_t> loose;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (holds_nothing(parts[i], dimension)) loose.push_back(i), parts[i] = "0";
     list.push_back(numbers_node(values(option, parts, dimensions)));
+    for (const std::size_t i : loose) list.back().items[i] = Node();
     more = end != std::string_view::npos;
     if (more) text.remove_prefix(end + 1);
   }
@@ -370,15 +379,16 @@ std::optional<Node> OptionReader::json(std::string_view option, std::string_view
   return {};
 }
 
-/// Values for each leg or section, these apart by semicolons; `-` where nothing is held.
+/// Values for each leg or section, these apart by semicolons; `null` or `-` where nothing is held.
 std::optional<Node> OptionReader::pairs(std::string_view option, std::string_view text, Dimension dimension) {
   std::vector<Node> list;
   for (bool more = true; more;) {
     const std::size_t end = text.find(';');
     std::vector<Node> pair;
     for (const std::string_view part : split(text.substr(0, end))) {
-      const bool is_loose = part == "-" && dimension != Dimension::angle;
-      pair.push_back(is_loose ? Node() : make_node(values(option, {&part, 1}, {&dimension, 1}).front()));
+      pair.push_back(holds_nothing(part, dimension)
+                         ? Node()
+                         : make_node(values(option, {&part, 1}, {&dimension, 1}).front()));
     }
     list.push_back(list_of(std::move(pair)));
     more = end != std::string_view::npos;

@@ -36,6 +36,16 @@ def _questions(answer: Answer) -> Iterator[dict[str, Any]]:
         yield {**loads, **branch, "pose": found["pose"]}
 
 
+def _shape_of_arm(robot: Robot, answer: Answer) -> dict[str, Any] | None:
+    """The same question, with its shape: what was sensed or aimed at is found again, the same."""
+    asked = answer.question._plain()
+    verb = asked.pop("query", "")
+    if robot._about()._plain().get("kind") != "arm" or verb not in VERBS:
+        return None
+    plain: dict[str, Any] = robot._ask(verb, {**asked, "want": ["shape"]})._plain()
+    return plain if "backbones" in plain else None
+
+
 def shape_of(robot: Robot, answer: Any) -> dict[str, Any]:
     """Fields of the shape at an answer's pose, or at home where there is none."""
     if answer is None:
@@ -47,6 +57,9 @@ def shape_of(robot: Robot, answer: Any) -> dict[str, Any]:
         raise InputError(f"a picture is of one answer, not of {type(answer).__name__}: give answers[i]", "wrong_type", "answer")
     if "backbones" in answer:
         return answer._plain()
+    of_arm = _shape_of_arm(robot, answer)
+    if of_arm:
+        return of_arm
     for fields in _questions(answer):
         try:
             plain = robot._ask("shape", fields)._plain()
@@ -80,15 +93,41 @@ def shape_at_home(robot: Robot) -> dict[str, Any]:
     raise InputError("no shape of this robot at home: give an answer to draw", "no_shape", "answer")
 
 
+PULLS = ("pull 1", "pull 2", "pull 3", "pull 4")  # quarters of the largest tension
+
+
+def _kind_of(tension: float, most: float) -> str:
+    """Of a tendon of an arm; next to nothing, beside what others pull, is slack."""
+    return "slack" if tension <= 1e-6 * most else PULLS[min(int(len(PULLS) * tension / most * (1 - 1e-9)), len(PULLS) - 1)]
+
+
+def _kinds_of_tendons(shape: dict[str, Any]) -> list[list[str]]:
+    """By what they pull where the answer says it; else they are tendons, all alike."""
+    groups = shape.get("tendons") or []
+    tensions = shape.get("tensions") or []
+    if "slack" not in shape or [len(group) for group in groups] != [len(of) for of in tensions]:
+        return [["tendon"] * len(group) for group in groups]
+    most = max((value for of in tensions for value in of), default=0.0)
+    return [[_kind_of(value, most) for value in of] for of in tensions]
+
+
+def pulls(shape: dict[str, Any]) -> list[tuple[str, str]]:
+    """Kinds of tendons that are drawn by what they pull, and the words for them [N]."""
+    kinds = {kind for of in _kinds_of_tendons(shape) for kind in of} - {"tendon"}
+    most = max((value for of in shape.get("tensions") or [] for value in of), default=0.0) if kinds else 0.0
+    words = {"slack": "slack", **{kind: f"up to {most * (i + 1) / len(PULLS):.3g} N" for i, kind in enumerate(PULLS)}}
+    return [(kind, words[kind]) for kind in words if kind in kinds]
+
+
 def polylines(shape: dict[str, Any]) -> list[tuple[str, list[list[float]]]]:
-    """Kind and points [m] of each line: base, platform, tendon, backbone, strut."""
+    """Kind and points [m] of each line: base, platform, tendon, backbone, strut; tendons of arms by what they pull."""
     lines: list[tuple[str, list[list[float]]]] = []
     for kind in ("base", "platform"):
         points = shape.get(kind) or []
         if len(points) > 1:
             lines.append((kind, [*points, points[0]]))
-    for group in shape.get("tendons") or []:
-        lines += [("tendon", line) for line in group if len(line) > 1]
+    for group, kinds in zip(shape.get("tendons") or [], _kinds_of_tendons(shape)):
+        lines += [(kind, line) for kind, line in zip(kinds, group) if len(line) > 1]
     backbones = shape.get("backbones") or []
     lines += [("backbone", line) for line in backbones if len(line) > 1]
     ends = shape.get("platform") or []

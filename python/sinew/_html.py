@@ -7,7 +7,7 @@ import math
 import os
 from typing import TYPE_CHECKING, Any
 
-from ._drawing import polylines, shape_of
+from ._drawing import polylines, pulls, shape_of
 from ._errors import InputError
 from ._text import rows_of
 
@@ -15,8 +15,10 @@ if TYPE_CHECKING:
     from .answer import Answer
     from .robot import Robot
 
-COLORS = {"base": "#999999", "platform": "#1f5fa8", "tendon": "#c8642c", "backbone": "#222222", "strut": "#7a7a7a"}
-WIDTHS = {"base": 1.0, "platform": 2.0, "tendon": 0.8, "backbone": 2.2, "strut": 2.2}
+COLORS = {"base": "#999999", "platform": "#1f5fa8", "tendon": "#c8642c", "backbone": "#222222", "strut": "#7a7a7a",
+          "slack": "#7c7b78", "pull 1": "#7c7b78", "pull 2": "#4f6f9f", "pull 3": "#1f55a5", "pull 4": "#00224e"}
+WIDTHS = {"base": 1.0, "platform": 2.0, "tendon": 0.8, "backbone": 2.2, "strut": 2.2,
+          "slack": 0.8, "pull 1": 1.0, "pull 2": 1.3, "pull 3": 1.6, "pull 4": 2.0}
 _AZIMUTH, _HEIGHT = math.radians(35), math.radians(20)
 
 
@@ -39,10 +41,22 @@ def svg(lines: list[tuple[str, list[list[float]]]], size: int = 280) -> str:
     paths = []
     for kind, line in drawn:
         points = " ".join(f"{size / 2 + scale * (x - left):.1f},{size / 2 + scale * (y - top):.1f}" for x, y in line)
-        paths.append(f'<polyline points="{points}" fill="none" stroke="{COLORS[kind]}" stroke-width="{WIDTHS[kind]}" '
+        dashes = 'stroke-dasharray="3 3" ' if kind == "slack" else ""
+        paths.append(f'<polyline points="{points}" fill="none" stroke="{COLORS[kind]}" stroke-width="{WIDTHS[kind]}" {dashes}'
                      'stroke-linejoin="round" stroke-linecap="round"/>')
     return (f'<svg xmlns="http://www.w3.org/2000/svg" role="img" width="{size}" height="{size}" viewBox="0 0 {size} {size}" '
             f'style="background:#ffffff">{"".join(paths)}</svg>')
+
+
+def legend(words: list[tuple[str, str]]) -> str:
+    """What tendons pull, by their looks."""
+    if not words:
+        return ""
+    entries = []
+    for kind, word in words:
+        border = f"{max(1, round(WIDTHS[kind]))}px {'dashed' if kind == 'slack' else 'solid'} {COLORS[kind]}"
+        entries.append(f'<span style="display:inline-block;width:2em;border-top:{border};vertical-align:middle;margin:0 .5em"></span>{html.escape(word)}')
+    return f'<div style="font-size:small">tension{"".join(entries)}</div>'
 
 
 def table(caption: str, rows: list[tuple[str, str, str]]) -> str:
@@ -60,7 +74,8 @@ def _caption(answer: Answer) -> str:
 def fragment(answer: Answer) -> str:
     """For a notebook."""
     try:
-        picture = svg(polylines(shape_of(answer.robot, answer)))
+        shape = shape_of(answer.robot, answer)
+        picture = f"<div>{svg(polylines(shape))}{legend(pulls(shape))}</div>"
     except InputError:  # nothing to be drawn
         picture = ""
     return f'<div style="display:flex;flex-wrap:wrap;gap:1em">{picture}<div>{table(_caption(answer), list(rows_of(answer)))}</div></div>'
@@ -71,7 +86,7 @@ _PAGE = """<!doctype html>
 <style>body{font:14px/1.4 sans-serif;color:#222;background:#fff;margin:1em;display:flex;flex-wrap:wrap;gap:2em}
 canvas{touch-action:none;cursor:grab;border:1px solid #ddd}td,th{text-align:left;padding:0 1em 0 0;vertical-align:top}
 caption{text-align:left;font-weight:bold;padding-bottom:.5em}</style></head>
-<body><div><canvas id="view" width="640" height="640" role="img" aria-label="@title@"></canvas><p>@help@</p></div>@table@
+<body><div><canvas id="view" width="640" height="640" role="img" aria-label="@title@"></canvas>@legend@<p>@help@</p></div>@table@
 <script>
 const lines = @lines@, colors = @colors@, widths = @widths@, planar = @planar@;
 const canvas = document.getElementById("view"), pen = canvas.getContext("2d");
@@ -93,7 +108,7 @@ function draw() {
   for (const [kind, points] of lines) {
     pen.beginPath();
     points.forEach((p, i) => { const [x, y] = seen(p); pen[i ? "lineTo" : "moveTo"](320 + scale * x, 320 + scale * y); });
-    pen.strokeStyle = colors[kind]; pen.lineWidth = 2 * widths[kind]; pen.stroke();
+    pen.strokeStyle = colors[kind]; pen.lineWidth = 2 * widths[kind]; pen.setLineDash(kind === "slack" ? [6, 6] : []); pen.stroke();
   }
 }
 canvas.addEventListener("pointermove", e => {
@@ -109,12 +124,14 @@ draw();
 
 
 def page(robot: Robot, answer: Any) -> str:
-    lines = polylines(shape_of(robot, answer))
+    shape = shape_of(robot, answer)
+    lines = polylines(shape)
     is_planar = all(len(point) == 2 for _, line in lines for point in line)
     if hasattr(answer, "answer"):
         answer = answer.answer
     values = {
         "title": html.escape(robot.name),
+        "legend": legend(pulls(shape)),
         "help": "The wheel zooms." if is_planar else "Drag to turn, the wheel zooms.",
         "table": table(_caption(answer), list(rows_of(answer))) if answer is not None else "",
         "lines": json.dumps(lines), "colors": json.dumps(COLORS), "widths": json.dumps(WIDTHS), "planar": json.dumps(is_planar),

@@ -4,7 +4,7 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from ._drawing import polylines, shape_of
+from ._drawing import polylines, pulls, shape_of
 
 if TYPE_CHECKING:
     from .robot import Robot
@@ -15,6 +15,11 @@ STYLES = {
     "tendon": {"color": "#c8642c", "linewidth": 0.8},
     "backbone": {"color": "#222222", "linewidth": 2.2},
     "strut": {"color": "#7a7a7a", "linewidth": 2.2},
+    "slack": {"color": "#7c7b78", "linewidth": 0.8, "linestyle": "--"},
+    "pull 1": {"color": "#7c7b78", "linewidth": 1.0},
+    "pull 2": {"color": "#4f6f9f", "linewidth": 1.3},
+    "pull 3": {"color": "#1f55a5", "linewidth": 1.6},
+    "pull 4": {"color": "#00224e", "linewidth": 2.0},
 }
 
 
@@ -23,7 +28,8 @@ def plot(robot: Robot, answer: Any, ax: Any) -> Any:
         plt: Any = importlib.import_module("matplotlib.pyplot")
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError("plot needs matplotlib, which is not installed; save_html needs nothing", name=error.name) from None
-    lines = polylines(shape_of(robot, answer))
+    shape = shape_of(robot, answer)
+    lines = polylines(shape)
     is_planar = all(len(point) == 2 for _, line in lines for point in line)
     if ax is None:
         ax = plt.figure().add_subplot(projection=None if is_planar else "3d")
@@ -31,6 +37,10 @@ def plot(robot: Robot, answer: Any, ax: Any) -> Any:
         raise ValueError('this robot is in space: give axes made with projection="3d"')
     for kind, line in lines:
         ax.plot(*([1000.0 * point[axis] for point in line] for axis in range(2 if is_planar else 3)), **STYLES[kind])
+    words = pulls(shape)
+    if words:
+        handles = [ax.plot([], [], *([[]] if not is_planar else []), **STYLES[kind])[0] for kind, _ in words]
+        ax.legend(handles, [word for _, word in words], title="tension", loc="upper left", fontsize="small")
     ax.set_xlabel("x [mm]")
     ax.set_ylabel("y [mm]")
     ax.set_title(robot.name)

@@ -62,6 +62,9 @@ constexpr std::array<double, 4> beam_links{0.125, 0.35, 0.388, 0.136};
 constexpr std::array<double, 3> beam_stiffness{3.25, 2.84, 2.95};
 constexpr double beam_length = beam_links[0] + beam_links[1] + beam_links[2] + beam_links[3];
 
+/// Share of a section's length below which a span is none.
+constexpr double least_span = 1e-9;
+
 class Builder {
  public:
   Builder(const Arm& arm, const ArmBasis& basis) : arm_(arm), basis_(basis) {
@@ -111,9 +114,15 @@ class Builder {
     if (channel) spans = by_section() ? 1 : std::max(basis_.elements, 10);
     std::vector<double> ends;
     for (int k = 1; k <= spans; ++k) ends.push_back(static_cast<double>(k) / spans);
-    if (channel) ends.insert(ends.end(), cuts.begin(), cuts.end());
+    if (!channel) return ends;
+    ends.insert(ends.end(), cuts.begin(), cuts.end());
     std::sort(ends.begin(), ends.end());
-    return ends;
+    // A load where a span ends anyway, or two loads at one place: a span without length has no strain.
+    std::vector<double> apart;
+    for (const double end : ends)
+      if (end > (apart.empty() ? 0 : apart.back()) + least_span) apart.push_back(end);
+    apart.back() = 1;
+    return apart;
   }
 
   void add_section(int m, const std::vector<double>& cuts) {

@@ -14,6 +14,23 @@ Outcome run(const std::string& line) {
   return run_program(command, scratch.path());
 }
 
+/// As the question says it, and as lists of pairs do.
+TEST(Lists, SayNothingOfWhatTheOtherListHolds) {
+  const std::string line = "forward tendon-rod --tensions 3,null,-,1 --changes null,0.01,0.01,- --json";
+  const Outcome ran = run(line);
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_NE(ran.out.find("\"tensions\":[[3.0,"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find(",0.01,0.01,"), std::string::npos) << ran.out;
+  const Outcome both = run("forward tendon-rod --tensions 3,2,-,1 --changes -,0.01,0.01,-");
+  EXPECT_EQ(both.exit, 2);
+  EXPECT_NE(both.err.find("tendon 1 has a tension and a change"), std::string::npos) << both.err;
+  const Outcome third = run("forward tendon-rod --tensions null,null,3_N");
+  EXPECT_EQ(third.exit, 2);
+  EXPECT_NE(third.err.find("--tensions, value 3"), std::string::npos) << third.err;
+  const Outcome serial = run("forward nottingham-neutral --changes null,0,0");
+  EXPECT_EQ(serial.exit, 2) << serial.out << serial.err;
+}
+
 TEST(Wants, AreShownWhateverTheyLeaveOut) {
   const char* lines[] = {
       "forward 3-rfr --inputs 0.19,0.19,0.188",

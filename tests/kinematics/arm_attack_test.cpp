@@ -127,5 +127,30 @@ TEST(ArmAttack, RandomArms) {
   EXPECT_EQ(wrong, 0);
 }
 
+/// A backbone in channels is cut into even spans: a load where one of them ends, or two at one place, cut
+/// nothing more.
+TEST(ArmAttack, LoadsWhereSpansEndAreAsThoseBesideThem) {
+  const Arm arm = tendon_rod();
+  const std::vector<TendonCommand> commands(arm.tendons.size());
+  for (const ArmModel model :
+       {ArmModel::rod, ArmModel::subsegment_rod, ArmModel::subsegment_cc, ArmModel::prb})
+    for (const double share : {0.1, 0.3, 0.5, 1.0}) {
+      const auto tip_at = [&](double place, int count) {
+        ArmLoad load;
+        for (int i = 0; i < count; ++i) load.points.push_back({place, {0.05 / count, 0, 0, 0, 0, 0}, false});
+        ArmWorkspace work(arm);
+        const ArmState state = arm_forward(arm, commands, load, {.model = model}, work);
+        EXPECT_TRUE(state.report.ok()) << share << " " << to_string(state.report);
+        return state.tip.p;
+      };
+      const double place = share * arm.length();
+      const auto here = tip_at(place, 1);
+      // chains take a load at the end of a link, so that beside it moves by a link's part
+      EXPECT_LT((here - tip_at(place - 1e-7, 1)).norm(), model == ArmModel::prb ? 1e-3 : 1e-6) << share;
+      EXPECT_LT((here - tip_at(place, 2)).norm(), 1e-9) << share;
+      EXPECT_LT((here - tip_at(place - 1e-12, 1)).norm(), 1e-9) << share;
+    }
+}
+
 }  // namespace arm_attack_test
 }  // namespace sinew::test

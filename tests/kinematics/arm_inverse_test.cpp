@@ -93,6 +93,38 @@ TEST(ArmSense, FindsTheForceFromTensionsAndTip) {
   }
 }
 
+/// Tendons that are held by tension tell little of a force, and the tip of a slender arm is where it can be
+/// only after it has bent: an undamped step asks for a hundred newtons along the arm.
+TEST(ArmSense, FindsTheForceFromTheTipAlone) {
+  const Arm arm = two_sections();
+  std::mt19937 gen(7);
+  std::uniform_real_distribution<double> share(-1, 1);
+  const ArmOptions options{.accuracy = 0};
+  int found = 0;
+  for (int round = 0; round < 20; ++round) {
+    ArmMeasurement measured;
+    for (int i = 0; i < 6; ++i) measured.held.push_back({TendonHeld::tension, std::max(0.0, 3 * share(gen))});
+    ArmLoad true_load;
+    true_load.wrench = {0.05 * share(gen), 0.05 * share(gen), 0.05 * share(gen)};
+    ArmWorkspace work(arm);
+    const ArmState there = arm_forward(arm, measured.held, true_load, options, work);
+    ASSERT_TRUE(there.report.ok()) << to_string(there.report);
+    measured.tip = {there.tip.p[0], there.tip.p[1], there.tip.p[2]};
+    ArmWorkspace other(arm);  // which begins at rest
+    const ArmSensed felt = arm_sense(arm, measured, {}, true, options, other);
+    if (felt.misfit > 1e-3) continue;  // the least that is near, and it says how far off
+    ++found;
+    EXPECT_TRUE(felt.report.ok()) << to_string(felt.report);
+    EXPECT_LT((felt.state.tip.p - there.tip.p).norm(), 1e-6) << round;
+    ArmLoad sensed;
+    sensed.wrench = felt.wrench;
+    const ArmState again = arm_forward(arm, measured.held, sensed, options, other);
+    EXPECT_LT((again.tip.p - there.tip.p).norm(), 1e-6) << round;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_GT(felt.covariance[7 * i], 0) << round;
+  }
+  EXPECT_GE(found, 18);
+}
+
 /// A column of Euler's buckles at π²/4 EI/L²: beyond, the straight one does not hold.
 TEST(ArmEquilibria, BuckledColumn) {
   CrossSection section;

@@ -38,6 +38,10 @@ def some_answers():
     spatial = sinew.load("6-ufs")
     yield spatial.inverse(spatial.describe().home)
     yield sinew.load("nottingham-tpcj").forward(changes=[[-0.001, 0.0005, 0.0005]])
+    arm = sinew.load("two-segment")
+    yield arm.forward(tensions=[[4, 0, 0], [0, 1, 0]], wrench=[0.02, 0, 0, 0, 0, 0])
+    yield arm.inverse(position=[0.05, 0.1, 0.36])
+    yield arm.statics(tensions=[[2, 0, 0], [0, 0, 0]], position=arm.forward(tensions=[[2, 0, 0], [0, 0, 0]]).tip.position)
 
 
 class Html(unittest.TestCase):
@@ -70,6 +74,27 @@ class Html(unittest.TestCase):
         self.assertIn("<svg", robot.prepare("forward", inputs="$l")([0.19, 0.19, 0.188])._repr_html_())
         import numpy as np
         self.assertIn("(4,)", robot.forward(inputs=np.full((4, 3), 0.19))._repr_html_())
+
+    def test_of_arms_shows_what_tendons_pull(self):
+        arm = sinew.load("two-segment")
+        answer = arm.forward(tensions=[[4, 0, 0], [0, 1.5, 0]])
+        shape = _drawing.shape_of(arm, answer)
+        kinds = [kind for kind, _ in _drawing.polylines(shape)]
+        self.assertEqual(kinds, ["pull 4", "slack", "slack", "slack", "pull 2", "slack", "backbone"])
+        self.assertEqual(_drawing.pulls(shape), [("slack", "slack"), ("pull 2", "up to 2 N"), ("pull 4", "up to 4 N")])
+        self.assertRegex(answer._repr_html_(), "up to 4 N")
+        self.assertIn('stroke-dasharray="3 3"', answer._repr_html_())
+        self.assertEqual(_drawing.pulls(_drawing.shape_of(arm, arm.forward())), [("slack", "slack")])
+        for robot in (sinew.load("3-rfr"), sinew.load("nottingham-tpcj")):
+            self.assertEqual(_drawing.pulls(_drawing.shape_of(robot, None)), [])
+
+    def test_of_arms_is_where_the_answer_is(self):
+        arm = sinew.load("ftdcr-v4")
+        for answer in (arm.forward(changes=[[-0.001, 0.001, 0]], loads=[{"place": 0.1, "wrench": [0.05, 0, 0, 0, 0, 0]}]),
+                       arm.inverse(position=[0.02, 0.05, 0.15], gravity=[0, 0, 0]), arm.velocity(tensions=[[1, 0, 0]], model="prb")):
+            tip = answer.tip.position
+            end = _drawing.shape_of(arm, answer)["backbones"][0][-1]
+            self.assertLess(max(abs(a - b) for a, b in zip(tip, end)), 1e-9)
 
     def test_escapes_names(self):
         robot = sinew.load({**ARM, "name": "</script><b>&"})

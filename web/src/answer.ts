@@ -3,7 +3,9 @@ import {type Bar, filled, type Section, sectionOf, signed} from './bars';
 import type {Json} from './client';
 import {type Described, subscript} from './described';
 import type {Ghost} from './ghost';
+import {profile} from './profile';
 import type {State} from './state';
+import {isSlack} from './tendon_lines';
 import {format, type System, type Unit, unitName} from './units';
 
 export const withUnit = (value: number, unit: Unit, system: System): string =>
@@ -18,7 +20,7 @@ export function coordinates(pose: Json): [string, number, Unit][] {
 }
 
 function poseSection(answer: Json, ghost: Ghost | null, described: Described, system: System): Section {
-  const pose = answer.pose ?? answer.tip, other = ghost?.answer.pose ?? ghost?.answer.tip, title = described.isSerial ? 'Pose of the tip' : 'Pose of the platform';
+  const pose = answer.pose ?? answer.tip, other = ghost?.answer.pose ?? ghost?.answer.tip, title = described.isSerial || described.isArm ? 'Pose of the tip' : 'Pose of the platform';
   if (!pose) return {title, rows: [], bars: []};
   const others = other ? coordinates(other) : [];
   const isUpright = Math.abs(pose.tilt ?? 1) < 1e-7;  // it leans nowhere, so in no direction
@@ -63,14 +65,24 @@ function marginBars(answer: Json, described: Described, state: State): Bar[] {
     'smallest over largest pivot of the platform\'s stiffness; 0 at a fold'));
   if (margins?.strain !== undefined) bars.push(filled('strain', margins.strain / strainLimit, `${(100 * margins.strain).toFixed(3)} %`, margins.strain > strainLimit ? 'over' : undefined,
     'largest bending strain of a rod; the bar ends at 1 %'));
+  if (answer.buckling_margin !== undefined) bars.push(filled('to buckling', answer.buckling_margin, Math.max(answer.buckling_margin, 0).toPrecision(3), answer.buckling_margin < 0.05 ? 'slack' : undefined,
+    'of the arm\'s stiffness: 1 without load, 0 where it buckles'));
   if (reach?.load !== undefined) bars.push(filled(reach.why === 'limit' ? 'more load' : `load to ${reach.why}`, reach.load / reach.limit, `${reach.why === 'limit' ? '> ' : ''}${reach.load.toPrecision(3)} ×`,
     reach.load < 0.25 ? 'slack' : undefined, 'how many times this load can be added'));
   if (velocity?.indices?.condition_homogenised !== undefined) bars.push(conditioning(velocity.indices.condition_homogenised));
   return bars.filter((bar) => bar !== null);
 }
 
+/** How far an arm's tendons are from slack: the least tension, and by how much too long they are. */
+function slackRows({least_tension: least, slack, tensions}: Json, system: System): [string, string][] {
+  if (least === undefined) return [];
+  const most = largest(tensions.flat()), count = tensions.flat().filter((one: number) => isSlack(one, {most})).length, longest = Math.max(...slack.flat());
+  if (count === 0) return [['to slack', withUnit(least, 'N', system)]];
+  return [['slack', `${count} of ${tensions.flat().length} tendons`], ...(longest > 0 ? [['slack by at most', withUnit(longest, 'm', system)] as [string, string]] : [])];
+}
+
 function marginRows(answer: Json, system: System): [string, string][] {
-  const {velocity, typeTwo, room} = answer, rows: [string, string][] = [];
+  const {velocity, typeTwo, room} = answer, rows: [string, string][] = slackRows(answer, system);
   for (const {name, by, unit, word} of room ?? []) rows.push([`${name} ${by < 0 ? '−' : '+'}${withUnit(Math.abs(by), unit, system)}`, word]);
   if (velocity?.type_1?.length > 0) rows.push(['type I', `leg ${velocity.type_1.map((leg: number) => leg + 1).join(', ')}`]);
   if (velocity?.type_2?.singular) rows.push(['type II', velocity.type_2.class ?? 'singular']);
@@ -88,6 +100,15 @@ function barSection(title: string, unit: Unit, system: System, named: [string, n
     return isOneSided ? filled(name, most > 0 ? value / most : 0, text) : signed(name, value, most, text);
   };
   return {title: `${title} [${unitName(unit, system)}]`, rows: [], bars: named.map(([name, value]) => bar(name, value))};
+}
+
+/** What an arm's tendons do, how it bends and what its tip yields. */
+function ofArm({tensions, changes, compliance}: Json, system: System): Section[] {
+  const named = (lists: number[][]) => lists.flatMap((of, m) => of.map((value, j): [string, number] => [`S${m + 1} ${j + 1}`, value]));
+  const pulls = barSection('Tensions', 'N', system, named(tensions), true);
+  pulls.bars.forEach((bar, i) => { if (isSlack(named(tensions)[i]![1], {most: largest(tensions.flat())})) bar.text = 'slack'; });
+  return [pulls, barSection('Tendon changes', 'm', system, named(changes)),
+          ...(compliance ? [barSection('Compliance of the tip', 'm/N', system, ['x', 'y', 'z'].map((name, k) => [name, compliance[k][k]]), true)] : [])];
 }
 
 /** What pulls: forces of rods, tensions of chains, changes of a serial robot's tendons; of arcs how they bend. */
@@ -118,9 +139,9 @@ export class AnswerPanel {
     const sections = [poseSection(answer, ghost, described, system)];
     const margins: Section = {title: 'Margins', rows: marginRows(answer, system), bars: marginBars(answer, described, state)};
     if (margins.rows.length + margins.bars.length > 0) sections.push(margins);
-    const pulls = effort(answer, system);
+    const pulls = described.isArm ? null : effort(answer, system), curve = described.isArm && profile(answer, described, system);
     if (pulls) sections.push(pulls);
-    this.box.replaceChildren(...sections.map(sectionOf));
+    this.box.replaceChildren(...sections.map(sectionOf), ...(curve ? [curve] : []), ...(described.isArm && answer.tensions ? ofArm(answer, system).map(sectionOf) : []));
   }
 
   clear(): void {

@@ -51,11 +51,7 @@ function refusal(reply: Response, text: string): Refused {
 }
 
 export const version = async (): Promise<Json> => JSON.parse(await call('/api/version'));
-/** Those that ship, without arms, which the page does not draw. */
-export const robots = async (): Promise<{robots: Shipped[]; opened: {name: string; text: string} | null}> => {
-  const known: {robots: Shipped[]; opened: {name: string; text: string} | null} = JSON.parse(await call('/api/robots'));
-  return {...known, robots: known.robots.filter(({kind}) => kind !== 'arm')};
-};
+export const robots = async (): Promise<{robots: Shipped[]; opened: {name: string; text: string} | null}> => JSON.parse(await call('/api/robots'));
 export const robotText = (name: string): Promise<string> => call(`/api/robots/${encodeURIComponent(name)}`);
 
 export const plans = async (): Promise<{plans: Json[]}> => JSON.parse(await call('/api/plans'));

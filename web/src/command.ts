@@ -1,6 +1,8 @@
 // The command that gives the numbers of the page, for a shell.
-import {bearsLoad, type Described} from './described';
-import {bySection} from './questions';
+import {heldBy, loads, tipField} from './arm';
+import type {Json} from './client';
+import type {Described} from './described';
+import {bySection, wrenchOf} from './questions';
 import type {Source} from './source';
 import type {State} from './state';
 
@@ -8,7 +10,16 @@ const short = (value: number) => String(Number(value.toPrecision(12)));
 const quoted = (word: string) => (/["$`\\!']/.test(word) ? `'${word.replaceAll("'", "'\\''")}'` : `"${word}"`);
 const list = (values: number[]) => `"${values.map(short).join(', ')}"`;
 
+/** A list a section, as the command has it. */
+const lists = (values: (number | null)[][]) => `"${values.map((of) => of.map((value) => (value === null ? 'null' : short(value))).join(', ')).join('; ')}"`;
+
+function askedOfArm(described: Described, state: State): string {
+  const fields: Json = state.asked === 'pose' ? tipField(described, state.pose) : heldBy(described, state.inputs);
+  return Object.entries(fields).map(([name, values]) => `--${name} ${Array.isArray(values[0]) ? lists(values) : list(values)}`).join(' ');
+}
+
 function asked(described: Described, state: State, bending: number[] | null): string {
+  if (described.isArm) return askedOfArm(described, state);
   if (described.isSerial && state.asked === 'inputs') {
     const sections = bySection(described, state.inputs);
     return `--configuration "${sections.map((pair) => pair.map(short).join(', ')).join('; ')}"`;
@@ -27,17 +38,20 @@ function quaternionOf([tilt = 0, azimuth = 0, torsion = 0]: number[]): number[] 
 
 /** @param start where the search has to begin so that it ends at this solution, as `--start` has it; else null */
 export function command(source: Source, described: Described, state: State, start: number[] | null): string {
-  const isPose = state.asked === 'pose' && !described.isSerial && !described.isPlanar && !described.isHeldByFew, robot = source.word;
+  const isPose = state.asked === 'pose' && !described.isSerial && !described.isArm && !described.isPlanar && !described.isHeldByFew, robot = source.word;
   const told = isPose ? {...state, pose: [...state.pose.slice(0, 3), ...quaternionOf(state.pose.slice(3))]} : state;
   const words = ['sinew', state.asked === 'pose' ? 'inverse' : 'forward', /^[\w./-]+$/.test(robot) ? robot : quoted(robot),
                  asked(described, told, described.canBend ? state.bending : null)];
   if (start) words.push(`--start ${list(start)}`);
   if (state.model !== described.answer.model) words.push(`--model ${state.model}`);
-  if (bearsLoad(state.model) && state.load.some((part) => part !== 0)) words.push(`--wrench ${list(state.load)}`);
+  const wrench = wrenchOf(described, state), more = described.isArm ? loads(described, state).loads : undefined;
+  if (wrench) words.push(`--wrench ${list(wrench)}`);
+  if (more) words.push(`--loads '${JSON.stringify(more)}'`);
   if (described.hasGravity && !state.gravity) words.push('--gravity "0, 0, 0"');
   if (state.iterations > 0) words.push(`--max-iterations ${state.iterations}`);
   for (const set of source.sets) words.push(`--set ${quoted(set)}`);
-  if (state.model === 'prb' && state.joints > 0)
+  if (described.isArm && state.model === 'prb' && state.joints > 0) words.push(`--elements ${state.joints}`);
+  else if (state.model === 'prb' && state.joints > 0)
     described.answer.legs.forEach((_: unknown, i: number) => words.push(`--set "legs[${i}].link.joints=${state.joints}"`));
   return words.join(' ');
 }

@@ -3,11 +3,12 @@ import type {Json} from './client';
 import type {Labels} from './labels';
 import {longer, outline, ring, round} from './outline';
 import {between, type Look, type Pen} from './pen';
-import type {Drawing, Layer} from './picture';
+import type {Drawing, Layer, Pulls} from './picture';
 import {surroundings, tubeAround} from './surroundings';
+import {bowed, lookOf} from './tendon_lines';
 import {across, axesOf, centre, length, minus, placeOf, plus, type Point, scaled} from './vector';
 
-export const tokens = ['rod', 'mute', 'line', 'accent', 'ghost', 'slack', 'text', 'card', 'scene', 'axis-x', 'axis-y', 'axis-z', 'robot', 'robot-rim', 'hidden', 'over', 'exact', 'tendon-1', 'tendon-2', 'tendon-3', 'tendon-4'] as const;
+export const tokens = ['rod', 'mute', 'line', 'accent', 'ghost', 'slack', 'text', 'card', 'scene', 'axis-x', 'axis-y', 'axis-z', 'robot', 'robot-rim', 'hidden', 'over', 'exact', 'tendon-1', 'tendon-2', 'tendon-3', 'tendon-4', 'pull-0', 'pull-1', 'pull-2', 'pull-3'] as const;
 export type Colours = Record<(typeof tokens)[number], string>;
 export const leastRod = 3;  // pixels of the thinnest
 
@@ -93,11 +94,21 @@ class Composition {
   }
 
   private tendons(): void {
+    const {pulls} = this.drawing;
+    if (pulls) return this.pulling(pulls);
     for (const of of (this.shape.tendons ?? []) as Point[][][])
       of.forEach((points, i) => {
         const dash = dashes[i % 4];
         if (points.length > 1) this.pen.line(points, {colour: this.colour(`tendon-${i % 4 + 1}` as keyof Colours), width: 1.5, ...(dash && {dash})});
       });
+  }
+
+  private pulling(pulls: Pulls): void {
+    const sections: Point[][][] = this.shape.tendons ?? [], all = sections.flat();
+    sections.forEach((of, section) => of.forEach((points, i) => {
+      const look = lookOf(pulls.tensions[section]?.[i] ?? 0, pulls, (token) => this.colour(token));
+      if (points.length > 1) this.pen.line(bowed(points, all, pulls.slack[section]?.[i] ?? 0), look);
+    }));
   }
 
   private rods(): void {
@@ -186,9 +197,10 @@ class Composition {
   }
 
   private wrench(): void {
-    const {wrench, isPlanar} = this.drawing, {place} = this, look: Look = {colour: this.colour('text'), width: 2.5, isAbove: true};
+    const {wrench, isPlanar, loads} = this.drawing, {place} = this, look: Look = {colour: this.colour('text'), width: 2.5, isAbove: true}, number = (way: Point) => String(Number(length(way).toPrecision(3)));
+    for (const {at, force} of loads ?? []) this.label(`${number(force)} N`, this.arrow(at, force, 70, look), 'load');
     if (!wrench || !place) return;
-    const force = isPlanar ? wrench.slice(0, 2) : wrench.slice(0, 3), moment = isPlanar ? [0, 0, wrench[2] ?? 0] : wrench.slice(3), number = (way: Point) => String(Number(length(way).toPrecision(3)));
+    const force = isPlanar ? wrench.slice(0, 2) : wrench.slice(0, 3), moment = isPlanar ? [0, 0, wrench[2] ?? 0] : wrench.slice(3);
     if (length(force) > 0) this.label(`${number(force)} N`, this.arrow(place, force, 90, look), 'load');
     if (length(moment) > 0) this.label(`${number(moment)} N m`, this.arc(place, moment, 58, look, false), 'load');
   }
@@ -202,7 +214,8 @@ class Composition {
 
   /** Legs by numbers, outside of where they begin; sections in their middle. */
   private names(): void {
-    const base: Point[] = this.shape.base ?? [], middle = base.length > 1 ? centre(base) : null;
+    const base: Point[] = this.shape.base ?? [], middle = base.length > 1 ? centre(base) : null, {names} = this.drawing;
+    if (names) return names.forEach(({text, at}) => this.label(text, at, 'leg'));
     if (!middle) return this.backbones.forEach((points, i) => this.label(`S${i + 1}`, points[Math.floor(points.length / 2)]!, 'leg'));
     base.forEach((point, i) => {
       const out = minus(point, middle), size = length(out);
@@ -219,6 +232,7 @@ class Composition {
 export function compose(drawing: Drawing, pen: Pen, labels: Labels, setting: Setting): void {
   pen.begin(drawing.isPlanar, setting.pixels);
   labels.begin();
+  labels.pulls.show(setting.shown.has('tendons') ? drawing.pulls ?? null : null);
   new Composition(drawing, pen, labels, setting).all();
   pen.end();
   labels.end();

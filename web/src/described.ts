@@ -1,4 +1,5 @@
 // What a robot lets be asked of it: rows for its inputs, its pose and its load, each with a range and a home.
+import {armDescribed, type Held, type Holding} from './arm';
 import type {Json, Robot} from './client';
 import type {Unit} from './units';
 
@@ -10,11 +11,13 @@ export interface Row {
   high: number;
   home: number;
   limits: {low: boolean; high: boolean};  ///< whether these are limits of the robot, not only ends of the slider
+  other?: string;  ///< what a click on the unit does: the row has two quantities
 }
 
 export interface Described {
   answer: Json;  ///< to `describe`
   isSerial: boolean;
+  isArm: boolean;        ///< an elastic arm: its tendons are pulled, it bears loads, and its tip is what is placed
   isPlanar: boolean;
   isHeldByFew: boolean;  ///< three actuators hold three coordinates of a platform in space, not its pose
   canBend: boolean;      ///< whether the sign of each leg's curvature chooses among solutions
@@ -23,12 +26,21 @@ export interface Described {
   inputs: Row[];
   pose: Row[];
   load: Row[];
+  holding: Holding | null;  ///< of an arm: what holds each tendon, of which the inputs are
 }
 
 /** Whether links of this model yield to a load. */
-export const bearsLoad = (model: string) => model === 'rod' || model === 'prb';
+export const bearsLoad = ({isArm}: {isArm: boolean}, model: string) => isArm || model === 'rod' || model === 'prb';
 
-const none = {low: false, high: false}, both = {low: true, high: true};
+/** The same with other inputs: tensions or length changes of an arm's tendons. */
+export function holding(described: Described, held: Held[] | null): Described {
+  const {holding: known} = described;
+  if (!known || !held || held.length !== known.held.length) return described;
+  return {...described, holding: {...known, held}, inputs: held.map((one, i) => known.rows[one][i]!)};
+}
+
+export const none = {low: false, high: false};
+const both = {low: true, high: true};
 
 /** Where nothing limits an input the slider covers this part of its home value to both sides. */
 const share = 0.2;
@@ -79,7 +91,7 @@ function parallelInputs(answer: Json, home: number[]): Row[] {
   });
 }
 
-const free = (name: string, unit: Unit, home: number, reach: number): Row =>
+export const free = (name: string, unit: Unit, home: number, reach: number): Row =>
   ({name, path: name, unit, low: home - reach, high: home + reach, home, limits: none});
 
 function poseRows(answer: Json, isHeldByFew: boolean): Row[] {
@@ -99,7 +111,7 @@ function poseRows(answer: Json, isHeldByFew: boolean): Row[] {
 
 /** Sliders reach as far as links of usual size bear; a number box takes any load. */
 function loadRows(answer: Json): Row[] {
-  if (!answer.models.some(bearsLoad)) return [];
+  if (!answer.models.some((model: string) => bearsLoad({isArm: false}, model))) return [];
   const isRod = answer.model === 'rod', force = isRod ? 5 : 0.05, moment = isRod ? 0.5 : 0.005;
   if (answer.space === 'planar') return [free('Fx', 'N', 0, force), free('Fy', 'N', 0, force), free('M', 'N m', 0, moment)];
   return [free('Fx', 'N', 0, force), free('Fy', 'N', 0, force), free('Fz', 'N', 0, (isRod ? 4 : 1) * force),
@@ -111,11 +123,12 @@ const homeOf = (answer: Json, isHeldByFew: boolean): Json =>
 
 export async function describe(robot: Robot): Promise<Described> {
   const [answer] = await robot.ask([{query: 'describe'}]) as [Json];
+  if (answer.kind === 'arm') return armDescribed(robot, answer);
   const isSerial = answer.kind === 'serial', isPlanar = answer.space === 'planar';
   const isHeldByFew = !isSerial && !isPlanar && answer.freedoms.actuators < answer.freedoms.platform;
   const [home] = isSerial ? [] : await robot.ask([{query: 'inverse', ...homeOf(answer, isHeldByFew)}]);
   return {
-    answer, isSerial, isPlanar, isHeldByFew, models: answer.models,
+    answer, isSerial, isArm: false, isPlanar, isHeldByFew, models: answer.models, holding: null,
     canBend: answer.model === 'cc',
     hasGravity: (answer.gravity ?? []).some((part: number) => part !== 0),
     inputs: isSerial ? serialInputs(answer) : parallelInputs(answer, home?.inputs ?? []),

@@ -143,6 +143,7 @@ export abstract class Figure implements Picture {
     pen.begin(false, lookout.pixels);
     pen.end();
     labels.begin();
+    labels.pulls.show(null);
     labels.end();
   }
 

@@ -1,6 +1,6 @@
 // What the picture is compared with: a pose that was kept, or another robot at the same inputs.
 import {type Json, Robot, robotText} from './client';
-import {describe, type Described} from './described';
+import {describe, type Described, holding} from './described';
 import {everything, isSolved, told} from './questions';
 import {type State, stateOf} from './state';
 
@@ -17,8 +17,8 @@ export class Rival {
 
   /** @return null where it has no solution there */
   async at(first: Described, state: State): Promise<Ghost | null> {
-    const {described, name} = this, own = stateOf(described), isAlike = (side: 'inputs' | 'load') =>
-      first.isSerial === described.isSerial && first[side].length === described[side].length && first[side].every(({unit}, i) => unit === described[side][i]!.unit);
+    const {name} = this, described = holding(this.described, state.held), own = stateOf(described), isAlike = (side: 'inputs' | 'load') =>
+      first.isSerial === described.isSerial && first.isArm === described.isArm && first[side].length === described[side].length && first[side].every(({unit}, i) => unit === described[side][i]!.unit);
     const at = {
       ...own, ...(isAlike('inputs') && {inputs: state.inputs}), ...(isAlike('load') && {load: state.load}), gravity: state.gravity,
       ...(described.models.includes(state.model) && {model: state.model}),

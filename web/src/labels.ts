@@ -1,4 +1,5 @@
 // Words over a picture: letters of frames, numbers of legs, values of loads, what the pointer is on, the length of the bar.
+import {PullScale} from './pull_scale';
 import type {Point} from './vector';
 
 interface Label { element: HTMLElement; point: Point }
@@ -6,6 +7,7 @@ interface Label { element: HTMLElement; point: Point }
 export class Labels {
   private readonly labels: Label[] = [];
   private used = 0;
+  readonly pulls: PullScale;
   private readonly bar = document.createElement('div');
   private readonly tip = document.createElement('div');
 
@@ -13,6 +15,7 @@ export class Labels {
     this.bar.className = 'scale-bar';
     this.tip.className = 'tip';
     this.tip.hidden = true;
+    this.pulls = new PullScale(box);
     box.append(this.bar, this.tip);
   }
 
@@ -88,6 +91,7 @@ export class Labels {
     context.fillStyle = style.color;
     context.fillText(this.bar.textContent ?? '', bar.left, bar.top + bar.height / 2 - 1);
     context.fillRect(bar.left, bar.bottom - 2, bar.width, 2);
+    this.pulls.paint(context);
     context.restore();
   }
 }

@@ -2,18 +2,19 @@
 import './app.css';
 import './operate/operate.css';
 import {AnswerPanel, withUnit} from './answer';
+import {canPlace, type Held, heldIn} from './arm';
 import {type Json, Lost, Newest, Refused, Robot, plan as planOf, plans, robots, robotText, type Shipped, version} from './client';
 import {copy} from './clipboard';
 import {command} from './command';
 import {Connection} from './connection';
 import {Controls} from './controls';
-import {bearsLoad, describe, type Described} from './described';
+import {bearsLoad, describe, type Described, holding} from './described';
 import {download, FileTab} from './file';
 import {Rival} from './ghost';
 import {fillHelp, type Key, listen} from './keys';
 import {byId} from './make';
 import {margins, startOf} from './margins';
-import {everything, inputsOf, isSolved, plain, poseOf, told} from './questions';
+import {everything, inputsOf, isSolved, plain, poseOf, sensing, told} from './questions';
 import {type ScreenName, Screens} from './screens';
 import {findDevice} from './operate/device';
 import type {DeviceInfo} from './operate/frame';
@@ -29,15 +30,17 @@ import {type Solution, Solutions} from './solutions';
 import {changesIn, drafts, keyOf, Source, sourceOf} from './source';
 import {type Shown, Stage, views} from './stage';
 import {Start} from './start';
-import {fromLink, History, numbersOf, type Side, type State, stateOf, toLink} from './state';
+import {fromLink, heldByLink, History, numbersOf, type Side, type State, stateOf, toLink} from './state';
 import {Strip, type Touched} from './strip';
 import {Tabs} from './tabs';
 import {toast} from './toast';
+import {shownValue, unitName} from './units';
 import {Trajectory} from './trajectory';
 import {VerdictBox, verdictOf, type Way} from './verdict';
 
 const protocol = 1;
 const rest = 100;  // ms without a change, after which the slower questions are asked
+const farthest = 3;  // standard deviations by which what was seen may differ from what a force explains
 const longest = 16;  // s between tries of a server that is busy
 
 class Page {
@@ -64,7 +67,7 @@ class Page {
   private readonly shell = new Shell(() => this.paint());
   private readonly stage = new Stage(() => this.link(), () => this.save());
   private readonly controls = new Controls({
-    turn: (side, index, value) => this.turn(side, index, value), change: (part) => this.change(part), bend: (bending) => this.bend(bending), goHome: () => this.goHome(),
+    turn: (side, index, value) => this.turn(side, index, value), change: (part) => this.change(part), bend: (bending) => this.bend(bending), hold: (held) => this.hold(held), sense: (place) => this.sense(place), goHome: () => this.goHome(),
     release: () => this.history.end(),
   });
   private readonly connection = new Connection();
@@ -325,7 +328,10 @@ class Page {
       this.panel.use({robot: robot!, described: described!, source: source!, inputs: [...state.inputs]}, isOfDevice, link);
       screens.offer('operate');
       if (link?.get('screen') === 'operate' || (isOfDevice && link && !link.has('screen') && !link.has('inputs'))) screens.show('operate', false);
-    } else screens.offer('operate', false);
+    } else {
+      screens.offer('operate', false);
+      if (link?.get('screen') === 'operate') toast(`Operate shows serial robots that are given as bends; ${source!.label} is shown in Design`);
+    }
     if (screens.shown === 'operate' && link?.has('screen') && link.get('screen') !== 'operate') screens.show('design', false);
     this.badge();
   }
@@ -421,8 +427,8 @@ class Page {
   }
 
   /** The robot of the page from now on. @param link null: another text of the same file, so its state stays */
-  private use(source: Source, robot: Robot, described: Described, link: URLSearchParams | null): void {
-    const before = this.described, fits = before && (['inputs', 'pose', 'load'] as const).every((side) => before[side].length === described[side].length);
+  private use(source: Source, robot: Robot, known: Described, link: URLSearchParams | null): void {
+    const before = this.described, described = link ? heldByLink(link, known) : holding(known, this.state.held), fits = before && (['inputs', 'pose', 'load'] as const).every((side) => before[side].length === described[side].length) && before.isArm === described.isArm;
     this.robot?.cancel();
     [this.source, this.robot, this.described, this.shown] = [source, robot, described, null];
     this.state = link ? fromLink(link, described) : fits ? {...this.state, start: null} : stateOf(described);
@@ -527,8 +533,34 @@ class Page {
     this.history.end();
     ++this.leaps;
     this.state = state;
+    this.described = this.described && holding(this.described, state.held);
     this.spread();
     this.ask();
+  }
+
+  /** Other inputs of an arm, which is where it was: those of what is shown. */
+  private hold(held: Held[]): void {
+    if (!this.described) return;
+    const {shown, state} = this, described = holding(this.described, held), now = shown && heldIn(described, shown.answer);
+    const inputs = held.map((of, i) => (of === state.held?.[i] ? state.inputs[i]! : now?.[i] ?? described.inputs[i]!.home));
+    this.described = described;
+    this.change({held, inputs});
+  }
+
+  /** The force that takes an arm's tip to where it was seen becomes its load. */
+  private async sense(place: number[]): Promise<string> {
+    const {robot, described} = this, state = structuredClone(this.state), {system} = this.shell;
+    let why = 'not answered';
+    if (robot && described) await this.guarded(async () => {
+      const [found] = await robot.ask([sensing(described, state, place)]) as [Json], {wrench, misfit, covariance} = found;
+      if (robot !== this.robot) return;
+      why = found.error?.message ?? (found.status === 'converged' && misfit < farthest ? '' : `no force at the tip explains it: ${found.message ?? (misfit === undefined ? found.status : `what stays is ${misfit.toPrecision(3)} standard deviations`)}`);
+      if (why) return;
+      const deviation = Math.sqrt(covariance[0][0] + covariance[1][1] + covariance[2][2]);
+      this.change({asked: 'inputs', load: [...wrench, ...state.load.slice(wrench.length)]});
+      toast(`${Math.hypot(...wrench.slice(0, 3)).toPrecision(3)} N at the tip, ± ${deviation.toPrecision(2)} N where it is seen to ${withUnit(5e-4, 'm', system)}`);
+    });
+    return why;
   }
 
   private jump({inputs, pose}: Solution): void {
@@ -539,7 +571,7 @@ class Page {
   /** Where the hand drags the platform is the pose that is asked. */
   private drag(position: number[], isEnd: boolean): void {
     const {described, state} = this;
-    if (!described) return;
+    if (!described || !canPlace(described)) return;
     const pose = [...state.pose], held = described.isHeldByFew ? [position[2]!] : position.slice(0, described.isPlanar ? 2 : 3);
     held.forEach((value, i) => { pose[i] = value; });
     if (pose.some((value, i) => value !== state.pose[i])) {
@@ -681,7 +713,8 @@ class Page {
 
   private tell(answer: Json, question: number, begin: number, ways: Way[] = []): void {
     const parts: string[] = [];
-    if (answer.residual !== undefined) parts.push(`residual ${answer.residual.toExponential(1)}`);
+    if (answer.residual !== undefined) parts.push(`residual ${answer.residual.toExponential(1)}${this.residualUnit(answer)}`);
+    if (answer.resolution !== undefined) parts.push(`resolution ${shownValue(answer.resolution, 'm', this.shell.system).toExponential(1)} ${unitName('m', this.shell.system)}`);
     if (answer.iterations !== undefined) parts.push(`${answer.iterations} ${answer.iterations === 1 ? 'iteration' : 'iterations'}`);
     this.answered = question;
     this.tries = 0;
@@ -693,6 +726,12 @@ class Page {
     this.heard();
     document.documentElement.dataset.answers = String(++this.count);  // what tests wait for
     this.shell.say(`${answer.status ?? 'refused'} · ${(performance.now() - begin).toFixed(0)} ms · ${this.count} answers`);
+  }
+
+  /** Arms are solved for moments, then for where the tip is. */
+  private residualUnit(answer: Json): string {
+    if (!this.described?.isArm) return '';
+    return answer.query === 'inverse' ? ' of the length, or rad' : ' EI/L';
   }
 
   private heard(): void {
@@ -710,9 +749,9 @@ class Page {
 
   /** Where a search has to begin so that it ends here: as long as nobody knows whether it has to, it does. */
   private startOf(state: State, known: number[] | null | undefined): number[] | null {
-    if (known !== undefined || this.described!.isSerial) return known ?? null;
+    if (known !== undefined || this.described!.isSerial || this.described!.isArm) return known ?? null;
     if (state.asked === 'inputs') return state.start && numbersOf(state.start);
-    return bearsLoad(state.model) ? null : state.inputs;
+    return bearsLoad(this.described!, state.model) ? null : state.inputs;
   }
 
   /** The start of what is asked: known where it is what is shown. */

@@ -23,7 +23,7 @@ async function reach(robot: Robot, described: Described, state: State, answer: J
 export async function margins(robot: Robot, described: Described, state: State, answer: Json, input: number): Promise<Json> {
   const found: Json = {};
   if (described.isSerial || !answer.pose) return found;
-  if (bearsLoad(state.model)) {
+  if (bearsLoad(described, state.model)) {
     const far = state.load.some((part) => part !== 0) && answer.status === 'converged' ? await reach(robot, described, state, answer) : null;
     return far ? {reach: far} : found;
   }
@@ -38,6 +38,7 @@ const isSame = (a: number[], b: number[]) => a.every((value, i) => Math.abs(valu
  * @param answer of `forward`
  */
 export async function startOf(robot: Robot, described: Described, state: State, answer: Json): Promise<number[] | null> {
+  if (described.isArm) return null;  // its search begins at rest
   if (state.asked === 'inputs') {
     if (described.isSerial || !answer.pose) return null;
     const [plainly] = await robot.ask([forward(described, state)]) as [Json], here = numbersOf(answer.pose);

@@ -8,6 +8,11 @@ const meanings: Record<string, string> = {
   pcc: 'piecewise constant curvature, exact', lsk: 'linearised, as controllers compute it',
 };
 
+const ofArms: Record<string, string> = {
+  rod: 'one elastic rod a section, without its discs', subsegment_rod: 'elastic rods from disc to disc', subsegment_cc: 'an arc from disc to disc', cc: 'an arc a section',
+  prb: 'joints with springs from disc to disc',
+};
+
 type Count = 'joints' | 'samples' | 'iterations';
 const counts: {key: Count; name: string; least: number; most: number; hint: string}[] = [
   {key: 'joints', name: 'Joints of a chain', least: 1, most: 32, hint: 'as in the file'},
@@ -22,15 +27,15 @@ export class ModelTab {
 
   show(described: Described, state: State): void {
     this.state = state;
-    const models = make('fieldset', {}, make('legend', {textContent: 'Model of the links'}), ...described.models.map((model) => this.model(model)));
-    const rows = counts.filter(({key}) => key !== 'joints' || state.model === 'prb').map((count) => this.count(count));
-    this.panel.replaceChildren(models, make('h2', {textContent: 'Numbers'}), ...rows, this.facts(described));
+    const models = make('fieldset', {}, make('legend', {textContent: described.isArm ? 'Model of the backbone' : 'Model of the links'}), ...described.models.map((model) => this.model(model, described.isArm ? ofArms : meanings)));
+    const rows = counts.filter(({key}) => key !== 'joints' || state.model === 'prb').map((count) => this.count(described.isArm && count.key === 'joints' ? {...count, name: 'Joints between two discs', most: 10} : count));
+    this.panel.replaceChildren(models, make('h2', {textContent: 'Numbers'}), ...rows, ...(described.isArm ? [make('p', {className: 'note', textContent: 'Operate and Trajectory show serial robots that are given as bends; an arm that is pulled and loaded is shown here.'})] : []), this.facts(described));
   }
 
-  private model(model: string): HTMLElement {
+  private model(model: string, says: Record<string, string>): HTMLElement {
     const choice = make('input', {type: 'radio', name: 'model', value: model, checked: model === this.state!.model});
     choice.addEventListener('change', () => this.changed({model}));
-    return make('label', {className: 'choice'}, choice, make('span', {}, make('strong', {textContent: model}), ` ${meanings[model] ?? ''}`));
+    return make('label', {className: 'choice'}, choice, make('span', {}, make('strong', {textContent: model}), ` ${says[model] ?? ''}`));
   }
 
   private count({key, name, least, most, hint}: (typeof counts)[number]): HTMLElement {

@@ -9,6 +9,9 @@ export const shownAtFirst: Layer[] = ['rods', 'tendons', 'discs', 'frames', 'gho
 /** A part that the pointer can be on: `backbone` of a leg or section, `platform`, ... */
 export interface Part { kind: 'backbone' | 'platform' | 'tendon' | 'line' | 'disc' | 'frame'; index: number; tendon?: number }
 
+/** What each tendon pulls [N] and how much too long it is [m], a list a section; and to where the scale of tensions goes [N]. */
+export interface Pulls { tensions: number[][]; slack: number[][]; most: number }
+
 export interface Drawing {
   shape: Json;             ///< an answer to `shape`
   isPlanar: boolean;
@@ -23,6 +26,10 @@ export interface Drawing {
   around?: Around;           ///< of a robot that goes in
   tube?: Tube;               ///< through which its base goes
   wrench: number[] | null;   ///< on the platform [N, N m]; planar [fx, fy, m]
+  loads?: {at: number[]; force: number[]}[];  ///< forces elsewhere [m, N]
+  pulls?: Pulls;             ///< of an arm
+  names?: {text: string; at: number[]}[];     ///< of parts that have no line of their own
+  canGrab?: boolean;         ///< false: the hand cannot take the platform anywhere
 }
 
 /** A straight tube from one end to the other, and how far a shaft comes out of it [m]. */

@@ -44,7 +44,7 @@ export class Pointer {
 
   private isOnPlatform({x, y}: {x: number; y: number}): boolean {
     const drawing = this.hand.drawing();
-    return !!drawing && isOnPlatform(x, y, drawing.shape, (point) => this.camera.project(point));
+    return !!drawing && drawing.canGrab !== false && isOnPlatform(x, y, drawing.shape, (point) => this.camera.project(point));
   }
 
   private press(event: PointerEvent): void {

@@ -1,17 +1,24 @@
 // Queries of a state, and what their answers say of it. The one place that knows how each kind of robot is asked.
+import {heldBy, heldIn, loads, tipField, tipOf} from './arm';
 import type {Json} from './client';
 import {bearsLoad, type Described, indexOf} from './described';
 import type {Side, State} from './state';
 
-const isLoaded = (state: State) => state.load.some((part) => part !== 0);
+/** The wrench on the platform, or on an arm's tip; null where there is none, or the links bear none. */
+export function wrenchOf(described: Described, state: State): number[] | null {
+  const wrench = described.isArm ? state.load.slice(0, 6) : state.load;
+  return bearsLoad(described, state.model) && wrench.some((part) => part !== 0) ? wrench : null;
+}
 
 /** What all queries of a state have in common. */
 function common(described: Described, state: State): Json {
   const {answer} = described, query: Json = {};
   if (state.model !== answer.model) query.model = state.model;
-  if (state.model === 'prb' && state.joints > 0)
+  if (described.isArm) Object.assign(query, loads(described, state), state.model === 'prb' && state.joints > 0 && {elements: state.joints});
+  else if (state.model === 'prb' && state.joints > 0)
     query.set = Object.fromEntries(answer.legs.map((_: Json, i: number) => [`legs[${i}].link.joints`, state.joints]));
-  if (bearsLoad(state.model) && isLoaded(state)) query.wrench = state.load;
+  const wrench = wrenchOf(described, state);
+  if (wrench) query.wrench = wrench;
   if (described.hasGravity && !state.gravity) query.gravity = [0, 0, 0];
   if (state.iterations > 0) query.max_iterations = state.iterations;
   return query;
@@ -26,15 +33,19 @@ export function bySection(described: Described, values: number[]): number[][] {
 
 /** Inputs, and where a search for the pose begins: a pose, `last`, or at home. */
 export function given(described: Described, state: State, start?: Json | string): Json {
+  if (described.isArm) return {...heldBy(described, state.inputs), ...common(described, state)};
   if (described.isSerial) return {configuration: bySection(described, state.inputs), ...common(described, state)};
   return {inputs: state.inputs, ...(start && {start}), ...common(described, state)};
 }
 
 const withTilt = (described: Described) => (described.isPlanar ? {} : {tilt: true});
 
-/** The pose of the inputs; of rods also whether it holds and by how much. */
+/** Whether answers say if what is solved holds by itself, and by how much. */
+const hasStability = ({isArm}: Described, state: State) => isArm || state.model === 'rod';
+
+/** The pose of the inputs; of rods and arms also whether it holds and by how much. */
 export function forward(described: Described, state: State, start?: Json | string): Json {
-  const wants = state.model === 'rod' ? {want: ['stability', 'margins']} : {};
+  const wants = hasStability(described, state) ? {want: ['stability', 'margins']} : {};
   return {query: 'forward', ...given(described, state, start), ...withTilt(described), ...wants};
 }
 
@@ -46,13 +57,16 @@ function samplesOf({answer}: Described, state: State): number {
   return Math.max(5, Math.ceil(fewestOfSection / Math.min(...answer.sections.map((one: Json) => one.segments))));
 }
 
+/** Chains are drawn joint by joint. */
+const hasSamples = ({isArm}: Described, {model}: State) => isArm || model !== 'prb';
+
 export function shape(described: Described, state: State, start?: Json | string): Json {
   const {max_iterations: _, ...at} = given(described, state, start), samples = samplesOf(described, state);
-  return {query: 'shape', ...at, ...(samples > 0 && state.model !== 'prb' && {samples})};
+  return {query: 'shape', ...at, ...(samples > 0 && hasSamples(described, state) && {samples})};
 }
 
 /** Velocity equations tell how near a singularity is. Of rods `margins` do; chains at a load have none. */
-export const hasVelocity = (state: State) => !bearsLoad(state.model);
+export const hasVelocity = (described: Described, state: State) => !bearsLoad(described, state.model);
 
 export function velocity(described: Described, state: State, start?: Json | string): Json {
   return {query: 'velocity', ...given(described, state, start), ...withTilt(described)};
@@ -62,8 +76,8 @@ export function velocity(described: Described, state: State, start?: Json | stri
 function inFull(described: Described, state: State): Json {
   const samples = samplesOf(described, state);
   return {
-    ...withTilt(described), ...(samples > 0 && state.model !== 'prb' && {samples}),
-    want: ['shape', ...(hasVelocity(state) ? ['velocity'] : []), ...(state.model === 'rod' ? ['stability', 'margins'] : [])],
+    ...withTilt(described), ...(samples > 0 && hasSamples(described, state) && {samples}),
+    want: ['shape', ...(hasVelocity(described, state) ? ['velocity'] : []), ...(hasStability(described, state) ? ['stability', 'margins'] : []), ...(described.isArm ? ['stiffness'] : [])],
   };
 }
 
@@ -74,6 +88,7 @@ export function everything(described: Described, state: State, start?: Json | st
 
 function poseField(described: Described, values: number[]): Json {
   const byName = Object.fromEntries(described.pose.map((row, i) => [row.path, values[i]!]));
+  if (described.isArm) return tipField(described, values);
   if (described.isSerial) return {position: values};
   if (described.isPlanar) return {pose: byName};
   if (described.isHeldByFew) return {independent: byName};
@@ -84,15 +99,23 @@ function poseField(described: Described, values: number[]): Json {
 /** The inputs of the pose. Of several solutions that of `bending`, else the one nearest to the inputs so far. */
 export function inverse(described: Described, state: State): Json {
   const query: Json = {query: 'inverse', ...poseField(described, state.pose), ...common(described, state)};
+  if (described.isArm) return query;
   if (described.isSerial) return {...query, start: bySection(described, state.inputs)};
-  if (bearsLoad(state.model)) return state.bending && described.canBend ? {...query, bending: state.bending} : query;
+  if (bearsLoad(described, state.model)) return state.bending && described.canBend ? {...query, bending: state.bending} : query;
   return state.bending && described.canBend ? {...query, bending: state.bending} : {...query, start: state.inputs};
+}
+
+/** The force at an arm's tip by where that was seen [m]; what is at the tip so far is not known. */
+export function sensing(described: Described, state: State, position: number[]): Json {
+  const {wrench: _, ...query} = given(described, state);
+  return {query: 'statics', ...query, position};
 }
 
 /** Where an answer has the platform, or the tip, in the words of the pose's rows; null where it says nothing of it. */
 export function poseOf(described: Described, answer: Json): number[] | null {
   const pose = answer.pose ?? answer.tip;
   if (!pose) return null;
+  if (described.isArm) return tipOf(described, pose);
   if (described.isPlanar) return [pose.x, pose.y, pose.phi];
   if (described.isHeldByFew) return [pose.position[2], pose.quaternion[1], pose.quaternion[2]];
   return described.isSerial ? pose.position : [...pose.position, pose.tilt ?? 0, pose.azimuth ?? 0, pose.torsion ?? 0];
@@ -100,6 +123,7 @@ export function poseOf(described: Described, answer: Json): number[] | null {
 
 /** The inputs in an answer to `inverse`; null where it has none. */
 export function inputsOf(described: Described, answer: Json): number[] | null {
+  if (described.isArm) return heldIn(described, answer);
   const values = described.isSerial ? answer.configuration?.flat() : answer.inputs;
   return values?.length === described.inputs.length ? values : null;
 }

@@ -7,6 +7,12 @@ const ways: Record<string, number> = {ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, 
 
 interface Line { box: HTMLInputElement; range: HTMLInputElement; unit: HTMLElement; why: HTMLElement }
 
+interface Told {
+  changed(index: number, value: number): void;
+  released(): void;
+  switched(index: number): void;  ///< the other quantity of a row that has two
+}
+
 export class Sliders {
   private values: number[] = [];
   private rows: Row[] = [];
@@ -17,16 +23,10 @@ export class Sliders {
   private readonly id: string;
 
   /** @param home the button that puts all rows back */
-  constructor(panel: HTMLElement, home: HTMLButtonElement, private readonly changed: (index: number, value: number) => void,
-              private readonly released: () => void) {
+  constructor(panel: HTMLElement, home: HTMLButtonElement, private readonly told: Told) {
     const head = make('div', {className: 'head'}, this.title, home);
     panel.append(head, this.list);
     this.id = panel.id;
-  }
-
-
-  get count(): number {
-    return this.rows.length;
   }
 
   show(title: string, rows: Row[], values: number[]): void {
@@ -59,12 +59,15 @@ export class Sliders {
 
   private row(row: Row, i: number): HTMLElement {
     const id = `${this.id}-${i}`, marks = make('datalist', {id: `${id}-marks`});
-    const box = make('input', {id, inputMode: 'decimal', autocomplete: 'off'}), unit = make('span', {className: 'unit', textContent: unitName(row.unit, this.system)});
+    const box = make('input', {id, inputMode: 'decimal', autocomplete: 'off'}), unit = row.other ? button('', () => this.told.switched(i), row.other) : make('span');
     const range = make('input', {type: 'range', min: String(row.low), max: String(row.high), step: 'any'}), why = make('span', {className: 'why'});
     const label = make('label', {htmlFor: id, title: row.path}, row.name);
     for (const mark of new Set([row.low, row.home, row.high])) marks.append(make('option', {value: String(mark)}));
     range.setAttribute('aria-label', row.name);
     range.setAttribute('list', marks.id);
+    unit.className = 'unit';
+    unit.textContent = unitName(row.unit, this.system);
+    if (row.other) unit.ariaLabel = `${row.name}: ${row.other}`;
     why.setAttribute('role', 'alert');
     range.addEventListener('input', () => this.set(i, range.valueAsNumber));
     range.addEventListener('change', () => this.release(i));
@@ -111,7 +114,7 @@ export class Sliders {
   /** A hand has let go: the range is that of the robot again, but for a value beyond it. */
   private release(i: number): void {
     this.span(i, true);
-    this.released();
+    this.told.released();
   }
 
   private span(i: number, isNew: boolean): void {
@@ -131,7 +134,7 @@ export class Sliders {
   private set(i: number, value: number): void {
     this.values[i] = value;
     this.write(i);
-    this.changed(i, value);
+    this.told.changed(i, value);
   }
 
   private write(i: number): void {

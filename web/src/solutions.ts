@@ -52,7 +52,7 @@ export class Solutions {
   async offer(robot: Robot, described: Described, state: State, pose: Json | null): Promise<void> {
     this.clear();
     const isInverse = state.asked === 'pose';
-    if (described.isSerial || (state.model !== described.answer.model) || (isInverse && state.model === 'rod')) return void (this.title.textContent = '');
+    if (described.isSerial || described.isArm || (state.model !== described.answer.model) || (isInverse && state.model === 'rod')) return void (this.title.textContent = '');
     const shown = isInverse ? state.inputs : pose ? numbersOf(pose) : [];
     const key = `${described.answer.robot} ${isInverse}`;
     this.asked = async () => {

@@ -1,7 +1,8 @@
 // The picture with what belongs to it: views, layers, ghost, names of what the pointer is on.
 import {coordinates, withUnit} from './answer';
 import type {Json} from './client';
-import {bearsLoad, type Described} from './described';
+import type {Described} from './described';
+import {drawingOf} from './drawn';
 import type {Ghost} from './ghost';
 import {button, byId, make} from './make';
 import {type Drawing, type Layer, layerNames, type Part, shownAtFirst, type View} from './picture';
@@ -101,25 +102,24 @@ export class Stage {
   }
 
   private drawing({described, state, answer, shape, isStale}: Shown): Drawing {
-    const legs: Json[] = described.answer.legs ?? [], two = answer.velocity?.type_2;
-    return {
-      shape, isPlanar: described.isPlanar, radius: (legs.find((leg) => leg.link.diameter)?.link.diameter ?? 0.001) / 2,
-      struts: legs.map((leg) => /strut/.test(leg.closure.type)), isStale, ghost: this.ghost?.shape ?? null, states: [],
-      isUnstable: answer.status === 'unstable', directions: answer.unstable ?? [], meeting: two?.singular ? two.point ?? null : null,
-      wrench: bearsLoad(state.model) && state.load.some((part) => part !== 0) ? state.load : null,
-    };
+    return {...drawingOf(described, state, answer, shape), isStale, ghost: this.ghost?.shape ?? null};
   }
 
   private labelOf({kind, index, tendon}: Part): string {
     if (!this.shown) return '';
-    const {answer, described} = this.shown, leg: Json = answer.legs?.[index] ?? {}, name = `${described.isSerial ? 'section' : 'leg'} ${index + 1}`;
-    const text = (value: number, unit: 'm' | 'rad' | '1/m') => withUnit(value, unit, this.system);
+    const {answer, described} = this.shown, leg: Json = answer.legs?.[index] ?? {}, name = `${described.isSerial || described.isArm ? 'section' : 'leg'} ${index + 1}`;
+    const text = (value: number, unit: 'm' | 'rad' | '1/m' | 'N') => withUnit(value, unit, this.system);
     if (kind === 'platform') return coordinates(answer.pose ?? answer.tip).map(([of, value, unit]) => `${of} ${withUnit(value, unit, this.system)}`).join(', ');
+    if (kind === 'tendon' && described.isArm) {
+      const [pulls, changes, slack]: (number | undefined)[] = [answer.tensions, answer.changes, answer.slack].map((of) => of?.[index]?.[tendon ?? 0]);
+      return [`${name}, tendon ${(tendon ?? 0) + 1}`, ...(pulls === undefined ? [] : [text(pulls, 'N')]), ...(changes === undefined ? [] : [`Δ ${text(changes, 'm')}`]), ...(slack ? [`slack by ${text(slack, 'm')}`] : [])].join(', ');
+    }
     if (kind === 'tendon') {
       const length = described.isSerial ? answer.changes?.[index]?.[tendon ?? 0] : leg.tendon_lengths?.[tendon ?? 0];
       return `${name}, tendon ${(tendon ?? 0) + 1}${length === undefined ? '' : ` ${text(length, 'm')}`}`;
     }
     if (kind !== 'backbone') return name;
+    if (described.isArm) return `backbone, ${text(described.answer.length, 'm')}`;
     const parts = [name];
     if (leg.length !== undefined) parts.push(text(leg.length, 'm'));
     if (leg.curvature !== undefined) parts.push(`κ ${text(leg.curvature, '1/m')}`);

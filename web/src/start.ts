@@ -1,6 +1,7 @@
 // No robot yet: those that ship, as pictures with names. One click opens.
 import {Robot, robotText, type Shipped} from './client';
 import {describe, type Described} from './described';
+import {drawingOf} from './drawn';
 import {make} from './make';
 import {shape} from './questions';
 import {sketch} from './sketch';
@@ -9,6 +10,7 @@ import {type State, stateOf} from './state';
 /** At home; a straight arm shows nothing of itself, so it is bent half-way. */
 function posed(described: Described): State {
   const state = stateOf(described);
+  if (described.isArm) return {...state, inputs: described.inputs.map(({home, high}, i) => (i % 4 === 0 ? (home + high) / 2 : home))};
   if (!described.isSerial) return state;
   return {...state, inputs: described.inputs.map((row, i) => (row.limits.high && i % 2 === 0 ? (row.home + row.high) / 2 : row.home))};
 }
@@ -41,7 +43,7 @@ export class Start {
 
   private card({name, title, kind, space}: Shipped): HTMLElement {
     const card = make('button', {type: 'button', className: 'robot'}, make('span', {className: 'picture'}),
-                      make('strong', {textContent: title}), make('span', {className: 'kind', textContent: `${kind}, ${space === 'planar' ? 'in the plane' : 'in space'}`}));
+                      make('strong', {textContent: title}), make('span', {className: 'kind', textContent: `${kind === 'arm' ? 'elastic arm' : kind}, ${space === 'planar' ? 'in the plane' : 'in space'}`}));
     card.addEventListener('click', () => this.open(name));
     return card;
   }
@@ -54,8 +56,8 @@ export class Start {
         this.isFilled = false;  // a page that comes back goes on
         return;
       }
-      const robot = await Robot.open(await robotText(name)), described = await describe(robot), [picture] = await robot.ask([shape(described, posed(described))]);
-      if (picture?.backbones) cards[i]!.firstElementChild!.append(sketch(picture, described.isPlanar, {width: 168, height: 112}));
+      const robot = await Robot.open(await robotText(name)), described = await describe(robot), state = posed(described), [picture] = await robot.ask([shape(described, state)]);
+      if (picture?.backbones) cards[i]!.firstElementChild!.append(sketch(drawingOf(described, state, picture, picture).shape, described.isPlanar, {width: 168, height: 112}));
     }
   }
 }

@@ -1,6 +1,7 @@
 // What the page asks: all that a link holds and that undo brings back.
+import type {Held} from './arm';
 import type {Json} from './client';
-import type {Described, Row} from './described';
+import {type Described, holding, type Row} from './described';
 
 export type Side = 'inputs' | 'pose';  ///< which of them is given; the other one is the answer
 
@@ -9,6 +10,7 @@ export interface State {
   inputs: number[];
   pose: number[];
   load: number[];
+  held: Held[] | null;  ///< of an arm what each of its inputs is
   bending: number[] | null;  ///< of each leg at the pose: 1 or -1; null: as near to the last as can be
   gravity: boolean;
   model: string;
@@ -18,11 +20,11 @@ export interface State {
   start: Json | null;  ///< the pose near which that of the inputs is looked for, the last solved or a chosen one; null: home
 }
 
-const homes = (rows: Row[]) => rows.map((row) => row.home);
+export const homes = (rows: Row[]) => rows.map((row) => row.home);
 
 export function stateOf(described: Described): State {
   return {
-    asked: 'inputs', inputs: homes(described.inputs), pose: homes(described.pose), load: homes(described.load), bending: null,
+    asked: 'inputs', inputs: homes(described.inputs), pose: homes(described.pose), load: homes(described.load), held: described.holding?.held ?? null, bending: null,
     gravity: true, model: described.answer.model, joints: 0, samples: 0, iterations: 0, start: null,
   };
 }
@@ -38,6 +40,18 @@ function poseOf(values: number[] | undefined, isPlanar: boolean): Json | null {
   return isPlanar ? {x, y, phi} : {position: values.slice(0, 3), quaternion: values.slice(3)};
 }
 
+/** `tc`: what holds the first tendon of an arm is a tension, of the second a change of its length. */
+const letters = (held: Held[]) => held.map((one) => one[0]).join('');
+
+/** The robot with the inputs that a link means. */
+export function heldByLink(link: URLSearchParams, described: Described): Described {
+  const word = link.get('held') ?? '';
+  return /^[tc]+$/.test(word) ? holding(described, [...word].map((letter): Held => (letter === 't' ? 'tension' : 'change'))) : described;
+}
+
+/** Whether something of the load is not as it is at home. */
+export const isLoaded = (described: Described, {load}: State) => load.some((part, i) => part !== (described.load[i]?.home ?? 0));
+
 /** The state of a link, of which what does not fit the robot is left out. */
 export function fromLink(link: URLSearchParams, described: Described): State {
   const state = stateOf(described);
@@ -52,7 +66,7 @@ export function fromLink(link: URLSearchParams, described: Described): State {
   if (described.models.includes(link.get('model') ?? '')) state.model = link.get('model')!;
   const bending = numbers(link.get('bending'));
   if (bending?.length === described.answer.legs?.length && bending?.every((sign) => Math.abs(sign) === 1)) state.bending = bending;
-  state.start = described.isSerial ? null : poseOf(numbers(link.get('start')), described.isPlanar);
+  state.start = described.isSerial || described.isArm ? null : poseOf(numbers(link.get('start')), described.isPlanar);
   state.gravity = link.get('gravity') !== 'off';
   for (const key of ['joints', 'samples', 'iterations'] as const) state[key] = Math.max(0, Math.floor(Number(link.get(key)) || 0));
   return state;
@@ -70,7 +84,8 @@ export function toLink(robot: string, state: State, described: Described, start:
     link.set('asked', 'pose');
     link.set('pose', state.pose.join(','));
   }
-  if (state.load.some((part) => part !== 0)) link.set('load', state.load.join(','));
+  if (state.held?.includes('change')) link.set('held', letters(state.held));
+  if (isLoaded(described, state)) link.set('load', state.load.join(','));
   if (state.bending) link.set('bending', state.bending.join(','));
   if (!state.gravity) link.set('gravity', 'off');
   if (state.model !== described.answer.model) link.set('model', state.model);

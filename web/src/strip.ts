@@ -20,13 +20,22 @@ interface Band { from: number; to: number; word: string; isOver: boolean }
 
 const steps = 40;  // to each side
 const often = 400;  // ms between drawings of what is there so far
-const chunk = 8;   // samples of a request: between two of them a newer question may come in
+const usual = 8;   // samples of a request: between two of them a newer question may come in
 
 /** A quantity of an answer: its name and how to find it. */
 interface Quantity { name: string; unit: Unit; of: (answer: Json) => number | undefined }
 
 /** Whether the inputs are what is answered. */
 const isInverse = (state: State, side: Side | 'load') => side === 'pose' || (side === 'load' && state.asked === 'pose');
+
+/** Of each tendon of an arm what it answers: its tension, or the change of its length. */
+function answersOf({holding}: Described): Quantity[] {
+  const {held, rows} = holding!;
+  return held.map((of, i) => {
+    const {name, unit} = rows[of === 'tension' ? 'change' : 'tension'][i]!;
+    return {name, unit, of: (answer) => (of === 'tension' ? answer.changes : answer.tensions)?.flat()[i]};
+  });
+}
 
 function quantitiesOf(described: Described, state: State, touched: Touched): Quantity[] {
   const list: Quantity[] = [];
@@ -39,12 +48,15 @@ function quantitiesOf(described: Described, state: State, touched: Touched): Qua
       list.push({name, unit: name.length === 1 && name !== 'φ' ? 'm' : 'rad', of: (answer) => find(answer)?.[1]});
     }
   }
-  if (!isInverse(state, touched.side) && hasVelocity(state)) list.push({name: 'conditioning', unit: '', of: (answer) => answer.indices?.condition_homogenised ?? answer.indices?.condition});
-  if (state.model === 'rod') {
+  if (!isInverse(state, touched.side) && hasVelocity(described, state)) list.push({name: 'conditioning', unit: '', of: (answer) => answer.indices?.condition_homogenised ?? answer.indices?.condition});
+  if (described.isArm) {
+    list.push({name: 'buckling margin', unit: '', of: (answer) => answer.buckling_margin}, {name: 'least tension', unit: 'N', of: (answer) => answer.least_tension});
+    if (!isInverse(state, touched.side)) list.push(...answersOf(described));
+  } else if (state.model === 'rod') {
     list.push({name: 'fold margin', unit: '', of: (answer) => answer.margins?.fold}, {name: 'strain', unit: '', of: (answer) => answer.margins?.strain},
               {name: 'energy', unit: 'J', of: (answer) => answer.energy});
   }
-  if (state.model === 'prb') described.answer.legs.forEach((_: Json, i: number) =>
+  if (!described.isArm && state.model === 'prb') described.answer.legs.forEach((_: Json, i: number) =>
     list.push({name: `T${subscript(i + 1)}`, unit: 'N', of: (answer) => answer.legs?.[i]?.tensions && Math.max(...answer.legs[i].tensions)}));
   return list;
 }
@@ -52,7 +64,10 @@ function quantitiesOf(described: Described, state: State, touched: Touched): Qua
 /** Numbers that change little where a solution is followed: all of the pose, or all of the inputs, with lengths over that of the robot. Products of a quaternion's parts are those of its negative, too. */
 function solutionOf(described: Described, state: State, side: Side | 'load', answer: Json): number[] {
   const {legs, length} = described.answer, size: number = length || legs?.[0]?.link.length || Math.hypot(...(described.answer.home?.position ?? [])) || 0.1;
-  if (isInverse(state, side)) return (inputsOf(described, answer) ?? []).map((value, i) => (described.inputs[i]!.unit === 'm' ? value / size : value));
+  if (isInverse(state, side)) return (inputsOf(described, answer) ?? []).map((value, i) => {
+    const {unit, low, high} = described.inputs[i]!;
+    return unit === 'm' ? value / size : unit === 'N' ? value / (high - low) : value;
+  });
   const pose = answer.pose ?? answer.tip;
   if (!pose) return [];
   return pose.position ? [...pose.position.map((part: number) => part / size), ...((pose.quaternion ?? []) as number[]).flatMap((a, i, all) => all.slice(i).map((b) => a * b))] : [pose.x / size, pose.y / size, Math.cos(pose.phi), Math.sin(pose.phi)];
@@ -76,8 +91,8 @@ function markJumps(samples: Sample[], numbers: (answer: Json) => number[]): void
 }
 
 function question(described: Described, state: State, side: Side | 'load', start: Json | string | undefined): Json {
-  if (isInverse(state, side)) return {...inverse(described, state), ...(!described.isPlanar && !described.isSerial && {tilt: true})};
-  return hasVelocity(state) ? velocity(described, state, start) : forward(described, state, start);
+  if (isInverse(state, side)) return {...inverse(described, state), ...(!described.isPlanar && !described.isSerial && {tilt: true}), ...(described.isArm && {want: ['stability', 'margins']})};
+  return hasVelocity(described, state) ? velocity(described, state, start) : forward(described, state, start);
 }
 
 export class Strip {
@@ -118,7 +133,8 @@ export class Strip {
   async ask(robot: Robot, described: Described, state: State, touched: Touched, pose: Json | null, now = state[touched.side][touched.index]!): Promise<void> {
     const run = ++this.run, row = described[touched.side][touched.index]!, here = state[touched.side][touched.index]!;
     const low = Math.min(row.low, here, now), high = Math.max(row.high, here, now), context = {described, state, touched, row, low, high, now};
-    const found: Sample[] = [];
+    // That an arm's tip cannot be somewhere takes seconds to find: nothing is asked beyond the first such place.
+    const chunk = described.isArm && isInverse(state, touched.side) ? 1 : usual, found: Sample[] = [];
     let begin = performance.now();
     const show = () => {
       this.context = context;
@@ -133,7 +149,7 @@ export class Strip {
       for (let first = 0; isGoing && first <= count; first += chunk) {
         const values = Array.from({length: Math.min(chunk, count + 1 - first)}, (_, k) => (first + k === count ? end : here + Math.sign(end - here) * width * (first + k)));
         const start = (k: number) => (first + k === 0 ? pose ?? undefined : k === 0 ? found.at(-1)?.answer.pose && plain(found.at(-1)!.answer.pose) : 'last');
-        const answers = await robot.ask(values.map((value, k) => question(described, changed(state, touched.side, touched.index, value), touched.side, described.isSerial ? undefined : start(k))));
+        const answers = await robot.ask(values.map((value, k) => question(described, changed(state, touched.side, touched.index, value), touched.side, described.isSerial || described.isArm ? undefined : start(k))));
         if (run !== this.run) return;
         values.forEach((at, k) => {
           if (!isGoing) return;
@@ -184,7 +200,7 @@ export class Strip {
 
   private shownQuantities(): {all: Quantity[]; shown: Quantity[]} {
     const {described, state, touched} = this.context!, all = quantitiesOf(described, state, touched);
-    const names = this.chosen.get(this.key()) ?? [all[0]!.name, (all.find(({name}) => name === 'conditioning' || name === 'fold margin') ?? all[1] ?? all[0]!).name];
+    const names = this.chosen.get(this.key()) ?? [all[0]!.name, (all.find(({name}) => ['conditioning', 'fold margin', 'buckling margin'].includes(name)) ?? all[1] ?? all[0]!).name];
     return {all, shown: all.filter(({name}) => names.includes(name)).slice(0, 2)};
   }
 

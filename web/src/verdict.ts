@@ -10,7 +10,7 @@ const verdicts: Record<string, Verdict> = {
   unstable: {word: 'SOLVED, UNSTABLE', shape: '▼', state: 'slack', advice: 'It does not stay here by itself. Lower the load, or look at other solutions.'},
   singular: {word: 'SINGULAR', shape: '▼', state: 'slack', advice: 'Step back, or change another input first.'},
   slack: {word: 'SLACK TENDON', shape: '▼', state: 'slack', advice: 'A tendon cannot push: bend this leg more, or lower the load.'},
-  unreachable: {word: 'UNREACHABLE', shape: '▧', state: 'unreachable', advice: 'The legs do not reach: go back towards the last pose that was solved.'},
+  unreachable: {word: 'UNREACHABLE', shape: '▧', state: 'unreachable', advice: 'It does not reach so far: go back towards the last pose that was solved.'},
   left_domain: {word: 'UNREACHABLE', shape: '▧', state: 'unreachable', advice: 'Go back within the limits.'},
   stalled: {word: 'STALLED', shape: '⊗', state: 'over', advice: 'Begin at Home and take smaller steps.'},
   iteration_limit: {word: 'LIMIT REACHED', shape: '⊗', state: 'over', advice: 'Raise the limit of iterations under Model.'},
@@ -35,6 +35,8 @@ export function verdictOf(answer: Json): Verdict {
   if (answer.error?.code === 'too_slow') return verdicts.stopped!;
   if (answer.error) return {word: 'REFUSED', shape: '⊗', state: 'over', advice: ''};
   const found = verdicts[answer.status] ?? {word: String(answer.status).toUpperCase(), shape: '⊗', state: 'over', advice: ''};
+  if (answer.status === 'stalled' && answer.tensions) return {...found, advice: 'Pull less, or pay out the tendons on the other side.'};
+  if (answer.status === 'converged' && answer.stable === false) return verdicts.unstable!;
   return answer.status === 'converged' && answer.stable === true ? {...found, word: 'SOLVED, STABLE'} : found;
 }
 

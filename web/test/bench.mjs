@@ -14,10 +14,12 @@ const entry = `
 import './app.css';
 import {Robot, robotText} from './client';
 import {describe} from './described';
+import {drawingOf} from './drawn';
 import {makePicture} from './picture_of';
 import {shape} from './questions';
 import {sketch} from './sketch';
 import {stateOf} from './state';
+import {bowed} from './tendon_lines';
 
 const box = document.getElementById('view'), picture = makePicture(box), told = {grabbed: [], notes: [], moved: 0}, known = {};
 picture.grabbed = (position, isEnd) => told.grabbed.push({position: [...position], isEnd});
@@ -26,18 +28,17 @@ picture.moved = () => { ++told.moved; };
 picture.labelOf = ({kind, index, tendon}) => [kind, index, tendon].filter((part) => part !== undefined).join(' ');
 
 /** What would be drawn of a robot at its home, or where change(inputs) leads to. */
-async function drawing(name, change = (inputs) => inputs) {
+async function drawing(name, change = (inputs) => inputs, alter = (shape) => shape) {
   known[name] ??= await robotText(name).then(Robot.open).then(async (robot) => ({robot, described: await describe(robot)}));
   const {robot, described} = known[name], home = stateOf(described), state = {...home, inputs: change(home.inputs, described.inputs)};
-  const [found] = await robot.ask([shape(described, state)]), legs = described.answer.legs ?? [];
+  const [found] = await robot.ask([shape(described, state)]);
   if (!found.backbones) throw new Error(name + ': ' + JSON.stringify(found));
-  return {shape: found, isPlanar: described.isPlanar, radius: (legs.find((leg) => leg.link.diameter)?.link.diameter ?? 0.001) / 2,
-          struts: legs.map((leg) => /strut/.test(leg.closure.type)), isStale: false, ghost: null, states: [], isUnstable: false,
-          directions: [], meeting: null, wrench: null};
+  const altered = alter(found);
+  return drawingOf(described, state, altered, altered);
 }
 const paint = () => picture.paint(getComputedStyle(document.documentElement));
 const still = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-Object.assign(window, {bench: {box, picture, told, drawing, paint, still, sketch}});
+Object.assign(window, {bench: {box, picture, told, drawing, paint, still, sketch, bowed}});
 `;
 
 /** @param to address of a sinew serve, which answers what the page asks */

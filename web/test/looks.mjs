@@ -19,7 +19,7 @@ export async function contrasts(browser, url) {
     await page.emulateMedia({colorScheme: theme});
     const colour = await page.evaluate(() => {
       const style = getComputedStyle(document.documentElement);
-      return Object.fromEntries(['bg', 'panel', 'card', 'scene', 'text', 'mute', 'ctl', 'accent', 'on-accent', 'exact', 'slack', 'over', 'unreachable', 'stale', 'tendon-1', 'tendon-2', 'tendon-3', 'tendon-4']
+      return Object.fromEntries(['bg', 'panel', 'card', 'scene', 'text', 'mute', 'ctl', 'accent', 'on-accent', 'exact', 'slack', 'over', 'unreachable', 'stale', 'tendon-1', 'tendon-2', 'tendon-3', 'tendon-4', 'pull-0', 'pull-1', 'pull-2', 'pull-3']
         .map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
     });
     const check = (names, grounds, least) => {
@@ -34,6 +34,7 @@ export async function contrasts(browser, url) {
     check(['ctl'], ['panel', 'card'], 3);
     check(['exact', 'slack', 'over', 'unreachable', 'stale'], ['card', 'panel', 'scene'], 3);
     check(['tendon-1', 'tendon-2', 'tendon-3', 'tendon-4'], ['scene', 'panel'], 3);
+    check(['pull-0', 'pull-1', 'pull-2', 'pull-3'], ['scene'], 3);
   }
   await done();
 }

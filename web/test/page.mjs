@@ -1,5 +1,6 @@
 // node page.mjs SINEW CHROMIUM FOLDER [MODULE|CASE ...]: the page of sinew serve in a real browser; screenshots go to FOLDER.
 import assert from 'node:assert/strict';
+import * as arms from './arms.mjs';
 import * as demo from './demo.mjs';
 import * as design from './design.mjs';
 import * as drive from './drive.mjs';
@@ -14,12 +15,12 @@ import * as plans from './plans.mjs';
 import * as robots from './robots.mjs';
 import * as speed from './speed.mjs';
 
-const modules = {robots, design, drive, errors, honest, jog, looks, operate, log, plans, speed, demo}, wanted = process.argv.slice(5);
+const modules = {robots, design, arms, drive, errors, honest, jog, looks, operate, log, plans, speed, demo}, wanted = process.argv.slice(5);
 const cases = Object.entries(modules).flatMap(([module, all]) => Object.entries(all).map(([name, run]) => ({module, name, run})));
 for (const one of wanted) assert.ok(cases.some(({module, name}) => one === module || one === name), `${one} is no module and no case`);
 
 // What is about the picture itself is seen by WebGL; what is about the rest of the page passes by the simpler picture just as well.
-const isAboutPictures = ({module, name}) => isThorough || ['robots', 'looks', 'speed'].includes(module) && name !== 'accessibility' || name === 'links' || ['plan_pictures', 'operate_pictures', 'drive_pictures', 'jog_pictures'].includes(name);
+const isAboutPictures = ({module, name}) => isThorough || ['robots', 'looks', 'speed'].includes(module) && name !== 'accessibility' || name === 'links' || name === 'arm_answers' || ['plan_pictures', 'operate_pictures', 'drive_pictures', 'jog_pictures'].includes(name);
 const {server, url} = await serve(), browsers = new Map();
 async function browserFor(one) {
   const hasWebGL = isAboutPictures(one);

@@ -8,8 +8,8 @@ import {blank, differs, folder, isThorough, launch, same, serve} from './harness
 
 const layers = ['rods', 'tendons', 'discs', 'frames', 'lines', 'labels', 'ghost', 'grid'], views = ['side', 'top', 'front', 'tip'];
 
-/** What a robot is drawn at: arms bent, so that they show more than a line. */
-const pose = `(inputs, rows) => inputs.map((value, i) => (rows[i].path.startsWith('sections') && rows[i].unit === 'rad' ? [0.5, 0.3, 0.6, -0.2, 0.4][i % 5] : value))`;
+/** What a robot is drawn at: arms bent, so that they show more than a line; of elastic ones some tendons pulled. */
+const pose = `(inputs, rows) => inputs.map((value, i) => (rows[i].unit === 'N' ? [0.5, 0, 0.2, 0][i % 4] * rows[i].high : rows[i].path.startsWith('sections') && rows[i].unit === 'rad' ? [0.5, 0.3, 0.6, -0.2, 0.4][i % 5] : value))`;
 
 class Stand {
   constructor(page, done) {
@@ -88,7 +88,7 @@ function crc(bytes) {
 
 /** Every robot that ships, day and dark: all of it in view, more than one colour. */
 async function robots(browser, url, kind) {
-  const all = (await (await fetch(new URL('/api/robots', url))).json()).robots.filter(({kind}) => kind !== 'arm');
+  const all = (await (await fetch(new URL('/api/robots', url))).json()).robots;
   for (const theme of ['light', 'dark']) {
     const on = await stand(browser, url, {width: 670, height: 544, theme});
     for (const {name} of all) {
@@ -133,6 +133,42 @@ async function parts(browser, url, kind) {
   await on.do('picture.fit()');
   assert.equal(await on.page.locator('.label.state:visible').allInnerTexts().then((all) => all.join('')), '●▼⊗▧●');
   await on.shot(`${kind}-states`);
+  await on.done();
+}
+
+/** Of an arm's tendons one sees what they pull, and which are slack and by how much; forces on it are arrows. Taken back the picture is the same. */
+async function tendons(browser, url, kind) {
+  const on = await stand(browser, url, {width: 670, height: 544}), loads = () => on.page.locator('.label.load:visible').allInnerTexts();
+  const before = await on.draw('two-segment'), pulls = (tensions, slack = '[[0, 0, 0], [0, 0, 0]]') => `{pulls: {tensions: ${tensions}, slack: ${slack}, most: 5}}`;
+  const seen = [before];
+  for (const [what, part] of Object.entries({
+    little: pulls('[[1, 0, 0], [0, 1, 0]]'), much: pulls('[[5, 0, 0], [0, 1, 0]]'), loose: pulls('[[0, 0, 0], [0, 0, 0]]'), slack: pulls('[[0, 0, 0], [0, 0, 0]]', '[[0.01, 0.02, 0.01], [0.02, 0.01, 0]]'),
+    force: '{loads: [{at: [0, 0, 0.2], force: [0, 0.35, 0]}]}',
+  })) {
+    const one = await on.draw('two-segment', part);
+    for (const other of seen) differs(one, other, what);
+    seen.push(one);
+    await on.shot(`${kind}-tendons-${what}`);
+    assert.deepEqual(await loads(), what === 'force' ? ['0.35 N'] : []);
+    same(await on.draw('two-segment'), before, `the picture after ${what}`);
+  }
+  // Discs have a thickness, whether the file says their radius or not: flat ones are black.
+  for (const radius of [0, 0.014]) {
+    await on.draw('two-segment', `(await drawing('two-segment', ${pose}, (shape) => ({...shape, discs: shape.discs.map((disc) => ({...disc, radius: ${radius}}))})))`);
+    const discs = await on.get('drawn.shape.discs.map(({radius, height}) => [radius, height])');
+    assert.ok(discs.every(([wide, high]) => wide === (radius || 0.0115) && high > 0), JSON.stringify(discs));
+  }
+  await on.draw('two-segment', pulls('[[5, 0, 0], [0, 1, 0]]'));
+  // The scale of their colours is in what is saved, too.
+  const large = decode(Buffer.from(await on.page.evaluate(async () => [...new Uint8Array(await (await bench.picture.save('')).arrayBuffer())]))), {x, y, width, height} = await on.page.locator('.pulls .ramp').boundingBox();
+  const [low, high] = [0.02, 0.98].map((part) => large.colour(Math.round(2 * (x + part * width)), Math.round(2 * y + height)));
+  assert.ok([[low, [0x7C, 0x7B, 0x78]], [high, [0x00, 0x22, 0x4E]]].every(([seen, wanted]) => seen.every((part, k) => Math.abs(part - wanted[k]) < 8)), `the scale goes from ${low} to ${high}`);
+  // An arc of the slack between each two guides is as much longer as it says.
+  const longer = await on.page.evaluate(() => {
+    const {tendons} = bench.picture.drawing.shape, lengthOf = (points) => points.reduce((sum, point, i) => (i > 0 ? sum + Math.hypot(...point.map((part, k) => part - points[i - 1][k])) : 0), 0);
+    return bench.bowed(tendons[1][0], tendons.flat(), 0.004) && lengthOf(bench.bowed(tendons[1][0], tendons.flat(), 0.004)) - lengthOf(tendons[1][0]);
+  });
+  assert.ok(Math.abs(longer - 0.004) < 0.0004, `4 mm of slack are drawn as ${(1000 * longer).toFixed(2)} mm`);
   await on.done();
 }
 
@@ -405,7 +441,7 @@ async function slow(browser, url) {
 
 /** Small pictures: light, within their size, none of them empty. */
 async function sketches(browser, url) {
-  const all = (await (await fetch(new URL('/api/robots', url))).json()).robots.filter(({kind}) => kind !== 'arm'), on = await stand(browser, url, {width: 1280, height: 900});
+  const all = (await (await fetch(new URL('/api/robots', url))).json()).robots, on = await stand(browser, url, {width: 1280, height: 900});
   await on.page.evaluate(() => { document.getElementById('view').hidden = true; });
   for (const [width, height] of [[84, 84], [168, 112], [240, 160]])
     for (const {name} of all) {
@@ -435,7 +471,7 @@ async function plain(browser, url) {
   await on.done();
 }
 
-const both = {robots, parts, cameras, names, hand, saved, scale}, wanted = process.argv.slice(5), {server, url: to} = await serve(), {server: own, url} = await bench(to);
+const both = {robots, parts, tendons, cameras, names, hand, saved, scale}, wanted = process.argv.slice(5), {server, url: to} = await serve(), {server: own, url} = await bench(to);
 const long = ['robots', 'parts', 'cameras', 'scale', 'speed', 'slow'];  // thoroughly, or asked for by name
 const suites = {webgl: {...both, lookout, fingers, places, rest, speed, slow, sketches}, svg: {plain, ...both}};
 try {

@@ -1,0 +1,112 @@
+// Elastic arms: what of them is turned, asked and answered where it differs from other robots. Each tendon is held by a tension or by
+// a change of its length; the other one is the answer.
+import type {Json, Robot} from './client';
+import {type Described, free, none, type Row, subscript} from './described';
+import {round} from './outline';
+import type {State} from './state';
+
+export type Held = 'tension' | 'change';
+export interface Holding { held: Held[]; rows: Record<Held, Row[]> }
+
+/** Of a load: force and moment at the tip, then the place of a second force and its parts. */
+const [tipParts, loadParts] = [6, 10];
+
+/** Sliders go to where a tendon alone bends its arm by about so much [rad]; a number box takes more. */
+const bend = 2;
+
+interface Tendon { name: string; path: string; section: number; radius: number; pretension: number }
+
+function tendonsOf(answer: Json): Tendon[] {
+  const counts: number[] = answer.sections.map(() => 0);
+  return answer.tendons.map(({section, routes, pretension}: Json, i: number) => ({
+    name: `S${section + 1} ${subscript(counts[section] = counts[section]! + 1)}`, path: answer.inputs[i].name, section, pretension,
+    radius: Math.max(...routes.map((route: Json) => Math.max(route.radius, route.end_radius ?? 0))),
+  }));
+}
+
+const lengthTo = (answer: Json, section: number): number => answer.sections.slice(0, section + 1).reduce((sum: number, one: Json) => sum + one.length, 0);
+const stiffnessTo = (answer: Json, section: number): number => Math.min(...answer.sections.slice(0, section + 1).map((one: Json) => Math.min(...one.backbone.bending)));
+
+function rowsOf(answer: Json): Record<Held, Row[]> {
+  const tendons = tendonsOf(answer), row = (name: string, one: Tendon) => ({name: one.name.replace(' ', ` ${name}`), path: one.path, limits: none});
+  return {
+    tension: tendons.map((one) => {
+      const most = round((bend * stiffnessTo(answer, one.section)) / (one.radius * lengthTo(answer, one.section)));
+      return {...row('T', one), unit: 'N', low: 0, high: Math.max(most, 2 * one.pretension), home: one.pretension, other: 'hold the change of its length instead'};
+    }),
+    change: tendons.map((one) => ({...row('Δ', one), unit: 'm', low: -round(bend * one.radius / 2), high: round(bend * one.radius / 2), home: 0, other: 'hold its tension instead'})),
+  };
+}
+
+/** The tip of one section is turned, that of more is placed. */
+const isTurned = (answer: Json) => answer.sections.length === 1;
+
+function poseRows(answer: Json, tip: Json | undefined): Row[] {
+  const {length} = answer, [x, y, z] = tip?.position ?? [0, 0, length];
+  if (isTurned(answer)) return [{...free('tilt', 'rad', tip?.tilt ?? 0, 0), low: 0, high: 2}, free('azimuth', 'rad', tip?.azimuth ?? 0, Math.PI)];
+  return [['x', x], ['y', y], ['z', z]].map(([name, home]) => ({...free(name, 'm', home, 0), low: Math.min(home, -length), high: Math.max(home, length)}));
+}
+
+function loadRows(answer: Json): Row[] {
+  const last = answer.sections.length - 1, stiffness = stiffnessTo(answer, last), {length} = answer, force = round((4 * stiffness) / length ** 2), moment = round((2 * stiffness) / length);
+  const place: Row = {name: 's', path: 'place of a second force, from the base along the backbone', unit: 'm', low: length / 100, high: length, home: length / 2, limits: none};
+  return [...['Fx', 'Fy', 'Fz'].map((name) => ({...free(name, 'N', 0, force), path: 'force at the tip'})), ...['Mx', 'My', 'Mz'].map((name) => ({...free(name, 'N m', 0, moment), path: 'moment at the tip'})),
+          place, ...['Px', 'Py', 'Pz'].map((name) => ({...free(name, 'N', 0, force), path: 'force at s'}))];
+}
+
+export async function armDescribed(robot: Robot, answer: Json): Promise<Described> {
+  const rows = rowsOf(answer), held: Held[] = rows.tension.map(() => 'tension'), tensions = byTendons(answer, rows.tension.map(({home}) => home));
+  const [home] = await robot.ask([{query: 'forward', tensions, tilt: true}]) as [Json];
+  return {
+    answer, isSerial: false, isArm: true, isPlanar: false, isHeldByFew: false, models: answer.models, canBend: false,
+    hasGravity: (answer.gravity ?? []).some((part: number) => part !== 0),
+    inputs: rows.tension, pose: poseRows(answer, home.tip?.position?.every(Number.isFinite) ? home.tip : undefined), load: loadRows(answer), holding: {held, rows},
+  };
+}
+
+/** A list of each tendon as a list a section. */
+export function byTendons<T>(answer: Json, values: T[]): T[][] {
+  const lists: T[][] = answer.sections.map(() => []);
+  answer.tendons.forEach(({section}: Json, i: number) => lists[section]!.push(values[i]!));
+  return lists;
+}
+
+const pick = <T>({answer, holding}: Described, values: T[], of: Held): (T | null)[][] => byTendons(answer, values.map((value, i) => (holding!.held[i] === of ? value : null)));
+
+/** What holds the tendons, as a question takes it. */
+export function heldBy(described: Described, values: number[]): Json {
+  const {held} = described.holding!, has = (of: Held) => held.includes(of);
+  return {...(has('tension') && {tensions: pick(described, values, 'tension')}), ...(has('change') && {changes: pick(described, values, 'change')})};
+}
+
+/** Of an answer what holds its tendons; null where it says nothing of it. */
+export function heldIn({holding}: Described, answer: Json): number[] | null {
+  const values: Record<Held, number[] | undefined> = {tension: answer.tensions?.flat(), change: answer.changes?.flat()};
+  const found = holding!.held.map((of, i) => values[of]?.[i]);
+  return found.every((value) => typeof value === 'number') ? found as number[] : null;
+}
+
+/** Where the tip is to be, or where it is to point. */
+export function tipField({answer}: Described, values: number[]): Json {
+  if (!isTurned(answer)) return {position: values};
+  const [tilt = 0, azimuth = 0] = values;
+  return {direction: [Math.sin(tilt) * Math.cos(azimuth), Math.sin(tilt) * Math.sin(azimuth), Math.cos(tilt)]};
+}
+
+/** In the words of the pose's rows. */
+export const tipOf = ({answer}: Described, tip: Json): number[] => (isTurned(answer) ? [tip.tilt ?? 0, tip.azimuth ?? 0] : tip.position);
+
+/** Whether the tip can be dragged to a place. */
+export const canPlace = ({isArm, answer}: Described) => !isArm || !isTurned(answer);
+
+/** A force on the backbone beside that at the tip. */
+export function pointLoad({isArm}: Described, {load}: State): {place: number; force: number[]} | null {
+  const force = load.slice(tipParts + 1, loadParts);
+  return isArm && force.some((part) => part !== 0) ? {place: load[tipParts]!, force} : null;
+}
+
+/** Loads of a question to an arm. */
+export function loads(described: Described, state: State): Json {
+  const wrench = state.load.slice(0, tipParts), point = pointLoad(described, state);
+  return {...(wrench.some((part) => part !== 0) && {wrench}), ...(point && {loads: [{place: point.place, wrench: [...point.force, 0, 0, 0]}]})};
+}

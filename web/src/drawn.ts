@@ -1,0 +1,50 @@
+// What is drawn of an answer.
+import {canPlace, pointLoad} from './arm';
+import type {Json} from './client';
+import type {Described} from './described';
+import {round} from './outline';
+import type {Drawing} from './picture';
+import {wrenchOf} from './questions';
+import type {State} from './state';
+import {plus, type Point} from './vector';
+
+/** The file of an arm need not say how wide its discs are; they are drawn a little wider than its tendons lie. None says how thick; what has no thickness has no shade. */
+const wider = 1.15, flat = 0.06;
+
+function withDiscs({answer}: Described, shape: Json): Json {
+  const usual = wider * Math.max(0, ...answer.tendons.flatMap(({routes}: Json) => routes.flatMap((route: Json) => [route.radius, route.end_radius ?? 0])));
+  return {...shape, discs: (shape.discs ?? []).map((disc: Json) => {
+    const radius = disc.radius || usual;
+    return {...disc, radius, height: disc.height || flat * radius};
+  })};
+}
+
+/** Where on a backbone so much of it lies before [m]. */
+export function placeOn(shape: Json, place: number): Point {
+  const places: number[] = shape.places, points: Point[] = shape.backbones[0], i = Math.max(1, places.findIndex((one) => one >= place)), [a, b] = [places[i - 1]!, places[i]!];
+  const part = Math.min(1, Math.max(0, (place - a) / (b - a || 1)));
+  return plus(plus([0, 0, 0], points[i - 1]!, 1 - part), points[i]!, part);
+}
+
+/** The next of 1, 2, 4, 5 times a power of ten: colours stay the same while tensions change a little. */
+const above = (value: number) => (value > 0 ? [1, 2, 2.5].map((step) => step * round(value)).find((most) => most >= value * (1 - 1e-9))! : 1);
+
+function ofArm(described: Described, state: State, answer: Json): Partial<Drawing> {
+  const {tensions, slack, places} = answer, point = pointLoad(described, state);
+  let from = 0;
+  const names = (described.answer.sections as Json[]).map(({length}, i) => ({text: `S${i + 1}`, at: placeOn(answer, (from += length) - length / 2)}));
+  return {
+    canGrab: canPlace(described), names, ...(tensions && {pulls: {tensions, slack, most: above(Math.max(...tensions.flat()))}}),
+    ...(point && places && {loads: [{at: placeOn(answer, point.place), force: point.force}]}),
+  };
+}
+
+/** @param answer that has a shape, too */
+export function drawingOf(described: Described, state: State, answer: Json, shape: Json): Drawing {
+  const legs: Json[] = described.answer.legs ?? [], two = answer.velocity?.type_2;
+  return {
+    shape: described.isArm ? withDiscs(described, shape) : shape, isPlanar: described.isPlanar, radius: described.isArm ? 0 : (legs.find((leg) => leg.link.diameter)?.link.diameter ?? 0.001) / 2,
+    struts: legs.map((leg) => /strut/.test(leg.closure.type)), isStale: false, ghost: null, states: [], isUnstable: answer.status === 'unstable', directions: answer.unstable ?? [],
+    meeting: two?.singular ? two.point ?? null : null, wrench: wrenchOf(described, state), ...(described.isArm && ofArm(described, state, answer)),
+  };
+}

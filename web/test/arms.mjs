@@ -1,0 +1,224 @@
+// Elastic arms on the Design screen: tendons that are pulled or paid out, loads, and what is told of them.
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {audit, blank, differs, fill, hold, linked, looks, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
+
+const said = (page) => page.evaluate(() => window.__sinew.answer());
+const command = (page) => page.locator('#command').innerText();
+const legend = (page) => page.locator('#view .pulls').innerText();
+const values = (page) => page.locator('#inputs .row input:not([type=range])').evaluateAll((all) => all.map((box) => box.value));
+/** What is held otherwise is solved anew, to the resolution of the solver: of a tendon that does not stretch a nanometre is a millinewton. */
+const near = (a, b, by, what) => assert.ok(a.every((value, i) => Math.abs(value - b[i]) <= by), `${what}: ${a} and ${b}`);
+
+/** Numbers of the tip alone. */
+const tip = async (page) => (await numbers(page)).split('Margins')[0];
+
+/** One question a move of a slider; tensions, curvature, margins and what was solved, with units; colours have a scale, which the layer takes away. */
+export async function arm_answers(browser, url) {
+  const {page, done} = await open(browser, url, 'two-segment');
+  assert.match(await legend(page), /^Tension\s+0\s+1 N\s+slack$/);
+  assert.match(await numbers(page), /slack\s+6 of 6 tendons/);
+  const held = await hold(page);
+  await page.locator('#inputs-0').fill('4');
+  await page.locator('#inputs-0').press('Enter');
+  await held.arrival(1);
+  const asked = held.asked.map((text) => JSON.parse(text));
+  assert.deepEqual(asked.map((all) => all.map(({query}) => query)), [['forward']]);
+  assert.deepEqual(asked[0][0].tensions, [[4, 0, 0], [0, 0, 0]]);
+  await held.release();
+  await rested(page);
+  await page.unrouteAll({behavior: 'ignoreErrors'});
+  assert.equal(await verdict(page), 'SOLVED, STABLE');
+  assert.match(await page.locator('#verdict .detail').innerText(), /^residual [\d.e-]+ EI\/L · resolution [\d.e-]+ mm · \d+ iterations$/);
+  await then(page, () => fill(page, 'inputs-4', '2'));
+  await rested(page);
+  const all = await numbers(page), answer = await said(page);
+  assert.match(all, /slack\s+4 of 6 tendons\s+to buckling\s+0\.\d+/);
+  assert.match(all, /Tensions \[N\]\s+S1 1\s+4\.000\s+S1 2\s+slack\s+S1 3\s+slack\s+S2 1\s+slack\s+S2 2\s+2\.000\s+S2 3\s+slack/);
+  assert.match(all, /Tendon changes \[mm\]\s+S1 1\s+-\d/);
+  assert.match(all, /Compliance of the tip \[mm\/N\]\s+x\s+\d/);
+  assert.match(all, /Curvature along the arm \[1\/m\]/);
+  const bends = answer.curvatures.map(([x, y]) => Math.hypot(x, y)), words = await page.locator('.profile svg').getAttribute('aria-label');
+  assert.equal(words, `curvature from ${Math.min(...bends).toFixed(3)} to ${Math.max(...bends).toFixed(3)} 1/m along the backbone`);
+  assert.match(await legend(page), /^Tension\s+0\s+4 N\s+slack$/);
+  assert.equal(await command(page), 'sinew forward two-segment --tensions "4, 0, 0; 0, 2, 0"');
+  await looks(page, 'arm-tensions');
+  const before = await picture(page);
+  await page.locator('#layers summary').click();
+  await page.locator('[data-layer="tendons"]').uncheck();
+  await page.locator('#view .pulls').waitFor({state: 'hidden'});  // a scale of what is not drawn
+  await page.locator('[data-layer="tendons"]').check();
+  await page.locator('#layers summary').click();
+  await page.evaluate(() => document.activeElement.blur());
+  same(await picture(page), before, 'the picture with its tendons again');
+  assert.match(await page.locator('#strip .choices').innerText(), /buckling margin\s+least tension\s+S1 Δ₁/);
+  await page.locator('#units').click();
+  assert.match(await numbers(page), /Compliance of the tip \[m\/N\]/);
+  assert.match(await page.locator('#verdict .detail').innerText(), /resolution/);
+  await done();
+}
+
+/** What holds a tendon is changed, one by one or all: the arm stays where it is. Undo, links and the ghost follow. */
+export async function arm_holds(browser, url) {
+  const {page, done} = await open(browser, url, 'two-segment');
+  await then(page, () => fill(page, 'inputs-0', '3'));
+  await then(page, () => fill(page, 'inputs-4', '1'));
+  const [where, pulled] = [(await said(page)).tip.position, await values(page)], stays = async () => near((await said(page)).tip.position, where, 1e-5, 'it moved as its tendons were held otherwise');
+  await then(page, () => page.getByRole('button', {name: 'Length changes'}).click());
+  await stays();
+  assert.equal(await page.locator('#inputs label').first().innerText(), 'S1 Δ₁');
+  assert.equal(await page.locator('#inputs .unit').first().innerText(), 'mm');
+  assert.match(await command(page), /^sinew forward two-segment --changes "-0\.00[\d., ;-]+"$/);
+  near((await said(page)).tensions.flat(), [3, 0, 0, 0, 1, 0], 0.01, 'tensions of the lengths that they gave');
+  await then(page, () => fill(page, 'inputs-1', '12'));
+  assert.match(await numbers(page), /slack\s+\d of 6 tendons\s+slack by at most\s+\d+\.\d+ mm/);
+  await rested(page);
+  await looks(page, 'arm-changes');
+  await then(page, () => page.locator('#inputs .unit').first().click());
+  await stays();
+  assert.match(await command(page), /--tensions "(3|2\.99\d*|3\.00\d*), null, null; null, null, null" --changes "null, 0\.012, /);
+  await rested(page);
+  const link = await linked(page), shown = await numbers(page);
+  assert.match(link, /held=tccccc/);
+  const second = await blank(browser);
+  await second.page.goto(link);
+  await settled(second.page, 0);
+  await rested(second.page);
+  assert.equal(await numbers(second.page), shown, 'a link shows what it was copied from');
+  await second.done();
+  for (let i = 0; i < 3; ++i) await then(page, () => page.locator('#undo').click());
+  assert.equal(await page.locator('#inputs .unit').first().innerText(), 'N');
+  assert.deepEqual(await values(page), pulled);
+  await page.locator('#keep').click();
+  await then(page, () => page.getByRole('button', {name: 'Length changes'}).click());
+  assert.match(await numbers(page), /from the ghost/);
+  await page.locator('#against').selectOption('ftdcr-v4');
+  await page.locator('#numbers', {hasText: 'from the ghost, ftdcr-v4 at home'}).waitFor();
+  await done();
+}
+
+/** The command gives, in a shell, where the tip is. */
+export async function arm_commands(browser, url) {
+  const {page, done} = await blank(browser);
+  for (const hash of ['robot=two-segment&inputs=4,0,0,0,2,0', 'robot=ftdcr-v4&held=ccccccccc&inputs=-0.001,0,0.001,0,0,0,0,0,0', 'robot=tendon-rod&held=tcct&inputs=3,0.01,0.01,1&load=0.5,0,-1,0,0,0.05,0.25,0,0.4,0',
+                      'robot=ftdcr-v4&model=prb&joints=2&gravity=off', 'robot=two-segment&asked=pose&pose=0.05,0.1,0.36', 'robot=tendon-rod&asked=pose&pose=0.4,1&model=cc']) {
+    await then(page, () => page.goto(`${url}#${hash}`));
+    assert.match(await verdict(page), /SOLVED/, hash);
+    await page.locator('#copy').click();
+    const text = await page.evaluate(() => navigator.clipboard.readText()), mine = (await said(page)).tip.position;
+    const printed = JSON.parse(execFileSync('/bin/sh', ['-c', `${text.replace(/^sinew/, `'${sinew}'`)} --json`], {encoding: 'utf8'})).tip.position;
+    for (const [i, value] of printed.entries()) assert.ok(Math.abs(value - mine[i]) < 1e-8, `${text}\n${printed}\n${mine}`);
+  }
+  await done();
+}
+
+/** Loads are arrows with their values: at the tip, and where a second force is. */
+export async function arm_loads(browser, url) {
+  const {page, done} = await open(browser, url, 'ftdcr-v4'), arrows = () => page.locator('#view .label.load:visible').allInnerTexts();
+  await tab(page, 'Load');
+  assert.deepEqual(await arrows(), []);
+  const [before, where] = [await picture(page), await tip(page)];
+  await then(page, () => fill(page, 'load-0', '0.2'));
+  assert.deepEqual(await arrows(), ['0.2 N']);
+  await then(page, () => fill(page, 'load-4', '5 N mm'));
+  await then(page, () => fill(page, 'load-6', '80'));
+  await then(page, () => fill(page, 'load-9', '-0.3'));
+  assert.deepEqual((await arrows()).sort(), ['0.005 N m', '0.2 N', '0.3 N']);
+  assert.equal(await command(page), `sinew forward ftdcr-v4 --tensions "2, 2, 2; 2, 2, 2; 2, 2, 2" --wrench "0.2, 0, 0, 0, 0.005, 0" --loads '[{"place":0.08,"wrench":[0,0,-0.3,0,0,0]}]'`);
+  assert.notEqual(await tip(page), where);
+  await rested(page);
+  await looks(page, 'arm-loads');
+  await then(page, () => page.getByRole('button', {name: 'Zero'}).click());
+  assert.equal(await page.locator('#load-6').inputValue(), '93.250');
+  assert.deepEqual(await arrows(), []);
+  assert.equal(await tip(page), where);
+  await page.evaluate(() => document.activeElement.blur());
+  same(await picture(page), before, 'the picture without its loads');
+  await then(page, () => page.getByLabel('Gravity as in the file').click());
+  assert.match(await tip(page), /y\s+0\.000 mm/);
+  await then(page, () => fill(page, 'load-6', '500'));
+  await then(page, () => fill(page, 'load-7', '0.1'));
+  assert.equal(await verdict(page), 'REFUSED');
+  assert.match(await page.locator('#verdict .reason').innerText(), /loads\[0\]\.place = 0\.5; it must be more than 0 mm and at most 186\.5 mm/);
+  await done(/422|400/);
+}
+
+/** Where the tip was seen tells the force at it: that force as a load takes the tip there. */
+export async function arm_senses(browser, url) {
+  const {page, done} = await open(browser, url, 'two-segment');
+  await then(page, () => fill(page, 'inputs-0', '3'));
+  await tab(page, 'Load');
+  await then(page, () => fill(page, 'load-0', '0.03'));
+  await then(page, () => fill(page, 'load-1', '-0.02'));
+  const seen = (await said(page)).tip.position.map((part) => (1000 * part).toFixed(6)).join(', ');
+  await then(page, () => page.getByRole('button', {name: 'Zero'}).click());
+  const straight = await tip(page);
+  await then(page, () => fill(page, 'sensed', seen));
+  const values = await Promise.all([0, 1, 2].map((i) => page.locator(`#load-${i}`).inputValue()));
+  assert.deepEqual(values, ['0.030', '-0.020', '0.000']);
+  assert.match(await page.locator('#toast').innerText(), /^0\.0361 N at the tip, ± [\d.]+ N where it is seen to 0\.500 mm$/);
+  assert.notEqual(await tip(page), straight);
+  for (const [text, why] of [['1, 2', /^give three numbers, x, y, z; found 2$/], ['1 N, 2, 3', /^N is no unit of length$/], ['0, 0, 300', /^no force at the tip explains it: /]]) {
+    await fill(page, 'sensed', text);
+    await page.locator('.sense .why', {hasText: why}).waitFor();
+  }
+  assert.equal(await page.locator('#load-0').inputValue(), '0.030', 'a load that was not sensed');
+  await done();
+}
+
+/** The tip is placed where there are sections enough, else it is turned; what cannot be reached says so, and goes back. */
+export async function arm_poses(browser, url) {
+  const {page, done} = await open(browser, url, 'two-segment');
+  await then(page, () => fill(page, 'inputs-0', '2'));
+  await tab(page, 'Pose');
+  await then(page, () => fill(page, 'pose-2', '350 mm'));
+  await then(page, () => fill(page, 'pose-0', '40 mm'));
+  assert.match(await verdict(page), /SOLVED/);
+  assert.match(await page.locator('#verdict .detail').innerText(), /^residual [\d.e-]+ of the length, or rad/);
+  assert.match(await tip(page), /x\s+(40\.000|39\.999) mm/);
+  assert.match(await command(page), /^sinew inverse two-segment --position "0\.04, /);
+  await then(page, () => page.locator('#robot').selectOption('tendon-rod'));
+  await then(page, () => fill(page, 'pose-0', '30 deg'));
+  assert.match(await tip(page), /tilt\s+30\.00°/);
+  assert.match(await command(page), /^sinew inverse tendon-rod --direction "0\.5, 0, 0\.866/);
+  await rested(page);
+  const box = await page.locator('#view').boundingBox(), [x, y] = await page.evaluate(() => window.__sinew.scene.lookout.project(window.__sinew.answer().tip.position));
+  await page.mouse.move(box.x + x, box.y + y);
+  assert.equal(await page.locator('#view').evaluate((view) => view.style.cursor), '', 'a hand that cannot drag it');
+  await done();
+}
+
+/** What an arm cannot do is said in a sentence: tendons do not push, nor stretch enough; the other screens show other robots. */
+export async function arm_refusals(browser, url) {
+  const {page, done} = await open(browser, url, 'two-segment'), before = await picture(page);
+  await then(page, () => fill(page, 'inputs-0', '-1'));
+  assert.equal(await verdict(page), 'REFUSED');
+  assert.match(await page.locator('#verdict .reason').innerText(), /tensions\[0\]\[0\] = -1; it must not be negative/);
+  await then(page, () => page.locator('#verdict').getByRole('button', {name: 'Back to the last solved pose'}).click());
+  assert.equal(await verdict(page), 'SOLVED, STABLE');
+  await page.evaluate(() => document.activeElement.blur());
+  same(await picture(page), before);
+  await then(page, () => page.getByRole('button', {name: 'Length changes'}).click());
+  await then(page, () => fill(page, 'inputs-0', '-3'));
+  assert.equal(await verdict(page), 'STALLED');
+  assert.match(await page.locator('#verdict .reason').innerText(), /no equilibrium was found/);
+  assert.match(await page.locator('#verdict .advice').innerText(), /pay out the tendons on the other side/);
+  assert.ok(await page.locator('#answer').evaluate((answer) => answer.classList.contains('stale')), 'numbers of another pose');
+  differs(await picture(page), before, 'the picture, which fades');
+  await rested(page);
+  await shot(page, 'arm-stalled');
+  await then(page, () => page.locator('#verdict').getByRole('button', {name: 'Back to the last solved pose'}).click());
+  await tab(page, 'Model');
+  assert.match(await page.locator('#model .note').innerText(), /^Operate and Trajectory show serial robots/);
+  assert.ok(await page.locator('#screens').isHidden(), 'buttons of screens that show no arm');
+  assert.ok(await page.locator('#solutions h3').isHidden(), 'a heading of nothing');
+  await page.goto(`${url}#robot=tendon-rod&screen=operate`);
+  await page.locator('#toast', {hasText: 'Operate shows serial robots'}).waitFor();
+  assert.equal(await page.evaluate(() => document.body.dataset.screen), 'design');
+  await rested(page);
+  for (const name of ['Inputs', 'Pose', 'Load', 'Model', 'File']) {
+    await tab(page, name);
+    await audit(page, `arm ${name}`);
+  }
+  await done(/422|400/);
+}
