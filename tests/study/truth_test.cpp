@@ -1,6 +1,9 @@
 /// `sinew reproduce truth`: every number beside that of others, within its tolerance.
 #include <gtest/gtest.h>
 
+#include <string_view>
+
+#include "sanitizers.hpp"
 #include "study/reproduce.hpp"
 #include "study_folder.hpp"
 
@@ -10,6 +13,8 @@ namespace truth_test {
 class Truth : public testing::TestWithParam<const char*> {};
 
 TEST_P(Truth, AgreesWithinItsTolerances) {
+  if (is_instrumented && std::string_view(GetParam()) == "truth/arms")
+    GTEST_SKIP() << "a dozen fits; analysis.identify looks at some";
   const Folder folder;
   FigureOptions scripts_only;
   scripts_only.formats.clear();
