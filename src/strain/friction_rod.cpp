@@ -35,17 +35,6 @@ double size_of_vector(std::span<const double> x) {
   for (double v : x) sum += v * v;
   return std::sqrt(sum);
 }
-NodeLoad mix(const NodeLoad& a, const NodeLoad& b, double share) {
-  NodeLoad load;
-  const auto each = [share](const double* from, const double* to, double* out, int count) {
-    for (int i = 0; i < count; ++i) out[i] = from[i] + share * (to[i] - from[i]);
-  };
-  each(a.force, b.force, load.force, 3);
-  each(a.couple, b.couple, load.couple, 9);
-  each(a.moment, b.moment, load.moment, 3);
-  each(a.following, b.following, load.following, 6);
-  return load;
-}
 
 }  // namespace
 
@@ -930,7 +919,18 @@ PathStep FrictionRod::step(std::span<const TendonInput> inputs, std::span<const 
     result.found.residual = one.residual;
     result.found.negative = one.negative;
     if (one.status == Status::converged) {
-      commit(result);
+      const State before = now_;
+      PathStep sums = result;
+      commit(sums);
+      const double lost = sums.friction - result.friction, put_in = std::abs(sums.motors - result.motors),
+                   taken_up = std::abs(now_.stored - before.stored);
+      if (part > least && lost < -1e-6 * (put_in + taken_up)) {
+        // friction gave energy: the path turned within, too coarse for trapezoids and for what slips first
+        now_ = before;
+        part = std::max(least, 0.5 * part);
+        continue;
+      }
+      result = sums;
       ++result.parts;
       done = share;
       part *= iterations < 8 ? 2 : 1;
