@@ -53,7 +53,7 @@ std::vector<ArmStep> read_points(ArmContext& context) {
 bool refuse_poses(Question& question) {
   bool is_given = false;
   for (const char* field : {"poses", "from", "to", "samples", "objective"})
-    if (question.query.has(field))
+    if (question.query.node()->find(field))  // else it is no field of this question
       if (const auto given = question.query.optional(field)) {
         is_given = true;
         given->fail("not_available",

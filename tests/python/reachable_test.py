@@ -32,7 +32,7 @@ def questions(robot):
         yield "velocity", {"changes": rest.changes}
         yield "shape", {"changes": rest.changes}
         yield "statics", {"changes": rest.changes, "position": rest.tip.position}
-        yield "track", {"points": [{"changes": rest.changes}, {"tensions": rest.tensions}], "steps": 1}
+        yield "track", {"points": [{"changes": rest.changes}, {"wrench": [0, 0, 0.01, 0, 0, 0]}], "steps": 1}
         return
     home = about.home.to_dict()
     yield "inverse", {"pose": home}
