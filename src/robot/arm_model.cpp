@@ -111,7 +111,10 @@ class Builder {
     if (channel) spans = by_section() ? 1 : std::max(basis_.elements, 10);
     std::vector<double> ends;
     for (int k = 1; k <= spans; ++k) ends.push_back(static_cast<double>(k) / spans);
-    if (channel) ends.insert(ends.end(), cuts.begin(), cuts.end());
+    if (channel)
+      for (const double cut : cuts)
+        if (std::ranges::none_of(ends, [&](double end) { return std::abs(end - cut) < 1e-9; }))
+          ends.push_back(cut);  // else the load acts where a span ends
     std::sort(ends.begin(), ends.end());
     return ends;
   }
