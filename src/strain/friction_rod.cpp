@@ -815,7 +815,7 @@ Relaxed FrictionRod::equilibrium(const RelaxOptions& options, bool flows) {
 }
 
 /// What lies where once all that slips has slipped.
-void FrictionRod::commit(PathStep& result) {
+void FrictionRod::commit(PathStep& result, bool turned) {
   double stored = work_.energy;
   for (std::size_t i = 0; i < chains_.size(); ++i) {
     Chain& chain = chains_[i];
@@ -865,9 +865,10 @@ void FrictionRod::commit(PathStep& result) {
     stored += 0.5 * chain.tendon.outside * memory.tension[0] * memory.tension[0];
     memory.slack = slack;
     result.motors += 0.5 * (before[0] + memory.tension[0]) * (memory.end - end_before);
-    for (std::size_t k = 0; k < count; ++k)
-      result.friction +=
-          0.5 * (before[k] - before[k + 1] + memory.tension[k] - memory.tension[k + 1]) * moved[k];
+    for (std::size_t k = 0; k < count; ++k) {
+      const double drop = memory.tension[k] - memory.tension[k + 1];
+      result.friction += (turned ? drop : 0.5 * (before[k] - before[k + 1] + drop)) * moved[k];
+    }
   }
   now_.y = work_.y;
   std::copy(work_.loads.begin(), work_.loads.end(), now_.loads.begin());
@@ -896,7 +897,11 @@ PathStep FrictionRod::step(std::span<const TendonInput> inputs, std::span<const 
   constexpr double least = 1.0 / 256;
   double done = 0, part = 1;
   result.found.reached = 0;
+  const int budget = 10 * std::max(options.max_iterations, 1);
+  bool spent = false;
   while (done < 1) {
+    spent = result.found.iterations >= budget;  // inch by inch it would take minutes
+    if (spent) break;
     const double share = std::min(1.0, done + part);
     for (std::size_t i = 0; i < here.size(); ++i)
       here[i].value =
@@ -921,14 +926,18 @@ PathStep FrictionRod::step(std::span<const TendonInput> inputs, std::span<const 
     if (one.status == Status::converged) {
       const State before = now_;
       PathStep sums = result;
-      commit(sums);
+      commit(sums, false);
       const double lost = sums.friction - result.friction, put_in = std::abs(sums.motors - result.motors),
                    taken_up = std::abs(now_.stored - before.stored);
-      if (part > least && lost < -1e-6 * (put_in + taken_up)) {
+      if (lost < -1e-6 * (put_in + taken_up)) {
         // friction gave energy: the path turned within, too coarse for trapezoids and for what slips first
         now_ = before;
-        part = std::max(least, 0.5 * part);
-        continue;
+        if (part > least) {
+          part = std::max(least, 0.5 * part);
+          continue;
+        }
+        sums = result;
+        commit(sums, true);
       }
       result = sums;
       ++result.parts;
@@ -947,7 +956,10 @@ PathStep FrictionRod::step(std::span<const TendonInput> inputs, std::span<const 
     set(here, mixed);
     work_.y = now_.y;
     evaluate();
-    if (result.found.status != Status::stopped) result.found.status = Status::stalled;
+    if (spent)
+      result.found.status = Status::iteration_limit;
+    else if (result.found.status != Status::stopped)
+      result.found.status = Status::stalled;
   }
   return result;
 }

@@ -40,7 +40,8 @@ struct ArmPathPoint {
 /// equilibria are those of arm_forward(). arm_rates() does not know those of tendons that rub.
 ///
 /// A point for every division. The answer ends with the first one that was not reached: `stalled` where no
-/// equilibrium was found; its state is the last one that was, from where a path may go on.
+/// equilibrium was found, `iteration_limit` after ten times `options.max_iterations` for one; its state is
+/// the last one that was, from where a path may go on.
 SINEW_API std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> steps,
                                                const ArmOptions& options, ArmWorkspace& work);
 

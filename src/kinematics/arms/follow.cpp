@@ -152,6 +152,10 @@ Report report_of(const strain::PathStep& went) {
   Report report{went.found.status, went.found.iterations, went.found.residual, {}};
   if (report.status == Status::stopped)
     report.message = FixedText<240>("stopped");
+  else if (report.status == Status::iteration_limit)
+    report.message = FixedText<240>(
+        fmt::format("{} iterations led to {:.0f} % of the step: more, or smaller steps, may lead further",
+                    report.iterations, 100 * went.found.reached));
   else if (!report.ok())
     report.message =
         FixedText<240>(fmt::format("no equilibrium was found: the path led to one up to {:.0f} % of the step",
