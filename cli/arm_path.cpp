@@ -17,9 +17,13 @@ namespace sinew::cli {
 namespace {
 
 constexpr std::array wrench_columns{"fx", "fy", "fz", "mx", "my", "mz"};
-/// What `track --output` tells of each tendon.
-constexpr std::array tendon_columns{Column{"tension", "N", {}}, Column{"end_tension", "N", {}},
-                                    Column{"change", "m", {}}, Column{"slack", "m", {}}};
+/// What `track --output` tells of each tendon: its column, and where a row of the answer has it.
+struct TendonColumn {
+  std::string_view name, unit, key;
+};
+constexpr std::array tendon_columns{
+    TendonColumn{"tension", "N", "tensions"}, TendonColumn{"end_tension", "N", "end_tensions"},
+    TendonColumn{"change", "m", "changes"}, TendonColumn{"slack", "m", "slack"}};
 
 /// Reads a table as the points of a path.
 class PathReader {
@@ -85,9 +89,8 @@ class PathReader {
 
   bool is_known(std::string_view name) const {
     return std::ranges::any_of(robot_.inputs, [&](const Input& input) {
-      return std::ranges::any_of(tendon_columns, [&](const Column& column) {
-        return name.size() == input.name.size() + 1 + column.name.size() && name.starts_with(input.name) &&
-               name.ends_with("." + column.name);
+      return std::ranges::any_of(tendon_columns, [&](const TendonColumn& column) {
+        return name == fmt::format("{}.{}", input.name, column.name);
       });
     });
   }
@@ -170,22 +173,22 @@ std::optional<Node> read_arm_path(const std::string& file, const OpenRobot& robo
 Table arm_path_table(const Answer& answer, const OpenRobot& robot) {
   Table table;
   table.comments = {fmt::format("sinew {}: track {}", version(), answer.text("robot"))};
-  const auto add = [&](const std::string& name, const std::string& unit) {
-    table.columns.push_back({name, unit, {}});
+  const auto add = [&](std::string_view name, std::string_view unit) {
+    table.columns.push_back({std::string(name), std::string(unit), {}});
   };
   add("point", "");
   add("part", "");
   for (const Input& column : pose_columns(true)) add(column.name, column.unit);
   for (const Input& input : robot.inputs)
-    for (const Column& column : tendon_columns) add(input.name + '.' + column.name, column.unit);
+    for (const TendonColumn& column : tendon_columns)
+      add(fmt::format("{}.{}", input.name, column.name), column.unit);
   for (const char* name : {"potential", "motor_work", "friction_loss"}) add(name, "J");
   for (const Node& from : answer.find("rows")->items) {
     std::vector<double> row{number(from, "point"), number(from, "part")};
     const auto pose = pose_values(*from.find("tip"));
     row.insert(row.end(), pose.begin(), pose.end());
     std::array<std::vector<double>, tendon_columns.size()> states;
-    constexpr std::array keys{"tensions", "end_tensions", "changes", "slack"};
-    for (std::size_t c = 0; c < keys.size(); ++c) states[c] = of_tendons(from, keys[c]);
+    for (std::size_t c = 0; c < states.size(); ++c) states[c] = of_tendons(from, tendon_columns[c].key);
     for (std::size_t i = 0; i < robot.inputs.size(); ++i)
       for (const auto& state : states) row.push_back(state[i]);
     for (const char* name : {"potential", "motor_work", "friction_loss"}) row.push_back(number(from, name));
