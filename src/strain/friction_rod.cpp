@@ -7,6 +7,7 @@
 
 #include "base/at.hpp"
 #include "sinew/math/se3.hpp"
+#include "sinew/math/so3.hpp"
 #include "strain/condense.hpp"
 #include "strain/sweep.hpp"
 
@@ -25,11 +26,6 @@ constexpr double edge = 1e-14;
 constexpr int most_rounds = 30;
 
 Vector vector(const double* x) { return {x[0], x[1], x[2]}; }
-Turn skew(const Vector& u) {
-  Turn m;
-  m << 0, -u[2], u[1], u[2], 0, -u[0], -u[1], u[0], 0;
-  return m;
-}
 double size_of_vector(std::span<const double> x) {
   double sum = 0;
   for (double v : x) sum += v * v;
@@ -253,7 +249,7 @@ void FrictionRod::gradients() {
       const Vector p = vector(work_.steps[at(e)].data() + 9);
       if (e > segment.first_element) {  // a twist at the start as it is at the end
         const Eigen::Matrix<double, 3, Eigen::Dynamic> shifted =
-            segment.twist.topRows<3>() - skew(p) * segment.twist.bottomRows<3>();
+            segment.twist.topRows<3>() - skew<double>(p) * segment.twist.bottomRows<3>();
         segment.twist.topRows<3>() = R.transpose() * shifted;
         segment.twist.bottomRows<3>() = (R.transpose() * segment.twist.bottomRows<3>()).eval();
       }
@@ -267,9 +263,9 @@ void FrictionRod::gradients() {
           const Six& xi = work_.strains[at(e)][at(1 - g)];
           const double k = g == 0 ? -element.commutator : element.commutator;
           Mat<double, 6, 6> D = Mat<double, 6, 6>::Identity() * (0.5 * element.length);
-          D.topLeftCorner<3, 3>() += k * skew(vector(xi.data() + 3));
-          D.bottomRightCorner<3, 3>() += k * skew(vector(xi.data() + 3));
-          D.topRightCorner<3, 3>() += k * skew(vector(xi.data()));
+          D.topLeftCorner<3, 3>() += k * skew<double>(vector(xi.data() + 3));
+          D.bottomRightCorner<3, 3>() += k * skew<double>(vector(xi.data() + 3));
+          D.topRightCorner<3, 3>() += k * skew<double>(vector(xi.data()));
           by_strain = J * D;
         }
         for (int c = 0; c < 6; ++c)
