@@ -686,7 +686,7 @@ Relaxed FrictionRod::newton(const RelaxOptions& options) {
       return result;
     }
     for (const Chain& chain : chains_)
-      if (!chain.spans.held || chain.tendon.friction > 0)
+      if (!chain.spans.held || (chain.tendon.friction > 0 && chain.spans.tension > 0))  // else it is known
         for (std::size_t k = 0; k < chain.units.size(); ++k)
           (chain.units[k].hole ? work_.hole_tension : work_.guide_tension)[at(chain.units[k].entry)] =
               chain.pull[k];

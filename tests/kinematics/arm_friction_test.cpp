@@ -69,6 +69,24 @@ TEST(ArmFriction, APulledTendonLosesTensionByCapstanLaw) {
       }
 }
 
+/// A tendon that is held by no tension at all hangs loose in every span.
+TEST(ArmFriction, PulledTendonsAreLetGoAltogether) {
+  for (const int discs : {0, 8})
+    for (const double compliance : {0.0, 5e-5}) {
+      const Arm arm = two_tendons(discs, 0.3, compliance);
+      ArmWorkspace work(arm);
+      const auto points =
+          arm_follow(arm, pulls({4, 0, 4, 1, 0}, TendonHeld::tension),
+                     {.model = discs > 0 ? ArmModel::subsegment_rod : ArmModel::rod, .accuracy = 0}, work);
+      expect_all_found(points, 5);
+      for (const std::size_t k : {1U, 4U}) {
+        EXPECT_LT((points[k].state.tip.p - Vec3<double>(0, 0, 0.2)).norm(), 1e-9);
+        for (const double tension : points[k].tensions[0]) EXPECT_EQ(tension, 0);
+      }
+      EXPECT_LT(distance(points[2].state.tip, points[0].state.tip), 1e-9);
+    }
+}
+
 /// Where a path turns within a step, trapezoids over all of it would have friction give energy.
 TEST(ArmFriction, CoarseStepsStillLose) {
   const Arm arm = two_tendons(10, 0.3);
