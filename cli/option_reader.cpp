@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "arm_path.hpp"
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
 #include "query/fields/fields.hpp"
@@ -164,6 +165,8 @@ std::optional<Node> OptionReader::read(const Field& field, std::string_view opti
       return place(option, text);
     case Shape::places:
       return places(std::string(text));
+    case Shape::path_points:
+      return read_arm_path(std::string(text), *robot_, errors_);
     case Shape::wrench:
       return wrench(option, text);
     case Shape::twist:

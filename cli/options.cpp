@@ -146,6 +146,7 @@ std::string_view spelling(const Field& field) {
     case Shape::independent:
       return "\"Z, E1, E2\"";
     case Shape::places:
+    case Shape::path_points:
       return "FILE";
     case Shape::wrench:
     case Shape::growing_load:

@@ -1,6 +1,8 @@
 /// What an arm is made of, as people read it.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "show.hpp"
 #include "text_table.hpp"
 
@@ -48,7 +50,7 @@ std::string show_backbone(const Answer& about) {
 /// One row a tendon and the sections that it passes alike.
 std::string show_tendons(const Answer& about, const OpenRobot& robot) {
   TextTable table({"tendon", "in", "radius[mm]", "angle[deg]", "end_radius[mm]", "turn[deg]",
-                   "compliance[m/N]", "friction", "pretension[N]"});
+                   "compliance[m/N]", "outside", "friction", "pretension[N]"});
   const auto& tendons = about.find("tendons")->items;
   for (std::size_t i = 0; i < tendons.size(); ++i) {
     const auto& routes = tendons[i].find("routes")->items;
@@ -60,7 +62,8 @@ std::string show_tendons(const Answer& about, const OpenRobot& robot) {
            first == last ? fmt::format("sections[{}]", first) : fmt::format("sections[{}..{}]", first, last),
            shown_at(route, "radius", "m"), shown_at(route, "angle", "rad"),
            shown_at(route, "end_radius", "m"), shown_at(route, "turn", "rad"),
-           si_at(tendons[i], "compliance"), si_at(tendons[i], "friction"), si_at(tendons[i], "pretension")});
+           si_at(tendons[i], "compliance"), si_at(tendons[i], "outside"), si_at(tendons[i], "friction"),
+           si_at(tendons[i], "pretension")});
     }
   }
   return table.text();
@@ -136,7 +139,11 @@ std::string show_arm_robot(const OpenRobot& robot) {
   if (const double mass = about.number("tip.mass").value_or(0); mass > 0)
     text += fmt::format("tip: mass {} kg at {} m\n", six_digits(mass), vector_text(about.find("tip.place")));
   text += fmt::format("tolerance of a tendon {} mm\n\n", cell(about.number("tolerance").value_or(0), "m"));
-  return text + show_backbone(about) + '\n' + show_tendons(about, robot) + show_measurement(about, robot);
+  text += show_backbone(about) + '\n' + show_tendons(about, robot);
+  const auto rubs = [](const Node& tendon) { return number(tendon, "friction") > 0; };
+  if (std::ranges::any_of(about.find("tendons")->items, rubs))
+    text += "\ntendons rub: sinew track follows a path with their friction, other questions leave it out\n";
+  return text + show_measurement(about, robot);
 }
 
 std::string show_arm(const Answer& answer, const OpenRobot& robot) {

@@ -98,28 +98,34 @@ const std::array table{
     Verb{
         "track",
         "ROBOT",
-        "inputs along a path of the platform",
+        "inputs along a path of the platform; an arm along a path of tensions",
         options_of("track",
                    {"inputs", "pose", "independent", "set-at", "tensions", "lengths", "range", "backward",
                     "branches"},
                    {"output", "json", "quiet", "help"}),
-        {"from", "poses"},
+        {"from", "poses", "points"},
         "The path is straight, or that of a .csv file with the columns x[m], y[m], phi[rad] (in space x[m], "
         "y[m], "
         "z[m],\nrx[rad], ry[rad], rz[rad]), as --output writes them. The legs keep the branch they begin on. "
         "Where the path\ncannot be followed to its end the poses reached are shown, and the exit code is 3. "
         "On rods each pose is held from the one\nbefore, in equilibrium under --wrench: sinew track 3pfs-g2 "
         "--from "
-        "\"0.39 m, 0, 0\" --to \"0.4 m, 0.1, 0\".",
+        "\"0.39 m, 0, 0\" --to \"0.4 m, 0.1, 0\".\n"
+        "An arm is followed along --points FILE.csv with columns like sections[0].tendons[0].tension[N] or\n"
+        ".change[m], and fx[N] to mz[N m] for the wrench at its tip; friction of its tendons is remembered\n"
+        "along the way.",
         "sinew track 3-rfr --from \"0, 0, 0\" --to \"10 mm, 5 mm, 20 deg\" --samples 11",
         run_track},
     Verb{
         "branches",
         "ROBOT",
         "the curve of equilibria of a loaded robot along inputs, a load or a pose, through folds",
-        options_of("track", {"from", "poses", "angles", "objective", "rk4-steps", "branches"},
-                   {"hold", "to-inputs", "to-tensions", "to-lengths", "to-wrench", "all", "output", "width",
-                    "font", "force", "json", "quiet", "help"}),
+        options_of(
+            "track",
+            {"from", "poses", "angles", "objective", "rk4-steps", "branches", "points", "steps", "following",
+             "distributed", "distributed-following", "loads", "order", "elements", "accuracy"},
+            {"hold", "to-inputs", "to-tensions", "to-lengths", "to-wrench", "all", "output", "width", "font",
+             "force", "json", "quiet", "help"}),
         {"to-inputs", "to-tensions", "to-lengths", "to-wrench", "to"},
         "The curve begins at the inputs, pose or independent coordinates given, and is followed by its arc\n"
         "length: where the load or the inputs cannot go further, a fold, it turns back, on another branch.\n"

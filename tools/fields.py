@@ -64,6 +64,10 @@ SHAPES = {
     "range": {**NUMBERS, "minItems": 2, "maxItems": 2},
     "text_or_number": {"type": ["string", "number"]},
     "settings": {"type": "object"},
+    "path_points": {"type": "array", "minItems": 1, "items": {"type": "object", "additionalProperties": False, "properties": {
+        "tensions": LISTS, "changes": LISTS, "wrench": NUMBERS, "following": NUMBERS,
+        **{name: {**NUMBERS, "minItems": 3, "maxItems": 3} for name in ("distributed", "distributed_following", "gravity")},
+        "loads": {"$ref": "#/properties/loads"}}}},
     "point_loads": {"type": "array", "items": {"type": "object", "required": ["place", "wrench"], "additionalProperties": False,
                     "properties": {"place": {"$ref": "#/definitions/quantity"}, "wrench": NUMBERS,
                                    "following": {"type": "boolean"}}}},
@@ -109,7 +113,7 @@ def schema(fields):
 def shown(field):
     words = {"flag": "true or false", "whole": "a whole number", "word": "a word", "words": "a list of words",
              "per_leg": "a number a leg", "inputs": "a number an input", "pairs": "two numbers a leg",
-             "lists": "a list a leg or section", "growing_load": "`{\"wrench\", \"limit\"}`", "settings": "`{path: value}`", "point_loads": "a list of `{\"place\", \"wrench\"}`",
+             "lists": "a list a leg or section", "growing_load": "`{\"wrench\", \"limit\"}`", "settings": "`{path: value}`", "point_loads": "a list of `{\"place\", \"wrench\"}`", "path_points": "a list of `{\"tensions\", ...}`",
              "text_or_number": "text or a number", "independent": "`{\"z\", \"e1\", \"e2\"}`", "places": "a list of places",
              "target": "a place, or a map", "place": "a pose, or `{\"z\", \"e1\", \"e2\"}`", "quantity": "a number",
              "point": "three numbers", "range": "two numbers", "numbers": "numbers"}
@@ -136,7 +140,7 @@ PYTHON_KINDS = {
     "flag": "flag", "whole": "count", "quantity": "number", "word": "word", "words": "words", "point": "numbers",
     "numbers": "numbers", "inputs": "numbers", "per_leg": "numbers", "signs": "numbers", "wrench": "numbers",
     "twist": "numbers", "range": "numbers", "pairs": "lists", "lists": "lists", "pose": "pose", "independent": "map",
-    "start": "any", "place": "any", "places": "poses", "target": "map", "growing_load": "map", "settings": "map", "point_loads": "any",
+    "start": "any", "place": "any", "places": "poses", "target": "map", "growing_load": "map", "settings": "map", "point_loads": "any", "path_points": "any",
     "text_or_number": "any",
 }
 PYTHON_UNITS = {"inputs": "m, rad", "pose": "m, rad", "independent": "m", "wrench": "N, N m", "twist": "m/s, rad/s",

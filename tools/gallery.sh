@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws the pictures of the README, docs/images/gallery-*.png, and of docs/scenes.md, with the command and gnuplot: one row for each family of
+# Draws the pictures of the README, docs/images/gallery-*.png, of docs/tour.md and docs/scenes.md, with the command and gnuplot: one row for each family of
 # robots, one with what is computed of them. The page's picture is docs/images/page.png.
 #
 #   tools/gallery.sh [FOLDER OF THE COMMAND, default build/dev/bin] [OUTPUT FOLDER, default docs/images]
@@ -68,6 +68,12 @@ row branches branches
 
 # docs/arm-models.md: with the times of the run
 "$sinew" reproduce truth/models -o . -q >/dev/null && cp truth/models.png "$out/arm-models.png"
+
+# docs/tour.md: a tendon that rubs, pulled and let go
+printf '%s\n' 'sections[1].tendons[0].tension[N]' 3 0.5 3 >pulls.csv
+"$sinew" track two-segment --points pulls.csv --steps 50 --set 'sections.tendons[0].friction=0.3' -q -o loop.csv
+tile loop 120mm plot loop.csv --x "sections[1].tendons[0].tension" --y y --title "one tendon of two-segment, friction 0.3"
+cp loop.png "$out/tendon-loop.png"
 
 # docs/scenes.md: where planning is built
 if "$sinew" reproduce lsk/fig12 -o . -q >/dev/null; then cp lsk/fig12.png "$out/way-in.png"; fi

@@ -18,6 +18,7 @@ struct Name {
 constexpr std::array stems{
     Name{"tendon", "Tendon", "Tendon length"},
     Name{"tension", "Tension", "Tension"},
+    Name{"end_tension", "Tension at the end", "Tension"},
     Name{"change", "Tendon change", "Tendon change"},
     Name{"theta", "θ", "Angle"},
     Name{"beta", "β", "Angle"},
@@ -45,6 +46,8 @@ constexpr std::array names{
     Name{"sample", "Sample"},
     Name{"status", "Status"},
     Name{"kappa", "κ"},
+    Name{"motor_work", "Work of the motors"},
+    Name{"friction_loss", "Lost by friction"},
 };
 
 /// Of a pose: the platform's, or a serial robot's tip.
@@ -68,27 +71,32 @@ bool is_number(std::string_view text) {
          std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// `legs[1].tension_2` taken apart.
+/// `legs[1].tension_2`, or `sections[1].tendons[0].tension`, taken apart.
 struct Parts {
   std::string_view stem;    ///< `tension`
   std::string_view number;  ///< `2`; empty: none
   int leg = 0;              ///< 2, from one; 0: none
+  int section = 0, tendon = 0;
 };
 
+/// Takes `legs[1].` from the beginning; its index from one, 0 where the text begins otherwise.
+int take_place(std::string_view& column, std::string_view prefix) {
+  if (!column.starts_with(prefix)) return 0;
+  const std::size_t end = column.find("].");
+  if (end == std::string_view::npos) return 0;
+  const std::string_view index = column.substr(prefix.size(), end - prefix.size());
+  if (!is_number(index)) return 0;
+  int number = 0;
+  for (const char c : index) number = 10 * number + (c - '0');
+  column.remove_prefix(end + 2);
+  return number + 1;
+}
+
 Parts parts_of(std::string_view column) {
-  Parts parts{column, {}, 0};
-  constexpr std::string_view prefix = "legs[";
-  if (column.starts_with(prefix)) {
-    const std::size_t end = column.find("].");
-    const std::string_view index = end == std::string_view::npos
-                                       ? std::string_view()
-                                       : column.substr(prefix.size(), end - prefix.size());
-    if (is_number(index)) {
-      for (const char c : index) parts.leg = 10 * parts.leg + (c - '0');
-      ++parts.leg;
-      parts.stem = column.substr(end + 2);
-    }
-  }
+  Parts parts{column, {}};
+  parts.leg = take_place(parts.stem, "legs[");
+  parts.section = take_place(parts.stem, "sections[");
+  if (parts.section > 0) parts.tendon = take_place(parts.stem, "tendons[");
   const std::size_t mark = parts.stem.rfind('_');
   if (mark != std::string_view::npos && is_number(parts.stem.substr(mark + 1))) {
     parts.number = parts.stem.substr(mark + 1);
@@ -116,6 +124,7 @@ Text quantity_name(std::string_view column, bool is_ours) {
     if (!parts.number.empty())
       text += is_symbol ? Text(parts.number, Text::Style::subscript) : Text(fmt::format(" {}", parts.number));
     if (parts.leg > 0) text += fmt::format(" of leg {}", parts.leg);
+    if (parts.tendon > 0) text += fmt::format(", tendon {} of section {}", parts.tendon, parts.section);
     return text;
   }
   const bool has_index = is_ours && column.size() > 1 && column.size() < 4 &&

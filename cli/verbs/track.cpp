@@ -1,6 +1,8 @@
-/// track: the inputs along a path of the platform, as a table for people or a file of numbers.
+/// track: the inputs along a path of the platform, or an arm along a path of inputs, as a table for people or
+/// a file of numbers.
 #include <fmt/format.h>
 
+#include "arm_path.hpp"
 #include "io/visible.hpp"
 #include "question.hpp"
 #include "sinew/base/numbers.hpp"
@@ -72,15 +74,19 @@ int run_track(const Arguments& arguments) {
     return refuse_question(arguments,
                            {{"missing_option", "--to",
                              fmt::format("--to is missing. Example: {}", find_verb("track")->example)}});
-  auto robot = open_with_platform(arguments);
+  auto robot = open(arguments);
+  if (robot && is_serial(*robot)) robot = open_with_platform(arguments);
   if (!robot) return refuse_question(arguments, robot.error());
   const auto answer = put("track", arguments, *robot);
   if (!answer) return refuse_question(arguments, answer.error());
   const Node* rows = answer->find("rows");
-  std::string shown = rows && !rows->items.empty() ? show_path(*rows, *robot) : "";
+  std::string shown = !rows || rows->items.empty() ? ""
+                      : is_arm(*robot)             ? show_arm_path(*answer, *robot)
+                                                   : show_path(*rows, *robot);
   const std::string* file = arguments.text("output");
   if (rows && file) {
-    const auto written = write_csv(path_table(*answer, *robot), *file);
+    const auto written =
+        write_csv(is_arm(*robot) ? arm_path_table(*answer, *robot) : path_table(*answer, *robot), *file);
     if (!written) return refuse_question(arguments, written.error());
     shown = arguments.has("quiet") ? "" : visible_line(*file) + '\n';
   }

@@ -1,12 +1,15 @@
 /// @file solve.hpp
 /// Typed questions about one configuration: each solved with a report, without heap in warm use.
 #pragma once
+#include "sinew/analysis/identify.hpp"             // IWYU pragma: export
 #include "sinew/analysis/serial_shape.hpp"         // IWYU pragma: export
 #include "sinew/analysis/shape.hpp"                // IWYU pragma: export
 #include "sinew/analysis/singularity_map.hpp"      // IWYU pragma: export
 #include "sinew/analysis/tendon_limits.hpp"        // IWYU pragma: export
 #include "sinew/analysis/type_2_distance.hpp"      // IWYU pragma: export
 #include "sinew/analysis/velocity.hpp"             // IWYU pragma: export
+#include "sinew/kinematics/arm.hpp"                // IWYU pragma: export
+#include "sinew/kinematics/arm_path.hpp"           // IWYU pragma: export
 #include "sinew/kinematics/assembly_modes.hpp"     // IWYU pragma: export
 #include "sinew/kinematics/constrained_pose.hpp"   // IWYU pragma: export
 #include "sinew/kinematics/equilibrium.hpp"        // IWYU pragma: export

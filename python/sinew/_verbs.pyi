@@ -67,8 +67,9 @@ class Verbs:
             max_iterations (int): most iterations of the solver; default 100, of rods 4000
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
-                of a serial robot its configuration, or last, where the last question with a start ended;
-                default the robot's home
+                of a serial robot its configuration, or last, where the last question with a start ended, of
+                `track` of an arm where its last path did, with what friction remembers; default the robot's
+                home
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
                 null for a tendon that `changes` has; a list each, or an array
             wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
@@ -107,7 +108,7 @@ class Verbs:
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
                 it, wrench and, where it turns with the place, following
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
-                have it: projected, collocated, closed_form
+                have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
             elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
                 discs (prb)
@@ -208,8 +209,9 @@ class Verbs:
                 (legs,)
             curvature (numbers) [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
-                of a serial robot its configuration, or last, where the last question with a start ended;
-                default the robot's home
+                of a serial robot its configuration, or last, where the last question with a start ended, of
+                `track` of an arm where its last path did, with what friction remembers; default the robot's
+                home
             wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
                 arm on its tip, in base axes; (3,) in the plane, (6,) in space
             gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
@@ -238,7 +240,7 @@ class Verbs:
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
                 it, wrench and, where it turns with the place, following
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
-                have it: projected, collocated, closed_form
+                have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
             elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
                 discs (prb)
@@ -343,8 +345,9 @@ class Verbs:
             angles (lists of numbers) [rad]: of the joints of each chain, from the first sprung one; before
                 them the direction of a first link that a motor turns; a list each, or an array
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
-                of a serial robot its configuration, or last, where the last question with a start ended;
-                default the robot's home
+                of a serial robot its configuration, or last, where the last question with a start ended, of
+                `track` of an arm where its last path did, with what friction remembers; default the robot's
+                home
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
                 null for a tendon that `changes` has; a list each, or an array
             wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
@@ -376,7 +379,7 @@ class Verbs:
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
                 it, wrench and, where it turns with the place, following
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
-                have it: projected, collocated, closed_form
+                have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
             elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
                 discs (prb)
@@ -483,8 +486,9 @@ class Verbs:
                 (legs,)
             curvature (numbers) [1/m]: a curvature for each leg; the nearest solution is taken; (legs,)
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
-                of a serial robot its configuration, or last, where the last question with a start ended;
-                default the robot's home
+                of a serial robot its configuration, or last, where the last question with a start ended, of
+                `track` of an arm where its last path did, with what friction remembers; default the robot's
+                home
             set_at (pose) [m, rad]: the pose at which the tendons are set without load, the outer ones loose
             hold (str): what stays after `set_at` or with `pose`: tension (default) or length
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
@@ -526,7 +530,7 @@ class Verbs:
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
                 it, wrench and, where it turns with the place, following
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
-                have it: projected, collocated, closed_form
+                have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
             elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
                 discs (prb)
@@ -582,6 +586,16 @@ class Verbs:
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
         samples: int | None = None,
+        following: Numbers | None = None,
+        distributed: Numbers | None = None,
+        distributed_following: Numbers | None = None,
+        loads: Any | None = None,
+        balance: str | None = None,
+        order: int | None = None,
+        elements: int | None = None,
+        accuracy: Number | None = None,
+        points: Any | None = None,
+        steps: int | None = None,
         from_: Any | None = None,
         to: Mapping[str, Any] | None = None,
         objective: str | None = None,
@@ -627,8 +641,9 @@ class Verbs:
             angles (lists of numbers) [rad]: of the joints of each chain, from the first sprung one; before
                 them the direction of a first link that a motor turns; a list each, or an array
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
-                of a serial robot its configuration, or last, where the last question with a start ended;
-                default the robot's home
+                of a serial robot its configuration, or last, where the last question with a start ended, of
+                `track` of an arm where its last path did, with what friction remembers; default the robot's
+                home
             set_at (pose) [m, rad]: the pose at which the tendons are set without load, the outer ones loose
             hold (str): what stays after `set_at` or with `pose`: tension (default) or length
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
@@ -641,6 +656,24 @@ class Verbs:
                 file's; (3,)
             samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
                 curve, at most, default 500
+            following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
+                turn; (3,) in the plane, (6,) in space
+            distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
+            distributed_following (numbers) [N/m]: the same in the backbone's own axes [N/m]; (3,)
+            loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
+                it, wrench and, where it turns with the place, following
+            balance (str): how an arm's equilibrium is written: energy (default), or as published models
+                have it: projected, collocated, closed_form; a path knows energy alone
+            order (int): of the polynomials of an arm's strain; default as `accuracy` needs
+            elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
+                discs (prb)
+            accuracy (number): of an arm's tip to which polynomials are refined, over its length; default
+                1e-6
+            points (number, list, dict or str): the path of an arm, whose tendons rub: a list of tensions or
+                changes, as `forward` takes them, and where they change wrench, following, distributed,
+                distributed_following, loads, gravity
+            steps (int): even ones to each point of an arm's path, a row each; default 10; finer ones tell
+                more of what slips first
             from_ (number, list, dict or str) [m, rad]: first pose of a path, of rods with three inputs z,
                 e1 and e2
             to (dict): last pose of a path; of a curve of equilibria what changes along it: inputs,
@@ -807,8 +840,9 @@ class Verbs:
             angles (lists of numbers) [rad]: of the joints of each chain, from the first sprung one; before
                 them the direction of a first link that a motor turns; a list each, or an array
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
-                of a serial robot its configuration, or last, where the last question with a start ended;
-                default the robot's home
+                of a serial robot its configuration, or last, where the last question with a start ended, of
+                `track` of an arm where its last path did, with what friction remembers; default the robot's
+                home
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
                 null for a tendon that `changes` has; a list each, or an array
             wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
@@ -840,7 +874,7 @@ class Verbs:
             loads (number, list, dict or str): on an arm's backbone: a list of place, from the base along
                 it, wrench and, where it turns with the place, following
             balance (str): how an arm's equilibrium is written: energy (default), or as published models
-                have it: projected, collocated, closed_form
+                have it: projected, collocated, closed_form; a path knows energy alone
             order (int): of the polynomials of an arm's strain; default as `accuracy` needs
             elements (int): of each section (rod) or between two discs (subsegment_rod), joints between two
                 discs (prb)

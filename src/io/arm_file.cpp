@@ -305,8 +305,13 @@ void ArmReader::read_properties(Reader& map, ArmTendon& tendon) {
     for (std::size_t m = 0; m < tendon.routes.size(); ++m)
       length += straight_length(tendon.routes[m], arm_.sections[m]);
     tendon.compliance = length / stretch->stiffness;
+    tendon.outside = std::min(1.0, stretch->outside / length);
     if (!(tendon.compliance <= max_compliance))
       (own ? *own : map).fail("out_of_range", "stretch makes tendons softer than any are; is a unit wrong?");
+  }
+  if (const auto outside = map.optional("outside")) {
+    if (own) outside->refuse("ambiguous", "stretch has a length outside, which says the same; keep one");
+    tendon.outside = outside->number(Range::between(0, 1));
   }
   if (const auto friction = map.optional("friction"))
     tendon.friction = friction->number(Range::between(0, 100));

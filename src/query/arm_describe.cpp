@@ -68,6 +68,7 @@ void answer_arm_describe(Context& context) {
     tendons.push_back({{"section", tendon.section()},
                        {"routes", routes},
                        {"compliance", tendon.compliance},
+                       {"outside", tendon.outside},
                        {"friction", tendon.friction},
                        {"pretension", tendon.pretension}});
   }

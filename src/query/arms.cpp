@@ -6,24 +6,12 @@
 
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
+#include "query/arms.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
-#include "sinew/kinematics/arm.hpp"
 
 namespace sinew::inline v1 {
 namespace {
-
-/// A query put to an arm.
-struct ArmContext : Question {
-  const Arm& robot;
-  ArmWorkspace& work;
-  explicit ArmContext(Context& context)
-      : Question(context),
-        robot(*context.robot.arm()),
-        work(*context.work.arm) {
-    work.stop = context.work.stop;
-  }
-};
 
 constexpr Wants arm_wants{Want::pose,      Want::velocity,  Want::shape,
                           Want::stiffness, Want::stability, Want::margins};
@@ -36,11 +24,11 @@ std::vector<std::size_t> tendon_counts(const Arm& arm) {
 }
 
 /// Per section what is given of its tendons; null where nothing is.
-std::vector<std::optional<double>> read_of_tendons(const ArmContext& context, const Reader& list,
-                                                   Dimension dimension, const Range& range) {
+std::vector<std::optional<double>> read_of_tendons(const Arm& arm, const Reader& list, Dimension dimension,
+                                                   const Range& range) {
   std::vector<std::optional<double>> values;
   const auto items = list.items();
-  const auto counts = tendon_counts(context.robot);
+  const auto counts = tendon_counts(arm);
   if (items.size() > counts.size())
     list.fail("wrong_length",
               fmt::format("the robot has {} sections, found {} entries", counts.size(), items.size()));
@@ -58,18 +46,18 @@ std::vector<std::optional<double>> read_of_tendons(const ArmContext& context, co
   return values;
 }
 
-/// `tensions` and `changes`: each tendon is held by one of them. What neither names is loose where changes
-/// are not given, else as long as at rest.
-std::vector<TendonCommand> read_arm_commands(ArmContext& context) {
-  const auto tensions = context.query.optional("tensions"), changes = context.query.optional("changes");
-  std::vector<TendonCommand> commands(context.robot.tendons.size(),
+}  // namespace
+
+std::vector<TendonCommand> read_arm_commands(const Arm& arm, Reader& place) {
+  const auto tensions = place.optional("tensions"), changes = place.optional("changes");
+  std::vector<TendonCommand> commands(arm.tendons.size(),
                                       {changes && !tensions ? TendonHeld::change : TendonHeld::tension, 0});
   if (tensions) {
-    const auto values = read_of_tendons(context, *tensions, Dimension::force, {.low = 0, .high = 1e9});
+    const auto values = read_of_tendons(arm, *tensions, Dimension::force, {.low = 0, .high = 1e9});
     for (std::size_t i = 0; i < commands.size(); ++i)
       if (values[i]) commands[i] = {TendonHeld::tension, *values[i]};
     if (changes) {
-      const auto others = read_of_tendons(context, *changes, Dimension::length, Range::place());
+      const auto others = read_of_tendons(arm, *changes, Dimension::length, Range::place());
       for (std::size_t i = 0; i < commands.size(); ++i) {
         if (!others[i]) continue;
         if (values[i])
@@ -79,11 +67,13 @@ std::vector<TendonCommand> read_arm_commands(ArmContext& context) {
       }
     }
   } else if (changes) {
-    const auto values = read_of_tendons(context, *changes, Dimension::length, Range::place());
+    const auto values = read_of_tendons(arm, *changes, Dimension::length, Range::place());
     for (std::size_t i = 0; i < commands.size(); ++i) commands[i].value = values[i].value_or(0);
   }
   return commands;
 }
+
+namespace {
 
 std::array<double, 6> read_arm_wrench(const Reader& list) {
   std::array<double, 6> numbers{};
@@ -103,19 +93,20 @@ PointLoad read_point_load(Reader& load, double length) {
   return point;
 }
 
-ArmLoad read_arm_load(ArmContext& context) {
-  ArmLoad load;
-  Reader& query = context.query;
-  if (const auto wrench = query.optional("wrench")) load.wrench = read_arm_wrench(*wrench);
-  if (const auto following = query.optional("following")) load.following = read_arm_wrench(*following);
+}  // namespace
+
+ArmLoad read_arm_load(const Arm& arm, Reader& place, ArmLoad load) {
+  if (const auto wrench = place.optional("wrench")) load.wrench = read_arm_wrench(*wrench);
+  if (const auto following = place.optional("following")) load.following = read_arm_wrench(*following);
   const Range any{.low = -1e9, .high = 1e9};
-  if (const auto along = query.optional("distributed")) load.along = along->array<3>(Dimension::number, any);
-  if (const auto along = query.optional("distributed_following"))
+  if (const auto along = place.optional("distributed")) load.along = along->array<3>(Dimension::number, any);
+  if (const auto along = place.optional("distributed_following"))
     load.following_along = along->array<3>(Dimension::number, any);
-  if (const auto points = query.optional("loads"))
-    for (Reader& point : points->items())
-      load.points.push_back(read_point_load(point, context.robot.length()));
-  if (const auto gravity = query.optional("gravity")) {
+  if (const auto points = place.optional("loads")) {
+    load.points.clear();
+    for (Reader& point : points->items()) load.points.push_back(read_point_load(point, arm.length()));
+  }
+  if (const auto gravity = place.optional("gravity")) {
     const Vec3<double> g = read_gravity(*gravity);
     load.gravity = {g[0], g[1], g[2]};
   }
@@ -147,7 +138,6 @@ ArmOptions read_arm_options(ArmContext& context) {
   return options;
 }
 
-/// `start`: `last`, where the workspace is.
 void read_arm_start(ArmContext& context, ArmOptions& options) {
   options.from_last = context.continues == Continues::always && context.last != nullptr;
   const auto start = context.query.optional("start");
@@ -166,10 +156,18 @@ Value by_end_section(const Arm& arm, std::span<const double> values) {
   return list;
 }
 
-void put_arm_state(ArmContext& context, const ArmState& state) {
-  context.report(state.report);
-  if (std::ranges::any_of(context.robot.tendons, [](const ArmTendon& tendon) { return tendon.friction > 0; }))
-    context.add_message("its tendons are taken without their friction");
+bool has_friction(const Arm& arm) {
+  return std::ranges::any_of(arm.tendons, [](const ArmTendon& tendon) { return tendon.friction > 0; });
+}
+
+namespace {
+
+/// @param report of the question; its message comes first
+void put_arm_state(ArmContext& context, const ArmState& state, const Report& report) {
+  context.report(report);
+  if (has_friction(context.robot))
+    context.add_message(
+        "its tendons are taken as if they did not rub; track follows a path with their friction");
   Value& answer = context.answer;
   if (state.report.status == Status::bad_input || state.report.status == Status::unsupported) return;
   answer["tip"] = pose_value(AnyPose(spatial_pose(state.tip)));
@@ -177,8 +175,8 @@ void put_arm_state(ArmContext& context, const ArmState& state) {
   answer["changes"] = by_end_section(context.robot, state.changes);
   answer["slack"] = by_end_section(context.robot, state.slack);
   if (state.stability_told) answer["stable"] = state.stable;
-  answer["potential"] = state.energy;
-  answer["residual"] = state.report.residual;
+  put_number(answer, "potential", state.energy);
+  put_number(answer, "residual", state.report.residual);
   answer["iterations"] = state.report.iterations;
   if (state.resolution > 0) answer["resolution"] = state.resolution;
   if (context.robot.motor) {
@@ -279,8 +277,8 @@ void put_arm_wants(ArmContext& context, const ArmState& state, const ArmWanted& 
 void answer_arm_state(Context& asked, Want usual) {
   ArmContext context(asked);
   ArmOptions options = read_arm_options(context);
-  const auto commands = read_arm_commands(context);
-  const ArmLoad load = read_arm_load(context);
+  const auto commands = read_arm_commands(context.robot, context.query);
+  const ArmLoad load = read_arm_load(context.robot, context.query);
   read_arm_start(context, options);
   bool want_all = false;
   if (usual == Want::pose)
@@ -288,7 +286,7 @@ void answer_arm_state(Context& asked, Want usual) {
   const ArmWanted wanted = read_arm_wants(context, {usual});
   if (!context.ready()) return;
   const ArmState state = arm_forward(context.robot, commands, load, options, context.work);
-  put_arm_state(context, state);
+  put_arm_state(context, state, state.report);
   put_arm_wants(context, state, wanted);
   if (!want_all || state.report.status == Status::bad_input) return;
   Value solutions = Value::list();
@@ -334,16 +332,15 @@ void answer_arms_inverse(Context& asked) {
   ArmInverseOptions options;
   options.arm = read_arm_options(context);
   const ArmTarget target = read_arm_target(context);
-  const ArmLoad load = read_arm_load(context);
+  const ArmLoad load = read_arm_load(context.robot, context.query);
   read_arm_start(context, options.arm);
   if (const auto limit = context.query.optional("tension_limit"))
     options.most_tension = limit->quantity(Dimension::force, Range::positive());
   const ArmWanted wanted = read_arm_wants(context, {Want::pose});
   if (!context.ready()) return;
   const ArmInverse found = arm_inverse(context.robot, target, load, options, context.work);
-  put_arm_state(context, found.state);
-  context.report(found.report);
-  context.answer["residual"] = found.report.residual;
+  put_arm_state(context, found.state, found.report);
+  put_number(context.answer, "residual", found.report.residual);
   context.answer["iterations"] = found.report.iterations;
   put_arm_wants(context, found.state, wanted);
 }
@@ -352,8 +349,8 @@ void answer_arms_statics(Context& asked) {
   ArmContext context(asked);
   ArmOptions options = read_arm_options(context);
   ArmMeasurement measured;
-  measured.held = read_arm_commands(context);
-  const ArmLoad load = read_arm_load(context);
+  measured.held = read_arm_commands(context.robot, context.query);
+  const ArmLoad load = read_arm_load(context.robot, context.query);
   read_arm_start(context, options);
   const auto tensions = context.query.optional("measured_tensions"), tip = context.query.optional("position"),
              deviation = context.query.optional("deviation"), force = context.query.optional("force_alone");
@@ -372,12 +369,11 @@ void answer_arms_statics(Context& asked) {
   const ArmWanted wanted = read_arm_wants(context, {Want::pose});
   if (!context.ready()) return;
   const ArmSensed sensed = arm_sense(context.robot, measured, load, force_alone, options, context.work);
-  put_arm_state(context, sensed.state);
-  context.report(sensed.report);
+  put_arm_state(context, sensed.state, sensed.report);
   if (sensed.report.status == Status::bad_input) return;
   context.answer["wrench"] = sensed.wrench;
   context.answer["covariance"] = Value(MatrixView(sensed.covariance.data(), 6, 6));
-  context.answer["misfit"] = sensed.misfit;
+  put_number(context.answer, "misfit", sensed.misfit);
   put_arm_wants(context, sensed.state, wanted);
 }
 

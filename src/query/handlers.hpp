@@ -56,6 +56,7 @@ void answer_arms_inverse(Context& context);
 void answer_arms_velocity(Context& context);
 void answer_arms_shape(Context& context);
 void answer_arms_statics(Context& context);
+void answer_arms_track(Context& context);
 /// @}
 
 void answer_describe(Context& context);  ///< of robots with a platform

@@ -46,7 +46,7 @@ constexpr std::array kinds{
     Kind{"describe", answer_describe, answer_describe, answer_describe, answer_serial_describe,
          answer_arm_describe},
     Kind{"statics", nullptr, answer_chains_statics, answer_rods_statics, nullptr, answer_arms_statics},
-    Kind{"track", answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, nullptr},
+    Kind{"track", answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, answer_arms_track},
     Kind{"diagram", nullptr, nullptr, nullptr, answer_serial_diagram, nullptr},
 };
 constexpr auto kind_names = [] {

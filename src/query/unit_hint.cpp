@@ -168,6 +168,12 @@ void Search::field(const Field& field, const std::string& path, const Node& node
     case Shape::places:
       for (std::size_t k = 0; k < node.items.size(); ++k) pose(joined(path, k), node.items[k]);
       break;
+    case Shape::path_points:
+      for (std::size_t k = 0; k < node.items.size(); ++k)
+        for (const Member& member : node.items[k].members)
+          if (const Field* known = find_field(member.key); known && known->shape != Shape::path_points)
+            this->field(*known, joined(path, k) + "." + member.key, member.value);
+      break;
     case Shape::target:
       pose(path, node);
       if (const Node* target = node.find("pose")) pose(joined(path, "pose"), *target);

@@ -7,6 +7,7 @@
 
 #include "base/at.hpp"
 #include "sinew/math/se3.hpp"
+#include "sinew/math/so3.hpp"
 #include "strain/condense.hpp"
 #include "strain/sweep.hpp"
 
@@ -25,26 +26,10 @@ constexpr double edge = 1e-14;
 constexpr int most_rounds = 30;
 
 Vector vector(const double* x) { return {x[0], x[1], x[2]}; }
-Turn skew(const Vector& u) {
-  Turn m;
-  m << 0, -u[2], u[1], u[2], 0, -u[0], -u[1], u[0], 0;
-  return m;
-}
 double size_of_vector(std::span<const double> x) {
   double sum = 0;
   for (double v : x) sum += v * v;
   return std::sqrt(sum);
-}
-NodeLoad mix(const NodeLoad& a, const NodeLoad& b, double share) {
-  NodeLoad load;
-  const auto each = [share](const double* from, const double* to, double* out, int count) {
-    for (int i = 0; i < count; ++i) out[i] = from[i] + share * (to[i] - from[i]);
-  };
-  each(a.force, b.force, load.force, 3);
-  each(a.couple, b.couple, load.couple, 9);
-  each(a.moment, b.moment, load.moment, 3);
-  each(a.following, b.following, load.following, 6);
-  return load;
 }
 
 }  // namespace
@@ -264,7 +249,7 @@ void FrictionRod::gradients() {
       const Vector p = vector(work_.steps[at(e)].data() + 9);
       if (e > segment.first_element) {  // a twist at the start as it is at the end
         const Eigen::Matrix<double, 3, Eigen::Dynamic> shifted =
-            segment.twist.topRows<3>() - skew(p) * segment.twist.bottomRows<3>();
+            segment.twist.topRows<3>() - skew<double>(p) * segment.twist.bottomRows<3>();
         segment.twist.topRows<3>() = R.transpose() * shifted;
         segment.twist.bottomRows<3>() = (R.transpose() * segment.twist.bottomRows<3>()).eval();
       }
@@ -278,9 +263,9 @@ void FrictionRod::gradients() {
           const Six& xi = work_.strains[at(e)][at(1 - g)];
           const double k = g == 0 ? -element.commutator : element.commutator;
           Mat<double, 6, 6> D = Mat<double, 6, 6>::Identity() * (0.5 * element.length);
-          D.topLeftCorner<3, 3>() += k * skew(vector(xi.data() + 3));
-          D.bottomRightCorner<3, 3>() += k * skew(vector(xi.data() + 3));
-          D.topRightCorner<3, 3>() += k * skew(vector(xi.data()));
+          D.topLeftCorner<3, 3>() += k * skew<double>(vector(xi.data() + 3));
+          D.bottomRightCorner<3, 3>() += k * skew<double>(vector(xi.data() + 3));
+          D.topRightCorner<3, 3>() += k * skew<double>(vector(xi.data()));
           by_strain = J * D;
         }
         for (int c = 0; c < 6; ++c)
@@ -701,7 +686,7 @@ Relaxed FrictionRod::newton(const RelaxOptions& options) {
       return result;
     }
     for (const Chain& chain : chains_)
-      if (!chain.spans.held || chain.tendon.friction > 0)
+      if (!chain.spans.held || (chain.tendon.friction > 0 && chain.spans.tension > 0))  // else it is known
         for (std::size_t k = 0; k < chain.units.size(); ++k)
           (chain.units[k].hole ? work_.hole_tension : work_.guide_tension)[at(chain.units[k].entry)] =
               chain.pull[k];
@@ -826,7 +811,7 @@ Relaxed FrictionRod::equilibrium(const RelaxOptions& options, bool flows) {
 }
 
 /// What lies where once all that slips has slipped.
-void FrictionRod::commit(PathStep& result) {
+void FrictionRod::commit(PathStep& result, bool turned) {
   double stored = work_.energy;
   for (std::size_t i = 0; i < chains_.size(); ++i) {
     Chain& chain = chains_[i];
@@ -876,9 +861,10 @@ void FrictionRod::commit(PathStep& result) {
     stored += 0.5 * chain.tendon.outside * memory.tension[0] * memory.tension[0];
     memory.slack = slack;
     result.motors += 0.5 * (before[0] + memory.tension[0]) * (memory.end - end_before);
-    for (std::size_t k = 0; k < count; ++k)
-      result.friction +=
-          0.5 * (before[k] - before[k + 1] + memory.tension[k] - memory.tension[k + 1]) * moved[k];
+    for (std::size_t k = 0; k < count; ++k) {
+      const double drop = memory.tension[k] - memory.tension[k + 1];
+      result.friction += (turned ? drop : 0.5 * (before[k] - before[k + 1] + drop)) * moved[k];
+    }
   }
   now_.y = work_.y;
   std::copy(work_.loads.begin(), work_.loads.end(), now_.loads.begin());
@@ -907,7 +893,11 @@ PathStep FrictionRod::step(std::span<const TendonInput> inputs, std::span<const 
   constexpr double least = 1.0 / 256;
   double done = 0, part = 1;
   result.found.reached = 0;
+  const int budget = 10 * std::max(options.max_iterations, 1);
+  bool spent = false;
   while (done < 1) {
+    spent = result.found.iterations >= budget;  // inch by inch it would take minutes
+    if (spent) break;
     const double share = std::min(1.0, done + part);
     for (std::size_t i = 0; i < here.size(); ++i)
       here[i].value =
@@ -930,7 +920,22 @@ PathStep FrictionRod::step(std::span<const TendonInput> inputs, std::span<const 
     result.found.residual = one.residual;
     result.found.negative = one.negative;
     if (one.status == Status::converged) {
-      commit(result);
+      const State before = now_;
+      PathStep sums = result;
+      commit(sums, false);
+      const double lost = sums.friction - result.friction, put_in = std::abs(sums.motors - result.motors),
+                   taken_up = std::abs(now_.stored - before.stored);
+      if (lost < -1e-6 * (put_in + taken_up)) {
+        // friction gave energy: the path turned within, too coarse for trapezoids and for what slips first
+        now_ = before;
+        if (part > least) {
+          part = std::max(least, 0.5 * part);
+          continue;
+        }
+        sums = result;
+        commit(sums, true);
+      }
+      result = sums;
       ++result.parts;
       done = share;
       part *= iterations < 8 ? 2 : 1;
@@ -947,7 +952,10 @@ PathStep FrictionRod::step(std::span<const TendonInput> inputs, std::span<const 
     set(here, mixed);
     work_.y = now_.y;
     evaluate();
-    if (result.found.status != Status::stopped) result.found.status = Status::stalled;
+    if (spent)
+      result.found.status = Status::iteration_limit;
+    else if (result.found.status != Status::stopped)
+      result.found.status = Status::stalled;
   }
   return result;
 }

@@ -154,7 +154,8 @@ class FrictionRod {
   Relaxed flow(const RelaxOptions& options);
   Relaxed rigid(const RelaxOptions& options, bool flows);
   Relaxed equilibrium(const RelaxOptions& options, bool flows);
-  void commit(PathStep& result);
+  /// @param turned guides slip by the tensions at its end alone, after those before had another direction
+  void commit(PathStep& result, bool turned);
 
   const RodModel* model_;
   RodWork work_;

@@ -106,6 +106,19 @@ struct NodeLoad {
   double following[6] = {};  ///< force and moment in the node's axes; no potential
 };
 
+/// The load at this share of the way from one to another.
+inline NodeLoad mix(const NodeLoad& a, const NodeLoad& b, double share) {
+  NodeLoad load;
+  const auto each = [share](const double* from, const double* to, double* out, int count) {
+    for (int i = 0; i < count; ++i) out[i] = from[i] + share * (to[i] - from[i]);
+  };
+  each(a.force, b.force, load.force, 3);
+  each(a.couple, b.couple, load.couple, 9);
+  each(a.moment, b.moment, load.moment, 3);
+  each(a.following, b.following, load.following, 6);
+  return load;
+}
+
 /// What a Newton step needs of a piece: its Hessian, and how it passes a twist on.
 struct PieceTerms {
   std::vector<double> H;        ///< size × padded

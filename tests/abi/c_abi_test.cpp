@@ -51,6 +51,25 @@ TEST(CAbi, AnswersAsASession) {
   }
 }
 
+TEST(CAbi, FollowsAnArmFromQuestionToQuestion) {
+  sinew_robot* robot = opened("tendon-rod");
+  sinew_session* session = sinew_session_new(robot);
+  const auto across = [&](int tension, const char* start) {
+    const std::string question =
+        R"({"query": "track", "set": {"sections[0].tendons.friction": 0.3}, "points": [{"tensions": [[)" +
+        std::to_string(tension) + ", 0, 0, 0]]}]" + start + "}";
+    const Json answer = Json::parse(asked(session, question));
+    EXPECT_EQ(answer["status"], "converged") << answer;
+    return answer["tip"]["position"][0].get<double>();
+  };
+  const double pulled = across(1, "");
+  across(3, R"(, "start": "last")");
+  EXPECT_GT(across(1, R"(, "start": "last")"), pulled + 1e-4);  // let go it stays bent
+  EXPECT_NEAR(across(1, ""), pulled, 1e-12);
+  sinew_release(session);
+  sinew_release(robot);
+}
+
 TEST(CAbi, OpensTexts) {
   const std::string text = sinew::read_robot_text("3-rfr").value();
   sinew_robot* robot = opened(text, SINEW_TEXT);

@@ -202,6 +202,7 @@ TEST(ArmFile, TendonsGiveWay) {
   const std::string mine = changed("angle: 90 deg", "angle: 90 deg, friction: 0.1, pretension: 2 N");
   const Arm arm = read("[" + mine + "]", "stretch: {stiffness: 1 kN, outside: 300 mm}\n").value();
   EXPECT_DOUBLE_EQ(arm.tendons[1].compliance, 4e-4);
+  EXPECT_DOUBLE_EQ(arm.tendons[1].outside, 0.75);  // 300 of 400 mm
   EXPECT_EQ(arm.tendons[1].friction, 0.1);
   EXPECT_EQ(arm.tendons[1].pretension, 2);
   const auto own = [](const char* what) { return "[" + changed("angle: 90 deg", what) + "]"; };
@@ -209,6 +210,13 @@ TEST(ArmFile, TendonsGiveWay) {
       read(own("angle: 1, compliance: 0.2 mm/N"), "stretch: {stiffness: 1 kN}\n")->tendons[0].compliance,
       2e-4);
   EXPECT_DOUBLE_EQ(read(own("angle: 1, stretch: {stiffness: 10 N}"))->tendons[0].compliance, 0.01);
+  EXPECT_EQ(read(own("angle: 1, compliance: 1e-4, outside: 0.2"))->tendons[0].outside, 0.2);
+  EXPECT_EQ(read(own("angle: 1, compliance: 1e-4, outside: 1"))->tendons[0].outside, 1);
+  EXPECT_EQ(read(own("angle: 1, compliance: 1e-4"), "stretch: {stiffness: 1 kN, outside: 1 m}\n")
+                ->tendons[0]
+                .outside,
+            0);
+  EXPECT_EQ(read(own("angle: 1, stretch: {stiffness: 10 N}"))->tendons[0].outside, 0);
   // from disc to disc a helix is straight: 5 spans of 20 mm, each with a chord of 60 deg on 5 mm
   EXPECT_DOUBLE_EQ(read(own("angle: 0, turn: 300 deg, stretch: {stiffness: 1 N}"))->tendons[0].compliance,
                    5 * std::hypot(0.02, 0.005));
@@ -246,6 +254,12 @@ TEST(ArmFile, SizesThatDoNotFitAreNamed) {
   EXPECT_ERROR(error_of("angle: 90 deg", "angle: 90 deg, compliance: -1e-4"), "out_of_range", "compliance");
   EXPECT_ERROR(error_of("angle: 90 deg", "angle: 90 deg, friction: -0.1"), "out_of_range", "friction");
   EXPECT_ERROR(error_of("angle: 90 deg", "angle: 90 deg, pretension: -1 N"), "out_of_range", "pretension");
+  for (const char* share : {"-0.1", "1.1"})
+    EXPECT_ERROR(error_of("angle: 90 deg", fmt::format("angle: 90 deg, outside: {}", share)), "out_of_range",
+                 "outside");
+  EXPECT_ERROR(error_of("angle: 90 deg", "angle: 90 deg, outside: 50 mm"), "wrong_dimension", "outside");
+  EXPECT_ERROR(error_of("angle: 90 deg", "angle: 90 deg, stretch: {stiffness: 1 kN}, outside: 0.5"),
+               "ambiguous", "outside");
   EXPECT_ERROR(error_of("angle: 90 deg", "angle: 90 deg, stretch: {stiffness: 1e-300}"), "out_of_range",
                "softer");
   EXPECT_ERROR(error("[" + std::string(section) + "]", "tip: {mass: -1 g}\n"), "out_of_range", "tip.mass");

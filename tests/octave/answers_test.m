@@ -81,7 +81,8 @@ function questions = questions_of (r)
   if strcmp (d.kind, 'arm')
     f = r.forward ('changes', []);
     questions = {ask('forward', 'changes', []), ask('inverse', 'position', f.tip.position), ask('shape', 'changes', []), ...
-                 ask('velocity', 'changes', []), ask('track', 'from', f.tip, 'to', f.tip), ask('statics'), ask('diagram')};
+                 ask('velocity', 'changes', []), ask('track', 'from', f.tip, 'to', f.tip), ...
+                 ask('track', 'points', {struct('changes', {{}})}, 'steps', 2), ask('statics'), ask('diagram')};
     return
   end
   if isfield (d.home, 'x')

@@ -73,6 +73,15 @@ assert (size (one.changes), [5 3]);
 assert (snake.inverse (one.tip.position).ok);
 assert (snake.diagram ('section', 0, 'changes', one.changes(1, :)).ok);
 
+% An arm along a path: what slipped is remembered.
+arm = sinew ('tendon-rod').set ('sections[0].tendons.friction', 0.3);
+point = @(tension) struct ('tensions', {{[tension 0 0 0]}});
+path = arm.track ('points', {point(3), point(1)}, 'steps', 4);
+assert (path.ok);
+assert (numel (path.rows), 8);
+assert (path.tip.position(1) > arm.track ('points', {point(1)}).tip.position(1) + 1e-4);
+assert (path.rows(4).end_tensions(1) < 3 && path.friction_loss > 0);
+
 % From files, texts, structs; with other values.
 here = fullfile (getenv ('SINEW_ROBOTS'), '3-rfr.yaml');
 text = fileread (here);

@@ -157,6 +157,21 @@ class Units(unittest.TestCase):
         self.assertNotIn("freedoms.platform", planar.describe().units)
 
 
+class Paths(unittest.TestCase):
+    def test_of_an_arm_whose_tendons_rub(self):
+        arm = sinew.load("tendon-rod").set({"sections[0].tendons.friction": 0.3})
+        path = arm.track(points=[{"tensions": [[3, 0, 0, 0]]}, {"tensions": [[1, 0, 0, 0]]}], steps=4)
+        self.assertEqual((path.status, len(path.rows), path.rows[3].point, path.rows[3].part), ("converged", 8, 0, 1))
+        pulled = arm.track(points=[{"tensions": [[1, 0, 0, 0]]}], steps=4)
+        self.assertGreater(path.tip.position[0], pulled.tip.position[0] + 1e-4)
+        self.assertLess(path.rows[3].end_tensions[0][0], 3)
+        self.assertGreater(path.friction_loss, 0)
+        self.assertEqual(path.units["rows[].friction_loss"], "J")
+        rows = arm.prepare("track", points=[{"tensions": "$T"}], path="continue", outputs={"x": "tip.position[0]"})
+        out = rows([[3, 0, 0, 0], [1, 0, 0, 0]])
+        self.assertAlmostEqual(out.x[1], path.tip.position[0], 4)
+
+
 class Uneven(unittest.TestCase):
     def test_lists_stay_lists(self):
         shape = sinew.load("nottingham-tpcj").shape(configuration=[[0.1, 0.1]])

@@ -74,6 +74,22 @@ TEST(ArmQueries, EveryWantAndModel) {
   }
 }
 
+TEST(ArmQueries, LoadsWhereSpansOfAChannelEnd) {
+  for (const double place : {0.05, 0.1, 0.15, 0.2, 0.35, 0.45}) {
+    const auto query = [&](double by) {
+      return Json{{"query", "forward"},
+                  {"tensions", {{2, 0, 0, 0}}},
+                  {"loads", Json::array({{{"place", place + by}, {"wrench", {0, 0.05, 0, 0, 0, 0}}}})}};
+    };
+    const auto answers = ask("tendon-rod", {query(0), query(1e-7)});
+    ASSERT_EQ(answers[0]["status"], "converged") << place << answers[0];
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(answers[0]["tip"]["position"][i].get<double>(),
+                  answers[1]["tip"]["position"][i].get<double>(), 1e-7)
+          << place;
+  }
+}
+
 TEST(ArmQueries, Refusals) {
   const auto code = [](const Json& query) {
     const Json answer = ask("two-segment", {query})[0];

@@ -348,5 +348,32 @@ TEST(Batch, TakesArraysAsTheyLie) {
   }
 }
 
+/// Each row is a path: from the straight arm, or from where the row before it ended, with what friction
+/// remembers.
+TEST(Batch, FollowsAnArmWhoseTendonsRubFromRowToRow) {
+  const std::string question =
+      R"({"query": "track", "points": [{"tensions": "$T"}], "steps": 3, "accuracy": 0,
+          "set": {"sections[0].tendons.friction": 0.3},
+          "outputs": {"x": "tip.position[0]", "loss": "friction_loss"}, "path": ")";
+  const std::vector<double> pulled{3, 0, 0, 0, 1, 0, 0, 0};
+  const auto after = [&](const char* path) {
+    const auto batch = prepared("tendon-rod", question + path + "\"}");
+    EXPECT_TRUE(batch) << batch.error().front().message;
+    EXPECT_EQ(batch->inputs()[0].size(), 4U);
+    const Rows rows = run(*batch, pulled);
+    EXPECT_EQ(rows.statuses, std::vector<std::uint8_t>(2, static_cast<std::uint8_t>(Status::converged)));
+    return rows.outputs;
+  };
+  const auto one = after("continue"), anew = after("anew");
+  EXPECT_NEAR(one[0], anew[0], 1e-12);
+  EXPECT_GT(std::abs(one[2] - anew[2]), 1e-4);  // let go from 3 N it is bent more than pulled to 1 N
+  EXPECT_GT(one[3], 0);
+  auto session = Session::open("tendon-rod").value();
+  const Json path = Json::parse(session.answer(
+      R"({"query": "track", "points": [{"tensions": [[3, 0, 0, 0]]}, {"tensions": [[1, 0, 0, 0]]}], "steps": 3,
+          "accuracy": 0, "set": {"sections[0].tendons.friction": 0.3}})"));
+  EXPECT_NEAR(one[2], path["tip"]["position"][0].get<double>(), 1e-10);
+}
+
 }  // namespace batch_test
 }  // namespace sinew

@@ -14,6 +14,8 @@ namespace sinew::inline v1 {
 struct ArmStep {
   std::vector<TendonCommand> commands;  ///< of every tendon, those of the first section first
   ArmLoad load;
+  int divisions =
+      1;  ///< into how many equal parts the way to it is divided, ≥ 1; each has a point of its own
 };
 
 /// An equilibrium of a path.
@@ -29,15 +31,17 @@ struct ArmPathPoint {
 };
 
 /// From the straight arm, free of tensions but for pretension, or where `options.from_last` says so from the
-/// end of the path that the workspace remembers: to each step inputs and loads change evenly. Steps are cut
-/// where they have to be; smaller ones tell more of what slips first.
+/// end of the path that the workspace remembers: to each step inputs and loads change evenly. A tendon that
+/// was held otherwise begins at the tension, or the change, that it has. Steps are cut where they have to be;
+/// divisions tell more of what slips first, and make sums of work exact.
 ///
 /// Strains have one resolution along a path: that of `options.order` and `elements`; else, where `accuracy`
 /// is not 0, finer than the coarsest. What a tendon does not stretch by is known: without friction the
 /// equilibria are those of arm_forward(). arm_rates() does not know those of tendons that rub.
 ///
-/// The answer ends with the first step that was not reached: `stalled` where no equilibrium was found; its
-/// state is the last one that was, from where a path may go on.
+/// A point for every division. The answer ends with the first one that was not reached: `stalled` where no
+/// equilibrium was found, `iteration_limit` after ten times `options.max_iterations` for one; its state is
+/// the last one that was, from where a path may go on.
 SINEW_API std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> steps,
                                                const ArmOptions& options, ArmWorkspace& work);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kinematics/arms/arm_work.hpp"
 #include "sinew/kinematics/arm_path.hpp"
@@ -118,6 +119,63 @@ FixedText<240> begin(const Arm& arm, std::span<const ArmStep> steps, const ArmOp
   return {};
 }
 
+/// From where a path is to one of its steps.
+class Way {
+ public:
+  Way(const Arm& arm, const ArmStep& step, const ArmPath& path) : from_(path.rod.work().loads), to_(from_) {
+    set_loads(arm, step.load, path.model, to_);
+    for (std::size_t i = 0; i < step.commands.size(); ++i) {
+      const bool by_tension = step.commands[i].held == TendonHeld::tension;
+      const double value = step.commands[i].value;
+      first_.push_back(by_tension ? path.rod.tension_at_motor(i) : path.rod.pulled_in(i));
+      last_.push_back({by_tension, by_tension ? value : -value});
+    }
+  }
+  /// @param share of the way
+  strain::PathStep go(strain::FrictionRod& rod, double share, const strain::RelaxOptions& options) const {
+    if (share == 1) return rod.step(last_, to_, options);
+    std::vector<strain::TendonInput> inputs = last_;
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      inputs[i].value = std::lerp(first_[i], last_[i].value, share);
+    std::vector<NodeLoad> loads = to_;
+    for (std::size_t k = 0; k < loads.size(); ++k) loads[k] = strain::mix(from_[k], to_[k], share);
+    return rod.step(inputs, loads, options);
+  }
+
+ private:
+  std::vector<NodeLoad> from_, to_;
+  std::vector<double> first_;
+  std::vector<strain::TendonInput> last_;
+};
+
+Report report_of(const strain::PathStep& went) {
+  Report report{went.found.status, went.found.iterations, went.found.residual, {}};
+  if (report.status == Status::stopped)
+    report.message = FixedText<240>("stopped");
+  else if (report.status == Status::iteration_limit)
+    report.message = FixedText<240>(
+        fmt::format("{} iterations led to {:.0f} % of the step: more, or smaller steps, may lead further",
+                    report.iterations, 100 * went.found.reached));
+  else if (!report.ok())
+    report.message =
+        FixedText<240>(fmt::format("no equilibrium was found: the path led to one up to {:.0f} % of the step",
+                                   100 * went.found.reached));
+  return report;
+}
+
+void put(const strain::FrictionRod& rod, const strain::PathStep& went, const ArmState& state,
+         ArmPathPoint& point) {
+  point.state = state;
+  for (std::size_t i = 0; i < state.tensions.size(); ++i) {
+    const auto tensions = rod.tensions(i), angles = rod.angles(i);
+    point.tensions.emplace_back(tensions.begin(), tensions.end());
+    point.angles.emplace_back(angles.begin(), angles.end());
+  }
+  point.motor_work = went.motors;
+  point.friction_loss = went.friction;
+  point.parts = went.parts;
+}
+
 }  // namespace
 
 std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> steps,
@@ -136,6 +194,11 @@ std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> st
   for (std::size_t k = 0; k < steps.size(); ++k)
     if (const auto text = misfit(arm, steps[k].commands, steps[k].load); !text.empty())
       return refuse(Status::bad_input, FixedText<240>(fmt::format("step {}: {}", k + 1, text.view())));
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    if (steps[k].divisions < 1)
+      return refuse(Status::bad_input,
+                    FixedText<240>(fmt::format("step {}: its way has {} divisions; give 1 or more", k + 1,
+                                               steps[k].divisions)));
   if (steps.empty()) return points;
   if (const auto text = begin(arm, steps, options, impl); !text.empty())
     return refuse(Status::bad_input, text);
@@ -147,38 +210,18 @@ std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> st
   relax.max_iterations = options.max_iterations;
   relax.tolerance = options.tolerance;
   relax.stop = [&work] { return work.stop.stop_requested(); };
-  std::vector<NodeLoad> loads(path.rod.work().loads.size());
-  std::vector<strain::TendonInput> inputs(arm.tendons.size());
   for (const ArmStep& step : steps) {
-    set_loads(arm, step.load, path.model, loads);
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      const TendonCommand& command = step.commands[i];
-      inputs[i].by_tension = command.held == TendonHeld::tension;
-      inputs[i].value = inputs[i].by_tension ? command.value : -command.value;
-    }
-    const strain::PathStep went = path.rod.step(inputs, loads, relax);
     std::copy(step.commands.begin(), step.commands.end(), impl.commands.begin());
-    show(arm, impl);
-    Report& report = impl.state.report;
-    report = {went.found.status, went.found.iterations, went.found.residual, {}};
-    if (report.status == Status::stopped)
-      report.message = FixedText<240>("stopped");
-    else if (!report.ok())
-      report.message = FixedText<240>(
-          fmt::format("no equilibrium was found: the path led to one up to {:.0f} % of the step",
-                      100 * went.found.reached));
-    ArmPathPoint& point = points.emplace_back();
-    point.state = impl.state;
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      const auto tensions = path.rod.tensions(i), angles = path.rod.angles(i);
-      point.tensions.emplace_back(tensions.begin(), tensions.end());
-      point.angles.emplace_back(angles.begin(), angles.end());
+    const Way way(arm, step, path);
+    for (int part = 1; part <= step.divisions; ++part) {
+      const bool is_last = part == step.divisions;
+      const strain::PathStep went = way.go(path.rod, is_last ? 1 : double(part) / step.divisions, relax);
+      path.between = went.found.status != Status::converged || !is_last;
+      show(arm, impl);
+      impl.state.report = report_of(went);
+      put(path.rod, went, impl.state, points.emplace_back());
+      if (!impl.state.report.ok()) return points;
     }
-    point.motor_work = went.motors;
-    point.friction_loss = went.friction;
-    point.parts = went.parts;
-    path.between = !report.ok();
-    if (path.between) break;
     path.load = step.load;
     path.load.gravity = step.load.gravity.value_or(arm.gravity);
   }

@@ -199,15 +199,20 @@ FieldLayout FieldLayouts::whole(AnswerShape shape) const {
   return {};
 }
 
+/// Some of its answers lie otherwise than those of legs that have the same name.
+FieldLayout FieldLayouts::of_arm(const AnswerField& field) const {
+  if (field.name == "tensions") return lists_of(tendons_);
+  if (field.name == "answer_rates") return matrix_of(columns_, columns_);
+  if (field.name == "answers_by_wrench") return matrix_of(columns_, freedoms_);
+  return whole(field.shape);
+}
+
 FieldLayout FieldLayouts::output(std::string_view place) const {
   if (is_diagram_) return {};
   const AnswerField* field = find_answer_field(place);
   if (!field) return {};
   const Lengths indices = take_indices(place);
-  const FieldLayout layout = whole(field->shape);
-  if (is_arm_ && place == "tensions") return lists_of(tendons_);
-  if (is_arm_ && place == "answer_rates") return matrix_of(columns_, columns_);
-  if (is_arm_ && place == "answers_by_wrench") return matrix_of(columns_, freedoms_);
+  const FieldLayout layout = is_arm_ ? of_arm(*field) : whole(field->shape);
   if (indices.empty()) return layout;
   return indices.size() == 1 && indices[0] < layout.lists.size() ? list_of(layout.lists[indices[0]])
                                                                  : FieldLayout();

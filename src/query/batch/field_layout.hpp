@@ -42,6 +42,7 @@ class FieldLayouts {
   void count(const Arm& arm);
   FieldLayout lists(std::string_view name) const;
   FieldLayout whole(AnswerShape shape) const;
+  FieldLayout of_arm(const AnswerField& field) const;
 
   bool is_diagram_, is_statics_, is_serial_ = false, is_arm_ = false, is_planar_ = false;
   std::size_t inputs_ = 0, freedoms_ = 0, legs_ = 0, rows_ = 0, columns_ = 0;  ///< rows of J, columns of K

@@ -145,6 +145,8 @@ Outputs usual_outputs(const Robot& robot, std::string_view query) {
                   {"tensions", "tensions"},
                   {"changes", "changes"}};
     if (query == "statics") usual.emplace_back("wrench", "wrench");
+    if (query == "track")
+      for (const char* name : {"end_tensions", "motor_work", "friction_loss"}) usual.emplace_back(name, name);
     return usual;
   }
   if (query == "inverse") return {{"inputs", "inputs"}};

@@ -70,6 +70,9 @@ return std::array{
 
     AnswerField{"configuration", bends, "rad", "of each section: two angles, and where its length varies its extension [m]"},
     AnswerField{"changes", tendons, "m", "of each tendon, > 0 pays out"},
+    AnswerField{"end_tensions", tendons, "N", "of each tendon where it is fixed: what friction leaves of its tension"},
+    AnswerField{"motor_work", number, "J", "of the motors of an arm's tendons, of a row since the one before"},
+    AnswerField{"friction_loss", number, "J", "at the guides of an arm's tendons, of a row since the one before"},
     AnswerField{"motors", tendons, "", "counts of each tendon's motor"},
     AnswerField{"slack", tendons, "m", "of each tendon"},
     AnswerField{"resolution", number, "m", "by how much finer polynomials move an arm's tip"},

@@ -14,12 +14,17 @@ constexpr std::array<std::string_view, 8> kinds{"forward", "inverse", "velocity"
 constexpr unsigned of_loads = of_chains | of_rods;
 constexpr FieldUses of_arm_questions{
     .forward = of_arms, .inverse = of_arms, .velocity = of_arms, .shape = of_arms, .statics = of_arms};
+constexpr FieldUses of_arm_paths = [] {
+  FieldUses uses = of_arm_questions;
+  uses.track = of_arms;
+  return uses;
+}();
 constexpr FieldUses always{.forward = of_all | of_arms,
                            .inverse = of_all | of_arms,
                            .velocity = of_all | of_arms,
                            .shape = of_all | of_arms,
                            .statics = of_loads | of_arms,
-                           .track = of_platforms,
+                           .track = of_platforms | of_arms,
                            .diagram = of_serial,
                            .describe = of_all | of_arms};
 
@@ -71,8 +76,8 @@ return std::array{
     Field{"angles", lists, angle, {.velocity = of_chains, .shape = of_chains, .track = of_chains},
           "of the joints of each chain, from the first sprung one; before them the direction of a first link that a motor turns"},
     Field{"start", FieldShape::start, length,
-          {.forward = of_platforms | of_arms, .inverse = of_kinematic | of_rods | of_serial | of_arms, .velocity = of_kinematic | of_rods | of_arms, .shape = of_platforms | of_arms, .statics = of_loads | of_arms, .track = of_platforms},
-          "where the search begins: a pose, of inverse and track inputs, of a serial robot its configuration, or last, where the last question with a start ended; default the robot's home"},
+          {.forward = of_platforms | of_arms, .inverse = of_kinematic | of_rods | of_serial | of_arms, .velocity = of_kinematic | of_rods | of_arms, .shape = of_platforms | of_arms, .statics = of_loads | of_arms, .track = of_platforms | of_arms},
+          "where the search begins: a pose, of inverse and track inputs, of a serial robot its configuration, or last, where the last question with a start ended, of `track` of an arm where its last path did, with what friction remembers; default the robot's home"},
     Field{"set_at", FieldShape::pose, length, {.statics = of_chains, .track = of_chains},
           "the pose at which the tendons are set without load, the outer ones loose"},
     Field{"hold", word, number, {.statics = of_chains, .track = of_chains}, "what stays after `set_at` or with `pose`: tension (default) or length", holds},
@@ -83,9 +88,9 @@ return std::array{
     Field{"measured_tensions", per_leg, force, {.statics = of_chains | of_arms}, "what the tendons at `lengths` pull, a leg each, of an arm those at `changes`, one each; answers the wrench on the platform"},
     Field{"deviation", quantity, force, {.statics = of_loads | of_arms}, "standard deviation of what is measured, one for all or one each; answers how well the wrench is known"},
 
-    Field{"wrench", FieldShape::wrench, force, {.forward = of_loads | of_arms, .inverse = of_loads | of_arms, .velocity = of_rods | of_arms, .shape = of_loads | of_arms, .statics = of_chains | of_arms, .track = of_loads},
+    Field{"wrench", FieldShape::wrench, force, {.forward = of_loads | of_arms, .inverse = of_loads | of_arms, .velocity = of_rods | of_arms, .shape = of_loads | of_arms, .statics = of_chains | of_arms, .track = of_loads | of_arms},
           "force and moment on the platform, about its reference point, of an arm on its tip, in base axes"},
-    Field{"gravity", point, acceleration, {.forward = of_rods | of_arms, .inverse = of_rods | of_arms, .velocity = of_rods | of_arms, .shape = of_rods | of_arms, .statics = of_rods | of_arms, .track = of_rods},
+    Field{"gravity", point, acceleration, {.forward = of_rods | of_arms, .inverse = of_rods | of_arms, .velocity = of_rods | of_arms, .shape = of_rods | of_arms, .statics = of_rods | of_arms, .track = of_rods | of_arms},
           "of rods, arms and platforms that have a mass [m/s2]; default the file's"},
     Field{"until", growing_load, force, {.forward = of_loads, .statics = of_chains},
           "a wrench that is added again and again until the robot buckles, up to `limit` times"},
@@ -119,18 +124,21 @@ return std::array{
     Field{"tolerance", quantity, length, {.diagram = of_serial}, "of a tendon before it counts as slack or too short; default the file's"},
     Field{"envelope", word, number, {.diagram = of_serial}, "bends that a section is allowed: square, disc or actuator; default its limit", envelopes},
 
-    Field{"following", FieldShape::wrench, force, of_arm_questions, "force and moment on an arm's tip in its own axes, with which they turn"},
-    Field{"distributed", point, number, of_arm_questions, "force on all of an arm's backbone, in base axes [N/m]"},
-    Field{"distributed_following", point, number, of_arm_questions, "the same in the backbone's own axes [N/m]"},
-    Field{"loads", point_loads, number, of_arm_questions, "on an arm's backbone: a list of place, from the base along it, wrench and, where it turns with the place, following"},
-    Field{"balance", word, number, of_arm_questions, "how an arm's equilibrium is written: energy (default), or as published models have it: projected, collocated, closed_form", balances},
-    Field{"order", whole, count, of_arm_questions, "of the polynomials of an arm's strain; default as `accuracy` needs"},
-    Field{"elements", whole, count, of_arm_questions, "of each section (rod) or between two discs (subsegment_rod), joints between two discs (prb)"},
-    Field{"accuracy", quantity, number, of_arm_questions, "of an arm's tip to which polynomials are refined, over its length; default 1e-6"},
+    Field{"following", FieldShape::wrench, force, of_arm_paths, "force and moment on an arm's tip in its own axes, with which they turn"},
+    Field{"distributed", point, number, of_arm_paths, "force on all of an arm's backbone, in base axes [N/m]"},
+    Field{"distributed_following", point, number, of_arm_paths, "the same in the backbone's own axes [N/m]"},
+    Field{"loads", point_loads, number, of_arm_paths, "on an arm's backbone: a list of place, from the base along it, wrench and, where it turns with the place, following"},
+    Field{"balance", word, number, of_arm_paths, "how an arm's equilibrium is written: energy (default), or as published models have it: projected, collocated, closed_form; a path knows energy alone", balances},
+    Field{"order", whole, count, of_arm_paths, "of the polynomials of an arm's strain; default as `accuracy` needs"},
+    Field{"elements", whole, count, of_arm_paths, "of each section (rod) or between two discs (subsegment_rod), joints between two discs (prb)"},
+    Field{"accuracy", quantity, number, of_arm_paths, "of an arm's tip to which polynomials are refined, over its length; default 1e-6"},
     Field{"tension_limit", quantity, force, {.inverse = of_arms}, "most that a tendon may pull"},
     Field{"force_alone", flag, number, {.statics = of_arms}, "the wrench that is sensed has no moment; default true"},
 
     Field{"poses", places, length, {.track = of_platforms}, "the path, pose by pose"},
+    Field{"points", path_points, number, {.track = of_arms},
+          "the path of an arm, whose tendons rub: a list of tensions or changes, as `forward` takes them, and where they change wrench, following, distributed, distributed_following, loads, gravity"},
+    Field{"steps", whole, count, {.track = of_arms}, "even ones to each point of an arm's path, a row each; default 10; finer ones tell more of what slips first"},
     Field{"from", place, length, {.track = of_platforms}, "first pose of a path, of rods with three inputs z, e1 and e2"},
     Field{"to", target, length, {.track = of_platforms}, "last pose of a path; of a curve of equilibria what changes along it: inputs, tensions, lengths, wrench, pose"},
     Field{"objective", word, number, {.track = of_kinematic | of_chains}, "what redundant legs do with their freedom: limits, singularity, smooth or none", objectives},

@@ -38,6 +38,7 @@ enum class FieldShape {
   text_or_number,  ///< of `id`, returned as given
   settings,        ///< {path: value}
   point_loads,     ///< a list of {place, wrench, following}
+  path_points,     ///< a list of {tensions, changes, wrench, ...}
 };
 
 /// Kinds of mechanics, as bits.

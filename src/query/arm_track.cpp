@@ -1,0 +1,131 @@
+/// `track` of an arm: along a path of inputs and loads, with the friction of its tendons.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/quantity.hpp"
+#include "query/arms.hpp"
+#include "query/handlers.hpp"
+#include "sinew/kinematics/arm_path.hpp"
+#include "solve/stopped.hpp"
+
+namespace sinew::inline v1 {
+namespace {
+
+constexpr int default_steps = 10, max_steps = 10000;
+
+/// The points of the path; what a point does not say is as at the point before, of loads as in the question.
+std::vector<ArmStep> read_points(ArmContext& context) {
+  Reader& query = context.query;
+  const ArmLoad load = read_arm_load(context.robot, query);
+  std::vector<ArmStep> path;
+  const auto list = query.required("points", "the path: [{tensions or changes, wrench, ...}, ...]");
+  for (Reader& point : list.items()) {
+    if (!point.is(Node::Kind::map)) {
+      point.refuse("wrong_type", "give a map: {tensions: [[1, 0, 0]]}.");
+      continue;
+    }
+    if (point.has("tensions") || point.has("changes"))
+      path.push_back({read_arm_commands(context.robot, point), {}});
+    else if (!path.empty())
+      path.push_back({path.back().commands, {}});
+    else
+      point.required("tensions", "of the first point; or changes: what holds the tendons");
+    ArmLoad at_point = read_arm_load(context.robot, point, load);
+    if (!path.empty()) path.back().load = std::move(at_point);
+    point.close();
+  }
+  if (list.is(Node::Kind::list) && list.items().empty())
+    list.fail("empty_list", "a path needs at least one point");
+  int steps = default_steps;
+  if (const auto given = query.optional("steps")) steps = given->integer(Range::between(1, max_steps));
+  const auto rows = path.size() * static_cast<std::size_t>(steps);
+  if (rows > static_cast<std::size_t>(max_path_samples))
+    list.fail("path_too_long",
+              fmt::format("{} points of {} steps are {} rows; an answer has at most {}: follow the path in "
+                          "parts, with start: last",
+                          path.size(), steps, rows, max_path_samples));
+  for (ArmStep& step : path) step.divisions = steps;
+  return path;
+}
+
+/// A path of poses, as other robots are given; whether there is one.
+bool refuse_poses(Question& question) {
+  bool is_given = false;
+  for (const char* field : {"poses", "from", "to", "samples", "objective"})
+    if (question.query.node()->find(field))  // else it is no field of this question
+      if (const auto given = question.query.optional(field)) {
+        is_given = true;
+        given->fail("not_available",
+                    "an arm is followed along what holds its tendons: give points: [{tensions: [[1, 0, 0]]}, "
+                    "...]; for the tensions that reach a pose ask inverse");
+      }
+  return is_given;
+}
+
+/// Of every tendon the tension where it is fixed.
+std::vector<double> end_tensions(const ArmPathPoint& point) {
+  std::vector<double> values;
+  for (const std::vector<double>& along : point.tensions) values.push_back(along.back());
+  return values;
+}
+
+void put_point(const Arm& arm, const ArmPathPoint& point, Value& value) {
+  const ArmState& state = point.state;
+  value["tip"] = pose_value(AnyPose(spatial_pose(state.tip)));
+  value["tensions"] = by_end_section(arm, state.tensions);
+  value["end_tensions"] = by_end_section(arm, end_tensions(point));
+  value["changes"] = by_end_section(arm, state.changes);
+  value["slack"] = by_end_section(arm, state.slack);
+  put_number(value, "potential", state.energy);
+}
+
+}  // namespace
+
+void answer_arms_track(Context& asked) {
+  ArmContext context(asked);
+  if (refuse_poses(context)) return;
+  ArmOptions options = read_arm_options(context);
+  const std::vector<ArmStep> path = read_points(context);
+  read_arm_start(context, options);
+  if (!context.ready()) return;
+  const std::vector<ArmPathPoint> points = arm_follow(context.robot, path, options, context.work);
+  const ArmPathPoint& last = points.back();
+  Value& answer = context.answer;
+  context.report(last.state.report);
+  if (last.tensions.empty()) return;  // refused: no step was tried
+
+  const auto steps = static_cast<std::size_t>(path.front().divisions);
+  const bool arrives = last.state.report.ok();
+  const std::size_t reached = arrives ? points.size() : points.size() - 1;
+  Value rows = Value::list();
+  double work = 0, loss = 0, worst = 0;
+  int iterations = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    work += points[k].motor_work;
+    loss += points[k].friction_loss;
+    iterations += points[k].state.report.iterations;
+    if (k == reached) break;
+    worst = std::max(worst, points[k].state.report.residual);
+    Value row{{"point", k / steps},
+              {"part", static_cast<double>(k % steps + 1) / static_cast<double>(steps)}};
+    put_point(context.robot, points[k], row);
+    row["motor_work"] = points[k].motor_work;
+    row["friction_loss"] = points[k].friction_loss;
+    rows.push_back(std::move(row));
+  }
+  if (!arrives) {
+    answer["message"] =
+        fmt::format("the path ends on its way to points[{}], in step {} of {}: {}", reached / steps,
+                    reached % steps + 1, steps, last.state.report.message.view());
+    answer["reached"] = {{"rows", reached}, {"point", reached / steps}};
+  }
+  put_point(context.robot, last, answer);  // where it ends
+  answer["motor_work"] = work;
+  answer["friction_loss"] = loss;
+  answer["residual"] = worst;
+  answer["iterations"] = iterations;
+  answer["rows"] = std::move(rows);
+}
+
+}  // namespace sinew::inline v1
