@@ -45,6 +45,9 @@ std::string show_wrench(const Answer& answer);  ///< that was sensed
 std::string show_margins(const Node& margins);
 /// @}
 
+/// How often the wrench of --until was added, and why no more.
+std::string show_load(const Answer& answer);
+
 /// @name Robots on pseudo-rigid chains
 /// @{
 bool is_on_chains(const Answer& answer);

@@ -70,6 +70,8 @@ std::string show_stability(const Answer& answer) {
   return text;
 }
 
+}  // namespace
+
 std::string show_load(const Answer& answer) {
   const std::string why = answer.text("why");
   return fmt::format(
@@ -83,7 +85,7 @@ std::string show_load(const Answer& answer) {
                              : why);
 }
 
-}  // namespace
+namespace {}  // namespace
 
 bool is_on_rods(const Answer& answer) {
   const Node* legs = answer.find("legs");

@@ -9,6 +9,7 @@
 #include "sinew/analysis/type_2_distance.hpp"      // IWYU pragma: export
 #include "sinew/analysis/velocity.hpp"             // IWYU pragma: export
 #include "sinew/kinematics/arm.hpp"                // IWYU pragma: export
+#include "sinew/kinematics/arm_load_path.hpp"      // IWYU pragma: export
 #include "sinew/kinematics/arm_path.hpp"           // IWYU pragma: export
 #include "sinew/kinematics/assembly_modes.hpp"     // IWYU pragma: export
 #include "sinew/kinematics/constrained_pose.hpp"   // IWYU pragma: export

@@ -9,6 +9,7 @@
 #include "query/arms.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
+#include "sinew/kinematics/arm_load_path.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -274,6 +275,22 @@ void put_arm_wants(ArmContext& context, const ArmState& state, const ArmWanted& 
     answer["least_tension"] = std::ranges::min(state.tensions);
 }
 
+/// The last equilibrium of a load that grows.
+ArmState follow(ArmContext& context, const Until<Spatial>& until, std::span<const TendonCommand> commands,
+                const ArmLoad& load, const ArmOptions& options) {
+  std::array<double, 6> direction{};
+  for (int i = 0; i < 6; ++i) direction[static_cast<std::size_t>(i)] = until.direction[i];
+  const ArmLoadPath path =
+      arm_follow_load(context.robot, commands, load, direction, until.limit, options, context.work);
+  ArmState state = path.state;
+  if (!state.report.ok()) return state;
+  context.answer["load"] = path.load;
+  context.answer["why"] = to_string(path.end);
+  if (path.definite_until >= 0) context.answer["definite_until"] = path.definite_until;
+  if (path.end == LoadEnd::stopped) state.report.status = Status::stopped;
+  return state;
+}
+
 void answer_arm_state(Context& asked, Want usual) {
   ArmContext context(asked);
   ArmOptions options = read_arm_options(context);
@@ -281,11 +298,19 @@ void answer_arm_state(Context& asked, Want usual) {
   const ArmLoad load = read_arm_load(context.robot, context.query);
   read_arm_start(context, options);
   bool want_all = false;
-  if (usual == Want::pose)
-    if (const auto all = context.query.optional("all")) want_all = all->boolean();
+  std::optional<Until<Spatial>> until;
+  if (usual == Want::pose) {
+    until = read_until<Spatial>(asked);
+    if (const auto all = context.query.optional("all")) {
+      want_all = all->boolean();
+      if (want_all && until)
+        all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
+    }
+  }
   const ArmWanted wanted = read_arm_wants(context, {usual});
   if (!context.ready()) return;
-  const ArmState state = arm_forward(context.robot, commands, load, options, context.work);
+  const ArmState state = until ? follow(context, *until, commands, load, options)
+                               : arm_forward(context.robot, commands, load, options, context.work);
   put_arm_state(context, state, state.report);
   put_arm_wants(context, state, wanted);
   if (!want_all || state.report.status == Status::bad_input) return;

@@ -108,6 +108,7 @@ std::string tendon_text(const ArmTendon& tendon) {
   const TendonRoute& own = tendon.routes.back();
   put_route(flow, own);
   flow.put("compliance", tendon.compliance);
+  if (tendon.outside != 0) flow.put("outside", tendon.outside);
   if (tendon.friction != 0) flow.put("friction", tendon.friction);
   if (tendon.pretension != 0) flow.put("pretension", tendon.pretension);
   const auto is_parallel = [&](const TendonRoute& route) {
@@ -171,11 +172,6 @@ std::string text_of(const Arm& arm, std::span<const std::string> comments) {
 
 /// What no key says.
 Expected<void> check_words(const Arm& arm) {
-  const auto names = tendon_names(arm);
-  for (std::size_t i = 0; i < arm.tendons.size(); ++i)
-    if (arm.tendons[i].outside != 0)
-      return failure("not_available", names[i] + ".outside",
-                     "files do not tell which share of a compliance lies outside of the arm; set it to 0.");
   if (arm.measurement)
     for (const auto* values :
          {&arm.measurement->drive.gain, &arm.measurement->drive.offset, &arm.measurement->drive.toe})

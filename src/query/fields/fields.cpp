@@ -92,7 +92,7 @@ return std::array{
           "force and moment on the platform, about its reference point, of an arm on its tip, in base axes"},
     Field{"gravity", point, acceleration, {.forward = of_rods | of_arms, .inverse = of_rods | of_arms, .velocity = of_rods | of_arms, .shape = of_rods | of_arms, .statics = of_rods | of_arms, .track = of_rods | of_arms},
           "of rods, arms and platforms that have a mass [m/s2]; default the file's"},
-    Field{"until", growing_load, force, {.forward = of_loads, .statics = of_chains},
+    Field{"until", growing_load, force, {.forward = of_loads | of_arms, .statics = of_chains},
           "a wrench that is added again and again until the robot buckles, up to `limit` times"},
     Field{"posture_threshold", quantity, angle, {.forward = of_chains, .statics = of_chains}, "turn of a joint up to which the linear model counts as valid"},
 
