@@ -287,8 +287,20 @@ TreeSession TreeSession::anew() const {
       std::make_unique<State>(State{state_->document, Opened(state_->opened.robot), state_->stop}));
 }
 
-Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last, Continues continues) {
+Value TreeSession::answer(const Document& query, std::optional<AnyPose>* last, Continues continues) {
   Errors errors;
+  return put(query, last, continues, false, errors);
+}
+
+Errors TreeSession::errors_of(const Document& query) {
+  Errors errors;
+  put(query, nullptr, Continues::always, true, errors);
+  return errors;
+}
+
+/// @param is_only_read the answer stays empty; @param errors all that reading the question finds
+Value TreeSession::put(const Document& document, std::optional<AnyPose>* last, Continues continues,
+                       bool is_only_read, Errors& errors) {
   Reader query(document, errors);
   const Value id = read_id(query);
   const bool is_serial = state_->opened.robot.serial() != nullptr,
@@ -308,6 +320,7 @@ Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last
   answer["query"] = kind.name;
   answer["robot"] = opened->robot.name();
   Question question{query, errors, answer, {}, last, continues};
+  question.is_only_read = is_only_read;
   if (const auto limit = query.optional("max_iterations"))
     question.max_iterations = limit->integer(Range::between(0, 100000));
   const bool wants_tilt = read_tilt(query, *opened);
@@ -316,6 +329,7 @@ Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last
   Context context{question, opened->robot, opened->work};
   kind.handler(opened->robot)(context);
   if (!errors.empty()) return refusal(id, kind, opened->robot, errors);
+  if (is_only_read) return answer;
   if (wants_tilt) add_tilt(answer);
   if (is_serial && answer.text_at("status") == "slack" && !has_key(*state_->document, "tolerance"))
     answer["message"] =

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <string>
@@ -280,6 +281,37 @@ TEST(CAbi, SaysWhatIsOddAboutRows) {
              R"({"query": "inverse", "pose": {"x": "$x", "y": 0, "phi": 0}, "outputs": {"l": "input[0]"}})");
   wrong.in = {0, 0.01};
   EXPECT_NE(wrong.run(2, {1}, {1}).find("outputs.l"), std::string::npos);
+}
+
+TEST(CAbi, SaysWhyRowsAreUnsupported) {
+  Rows rows("3-rfr", R"({"query": "forward", "inputs": ["$a", 0.2, 0.2], "wrench": [0, 0, 1]})");
+  rows.in = {0.2, 0.19};
+  EXPECT_NE(rows.run(2, {1}, {1, 1, 1, 1}).find("constant curvature bears no load"), std::string::npos);
+  EXPECT_EQ(rows.statuses, (std::vector<std::uint8_t>{10, 10}));
+}
+
+TEST(CAbi, PreparesNothingThatEveryRowIsRefused) {
+  sinew_robot* robot = opened("3-rfr");
+  sinew_session* session = sinew_session_new(robot);
+  for (const auto& [question, alone] :
+       {std::pair{R"({"query": "forward", "inputs": ["$a", 0.2]})",
+                  R"({"query": "forward", "inputs": [0, 0.2]})"},
+        std::pair{R"({"query": "forward", "input": "$a"})", R"({"query": "forward", "input": 0})"},
+        std::pair{R"({"query": "inverse", "pose": {"x": "$a", "y": 0, "phi": 0}, "elbow": [1, 1, 1]})",
+                  R"({"query": "inverse", "pose": {"x": 0, "y": 0, "phi": 0}, "elbow": [1, 1, 1]})"}}) {
+    sinew_batch* batch = nullptr;
+    char* error = nullptr;
+    EXPECT_EQ(sinew_prepare(robot, question, std::strlen(question), &batch, &error), SINEW_BAD_INPUT);
+    EXPECT_EQ(batch, nullptr);
+    ASSERT_NE(error, nullptr) << question;
+    auto said = Json::parse(asked(session, alone))["error"]["message"].get<std::string>();
+    said = said.substr(0, said.find("; "));  // one of them a line
+    EXPECT_NE(std::string_view(error).find(said.substr(0, said.find(". "))), std::string_view::npos)
+        << error << said;
+    sinew_free(error);
+  }
+  sinew_release(session);
+  sinew_release(robot);
 }
 
 TEST(CAbi, PreparesNothingOfNothing) {

@@ -271,7 +271,116 @@ TEST(Batch, SaysWhatIsWrong) {
   EXPECT_EQ(code(R"({"query":"forward","inputs":"$a","max_iterations":"$a[1]"})"), "ambiguous");
   EXPECT_EQ(code(R"([1])"), "wrong_type");
   EXPECT_EQ(code(R"({"query":"forward","inputs":["$a"],"path":"home"})"), "unknown_choice");
+  EXPECT_EQ(code(R"({"query":"forward","inputs":["$",0.2,0.2]})"), "missing_key");
+  EXPECT_EQ(code(R"({"query":"forward","id":"$i","inputs":"$a"})"), "no_effect");
+  EXPECT_EQ(code(R"({"query":"inverse","pose":{"x":"$a","y":0,"phi":"$a"}})"), "ambiguous");  // m and rad
+  EXPECT_EQ(code(R"({"query":"forward","inputs":"$a","start":"last"})"), "no_effect");
+  EXPECT_EQ(code(R"({"query":"inverse","pose":{"x":"$a","y":"$a","phi":0}})"), "");
+  for (const char* place : {"", "$a", "inputs[x]", "inputs[-1]", "inputs[]", "inputs[0", "inputs..a", ".x",
+                            "x.", "inputs[0]x", "inputs[9999999999]", "a b"})
+    EXPECT_EQ(code(Json{{"query", "forward"}, {"inputs", "$a"}, {"outputs", {{"z", place}}}}.dump()),
+              "unknown_path")
+        << place;
   EXPECT_FALSE(Batch::prepare(parse_yaml("legs: 3", "robot").value(), parse_json("{}", "query").value()));
+}
+
+/// What no row would be answered is said when the question is prepared, as a session says it of one row.
+TEST(Batch, RefusesQuestionsAsSessionsDo) {
+  struct Wrong {
+    const char *robot, *question;  ///< $ where the number of a row goes
+  };
+  for (const auto& [robot, question] :
+       {Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2,0.2]})"},
+        Wrong{"3-rfr", R"({"query":"forward","input":["$",0.2,0.2],"inputs":[0.2,0.2,0.2]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":[0.2,0.2,0.2],"foo":"$"})"},
+        Wrong{"3-rfr", R"({"query":"forwards","inputs":["$",0.2,0.2]})"},
+        Wrong{"3-rfr", R"({"inputs":["$",0.2,0.2]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"configuration":[[0,0]]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$","0.2 kg",0.2]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"want":["posture"]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"want":["stiffness"]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"wrench":[0,0,1]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"model":"rod"})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"max_iterations":-3})"},
+        Wrong{"3-rfr", R"({"query":"inverse","pose":{"x":"$","y":0}})"},
+        Wrong{"3-rfr", R"({"query":"inverse","pose":{"x":"$","y":0,"phi":0},"bending":[1,1]})"},
+        Wrong{"3-rfr", R"({"query":"inverse","pose":{"x":"$","y":0,"phi":0},"elbow":[1,1,1]})"},
+        Wrong{"3-rfr", R"({"query":"diagram","section":0,"changes":["$",0,0]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"set":{"defaults.link.no":1}})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":[0.2,0.2,0.2],"set":{"legs[7].link.length":"$"}})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":[0.2,0.2,0.2],"set":{"defaults.link.no":"$"}})"},
+        Wrong{"3-rfr", R"({"query":"statics","tensions":[["$",0],[0,0]]})"},
+        Wrong{"3pfs-g2", R"({"query":"inverse","pose":{"position":["$",0,0.4],"quaternion":[1,0,0,0]}})"},
+        Wrong{"3pfs-g2", R"({"query":"forward","inputs":["$",0.4,0.4],"wrench":[0,0,1]})"},
+        Wrong{"3pfs-g2", R"({"query":"forward","inputs":["$",0.4,0.4],"law":"M0"})"},
+        Wrong{"nottingham-tpcj", R"({"query":"statics","configuration":[["$",0]]})"},
+        Wrong{"nottingham-tpcj", R"({"query":"forward","configuration":[["$",0,0]]})"},
+        Wrong{"nottingham-tpcj", R"({"query":"forward","configuration":[["$",0]],"wrench":[0,0,1,0,0,0]})"},
+        Wrong{"tendon-rod", R"({"query":"diagram","section":0,"changes":["$",0,0]})"},
+        Wrong{"tendon-rod", R"({"query":"forward","tensions":["$",0,0,0,0,0,0]})"},
+        Wrong{"tendon-rod", R"({"query":"forward","tension":[["$",0]]})"}}) {
+    const auto with = [&](std::string_view number) {
+      std::string text = question;
+      const auto place = text.find("\"$\"");
+      return text.replace(place, 3, number);
+    };
+    const Json alone = Json::parse(Session::open(robot).value().answer(with("0.1")));
+    const auto batch = prepared(robot, with("\"$q\""));
+    if (!alone.contains("error")) {  // a status, of rows too
+      ASSERT_TRUE(batch) << question << to_string(batch.error());
+      EXPECT_EQ(alone["status"], "unsupported") << question;
+      EXPECT_EQ(run(*batch, {0.1}).statuses[0], static_cast<std::uint8_t>(Status::unsupported)) << question;
+      continue;
+    }
+    ASSERT_FALSE(batch) << question;
+    std::string said;
+    for (const Error& error : batch.error())
+      said += (said.empty() ? "" : said.ends_with('.') ? " " : "; ") + error.message;
+    if (const auto name = said.find("$q"); name != std::string::npos) said.replace(name, 2, "0.1");
+    EXPECT_EQ(said, alone["error"]["message"]) << question;
+    EXPECT_EQ(batch.error().front().where, alone["error"]["where"]) << question;
+  }
+}
+
+/// What one number decides is a row's: a question that some row answers is prepared.
+TEST(Batch, LeavesToRowsWhatTheirNumbersDecide) {
+  struct Right {
+    const char *robot, *question;
+    std::vector<double> numbers;
+  };
+  for (const auto& [robot, question, numbers] :
+       {Right{"3-rfr",
+              R"({"query":"inverse","pose":{"x":0,"y":0,"phi":0},"bending":"$b","max_iterations":"$n"})",
+              {1, -1, 1, 50}},
+        Right{"3-rfr",
+              R"({"query":"inverse","pose":{"x":0,"y":0,"phi":0},"set":{"defaults.link.length":"$l"}})",
+              {0.25}},
+        Right{
+            "3-rfr", R"({"query":"forward","inputs":[0.2,0.2,0.2],"set":{"platform.radius":"$l"}})", {0.05}},
+        Right{"3-rfr",
+              R"({"query":"forward","inputs":[0.2,0.2,0.2],"set":{"legs[0].base.point.radius":"$x"}})",
+              {0.19}},
+        Right{"6-ufs",
+              R"({"query":"inverse","pose":{"position":[0,0,0.2],"quaternion":["$w","$x","$y","$z"]}})",
+              {1, 0, 0, 0}},
+        Right{"nottingham-tpcj",
+              R"({"query":"diagram","section":"$s","changes":[["$a",0,0],[0,0,0],[0,0,0]]})",
+              {2, 0.0001}},
+        Right{"nottingham-tpcj",
+              R"({"query":"inverse","position":[0,0,"$z"],"direction":"$d"})",
+              {0.18, 0, 0, 1}},
+        Right{"3pfs-g2",
+              R"({"query":"forward","inputs":[0.43,0.43,0.43],"gravity":"$g","set":{"platform.mass":"$m"}})",
+              {0, 0, -9.81, 0.1}}}) {
+    const auto batch = prepared(robot, question);
+    ASSERT_TRUE(batch) << question << to_string(batch.error());
+    const Json answer = Json::parse(batch->answer(numbers));
+    EXPECT_FALSE(answer.contains("error")) << question << answer.dump();
+    EXPECT_EQ(to_string(static_cast<Status>(run(*batch, numbers).statuses[0])),
+              answer.value("status", "converged"))
+        << question;
+  }
 }
 
 TEST(Batch, RefusesRowsWhoseNumbersAreNone) {
@@ -279,8 +388,7 @@ TEST(Batch, RefusesRowsWhoseNumbersAreNone) {
   for (const auto& [robot, question] :
        {std::pair{"3-rfr", R"({"query":"inverse","pose":{"x":"$x","y":0,"phi":0}})"},
         std::pair{"3-rfr", R"({"query":"forward","inputs":["$x",0.2,0.2]})"},
-        std::pair{"3pfs-g2", R"({"query":"forward","inputs":["$x",0.43,0.43]})"},
-        std::pair{"3-rfr", R"({"query":"no-such","x":"$x"})"}}) {
+        std::pair{"3pfs-g2", R"({"query":"forward","inputs":["$x",0.43,0.43]})"}}) {
     const Batch batch = prepared(robot, question).value();
     const Rows found = run(batch, {nan, infinite, -infinite, 1e300, -1, 0});
     for (std::size_t k = 0; k < 3; ++k) {
