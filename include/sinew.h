@@ -72,7 +72,8 @@ SINEW_C_API char* sinew_ask(sinew_session* session, const char* question, size_t
 
 /* Prepares a question for many rows: a query in which texts "$name" stand for numbers, or for whole lists
  * whose length the robot knows, with "outputs": {"name": "place in the answer"} (numbers, lists or matrices;
- * left out: the usual ones), and "path": "continue" or "anew" (the default).
+ * left out: the usual ones, which sinew_fields tells, the residual last where there is one), and "path":
+ * "continue" or "anew" (the default). What came of a row is in the statuses of sinew_run.
  *
  *     {"query": "forward", "inputs": "$inputs", "outputs": {"position": "pose.position"}, "path": "continue"}
  *     {"query": "forward", "inputs": ["$L1", 0.42, "$L3"], "outputs": {"z": "pose.position[2]"}}

@@ -192,14 +192,16 @@ TEST(CAbi, RunsRowsOfColumns) {
   EXPECT_EQ(told["method"], "rods in lanes");
   for (int k = 0; k < 100; ++k)
     for (const double length : {0.43, 0.43 + 1e-4 * k, 0.43 - 1e-4 * k}) rows.in.push_back(length);
-  EXPECT_EQ(rows.run(100, {1, 1, 1}, {3, 4}), "");
+  EXPECT_EQ(told["outputs"].size(), 3U);
+  EXPECT_EQ(told["outputs"][2]["name"], "residual");
+  EXPECT_EQ(rows.run(100, {1, 1, 1}, {3, 4, 1}), "");
   EXPECT_EQ(rows.statuses, std::vector<std::uint8_t>(100, 7));
   sinew_robot* robot = opened("3pfs-g2");
   sinew_session* session = sinew_session_new(robot);
   const Json last =
       Json::parse(asked(session, Json{{"query", "forward"}, {"inputs", {0.43, 0.4399, 0.4201}}}.dump()));
   for (std::size_t c = 0; c < 3; ++c)
-    EXPECT_NEAR(rows.out[99 * 7 + c], last["pose"]["position"][c].get<double>(), 1e-10);
+    EXPECT_NEAR(rows.out[99 * 8 + c], last["pose"]["position"][c].get<double>(), 1e-10);
   sinew_release(session);
   sinew_release(robot);
 }
@@ -240,12 +242,13 @@ TEST(CAbi, ThreadsShareABatch) {
   for (std::size_t k = 0; k < 3 * rows; ++k)
     in.push_back(0.43 + 1e-2 * std::sin(0.01 * static_cast<double>(k)));
   struct Found {
-    std::vector<double> poses = std::vector<double>(7 * rows);
+    std::vector<double> poses = std::vector<double>(7 * rows), residuals = std::vector<double>(rows);
     std::vector<std::uint8_t> statuses = std::vector<std::uint8_t>(rows);
   };
   const auto run = [&](Found& found, std::size_t count, std::int32_t threads) {
     const sinew_input from{in.data(), 24, 8};
-    const sinew_output to[] = {{found.poses.data(), 56, 8}, {found.poses.data() + 3, 56, 8}};
+    const sinew_output to[] = {
+        {found.poses.data(), 56, 8}, {found.poses.data() + 3, 56, 8}, {found.residuals.data(), 8, 8}};
     EXPECT_EQ(sinew_run(batch, count, &from, to, found.statuses.data(), threads, nullptr), SINEW_OK);
   };
   Found alone;
@@ -351,7 +354,7 @@ TEST(CAbi, StopsRows) {
       sinew_stop(rows.batch);
     }
   });
-  rows.run(64, {1}, {3, 4});
+  rows.run(64, {1}, {3, 4, 1});
   is_done = true;
   stopper.join();
   EXPECT_EQ(rows.statuses, std::vector<std::uint8_t>(64, 8));

@@ -13,16 +13,21 @@ namespace rod_batch_test {
 struct Both {
   std::vector<SpatialPose> poses;
   std::vector<Status> statuses;
+  std::vector<double> residuals;
   double worst = 0;  ///< largest difference of a coordinate where both are solved
   int differ = 0;    ///< rows that one way solves and the other does not
 
   Both(const char* name, const std::vector<double>& rows, const SpatialWrench& wrench = SpatialWrench::Zero())
       : poses(rows.size() / 3),
-        statuses(rows.size() / 3) {
+        statuses(rows.size() / 3),
+        residuals(rows.size() / 3) {
     const Robot robot = load(name).value();
     Workspace work(robot), alone(robot);
-    equilibrium_batch(robot, rows, wrench, poses, statuses, work);
+    equilibrium_batch(robot, rows, wrench, poses, statuses, work, false, residuals);
     for (std::size_t k = 0; k < poses.size(); ++k) {
+      const bool is_small = residuals[k] >= 0 && residuals[k] <= 1e-11;
+      EXPECT_EQ(is_small, statuses[k] == Status::converged) << name << k << ": " << residuals[k];
+      EXPECT_EQ(std::isnan(residuals[k]), statuses[k] != Status::converged) << name << k;
       const Equilibrium one =
           equilibrium(robot, std::span(rows).subspan(3 * k, 3), {.wrench = wrench}, alone);
       const bool is_solved = statuses[k] == Status::converged;

@@ -233,12 +233,13 @@ TEST(Batch, ChoosesUsualOutputsAndUnits) {
     return all;
   };
   EXPECT_EQ(names(prepared("3-rfr", R"({"query":"forward","inputs":["$a","$b","$c"]})").value()),
-            "x[m] y[m] phi[rad] ");
+            "x[m] y[m] phi[rad] residual[] ");
   EXPECT_EQ(names(prepared("3pfs-g2", R"({"query":"forward","inputs":["$a","$a","$a"]})").value()),
-            "position[m]3, quaternion[]4, ");
+            "position[m]3, quaternion[]4, residual[] ");
   const Batch inverse =
       prepared("3-rfr", R"({"query":"inverse","pose":{"x":"$x","y":0,"phi":"$phi"}})").value();
-  EXPECT_EQ(names(inverse), "inputs[m]3, ");
+  EXPECT_EQ(names(inverse), "inputs[m]3, residual[] ");
+  EXPECT_EQ(inverse.method(), "poses in lanes");
   EXPECT_EQ(inverse.inputs()[0].unit, "m");
   EXPECT_EQ(inverse.inputs()[1].unit, "rad");
   EXPECT_EQ(names(prepared("nottingham-tpcj", R"({"query":"forward","changes":"$c"})").value()),
@@ -259,6 +260,66 @@ TEST(Batch, ChoosesUsualOutputsAndUnits) {
           "3-rfr",
           R"({"query":"velocity","model":"prb","set":{"defaults.link.joints":8},"pose":{"x":0,"y":0,"phi":0},"angles":"$t"})"),
       (Shape{3, 7}));
+}
+
+/// Rows are told how well they are solved, as one by one, whichever way they are computed.
+TEST(Batch, UsualOutputsAreThereAndHaveTheResidual) {
+  struct Usual {
+    const char *robot, *question, *method;
+    std::vector<double> middle;
+    double reach;
+  };
+  for (const auto& [robot, question, method, middle, reach] :
+       {Usual{"3-rfr", R"({"query":"forward","inputs":"$l"})", "query by query", {0.19, 0.19, 0.19}, 1e-3},
+        Usual{"3-rfr", R"({"query":"inverse","pose":{"x":"$x","y":0,"phi":0}})", "poses in lanes", {0}, 0.01},
+        Usual{
+            "3-rfr", R"({"query":"velocity","pose":{"x":"$x","y":0,"phi":0}})", "poses in lanes", {0}, 0.01},
+        Usual{"3-rfr",
+              R"({"query":"inverse","model":"prb","pose":{"x":"$x","y":0,"phi":-0.55}})",
+              "query by query",
+              {0},
+              1e-3},
+        Usual{"6-ufs",
+              R"({"query":"inverse","pose":{"position":["$x",0,0.2],"quaternion":[1,0,0,0]}})",
+              "poses in lanes",
+              {0},
+              0.01},
+        Usual{"3prs",
+              R"({"query":"inverse","independent":{"z":"$z","e1":0,"e2":0.01}})",
+              "poses in lanes",
+              {0.35},
+              0.01},
+        Usual{"3pfs-g2",
+              R"({"query":"forward","inputs":"$l","path":"continue"})",
+              "rods in lanes",
+              {0.43, 0.43, 0.43},
+              0.005},
+        Usual{
+            "3pfs-g2", R"({"query":"velocity","inputs":"$l"})", "query by query", {0.43, 0.43, 0.43}, 0.005},
+        Usual{"nottingham-tpcj",
+              R"({"query":"inverse","position":["$x",0.01,0.17]})",
+              "query by query",
+              {0},
+              0.001},
+        Usual{
+            "tendon-rod", R"({"query":"forward","tensions":[["$t",0,0,0]]})", "query by query", {1}, 0.1}}) {
+    const Batch batch = prepared(robot, question).value();
+    EXPECT_EQ(batch.method(), method) << question;
+    EXPECT_EQ(batch.outputs().back().name, "residual") << question;
+    const std::vector<double> numbers = around(middle, reach, 20, 5);
+    const Rows found = run(batch, numbers);
+    const std::size_t in = middle.size(), out = width(batch.outputs());
+    std::size_t solved = 0;
+    for (std::size_t k = 0; k < 20; ++k) {
+      if (found.statuses[k] != static_cast<std::uint8_t>(Status::converged)) continue;
+      ++solved;
+      for (std::size_t c = 0; c < out; ++c)
+        EXPECT_TRUE(std::isfinite(found.outputs[k * out + c])) << question;
+      const Json alone = Json::parse(batch.answer(std::span(numbers).subspan(k * in, in)));
+      EXPECT_NEAR(found.outputs[(k + 1) * out - 1], alone["residual"].get<double>(), 1e-9) << question;
+    }
+    EXPECT_GT(solved, 5U) << robot << question;
+  }
 }
 
 TEST(Batch, SaysWhatIsWrong) {

@@ -72,11 +72,11 @@ SINEW_API bool has_equilibrium_batch(const Robot& robot);
 /// to the estimate of quick resumed answers. Gravity is the robot's. Where a status is neither `converged`
 /// nor `unstable` the pose is not one. Allocates once a call.
 /// @param check_stability whether it is asked if equilibria hold by themselves, and where they do not whether
-/// home leads
-///     to one that does; else they are all `converged`
+///     home leads to one that does; else they are all `converged`
+/// @param residuals as that of `equilibrium`, no unit: one a row, or none
 SINEW_API void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wrench,
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
-                                 bool check_stability = false);
+                                 bool check_stability = false, std::span<double> residuals = {});
 
 /// The equilibrium that the workspace holds now: also after a load was followed, or a wrench sensed. Where it
 /// holds none the report is not one of success.

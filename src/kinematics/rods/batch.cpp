@@ -57,14 +57,16 @@ void RodBatch::take_system(int lane) {
 }
 
 /// A path that leads to what does not hold by itself has missed a fold: whether home leads to what does.
-bool RodBatch::settles_from_home(int lane, Numbers inputs) {
-  if (solve_rods(*work_, home_, inputs, question_of(lane, true)).status != Status::converged) return false;
+bool RodBatch::settles_from_home(int lane, Numbers inputs, Report& report) {
+  const Report other = solve_rods(*work_, home_, inputs, question_of(lane, true));
+  if (other.status != Status::converged) return false;
+  report = other;
   take_system(lane);
   return true;
 }
 
 /// One pose alone: from where the lane was, else from home.
-bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Status& status) {
+bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Report& report) {
   RodQuestion question = question_of(lane, judges);
   if (knows_[at(lane)]) {
     from_lane(lane);
@@ -73,15 +75,14 @@ bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Status& status)
     work_->is_solved = system_->linearise();
     question.warm_start = true;
   }
-  Report report = solve_rods(*work_, home_, inputs, question);
+  report = solve_rods(*work_, home_, inputs, question);
   if (!work_->is_solved && question.warm_start) {
     question.warm_start = false;
     report = solve_rods(*work_, home_, inputs, question);
   }
-  status = report.status;
   knows_[at(lane)] = work_->is_solved;
   if (!work_->is_solved) return false;
-  if (report.status == Status::unstable && !judges) status = Status::converged;
+  if (report.status == Status::unstable && !judges) report.status = Status::converged;
   take_system(lane);
   return true;
 }
@@ -112,7 +113,8 @@ void RodBatch::walk() {
 }
 
 void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
-                     std::span<SpatialPose> poses, std::span<Status> statuses) {
+                     const Found& found) {
+  const auto& [poses, statuses, residuals] = found;
   const std::size_t inputs = at(system_->inputs()), count = poses.size();
   if (count == 0) return;
   const std::size_t stretch = (count + rod_lanes - 1) / rod_lanes;
@@ -141,24 +143,26 @@ void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrenc
     bool is_renewed = false;
     for (int lane = 0; lane < rod_lanes; ++lane) {
       if (!has_row(lane)) continue;
-      Status status = judges && poses_.unstable[lane] > 0 ? Status::unstable : Status::converged;
+      Report report;
+      report.status = judges && poses_.unstable[lane] > 0 ? Status::unstable : Status::converged;
+      report.residual = poses_.error[lane];
       if (!knows_[at(lane)] || !(poses_.error[lane] <= rod_tolerance) ||
           !(truncation[lane] <= system_->traits().quick_truncation)) {
         is_renewed = true;
-        if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), judges, status)) {
-          statuses[row(lane)] = status;
+        if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), judges, report)) {
+          statuses[row(lane)] = report.status;
           continue;
         }
       }
-      if (status == Status::unstable && settles_from_home(lane, rows.subspan(row(lane) * inputs, inputs))) {
+      if (report.status == Status::unstable &&
+          settles_from_home(lane, rows.subspan(row(lane) * inputs, inputs), report))
         is_renewed = true;
-        status = Status::converged;
-      }
       const auto& p = poses_.position;
       const auto& q = poses_.quaternion;
       poses[row(lane)] = spatial_pose({Vec3<double>(p[0][lane], p[1][lane], p[2][lane]),
                                        {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}});
-      statuses[row(lane)] = status;
+      statuses[row(lane)] = report.status;
+      if (!residuals.empty() && report.is_solved()) residuals[row(lane)] = report.residual;
     }
     if (is_renewed) {  // factors of the lanes that were solved alone
       rod_kernels::advance(rods_, {.moves = false, .from_scratch = true, .renews = true}, poses_);

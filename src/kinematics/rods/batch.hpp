@@ -12,11 +12,17 @@ class RodBatch {
   /// Robot's system and home, see solve_rods; must outlive the batch. Allocates.
   RodBatch(RodWork& work, const SE3<double>& home);
 
-  /// @param rows inputs of every pose, one after the other; @param poses, statuses one a row
+  /// Where what is found goes: one a row.
+  struct Found {
+    std::span<SpatialPose> poses;
+    std::span<Status> statuses;
+    std::span<double> residuals;  ///< or none
+  };
+
+  /// @param rows inputs of every pose, one after the other
   /// @param judges whether it is asked if they hold by themselves
   /// Poses as those of a quick resumed answer.
-  void solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
-             std::span<SpatialPose> poses, std::span<Status> statuses);
+  void solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges, const Found& found);
 
  private:
   void set_lengths(int lane, Numbers inputs);
@@ -24,8 +30,8 @@ class RodBatch {
   void from_lane(int lane);
   void take_system(int lane);
   RodQuestion question_of(int lane, bool judges) const;
-  bool settles_from_home(int lane, Numbers inputs);
-  bool solve_lane(int lane, Numbers inputs, bool judges, Status& status);
+  bool settles_from_home(int lane, Numbers inputs, Report& report);
+  bool solve_lane(int lane, Numbers inputs, bool judges, Report& report);
   double worst() const;
   void walk();
 

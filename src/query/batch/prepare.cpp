@@ -157,24 +157,18 @@ class NameReader {
   std::vector<Named> found_;
 };
 
-/// What people ask a question for.
-Outputs usual_outputs(const Robot& robot, std::string_view query) {
-  if (query == "diagram") return {{"margin", "margin"}, {"over_tension", "over_tension"}};
-  if (robot.serial()) {
-    if (query == "velocity") return {{"J", "J"}, {"K", "K"}};
-    Outputs usual{{"position", "tip.position"}, {"quaternion", "tip.quaternion"}, {"changes", "changes"}};
-    if (query == "inverse") usual.emplace_back("configuration", "configuration");
-    return usual;
-  }
-  if (robot.arm()) {
-    Outputs usual{{"position", "tip.position"},
-                  {"quaternion", "tip.quaternion"},
-                  {"tensions", "tensions"},
-                  {"changes", "changes"}};
-    if (query == "statics") usual.emplace_back("wrench", "wrench");
-    return usual;
-  }
-  if (query == "inverse") return {{"inputs", "inputs"}};
+/// Of what tendon pairs hold: of each leg both tendons, under the names that studies and Octave give them.
+Outputs usual_tendons(const Robot& robot) {
+  Outputs usual;
+  for (int i = 0; i < leg_count(robot); ++i)
+    for (const char* field : {"tendon_lengths", "tensions"})
+      usual.emplace_back(fmt::format("legs_{}_{}", i, field), fmt::format("legs[{}].{}", i, field));
+  return usual;
+}
+
+Outputs usual_solution(const Robot& robot, std::string_view query) {
+  if (query == "inverse")
+    return robot.model() == Model::prb ? usual_tendons(robot) : Outputs{{"inputs", "inputs"}};
   if (query == "velocity") {
     Outputs usual{{"position_index", "indices.position"}, {"rotation_index", "indices.rotation"}};
     if (!has_rods(robot)) usual.insert(usual.begin(), {"determinant", "determinant"});
@@ -182,6 +176,33 @@ Outputs usual_outputs(const Robot& robot, std::string_view query) {
   }
   if (robot.planar()) return {{"x", "pose.x"}, {"y", "pose.y"}, {"phi", "pose.phi"}};
   return {{"position", "pose.position"}, {"quaternion", "pose.quaternion"}};
+}
+
+/// What people ask a question for, and how well it is solved, where that is not in closed form.
+Outputs usual_outputs(const Robot& robot, std::string_view query) {
+  if (query == "diagram") return {{"margin", "margin"}, {"over_tension", "over_tension"}};
+  const std::pair<std::string, std::string> residual{"residual", "residual"};
+  if (robot.serial()) {
+    if (query == "velocity") return {{"J", "J"}, {"K", "K"}};
+    Outputs usual{{"position", "tip.position"}, {"quaternion", "tip.quaternion"}, {"changes", "changes"}};
+    if (query == "inverse") {
+      usual.emplace_back("configuration", "configuration");
+      usual.push_back(residual);
+    }
+    return usual;
+  }
+  Outputs usual;
+  if (robot.arm()) {
+    usual = {{"position", "tip.position"},
+             {"quaternion", "tip.quaternion"},
+             {"tensions", "tensions"},
+             {"changes", "changes"}};
+    if (query == "statics") usual.emplace_back("wrench", "wrench");
+  } else {
+    usual = usual_solution(robot, query);
+  }
+  usual.push_back(residual);
+  return usual;
 }
 
 /// The fields of a batch that are not its query's.
