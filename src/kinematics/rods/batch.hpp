@@ -24,7 +24,20 @@ class RodBatch {
   /// Poses as those of a quick resumed answer.
   void solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges, const Found& found);
 
+  /// The same, each row by a way of its own from home, where the system is.
+  void solve_from_home(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
+                       const Found& found);
+
  private:
+  /// What eight ways from home share.
+  struct Home {
+    std::vector<CoarseRods> rods;
+    PoseLanes poses;
+  };
+  Home lanes_at_home();
+  int way_from(const Home& home, std::span<const double> rows, const RodGroup::Wrench& wrench);
+  void walk_from(const Home& home, std::span<const double> rows, const RodGroup::Wrench& wrench, int steps);
+  void put(int lane, std::size_t row, const Report& report, const Found& found) const;
   void set_lengths(int lane, Numbers inputs);
   void to_lane(int lane);
   void from_lane(int lane);

@@ -1,6 +1,7 @@
 /// Forward kinematics of robots on rods, for questions that vary the inputs and ask for the pose.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "query/batch/query_entries.hpp"
@@ -20,6 +21,7 @@ constexpr std::size_t residual = 7;
 struct AskedRods {
   std::vector<QueryEntry> inputs;
   SpatialWrench wrench = SpatialWrench::Zero();
+  RowStart start = RowStart::row_before;
   std::vector<std::size_t> outputs;  ///< which of the paths
 
   std::size_t first_input() const { return static_cast<std::size_t>(inputs.front().input); }
@@ -27,7 +29,7 @@ struct AskedRods {
 
 std::optional<AskedRods> asked_of_rods(const BatchQuestion& question) {
   AskedRods asked;
-  if (!question.is_path) return {};  // each from home: query by query
+  asked.start = question.is_path ? RowStart::row_before : RowStart::home;
   for (const Member& field : question.query.root.members) {
     if (field.key == "query") {
       if (field.value.text != "forward") return {};
@@ -60,12 +62,18 @@ class RodSampler {
     statuses_.resize(block.count);
     residuals_.resize(block.count);
     work_.stop = StopToken(*block.stop);
-    equilibrium_batch(robot_, rows_of(block), asked_.wrench, poses_, statuses_, work_, true, residuals_);
+    equilibrium_batch(robot_, rows_of(block), asked_.wrench, poses_, statuses_, work_, true, residuals_,
+                      asked_.start);
     for (std::size_t k = 0; k < block.count; ++k) put(block, k);
     *block.done += block.count;
   }
 
  private:
+  /// A query would not take others.
+  bool has_numbers(const SampleBlock& block, std::size_t k) const {
+    return std::ranges::all_of(asked_.inputs,
+                               [&](const QueryEntry& entry) { return std::isfinite(entry.at(block, k)); });
+  }
   /// As they lie in memory where the inputs of a row do, one after the other.
   Numbers rows_of(const SampleBlock& block) {
     const std::size_t inputs = asked_.inputs.size();
@@ -95,7 +103,7 @@ class RodSampler {
                            : which < 3         ? pose.position[static_cast<Eigen::Index>(which)]
                                                : pose.quaternion[which - 3];
     }
-    block.statuses[k] = sample_status(statuses_[k]);
+    block.statuses[k] = has_numbers(block, k) ? sample_status(statuses_[k]) : refused;
   }
 
   const Robot& robot_;
