@@ -185,7 +185,7 @@ void RodBatch::solve_from_home(std::span<const double> rows, const RodGroup::Wre
                                const Found& found) {
   constexpr std::size_t least = 3;  // fewer are sooner solved alone
   const std::size_t inputs = at(system_->inputs()), count = found.statuses.size();
-  const Home home = lanes_at_home();
+  const Home home = count >= least ? lanes_at_home() : Home();
   for (std::size_t first = 0; first < count; first += rod_lanes) {
     if (work_->stop.stop_requested()) {
       std::ranges::fill(found.statuses.subspan(first), Status::stopped);
