@@ -91,11 +91,11 @@ constexpr const char* poses_question =
 
 std::shared_ptr<Columns> rods(std::size_t rows) {
   return std::make_shared<Columns>("3pfs-g2", rods_question, lengths(rows), true,
-                                   std::vector<std::size_t>{3, 4});
+                                   std::vector<std::size_t>{3, 4, 1});
 }
 std::shared_ptr<Columns> poses(std::size_t rows) {
   return std::make_shared<Columns>("3-rfr", poses_question, planar_poses(rows), false,
-                                   std::vector<std::size_t>{3});
+                                   std::vector<std::size_t>{3, 1});
 }
 
 struct TypedRods {
@@ -103,10 +103,11 @@ struct TypedRods {
   Workspace work{robot};
   std::vector<double> in;
   std::vector<SpatialPose> out;
+  std::vector<double> residuals;
   std::vector<Status> statuses;
   std::size_t at = 0;
 
-  explicit TypedRods(std::size_t rows) : in(lengths(rows)), out(rows), statuses(rows) {}
+  explicit TypedRods(std::size_t rows) : in(lengths(rows)), out(rows), residuals(rows), statuses(rows) {}
   void run() { solve(0, out.size()); }
   void run_next() {
     at = (at + 1) % out.size();
@@ -117,23 +118,25 @@ struct TypedRods {
   void solve(std::size_t first, std::size_t count) {
     equilibrium_batch(robot, std::span(in).subspan(3 * first, 3 * count), SpatialWrench::Zero(),
                       std::span(out).subspan(first, count), std::span(statuses).subspan(first, count), work,
-                      true);
+                      true, std::span(residuals).subspan(first, count));
   }
 };
 
 struct TypedPoses {
   Robot robot = load("3-rfr").value();
   Workspace work{robot};
-  std::vector<double> in, out;
+  std::vector<double> in, out, residuals;
   std::vector<Status> statuses;
   std::size_t at = 0;
 
-  explicit TypedPoses(std::size_t rows) : out(3 * rows), statuses(rows) {
+  explicit TypedPoses(std::size_t rows) : out(3 * rows), residuals(rows), statuses(rows) {
     const std::vector<double> rowwise = planar_poses(rows);
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t k = 0; k < rows; ++k) in.push_back(rowwise[3 * k + c]);
   }
-  void run() { velocity_batch(robot, {in}, {.status = statuses, .inputs = out}, work); }
+  void run() {
+    velocity_batch(robot, {in}, {.status = statuses, .inputs = out, .residual = residuals}, work);
+  }
   /// @param scalar by `inverse`, else as a batch of one
   void run_next(bool scalar) {
     const std::size_t n = statuses.size();
@@ -143,7 +146,10 @@ struct TypedPoses {
       benchmark::DoNotOptimize(inverse(robot, PlanarPose{pose[0], pose[1], pose[2]}, {}, work).report.status);
     else
       velocity_batch(robot, {pose},
-                     {.status = std::span(statuses).first(1), .inputs = std::span(out).first(3)}, work);
+                     {.status = std::span(statuses).first(1),
+                      .inputs = std::span(out).first(3),
+                      .residual = std::span(residuals).first(1)},
+                     work);
   }
 };
 

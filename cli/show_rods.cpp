@@ -85,8 +85,6 @@ std::string show_load(const Answer& answer) {
                              : why);
 }
 
-namespace {}  // namespace
-
 bool is_on_rods(const Answer& answer) {
   const Node* legs = answer.find("legs");
   return legs &&

@@ -72,13 +72,16 @@ SINEW_C_API char* sinew_ask(sinew_session* session, const char* question, size_t
 
 /* Prepares a question for many rows: a query in which texts "$name" stand for numbers, or for whole lists
  * whose length the robot knows, with "outputs": {"name": "place in the answer"} (numbers, lists or matrices;
- * left out: the usual ones), and "path": "continue" or "anew" (the default).
+ * left out: the usual ones, which sinew_fields tells, the residual last where there is one), and "path":
+ * "continue" or "anew" (the default). What came of a row is in the statuses of sinew_run.
  *
  *     {"query": "forward", "inputs": "$inputs", "outputs": {"position": "pose.position"}, "path": "continue"}
  *     {"query": "forward", "inputs": ["$L1", 0.42, "$L3"], "outputs": {"z": "pose.position[2]"}}
  *
- * Where that fails *batch is NULL and *error says what is wrong. A batch may be run by several threads at
- * once. */
+ * Where that fails *batch is NULL and *error says what is wrong: all that would be an error of every row,
+ * unknown fields, fields without effect on this robot, lists of a wrong length, in the words of an answer to
+ * one row. What the numbers of a row decide, such as a length out of range, its status says. A batch may be
+ * run by several threads at once. */
 SINEW_C_API int32_t sinew_prepare(const sinew_robot* robot, const char* question, size_t size,
                                   sinew_batch** batch, char** error);
 
@@ -111,8 +114,8 @@ typedef struct sinew_output {
  * NULL, becomes a status a row: 0 unreachable, 1 left_domain, 2 slack, 3 singular, 4 stalled, 5
  * iteration_limit, 6 unstable, 7 converged, 8 stopped, 9 bad_input (the question does not take these
  * numbers), 10 unsupported (the robot has no answer to it), 255 an error of the library. SINEW_OK also where
- * rows have no solution; *error then has the answer to the first row that is bad input, or names a field
- * that has a number in no row that is solved. */
+ * rows have no solution; *error then has the answer to the first row that is bad input, or says why the first
+ * that is unsupported is so, or names a field that has a number in no row that is solved. */
 SINEW_C_API int32_t sinew_run(sinew_batch* batch, size_t rows, const sinew_input* inputs,
                               const sinew_output* outputs, uint8_t* statuses, int32_t threads, char** error);
 

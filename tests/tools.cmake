@@ -87,7 +87,7 @@ set_tests_properties(headers.public PROPERTIES LABELS tools TIMEOUT 600 PROCESSO
 foreach(mode install subdirectory shared)
   add_test(NAME packaging.${mode} COMMAND ${CMAKE_COMMAND}
     -D MODE=${mode} -D SOURCE=${PROJECT_SOURCE_DIR} -D BUILD=${PROJECT_BINARY_DIR}
-    -D WORK=${CMAKE_CURRENT_BINARY_DIR}/packaging/${mode} -D JOBS=2
+    -D WORK=${CMAKE_CURRENT_BINARY_DIR}/packaging/${mode} -D JOBS=2 -D PYTHON=${SYSTEM_PYTHON}
     -D COMPILER=${CMAKE_CXX_COMPILER} -D LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER} -D BUILD_TYPE=${CMAKE_BUILD_TYPE}
     -D "FLAGS=${CMAKE_CXX_FLAGS}" -D WARNINGS_AS_ERRORS=${SINEW_WARNINGS_AS_ERRORS}
     -P ${packaging_dir}/packaging.cmake)

@@ -195,14 +195,19 @@ using Out = std::pmr::vector<sinew::Batch::Strided<double>>;
 /// What whoever called should know of rows that were computed; mostly nothing.
 std::string oddity(const sinew::Batch& batch, const In& in, const Out& out,
                    std::span<const std::uint8_t> statuses) {
-  const auto bad = std::ranges::find(statuses, static_cast<std::uint8_t>(sinew::Status::bad_input));
-  if (bad != statuses.end()) {
+  const auto first = [&](sinew::Status status) {
+    return static_cast<std::size_t>(std::ranges::find(statuses, static_cast<std::uint8_t>(status)) -
+                                    statuses.begin());
+  };
+  const auto answer = [&](std::size_t row) {
     std::vector<double> numbers;
     for (std::size_t f = 0; f < in.size(); ++f)
-      for (std::size_t i = 0; i < batch.inputs()[f].size(); ++i)
-        numbers.push_back(in[f](static_cast<std::size_t>(bad - statuses.begin()), i));
+      for (std::size_t i = 0; i < batch.inputs()[f].size(); ++i) numbers.push_back(in[f](row, i));
     return batch.answer(numbers);
-  }
+  };
+  if (const std::size_t bad = first(sinew::Status::bad_input); bad < statuses.size()) return answer(bad);
+  if (const std::size_t lacking = first(sinew::Status::unsupported); lacking < statuses.size())
+    return nlohmann::json::parse(answer(lacking)).value("message", "the robot has no answer");
   const auto solved = static_cast<std::uint8_t>(sinew::Status::converged);
   if (std::ranges::find(statuses, solved) == statuses.end()) return {};
   for (std::size_t f = 0; f < out.size(); ++f) {

@@ -29,7 +29,7 @@ class ChordLegs {
     using Turn = std::conditional_t<D == 2, Turn2, Turn3>;
     const Turn turn(place_);
     Certain certain{turn.is_fit, hn::Not(hn::FirstN(tag, hn::Lanes(tag)))};
-    Pack curvature[N];
+    Pack curvature[N], open = all(0);
     for (std::size_t i = 0; i < N; ++i) {
       const ChordLeg& leg = robot_.legs[i];
       Point<D> b, r;
@@ -40,6 +40,7 @@ class ChordLegs {
       const Pack size = bend * all(2 / leg.length);
       judge(leg, loss, size, certain);
       curvature[i] = size * all(leg.bending);
+      if (!out_.residual.empty()) open = hn::Max(open, gap(leg, bend, rows.size[i]));
       const Pack rate = bend * sinc_slope_of_square(bend * bend);  // −sinc′
       rows.drive[i] = rate * all(leg.bending * 0.5 * leg.length / leg.offset);
       const Pack scale = all(1) / rows.size[i];
@@ -49,10 +50,16 @@ class ChordLegs {
     }
     certain.unreachable = hn::And(certain.unreachable, turn.is_fit);
     for (std::size_t i = 0; i < N; ++i) put(i, curvature[i], certain.unreachable);
+    if (!out_.residual.empty()) place_.store(open, certain.unreachable, out_.residual);
     return certain;
   }
 
  private:
+  /// By how much the chord of the bent arc, sin(b)/b of its length, is not the one wanted [m].
+  static HWY_INLINE Pack gap(const ChordLeg& leg, Pack bend, Pack wanted) {
+    return hn::Abs(minus(wanted, all(leg.length), hn::Sin(tag, bend) / bend));
+  }
+
   /// A chord that is for certain shorter than the backbone, or longer; a curvature that is short of its
   /// domain, or beyond. All comparisons are false for NaN, which makes it doubtful.
   static HWY_INLINE void judge(const ChordLeg& leg, Pack loss, Pack curvature, Certain& certain) {

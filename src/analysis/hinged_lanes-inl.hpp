@@ -125,18 +125,21 @@ class HingedLegs {
     const auto mode = place_.part->independent;
     const Turn3 pose = mode ? Constrained(robot_, place_, *mode).solve() : Turn3(place_);
     Certain certain{pose.is_fit, hn::Not(hn::FirstN(tag, hn::Lanes(tag)))};
-    Pack slide[3];
-    for (std::size_t i = 0; i < 3; ++i) slide[i] = solve_leg(i, pose, rows, certain);
+    Pack slide[3], open = all(0);
+    for (std::size_t i = 0; i < 3; ++i) slide[i] = solve_leg(i, pose, rows, certain, open);
     certain.unreachable = hn::And(certain.unreachable, pose.is_fit);
     for (std::size_t i = 0; i < 3 && !out_.inputs.empty(); ++i)
       place_.store(slide[i], certain.unreachable, out_.inputs, i);
+    if (!out_.residual.empty()) place_.store(open, certain.unreachable, out_.residual);
     if (mode && !out_.poses.empty()) put(pose);
     return certain;
   }
 
  private:
   /// The slide; the row of its strut, and that of its plane, which stands with the other planes' behind.
-  HWY_INLINE Pack solve_leg(std::size_t i, const Turn3& pose, Rows<N>& rows, Certain& certain) const {
+  /// @param open largest of the closure errors of this leg and those before [m]
+  HWY_INLINE Pack solve_leg(std::size_t i, const Turn3& pose, Rows<N>& rows, Certain& certain,
+                            Pack& open) const {
     const HingedLeg& leg = robot_.legs[i];
     Point<3> b, r;
     pose.reach(leg, b, r);
@@ -156,7 +159,12 @@ class HingedLegs {
       moment(b, rows.line[row], rows.line[row] + D);
       for (std::size_t k = D; k < N; ++k) rows.line[row][k] = rows.line[row][k] * all(1 / robot_.radius);
     }
-    return ahead - rise;
+    const Pack slide = ahead - rise, left = ahead - slide;
+    if (!out_.residual.empty()) {
+      const Pack miss = hn::Sqrt(plus(square, left, left)) - length;
+      open = hn::Max(open, hn::Sqrt(plus(beside * beside, miss, miss)));
+    }
+    return slide;
   }
 
   /// A platform point that is for certain in the plane of its hinge, or beside it; a strut that is longer

@@ -113,6 +113,7 @@ class OneByOne {
     if (has_arc(robot_)) put_legs(k, out_.curvatures, solved.coordinates);
     const Velocity at = velocity(robot_, pose, solved.coordinates, work_);
     put(out_.status, k, at.report.status);
+    put(out_.residual, k, solved.report.residual);
     put(out_.determinant, k, at.determinant);
     put(out_.condition, k, at.indices.condition);
     put(out_.condition_homogenised, k, at.indices.condition_homogenised);
@@ -126,8 +127,9 @@ class OneByOne {
     put(out_.status, k, why);
     put(out_.type_1, k, std::uint8_t{0});
     put(out_.is_type_2, k, std::uint8_t{0});
-    for (const std::span<double> numbers : {out_.inputs, out_.curvatures, out_.determinant, out_.condition,
-                                            out_.condition_homogenised, out_.position, out_.rotation})
+    for (const std::span<double> numbers :
+         {out_.inputs, out_.curvatures, out_.residual, out_.determinant, out_.condition,
+          out_.condition_homogenised, out_.position, out_.rotation})
       for (std::size_t at = k; at < numbers.size(); at += total_) numbers[at] = not_a_number;
   }
 
@@ -170,8 +172,8 @@ bool fits(const VelocityBatch& out, std::size_t poses, std::size_t legs) {
   const auto fit = [](const auto& span, std::size_t size) { return span.empty() || span.size() == size; };
   return fit(out.poses, 7 * poses) && fit(out.status, poses) && fit(out.type_1, poses) &&
          fit(out.is_type_2, poses) && fit(out.inputs, legs * poses) && fit(out.curvatures, legs * poses) &&
-         fit(out.determinant, poses) && fit(out.condition, poses) && fit(out.condition_homogenised, poses) &&
-         fit(out.position, poses) && fit(out.rotation, poses);
+         fit(out.residual, poses) && fit(out.determinant, poses) && fit(out.condition, poses) &&
+         fit(out.condition_homogenised, poses) && fit(out.position, poses) && fit(out.rotation, poses);
 }
 
 }  // namespace

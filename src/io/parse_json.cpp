@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/parse.hpp"
+#include "io/plain_json.hpp"
 #include "io/quantity.hpp"
 
 namespace sinew::inline v1 {
@@ -71,6 +72,10 @@ class JsonEvents {
 }  // namespace
 
 Expected<Document> parse_json(std::string_view text, std::string source) {
+  if (text.size() <= document_size_limit) {
+    NodeBuilder plain(source);
+    if (PlainJson(text, plain).read()) return plain.finish();
+  }
   NodeBuilder builder(std::move(source));
   if (text.size() > document_size_limit) {
     builder.stop("too_large", 0, 0, fmt::format("larger than {} MiB.", document_size_limit >> 20));

@@ -91,16 +91,21 @@ bool has_equilibrium_batch(const Robot& robot) { return robot.is_within_limits()
 
 void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wrench,
                        std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
-                       bool check_stability) {
+                       bool check_stability, std::span<double> residuals, RowStart start) {
+  std::ranges::fill(residuals, not_a_number);
   std::fill(statuses.begin(), statuses.end(), has_rods(robot) ? Status::bad_input : Status::unsupported);
   const std::size_t inputs = at(input_count(robot));
   if (!has_rods(robot) || !check_workspace(robot, work).ok() || statuses.size() != poses.size() ||
-      rows.size() != poses.size() * inputs)
+      rows.size() != poses.size() * inputs || (!residuals.empty() && residuals.size() != poses.size()))
     return;
   if (RodWork& rods = rods_of(work); rods.system->elastica()) {
     const SpatialWrench whole = question_of(robot, {.wrench = wrench}, rods).wrench;
     go_home(rods, home_of(robot));  // whatever was solved before does not show
-    RodBatch(rods, home_of(robot)).solve(rows, whole, check_stability, poses, statuses);
+    RodBatch batch(rods, home_of(robot));
+    if (start == RowStart::home)
+      batch.solve_from_home(rows, whole, check_stability, {poses, statuses, residuals});
+    else
+      batch.solve(rows, whole, check_stability, {poses, statuses, residuals});
     return;
   }
   for (std::size_t k = 0; k < poses.size(); ++k) {  // one after the other
@@ -108,10 +113,11 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
       std::fill(statuses.begin() + static_cast<std::ptrdiff_t>(k), statuses.end(), Status::stopped);
       return;
     }
-    EquilibriumOptions options{.wrench = wrench, .warm_start = true, .check_stability = check_stability};
+    const bool goes_on = start == RowStart::row_before;
+    EquilibriumOptions options{.wrench = wrench, .warm_start = goes_on, .check_stability = check_stability};
     const Numbers row = rows.subspan(k * inputs, inputs);
     Equilibrium found = equilibrium(robot, row, options, work);
-    if (check_stability && found.report.status == Status::unstable) {
+    if (check_stability && goes_on && found.report.status == Status::unstable) {
       options.warm_start = false;
       const SpatialPose from = found.pose;
       found = equilibrium(robot, row, options, work);
@@ -120,6 +126,7 @@ void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wr
         found = equilibrium(robot, row, options, work);  // back to where the path is
     }
     poses[k] = found.pose;
+    if (!residuals.empty() && found.is_solved()) residuals[k] = found.report.residual;
     statuses[k] = found.is_solved() && !check_stability ? Status::converged : found.report.status;
   }
 }

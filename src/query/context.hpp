@@ -30,11 +30,12 @@ struct Question {
   Continues continues = Continues::where_asked;
   bool names_start = false;     ///< `start` was read
   bool starts_at_last = false;  ///< ... and there is a last pose
+  bool is_only_read = false;    ///< nothing is computed: what is wrong with the fields is all that is asked
 
-  /// True when all fields are read, none is left over and none was wrong.
+  /// True when all fields are read, none is left over and none was wrong, and the answer is wanted.
   bool ready() {
     query.close();
-    return errors.empty();
+    return errors.empty() && !is_only_read;
   }
   /// Where a question that names no start begins on a path of questions.
   std::optional<AnyPose> path_start() const {

@@ -8,6 +8,7 @@
 
 #include "io/parse.hpp"
 #include "io/quantity.hpp"
+#include "query/fields/fields.hpp"
 #include "query/handlers.hpp"
 #include "query/tree_session.hpp"
 #include "query/unit_hint.hpp"
@@ -19,9 +20,8 @@ namespace {
 
 using Handler = void (*)(Context&);
 
-/// A kind of question, and who answers it; null: nobody does in this version.
+/// Who answers a kind of question; null: nobody does in this version.
 struct Kind {
-  std::string_view name;
   Handler of_kinematic, of_chains, of_rods, of_serial, of_arms;
 
   Handler handler(const Robot& robot) const {
@@ -34,37 +34,36 @@ struct Kind {
   bool is_of_serial_alone() const { return !of_chains && !of_kinematic && !of_rods; }
 };
 
+/// In the order of `question_kinds`, which names them.
 constexpr std::array kinds{
-    Kind{"forward", answer_kinematic_forward, answer_chains_forward, answer_rods_forward,
-         answer_serial_forward, answer_arms_forward},
-    Kind{"inverse", answer_kinematic_inverse, answer_chains_inverse, answer_rods_inverse,
-         answer_serial_inverse, answer_arms_inverse},
-    Kind{"velocity", answer_kinematic_velocity, answer_chains_velocity, answer_rods_velocity,
-         answer_serial_velocity, answer_arms_velocity},
-    Kind{"shape", answer_kinematic_shape, answer_chains_shape, answer_rods_shape, answer_serial_shape,
+    Kind{answer_kinematic_forward, answer_chains_forward, answer_rods_forward, answer_serial_forward,
+         answer_arms_forward},
+    Kind{answer_kinematic_inverse, answer_chains_inverse, answer_rods_inverse, answer_serial_inverse,
+         answer_arms_inverse},
+    Kind{answer_kinematic_velocity, answer_chains_velocity, answer_rods_velocity, answer_serial_velocity,
+         answer_arms_velocity},
+    Kind{answer_kinematic_shape, answer_chains_shape, answer_rods_shape, answer_serial_shape,
          answer_arms_shape},
-    Kind{"describe", answer_describe, answer_describe, answer_describe, answer_serial_describe,
-         answer_arm_describe},
-    Kind{"statics", nullptr, answer_chains_statics, answer_rods_statics, nullptr, answer_arms_statics},
-    Kind{"track", answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, answer_arms_track},
-    Kind{"diagram", nullptr, nullptr, nullptr, answer_serial_diagram, nullptr},
+    Kind{nullptr, answer_chains_statics, answer_rods_statics, nullptr, answer_arms_statics},
+    Kind{answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, answer_arms_track},
+    Kind{nullptr, nullptr, nullptr, answer_serial_diagram, nullptr},
+    Kind{answer_describe, answer_describe, answer_describe, answer_serial_describe, answer_arm_describe},
 };
-constexpr auto kind_names = [] {
-  std::array<std::string_view, kinds.size()> names;
-  for (std::size_t k = 0; k < kinds.size(); ++k) names[k] = kinds[k].name;
-  return names;
-}();
+
+std::string_view word_of(const Kind& kind) {
+  return question_kinds()[static_cast<std::size_t>(&kind - kinds.data())];
+}
 
 const Kind& read_kind(Reader& query, const Robot& robot) {
-  const Reader word = query.required(
-      "query", "what is asked: forward, inverse, velocity, statics, track, diagram, shape or describe");
-  const Kind& kind = kinds[word.choice_index(kind_names)];
+  static const std::string meaning = fmt::format("what is asked: {}", fmt::join(question_kinds(), ", "));
+  const Reader word = query.required("query", meaning);
+  const Kind& kind = kinds[std::min(word.choice_index(question_kinds()), kinds.size() - 1)];
   const bool is_serial = robot.serial() != nullptr;
   if (is_serial || robot.arm() ? !kind.handler(robot) : kind.is_of_serial_alone())
     word.fail("not_available",
-              is_serial     ? fmt::format("{} is not available of serial robots in this version", kind.name)
-              : robot.arm() ? fmt::format("{} is not available of arms in this version", kind.name)
-                            : fmt::format("{} is a question to serial robots", kind.name));
+              is_serial ? fmt::format("{} is not available of serial robots in this version", word_of(kind))
+              : robot.arm() ? fmt::format("{} is not available of arms in this version", word_of(kind))
+                            : fmt::format("{} is a question to serial robots", word_of(kind)));
   return kind;
 }
 
@@ -139,7 +138,7 @@ Value refusal(const Value& id, const Kind& kind, const Robot& robot, const Error
   if (!std::ranges::all_of(errors, is_lacking)) return error_answer(id, errors);
   Value answer = Value::map();
   if (!id.is_null()) answer["id"] = id;
-  answer["query"] = kind.name;
+  answer["query"] = word_of(kind);
   answer["robot"] = robot.name();
   answer["status"] = to_string(Status::unsupported);
   answer["message"] = message_of(errors);
@@ -287,8 +286,20 @@ TreeSession TreeSession::anew() const {
       std::make_unique<State>(State{state_->document, Opened(state_->opened.robot), state_->stop}));
 }
 
-Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last, Continues continues) {
+Value TreeSession::answer(const Document& query, std::optional<AnyPose>* last, Continues continues) {
   Errors errors;
+  return put(query, last, continues, false, errors);
+}
+
+Errors TreeSession::errors_of(const Document& query) {
+  Errors errors;
+  put(query, nullptr, Continues::always, true, errors);
+  return errors;
+}
+
+/// @param is_only_read the answer stays empty; @param errors all that reading the question finds
+Value TreeSession::put(const Document& document, std::optional<AnyPose>* last, Continues continues,
+                       bool is_only_read, Errors& errors) {
   Reader query(document, errors);
   const Value id = read_id(query);
   const bool is_serial = state_->opened.robot.serial() != nullptr,
@@ -305,9 +316,10 @@ Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last
 
   Value answer = Value::map();
   if (!id.is_null()) answer["id"] = id;
-  answer["query"] = kind.name;
+  answer["query"] = word_of(kind);
   answer["robot"] = opened->robot.name();
   Question question{query, errors, answer, {}, last, continues};
+  question.is_only_read = is_only_read;
   if (const auto limit = query.optional("max_iterations"))
     question.max_iterations = limit->integer(Range::between(0, 100000));
   const bool wants_tilt = read_tilt(query, *opened);
@@ -316,6 +328,7 @@ Value TreeSession::answer(const Document& document, std::optional<AnyPose>* last
   Context context{question, opened->robot, opened->work};
   kind.handler(opened->robot)(context);
   if (!errors.empty()) return refusal(id, kind, opened->robot, errors);
+  if (is_only_read) return answer;
   if (wants_tilt) add_tilt(answer);
   if (is_serial && answer.text_at("status") == "slack" && !has_key(*state_->document, "tolerance"))
     answer["message"] =

@@ -19,6 +19,10 @@ class SINEW_API TreeSession {
   Value answer(const Document& query, std::optional<AnyPose>* last = nullptr,
                Continues continues = Continues::always);
 
+  /// All that is wrong with a question which reading it tells, in the words of its answer; nothing is solved.
+  /// Of a question whose answer would be `unsupported` all have the code `not_available`.
+  Errors errors_of(const Document& query);
+
   /// As Session's.
   void stop_on(StopToken stop);
 
@@ -29,6 +33,9 @@ class SINEW_API TreeSession {
  private:
   struct State;
   explicit TreeSession(std::unique_ptr<State> state);
+  Value put(const Document& query, std::optional<AnyPose>* last, Continues continues, bool is_only_read,
+            Errors& errors);
+
   std::unique_ptr<State> state_;
 };
 

@@ -29,6 +29,13 @@ Wants read_wants(Question& question, Wants usual, Wants known) {
   if (!list) return usual;
   Wants named;
   for (const Reader& word : list->items()) {
+    if (word.is(Node::Kind::string) &&
+        word.node()->text == "modes") {  // of the protocol, not of this version
+      word.refuse("not_available",
+                  "modes of vibration are of no robot in this version; all: true answers every "
+                  "assembly mode");
+      continue;
+    }
     const auto want = static_cast<Want>(word.choice_index(want_names()));
     if (word.is(Node::Kind::string) && !known.has(want))
       word.refuse("not_available", fmt::format("this robot, by this model, answers {}", names_of(known)));

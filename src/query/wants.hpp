@@ -17,7 +17,6 @@ enum class Want : unsigned {
   margins,
   sensitivity,
   lines,
-  modes,
 };
 
 class Wants {

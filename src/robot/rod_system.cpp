@@ -302,14 +302,17 @@ void RodSystem::get_rod(int index, std::span<double> coordinates) const {
   with_rod(index, [&]<class Group>(const Group& rods, int i) {
     // the same shape on the other side where d < 0
     const double sign = rods.tip_d[i] < 0 ? -1 : 1;
-    for (std::size_t j = 0; j < fine_nodes; ++j) {
-      double theta = 0;
-      if constexpr (Group::nodes == fine_nodes)
-        theta = rods.theta[j][i];
-      else
-        for (std::size_t k = 0; k < coarse_nodes; ++k)
-          theta += refinement().fine_from_coarse[j][k] * rods.theta[k][i];
-      coordinates[j] = sign * theta;
+    double theta[Group::nodes];
+    for (std::size_t k = 0; k < Group::nodes; ++k) theta[k] = rods.theta[k][i];
+    if constexpr (Group::nodes == fine_nodes) {
+      for (std::size_t j = 0; j < fine_nodes; ++j) coordinates[j] = sign * theta[j];
+    } else {
+      const auto& fine_from_coarse = refinement().fine_from_coarse;
+      for (std::size_t j = 0; j < fine_nodes; ++j) {
+        double fine = 0;
+        for (std::size_t k = 0; k < coarse_nodes; ++k) fine += fine_from_coarse[j][k] * theta[k];
+        coordinates[j] = sign * fine;
+      }
     }
     coordinates[fine_nodes] = sign * rods.force_d[i];
     coordinates[fine_nodes + 1] = rods.force_w[i];

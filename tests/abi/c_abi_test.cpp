@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <string>
@@ -210,14 +211,16 @@ TEST(CAbi, RunsRowsOfColumns) {
   EXPECT_EQ(told["method"], "rods in lanes");
   for (int k = 0; k < 100; ++k)
     for (const double length : {0.43, 0.43 + 1e-4 * k, 0.43 - 1e-4 * k}) rows.in.push_back(length);
-  EXPECT_EQ(rows.run(100, {1, 1, 1}, {3, 4}), "");
+  EXPECT_EQ(told["outputs"].size(), 3U);
+  EXPECT_EQ(told["outputs"][2]["name"], "residual");
+  EXPECT_EQ(rows.run(100, {1, 1, 1}, {3, 4, 1}), "");
   EXPECT_EQ(rows.statuses, std::vector<std::uint8_t>(100, 7));
   sinew_robot* robot = opened("3pfs-g2");
   sinew_session* session = sinew_session_new(robot);
   const Json last =
       Json::parse(asked(session, Json{{"query", "forward"}, {"inputs", {0.43, 0.4399, 0.4201}}}.dump()));
   for (std::size_t c = 0; c < 3; ++c)
-    EXPECT_NEAR(rows.out[99 * 7 + c], last["pose"]["position"][c].get<double>(), 1e-10);
+    EXPECT_NEAR(rows.out[99 * 8 + c], last["pose"]["position"][c].get<double>(), 1e-10);
   sinew_release(session);
   sinew_release(robot);
 }
@@ -258,12 +261,13 @@ TEST(CAbi, ThreadsShareABatch) {
   for (std::size_t k = 0; k < 3 * rows; ++k)
     in.push_back(0.43 + 1e-2 * std::sin(0.01 * static_cast<double>(k)));
   struct Found {
-    std::vector<double> poses = std::vector<double>(7 * rows);
+    std::vector<double> poses = std::vector<double>(7 * rows), residuals = std::vector<double>(rows);
     std::vector<std::uint8_t> statuses = std::vector<std::uint8_t>(rows);
   };
   const auto run = [&](Found& found, std::size_t count, std::int32_t threads) {
     const sinew_input from{in.data(), 24, 8};
-    const sinew_output to[] = {{found.poses.data(), 56, 8}, {found.poses.data() + 3, 56, 8}};
+    const sinew_output to[] = {
+        {found.poses.data(), 56, 8}, {found.poses.data() + 3, 56, 8}, {found.residuals.data(), 8, 8}};
     EXPECT_EQ(sinew_run(batch, count, &from, to, found.statuses.data(), threads, nullptr), SINEW_OK);
   };
   Found alone;
@@ -299,6 +303,37 @@ TEST(CAbi, SaysWhatIsOddAboutRows) {
              R"({"query": "inverse", "pose": {"x": "$x", "y": 0, "phi": 0}, "outputs": {"l": "input[0]"}})");
   wrong.in = {0, 0.01};
   EXPECT_NE(wrong.run(2, {1}, {1}).find("outputs.l"), std::string::npos);
+}
+
+TEST(CAbi, SaysWhyRowsAreUnsupported) {
+  Rows rows("3-rfr", R"({"query": "forward", "inputs": ["$a", 0.2, 0.2], "wrench": [0, 0, 1]})");
+  rows.in = {0.2, 0.19};
+  EXPECT_NE(rows.run(2, {1}, {1, 1, 1, 1}).find("constant curvature bears no load"), std::string::npos);
+  EXPECT_EQ(rows.statuses, (std::vector<std::uint8_t>{10, 10}));
+}
+
+TEST(CAbi, PreparesNothingThatEveryRowIsRefused) {
+  sinew_robot* robot = opened("3-rfr");
+  sinew_session* session = sinew_session_new(robot);
+  for (const auto& [question, alone] :
+       {std::pair{R"({"query": "forward", "inputs": ["$a", 0.2]})",
+                  R"({"query": "forward", "inputs": [0, 0.2]})"},
+        std::pair{R"({"query": "forward", "input": "$a"})", R"({"query": "forward", "input": 0})"},
+        std::pair{R"({"query": "inverse", "pose": {"x": "$a", "y": 0, "phi": 0}, "elbow": [1, 1, 1]})",
+                  R"({"query": "inverse", "pose": {"x": 0, "y": 0, "phi": 0}, "elbow": [1, 1, 1]})"}}) {
+    sinew_batch* batch = nullptr;
+    char* error = nullptr;
+    EXPECT_EQ(sinew_prepare(robot, question, std::strlen(question), &batch, &error), SINEW_BAD_INPUT);
+    EXPECT_EQ(batch, nullptr);
+    ASSERT_NE(error, nullptr) << question;
+    auto said = Json::parse(asked(session, alone))["error"]["message"].get<std::string>();
+    said = said.substr(0, said.find("; "));  // one of them a line
+    EXPECT_NE(std::string_view(error).find(said.substr(0, said.find(". "))), std::string_view::npos)
+        << error << said;
+    sinew_free(error);
+  }
+  sinew_release(session);
+  sinew_release(robot);
 }
 
 TEST(CAbi, PreparesNothingOfNothing) {
@@ -338,7 +373,7 @@ TEST(CAbi, StopsRows) {
       sinew_stop(rows.batch);
     }
   });
-  rows.run(64, {1}, {3, 4});
+  rows.run(64, {1}, {3, 4, 1});
   is_done = true;
   stopper.join();
   EXPECT_EQ(rows.statuses, std::vector<std::uint8_t>(64, 8));

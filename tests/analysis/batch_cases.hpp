@@ -18,8 +18,8 @@ namespace sinew::test {
 struct Answer {
   std::size_t poses, legs, left = 0;
   std::vector<Status> status;
-  std::vector<double> place, inputs, curvatures, determinant, condition, condition_homogenised, position,
-      rotation;
+  std::vector<double> place, inputs, curvatures, residual, determinant, condition, condition_homogenised,
+      position, rotation;
   std::vector<std::uint8_t> type_1, is_type_2;
 
   Answer(std::size_t n, std::size_t leg_count)
@@ -29,6 +29,7 @@ struct Answer {
         place(7 * n, std::numeric_limits<double>::quiet_NaN()),
         inputs(n * legs),
         curvatures(n * legs),
+        residual(n),
         determinant(n),
         condition(n),
         condition_homogenised(n),
@@ -42,6 +43,7 @@ struct Answer {
             .poses = place,
             .inputs = inputs,
             .curvatures = curvatures,
+            .residual = residual,
             .determinant = determinant,
             .condition = condition,
             .condition_homogenised = condition_homogenised,
@@ -55,7 +57,7 @@ struct Answer {
   std::vector<double> numbers(std::size_t k) const {
     std::vector<double> all{
         static_cast<double>(status[k]), type_1[k] * 1.0, is_type_2[k] * 1.0, determinant[k], condition[k],
-        condition_homogenised[k],       position[k],     rotation[k]};
+        condition_homogenised[k],       position[k],     rotation[k],        residual[k]};
     for (std::size_t i = 0; i < legs; ++i) {
       all.push_back(inputs[i * poses + k]);
       all.push_back(curvatures[i * poses + k]);
@@ -102,6 +104,7 @@ inline Answer in_batch(const Robot& robot, const std::vector<AnyPose>& poses,
 /// The largest errors beside `inverse` and `velocity`; statuses and what is absent must be the same.
 struct Errors {
   double inputs = 0;     ///< [m]
+  double residual = 0;   ///< larger than that of `inverse` [m]
   double curvature = 0;  ///< of the bend angle over what a rounding of the chord does to it
   double determinant = 0, condition = 0, norms = 0;  ///< relative, over max(1, condition/1e5)
   std::size_t statuses = 0, converged = 0, type_1 = 0, type_2 = 0;
@@ -113,8 +116,10 @@ struct Errors {
       statuses += batch.status[k] != solved.report.status;
       statuses +=
           !std::isnan(batch.determinant[k]) || !std::isnan(batch.inputs[k]) || !std::isnan(batch.rotation[k]);
+      statuses += !std::isnan(batch.residual[k]);
       return;
     }
+    worsen(residual, std::abs(batch.residual[k] - solved.report.residual));
     for (std::size_t i = 0; i < batch.legs; ++i) {
       worsen(inputs, std::abs(batch.inputs[i * batch.poses + k] - solved.inputs[i]));
       if (!has_arc(robot)) continue;

@@ -80,6 +80,7 @@ Compared compare(const Robot& robot, const PoseBatch& batch) {
 void expect_small(const Compared& found, double size = 1) {
   EXPECT_EQ(found.errors.statuses, 0u);
   EXPECT_LT(found.errors.inputs, 1e-12 * size);
+  EXPECT_LT(found.errors.residual, 1e-12 * size);
   EXPECT_LT(found.errors.determinant, 1e-13);
   EXPECT_LT(found.errors.condition, 1e-9);
   EXPECT_LT(found.errors.norms, 1e-9);

@@ -82,6 +82,7 @@ std::vector<AnyPose> many_poses(const Robot& robot, int count) {
 void expect_small(const Errors& found) {
   EXPECT_EQ(found.statuses, 0u);
   EXPECT_LT(found.inputs, 1e-13);
+  EXPECT_LT(found.residual, 1e-14);
   EXPECT_LT(found.curvature, 1e-14);
   EXPECT_LT(found.determinant, 1e-13);
   EXPECT_LT(found.condition, 1e-10);
@@ -166,6 +167,7 @@ TEST(VelocityBatch, ComputesOnlyWhatIsAskedFor) {
   Answer one(poses.size(), 3);
   velocity_batch(robot, {axes(poses)}, {.status = one.status}, work);
   velocity_batch(robot, {axes(poses)}, {.determinant = one.determinant}, work);
+  velocity_batch(robot, {axes(poses)}, {.residual = one.residual}, work);
   velocity_batch(robot, {axes(poses)}, {.condition = one.condition}, work);
   velocity_batch(robot, {axes(poses)}, {.rotation = one.rotation}, work);
   velocity_batch(robot, {axes(poses)}, {.position = one.position}, work);
@@ -173,6 +175,10 @@ TEST(VelocityBatch, ComputesOnlyWhatIsAskedFor) {
   EXPECT_EQ(one.status, whole.status);
   EXPECT_EQ(one.is_type_2, whole.is_type_2);
   EXPECT_TRUE(same(one.determinant, whole.determinant));
+  for (std::size_t k = 0; k < poses.size(); ++k)  // beside what else is asked for more are done one by one
+    EXPECT_TRUE(std::isnan(one.residual[k]) ? std::isnan(whole.residual[k])
+                                            : std::abs(one.residual[k] - whole.residual[k]) < 1e-15)
+        << k;
   EXPECT_TRUE(same(one.condition, whole.condition));
   EXPECT_TRUE(same(one.rotation, whole.rotation));
   EXPECT_TRUE(same(one.position, whole.position));

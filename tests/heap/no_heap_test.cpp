@@ -119,11 +119,11 @@ TEST(NoHeapOfC, ARowByItself) {
   ASSERT_EQ(sinew_open(name.data(), name.size(), SINEW_FILE, &robot, nullptr), SINEW_OK);
   ASSERT_EQ(sinew_prepare(robot, question.data(), question.size(), &batch, nullptr), SINEW_OK);
   const double x = 0.01;
-  std::array<double, 3> found{};
+  std::array<double, 4> found{};  // inputs and residual
   std::uint8_t status = 0;
   const sinew_input in{&x, 8, 8};
-  const sinew_output out{found.data(), 24, 8};
-  const auto run = [&] { sinew_run(batch, 1, &in, &out, &status, 1, nullptr); };
+  const sinew_output out[] = {{found.data(), 24, 8}, {found.data() + 3, 8, 8}};
+  const auto run = [&] { sinew_run(batch, 1, &in, out, &status, 1, nullptr); };
   run();
   EXPECT_EQ(allocations_of(run), 0);
   EXPECT_EQ(status, 7);

@@ -1,7 +1,11 @@
 #include "io/parse.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
 #include <unistd.h>
+#include <bit>
+#include <random>
 
 #include <filesystem>
 #include <fstream>
@@ -223,6 +227,111 @@ TEST(ParseJson, TheSameTree) {
   EXPECT_EQ(a.line, 0);
   EXPECT_EQ(document->root.find("b")->kind, Kind::map);
   EXPECT_EQ(document->root.find("big")->number, 18446744073709551615.0);
+}
+
+bool is_same(const Node& a, const Node& b) {
+  return a.kind == b.kind && a.boolean == b.boolean && a.text == b.text &&
+         std::bit_cast<std::uint64_t>(a.number) == std::bit_cast<std::uint64_t>(b.number) &&
+         std::ranges::equal(a.items, b.items, is_same) &&
+         std::ranges::equal(a.members, b.members, [](const Member& one, const Member& other) {
+           return one.key == other.key && is_same(one.value, other.value);
+         });
+}
+
+/// A text with an escape anywhere is read by the parser of odd texts, one without by that of plain ones.
+TEST(ParseJson, PlainTextsAreReadAsOddOnes) {
+  std::vector<std::string> texts{"0",
+                                 "-0",
+                                 "-0.0",
+                                 "1",
+                                 "-12",
+                                 "012",
+                                 "-",
+                                 "+1",
+                                 "1.",
+                                 ".5",
+                                 "1.5",
+                                 "-1.25e-3",
+                                 "1e5",
+                                 "1E+5",
+                                 "1e",
+                                 "1e+",
+                                 "123456789012345",
+                                 "1234567890123456",
+                                 "18446744073709551615",
+                                 "18446744073709551616",
+                                 "1e308",
+                                 "1e309",
+                                 "-1e309",
+                                 "1e-320",
+                                 "5e-324",
+                                 "1e-400",
+                                 "0.1234567890123456789012345",
+                                 "true",
+                                 "false",
+                                 "null",
+                                 "tru",
+                                 "nulls",
+                                 "True",
+                                 "\"\"",
+                                 "\"a b\"",
+                                 "\"a",
+                                 "\"\x7f\"",
+                                 "\"\t\"",
+                                 "\"\u00e9\"",
+                                 "[]",
+                                 "{}",
+                                 "[1,2]",
+                                 "[1,]",
+                                 "[,1]",
+                                 "[1 2]",
+                                 "[ 1 , 2 ]",
+                                 "{\"a\":1}",
+                                 "{\"a\":1,\"a\":2}",
+                                 "{\"a\":1,}",
+                                 "{\"a\" 1}",
+                                 "{a:1}",
+                                 "{\"a\":{\"b\":[1,{\"c\":null}]}}",
+                                 "\n\t 1\r\n",
+                                 "1 1",
+                                 "",
+                                 " ",
+                                 "]",
+                                 "}",
+                                 "NaN",
+                                 "Infinity",
+                                 "0x10",
+                                 "1_000",
+                                 "\xef\xbb\xbf"
+                                 "1",
+                                 "// 1",
+                                 "1//",
+                                 std::string(70, '[') + std::string(70, ']'),
+                                 "[1]]",
+                                 "{\"a\"}"};
+  std::mt19937 random(4);
+  const std::string_view letters = "[]{}:,\"-+.eE0123456789 truefalsn\\a";
+  for (int k = 0; k < 20000; ++k) {
+    std::string text;
+    const std::size_t size = 1 + random() % 12;
+    for (std::size_t i = 0; i < size; ++i) text += letters[random() % letters.size()];
+    texts.push_back(text);
+  }
+  for (int k = 0; k < 20000; ++k) {
+    const double value = std::bit_cast<double>(std::uint64_t{random()} << 32U | random());
+    if (std::isfinite(value)) texts.push_back(fmt::format("{}", value));
+    texts.push_back(fmt::format("{:.{}e}", value, random() % 25));
+  }
+  for (const std::string& text : texts) {
+    const auto plain = parse_json("[\"A\"," + text + "]", "q"),
+               odd = parse_json("[\"\\u0041\"," + text + "]", "q");
+    ASSERT_EQ(plain.has_value(), odd.has_value()) << text;
+    if (plain) {
+      ASSERT_TRUE(is_same(plain->root, odd->root)) << text;
+    } else {
+      ASSERT_EQ(plain.error().front().code, odd.error().front().code) << text;
+    }
+  }
 }
 
 TEST(ParseJson, ErrorsAreInPlainWords) {

@@ -13,16 +13,21 @@ namespace rod_batch_test {
 struct Both {
   std::vector<SpatialPose> poses;
   std::vector<Status> statuses;
+  std::vector<double> residuals;
   double worst = 0;  ///< largest difference of a coordinate where both are solved
   int differ = 0;    ///< rows that one way solves and the other does not
 
   Both(const char* name, const std::vector<double>& rows, const SpatialWrench& wrench = SpatialWrench::Zero())
       : poses(rows.size() / 3),
-        statuses(rows.size() / 3) {
+        statuses(rows.size() / 3),
+        residuals(rows.size() / 3) {
     const Robot robot = load(name).value();
     Workspace work(robot), alone(robot);
-    equilibrium_batch(robot, rows, wrench, poses, statuses, work);
+    equilibrium_batch(robot, rows, wrench, poses, statuses, work, false, residuals);
     for (std::size_t k = 0; k < poses.size(); ++k) {
+      const bool is_small = residuals[k] >= 0 && residuals[k] <= 1e-11;
+      EXPECT_EQ(is_small, statuses[k] == Status::converged) << name << k << ": " << residuals[k];
+      EXPECT_EQ(std::isnan(residuals[k]), statuses[k] != Status::converged) << name << k;
       const Equilibrium one =
           equilibrium(robot, std::span(rows).subspan(3 * k, 3), {.wrench = wrench}, alone);
       const bool is_solved = statuses[k] == Status::converged;
@@ -103,6 +108,42 @@ TEST(RodBatch, AnswersAlikeWhateverTheWorkspaceHeld) {
       EXPECT_EQ(first[k].quaternion, second[k].quaternion) << k << " of " << count;
     }
   }
+}
+
+/// From home, whatever the rows before are: statuses, poses and branches of a search of its own.
+TEST(RodBatch, FromHomeFindsWhatASearchFromHomeFinds) {
+  struct Rows {
+    const char* name;
+    double middle, reach, load;
+  };
+  int solved = 0, unsolved = 0;
+  for (const auto& [name, middle, reach, load] :
+       {Rows{"3pfs-g2", 0.4347, 0.02, 0}, Rows{"3pfs-g2", 0.4347, 0.15, 0}, Rows{"3pfs-g2", 0.4347, 0.4, 0},
+        Rows{"3pfs-g1", 0.2076, 0.1, 0}, Rows{"3pfs-g2", 0.4347, 0.05, -20},
+        Rows{"3pfs-g2", 0.4347, 0.02, -112}, Rows{"3pfs-g1", 0.2076, 0.05, -150}}) {
+    const Robot robot = sinew::load(name).value();
+    std::vector<double> rows = random_rows(160, middle, reach);
+    rows[7] = std::nan(""), rows[11] = -1, rows[13] = 1e9, rows[17] = 0;
+    SpatialWrench wrench;
+    wrench << 0.1 * load, 0, load, 0, 0.001 * load, 0;
+    Workspace work(robot), alone(robot);
+    std::vector<SpatialPose> poses(160);
+    std::vector<Status> statuses(160);
+    std::vector<double> residuals(160);
+    equilibrium_batch(robot, rows, wrench, poses, statuses, work, true, residuals, RowStart::home);
+    for (std::size_t k = 0; k < 160; ++k) {
+      const Equilibrium one =
+          equilibrium(robot, std::span(rows).subspan(3 * k, 3), {.wrench = wrench}, alone);
+      EXPECT_EQ(statuses[k], one.report.status) << name << reach << load << ", row " << k;
+      EXPECT_EQ(std::isfinite(residuals[k]), one.is_solved()) << k;
+      (one.is_solved() ? solved : unsolved) += 1;
+      if (!one.is_solved() || statuses[k] != one.report.status) continue;
+      EXPECT_LT((poses[k].position - one.pose.position).norm(), 1e-8)
+          << name << reach << load << ", row " << k;
+    }
+  }
+  EXPECT_GT(solved, 400);
+  EXPECT_GT(unsolved, 20);
 }
 
 /// The stability of an equilibrium is a fact of its pose, whichever way it was found.

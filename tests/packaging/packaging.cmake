@@ -1,5 +1,5 @@
 # Builds and runs the consumer against sinew.  cmake -D MODE=install|subdirectory|shared -D SOURCE= -D BUILD= -D WORK=
-#   -D JOBS= -D COMPILER= -D LAUNCHER= -D BUILD_TYPE= -D FLAGS= -D WARNINGS_AS_ERRORS= -P packaging.cmake
+#   -D JOBS= -D PYTHON= -D COMPILER= -D LAUNCHER= -D BUILD_TYPE= -D FLAGS= -D WARNINGS_AS_ERRORS= -P packaging.cmake
 #   install       what is built in BUILD, installed and found with find_package
 #   subdirectory  sinew's sources inside the consumer's project
 #   shared        sinew as a shared library, installed and found; and the symbols it exports
@@ -105,17 +105,31 @@ if(MODE STREQUAL "shared")
   execute_process(COMMAND nm --dynamic --defined-only ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCHALL "[^ \n]+\n" symbols "${symbols}")
   set(kind "^_Z(T[ISTV]|GV|Z)*N?K?")  # functions, type information, tables, statics of functions
+  file(STRINGS ${SOURCE}/include/sinew.h declared REGEX "^SINEW_C_API .*sinew_[a-z_]+\\(")
+  list(TRANSFORM declared REPLACE "^SINEW_C_API .*(sinew_[a-z_]+)\\(.*" "\\1")
   set(own 0)
   set(foreign "")
+  set(of_c "")
   foreach(symbol IN LISTS symbols)
-    if(symbol MATCHES "${kind}5sinew|^sinew_")
+    string(STRIP ${symbol} symbol)
+    if(symbol MATCHES "^sinew_")
+      list(APPEND of_c ${symbol})
+    elseif(symbol MATCHES "${kind}5sinew")
       math(EXPR own "${own} + 1")
-    elseif(NOT symbol MATCHES "${kind}(S[tabsiod]|9__gnu_cxx)")  # std:: templates, which all libraries share
-      string(APPEND foreign "  ${symbol}")
+    else()
+      string(APPEND foreign "  ${symbol}\n")
     endif()
   endforeach()
   if(foreign OR own EQUAL 0)
     message(FATAL_ERROR "libsinew.so exports ${own} symbols of sinew, and these that it should not:\n${foreign}")
   endif()
+  list(SORT of_c)
+  list(SORT declared)
+  if(NOT of_c STREQUAL declared)
+    message(FATAL_ERROR "sinew.h declares ${declared}, libsinew.so exports ${of_c}")
+  endif()
+  # Of C++ what an installed header declares; of other headers what they mark for the libraries beside this one.
+  execute_process(COMMAND ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/exports.py ${library} ${prefix}/include ${SOURCE}/src
+                  COMMAND_ERROR_IS_FATAL ANY)
   message(STATUS "libsinew.so exports ${own} symbols of sinew and no others")
 endif()

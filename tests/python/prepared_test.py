@@ -20,7 +20,7 @@ class Prepared(unittest.TestCase):
         self.assertAlmostEqual(row.x, whole.pose.x, 13)
         self.assertEqual(row.units["phi"], "rad")
         self.assertEqual(row.answer.legs[0].chord, whole.legs[0].chord)
-        self.assertEqual(set(row.to_dict()), {"x", "y", "phi"})
+        self.assertEqual(set(row.to_dict()), {"x", "y", "phi", "residual"})
         self.assertIn("converged", repr(row))
 
     def test_takes_numbers_of_all_kinds(self):

@@ -153,6 +153,22 @@ INSTANTIATE_TEST_SUITE_P(
             {0.43, 0.43, 0.43},
             0.005,
             "rods in lanes"},
+        Case{"3pfs-g2",
+             R"({"query":"forward","inputs":"$l","outputs":{"p":"pose.position","q":"pose.quaternion"}})",
+             {0.43, 0.43, 0.43},
+             0.03,
+             "rods in lanes"},
+        Case{
+            "3pfs-g2",
+            R"({"query":"forward","inputs":["$a",0.45,"$b"],"wrench":[0.5,-1,-8,0.1,0,0.05],"outputs":{"p":"pose.position"}})",
+            {0.43, 0.43},
+            0.02,
+            "rods in lanes"},
+        Case{"3pfs-g1",
+             R"({"query":"forward","inputs":"$l","outputs":{"z":"pose.position[2]"}})",
+             {0.2, 0.2, 0.2},
+             0.06,
+             "rods in lanes"},
         Case{
             "3pfs-g2",
             R"({"query":"forward","inputs":"$l","path":"continue","outputs":{"p":"pose.position","q":"pose.quaternion"}})",
@@ -233,12 +249,13 @@ TEST(Batch, ChoosesUsualOutputsAndUnits) {
     return all;
   };
   EXPECT_EQ(names(prepared("3-rfr", R"({"query":"forward","inputs":["$a","$b","$c"]})").value()),
-            "x[m] y[m] phi[rad] ");
+            "x[m] y[m] phi[rad] residual[] ");
   EXPECT_EQ(names(prepared("3pfs-g2", R"({"query":"forward","inputs":["$a","$a","$a"]})").value()),
-            "position[m]3, quaternion[]4, ");
+            "position[m]3, quaternion[]4, residual[] ");
   const Batch inverse =
       prepared("3-rfr", R"({"query":"inverse","pose":{"x":"$x","y":0,"phi":"$phi"}})").value();
-  EXPECT_EQ(names(inverse), "inputs[m]3, ");
+  EXPECT_EQ(names(inverse), "inputs[m]3, residual[] ");
+  EXPECT_EQ(inverse.method(), "poses in lanes");
   EXPECT_EQ(inverse.inputs()[0].unit, "m");
   EXPECT_EQ(inverse.inputs()[1].unit, "rad");
   EXPECT_EQ(names(prepared("nottingham-tpcj", R"({"query":"forward","changes":"$c"})").value()),
@@ -261,6 +278,66 @@ TEST(Batch, ChoosesUsualOutputsAndUnits) {
       (Shape{3, 7}));
 }
 
+/// Rows are told how well they are solved, as one by one, whichever way they are computed.
+TEST(Batch, UsualOutputsAreThereAndHaveTheResidual) {
+  struct Usual {
+    const char *robot, *question, *method;
+    std::vector<double> middle;
+    double reach;
+  };
+  for (const auto& [robot, question, method, middle, reach] :
+       {Usual{"3-rfr", R"({"query":"forward","inputs":"$l"})", "query by query", {0.19, 0.19, 0.19}, 1e-3},
+        Usual{"3-rfr", R"({"query":"inverse","pose":{"x":"$x","y":0,"phi":0}})", "poses in lanes", {0}, 0.01},
+        Usual{
+            "3-rfr", R"({"query":"velocity","pose":{"x":"$x","y":0,"phi":0}})", "poses in lanes", {0}, 0.01},
+        Usual{"3-rfr",
+              R"({"query":"inverse","model":"prb","pose":{"x":"$x","y":0,"phi":-0.55}})",
+              "query by query",
+              {0},
+              1e-3},
+        Usual{"6-ufs",
+              R"({"query":"inverse","pose":{"position":["$x",0,0.2],"quaternion":[1,0,0,0]}})",
+              "poses in lanes",
+              {0},
+              0.01},
+        Usual{"3prs",
+              R"({"query":"inverse","independent":{"z":"$z","e1":0,"e2":0.01}})",
+              "poses in lanes",
+              {0.35},
+              0.01},
+        Usual{"3pfs-g2",
+              R"({"query":"forward","inputs":"$l","path":"continue"})",
+              "rods in lanes",
+              {0.43, 0.43, 0.43},
+              0.005},
+        Usual{
+            "3pfs-g2", R"({"query":"velocity","inputs":"$l"})", "query by query", {0.43, 0.43, 0.43}, 0.005},
+        Usual{"nottingham-tpcj",
+              R"({"query":"inverse","position":["$x",0.01,0.17]})",
+              "query by query",
+              {0},
+              0.001},
+        Usual{
+            "tendon-rod", R"({"query":"forward","tensions":[["$t",0,0,0]]})", "query by query", {1}, 0.1}}) {
+    const Batch batch = prepared(robot, question).value();
+    EXPECT_EQ(batch.method(), method) << question;
+    EXPECT_EQ(batch.outputs().back().name, "residual") << question;
+    const std::vector<double> numbers = around(middle, reach, 20, 5);
+    const Rows found = run(batch, numbers);
+    const std::size_t in = middle.size(), out = width(batch.outputs());
+    std::size_t solved = 0;
+    for (std::size_t k = 0; k < 20; ++k) {
+      if (found.statuses[k] != static_cast<std::uint8_t>(Status::converged)) continue;
+      ++solved;
+      for (std::size_t c = 0; c < out; ++c)
+        EXPECT_TRUE(std::isfinite(found.outputs[k * out + c])) << question;
+      const Json alone = Json::parse(batch.answer(std::span(numbers).subspan(k * in, in)));
+      EXPECT_NEAR(found.outputs[(k + 1) * out - 1], alone["residual"].get<double>(), 1e-9) << question;
+    }
+    EXPECT_GT(solved, 5U) << robot << question;
+  }
+}
+
 TEST(Batch, SaysWhatIsWrong) {
   const auto code = [](std::string_view question) {
     const auto batch = prepared("3-rfr", question);
@@ -271,7 +348,116 @@ TEST(Batch, SaysWhatIsWrong) {
   EXPECT_EQ(code(R"({"query":"forward","inputs":"$a","max_iterations":"$a[1]"})"), "ambiguous");
   EXPECT_EQ(code(R"([1])"), "wrong_type");
   EXPECT_EQ(code(R"({"query":"forward","inputs":["$a"],"path":"home"})"), "unknown_choice");
+  EXPECT_EQ(code(R"({"query":"forward","inputs":["$",0.2,0.2]})"), "missing_key");
+  EXPECT_EQ(code(R"({"query":"forward","id":"$i","inputs":"$a"})"), "no_effect");
+  EXPECT_EQ(code(R"({"query":"inverse","pose":{"x":"$a","y":0,"phi":"$a"}})"), "ambiguous");  // m and rad
+  EXPECT_EQ(code(R"({"query":"forward","inputs":"$a","start":"last"})"), "no_effect");
+  EXPECT_EQ(code(R"({"query":"inverse","pose":{"x":"$a","y":"$a","phi":0}})"), "");
+  for (const char* place : {"", "$a", "inputs[x]", "inputs[-1]", "inputs[]", "inputs[0", "inputs..a", ".x",
+                            "x.", "inputs[0]x", "inputs[9999999999]", "a b"})
+    EXPECT_EQ(code(Json{{"query", "forward"}, {"inputs", "$a"}, {"outputs", {{"z", place}}}}.dump()),
+              "unknown_path")
+        << place;
   EXPECT_FALSE(Batch::prepare(parse_yaml("legs: 3", "robot").value(), parse_json("{}", "query").value()));
+}
+
+/// What no row would be answered is said when the question is prepared, as a session says it of one row.
+TEST(Batch, RefusesQuestionsAsSessionsDo) {
+  struct Wrong {
+    const char *robot, *question;  ///< $ where the number of a row goes
+  };
+  for (const auto& [robot, question] :
+       {Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2,0.2]})"},
+        Wrong{"3-rfr", R"({"query":"forward","input":["$",0.2,0.2],"inputs":[0.2,0.2,0.2]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":[0.2,0.2,0.2],"foo":"$"})"},
+        Wrong{"3-rfr", R"({"query":"forwards","inputs":["$",0.2,0.2]})"},
+        Wrong{"3-rfr", R"({"inputs":["$",0.2,0.2]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"configuration":[[0,0]]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$","0.2 kg",0.2]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"want":["posture"]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"want":["stiffness"]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"wrench":[0,0,1]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"model":"rod"})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"max_iterations":-3})"},
+        Wrong{"3-rfr", R"({"query":"inverse","pose":{"x":"$","y":0}})"},
+        Wrong{"3-rfr", R"({"query":"inverse","pose":{"x":"$","y":0,"phi":0},"bending":[1,1]})"},
+        Wrong{"3-rfr", R"({"query":"inverse","pose":{"x":"$","y":0,"phi":0},"elbow":[1,1,1]})"},
+        Wrong{"3-rfr", R"({"query":"diagram","section":0,"changes":["$",0,0]})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":["$",0.2,0.2],"set":{"defaults.link.no":1}})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":[0.2,0.2,0.2],"set":{"legs[7].link.length":"$"}})"},
+        Wrong{"3-rfr", R"({"query":"forward","inputs":[0.2,0.2,0.2],"set":{"defaults.link.no":"$"}})"},
+        Wrong{"3-rfr", R"({"query":"statics","tensions":[["$",0],[0,0]]})"},
+        Wrong{"3pfs-g2", R"({"query":"inverse","pose":{"position":["$",0,0.4],"quaternion":[1,0,0,0]}})"},
+        Wrong{"3pfs-g2", R"({"query":"forward","inputs":["$",0.4,0.4],"wrench":[0,0,1]})"},
+        Wrong{"3pfs-g2", R"({"query":"forward","inputs":["$",0.4,0.4],"law":"M0"})"},
+        Wrong{"nottingham-tpcj", R"({"query":"statics","configuration":[["$",0]]})"},
+        Wrong{"nottingham-tpcj", R"({"query":"forward","configuration":[["$",0,0]]})"},
+        Wrong{"nottingham-tpcj", R"({"query":"forward","configuration":[["$",0]],"wrench":[0,0,1,0,0,0]})"},
+        Wrong{"tendon-rod", R"({"query":"diagram","section":0,"changes":["$",0,0]})"},
+        Wrong{"tendon-rod", R"({"query":"forward","tensions":["$",0,0,0,0,0,0]})"},
+        Wrong{"tendon-rod", R"({"query":"forward","tension":[["$",0]]})"}}) {
+    const auto with = [&](std::string_view number) {
+      std::string text = question;
+      const auto place = text.find("\"$\"");
+      return text.replace(place, 3, number);
+    };
+    const Json alone = Json::parse(Session::open(robot).value().answer(with("0.1")));
+    const auto batch = prepared(robot, with("\"$q\""));
+    if (!alone.contains("error")) {  // a status, of rows too
+      ASSERT_TRUE(batch) << question << to_string(batch.error());
+      EXPECT_EQ(alone["status"], "unsupported") << question;
+      EXPECT_EQ(run(*batch, {0.1}).statuses[0], static_cast<std::uint8_t>(Status::unsupported)) << question;
+      continue;
+    }
+    ASSERT_FALSE(batch) << question;
+    std::string said;
+    for (const Error& error : batch.error())
+      said += (said.empty() ? "" : said.ends_with('.') ? " " : "; ") + error.message;
+    if (const auto name = said.find("$q"); name != std::string::npos) said.replace(name, 2, "0.1");
+    EXPECT_EQ(said, alone["error"]["message"]) << question;
+    EXPECT_EQ(batch.error().front().where, alone["error"]["where"]) << question;
+  }
+}
+
+/// What one number decides is a row's: a question that some row answers is prepared.
+TEST(Batch, LeavesToRowsWhatTheirNumbersDecide) {
+  struct Right {
+    const char *robot, *question;
+    std::vector<double> numbers;
+  };
+  for (const auto& [robot, question, numbers] :
+       {Right{"3-rfr",
+              R"({"query":"inverse","pose":{"x":0,"y":0,"phi":0},"bending":"$b","max_iterations":"$n"})",
+              {1, -1, 1, 50}},
+        Right{"3-rfr",
+              R"({"query":"inverse","pose":{"x":0,"y":0,"phi":0},"set":{"defaults.link.length":"$l"}})",
+              {0.25}},
+        Right{
+            "3-rfr", R"({"query":"forward","inputs":[0.2,0.2,0.2],"set":{"platform.radius":"$l"}})", {0.05}},
+        Right{"3-rfr",
+              R"({"query":"forward","inputs":[0.2,0.2,0.2],"set":{"legs[0].base.point.radius":"$x"}})",
+              {0.19}},
+        Right{"6-ufs",
+              R"({"query":"inverse","pose":{"position":[0,0,0.2],"quaternion":["$w","$x","$y","$z"]}})",
+              {1, 0, 0, 0}},
+        Right{"nottingham-tpcj",
+              R"({"query":"diagram","section":"$s","changes":[["$a",0,0],[0,0,0],[0,0,0]]})",
+              {2, 0.0001}},
+        Right{"nottingham-tpcj",
+              R"({"query":"inverse","position":[0,0,"$z"],"direction":"$d"})",
+              {0.18, 0, 0, 1}},
+        Right{"3pfs-g2",
+              R"({"query":"forward","inputs":[0.43,0.43,0.43],"gravity":"$g","set":{"platform.mass":"$m"}})",
+              {0, 0, -9.81, 0.1}}}) {
+    const auto batch = prepared(robot, question);
+    ASSERT_TRUE(batch) << question << to_string(batch.error());
+    const Json answer = Json::parse(batch->answer(numbers));
+    EXPECT_FALSE(answer.contains("error")) << question << answer.dump();
+    EXPECT_EQ(to_string(static_cast<Status>(run(*batch, numbers).statuses[0])),
+              answer.value("status", "converged"))
+        << question;
+  }
 }
 
 TEST(Batch, RefusesRowsWhoseNumbersAreNone) {
@@ -279,8 +465,7 @@ TEST(Batch, RefusesRowsWhoseNumbersAreNone) {
   for (const auto& [robot, question] :
        {std::pair{"3-rfr", R"({"query":"inverse","pose":{"x":"$x","y":0,"phi":0}})"},
         std::pair{"3-rfr", R"({"query":"forward","inputs":["$x",0.2,0.2]})"},
-        std::pair{"3pfs-g2", R"({"query":"forward","inputs":["$x",0.43,0.43]})"},
-        std::pair{"3-rfr", R"({"query":"no-such","x":"$x"})"}}) {
+        std::pair{"3pfs-g2", R"({"query":"forward","inputs":["$x",0.43,0.43]})"}}) {
     const Batch batch = prepared(robot, question).value();
     const Rows found = run(batch, {nan, infinite, -infinite, 1e300, -1, 0});
     for (std::size_t k = 0; k < 3; ++k) {

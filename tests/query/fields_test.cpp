@@ -1,11 +1,14 @@
 /// The table of fields and the handlers agree on what each question takes.
 #include "query/fields/fields.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
+#include "sinew/query/session.hpp"
 #include "sinew_query.hpp"
 
 namespace sinew::test {
@@ -104,6 +107,26 @@ TEST(Fields, AreNamedOnce) {
         << field.name;
     EXPECT_EQ(std::ranges::count(field.meaning, '`') % 2, 0);
   }
+}
+
+/// Names and handlers are two lists in one order.
+TEST(Fields, KindsOfQuestionsAreAnsweredUnderTheirNames) {
+  for (const auto& [robot, kind, fields] :
+       {std::tuple{"3-rfr", "forward", R"("inputs":[0.19,0.19,0.19])"},
+        {"3-rfr", "inverse", R"("pose":{"x":0,"y":0,"phi":0})"},
+        {"3-rfr", "velocity", R"("pose":{"x":0,"y":0,"phi":0})"},
+        {"3-rfr", "shape", R"("inputs":[0.19,0.19,0.19])"},
+        {"3-rfr", "statics", R"("tensions":[[0.5,0],[0.5,0],[0.5,0]])"},
+        {"3-rfr", "track", R"("from":{"x":0,"y":0,"phi":0},"to":{"x":0.01,"y":0,"phi":0},"samples":2)"},
+        {"nottingham-tpcj", "diagram", R"("section":0,"changes":[0,0,0])"},
+        {"3-rfr", "describe", R"("id":1)"}}) {
+    auto session = Session::open(std::string(robot)).value();
+    const std::string answer = session.answer(fmt::format(R"({{"query":"{}",{}}})", kind, fields));
+    EXPECT_NE(answer.find(fmt::format(R"("query":"{}")", kind)), std::string::npos) << answer;
+    EXPECT_EQ(answer.find(R"("error":)"), std::string::npos) << answer;
+    EXPECT_NE(std::ranges::find(question_kinds(), std::string_view(kind)), question_kinds().end());
+  }
+  EXPECT_EQ(question_kinds().size(), 8U);
 }
 
 }  // namespace fields_test

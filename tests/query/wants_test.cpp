@@ -1,6 +1,7 @@
 /// One question with many wants says what as many questions say.
 #include <gtest/gtest.h>
 
+#include "query/fields/fields.hpp"
 #include "sinew_query.hpp"
 
 namespace sinew::test {
@@ -171,6 +172,21 @@ TEST(Wants, OfOtherModelsAreRefused) {
   EXPECT_EQ(found[5]["status"], "converged");
   EXPECT_EQ(found[5]["sensitivity"].size(), 3U);
   EXPECT_EQ(found[5]["lines"].size(), 3U);
+}
+
+/// No word of the table is an empty promise.
+TEST(Wants, AreEachAnsweredBySomeRobot) {
+  const Json planar = {{"query", "forward"}, {"inputs", {0.19, 0.19, 0.188}}},
+             tripod = {{"query", "forward"}, {"inputs", {0.44, 0.42, 0.41}}};
+  for (const std::string_view word : find_field("want")->words) {
+    const auto is_answered = [&](const char* robot, const Json& question) {
+      return ask(robot, {with_wants(question, {word})})[0].value("status", "") == "converged";
+    };
+    EXPECT_TRUE(is_answered("3-rfr", planar) || is_answered("3pfs-g2", tripod)) << word;
+  }
+  const Json modes = ask("3-rfr", {with_wants(planar, {"modes"})})[0];
+  EXPECT_EQ(modes["status"], "unsupported");
+  EXPECT_NE(modes.dump().find("all: true"), std::string::npos) << modes;
 }
 
 TEST(Wants, OfVelocityTellThatAPoseIsSingular) {

@@ -30,6 +30,7 @@ struct VelocityBatch {
   std::span<double> poses = {};
   std::span<double> inputs = {};       ///< tendon 1 of each leg, or its slide [m]
   std::span<double> curvatures = {};   ///< of each leg [1/m]; of a rail absent
+  std::span<double> residual = {};     ///< largest closure error of a leg, as that of `inverse` [m]
   std::span<double> determinant = {};  ///< of J, in the units of `Velocity`
   std::span<double> condition = {};    ///< as `Indices`, units mixed as J's, and so are the next three
   std::span<double> condition_homogenised = {};  ///< no unit

@@ -65,18 +65,25 @@ SINEW_API Equilibrium inverse_equilibrium(const Robot& robot, const SpatialPose&
 /// each.
 SINEW_API bool has_equilibrium_batch(const Robot& robot);
 
+/// Where the search for each of many equilibria begins.
+enum class RowStart {
+  row_before,  ///< at the one before, as on a path: neighbouring rows should be near each other
+  home,        ///< at home, whatever the other rows are
+};
+
 /// Many equilibria under one wrench [N, N m]: `rows` holds the inputs of each [m], one after the other,
-/// `poses` and `statuses` have one entry each. Neighbouring rows should be near each other: eight stretches
-/// of them are walked at once in SIMD lanes, and a row that does not come at once, or whose rods bend more
-/// sharply than the lanes resolve, is solved alone; rods that do not bend in one plane go row by row. Shapes
-/// to the estimate of quick resumed answers. Gravity is the robot's. Where a status is neither `converged`
-/// nor `unstable` the pose is not one. Allocates once a call.
+/// `poses` and `statuses` have one entry each. Eight stretches of rows are walked at once in SIMD lanes, or
+/// eight rows from home, and a row that does not come at once, or whose rods bend more sharply than the lanes
+/// resolve, is solved alone; rods that do not bend in one plane go row by row. Shapes to the estimate of
+/// quick resumed answers. Gravity is the robot's. Where a status is neither `converged` nor `unstable` the
+/// pose is not one. Allocates once a call.
 /// @param check_stability whether it is asked if equilibria hold by themselves, and where they do not whether
-/// home leads
-///     to one that does; else they are all `converged`
+///     home leads to one that does; else they are all `converged`
+/// @param residuals as that of `equilibrium`, no unit: one a row, or none
 SINEW_API void equilibrium_batch(const Robot& robot, Numbers rows, const SpatialWrench& wrench,
                                  std::span<SpatialPose> poses, std::span<Status> statuses, Workspace& work,
-                                 bool check_stability = false);
+                                 bool check_stability = false, std::span<double> residuals = {},
+                                 RowStart start = RowStart::row_before);
 
 /// The equilibrium that the workspace holds now: also after a load was followed, or a wrench sensed. Where it
 /// holds none the report is not one of success.

@@ -48,8 +48,9 @@ class SINEW_API Batch {
   ///     robot knows (`inputs: $lengths`), and which may have `outputs: {name: place in the answer}`
   ///     (`pose.position`, `J`, `pose.position[2]`, `type_1.count`), left out the usual ones of the question,
   ///     and `path: continue` (each row begins where the one before ended) or `anew`, the default
-  /// Errors: those of robot files; `no_inputs`, `ambiguous` where a name stands for different things, and
-  /// what is wrong with the fields above.
+  /// Errors: those of robot files; `no_inputs`, `ambiguous` where a name stands for different things,
+  /// `unknown_path` where an output is no place; and the error that a session would answer to every row,
+  /// whatever its numbers are. That the robot has no answer (`unsupported`) rows say.
   static Expected<Batch> prepare(const Document& robot, const Document& question);
 
   std::span<const Field> inputs() const;   ///< in the order in which they stand in the question

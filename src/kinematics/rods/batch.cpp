@@ -57,14 +57,16 @@ void RodBatch::take_system(int lane) {
 }
 
 /// A path that leads to what does not hold by itself has missed a fold: whether home leads to what does.
-bool RodBatch::settles_from_home(int lane, Numbers inputs) {
-  if (solve_rods(*work_, home_, inputs, question_of(lane, true)).status != Status::converged) return false;
+bool RodBatch::settles_from_home(int lane, Numbers inputs, Report& report) {
+  const Report other = solve_rods(*work_, home_, inputs, question_of(lane, true));
+  if (other.status != Status::converged) return false;
+  report = other;
   take_system(lane);
   return true;
 }
 
 /// One pose alone: from where the lane was, else from home.
-bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Status& status) {
+bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Report& report) {
   RodQuestion question = question_of(lane, judges);
   if (knows_[at(lane)]) {
     from_lane(lane);
@@ -73,15 +75,14 @@ bool RodBatch::solve_lane(int lane, Numbers inputs, bool judges, Status& status)
     work_->is_solved = system_->linearise();
     question.warm_start = true;
   }
-  Report report = solve_rods(*work_, home_, inputs, question);
+  report = solve_rods(*work_, home_, inputs, question);
   if (!work_->is_solved && question.warm_start) {
     question.warm_start = false;
     report = solve_rods(*work_, home_, inputs, question);
   }
-  status = report.status;
   knows_[at(lane)] = work_->is_solved;
   if (!work_->is_solved) return false;
-  if (report.status == Status::unstable && !judges) status = Status::converged;
+  if (report.status == Status::unstable && !judges) report.status = Status::converged;
   take_system(lane);
   return true;
 }
@@ -111,9 +112,120 @@ void RodBatch::walk() {
   }
 }
 
+void RodBatch::put(int lane, std::size_t row, const Report& report, const Found& found) const {
+  const auto& p = poses_.position;
+  const auto& q = poses_.quaternion;
+  found.poses[row] = spatial_pose({Vec3<double>(p[0][lane], p[1][lane], p[2][lane]),
+                                   {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}});
+  found.statuses[row] = report.status;
+  if (!found.residuals.empty() && report.is_solved()) found.residuals[row] = report.residual;
+}
+
+RodBatch::Home RodBatch::lanes_at_home() {
+  for (int lane = 0; lane < rod_lanes; ++lane) take_system(lane);
+  for (int k = 0; k < 6; ++k) std::fill_n(poses_.wrench[k], rod_lanes, system_->wrench()[k]);
+  rod_kernels::advance(rods_, {.moves = false, .from_scratch = true, .renews = true}, poses_);
+  return {rods_, poses_};
+}
+
+/// Steps of the ways that lanes take together: lengths change by a twentieth at most in each, loads by half
+/// of what bends a rod by its length. 0 where that would be too many.
+int RodBatch::way_from(const Home& home, std::span<const double> rows, const RodGroup::Wrench& wrench) {
+  constexpr double length_step = 0.05, load_step = 0.5, most = 24;
+  const std::size_t inputs = at(system_->inputs());
+  double steps = 2;
+  for (int lane = 0; lane < rod_lanes; ++lane)
+    for (int k = 0; k < system_->limbs() && knows_[at(lane)]; ++k) {
+      const double from = home.rods[at(k)].length[lane],
+                   to = rows[at(lane) * inputs + at(system_->input_of(k))],
+                   load = (wrench.head<3>().norm() + wrench.tail<3>().norm() / to) * to * to /
+                          system_->stiffness(k);
+      const double own = std::max(std::abs(to - from) / (length_step * from), load / load_step);
+      if (own <= most)
+        steps = std::max(steps, std::ceil(own));
+      else
+        knows_[at(lane)] = false;
+    }
+  return static_cast<int>(steps);
+}
+
+/// First the lengths, then the load, as one by one; lanes that do not follow are left.
+void RodBatch::walk_from(const Home& home, std::span<const double> rows, const RodGroup::Wrench& wrench,
+                         int steps) {
+  const std::size_t inputs = at(system_->inputs());
+  rods_ = home.rods;
+  poses_ = home.poses;
+  const auto leave_lost = [&] {
+    for (int lane = 0; lane < rod_lanes; ++lane)
+      if (!(poses_.error[lane] <= rod_tolerance)) knows_[at(lane)] = false;
+  };
+  for (int step = 1; step <= steps; ++step) {
+    const double way = static_cast<double>(step) / steps;
+    for (int k = 0; k < system_->limbs(); ++k)
+      for (int lane = 0; lane < rod_lanes; ++lane)
+        if (knows_[at(lane)])
+          rods_[at(k)].length[lane] = std::lerp(home.rods[at(k)].length[lane],
+                                                rows[at(lane) * inputs + at(system_->input_of(k))], way);
+    for (int k = 0; k < 6; ++k)
+      for (int lane = 0; lane < rod_lanes; ++lane)
+        poses_.wrench[k][lane] = std::lerp(home.poses.wrench[k][lane], 0, way);
+    walk();
+    leave_lost();
+  }
+  const bool is_loaded = wrench != RodGroup::Wrench::Zero();
+  for (int step = 1; step <= steps && is_loaded; ++step) {
+    for (int k = 0; k < 6; ++k)
+      std::fill_n(poses_.wrench[k], rod_lanes, wrench[k] * static_cast<double>(step) / steps);
+    walk();
+    leave_lost();
+  }
+}
+
+void RodBatch::solve_from_home(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
+                               const Found& found) {
+  constexpr std::size_t least = 3;  // fewer are sooner solved alone
+  const std::size_t inputs = at(system_->inputs()), count = found.statuses.size();
+  const Home home = count >= least ? lanes_at_home() : Home();
+  for (std::size_t first = 0; first < count; first += rod_lanes) {
+    if (work_->stop.stop_requested()) {
+      std::ranges::fill(found.statuses.subspan(first), Status::stopped);
+      return;
+    }
+    const std::size_t here = std::min<std::size_t>(rod_lanes, count - first);
+    const auto block = rows.subspan(first * inputs, here * inputs);
+    knows_.fill(false);
+    for (std::size_t lane = 0; lane < here && here >= least; ++lane) {
+      knows_[lane] = wrench.allFinite();
+      for (int k = 0; k < system_->feeds(); ++k)
+        knows_[lane] = knows_[lane] && system_->in_domain(k, block[lane * inputs + at(system_->input_of(k))]);
+    }
+    const int steps = way_from(home, block, wrench);
+    if (std::ranges::any_of(knows_, std::identity())) {
+      walk_from(home, block, wrench, steps);
+      if (judges) rod_kernels::advance(rods_, {.moves = false, .renews = true, .judges = true}, poses_);
+    }
+    for (int k = 0; k < 6; ++k) std::fill_n(poses_.wrench[k], rod_lanes, wrench[k]);
+    alignas(64) RodLane truncation;
+    rod_kernels::truncation(rods_, truncation);
+    for (int lane = 0; at(lane) < here; ++lane) {
+      Report report;
+      report.residual = poses_.error[lane];
+      const bool is_sure = knows_[at(lane)] && poses_.error[lane] <= rod_tolerance &&
+                           truncation[lane] <= system_->traits().quick_truncation &&
+                           !(judges && poses_.unstable[lane] > 0);
+      knows_[at(lane)] = false;  // another way would not be from home
+      if (is_sure || solve_lane(lane, block.subspan(at(lane) * inputs, inputs), judges, report))
+        put(lane, first + at(lane), report, found);
+      else
+        found.statuses[first + at(lane)] = report.status;
+    }
+  }
+}
+
 void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
-                     std::span<SpatialPose> poses, std::span<Status> statuses) {
-  const std::size_t inputs = at(system_->inputs()), count = poses.size();
+                     const Found& found) {
+  const std::span<Status> statuses = found.statuses;
+  const std::size_t inputs = at(system_->inputs()), count = statuses.size();
   if (count == 0) return;
   const std::size_t stretch = (count + rod_lanes - 1) / rod_lanes;
   for (int k = 0; k < 6; ++k) std::fill_n(poses_.wrench[k], rod_lanes, wrench[k]);
@@ -141,24 +253,21 @@ void RodBatch::solve(std::span<const double> rows, const RodGroup::Wrench& wrenc
     bool is_renewed = false;
     for (int lane = 0; lane < rod_lanes; ++lane) {
       if (!has_row(lane)) continue;
-      Status status = judges && poses_.unstable[lane] > 0 ? Status::unstable : Status::converged;
+      Report report;
+      report.status = judges && poses_.unstable[lane] > 0 ? Status::unstable : Status::converged;
+      report.residual = poses_.error[lane];
       if (!knows_[at(lane)] || !(poses_.error[lane] <= rod_tolerance) ||
           !(truncation[lane] <= system_->traits().quick_truncation)) {
         is_renewed = true;
-        if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), judges, status)) {
-          statuses[row(lane)] = status;
+        if (!solve_lane(lane, rows.subspan(row(lane) * inputs, inputs), judges, report)) {
+          statuses[row(lane)] = report.status;
           continue;
         }
       }
-      if (status == Status::unstable && settles_from_home(lane, rows.subspan(row(lane) * inputs, inputs))) {
+      if (report.status == Status::unstable &&
+          settles_from_home(lane, rows.subspan(row(lane) * inputs, inputs), report))
         is_renewed = true;
-        status = Status::converged;
-      }
-      const auto& p = poses_.position;
-      const auto& q = poses_.quaternion;
-      poses[row(lane)] = spatial_pose({Vec3<double>(p[0][lane], p[1][lane], p[2][lane]),
-                                       {q[0][lane], Vec3<double>(q[1][lane], q[2][lane], q[3][lane])}});
-      statuses[row(lane)] = status;
+      put(lane, row(lane), report, found);
     }
     if (is_renewed) {  // factors of the lanes that were solved alone
       rod_kernels::advance(rods_, {.moves = false, .from_scratch = true, .renews = true}, poses_);

@@ -12,20 +12,39 @@ class RodBatch {
   /// Robot's system and home, see solve_rods; must outlive the batch. Allocates.
   RodBatch(RodWork& work, const SE3<double>& home);
 
-  /// @param rows inputs of every pose, one after the other; @param poses, statuses one a row
+  /// Where what is found goes: one a row.
+  struct Found {
+    std::span<SpatialPose> poses;
+    std::span<Status> statuses;
+    std::span<double> residuals;  ///< or none
+  };
+
+  /// @param rows inputs of every pose, one after the other
   /// @param judges whether it is asked if they hold by themselves
   /// Poses as those of a quick resumed answer.
-  void solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
-             std::span<SpatialPose> poses, std::span<Status> statuses);
+  void solve(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges, const Found& found);
+
+  /// The same, each row by a way of its own from home, where the system is.
+  void solve_from_home(std::span<const double> rows, const RodGroup::Wrench& wrench, bool judges,
+                       const Found& found);
 
  private:
+  /// What eight ways from home share.
+  struct Home {
+    std::vector<CoarseRods> rods;
+    PoseLanes poses;
+  };
+  Home lanes_at_home();
+  int way_from(const Home& home, std::span<const double> rows, const RodGroup::Wrench& wrench);
+  void walk_from(const Home& home, std::span<const double> rows, const RodGroup::Wrench& wrench, int steps);
+  void put(int lane, std::size_t row, const Report& report, const Found& found) const;
   void set_lengths(int lane, Numbers inputs);
   void to_lane(int lane);
   void from_lane(int lane);
   void take_system(int lane);
   RodQuestion question_of(int lane, bool judges) const;
-  bool settles_from_home(int lane, Numbers inputs);
-  bool solve_lane(int lane, Numbers inputs, bool judges, Status& status);
+  bool settles_from_home(int lane, Numbers inputs, Report& report);
+  bool solve_lane(int lane, Numbers inputs, bool judges, Report& report);
   double worst() const;
   void walk();
 

@@ -2,10 +2,42 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "query/fields/answer_fields.hpp"
 
 namespace sinew::inline v1 {
+namespace {
+
+constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();  ///< what is no index leads there
+
+}  // namespace
+
+bool AnswerPath::is_path(std::string_view path) {
+  const auto is_letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  const auto take = [&](const auto& is_part) {
+    const auto end = std::ranges::find_if_not(path, is_part);
+    const auto size = static_cast<std::size_t>(end - path.begin());
+    path.remove_prefix(size);
+    return size;
+  };
+  const auto take_one = [&](char c) {
+    if (!path.starts_with(c)) return false;
+    path.remove_prefix(1);
+    return true;
+  };
+  constexpr std::size_t most_digits = 9;
+  do {
+    if (take(is_letter) == 0) return false;
+    while (take_one('[')) {
+      const std::size_t digits = take([](char c) { return c >= '0' && c <= '9'; });
+      if (digits == 0 || digits > most_digits || !take_one(']')) return false;
+    }
+  } while (take_one('.'));
+  return path.empty();
+}
 
 AnswerPath::AnswerPath(std::string_view path) {
   constexpr std::string_view count = ".count";
@@ -18,7 +50,8 @@ AnswerPath::AnswerPath(std::string_view path) {
     if (path.starts_with('[')) {
       const std::size_t end = std::min(path.find(']'), path.size());
       std::size_t index = 0;
-      std::from_chars(path.data() + 1, path.data() + end, index);
+      const auto [last, error] = std::from_chars(path.data() + 1, path.data() + end, index);
+      if (error != std::errc() || last != path.data() + end) index = nowhere;
       steps_.emplace_back(index);
       path.remove_prefix(std::min(end + 1, path.size()));
     } else {

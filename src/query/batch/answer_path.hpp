@@ -15,6 +15,10 @@ class SINEW_API AnswerPath {
  public:
   explicit AnswerPath(std::string_view path);
 
+  /// Whether it is one: names parted by points, each with whole numbers in brackets after it, and `.count` at
+  /// the end of the place of a list. Whether an answer has something there is another question.
+  static bool is_path(std::string_view path);
+
   /// The number there; 1 and 0 for true and false; of a list under `.count` its length. Nothing where there
   /// is none.
   std::optional<double> number(const Value& answer) const;

@@ -18,6 +18,7 @@ enum class Field {
   poses,
   inputs,
   curvatures,
+  residual,
   determinant,
   condition,
   homogenised,
@@ -59,6 +60,7 @@ std::optional<Output> output_of(std::string_view path, const AskedPoses& asked, 
   }
   if (const auto leg = index_in(path, "legs[", "].curvature"); leg && *leg < legs)
     return Output{Field::curvatures, *leg};
+  if (path == "residual") return Output{Field::residual};
   if (asked.is_inverse) {
     const auto leg = index_in(path, "inputs[", "]");
     return leg && *leg < legs ? std::optional(Output{Field::inputs, *leg}) : std::nullopt;
@@ -221,6 +223,9 @@ class PoseSampler {
       case Field::curvatures:
         out.curvatures = room(legs * n);
         return;
+      case Field::residual:
+        out.residual = room(n);
+        return;
       case Field::determinant:
         out.determinant = room(n);
         return;
@@ -268,7 +273,7 @@ class PoseSampler {
   std::vector<double> poses_, squares_;  ///< of the quaternions given
   std::vector<Status> statuses_;
   std::vector<std::uint8_t> type_1_, type_2_;
-  std::array<std::vector<double>, 10> columns_;
+  std::array<std::vector<double>, 11> columns_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "query/batch/answer_path.hpp"
 #include "query/batch/batch_state.hpp"
 #include "query/batch/field_layout.hpp"
+#include "query/tree_session.hpp"
 #include "sinew/io/reader.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/robot/assembly.hpp"
@@ -73,6 +74,8 @@ Batch::Field field_of(const Robot& robot, std::string name, const std::string& p
   return field;
 }
 
+bool is_name(const Node& node) { return node.kind == Node::Kind::string && node.text.starts_with('$'); }
+
 /// Texts for single numbers, `$name[1]`, in place of one for a list.
 Node single_numbers(const std::string& text, const FieldLayout& layout) {
   Node list;
@@ -97,7 +100,10 @@ struct Named {
 /// Finds names, and puts single numbers in place of lists.
 class NameReader {
  public:
-  NameReader(const FieldLayouts& layouts, Errors& errors) : layouts_(layouts), errors_(errors) {}
+  NameReader(const Robot& robot, const FieldLayouts& layouts, Errors& errors)
+      : robot_(robot),
+        layouts_(layouts),
+        errors_(errors) {}
 
   std::vector<Named> read(Node& query) {
     read(query, "");
@@ -106,7 +112,7 @@ class NameReader {
 
  private:
   void read(Node& node, const std::string& place) {
-    if (node.kind == Node::Kind::string && node.text.starts_with('$')) return read_name(node, place);
+    if (is_name(node)) return read_name(node, place);
     for (std::size_t i = 0; i < node.items.size(); ++i) read(node.items[i], joined(place, i));
     for (Member& member : node.members) read(member.value, joined(place, member.key));
   }
@@ -115,41 +121,54 @@ class NameReader {
     const std::string name = node.text.substr(1);
     const FieldLayout layout = layouts_.input(place);
     const auto before = std::ranges::find(found_, name, &Named::name);
-    if (before == found_.end())
-      found_.push_back({name, place, layout});
-    else if (before->layout.shape != layout.shape)
+    if (name.empty())
+      errors_.push_back({"missing_key", place,
+                         fmt::format("{} = \"$\" has no name; write one after it, like \"$x\"", place)});
+    else if (place == "id")
       errors_.push_back(
-          {"ambiguous", place,
-           fmt::format("{} = \"${}\" stands for {} numbers here and for {} at {}; give two names", place,
-                       name, layout.size(), before->layout.size(), before->place)});
+          {"no_effect", place, "id is repeated in single answers; rows have none, leave it out"});
+    else if (before == found_.end())
+      found_.push_back({name, place, layout});
+    else
+      compare(*before, place, layout);
     if (!layout.shape.empty()) node = single_numbers(node.text, layout);
   }
 
+  /// The same name at two places: the same numbers.
+  void compare(const Named& before, const std::string& place, const FieldLayout& layout) {
+    const auto say = [&](const std::string& here, const std::string& there) {
+      errors_.push_back({"ambiguous", place,
+                         fmt::format("{} = \"${}\" stands for {} here and for {} at {}; give two names",
+                                     place, before.name, here, there, before.place)});
+    };
+    if (before.layout.shape != layout.shape)
+      return say(numbers(layout.size()), fmt::format("{}", before.layout.size()));
+    const std::string here = field_of(robot_, {}, place, layout).unit,
+                      there = field_of(robot_, {}, before.place, layout).unit;
+    if (here != there && !here.empty() && !there.empty()) say(here, there);
+  }
+  static std::string numbers(std::size_t count) {
+    return fmt::format("{} number{}", count, count == 1 ? "" : "s");
+  }
+
+  const Robot& robot_;
   const FieldLayouts& layouts_;
   Errors& errors_;
   std::vector<Named> found_;
 };
 
-/// What people ask a question for.
-Outputs usual_outputs(const Robot& robot, std::string_view query) {
-  if (query == "diagram") return {{"margin", "margin"}, {"over_tension", "over_tension"}};
-  if (robot.serial()) {
-    if (query == "velocity") return {{"J", "J"}, {"K", "K"}};
-    Outputs usual{{"position", "tip.position"}, {"quaternion", "tip.quaternion"}, {"changes", "changes"}};
-    if (query == "inverse") usual.emplace_back("configuration", "configuration");
-    return usual;
-  }
-  if (robot.arm()) {
-    Outputs usual{{"position", "tip.position"},
-                  {"quaternion", "tip.quaternion"},
-                  {"tensions", "tensions"},
-                  {"changes", "changes"}};
-    if (query == "statics") usual.emplace_back("wrench", "wrench");
-    if (query == "track")
-      for (const char* name : {"end_tensions", "motor_work", "friction_loss"}) usual.emplace_back(name, name);
-    return usual;
-  }
-  if (query == "inverse") return {{"inputs", "inputs"}};
+/// Of what tendon pairs hold: of each leg both tendons, under the names that studies and Octave give them.
+Outputs usual_tendons(const Robot& robot) {
+  Outputs usual;
+  for (int i = 0; i < leg_count(robot); ++i)
+    for (const char* field : {"tendon_lengths", "tensions"})
+      usual.emplace_back(fmt::format("legs_{}_{}", i, field), fmt::format("legs[{}].{}", i, field));
+  return usual;
+}
+
+Outputs usual_solution(const Robot& robot, std::string_view query) {
+  if (query == "inverse")
+    return robot.model() == Model::prb ? usual_tendons(robot) : Outputs{{"inputs", "inputs"}};
   if (query == "velocity") {
     Outputs usual{{"position_index", "indices.position"}, {"rotation_index", "indices.rotation"}};
     if (!has_rods(robot)) usual.insert(usual.begin(), {"determinant", "determinant"});
@@ -157,6 +176,37 @@ Outputs usual_outputs(const Robot& robot, std::string_view query) {
   }
   if (robot.planar()) return {{"x", "pose.x"}, {"y", "pose.y"}, {"phi", "pose.phi"}};
   return {{"position", "pose.position"}, {"quaternion", "pose.quaternion"}};
+}
+
+/// What people ask a question for, and how well it is solved, where that is not in closed form.
+Outputs usual_outputs(const Robot& robot, std::string_view query) {
+  if (query == "diagram") return {{"margin", "margin"}, {"over_tension", "over_tension"}};
+  const std::pair<std::string, std::string> residual{"residual", "residual"};
+  if (robot.serial()) {
+    if (query == "velocity") return {{"J", "J"}, {"K", "K"}};
+    Outputs usual{{"position", "tip.position"}, {"quaternion", "tip.quaternion"}, {"changes", "changes"}};
+    if (query == "inverse") {
+      usual.emplace_back("configuration", "configuration");
+      usual.push_back(residual);
+    }
+    return usual;
+  }
+  Outputs usual;
+  if (robot.arm()) {
+    usual = {{"position", "tip.position"},
+             {"quaternion", "tip.quaternion"},
+             {"tensions", "tensions"},
+             {"changes", "changes"}};
+    if (query == "statics") usual.emplace_back("wrench", "wrench");
+    if (query == "track") {
+      for (const char* name : {"end_tensions", "motor_work", "friction_loss"}) usual.emplace_back(name, name);
+      return usual;
+    }
+  } else {
+    usual = usual_solution(robot, query);
+  }
+  usual.push_back(residual);
+  return usual;
 }
 
 /// The fields of a batch that are not its query's.
@@ -174,8 +224,95 @@ Told read_told(const Document& asked, Errors& errors) {
   if (const auto path = reader.optional("path"))
     told.is_path = path->choice({"continue", "anew"}) == "continue";
   if (const auto named = reader.optional("outputs"))
-    for (auto& [name, place] : named->members()) told.outputs.emplace_back(name, place.text());
+    for (auto& [name, place] : named->members()) {
+      told.outputs.emplace_back(name, place.text());
+      if (place.is(Node::Kind::string) && !AnswerPath::is_path(told.outputs.back().second))
+        place.refuse("unknown_path", "give a place in the answer, like pose.position[2]");
+    }
   return told;
+}
+
+/// Whether a place is one of these, or a list or map around one.
+bool is_at_or_around(std::string_view place, std::span<const std::string> places) {
+  return std::ranges::any_of(places, [&](std::string_view one) {
+    return one.starts_with(place) && (place.empty() || one.size() == place.size() ||
+                                      one[place.size()] == '.' || one[place.size()] == '[');
+  });
+}
+
+/// Places of the names of a question, single numbers all.
+void collect_places(const Node& node, const std::string& place, std::vector<std::string>& places) {
+  if (is_name(node)) places.push_back(place);
+  for (std::size_t i = 0; i < node.items.size(); ++i) collect_places(node.items[i], joined(place, i), places);
+  for (const Member& member : node.members) collect_places(member.value, joined(place, member.key), places);
+}
+
+/// Some number for each name, which stays as the number's text, for messages.
+void put_numbers(Node& node) {
+  constexpr double some = 0.1;
+  if (is_name(node)) {
+    node.kind = Node::Kind::number;
+    node.number = some;
+  }
+  for (Node& item : node.items) put_numbers(item);
+  for (Member& member : node.members) put_numbers(member.value);
+}
+
+/// The same in `set`, of a robot that stays one: its own values, as far as its file has them. It is noted
+/// where there is no such place. Whether all of `set` is kept: what the number would break is left out.
+bool put_own_numbers(Node& settings, const Document& robot, Errors& errors) {
+  bool is_whole = true;
+  std::vector<Member> kept;
+  for (Member& one : settings.members) {
+    const Node* own = is_name(one.value) ? at(robot.root, one.key) : nullptr;
+    if (own) one.value = *own;
+    if (!is_name(one.value)) {
+      kept.push_back(one);
+      continue;
+    }
+    put_numbers(one.value);
+    auto changed = with(robot, {&one, 1});
+    const auto other = changed ? read_robot(*changed) : tl::unexpected(std::move(changed.error()));
+    if (other) {
+      kept.push_back(one);
+      continue;
+    }
+    is_whole = false;
+    for (const Error& error : other.error())
+      if (error.code == "unknown_key" || error.code == "unknown_path") errors.push_back(error);
+  }
+  settings.members = std::move(kept);
+  return is_whole;
+}
+
+/// What is wrong with every row, whatever its numbers are: fields that are unknown or of no effect, lists of
+/// a wrong length, names in place of words. Numbers that are out of range are the rows' to tell, and so is
+/// that the robot has no answer: that is a status.
+Errors errors_of_all_rows(const Document& robot, const Node& query) {
+  std::vector<std::string> places;
+  collect_places(query, "", places);
+  Document trial{"query", query};
+  Errors errors;
+  Node* settings = trial.root.find("set");
+  const bool is_whole =
+      !settings || settings->kind != Node::Kind::map || put_own_numbers(*settings, robot, errors);
+  if (!errors.empty()) return errors;
+  put_numbers(trial.root);
+  auto session = TreeSession::open(robot);
+  errors = session ? session->errors_of(trial) : session.error();
+  const auto is_lacking = [](const Error& error) { return error.code == "not_available"; };
+  if (std::ranges::all_of(errors, is_lacking) || (!is_whole && std::ranges::any_of(errors, is_lacking)))
+    return {};
+  const bool chooses_section = std::ranges::find(places, "section") != places.end();
+  std::erase_if(errors, [&](const Error& error) {
+    const auto is = [&](std::string_view code) { return error.code == code; };
+    if (!is_whole && is("no_effect")) return true;           // what is set may change that
+    if (chooses_section && is("wrong_length")) return true;  // as many as there are sections up to it
+    const bool is_of_numbers =
+        is("out_of_range") || is("not_whole") || is("no_direction") || is("no_rotation");
+    return is_of_numbers && is_at_or_around(error.where, places);
+  });
+  return errors;
 }
 
 Node query_of(const Node& asked) {
@@ -200,7 +337,7 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
   const Robot as_it_is = as_asked(document, *robot, question.query.root);
   const std::string kind(word(question.query.root, "query"));
   const FieldLayouts layouts(as_it_is, kind);
-  for (const auto& [name, place, layout] : NameReader(layouts, errors).read(question.query.root)) {
+  for (const auto& [name, place, layout] : NameReader(as_it_is, layouts, errors).read(question.query.root)) {
     state->inputs.push_back(field_of(as_it_is, name, place, layout));
     for (std::size_t i = 0; i < layout.size(); ++i) {
       question.inputs.push_back(name + layout.suffix(i));
@@ -210,6 +347,7 @@ Expected<Batch> Batch::prepare(const Document& document, const Document& asked) 
              "\"$" + question.inputs.back() + "\" is a name and a number of a list; give another"});
     }
   }
+  if (errors.empty()) errors = errors_of_all_rows(document, question.query.root);
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   if (state->inputs.empty())
     return failure("no_inputs", "query", "nothing goes in: write texts like \"$x\" where its numbers go");

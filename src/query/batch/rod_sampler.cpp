@@ -1,6 +1,7 @@
 /// Forward kinematics of robots on rods, for questions that vary the inputs and ask for the pose.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "query/batch/query_entries.hpp"
@@ -11,22 +12,24 @@
 namespace sinew::inline v1 {
 namespace {
 
-constexpr std::array<std::string_view, 7> pose_paths{
-    "pose.position[0]",   "pose.position[1]",   "pose.position[2]",  "pose.quaternion[0]",
-    "pose.quaternion[1]", "pose.quaternion[2]", "pose.quaternion[3]"};
+constexpr std::array<std::string_view, 8> paths{
+    "pose.position[0]",   "pose.position[1]",   "pose.position[2]",   "pose.quaternion[0]",
+    "pose.quaternion[1]", "pose.quaternion[2]", "pose.quaternion[3]", "residual"};
+constexpr std::size_t residual = 7;
 
 /// What such a question asks, if it is one.
 struct AskedRods {
   std::vector<QueryEntry> inputs;
   SpatialWrench wrench = SpatialWrench::Zero();
-  std::vector<std::size_t> outputs;  ///< which of the pose's numbers
+  RowStart start = RowStart::row_before;
+  std::vector<std::size_t> outputs;  ///< which of the paths
 
   std::size_t first_input() const { return static_cast<std::size_t>(inputs.front().input); }
 };
 
 std::optional<AskedRods> asked_of_rods(const BatchQuestion& question) {
   AskedRods asked;
-  if (!question.is_path) return {};  // each from home: query by query
+  asked.start = question.is_path ? RowStart::row_before : RowStart::home;
   for (const Member& field : question.query.root.members) {
     if (field.key == "query") {
       if (field.value.text != "forward") return {};
@@ -43,9 +46,9 @@ std::optional<AskedRods> asked_of_rods(const BatchQuestion& question) {
     }
   }
   for (const std::string& output : question.outputs) {
-    const auto path = std::ranges::find(pose_paths, output);
-    if (path == pose_paths.end()) return {};
-    asked.outputs.push_back(static_cast<std::size_t>(path - pose_paths.begin()));
+    const auto path = std::ranges::find(paths, output);
+    if (path == paths.end()) return {};
+    asked.outputs.push_back(static_cast<std::size_t>(path - paths.begin()));
   }
   return asked;
 }
@@ -57,13 +60,20 @@ class RodSampler {
   void operator()(const SampleBlock& block) {
     poses_.resize(block.count);
     statuses_.resize(block.count);
+    residuals_.resize(block.count);
     work_.stop = StopToken(*block.stop);
-    equilibrium_batch(robot_, rows_of(block), asked_.wrench, poses_, statuses_, work_, true);
+    equilibrium_batch(robot_, rows_of(block), asked_.wrench, poses_, statuses_, work_, true, residuals_,
+                      asked_.start);
     for (std::size_t k = 0; k < block.count; ++k) put(block, k);
     *block.done += block.count;
   }
 
  private:
+  /// A query would not take others.
+  bool has_numbers(const SampleBlock& block, std::size_t k) const {
+    return std::ranges::all_of(asked_.inputs,
+                               [&](const QueryEntry& entry) { return std::isfinite(entry.at(block, k)); });
+  }
   /// As they lie in memory where the inputs of a row do, one after the other.
   Numbers rows_of(const SampleBlock& block) {
     const std::size_t inputs = asked_.inputs.size();
@@ -88,17 +98,18 @@ class RodSampler {
     const bool is_solved = statuses_[k] == Status::converged || statuses_[k] == Status::unstable;
     for (std::size_t o = 0; o < asked_.outputs.size(); ++o) {
       const std::size_t which = asked_.outputs[o];
-      block.output(o, k) = !is_solved  ? not_a_number
-                           : which < 3 ? pose.position[static_cast<Eigen::Index>(which)]
-                                       : pose.quaternion[which - 3];
+      block.output(o, k) = !is_solved          ? not_a_number
+                           : which == residual ? residuals_[k]
+                           : which < 3         ? pose.position[static_cast<Eigen::Index>(which)]
+                                               : pose.quaternion[which - 3];
     }
-    block.statuses[k] = sample_status(statuses_[k]);
+    block.statuses[k] = has_numbers(block, k) ? sample_status(statuses_[k]) : refused;
   }
 
   const Robot& robot_;
   const AskedRods& asked_;
   Workspace work_;
-  std::vector<double> rows_;
+  std::vector<double> rows_, residuals_;
   std::vector<SpatialPose> poses_;
   std::vector<Status> statuses_;
 };

@@ -34,7 +34,7 @@ constexpr Words models = {"cc", "prb", "rigid", "rod", "pcc", "lsk", "subsegment
                 envelopes = {"square", "disc", "actuator"},
                 balances = {"energy", "projected", "collocated", "closed_form"},
                 wants = {"pose",      "legs",    "velocity",    "shape", "stiffness",
-                         "stability", "margins", "sensitivity", "lines", "modes"};
+                         "stability", "margins", "sensitivity", "lines"};
 
 constexpr FieldUses of_models = [] {
   FieldUses uses = always;
