@@ -173,7 +173,7 @@ def ask_columns(robot: Robot, query: str, fields: dict[str, Any]) -> Columns:
     fields = {name: value for name, value in fields.items() if value is not None}
     options = {name: fields.pop(name, None) for name in ("outputs", "path", "threads", "out")}
     columns: dict[str, Any] = {}
-    pattern = _with_names(fields, "", "", columns)
+    pattern = _with_names(robot, fields, "", "", columns)
     key = (query, repr(pattern), repr(options["outputs"]), options["path"])
     prepared = robot._planned.get(key)
     if prepared is None:
@@ -185,7 +185,7 @@ def ask_columns(robot: Robot, query: str, fields: dict[str, Any]) -> Columns:
     return answer
 
 
-def _with_names(value: Any, place: str, key: str, columns: dict[str, Any]) -> Any:
+def _with_names(robot: Robot, value: Any, place: str, key: str, columns: dict[str, Any]) -> Any:
     """The fields with "$place" where an array holds a column, which `columns` then has."""
     dimensions = getattr(value, "ndim", None)
     if isinstance(dimensions, int):
@@ -194,10 +194,10 @@ def _with_names(value: Any, place: str, key: str, columns: dict[str, Any]) -> An
         if dimensions != RANKS.get(key, 1) + 1:
             raise InputError(f"{place} has shape {_arrays.shape(value)}; give an array of {RANKS.get(key, 1)} dimensions for one "
                              f"value, of one more for a row each", "wrong_length", place)
-        columns[place] = _arrays.flat_rows(value) if key == "changes" else value
+        columns[place] = _arrays.flat_rows(value) if robot._is_of_tendons(key) else value
         return "$" + place
     if isinstance(value, Mapping):
-        return {name: _with_names(item, f"{place}.{name}" if place else str(name), str(name), columns) for name, item in value.items()}
+        return {name: _with_names(robot, item, f"{place}.{name}" if place else str(name), str(name), columns) for name, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_with_names(item, f"{place}[{index}]", key, columns) for index, item in enumerate(value)]
+        return [_with_names(robot, item, f"{place}[{index}]", key, columns) for index, item in enumerate(value)]
     return value

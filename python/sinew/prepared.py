@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from .answer import Answer
     from .robot import Robot
 
-_OF_TENDONS = ("changes", "measured")  # of all tendons in order in columns, a list a section in questions
-
 
 class Row(_sinew.Row):
     """What a prepared question answers of one row: its outputs, as attributes; `ok`, `status`.
@@ -165,7 +163,7 @@ def _filled(value: Any, named: Mapping[str, Any], robot: Robot, key: str) -> Any
     """The fields with the numbers where "$name" stood."""
     if isinstance(value, str) and value.startswith("$"):
         numbers = named.get(value[1:], value)
-        return robot._by_sections(numbers) if key in _OF_TENDONS else numbers
+        return robot._by_sections(numbers) if robot._is_of_tendons(key) else numbers
     if isinstance(value, Mapping):
         return {name: _filled(item, named, robot, name) for name, item in value.items()}
     if isinstance(value, (list, tuple)):

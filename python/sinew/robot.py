@@ -69,8 +69,9 @@ class Robot(Verbs):
     def _ask(self, query: str, fields: dict[str, Any]) -> Any:
         if self._settings:
             fields = {**fields, "set": {**self._settings, **(fields.get("set") or {})}}
-        if getattr(fields.get("changes"), "ndim", 0) == 2:
-            fields = {**fields, "changes": self._rows_of_tendons(fields["changes"])}
+        for name in ("changes", "tensions"):
+            if getattr(fields.get(name), "ndim", 0) == 2 and self._is_of_tendons(name):
+                fields = {**fields, name: self._rows_of_tendons(fields[name])}
         asked = self._session().ask(query, fields, RANKS)
         if asked is None:
             from .columns import ask_columns
@@ -153,6 +154,10 @@ class Robot(Verbs):
         if about.get("kind") == "arm":
             return [sum(tendon["section"] == m for tendon in about["tendons"]) for m in range(len(sections))]
         return [section["tendons"]["count"] for section in sections]
+
+    def _is_of_tendons(self, name: str) -> bool:
+        """Whether a field has a number of every tendon, a list a section in questions, all in a row in columns."""
+        return name in ("changes", "measured") or name == "tensions" and self._about()._plain().get("kind") == "arm"
 
     def _rows_of_tendons(self, changes: Any) -> Any:
         """Rows of all tendons, as columns have them (n, 15), as columns (n, 1, 15); a list a section (5, 3) as it is."""

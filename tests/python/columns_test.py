@@ -35,6 +35,19 @@ class Columns(unittest.TestCase):
         with self.assertRaises(IndexError):
             found[20]
 
+    def test_of_arms_are_rows_of_all_tendons_or_lists_of_sections(self):
+        arm = sinew.load("two-segment")
+        pulls = RNG.uniform(0, 3, (12, 2, 3))
+        flat, nested = arm.forward(tensions=pulls.reshape(12, 6)), arm.forward(tensions=pulls)
+        np.testing.assert_array_equal(flat.position, nested.position)
+        self.assertEqual(flat.tensions.shape, (12, 6))
+        for index in (0, 7):
+            one = arm.forward(tensions=pulls[index])
+            np.testing.assert_allclose(flat.position[index], one.tip.position, atol=1e-7)
+        np.testing.assert_allclose(nested[7].tip.position, nested.position[7], atol=1e-7)
+        with self.assertRaises(sinew.InputError):
+            arm.forward(tensions=RNG.uniform(0, 3, (12, 5)))
+
     def check_no_copies(self, prepared, *columns):
         prepared(*(column[:10] for column in columns))  # what is allocated once
         tracemalloc.start()

@@ -172,6 +172,7 @@ std::string text_of(const Arm& arm, std::span<const std::string> comments) {
 
 /// What no key says.
 Expected<void> check_words(const Arm& arm) {
+  const auto names = tendon_names(arm);
   if (arm.measurement)
     for (const auto* values :
          {&arm.measurement->drive.gain, &arm.measurement->drive.offset, &arm.measurement->drive.toe})

@@ -34,6 +34,7 @@ struct Judged {
   std::vector<double> computed;  ///< rows × 3 [m]
   Identified fit;
   HeldOut held_out;
+  MarkerErrors unseen_pulls;  ///< single pulls, of a fit that has seen none
 };
 
 /// By the labels of the recording's blocks: comments `block 4: rep1_tendon4_id2_pull`.
@@ -66,6 +67,9 @@ Expected<Judged> judge(const Recording& recording) {
   if (!fit) return tl::unexpected(fit.error());
   auto held_out = hold_out(start, *parameters, judged.rows, folds_of(judged.rows, 5));
   if (!held_out) return tl::unexpected(held_out.error());
+  auto without = identify(start, *parameters, judged.rows, {.held_out = judged.single});
+  if (!without) return tl::unexpected(without.error());
+  judged.unseen_pulls = without->held_out;
   auto computed = predict_markers(fit->arm, judged.rows);
   if (!computed) return tl::unexpected(computed.error());
   judged.fit = std::move(*fit), judged.held_out = std::move(*held_out),
@@ -98,6 +102,7 @@ void add_findings(ItemResult& result, const Recording& recording, const Judged& 
   told(": before the fit, root mean square", "by the arm's file", in_mm(fit.before.rms));
   told(": median and largest distance", "", in_mm(fit.train.median) + ", " + in_mm(fit.train.max));
   told(": rows of single pulls, which the fit has seen", "", in_mm(rms_of_single_pulls(judged)));
+  told(": single pulls, of a fit that has seen none of them", "", in_mm(judged.unseen_pulls.rms));
   told(": blocks that the fit has not seen, root mean square of five folds", "",
        in_mm(judged.held_out.errors.rms));
   const auto bounded =
