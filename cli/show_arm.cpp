@@ -157,7 +157,8 @@ std::string show_arm(const Answer& answer, const OpenRobot& robot) {
                           "twist of the tip by a wrench there: m/N, rad/N, m/(N m), rad/(N m)");
   text += show_arm_matrix(answer, "stiffness", "its inverse");
   if (const auto margin = answer.number("buckling_margin"))
-    text += fmt::format("\nbuckling margin {} (1 without load, 0 where it buckles)\n", six_digits(*margin));
+    text +=
+        fmt::format("\nbuckling margin {} (about 1 without load, 0 where it buckles)\n", six_digits(*margin));
   if (answer.find("load")) text += '\n' + show_load(answer);
   if (const Node* solutions = answer.find("solutions")) {
     TextTable table({"equilibrium", "x[mm]", "y[mm]", "z[mm]", "potential[J]"});

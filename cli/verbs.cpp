@@ -306,7 +306,7 @@ const std::array table{
          run_scene},
     Verb{"reproduce",
          "[PAPER[/ITEM]]",
-         "figures and tables of the papers: ours beside theirs",
+         "figures and tables of the papers, and what others measured or computed: ours beside theirs",
          {"output", "width", "font", "force", "list", "json", "quiet", "help"},
          {},
          "Without an argument all of them.",

@@ -36,8 +36,8 @@ const std::string two_postures =
 std::string few_rows() {
   std::string text;
   std::size_t rows = 0;
-  for (const std::string& line : lines_of(
-           read_text(std::filesystem::path(source_folder) / "tests" / "data" / "measured" / "ftdcr-v4.csv")))
+  for (const std::string& line :
+       lines_of(read_text(std::filesystem::path(source_folder) / "data" / "measured" / "ftdcr-v4.csv")))
     if (line.starts_with('#') || rows++ < 40) text += line + '\n';
   return text;
 }

@@ -54,6 +54,11 @@ std::vector<Json> questions(const Json& described, Session& session) {
     return {{{"query", "forward"}, {"configuration", bends}},
             {{"query", "velocity"}, {"configuration", bends}, {"twist", {1e-3, 0, 0, 0, 0, 0}}}};
   }
+  if (described["kind"] == "arm") {
+    std::vector<Json> lengths(described["sections"].size(), Json::array());
+    for (const Json& tendon : described["tendons"]) lengths[tendon["section"].get<std::size_t>()].push_back(0);
+    return {{{"query", "forward"}, {"changes", lengths}}, {{"query", "velocity"}, {"changes", lengths}}};
+  }
   const Json& home = described["home"];
   std::vector<Json> all{{{"query", "inverse"}, {"pose", home}}, {{"query", "velocity"}, {"pose", home}}};
   for (const char* z : {"z"})  // three inputs hold three of its freedoms

@@ -66,7 +66,7 @@ function marginBars(answer: Json, described: Described, state: State): Bar[] {
   if (margins?.strain !== undefined) bars.push(filled('strain', margins.strain / strainLimit, `${(100 * margins.strain).toFixed(3)} %`, margins.strain > strainLimit ? 'over' : undefined,
     'largest bending strain of a rod; the bar ends at 1 %'));
   if (answer.buckling_margin !== undefined) bars.push(filled('to buckling', answer.buckling_margin, Math.max(answer.buckling_margin, 0).toPrecision(3), answer.buckling_margin < 0.05 ? 'slack' : undefined,
-    'of the arm\'s stiffness: 1 without load, 0 where it buckles'));
+    'of the arm\'s stiffness: about 1 without load, 0 where it buckles'));
   if (reach?.load !== undefined) bars.push(filled(reach.why === 'limit' ? 'more load' : `load to ${reach.why}`, reach.load / reach.limit, `${reach.why === 'limit' ? '> ' : ''}${reach.load.toPrecision(3)} ×`,
     reach.load < 0.25 ? 'slack' : undefined, 'how many times this load can be added'));
   if (velocity?.indices?.condition_homogenised !== undefined) bars.push(conditioning(velocity.indices.condition_homogenised));

@@ -20,7 +20,7 @@ struct ArmLoadPath {
   LoadEnd end = LoadEnd::limit;
   ArmState state;  ///< there
   double margin =
-      0;  ///< there to buckling: the Hessian's lowest eigenvalue, 1 of the elastic energy alone [1]
+      0;  ///< there to buckling: the Hessian's lowest eigenvalue, about 1 of the elastic energy alone [1]
   /// Without a potential: from here on the stiffness' symmetric part is not definite [1]; below 0 where that
   /// is not so.
   double definite_until = -1;

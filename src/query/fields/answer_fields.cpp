@@ -76,7 +76,7 @@ return std::array{
     AnswerField{"motors", tendons, "", "counts of each tendon's motor"},
     AnswerField{"slack", tendons, "m", "of each tendon"},
     AnswerField{"resolution", number, "m", "by how much finer polynomials move an arm's tip"},
-    AnswerField{"buckling_margin", number, "", "of an arm's stiffness: 1 without load, 0 where it buckles"},
+    AnswerField{"buckling_margin", number, "", "of an arm's stiffness: about 1 without load, 0 where it buckles"},
     AnswerField{"least_tension", number, "N", "of an arm's tendons"},
     AnswerField{"answer_rates", input_jacobian, "", "of an arm what its tendons answer, by what holds each"},
     AnswerField{"answers_by_wrench", input_jacobian, "", "the same by a wrench at its tip"},
