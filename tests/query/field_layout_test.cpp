@@ -56,7 +56,8 @@ std::vector<Json> questions(const Json& described, Session& session) {
   }
   if (described["kind"] == "arm") {
     std::vector<Json> lengths(described["sections"].size(), Json::array());
-    for (const Json& tendon : described["tendons"]) lengths[tendon["section"].get<std::size_t>()].push_back(0);
+    for (const Json& tendon : described["tendons"])
+      lengths[tendon["section"].get<std::size_t>()].push_back(0);
     return {{{"query", "forward"}, {"changes", lengths}}, {{"query", "velocity"}, {"changes", lengths}}};
   }
   const Json& home = described["home"];
