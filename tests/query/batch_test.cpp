@@ -397,8 +397,8 @@ TEST(Batch, RefusesQuestionsAsSessionsDo) {
         Wrong{"tendon-rod", R"({"query":"diagram","section":0,"changes":["$",0,0]})"},
         Wrong{"tendon-rod", R"({"query":"forward","tensions":["$",0,0,0,0,0,0]})"},
         Wrong{"tendon-rod", R"({"query":"forward","tension":[["$",0]]})"}}) {
-    const auto with = [&](std::string_view number) {
-      std::string text = question;
+    const auto with = [asked = std::string(question)](std::string_view number) {
+      std::string text = asked;
       const auto place = text.find("\"$\"");
       return text.replace(place, 3, number);
     };
