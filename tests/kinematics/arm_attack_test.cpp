@@ -109,7 +109,13 @@ TEST(ArmAttack, RandomArms) {
     if (!again.report.ok()) continue;
     const double off = (again.tip.p - state.tip.p).norm() / arm.length();
     if (off < 1e-4) continue;
-    // Another equilibrium, or a wrong one? From the same shape the finer one must stay.
+    // Another equilibrium, or a wrong one? Refined from the same start it must stay, or be found from others.
+    ArmWorkspace refined(arm);
+    const ArmState same = arm_forward(arm, commands, load, {.accuracy = 1e-6}, refined);
+    if (same.report.ok() && (same.tip.p - state.tip.p).norm() < 1e-4 * arm.length()) {
+      ++other_branch;
+      continue;
+    }
     const auto all =
         arm_equilibria(arm, commands, load, {.order = 3, .elements = 8, .accuracy = 0}, 30, finer);
     const bool known = std::ranges::any_of(

@@ -22,9 +22,11 @@ struct Resolution {
   int elements;
 };
 constexpr std::array<Resolution, 4> along_sections{{{-1, 8}, {5, 16}, {7, 32}, {9, 64}}};
-constexpr std::array<Resolution, 6> between_discs{{{-1, 2}, {-1, 3}, {-1, 5}, {3, 8}, {3, 13}, {4, 20}}};
+constexpr std::array<Resolution, 6> between_discs{{{-1, 2}, {3, 3}, {4, 5}, {5, 8}, {6, 13}, {7, 20}}};
 
-/// What a model is refined by, coarse to fine; empty where it has one resolution.
+/// What a model is refined by, coarse to fine, in order and elements alike, so that a step tells what either
+/// of them was off; empty where it has one resolution. Between two of them is the finer one's elements with
+/// the coarser one's order, which often does as well: resolution 2 k is the k-th, 2 k − 1 the one before it.
 std::span<const Resolution> resolutions_of(const ArmOptions& options) {
   if (options.order >= 0 || options.elements > 0 || options.balance != ArmBalance::energy) return {};
   if (options.model == ArmModel::rod) return along_sections;
@@ -33,16 +35,24 @@ std::span<const Resolution> resolutions_of(const ArmOptions& options) {
 }
 
 int level_count(const ArmOptions& options) {
-  return std::max(1, static_cast<int>(resolutions_of(options).size()));
+  return std::max(1, 2 * static_cast<int>(resolutions_of(options).size()) - 1);
 }
 
-/// By how much finer elements lower the error of a resolution: as the third power of their length, with the
-/// fourth seen (the frames' and the quadrature's order).
+Resolution resolution_at(std::span<const Resolution> resolutions, int level) {
+  const Resolution& finer = resolutions[at((level + 1) / 2)];
+  return {level % 2 == 0 ? finer.order : resolutions[at(level / 2)].order, finer.elements};
+}
+
+/// The next of the table.
+int finer_than(int level) { return (level / 2 + 1) * 2; }
+
+/// By how much finer elements lower the error of a resolution: as the fourth power of their length, the order
+/// of frames and quadrature.
 double error_ratio(const ArmOptions& options, int level) {
   const auto resolutions = resolutions_of(options);
-  const double finer = static_cast<double>(resolutions[at(level + 1)].elements) /
-                       static_cast<double>(resolutions[at(level)].elements);
-  return finer * finer * finer;
+  const double finer = static_cast<double>(resolution_at(resolutions, finer_than(level)).elements) /
+                       static_cast<double>(resolution_at(resolutions, level).elements);
+  return finer * finer * finer * finer;
 }
 
 void add_dead(NodeLoad& load, const NodeShare& share, const std::array<double, 3>& by) {
@@ -249,8 +259,10 @@ ArmRod& ArmWorkspace::Impl::at(const Arm& arm, const ArmOptions& options,
   auto& entry = levels[v1::at(wanted)];
   if (!entry) {
     ArmBasis basis{model, order, elements, balance == ArmBalance::collocated};
-    if (const auto resolutions = resolutions_of(options); !resolutions.empty())
-      basis.order = resolutions[v1::at(wanted)].order, basis.elements = resolutions[v1::at(wanted)].elements;
+    if (const auto resolutions = resolutions_of(options); !resolutions.empty()) {
+      const Resolution chosen = resolution_at(resolutions, wanted);
+      basis.order = chosen.order, basis.elements = chosen.elements;
+    }
     entry = std::make_unique<ArmRod>(make_rod(arm, basis, breaks));
   }
   return *entry;
@@ -312,8 +324,9 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   while (refines && found.status == Status::converged) {
     const double size = size_of_highest(rod->model(), rod->work().y);
     if (warm && size <= 1.5 * impl.checked_size && impl.checked <= wanted) break;
-    if (impl.level + 1 == count) break;
-    LoadedRod& finer = ready(impl.level + 1);
+    const int next = finer_than(impl.level);
+    if (next >= count) break;
+    LoadedRod& finer = ready(next);
     carry_over(rod->model(), rod->work(), finer.model(), finer.work().y);
     const strain::Relaxed again = finer.relax(relax);
     found.iterations += again.iterations;
@@ -323,14 +336,30 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     impl.checked = moved * ratio / (ratio - 1);
     impl.checked_size = size;
     if (again.status == Status::converged && impl.checked <= wanted) break;
-    ++impl.level;
+    impl.level = next;
     rod = &finer;
     const int spent = found.iterations;
     found = again;
     found.iterations = spent;
     impl.checked = moved / (ratio - 1);
     impl.checked_size = size_of_highest(finer.model(), finer.work().y);
-    if (impl.checked <= wanted && moved < 1e-3 * arm.length()) break;
+    if (found.status != Status::converged || impl.checked > wanted || moved >= 1e-3 * arm.length()) continue;
+    LoadedRod& lean = ready(next - 1);
+    carry_over(finer.model(), finer.work(), lean.model(), lean.work().y);
+    const strain::Relaxed other = lean.relax(relax);
+    found.iterations += other.iterations;
+    const auto there = tip_of(lean);
+    const double off = std::hypot(there[0] - fine[0], there[1] - fine[1], there[2] - fine[2]);
+    if (other.status == Status::converged && impl.checked + off <= wanted) {
+      impl.level = next - 1;
+      impl.checked += off;
+      impl.checked_size = size_of_highest(lean.model(), lean.work().y);
+      rod = &lean;
+      const int all = found.iterations;
+      found = other;
+      found.iterations = all;
+    }
+    break;
   }
   state.resolution = impl.checked;
   set_report(state.report, found);
