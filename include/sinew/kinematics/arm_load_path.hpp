@@ -15,8 +15,8 @@ namespace sinew::inline v1 {
 struct ArmLoadPath {
   double load = 0;  ///< how many times the direction was added [1]
   /// Why it ended: `limit`, `bifurcation` (it buckles: another curve crosses), `fold` (it snaps: there is no
-  /// equilibrium near by beyond), `stability` (a load without potential drives it away), `stalled`,
-  /// `stopped`.
+  /// equilibrium near by beyond), `stability` (a load without potential drives it away), `iterations`,
+  /// `stalled`, `stopped`.
   LoadEnd end = LoadEnd::limit;
   ArmState state;  ///< there
   double margin =
