@@ -130,8 +130,9 @@ std::string words_of(const TendonMap& map) {
 Expected<std::optional<TendonMap>> find_map(const Arguments& arguments, ArmModel model, MeasuredArm& arm,
                                             MeasuredRows& rows) {
   constexpr double clear = 0.02;  // of agreement
-  auto map = map_tendons(arm, rows, model);
+  auto map = map_tendons(arm, rows, model, stop_token());
   if (!map) return tl::unexpected(map.error());
+  if (interrupted()) return std::nullopt;
   if (std::abs(map->turn) <= far_turn) map->turn = 0;  // the fit finds what is left
   const std::string other = words_of(*map);
   if (other.empty() || map->agreement < map->as_given + clear) {

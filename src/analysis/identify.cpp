@@ -325,7 +325,7 @@ class Fit {
   const MeasuredArm& start() const { return start_; }
   const std::vector<double>& predicted() const { return predicted_; }
 
-  /// Where the rows are, of this arm; of those chosen.
+  /// Where the rows are, of this arm; of those chosen. Not of all where a stop was requested.
   void predict(const MeasuredArm& arm, std::span<const int> chosen) { run(arm, chosen, false); }
 
   MarkerErrors errors(std::span<const int> chosen, std::vector<double>* all = nullptr) const {
@@ -351,9 +351,7 @@ class Fit {
   /// Cost of the rows chosen at these coordinates, with its derivatives; `noise_` scales it. Not all of it
   /// where a stop was requested.
   Sums sums(const VectorXd& x, std::span<const int> chosen) {
-    is_fitting_ = true;
     run(changed(start_, parameters_, x), chosen, true);
-    is_fitting_ = false;
     Sums s = sums_;
     for (std::size_t p = 0; p < parameters_.size(); ++p) {
       const double prior = parameters_[p].prior, c = x[static_cast<Index>(p)];
@@ -365,7 +363,7 @@ class Fit {
   void set_noise(double noise) { noise_ = noise; }
   double noise_now() const { return noise_; }
 
-  /// Σ of the scores of blocks.
+  /// Σ of the scores of blocks. Not all of it where a stop was requested.
   MatrixXd scores(const VectorXd& x, std::span<const int> chosen, int& blocks) {
     collect_scores_ = true;
     scores_.clear();
@@ -501,7 +499,7 @@ class Fit {
       filled = 0;
     };
     for (int k : chosen) {
-      if (is_fitting_ && options_.stop.stop_requested()) return;
+      if (options_.stop.stop_requested()) return;
       for (std::size_t i = 0; i < width; ++i) {
         const ArmTendon& tendon = arm.arm.tendons[i];
         free_lengths[i] = solver_.straight_length(static_cast<int>(i)) -
@@ -566,7 +564,6 @@ class Fit {
   double noise_ = 1e-3;
   Sums sums_;
   bool collect_scores_ = false;
-  bool is_fitting_ = false;  ///< a stop may end it among the rows: what it sums is then left aside
   std::map<int, VectorXd> scores_;
 };
 
@@ -621,13 +618,13 @@ Arm as_file(const MeasuredArm& arm) {
 }
 
 Expected<std::vector<double>> predict_markers(const MeasuredArm& arm, const MeasuredRows& rows,
-                                              ArmModel model) {
+                                              ArmModel model, StopToken stop) {
   MeasuredRows filled = rows;
   if (filled.markers.empty() && !arm.arm.tendons.empty())
     filled.markers.assign(rows.pulls.size() / arm.arm.tendons.size() * 3, 0.0);
   if (auto fits = check(arm, filled); !fits) return tl::unexpected(fits.error());
   const std::vector<FitParameter> none;
-  Fit fit(arm, none, filled, {.model = model});
+  Fit fit(arm, none, filled, {.model = model, .stop = stop});
   std::vector<int> all(filled.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<int>(k);
   fit.predict(fit.start(), all);
@@ -695,7 +692,8 @@ std::complex<double> correlation(const std::vector<double>& predicted, const std
 
 }  // namespace
 
-Expected<TendonMap> map_tendons(const MeasuredArm& arm, const MeasuredRows& all, ArmModel model) {
+Expected<TendonMap> map_tendons(const MeasuredArm& arm, const MeasuredRows& all, ArmModel model,
+                                StopToken stop) {
   if (auto fits = check(arm, all); !fits) return tl::unexpected(fits.error());
   const MeasuredRows rows = thinned(all, 400);
   // As long as no tendon is slack, counts the other way are a half turn: then counts are what they should be.
@@ -707,7 +705,7 @@ Expected<TendonMap> map_tendons(const MeasuredArm& arm, const MeasuredRows& all,
     std::complex<double> straight, mirrored;
     // The arm as it is, where it is about right, tells a sign from a half turn by which tendons are slack.
     for (const MeasuredArm& one : {arm, softened(arm)}) {
-      const auto predicted = predict_markers(one, turned, model);
+      const auto predicted = predict_markers(one, turned, model, stop);
       if (!predicted) return tl::unexpected(predicted.error());
       const auto better = [](std::complex<double>& known, std::complex<double> found) {
         if (std::abs(found) > std::abs(known)) known = found;
@@ -904,6 +902,7 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
   }
   fit.predict(changed(fit.start(), parameters, x), stages.front());
   MatrixXd normal = MatrixXd::Zero(size, size);
+  result.errors.assign(rows.size(), not_known);
   const auto stop_requested = [&] {
     if (!options.stop.stop_requested()) return false;
     result.report.status = Status::stopped;
@@ -911,6 +910,10 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
   };
   bool done = false;
   for (const std::vector<int>& chosen : stages) {
+    const auto keep = [&](const Fit::Sums& sums) {
+      normal = sums.normal;
+      result.train = fit.errors(chosen, &result.errors);
+    };
     if (done) break;
     double damping = 1e-3, grow = 4;
     const bool is_last = &chosen == &stages.back();
@@ -926,11 +929,12 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
         done = true;
         break;
       }
+      keep(now);
       const double first_noise = fit.noise_now();
       const int most = round + 1 < rounds ? std::min(4, options.max_iterations) : options.max_iterations;
       for (int i = 0; i < most; ++i) {
         ++result.report.iterations;
-        if (options.progress) options.progress(result.report.iterations, fit.errors(chosen).rms);
+        if (options.progress) options.progress(result.report.iterations, result.train.rms);
         VectorXd gradient = now.gradient + precision.cwiseProduct(x);
         MatrixXd H = now.normal;
         H.diagonal() += precision;
@@ -960,6 +964,7 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
         if (ratio > 1e-3) {
           x = next;
           now = there;
+          keep(now);
           damping = std::max(1e-9, damping * std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3)));
           grow = 4;
         } else {
@@ -971,24 +976,30 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
           }
         }
       }
-      normal = now.normal;
       if (std::abs(fit.noise(chosen) / first_noise - 1) < 0.1) round = std::max(round, rounds - 2);
     }
   }
   result.arm = changed(fit.start(), parameters, x);
-  int blocks = 0;
-  const MatrixXd scores = fit.scores(x, train, blocks);
-  fit.predict(result.arm, all);
-  result.train = fit.errors(train);
-  result.held_out = fit.errors(held_out);
-  if (result.train.rows == 0) {
-    result.report.status = Status::unreachable;
-    result.report.message = std::string_view(
-        "the arm has no equilibrium at any row; are counts positive where tendons are drawn in, and units "
-        "right?");
+  MatrixXd middle = normal;
+  if (!stop_requested()) {
+    int blocks = 0;
+    const MatrixXd scores = fit.scores(x, train, blocks);
+    if (blocks > 2 * size && !stop_requested()) middle = scores;
   }
-  result.errors.resize(rows.size());
-  fit.errors(all, &result.errors);
+  if (!stop_requested()) {
+    fit.predict(result.arm, all);
+    if (!stop_requested()) {
+      result.train = fit.errors(train, &result.errors);
+      result.held_out = fit.errors(held_out, &result.errors);
+      if (result.train.rows == 0) {
+        result.report.status = Status::unreachable;
+        result.report.message = std::string_view(
+            "the arm has no equilibrium at any row; are counts positive where tendons are drawn in, and "
+            "units "
+            "right?");
+      }
+    }
+  }
   result.noise = fit.noise_now();
   // what is known: scores of blocks are independent
   MatrixXd H = normal;
@@ -996,7 +1007,6 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
   for (Index p = 0; p < size; ++p)
     if (!(H(p, p) > 0)) H(p, p) = 1e-12;
   const MatrixXd inverse = H.ldlt().solve(MatrixXd::Identity(size, size));
-  MatrixXd middle = blocks > 2 * size ? scores : normal;
   middle.diagonal() += precision;
   result.covariance = inverse * middle * inverse;
   for (Index p = 0; p < size; ++p) {

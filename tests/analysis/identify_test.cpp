@@ -294,8 +294,10 @@ TEST(Identify, StopsWithWhatItHas) {
   const auto later = identify(start, *parameters, rows, options);
   EXPECT_EQ(later->report.status, Status::stopped);
   EXPECT_EQ(steps, 2);
-  EXPECT_LT(later->train.rms, at_once->train.rms);
-  EXPECT_LE(last, at_once->train.rms);
+  EXPECT_EQ(at_once->train.rows, 0) << "nothing was computed";
+  EXPECT_EQ(later->train.rows, 60);
+  EXPECT_EQ(later->train.rms, last) << "of the last step that was kept";
+  EXPECT_LT(later->train.rms, later->before.rms);
 }
 
 TEST(Identify, HoldsOutEveryRowOnce) {

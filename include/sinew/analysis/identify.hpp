@@ -113,7 +113,7 @@ struct IdentifyOptions {
   int max_iterations = 60;
   double tolerance = 3e-4;       ///< of the relative decrease of the cost [1]
   std::vector<bool> held_out{};  ///< rows that the fit does not see; empty: none
-  StopToken stop{};              ///< then the best so far is the answer
+  StopToken stop{};  ///< then the best so far is the answer, with the errors of rows it was fitted to
   /// Told after each step: how many there were, and the root mean square of the distances so far [m].
   std::function<void(int steps, double rms)> progress{};
 };
@@ -152,7 +152,7 @@ struct Identified {
   MarkerErrors before;              ///< of the start, at the rows that the fit sees
   MarkerErrors train, held_out;
   double noise = 0;            ///< [m]
-  std::vector<double> errors;  ///< of every row [m]; NaN where it failed
+  std::vector<double> errors;  ///< of every row [m]; NaN where it failed, or a stop came before it
   Eigen::MatrixXd covariance;  ///< of coordinates, by blocks of rows, with priors
 };
 
@@ -173,9 +173,10 @@ SINEW_API Expected<HeldOut> hold_out(const MeasuredArm& start, const std::vector
                                      const MeasuredRows& rows, const std::vector<int>& folds,
                                      IdentifyOptions options = {});
 
-/// What the arm would show; rows × 3 [m], NaN where there is no equilibrium.
+/// What the arm would show; rows × 3 [m], NaN where there is no equilibrium, or a stop came
+/// before it.
 SINEW_API Expected<std::vector<double>> predict_markers(const MeasuredArm& arm, const MeasuredRows& rows,
-                                                        ArmModel model = ArmModel::cc);
+                                                        ArmModel model = ArmModel::cc, StopToken stop = {});
 
 /// How motors and axes of a measurement belong to an arm's tendons.
 struct TendonMap {
@@ -189,8 +190,9 @@ struct TendonMap {
 
 /// By the markers that the arm would show, turned, mirrored or pulled the other way. A half turn is not
 /// the same as a sign, where tendons are slack at times: they do not push. Else counts are taken as drawn in.
+/// After a stop it is what the rows up to there tell.
 SINEW_API Expected<TendonMap> map_tendons(const MeasuredArm& arm, const MeasuredRows& rows,
-                                          ArmModel model = ArmModel::cc);
+                                          ArmModel model = ArmModel::cc, StopToken stop = {});
 
 /// Every row's fold, of that many: whole blocks, dealt in turn.
 SINEW_API std::vector<int> folds_of(const MeasuredRows& rows, int folds);
