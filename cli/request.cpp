@@ -157,21 +157,34 @@ std::string OpenRobot::input_unit() const {
 Expected<OpenRobot> open(const Arguments& arguments) {
   auto session = Session::open(arguments.operand());
   if (!session) return tl::unexpected(session.error());
-  Request about("describe", arguments, nullptr);
-  about.changes();
-  about.field(*find_field("theta_is"));
-  const auto query = about.done();
-  if (!query) return tl::unexpected(query.error());
   const bool is_quiet = arguments.has("quiet");
-  Answer description = ask(*session, *query, is_quiet);
-  if (const Errors errors = description.errors(); !errors.empty()) return tl::unexpected(errors);
+  const auto describe = [&](bool is_of_lengths) -> Expected<Answer> {
+    Request about("describe", arguments, nullptr);
+    about.changes();
+    about.field(*find_field("theta_is"));
+    if (is_of_lengths) about.member("model", make_node("lsk"));
+    const auto query = about.done();
+    if (!query) return tl::unexpected(query.error());
+    Answer answer = ask(*session, *query, is_quiet);
+    if (const Errors errors = answer.errors(); !errors.empty()) return tl::unexpected(errors);
+    return answer;
+  };
+  auto description = describe(false);
+  const std::string* model = arguments.text("model");
+  const bool is_of_lengths = arguments.verb == "diagram" || (model && (*model == "pcc" || *model == "lsk"));
+  if (description && description->text("kind") == "arm" && is_of_lengths) {
+    description = describe(true);  // it is asked as a serial robot
+    if (description && description->text("status") == "unsupported")
+      return failure("not_available", "", description->text("message"));
+  }
+  if (!description) return tl::unexpected(description.error());
   std::vector<Input> inputs;
-  for (const Node& input : description.find("inputs")->items)
+  for (const Node& input : description->find("inputs")->items)
     inputs.push_back({input.find("name")->text, input.find("unit")->text});
-  const bool is_spatial = description.text("space") == "spatial";
-  const bool is_on_rods = description.text("model") == "rod";
+  const bool is_spatial = description->text("space") == "spatial";
+  const bool is_on_rods = description->text("model") == "rod";
   return OpenRobot{
-      std::move(*session), std::move(description), std::move(inputs), is_spatial, is_on_rods, is_quiet};
+      std::move(*session), std::move(*description), std::move(inputs), is_spatial, is_on_rods, is_quiet};
 }
 
 Expected<OpenRobot> open_with_platform(const Arguments& arguments) {

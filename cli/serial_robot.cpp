@@ -4,6 +4,7 @@
 
 #include "io/visible.hpp"
 #include "request.hpp"
+#include "sinew/io/arm_file.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
 
@@ -14,14 +15,14 @@ Expected<SerialRobot> open_serial(const Arguments& arguments) {
   if (!document) return tl::unexpected(document.error());
   const auto changes = settings(arguments);
   if (!changes) return tl::unexpected(changes.error());
-  if (!is_serial(*document))
+  if (!is_serial(*document) && !is_arm(*document))
     return failure("not_available", "",
                    fmt::format("{} is no serial robot; {} is for those in this version", arguments.operand(),
                                arguments.verb));
-  document =
-      expanded_sections(*document).and_then([&](const Document& listed) { return with(listed, *changes); });
-  if (!document) return tl::unexpected(document.error());
-  return read_serial_robot(*document);
+  document = with(*document, *changes);
+  auto robot = document ? read_robot(*document) : tl::unexpected(document.error());
+  if (robot && robot->arm()) robot = robot->as(Model::cc);
+  return robot.map([](const Robot& one) { return *one.serial(); });
 }
 
 Expected<kernel::Model> tendon_model(const Arguments& arguments) {

@@ -58,7 +58,7 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb
+                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -193,7 +193,7 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb
+                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -324,7 +324,7 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb
+                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -470,7 +470,7 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb
+                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -618,7 +618,7 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb
+                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -733,7 +733,7 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb
+                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -819,7 +819,7 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb
+                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -923,7 +923,7 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb
+                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)

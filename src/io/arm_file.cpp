@@ -151,6 +151,10 @@ void ArmReader::read_section(Reader& section) {
     result.curvature = bent->array<3>(Dimension::curvature, Range::between(-1e6, 1e6));
   read_guides(section);
   read_tendons(section);
+  if (const auto limit = section.optional("limit"))
+    result.limit =
+        limit->quantity(Dimension::angle,
+                        {.low = 0, .high = std::numbers::pi * arc_count(result.discs), .low_excluded = true});
   section.close();
 }
 

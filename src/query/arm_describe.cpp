@@ -1,4 +1,6 @@
 /// Handler of `describe` of arms.
+#include <cmath>
+
 #include "query/handlers.hpp"
 #include "sinew/base/export.hpp"
 #include "sinew/robot/arm.hpp"
@@ -25,6 +27,7 @@ Value section_value(const ArmSection& section) {
   } else {
     value["guides"] = "channel";
   }
+  if (std::isfinite(section.limit)) value["limit"] = section.limit;
   return value;
 }
 

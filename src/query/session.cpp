@@ -32,6 +32,10 @@ struct Kind {
   }
   bool is_of_loads() const { return of_chains && !of_kinematic; }
   bool is_of_serial_alone() const { return !of_chains && !of_kinematic && !of_rods; }
+  /// Whether it is to an arm as a serial robot: lengths of tendons give its shape.
+  bool is_of_lengths(const Robot& robot, std::string_view model) const {
+    return robot.arm() && (is_of_serial_alone() || model == "pcc" || model == "lsk");
+  }
 };
 
 /// In the order of `question_kinds`, which names them.
@@ -54,11 +58,20 @@ std::string_view word_of(const Kind& kind) {
   return question_kinds()[static_cast<std::size_t>(&kind - kinds.data())];
 }
 
-const Kind& read_kind(Reader& query, const Robot& robot) {
+/// @param model the word of it, as it is asked
+const Kind& read_kind(Reader& query, const Robot& robot, std::string_view model) {
   static const std::string meaning = fmt::format("what is asked: {}", fmt::join(question_kinds(), ", "));
   const Reader word = query.required("query", meaning);
   const Kind& kind = kinds[std::min(word.choice_index(question_kinds()), kinds.size() - 1)];
   const bool is_serial = robot.serial() != nullptr;
+  const bool is_of_lengths = kind.is_of_lengths(robot, model);
+  if (is_of_lengths && !kind.of_serial)
+    word.fail("not_available",
+              fmt::format("{} is not available by the models pcc and lsk, of which tendons' lengths give the "
+                          "shape; leave model out, or give another one",
+                          word_of(kind)));
+  else if (is_of_lengths)
+    return kind;
   if (is_serial || robot.arm() ? !kind.handler(robot) : kind.is_of_serial_alone())
     word.fail("not_available",
               is_serial ? fmt::format("{} is not available of serial robots in this version", word_of(kind))
@@ -112,6 +125,12 @@ ModelQuery read_model(Reader& query, const std::optional<Reader>& word, const Ro
   return asked;
 }
 
+/// What an arm is described as: a serial robot by pcc and lsk, else itself.
+void read_arm_word(Reader& query) {
+  if (const auto word = query.optional("model"))
+    word->choice({"pcc", "lsk", "rod", "subsegment_rod", "subsegment_cc", "cc", "prb"});
+}
+
 bool has_key(const Document& robot, std::string_view key) {
   const Node* value = robot.root.find(key);
   return value && value->kind != Node::Kind::null;
@@ -152,7 +171,8 @@ struct Opened {
   RobotScale scale;
   std::vector<InputOfLeg> inputs;
   std::array<std::unique_ptr<Opened>, 3>
-      on_chains;  ///< the same by the model prb, by discretisation, once asked
+      on_chains;                            ///< the same by the model prb, by discretisation, once asked
+  std::unique_ptr<Opened> of_lengths = {};  ///< an arm as a serial robot, once asked
   explicit Opened(const Robot& any)
       : robot(any),
         work(robot),
@@ -161,15 +181,16 @@ struct Opened {
 
   /// By the model that is asked for; null, with errors noted, where it has none.
   Opened* by(const ModelQuery& asked, Errors& errors) {
-    if (asked.model != Model::prb || robot.model() == Model::prb) return this;
-    auto& own = on_chains[static_cast<std::size_t>(asked.discretisation)];
+    const bool is_of_lengths = robot.arm() && asked.model == Model::cc;
+    if (!is_of_lengths && (asked.model != Model::prb || robot.model() == Model::prb)) return this;
+    auto& own = is_of_lengths ? of_lengths : on_chains[static_cast<std::size_t>(asked.discretisation)];
     if (own) return own.get();
-    const auto chains = robot.as(Model::prb, asked.discretisation);
-    if (!chains) {
-      errors.insert(errors.end(), chains.error().begin(), chains.error().end());
+    const auto view = robot.as(asked.model, asked.discretisation);
+    if (!view) {
+      errors.insert(errors.end(), view.error().begin(), view.error().end());
       return nullptr;
     }
-    own = std::make_unique<Opened>(*chains);
+    own = std::make_unique<Opened>(*view);
     return own.get();
   }
 };
@@ -228,8 +249,8 @@ void refuse_loads(Reader& query, const Node& root) {
     if (const auto asked = root.find(load) ? query.optional(load) : std::nullopt)
       asked->fail(
           "not_available",
-          "a serial robot bears no load in this version: it takes the shape that its tendons give; leave it "
-          "out");
+          "a serial robot by pcc or lsk bears no load: it takes the shape that the lengths of its tendons "
+          "give; leave it out");
 }
 
 /// Whether two nodes say the same, wherever they stand.
@@ -302,9 +323,10 @@ Value TreeSession::put(const Document& document, std::optional<AnyPose>* last, C
                        bool is_only_read, Errors& errors) {
   Reader query(document, errors);
   const Value id = read_id(query);
-  const bool is_serial = state_->opened.robot.serial() != nullptr,
-             has_platform = !is_serial && !state_->opened.robot.arm();
-  const Kind& kind = read_kind(query, state_->opened.robot);
+  const bool has_platform = !state_->opened.robot.serial() && !state_->opened.robot.arm();
+  const Node* word = document.root.find("model");
+  const std::string_view asked_model = word ? std::string_view(word->text) : std::string_view();
+  const Kind& kind = read_kind(query, state_->opened.robot, asked_model);
   if (!errors.empty()) return refusal(id, kind, state_->opened.robot, errors);
   const auto model = has_platform ? query.optional("model") : std::nullopt;  // else the handler's
   Opened* opened = state_->altered(query, errors);
@@ -312,7 +334,10 @@ Value TreeSession::put(const Document& document, std::optional<AnyPose>* last, C
   if (!opened) opened = &state_->opened;
   const Robot& asked = opened->robot;
   if (has_platform) opened = opened->by(read_model(query, model, asked, kind), errors);
+  if (kind.is_of_lengths(asked, asked_model)) opened = opened->by({Model::cc}, errors);
+  if (asked.arm() && kind.of_serial == answer_serial_describe) read_arm_word(query);
   if (!errors.empty()) return refusal(id, kind, asked, errors);
+  const bool is_serial = opened->robot.serial() != nullptr;
 
   Value answer = Value::map();
   if (!id.is_null()) answer["id"] = id;

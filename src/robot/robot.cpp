@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "robot/arm_sections.hpp"
 #include "robot/make_chains.hpp"
 #include "sinew/base/limits.hpp"
 #include "sinew/robot/arm.hpp"
@@ -90,6 +91,9 @@ std::string_view to_string(Model model) noexcept {
 
 Expected<Robot> Robot::as(Model wanted, PrbDiscretisation discretisation) const {
   if (wanted == model_ && (wanted != Model::prb || discretisation == data_->discretisation)) return *this;
+  if (arm_ && wanted == Model::cc)
+    return constant_curvature_sections(*arm_).map(
+        [](SerialRobot sections) { return Robot(std::move(sections)); });
   const std::shared_ptr<const Data>& own = data_->arcs ? data_->arcs : data_;
   if (data_->arcs && wanted == Model::cc) return Robot(own);
   if (wanted != Model::prb)

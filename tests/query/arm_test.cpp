@@ -105,7 +105,7 @@ TEST(ArmQueries, Refusals) {
                   {"tensions", {{1, 0, 0}}},
                   {"loads", {{{"place", 0.5}, {"wrench", {0, 0, 0, 0, 0, 0}}}}}}),
             "out_of_range");
-  EXPECT_EQ(code({{"query", "forward"}, {"model", "lsk"}}), "unknown_choice");
+  EXPECT_EQ(code({{"query", "forward"}, {"model", "elastica"}}), "unknown_choice");
   EXPECT_EQ(code({{"query", "forward"}, {"want", {"legs"}}}), "unsupported");
   EXPECT_EQ(code({{"query", "track"}, {"poses", Json::array()}}), "unsupported");
   EXPECT_EQ(code({{"query", "inverse"}}), "missing_key");

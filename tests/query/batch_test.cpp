@@ -232,6 +232,18 @@ INSTANTIATE_TEST_SUITE_P(
             R"({"query":"forward","configuration":"$c","outputs":{"l":"changes","p":"tip.position","q":"sections[1].quaternion"}})",
             std::vector<double>(10, 0.05), 0.05, "ends of sections"},
         Case{
+            "two-segment",
+            R"({"query":"forward","model":"lsk","configuration":"$c","outputs":{"l":"changes","p":"tip.position"}})",
+            {0.3, 0.1, 0.2, 0.4},
+            0.1,
+            "ends of sections"},
+        Case{
+            "two-segment",
+            R"({"query":"forward","model":"pcc","changes":"$l","outputs":{"c":"configuration","p":"tip.position"}})",
+            {-0.002, 0.001, 0.001, -0.002, 0.001, 0.001},
+            0.0002,
+            "query by query"},
+        Case{
             "nottingham-neutral",
             R"({"query":"velocity","configuration":"$c","twist":"$v","outputs":{"J":"J","K":"K","rates":"rates","c":"configuration"}})",
             {0.3, 0.1, 0.2, 0.4, 0.2, 0.1, 0.3, 0.2, 0.2, 0.3, 0, 0, 0, 0, 0, 0},

@@ -3,6 +3,7 @@
 /// docs/theory/strain_rod.md
 #pragma once
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,6 +49,10 @@ struct Discs {
   double radius = 0;  ///< of each [m]; 0: not known
 };
 
+/// Arcs of a section of constant curvature [1]: from disc to disc; a channel counts as a thousand discs,
+/// whose chords are shorter than their arcs by 1e-7 of what a tendon is pulled.
+inline int arc_count(const Discs& discs) { return discs.count > 0 ? discs.count : 1000; }
+
 /// One section of an arm.
 struct ArmSection {
   double length = 0;        ///< along its backbone, straight and at rest [m], > 0
@@ -57,6 +62,8 @@ struct ArmSection {
   bool round_taper = false;
   std::array<double, 3> curvature{0, 0, 0};  ///< at rest, about x and y and as torsion [rad/m]
   Discs discs;
+  /// Largest bend [rad], of what is asked of it as a section of constant curvature; loads know none.
+  double limit = std::numeric_limits<double>::infinity();
 };
 
 /// How a tendon runs through a section: its distance from the backbone and the angle there, from +x about z.

@@ -69,8 +69,9 @@ class Robot {
   /// What its links are taken for.
   Model model() const { return model_; }
   /// The same robot by another model, which is again a robot: every question that the model can answer may be
-  /// put to it. Its file's model and, where its links are arcs, prb. An error names what a leg lacks for
-  /// that: `joints`, `material`, `diameter`, or that its links have no such model.
+  /// put to it. Its file's model and, where its links are arcs, prb; of an arm cc is the serial robot whose
+  /// shape the lengths of its tendons give. An error names what a leg lacks for that: `joints`, `material`,
+  /// `diameter`, what of an arm's tendons runs otherwise, or that its links have no such model.
   SINEW_API Expected<Robot> as(Model model,
                                PrbDiscretisation discretisation = PrbDiscretisation::weighted) const;
 

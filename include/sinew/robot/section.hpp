@@ -18,13 +18,14 @@ using Bend = Vec2<double>;
 /// Sizes of a section, and its kinematics: pose of its end, derivatives, directions of tendons.
 struct Section {
   kernel::Backbone backbone = kernel::Backbone::twin_pivot;
-  int segments = 8;          ///< N ≥ 1; of twin pivots even: they bend about two axes in turn
-  double joint = 0;          ///< arc length L of one joint [m], > 0
-  double disc_height = 0;    ///< h of the disc after it [m]
-  double disc_radius = 0;    ///< of the disc [m]; 0: the section has none
-  int tendons = 3;           ///< n ≥ 3
-  double tendon_radius = 0;  ///< r_c, distance of every tendon from the backbone [m], > 0
-  double tendon_angle = 0;   ///< δ of tendon 0 [rad]; the others follow evenly spread
+  int segments = 8;           ///< N ≥ 1; of twin pivots even: they bend about two axes in turn
+  double joint = 0;           ///< arc length L of one joint [m], > 0
+  double disc_height = 0;     ///< h of the disc after it [m]
+  double disc_radius = 0;     ///< of the disc [m]; 0: the section has none
+  int tendons = 3;            ///< n ≥ 3
+  double tendon_radius = 0;   ///< r_c, distance of every tendon from the backbone [m], > 0
+  double tendon_angle = 0;    ///< δ of tendon 0 [rad]; the others follow evenly spread ...
+  bool is_clockwise = false;  ///< ... counter-clockwise, seen from the tip, or the other way
   /// Largest bend [rad]: |β| of a joint about either axis, θ of a section with a neutral backbone.
   double limit = std::numeric_limits<double>::infinity();
   /// How much longer than at rest its backbone can be made [m], evenly over its joints: least ≤ 0 ≤
@@ -65,7 +66,9 @@ struct Section {
     return kernel::make_section<double>(backbone, segments, joint, tendon_radius);
   }
   /// Of a tendon around the disc, from +x [rad].
-  double angle_of(int tendon) const { return tendon_angle + 2 * std::numbers::pi * tendon / tendons; }
+  double angle_of(int tendon) const {
+    return tendon_angle + (is_clockwise ? -2 : 2) * std::numbers::pi * tendon / tendons;
+  }
   /// Cosine and sine of `angle_of` [1].
   kernel::Direction<double> direction(int tendon) const {
     return kernel::direction<double>(angle_of(tendon));

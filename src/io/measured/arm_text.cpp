@@ -142,6 +142,7 @@ std::string section_text(const Arm& arm, std::size_t m) {
   } else {
     text += "    guides: channel\n";
   }
+  if (std::isfinite(section.limit)) text += fmt::format("    limit: {}\n", si_text(section.limit));
   std::string tendons;
   for (const ArmTendon& tendon : arm.tendons)
     if (tendon.section() == static_cast<int>(m)) tendons += fmt::format("      - {}\n", tendon_text(tendon));

@@ -34,8 +34,10 @@ Robot as_asked(const Document& document, const Robot& robot, const Node& query) 
     const auto changed = with(document, constants);
     if (const auto other = changed ? read_robot(*changed) : tl::unexpected(changed.error())) asked = *other;
   }
-  const bool is_on_chains =
-      word(query, "model") == "prb" || (word(query, "query") == "statics" && !bears_load(asked));
+  const std::string_view model = word(query, "model");
+  if (asked.arm() && (model == "pcc" || model == "lsk" || word(query, "query") == "diagram"))
+    if (const auto sections = asked.as(Model::cc)) asked = *sections;
+  const bool is_on_chains = model == "prb" || (word(query, "query") == "statics" && !bears_load(asked));
   if (is_on_chains && asked.model() == Model::cc)
     if (const auto chains = asked.as(Model::prb)) asked = *chains;
   return asked;

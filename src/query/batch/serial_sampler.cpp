@@ -9,6 +9,8 @@
 
 #include "query/batch/query_entries.hpp"
 #include "query/serial.hpp"
+#include "sinew/io/arm_file.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"
 
 namespace sinew::inline v1 {
@@ -79,9 +81,18 @@ bool read_configuration(const Node& list, const BatchQuestion& question, AskedSe
   return true;
 }
 
+/// The question's robot; of arms those that are asked as one.
+std::optional<SerialRobot> serial_robot(const BatchQuestion& question) {
+  if (!is_serial(question.robot) && !is_arm(question.robot)) return {};
+  auto robot = read_robot(question.robot);
+  const Node* model = question.query.root.find("model");
+  if (robot && robot->arm() && model && (model->text == "pcc" || model->text == "lsk"))
+    robot = robot->as(Model::cc);
+  return robot && robot->serial() ? std::optional(*robot->serial()) : std::nullopt;
+}
+
 std::optional<AskedSections> asked_of_sections(const BatchQuestion& question) {
-  if (!is_serial(question.robot)) return {};
-  auto robot = read_serial_robot(question.robot);
+  auto robot = serial_robot(question);
   if (!robot || std::ranges::any_of(robot->sections, &Section::is_extensible)) return {};
   AskedSections asked{.robot = std::move(*robot), .configuration = {}, .outputs = {}};
   for (const Member& field : question.query.root.members) {

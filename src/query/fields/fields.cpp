@@ -12,6 +12,9 @@ constexpr std::array<std::string_view, 8> kinds{"forward", "inverse", "velocity"
                                                 "statics", "track",   "diagram",  "describe"};
 
 constexpr unsigned of_loads = of_chains | of_rods;
+/// Of arms by pcc and lsk, too.
+constexpr unsigned of_sections = of_serial | of_arms;
+
 constexpr FieldUses of_arm_questions{
     .forward = of_arms, .inverse = of_arms, .velocity = of_arms, .shape = of_arms, .statics = of_arms};
 constexpr FieldUses of_arm_paths = [] {
@@ -25,7 +28,7 @@ constexpr FieldUses always{.forward = of_all | of_arms,
                            .shape = of_all | of_arms,
                            .statics = of_loads | of_arms,
                            .track = of_platforms | of_arms,
-                           .diagram = of_serial,
+                           .diagram = of_sections,
                            .describe = of_all | of_arms};
 
 constexpr Words models = {"cc", "prb", "rigid", "rod", "pcc", "lsk", "subsegment_rod", "subsegment_cc"},
@@ -38,7 +41,7 @@ constexpr Words models = {"cc", "prb", "rigid", "rod", "pcc", "lsk", "subsegment
 
 constexpr FieldUses of_models = [] {
   FieldUses uses = always;
-  uses.describe = of_platforms;
+  uses.describe = of_platforms | of_arms;
   return uses;
 }();
 constexpr FieldUses branches{.inverse = of_kinematic | of_chains,
@@ -55,7 +58,7 @@ return std::array{
     Field{"query", word, number, always, "the kind of question", kinds},
     Field{"id", text_or_number, number, always, "repeated in the answer"},
     Field{"model", word, number, of_models,
-          "how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default), subsegment_cc, cc or prb", models},
+          "how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default), subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads", models},
     Field{"set", settings, number, always, "changes the robot for this question alone: values by their paths in its file, such as legs[0].link.length; on the command line it may be repeated"},
     Field{"theta_is", word, number, always, "what an input theta is the angle of: tangent (default) or chord", thetas},
     Field{"law", word, number,
@@ -106,23 +109,23 @@ return std::array{
           "of the inputs, in place of `twist`; answers the twist of the platform"},
     Field{"along", FieldShape::twist, number, {.forward = of_kinematic, .inverse = of_kinematic, .velocity = of_kinematic, .shape = of_kinematic},
           "a direction in which the nearest type II is looked for; with the want velocity"},
-    Field{"limit", quantity, number, {.forward = of_kinematic, .inverse = of_kinematic, .velocity = of_kinematic, .shape = of_kinematic, .diagram = of_serial},
+    Field{"limit", quantity, number, {.forward = of_kinematic, .inverse = of_kinematic, .velocity = of_kinematic, .shape = of_kinematic, .diagram = of_sections},
           "how far to look `along` its direction; of a diagram the envelope's size"},
     Field{"samples", whole, count, {.forward = of_kinematic | of_rods | of_serial | of_arms, .inverse = of_kinematic | of_rods | of_serial | of_arms, .velocity = of_kinematic | of_rods | of_serial | of_arms, .shape = of_kinematic | of_rods | of_serial | of_arms, .statics = of_rods | of_arms, .track = of_platforms},
           "points of each backbone of a shape; poses on a path, default 60; points on a curve, at most, default 500"},
 
     Field{"configuration", lists, angle, {.forward = of_serial, .velocity = of_serial, .shape = of_serial},
           "of a serial robot two angles a section: theta, phi of a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its extension; sections not given are straight"},
-    Field{"changes", lists, length, {.forward = of_serial | of_arms, .velocity = of_serial | of_arms, .shape = of_serial | of_arms, .statics = of_arms, .diagram = of_serial},
+    Field{"changes", lists, length, {.forward = of_serial | of_arms, .velocity = of_serial | of_arms, .shape = of_serial | of_arms, .statics = of_arms, .diagram = of_sections},
           "of a serial robot or an arm the change of each tendon, > 0 pays out, section after section"},
     Field{"slack", numbers, length, {.forward = of_serial},
           "what the tendons of each section are paid out beyond its configuration; < 0 stiffens"},
     Field{"position", point, length, {.inverse = of_serial | of_arms, .statics = of_arms}, "of the tip of a serial robot or an arm; of statics where it was seen"},
     Field{"direction", point, number, {.inverse = of_serial | of_arms}, "in which the tip of a serial robot or an arm points"},
-    Field{"section", whole, count, {.diagram = of_serial}, "which section, from 0"},
-    Field{"measured", lists, length, {.diagram = of_serial}, "changes that encoders read, beside those commanded"},
-    Field{"tolerance", quantity, length, {.diagram = of_serial}, "of a tendon before it counts as slack or too short; default the file's"},
-    Field{"envelope", word, number, {.diagram = of_serial}, "bends that a section is allowed: square, disc or actuator; default its limit", envelopes},
+    Field{"section", whole, count, {.diagram = of_sections}, "which section, from 0"},
+    Field{"measured", lists, length, {.diagram = of_sections}, "changes that encoders read, beside those commanded"},
+    Field{"tolerance", quantity, length, {.diagram = of_sections}, "of a tendon before it counts as slack or too short; default the file's"},
+    Field{"envelope", word, number, {.diagram = of_sections}, "bends that a section is allowed: square, disc or actuator; default its limit", envelopes},
 
     Field{"following", FieldShape::wrench, force, of_arm_paths, "force and moment on an arm's tip in its own axes, with which they turn"},
     Field{"distributed", point, number, of_arm_paths, "force on all of an arm's backbone, in base axes [N/m]"},
