@@ -40,7 +40,7 @@ int refuse_item(const std::string& what) {
 }
 
 std::string show(const Reproduction& made) {
-  TextTable table({"quantity", "paper", "ours", "difference", "verdict"}, " | ");
+  TextTable table({"quantity", std::string(made.compared_with()), "ours", "difference", "verdict"}, " | ");
   for (const Finding& finding : made.findings)
     table.add({finding.quantity, finding.paper, finding.ours, finding.difference, finding.verdict});
   std::string text = fmt::format("{}: {}\n{}", made.id, made.title, table.text(line_width()));

@@ -39,7 +39,7 @@ std::string to_string(const Report& report) {
                         report.iterations == 1 ? "" : "s");
   }
   const bool is_measured = report.ok() || report.iterations > 0 || report.residual > 0;
-  if (is_measured) text += fmt::format(", residual {:.1e} m", report.residual);
+  if (is_measured) text += fmt::format(", residual {:.1e}", report.residual);
   if (!report.message.empty()) text += fmt::format(": {}", report.message.view());
   return text;
 }

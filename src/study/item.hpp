@@ -13,10 +13,6 @@
 
 namespace sinew::inline v1 {
 
-/// Computes an item and compares.
-/// @param folder for results of sweeps, which are written as they are computed
-using StudyFunction = Expected<ItemResult> (*)(const StudyItem& item, const std::filesystem::path& folder);
-
 Expected<ItemResult> tdpcr_fig8(const StudyItem& item, const std::filesystem::path& folder);
 Expected<ItemResult> tdpcr_fig9(const StudyItem& item, const std::filesystem::path& folder);
 Expected<ItemResult> tdpcr_fig10(const StudyItem& item, const std::filesystem::path& folder);

@@ -1,65 +1,62 @@
 #include "study/reproduce.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
+#include <iterator>
 
 #include "study/item.hpp"
 
 namespace sinew::inline v1 {
 namespace {
 
-constexpr std::array items{
-    StudyItem{"tdpcr/fig8", "Initial configuration of the 3-RFR of section 5.1, constant curvature"},
-    StudyItem{"tdpcr/fig9",
-              "Performance indices of the 3-RFR along the trajectory of section 5.1, constant curvature"},
-    StudyItem{"tdpcr/fig10",
-              "Last pose of the trajectory of section 5.1: the lines of the 3-RFR meet in one point"},
-    StudyItem{"tdpcr/fig11",
-              "Performance indices of the 3-RFR along the trajectory of section 5.1, pseudo-rigid chains"},
-    StudyItem{"tdpcr/fig12", "Last pose of the trajectory of section 5.1 on pseudo-rigid chains"},
-    StudyItem{"tdpcr/chains",
-              "Pseudo-rigid chains of n links against the elastica: orders of chord and turn"},
-    StudyItem{"3pfs/fig4", "Parasitic motions of the rigid tripod 3PRS over its tilts"},
-    StudyItem{"3pfs/fig5",
-              "Singularity loci of the 3PRS over its tilts: of inverse and of forward kinematics"},
-    StudyItem{"3pfs/fig6", "Norm of the inverse kinematics' Jacobian of the 3PRS over its tilts"},
-    StudyItem{"3pfs/fig7", "Norm of the forward kinematics' Jacobian of the 3PRS over its tilts"},
-    StudyItem{"3pfs/fig9", "Joint space of the flexible tripod 3PFS and its workspace"},
-    StudyItem{"3pfs/fig10", "The part of the joint space of the 3PFS that keeps a height"},
-    StudyItem{"3pfs/fig11", "Parasitic turn e₃ of the 3PFS beside the rigid 3PRS, at three heights"},
-    StudyItem{"3pfs/fig12", "Parasitic shift x_p of the 3PFS beside the rigid 3PRS, at three heights"},
-    StudyItem{"3pfs/fig13", "Parasitic shift y_p of the 3PFS beside the rigid 3PRS, at three heights"},
-    StudyItem{"3pfs/equation36", "Parasitic motion of the 3PFS as polynomials of its tilt, equation (36)"},
-    StudyItem{"3pfs/fig14", "What a vertical force does to the poses of the 3PFS"},
-    StudyItem{"3pfs/fig15", "What a moment about x does to the poses of the 3PFS"},
-    StudyItem{"3pfs/fig16", "What a moment about y does to the poses of the 3PFS"},
-    StudyItem{"3pfs/table1",
-              "Relative RMS error between loaded and unloaded poses of the 3PFS, rods of 3 mm"},
-    StudyItem{"3pfs/table2",
-              "Relative RMS error between loaded and unloaded poses of the 3PFS, rods of 4 mm"},
-    StudyItem{"3pfs/design",
-              "Parasitic motion of the flexible tripod by pair angle, height, radius and diameter"},
-    StudyItem{"lsk/fig3", "Length of a tendon past one joint: constant curvature and linearised"},
-    StudyItem{"lsk/fig4", "How the diagram of a section is built: vector and frontier of a tendon"},
-    StudyItem{"lsk/fig5", "Tendons that agree on one bend, on many, on none, or beyond the limits only"},
-    StudyItem{"lsk/fig6", "The diagram of a section with a neutral backbone, in polar coordinates"},
-    StudyItem{"lsk/fig7", "Relative error of the linearised length and the parabola through it"},
-    StudyItem{"lsk/fig8", "Cycles of the kernels against the number of sections, on an ATmega2560"},
-    StudyItem{"lsk/fig9", "Error of a tendon's length in floating and fixed point, by three formulas"},
-    StudyItem{"lsk/numbers", "Numbers derived in the text: sizes, travel, evaluations, errors, misprints"},
-    StudyItem{"truth/tables",
-              "Rods whose shapes are published: cantilever, loads along it, bend of 45 degrees"},
-    StudyItem{"truth/rods", "250 shapes each of two rods under gravity and wrenches, by another code"},
-    StudyItem{"truth/arms", "Two measured arms, identified: rows of the fit, single pulls, rows not seen"},
-    StudyItem{"truth/models", "An arm by five models of its backbone: how far apart, and what each costs"},
+constexpr StudyItem items[] = {
+    {"tdpcr/fig8", "Initial configuration of the 3-RFR of section 5.1, constant curvature", tdpcr_fig8},
+    {"tdpcr/fig9", "Performance indices of the 3-RFR along the trajectory of section 5.1, constant curvature",
+     tdpcr_fig9},
+    {"tdpcr/fig10", "Last pose of the trajectory of section 5.1: the lines of the 3-RFR meet in one point",
+     tdpcr_fig10},
+    {"tdpcr/fig11",
+     "Performance indices of the 3-RFR along the trajectory of section 5.1, pseudo-rigid chains",
+     tdpcr_fig11},
+    {"tdpcr/fig12", "Last pose of the trajectory of section 5.1 on pseudo-rigid chains", tdpcr_fig12},
+    {"tdpcr/chains", "Pseudo-rigid chains of n links against the elastica: orders of chord and turn",
+     tdpcr_chains},
+    {"3pfs/fig4", "Parasitic motions of the rigid tripod 3PRS over its tilts", tripod_fig4},
+    {"3pfs/fig5", "Singularity loci of the 3PRS over its tilts: of inverse and of forward kinematics",
+     tripod_fig5},
+    {"3pfs/fig6", "Norm of the inverse kinematics' Jacobian of the 3PRS over its tilts", tripod_fig6},
+    {"3pfs/fig7", "Norm of the forward kinematics' Jacobian of the 3PRS over its tilts", tripod_fig7},
+    {"3pfs/fig9", "Joint space of the flexible tripod 3PFS and its workspace", tripod_fig9},
+    {"3pfs/fig10", "The part of the joint space of the 3PFS that keeps a height", tripod_fig10},
+    {"3pfs/fig11", "Parasitic turn e₃ of the 3PFS beside the rigid 3PRS, at three heights", tripod_fig11},
+    {"3pfs/fig12", "Parasitic shift x_p of the 3PFS beside the rigid 3PRS, at three heights", tripod_fig12},
+    {"3pfs/fig13", "Parasitic shift y_p of the 3PFS beside the rigid 3PRS, at three heights", tripod_fig13},
+    {"3pfs/equation36", "Parasitic motion of the 3PFS as polynomials of its tilt, equation (36)",
+     tripod_equation36},
+    {"3pfs/fig14", "What a vertical force does to the poses of the 3PFS", tripod_fig14},
+    {"3pfs/fig15", "What a moment about x does to the poses of the 3PFS", tripod_fig15},
+    {"3pfs/fig16", "What a moment about y does to the poses of the 3PFS", tripod_fig16},
+    {"3pfs/table1", "Relative RMS error between loaded and unloaded poses of the 3PFS, rods of 3 mm",
+     tripod_table1},
+    {"3pfs/table2", "Relative RMS error between loaded and unloaded poses of the 3PFS, rods of 4 mm",
+     tripod_table2},
+    {"3pfs/design", "Parasitic motion of the flexible tripod by pair angle, height, radius and diameter",
+     tripod_design},
+    {"lsk/fig3", "Length of a tendon past one joint: constant curvature and linearised", lsk_fig3},
+    {"lsk/fig4", "How the diagram of a section is built: vector and frontier of a tendon", lsk_fig4},
+    {"lsk/fig5", "Tendons that agree on one bend, on many, on none, or beyond the limits only", lsk_fig5},
+    {"lsk/fig6", "The diagram of a section with a neutral backbone, in polar coordinates", lsk_fig6},
+    {"lsk/fig7", "Relative error of the linearised length and the parabola through it", lsk_fig7},
+    {"lsk/fig8", "Cycles of the kernels against the number of sections, on an ATmega2560", lsk_fig8},
+    {"lsk/fig9", "Error of a tendon's length in floating and fixed point, by three formulas", lsk_fig9},
+    {"lsk/numbers", "Numbers derived in the text: sizes, travel, evaluations, errors, misprints",
+     lsk_numbers},
+    {"truth/tables", "Rods whose shapes are published: cantilever, loads along it, bend of 45 degrees",
+     truth_tables},
+    {"truth/rods", "250 shapes each of two rods under gravity and wrenches, by another code", truth_rods},
+    {"truth/arms", "Two measured arms, identified: rows of the fit, single pulls, rows not seen", truth_arms},
+    {"truth/models", "An arm by five models of its backbone: how far apart, and what each costs",
+     truth_models},
 };
-constexpr std::array<StudyFunction, items.size()> functions{
-    tdpcr_fig8,    tdpcr_fig9,        tdpcr_fig10,  tdpcr_fig11,  tdpcr_fig12,  tdpcr_chains,  tripod_fig4,
-    tripod_fig5,   tripod_fig6,       tripod_fig7,  tripod_fig9,  tripod_fig10, tripod_fig11,  tripod_fig12,
-    tripod_fig13,  tripod_equation36, tripod_fig14, tripod_fig15, tripod_fig16, tripod_table1, tripod_table2,
-    tripod_design, lsk_fig3,          lsk_fig4,     lsk_fig5,     lsk_fig6,     lsk_fig7,      lsk_fig8,
-    lsk_fig9,      lsk_numbers,       truth_tables, truth_rods,   truth_arms,   truth_models};
 
 /// A bar would end the cell, and a line break the table.
 std::string cell(const std::string& text) {
@@ -102,20 +99,21 @@ Expected<Reproduction> write_item(const StudyItem& item, const ItemResult& made,
 Expected<Reproduction> reproduce(std::string_view id, const std::filesystem::path& out,
                                  const FigureOptions& page) {
   const auto item = std::ranges::find(items, id, &StudyItem::id);
-  if (item == items.end()) {
+  if (item == std::end(items)) {
     std::string known;
     for (const StudyItem& one : items) known += (known.empty() ? "" : ", ") + std::string(one.id);
     return failure("unknown_study", id, "there is no such figure or table here; there are: " + known);
   }
   const std::filesystem::path folder = out / std::string(id.substr(0, id.find('/')));
-  const auto made = functions[static_cast<std::size_t>(item - items.begin())](*item, folder);
+  const auto made = item->make(*item, folder);
   if (!made) return tl::unexpected(made.error());
   return write_item(*item, *made, folder, page);
 }
 
 std::string to_markdown(const Reproduction& reproduction) {
   std::string text = "# " + reproduction.id + ": " + reproduction.title + "\n\n";
-  text += "| quantity | paper | ours | difference | verdict |\n|---|---|---|---|---|\n";
+  text += "| quantity | " + std::string(reproduction.compared_with()) +
+          " | ours | difference | verdict |\n|---|---|---|---|---|\n";
   for (const Finding& finding : reproduction.findings) {
     for (const std::string* part :
          {&finding.quantity, &finding.paper, &finding.ours, &finding.difference, &finding.verdict})

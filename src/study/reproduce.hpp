@@ -14,10 +14,17 @@
 
 namespace sinew::inline v1 {
 
-/// Something of a paper that can be made again.
+struct StudyItem;
+struct ItemResult;
+/// Computes an item and compares.
+/// @param folder for results of sweeps, which are written as they are computed
+using StudyFunction = Expected<ItemResult> (*)(const StudyItem& item, const std::filesystem::path& folder);
+
+/// Something of a paper, or of what others measured or computed, that can be made again.
 struct StudyItem {
   std::string_view id;  ///< paper/item: `tdpcr/fig9`
   std::string_view title;
+  StudyFunction make = nullptr;  ///< null where another layer makes it
 };
 
 /// All of them, in the order of the papers.
@@ -26,7 +33,7 @@ SINEW_API std::span<const StudyItem> study_items();
 /// One number or claim of the paper beside ours, formatted for people.
 struct Finding {
   std::string quantity;
-  std::string paper;  ///< as printed; `not printed` where the paper gives none
+  std::string paper;  ///< as printed; `not printed` where the paper gives none; of `truth` the reference
   std::string ours;
   std::string difference;  ///< empty where there is nothing to subtract
   std::string verdict;     ///< `agrees`, `differs`, `holds`, `fails`, or `for information`
@@ -36,6 +43,9 @@ struct Reproduction {
   std::string id, title;
   std::vector<Finding> findings;
   std::vector<std::filesystem::path> files;  ///< written, in order
+
+  /// What stands beside ours: heads its column.
+  std::string_view compared_with() const { return id.starts_with("truth/") ? "reference" : "paper"; }
 };
 
 /// What an item found and has to show. `write_item` writes it.

@@ -125,10 +125,10 @@ TEST(Report, IsOneLine) {
   Report report;
   report.iterations = 4;
   report.residual = 5e-14;
-  EXPECT_EQ(to_string(report), "converged in 4 iterations, residual 5.0e-14 m");
+  EXPECT_EQ(to_string(report), "converged in 4 iterations, residual 5.0e-14");
   report.status = Status::stalled;
   report.message.append("legs[1] misses by 3 mm");
-  EXPECT_EQ(to_string(report), "stalled after 4 iterations, residual 5.0e-14 m: legs[1] misses by 3 mm");
+  EXPECT_EQ(to_string(report), "stalled after 4 iterations, residual 5.0e-14: legs[1] misses by 3 mm");
 }
 
 }  // namespace solve_test

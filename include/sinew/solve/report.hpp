@@ -33,7 +33,8 @@ SINEW_API std::string_view to_string(Status status) noexcept;
 struct Report {
   Status status = Status::converged;
   int iterations = 0;
-  double residual = 0;     ///< largest closure error of a leg [m]; of rods the error over their size, no unit
+  double residual =
+      0;  ///< largest closure error of a leg [m]; of rods, chains and arms an error over their size, no unit
   FixedText<240> message;  ///< why not converged, in words; empty otherwise
 
   /// Solved; of loaded robots also stable, where that was asked.
@@ -42,7 +43,7 @@ struct Report {
   bool is_solved() const noexcept { return ok() || status == Status::unstable; }
 };
 
-/// One line: `converged in 4 iterations, residual 5e-14 m`.
+/// One line: `converged in 4 iterations, residual 5e-14`.
 SINEW_API std::string to_string(const Report& report);
 
 /// One iterate of a solver, recorded on request.
