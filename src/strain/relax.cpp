@@ -243,8 +243,6 @@ bool LoadedRod::newton_step(double& shift, double radius, std::span<double> step
       continue;
     }
     for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
-    for (int i = 0; i < model_->size; ++i)
-      for (int j = 1; j < stride_; ++j) sides_[at(i * stride_ + j)] = 0;
     solve_all(sides_, 1, stride_);
     for (int i = 0; i < model_->size; ++i) step[at(i)] = sides_[at(i * stride_)];
     const double length = norm(step);
@@ -350,7 +348,6 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
     }
     before = result.residual;
     if (kept) {
-      for (double& x : sides_) x = 0;
       for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
       solve_all(sides_, 1, stride_);
       for (int i = 0; i < model_->size; ++i) work_.y[at(i)] += sides_[at(i * stride_)];
@@ -442,7 +439,6 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options, double shift) {
     for (int tries = 0; tries < 20 && !accept; ++tries) {
       double length = 0;
       if (factor_all(shift) != -1) {
-        for (double& x : sides_) x = 0;
         for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
         solve_all(sides_, 1, stride_);
         for (int i = 0; i < model_->size; ++i) step_[at(i)] = sides_[at(i * stride_)];
@@ -621,6 +617,15 @@ Relaxed LoadedRod::grow(const RelaxOptions& options) {
 }
 
 Relaxed LoadedRod::relax(const RelaxOptions& options) {
+  // Only tendons that pull by their stretch need the gradients of their lengths.
+  work_.finds_length_gradients =
+      std::ranges::any_of(holds, [](const TendonHold& hold) { return !hold.by_tension; });
+  const Relaxed result = relax_from_here(options);
+  work_.finds_length_gradients = true;
+  return result;
+}
+
+Relaxed LoadedRod::relax_from_here(const RelaxOptions& options) {
   for (std::size_t i = 0; i < holds.size(); ++i) {
     offsets_[i] = 0;
     stiff_[i] = holds[i].compliance > 0 ? holds[i].compliance : 1e-6;

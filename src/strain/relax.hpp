@@ -89,6 +89,7 @@ class LoadedRod {
   Relaxed relax_without_potential(const RelaxOptions& options);
   Relaxed relax_here(const RelaxOptions& options);
   Relaxed grow(const RelaxOptions& options);
+  Relaxed relax_from_here(const RelaxOptions& options);
   bool judge(Relaxed& result);
   double gradient_norm() const;
 
