@@ -43,30 +43,28 @@ Resolution resolution_at(std::span<const Resolution> resolutions, int level) {
   return {level % 2 == 0 ? finer.order : resolutions[at(level / 2)].order, finer.elements};
 }
 
-/// The next of the table.
-int finer_than(int level) { return (level / 2 + 1) * 2; }
+/// The next of the table that has more elements.
+int finer_than(int level) { return ((level + 1) / 2 + 1) * 2; }
+/// The one of the table before it.
+int coarser_than(int level) { return (level + 1) / 2 * 2 - 2; }
+
+/// By how much the elements of one level lower the error of another: as the fourth power of their length, the
+/// order of frames and quadrature.
+double error_ratio(const ArmOptions& options, int level, int finer) {
+  const auto resolutions = resolutions_of(options);
+  const double share = static_cast<double>(resolution_at(resolutions, finer).elements) /
+                       static_cast<double>(resolution_at(resolutions, level).elements);
+  return share * share * share * share;
+}
 
 /// From where an error stands at a level, the level whose next one is to bring it below a bound, if elements
 /// rule it; one that has a next, against which it can be checked.
 int level_for(const ArmOptions& options, int level, double error, double bound) {
-  const auto resolutions = resolutions_of(options);
-  const auto elements = [&](int of) { return static_cast<double>(resolution_at(resolutions, of).elements); };
   int to = level;
-  while (finer_than(finer_than(to)) < level_count(options)) {
-    const double share = elements(level) / elements(finer_than(to));
-    if (error * share * share * share * share <= bound) break;
+  while (finer_than(finer_than(to)) < level_count(options) &&
+         error > bound * error_ratio(options, level, finer_than(to)))
     to = finer_than(to);
-  }
   return to;
-}
-
-/// By how much finer elements lower the error of a resolution: as the fourth power of their length, the order
-/// of frames and quadrature.
-double error_ratio(const ArmOptions& options, int level) {
-  const auto resolutions = resolutions_of(options);
-  const double finer = static_cast<double>(resolution_at(resolutions, finer_than(level)).elements) /
-                       static_cast<double>(resolution_at(resolutions, level).elements);
-  return finer * finer * finer * finer;
 }
 
 /// Elements that do for the Hessian of Newton's steps where gradients need more: at least as many as its
@@ -349,13 +347,23 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     set_holds(arm, impl, entry.rod);
     return entry.rod;
   };
+  const double wanted = options.accuracy * arm.length();
+  const bool refines = count > 1 && options.accuracy > 0;
   LoadedRod* rod = &ready(impl.level);
   if (!warm) std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
+  bool knows = warm;  // how large the error is, from the question before
+  if (const int coarser = coarser_than(impl.level);
+      warm && refines && coarser >= 0 &&
+      impl.checked * error_ratio(options, coarser, impl.level) <= 0.3 * wanted) {
+    LoadedRod& lighter = ready(coarser);  // what came before was harder to resolve
+    carry_over(rod->model(), rod->work(), lighter.model(), lighter.work().y);
+    impl.level = coarser;
+    rod = &lighter;
+    knows = false;
+  }
   const bool by_energy = options.balance == ArmBalance::energy;
   strain::Relaxed found =
       by_energy ? rod->relax(relax) : relax_published(arm, commands, options, relax, warm, *rod);
-  const double wanted = options.accuracy * arm.length();
-  const bool refines = count > 1 && options.accuracy > 0;
   if (!refines) impl.checked = 0;
   // What is to be told of further steps: all iterations.
   const auto take = [&found](const strain::Relaxed& last) {
@@ -384,11 +392,21 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   };
   while (refines && found.status == Status::converged) {
     const double size = size_of_highest(rod->model(), rod->work().y);
-    if (warm && size <= 1.5 * impl.checked_size && impl.checked <= wanted) break;
+    const double grown = std::max(1.0, size / impl.checked_size);
+    if (knows && grown <= 1.5 && impl.checked * grown * grown <= wanted) break;
+    knows = false;
     const int next = finer_than(impl.level);
-    if (next >= count) break;
+    if (next >= count && impl.level % 2 == 0) break;
+    if (next >= count) {  // nothing has more elements: back to where the last step began
+      LoadedRod& lighter = ready(impl.level - 1);
+      carry_over(rod->model(), rod->work(), lighter.model(), lighter.work().y);
+      --impl.level;
+      rod = &lighter;
+      take(lighter.relax(relax));
+      continue;
+    }
     LoadedRod& finer = ready(next);
-    const double ratio = error_ratio(options, impl.level);
+    const double ratio = error_ratio(options, impl.level, next);
     const strain::Approach near = finer.approach(*rod, 1e-3 * wanted);
     found.iterations += near.iterations;
     if (near.close && near.moved * ratio / (ratio - 1) <= wanted) {
