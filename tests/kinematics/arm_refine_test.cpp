@@ -133,6 +133,30 @@ TEST(ArmRefine, ResolutionCoversTheError) {
   }
 }
 
+/// An arm that is asked on and on, at tensions that grow and fall, is resolved as one that begins anew, and
+/// by no more than it then needs.
+TEST(ArmRefine, WarmAnswersAreResolvedToo) {
+  const Arm arm = two_sections(10, 1e-4);
+  ArmWorkspace warm(arm), best(arm);
+  ArmLoad load;
+  load.wrench = {0.03, 0.02, -0.02, 0, 0, 0};
+  int most = 0, last = 0;
+  for (int k = 0; k <= 40; ++k) {
+    const double size = 0.3 + 9 * std::pow(std::sin(std::numbers::pi * k / 40), 2);
+    const auto commands = tensions({size, 0.2 * size, 0, 0.1, 0.6 * size, 0.2});
+    const ArmState state = arm_forward(arm, commands, load, {.from_last = k > 0}, warm);
+    const ArmState exact = arm_forward(arm, commands, load,
+                                       {.order = 7, .elements = 24, .accuracy = 0, .from_last = k > 0}, best);
+    ASSERT_TRUE(state.report.ok() && exact.report.ok()) << k;
+    EXPECT_LE((state.tip.p - exact.tip.p).norm(), 1.3e-6 * arm.length()) << k;
+    EXPECT_TRUE(std::isfinite(state.resolution)) << k;
+    most = std::max(most, state.coordinates);
+    last = state.coordinates;
+  }
+  EXPECT_GT(most, last);
+  EXPECT_EQ(last, 300);
+}
+
 /// More tendons through a disc than a register has lanes.
 TEST(ArmRefine, GradientsOfLengthsAgainstDifferences) {
   Arm arm = two_sections(3);

@@ -352,14 +352,16 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   LoadedRod* rod = &ready(impl.level);
   if (!warm) std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
   bool knows = warm;  // how large the error is, from the question before
-  if (const int coarser = coarser_than(impl.level);
-      warm && refines && coarser >= 0 &&
-      impl.checked * error_ratio(options, coarser, impl.level) <= 0.3 * wanted) {
+  if (const int coarser = coarser_than(impl.level); warm && refines && coarser >= 0) {
+    const double shrunk = std::min(1.0, size_of_highest(rod->model(), rod->work().y) / impl.checked_size);
+    knows = !(impl.checked * shrunk * shrunk * error_ratio(options, coarser, impl.level) <= 0.3 * wanted);
+  }
+  if (warm && !knows) {
+    const int coarser = coarser_than(impl.level);
     LoadedRod& lighter = ready(coarser);  // what came before was harder to resolve
     carry_over(rod->model(), rod->work(), lighter.model(), lighter.work().y);
     impl.level = coarser;
     rod = &lighter;
-    knows = false;
   }
   const bool by_energy = options.balance == ArmBalance::energy;
   strain::Relaxed found =
