@@ -194,7 +194,99 @@ HWY_INLINE void solve_columns(const RodModel& model, RodWork& work, double* side
   }
 }
 
+HWY_INLINE double sum_of(Lanes x) {
+  double s[row];
+  lanes(s) = x;
+  return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
+}
+
+/// As substitute(), one column.
+HWY_INLINE void substitute_one(const PieceTerms& terms, int n, int padded, bool symmetric, double* x) {
+  const double* H = terms.factor.data();
+  if (symmetric) {
+    for (int k = 0; k < n; ++k) {
+      const double *pivot = H + k * padded, from = pivot[k] * x[k];
+      for (int i = k + 1; i < n; ++i) x[i] -= pivot[i] * from;
+    }
+  } else {
+    for (int k = 0; k < n; ++k) std::swap(x[k], x[terms.pivots[static_cast<std::size_t>(k)]]);
+    for (int k = 0; k < n; ++k)
+      for (int i = k + 1; i < n; ++i) x[i] -= H[i * padded + k] * x[k];
+  }
+  for (int k = n; k-- > 0;) {
+    const double* pivot = H + k * padded;
+    double sums[4] = {x[k], 0, 0, 0};
+    int i = k + 1;
+    for (; i + 3 < n; i += 4)
+      for (int j = 0; j < 4; ++j) sums[j] -= pivot[i + j] * x[i + j];
+    for (; i < n; ++i) sums[1] -= pivot[i] * x[i];
+    x[k] = pivot[k] * ((sums[0] + sums[2]) + (sums[1] + sums[3]));
+  }
+}
+
+/// One column: eight coordinates at a time.
+HWY_INLINE void solve_column(const RodModel& model, RodWork& work, double* side, int stride) {
+  double carried[6] = {}, twist[6] = {}, next[6];
+  alignas(64) double x[max_piece];
+  const auto load = [&](const Piece& piece) {
+    for (int i = 0; i < piece.size; ++i) x[i] = side[(piece.first + i) * stride];
+    for (int i = piece.size; i < piece.padded; ++i) x[i] = 0;
+  };
+  const auto store = [&](const Piece& piece) {
+    for (int i = 0; i < piece.size; ++i) side[(piece.first + i) * stride] = x[i];
+  };
+  const auto along = [&](const double* line, int padded) {
+    Lanes sum = lanes(line) * lanes(x);
+    for (int j = row; j < padded; j += row) sum += lanes(line + j) * lanes(x + j);
+    return sum_of(sum);
+  };
+  const auto take = [&](const double* rows_of, int padded, const double* by) {
+    for (int j = 0; j < padded; j += row) {
+      Lanes sum = lanes(x + j);
+      for (int l = 0; l < 6; ++l) sum -= by[l] * lanes(rows_of + l * padded + j);
+      lanes(x + j) = sum;
+    }
+  };
+  for (std::size_t k = model.pieces.size(); k-- > 0;) {
+    const Piece& piece = model.pieces[k];
+    const int padded = piece.padded;
+    const PieceTerms& terms = work.pieces[k];
+    load(piece);
+    if (k + 1 < model.pieces.size()) take(terms.G.data(), padded, carried);
+    substitute_one(terms, piece.size, padded, work.symmetric, x);
+    store(piece);
+    if (k == 0) break;
+    for (int i = 0; i < 6; ++i) {
+      double sum = along(terms.fed.data() + i * padded, padded);
+      for (int l = 0; l < 6; ++l) sum += terms.A.a[l][i] * carried[l];
+      next[i] = sum;
+    }
+    for (int i = 0; i < 6; ++i) carried[i] = next[i];
+  }
+  for (std::size_t k = 0; k < model.pieces.size(); ++k) {
+    const Piece& piece = model.pieces[k];
+    const int padded = piece.padded;
+    const PieceTerms& terms = work.pieces[k];
+    load(piece);
+    if (k > 0) {
+      take(terms.fed.data() + 6 * padded, padded, twist);
+      store(piece);
+    }
+    if (k + 1 == model.pieces.size()) break;
+    for (int i = 0; i < 6; ++i) {
+      double sum = along(terms.G.data() + i * padded, padded);
+      for (int l = 0; l < 6; ++l) sum += terms.A.a[i][l] * twist[l];
+      next[i] = sum;
+    }
+    for (int i = 0; i < 6; ++i) twist[i] = next[i];
+  }
+}
+
 void Solve(const RodModel& model, RodWork& work, double* sides, int columns, int stride) {
+  if (columns == 1) {
+    solve_column(model, work, sides, stride);
+    return;
+  }
   for (int j = 0; j < columns; j += row) solve_columns(model, work, sides + j, stride);
 }
 

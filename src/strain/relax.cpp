@@ -110,16 +110,27 @@ double LoadedRod::evaluate() {
 }
 
 void LoadedRod::linearise(bool hessian) {
-  if (hessian)
+  if (hessian && !leans_)
     sweep_back_with_hessian(*model_, work_);
   else
     sweep_back(*model_, work_);
+  if (hessian && leans_) take_hessian_of_lean();
 }
 
 double LoadedRod::gradient_norm() const { return norm(work_.gradient) / std::sqrt(model_->energy_scale); }
 
 int LoadedRod::factor_all(double shift) {
-  const Inertia inertia = factor(*model_, work_, shift);
+  factors_ = leans_ ? lean_ : this;
+  const int found = factor_with_tendons(shift);
+  if (found == 0 || !leans_) return found;
+  leans_ = false;  // whether the rod holds is for its own Hessian to say
+  linearise(true);
+  factors_ = this;
+  return factor_with_tendons(shift);
+}
+
+int LoadedRod::factor_with_tendons(double shift) {
+  const Inertia inertia = factor(*factors_->model_, factors_->work_, shift);
   if (!inertia.ok) return -1;
   active_.clear();
   for (std::size_t i = 0; i < holds.size(); ++i)
@@ -130,7 +141,7 @@ int LoadedRod::factor_all(double shift) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < m; ++j)
       columns_[at(i * stride_ + j)] = work_.length_gradient[at(active_[at(j)] * n + i)];
-  solve(*model_, work_, columns_.data(), m, stride_);
+  solve(*factors_->model_, factors_->work_, columns_.data(), m, stride_);
   for (int i = 0; i < m; ++i)
     for (int j = 0; j < m; ++j) {
       double sum = i == j ? give(at(active_[at(i)])) : 0;
@@ -172,7 +183,7 @@ void LoadedRod::solve_small(std::span<double> t) const {
 }
 
 void LoadedRod::solve_all(std::span<double> sides, int columns, int stride, double* pulls) {
-  solve(*model_, work_, sides.data(), columns, stride);
+  solve(*factors_->model_, factors_->work_, sides.data(), columns, stride);
   const int n = model_->size, m = static_cast<int>(active_.size());
   if (m == 0) return;
   std::array<double, 64> t{};
@@ -243,8 +254,6 @@ bool LoadedRod::newton_step(double& shift, double radius, std::span<double> step
       continue;
     }
     for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
-    for (int i = 0; i < model_->size; ++i)
-      for (int j = 1; j < stride_; ++j) sides_[at(i * stride_ + j)] = 0;
     solve_all(sides_, 1, stride_);
     for (int i = 0; i < model_->size; ++i) step[at(i)] = sides_[at(i * stride_)];
     const double length = norm(step);
@@ -345,12 +354,12 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       kept =
           same_active() && reduced < 0.3 &&
           (result.residual * rate <= options.tolerance || result.residual * rate * rate <= options.tolerance);
+      if (reduced >= 0.3) leans_ = false;
       if (!kept) linearise(true);
       swept = !kept;
     }
     before = result.residual;
     if (kept) {
-      for (double& x : sides_) x = 0;
       for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
       solve_all(sides_, 1, stride_);
       for (int i = 0; i < model_->size; ++i) work_.y[at(i)] += sides_[at(i * stride_)];
@@ -442,7 +451,6 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options, double shift) {
     for (int tries = 0; tries < 20 && !accept; ++tries) {
       double length = 0;
       if (factor_all(shift) != -1) {
-        for (double& x : sides_) x = 0;
         for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
         solve_all(sides_, 1, stride_);
         for (int i = 0; i < model_->size; ++i) step_[at(i)] = sides_[at(i * stride_)];
@@ -565,6 +573,7 @@ Relaxed LoadedRod::relax_here(const RelaxOptions& options) {
 
 /// Loads and inputs grow from nothing, the rod follows.
 Relaxed LoadedRod::grow(const RelaxOptions& options) {
+  leans_ = false;  // that rod's loads do not grow
   const std::vector<TendonHold> targets = holds;
   const std::vector<NodeLoad> loads = work_.loads;
   for (double& y : work_.y) y = 0;
@@ -621,16 +630,32 @@ Relaxed LoadedRod::grow(const RelaxOptions& options) {
 }
 
 Relaxed LoadedRod::relax(const RelaxOptions& options) {
+  // Only tendons that pull by their stretch need the gradients of their lengths.
+  work_.finds_length_gradients =
+      std::ranges::any_of(holds, [](const TendonHold& hold) { return !hold.by_tension; });
+  const Relaxed result = relax_from_here(options);
+  work_.finds_length_gradients = true;
+  leans_ = false;
+  return result;
+}
+
+void LoadedRod::take_holds() {
   for (std::size_t i = 0; i < holds.size(); ++i) {
     offsets_[i] = 0;
     stiff_[i] = holds[i].compliance > 0 ? holds[i].compliance : 1e-6;
   }
+}
+
+Relaxed LoadedRod::relax_from_here(const RelaxOptions& options) {
+  take_holds();
   potential_ = true;
   for (const NodeLoad& load : work_.loads) {
     for (double x : load.moment) potential_ = potential_ && x == 0;
     for (double x : load.following) potential_ = potential_ && x == 0;
   }
   work_.symmetric = potential_;
+  leans_ = lean_ != nullptr && potential_;
+  factors_ = nullptr;
   RelaxOptions direct = options;
   direct.max_iterations = std::min(options.max_iterations, 60);
   Relaxed result = relax_here(direct);

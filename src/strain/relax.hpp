@@ -37,10 +37,26 @@ struct Relaxed {
   double reached = 1;   ///< share of loads and inputs up to which equilibria were found
 };
 
+/// Whether the coordinates of one rod are the first of each component of another, finer one.
+bool is_within(const RodModel& from, const RodModel& to);
+/// Coordinates of one rod in another, where either is within the other: what both have; 0 beyond.
+void take_shared(const RodModel& from, std::span<const double> y, const RodModel& to, std::span<double> out);
+
+/// How far the equilibrium of a finer rod is off that of a coarse one.
+struct Approach {
+  bool close = false;  ///< it is known; else steps did not become shorter soon enough
+  int iterations = 0;
+  Three tip{};       ///< the finer rod's [m]
+  double rest = 0;   ///< what the steps may still lack of it [m]
+  double moved = 0;  ///< from the coarse rod's tip, that included [m]
+};
+
 /// The rod, its tendons and their memory.
 class LoadedRod {
  public:
   explicit LoadedRod(const RodModel& model);
+  LoadedRod(const LoadedRod&) = delete;
+  LoadedRod& operator=(const LoadedRod&) = delete;
 
   const RodModel& model() const { return *model_; }
   RodWork& work() { return work_; }
@@ -50,6 +66,14 @@ class LoadedRod {
 
   /// From the coordinates that stand in `work().y`.
   Relaxed relax(const RelaxOptions& options);
+  /// Newton's steps of relax() take the Hessian of another rod from now on: the same coordinates and loads,
+  /// fewer elements. Equilibria do not depend on it, nor does whether they hold: where that Hessian is not
+  /// positive definite, this rod's own is taken.
+  void lean_on(LoadedRod& fewer);
+  /// From the equilibrium of a coarse rod towards this one's by that one's last factors, so that only
+  /// gradients are made; what the coarse one lacks answers by its elastic energy. This tells how far the tip
+  /// moves, to a twentieth or to `enough` [m].
+  Approach approach(LoadedRod& coarse, double enough);
   /// Frames, lengths and tensions at `work().y`; returns the potential of rod and tendons [J].
   double evaluate();
   /// After evaluate(): gradient, and the Hessian's terms.
@@ -78,10 +102,14 @@ class LoadedRod {
 
  private:
   void spread_tensions();
+  void take_holds();
+  bool pulls_like(const LoadedRod& other) const;
+  void take_hessian_of_lean();
   /// How a tendon gives way at its stretch: its derivative by the tension [m/N].
   double give(std::size_t tendon) const;
   bool newton_step(double& shift, double radius, std::span<double> step, int& negative);
   bool same_active() const;
+  int factor_with_tendons(double shift);
   bool leave_saddle(Relaxed& result, double& energy);
   double restore();
   Relaxed relax_energy(const RelaxOptions& options);
@@ -89,6 +117,7 @@ class LoadedRod {
   Relaxed relax_without_potential(const RelaxOptions& options);
   Relaxed relax_here(const RelaxOptions& options);
   Relaxed grow(const RelaxOptions& options);
+  Relaxed relax_from_here(const RelaxOptions& options);
   bool judge(Relaxed& result);
   double gradient_norm() const;
 
@@ -96,6 +125,11 @@ class LoadedRod {
 
   bool potential_ = true;
   double potential_energy_ = 0;
+
+  LoadedRod* lean_ = nullptr;
+  bool leans_ = false;                        ///< in the relax() that goes on
+  std::vector<std::vector<double>> elastic_;  ///< of every piece: elastic Hessian without that of lean_
+  LoadedRod* factors_ = nullptr;              ///< the rod whose Hessian was factored last
 
   const RodModel* model_;
   RodWork work_;

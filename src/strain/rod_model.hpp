@@ -17,6 +17,8 @@ inline constexpr int row = 8;
 inline constexpr int max_modes = 32;
 /// Coordinates of a piece.
 inline constexpr int max_piece = 128;
+/// Tendons through a disc.
+inline constexpr int most_holes = 32;
 
 using Three = std::array<double, 3>;
 using Six = std::array<double, 6>;
@@ -141,6 +143,7 @@ struct RodWork {
   std::vector<double> hole_tension, guide_tension;  ///< of each entry [N]
   std::vector<double> lengths;                      ///< of tendons [m]
   std::vector<double> length_gradient;              ///< tendons × size
+  bool finds_length_gradients = true;               ///< whether sweeps back do; who holds tensions needs none
   std::vector<PieceTerms> pieces;
   std::vector<double> scratch;
   double energy = 0;  ///< elastic and of loads that have a potential, without tendons [J]

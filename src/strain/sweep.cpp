@@ -224,6 +224,36 @@ HWY_INLINE void by_strains(const Element& element, const std::array<Six, 2>& xi,
   }
 }
 
+/// What lengths of tendons between discs are by, a column for each of eight tendons: by the twist of a node
+/// against the first disc, and by the coordinates of the piece.
+struct Eight {
+  Block by_twist;
+  alignas(64) double by_coordinates[max_piece * row];
+};
+
+/// Gradients by the strains of an element, in columns, to those by coordinates.
+HWY_INLINE void collect_columns(const Piece& piece, const Element& element, int point, const Block& by_strain,
+                                double* out) {
+  const double* modes = element.modes[static_cast<std::size_t>(point)].data();
+  for (std::size_t c = 0; c < 6; ++c) {
+    const Lanes x = piece.scale[c] * lanes(by_strain.a[c]);
+    double* own = out + piece.offset[c] * row;
+    for (int a = 0; a < piece.modes[c]; ++a) lanes(own + a * row) += modes[a] * x;
+  }
+}
+
+/// Of a span's tendons the gradients that were collected, to those of the whole rod.
+HWY_INLINE void add_columns(const RodModel& model, const Piece& piece, const Span& span, const Eight* eights,
+                            RodWork& work) {
+  for (int i = 0; i < span.holes; ++i) {
+    const auto tendon =
+        static_cast<std::size_t>(model.holes[static_cast<std::size_t>(span.first_hole + i)].tendon);
+    double* out = work.length_gradient.data() + tendon * work.y.size() + piece.first;
+    const double* from = eights[i / row].by_coordinates + i % row;
+    for (int j = 0; j < piece.size; ++j) out[j] += from[j * row];
+  }
+}
+
 /// What the rod after a node is to it: the gradient of its potential by the node's twist, its derivatives by
 /// that and by the coordinates of the piece.
 struct Rest {
@@ -244,7 +274,10 @@ HWY_INLINE void carry_rigid(const Block& A, int padded, bool symmetric, Rest& re
 template <bool hessian>
 HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
   for (double& x : work.gradient) x = 0;
-  for (double& x : work.length_gradient) x = 0;
+  const bool by_lengths = work.finds_length_gradients;
+  if (by_lengths)
+    for (double& x : work.length_gradient) x = 0;
+  Eight eights[most_holes / row];
   alignas(64) double rows[6][6 * max_piece];
   Rest outer, inner;
   for (double& x : outer.lambda) x = 0;
@@ -273,7 +306,11 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
       const Span& span = model.spans[static_cast<std::size_t>(s)];
       const int last = span.first_element + span.elements;
       const bool has_holes = span.holes > 0;
-      double of_hole[32][6];
+      const int packs = by_lengths ? (span.holes + row - 1) / row : 0;
+      for (int i = 0; i < packs; ++i) {
+        clear(eights[i].by_twist);
+        for (int j = 0; j < n * row; ++j) eights[i].by_coordinates[j] = 0;
+      }
       for (double& x : inner.lambda) x = 0;
       if constexpr (hessian) {
         clear(inner.P);
@@ -282,10 +319,13 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
       for (int i = 0; i < span.holes; ++i) {
         const auto at = static_cast<std::size_t>(span.first_hole + i);
         const double tension = work.hole_tension[at];
+        double one[6];
         hole_terms(work.frames[static_cast<std::size_t>(span.first_element)],
-                   work.frames[static_cast<std::size_t>(last)], model.holes[at], tension, of_hole[i],
+                   work.frames[static_cast<std::size_t>(last)], model.holes[at], tension, one,
                    hessian ? &inner.P : nullptr);
-        for (int j = 0; j < 6; ++j) inner.lambda[j] += tension * of_hole[i][j];
+        for (int j = 0; j < 6; ++j) inner.lambda[j] += tension * one[j];
+        if (packs > 0)
+          for (int j = 0; j < 6; ++j) eights[i / row].by_twist.a[j][i % row] = one[j];
       }
       for (int e = last; e-- > span.first_element;) {
         const auto at = static_cast<std::size_t>(e);
@@ -295,9 +335,10 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
         const Entire fn = entire(dot3(omega + 3, omega + 3));
         add_load(work.loads[at + 1], work.frames[at + 1], outer.lambda, hessian ? &outer.P : nullptr);
         if (element.points == 0) {  // a rigid link carries what lies after it, and no more
+          Block A;
+          if (hessian || packs > 0) back_adjoint(R, p, A);
           if constexpr (hessian) {
-            Block A, next;
-            back_adjoint(R, p, A);
+            Block next;
             multiply(along, A, next);
             along = next;
             carry_rigid(A, padded, symmetric, outer);
@@ -306,7 +347,7 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
           carry_back(R, p, outer.lambda, outer.lambda);
           if (e > span.first_element) {
             carry_back(R, p, inner.lambda, inner.lambda);
-            for (int i = 0; i < span.holes; ++i) carry_back(R, p, of_hole[i], of_hole[i]);
+            for (int i = 0; i < packs; ++i) multiply_back(A, eights[i].by_twist, eights[i].by_twist);
           }
           continue;
         }
@@ -316,7 +357,18 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
         right_jacobian(omega, fn, J);
         apply_back(J, lambda, by_omega);
         by_strains(element, xi, by_omega, by_strain[0], by_strain[1]);
-        [[maybe_unused]] Block E[2][2], D[2];
+        [[maybe_unused]] Block E[2][2];
+        Block D[2], A;
+        if (hessian || packs > 0) {
+          back_adjoint(R, p, A);
+          if (element.points == 2)
+            for (int g = 0; g < 2; ++g) {
+              clear(D[g]);
+              for (int i = 0; i < 6; ++i) D[g].a[i][i] = 0.5 * element.length;
+              add_ad(D[g], xi[static_cast<std::size_t>(1 - g)].data(),
+                     g == 0 ? -element.commutator : element.commutator);
+            }
+        }
         if constexpr (hessian) {
           Block Q, PJ, sum = outer.P;
           add(sum, inner.P, 1);
@@ -326,12 +378,6 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
           if (element.points == 1) {
             E[0][0] = Q;
           } else {
-            for (int g = 0; g < 2; ++g) {
-              clear(D[g]);
-              for (int i = 0; i < 6; ++i) D[g].a[i][i] = 0.5 * element.length;
-              add_ad(D[g], xi[static_cast<std::size_t>(1 - g)].data(),
-                     g == 0 ? -element.commutator : element.commutator);
-            }
             for (int h = 0; h < 2; ++h) {
               Block QD;
               multiply(Q, D[h], QD);
@@ -358,21 +404,26 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
               by_strain[g][j] += tension * one[j];
               one[j] *= element.weight;
             }
+            if (!by_lengths) continue;
             collect(piece, element, g, one,
                     work.length_gradient.data() + static_cast<std::size_t>(guide.tendon) * work.y.size() +
                         piece.first);
           }
           collect(piece, element, g, by_strain[g], gradient);
         }
-        for (int i = 0; i < span.holes; ++i) {
-          const Hole& hole = model.holes[static_cast<std::size_t>(span.first_hole + i)];
-          double one[6], by[2][6];
-          apply_back(J, of_hole[i], one);
-          by_strains(element, xi, one, by[0], by[1]);
-          double* out = work.length_gradient.data() + static_cast<std::size_t>(hole.tendon) * work.y.size() +
-                        piece.first;
-          for (int g = 0; g < element.points; ++g) collect(piece, element, g, by[g], out);
-          if (e > span.first_element) carry_back(R, p, of_hole[i], of_hole[i]);
+        for (int i = 0; i < packs; ++i) {
+          Eight& eight = eights[i];
+          Block by_end, by;
+          multiply_back(J, eight.by_twist, by_end);
+          if (element.points == 1) {
+            collect_columns(piece, element, 0, by_end, eight.by_coordinates);
+          } else {
+            for (int g = 0; g < 2; ++g) {
+              multiply_back(D[g], by_end, by);
+              collect_columns(piece, element, g, by, eight.by_coordinates);
+            }
+          }
+          if (e > span.first_element) multiply_back(A, eight.by_twist, eight.by_twist);
         }
         if constexpr (hessian) {
           const double* basis = model.rows.data() + element.first_row;  // strains by coordinates
@@ -411,8 +462,7 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
           }
           // the end of the piece moves by along·Γ
           multiply_rows<true>(along, G, padded, terms.G.data());
-          Block A, next;
-          back_adjoint(R, p, A);
+          Block next;
           multiply(along, A, next);
           along = next;
           const auto carry = [&](Rest& rest) {
@@ -438,6 +488,7 @@ HWY_INLINE void sweep(const RodModel& model, RodWork& work) {
         carry_back(R, p, outer.lambda, outer.lambda);
         if (e > span.first_element) carry_back(R, p, inner.lambda, inner.lambda);
       }
+      if (packs > 0) add_columns(model, piece, span, eights, work);
     }
     if constexpr (hessian) {
       for (int i = 0; i < n; ++i) {

@@ -64,9 +64,11 @@ HWY_INLINE void multiply(const Block& a, const Block& b, Block& c) {
 }
 /// c = aᵀ b.
 HWY_INLINE void multiply_back(const Block& a, const Block& b, Block& c) {
+  Lanes in[6];  // c may be b
+  for (int k = 0; k < 6; ++k) in[k] = lanes(b.a[k]);
   for (int i = 0; i < 6; ++i) {
-    Lanes sum = a.a[0][i] * lanes(b.a[0]);
-    for (int k = 1; k < 6; ++k) sum += a.a[k][i] * lanes(b.a[k]);
+    Lanes sum = a.a[0][i] * in[0];
+    for (int k = 1; k < 6; ++k) sum += a.a[k][i] * in[k];
     lanes(c.a[i]) = sum;
   }
 }

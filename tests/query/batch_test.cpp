@@ -148,6 +148,29 @@ INSTANTIATE_TEST_SUITE_P(
     Questions, BatchOf,
     testing::Values(
         Case{
+            "two-segment",
+            R"({"query":"forward","tensions":"$t","outputs":{"p":"tip.position","q":"tip.quaternion","c":"changes","s":"slack","e":"potential","r":"resolution"}})",
+            {1.5, 1, 1, 1, 1.5, 1},
+            0.8,
+            "arms row by row"},
+        Case{
+            "two-segment",
+            R"({"query":"forward","tensions":[["$a",0.5,null]],"wrench":["$x",0,-0.01,0,0,0],"accuracy":1e-5,"outputs":{"p":"tip.position","t":"tensions"}})",
+            {1, 0.01},
+            0.01,
+            "arms row by row"},
+        Case{
+            "tendon-rod",
+            R"({"query":"forward","model":"rod","tensions":[["$a",0,"2 N",0]],"outputs":{"x":"tip.position[0]"}})",
+            {2},
+            1.5,
+            "arms row by row"},
+        Case{"two-segment",
+             R"({"query":"forward","tensions":"$t","want":["pose"],"outputs":{"x":"tip.position[0]"}})",
+             {1.5, 1, 1, 1, 1.5, 1},
+             0.5,
+             "query by query"},
+        Case{
             "3pfs-g2",
             R"({"query":"forward","inputs":["$a","$b","$c"],"path":"continue","outputs":{"x":"pose.position[0]","e1":"pose.quaternion[1]"}})",
             {0.43, 0.43, 0.43},
@@ -330,7 +353,7 @@ TEST(Batch, UsualOutputsAreThereAndHaveTheResidual) {
               {0},
               0.001},
         Usual{
-            "tendon-rod", R"({"query":"forward","tensions":[["$t",0,0,0]]})", "query by query", {1}, 0.1}}) {
+            "tendon-rod", R"({"query":"forward","tensions":[["$t",0,0,0]]})", "arms row by row", {1}, 0.1}}) {
     const Batch batch = prepared(robot, question).value();
     EXPECT_EQ(batch.method(), method) << question;
     EXPECT_EQ(batch.outputs().back().name, "residual") << question;
@@ -348,6 +371,67 @@ TEST(Batch, UsualOutputsAreThereAndHaveTheResidual) {
     }
     EXPECT_GT(solved, 5U) << robot << question;
   }
+}
+
+TEST(Batch, ArmsHeldByTensionsAndChangesAreAsAsked) {
+  const Batch batch = prepared("two-segment",
+                               R"({"query":"forward","tensions":[["$a",0.5,0],null],
+                                   "changes":[null,["$c","$c",0.001]],
+                                   "outputs":{"p":"tip.position","t":"tensions","c":"changes"}})")
+                          .value();
+  EXPECT_EQ(batch.method(), "arms row by row");
+  const std::vector<double> numbers{1, -0.0003, 0.7, 0.0002, 1.2, 0, -1, 0, 1, 2e9};
+  const Rows found = run(batch, numbers);
+  for (std::size_t k = 0; k < 5; ++k) {
+    const Json answer = Json::parse(batch.answer(std::span(numbers).subspan(2 * k, 2)));
+    if (k > 2) {
+      EXPECT_TRUE(answer.contains("error")) << k;
+      EXPECT_EQ(found.statuses[k], static_cast<std::uint8_t>(Status::bad_input)) << k;
+      continue;
+    }
+    EXPECT_EQ(to_string(static_cast<Status>(found.statuses[k])), answer["status"]) << k;
+    std::vector<double> expected = flat(answer.at(pointer("tip.position")));
+    for (const char* place : {"tensions", "changes"})
+      for (const double x : flat(answer[place])) expected.push_back(x);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_NEAR(found.outputs[15 * k + i], expected[i], 1e-9) << k << ' ' << i;
+  }
+}
+
+/// On a path rows begin where the one before ended: the same equilibria as far as they are resolved, and
+/// after a row that is refused from the straight arm again.
+TEST(Batch, ArmsOnAPathAreWhereTheyAreAnew) {
+  const char* question = R"({"query":"forward","tensions":"$t","path":"%s","outputs":{"p":"tip.position"}})";
+  const auto batch = [&](const char* path) {
+    std::string text = question;
+    return prepared("two-segment", text.replace(text.find("%s"), 2, path)).value();
+  };
+  std::vector<double> numbers;
+  for (int k = 0; k < 300; ++k)
+    for (int i = 0; i < 6; ++i) numbers.push_back(1.5 + 1.4 * std::sin(0.02 * (i + 1) * k + i));
+  numbers[6 * 20] = -1;
+  numbers[6 * 30 + 2] = std::nan("");
+  numbers[6 * 40 + 3] = 2e9;
+  const Batch path = batch("continue"), anew = batch("anew");
+  EXPECT_EQ(path.method(), "arms row by row");
+  const Rows warm = run(path, numbers), cold = run(anew, numbers);
+  const auto has = [&](const Rows& rows, std::size_t k) { return static_cast<Status>(rows.statuses[k]); };
+  for (std::size_t k = 0; k < 300; ++k) {
+    const bool is_bad = k == 20 || k == 30 || k == 40;
+    EXPECT_EQ(has(warm, k), is_bad ? Status::bad_input : Status::converged) << k;
+    EXPECT_EQ(has(warm, k), has(cold, k)) << k;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double a = warm.outputs[3 * k + i], b = cold.outputs[3 * k + i];
+      EXPECT_TRUE(is_bad ? std::isnan(a) && std::isnan(b) : std::abs(a - b) < 8e-7) << k << ' ' << a - b;
+    }
+  }
+  const Rows shared = run(path, numbers, {.threads = 3});
+  EXPECT_EQ(0, std::memcmp(warm.outputs.data(), shared.outputs.data(), warm.outputs.size() * sizeof(double)));
+  const auto stopped = [&] {
+    const std::atomic<bool> stop{true};
+    return run(path, numbers, {.stop = &stop});
+  }();
+  EXPECT_EQ(has(stopped, 7), Status::stopped);
 }
 
 TEST(Batch, SaysWhatIsWrong) {

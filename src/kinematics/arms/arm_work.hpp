@@ -13,6 +13,7 @@ namespace sinew::inline v1 {
 struct ArmRod {
   strain::RodModel model;
   strain::LoadedRod rod;
+  std::unique_ptr<ArmRod> lean = {};  ///< with fewer elements, whose Hessian its steps take; may be none
   explicit ArmRod(strain::RodModel made) : model(std::move(made)), rod(model) {}
   ArmRod(const ArmRod&) = delete;
   ArmRod& operator=(const ArmRod&) = delete;

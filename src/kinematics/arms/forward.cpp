@@ -43,16 +43,38 @@ Resolution resolution_at(std::span<const Resolution> resolutions, int level) {
   return {level % 2 == 0 ? finer.order : resolutions[at(level / 2)].order, finer.elements};
 }
 
-/// The next of the table.
-int finer_than(int level) { return (level / 2 + 1) * 2; }
+/// The next of the table that has more elements.
+int finer_than(int level) { return ((level + 1) / 2 + 1) * 2; }
+/// The one of the table before it.
+int coarser_than(int level) { return (level + 1) / 2 * 2 - 2; }
 
-/// By how much finer elements lower the error of a resolution: as the fourth power of their length, the order
-/// of frames and quadrature.
-double error_ratio(const ArmOptions& options, int level) {
+/// By how much the elements of one level lower the error of another: as the fourth power of their length, the
+/// order of frames and quadrature.
+double error_ratio(const ArmOptions& options, int level, int finer) {
   const auto resolutions = resolutions_of(options);
-  const double finer = static_cast<double>(resolution_at(resolutions, finer_than(level)).elements) /
+  const double share = static_cast<double>(resolution_at(resolutions, finer).elements) /
                        static_cast<double>(resolution_at(resolutions, level).elements);
-  return finer * finer * finer * finer;
+  return share * share * share * share;
+}
+
+/// From where an error stands at a level, the level whose next one is to bring it below a bound, if elements
+/// rule it; one that has a next, against which it can be checked.
+int level_for(const ArmOptions& options, int level, double error, double bound) {
+  int to = level;
+  while (finer_than(finer_than(to)) < level_count(options) &&
+         error > bound * error_ratio(options, level, finer_than(to)))
+    to = finer_than(to);
+  return to;
+}
+
+/// Elements that do for the Hessian of Newton's steps where gradients need more: at least as many as its
+/// polynomials need, in number a half to a quarter of the model's; 0: too near to its own to pay.
+int lean_elements(const ArmOptions& options, const ArmBasis& basis) {
+  const bool rod = options.model == ArmModel::rod;
+  if (options.balance != ArmBalance::energy || (!rod && options.model != ArmModel::subsegment_rod)) return 0;
+  const int usual = rod ? 3 : 2, order = basis.order < 0 ? usual : basis.order;
+  const int fewer = std::max({2, order / 2 + 1, rod ? (basis.elements + 1) / 2 : (basis.elements + 3) / 4});
+  return 2 * fewer <= basis.elements ? fewer : 0;
 }
 
 void add_dead(NodeLoad& load, const NodeShare& share, const std::array<double, 3>& by) {
@@ -140,6 +162,10 @@ FixedText<240> misfit(const Arm& arm, std::span<const TendonCommand> commands, c
 
 void carry_over(const RodModel& from, const strain::RodWork& work, const RodModel& to,
                 std::vector<double>& y) {
+  if (is_within(from, to) || is_within(to, from)) {
+    take_shared(from, work.y, to, y);
+    return;
+  }
   std::fill(y.begin(), y.end(), 0.0);
   int near = 0;
   for (const strain::Piece& fine : to.pieces) {
@@ -264,6 +290,13 @@ ArmRod& ArmWorkspace::Impl::at(const Arm& arm, const ArmOptions& options,
       basis.order = chosen.order, basis.elements = chosen.elements;
     }
     entry = std::make_unique<ArmRod>(make_rod(arm, basis, breaks));
+    if (basis.elements = lean_elements(options, basis); basis.elements > 0) {
+      entry->lean = std::make_unique<ArmRod>(make_rod(arm, basis, breaks));
+      if (entry->lean->model.size == entry->model.size && is_within(entry->lean->model, entry->model))
+        entry->rod.lean_on(entry->lean->rod);
+      else
+        entry->lean.reset();
+    }
   }
   return *entry;
 }
@@ -304,6 +337,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   const auto ready = [&](int level) -> LoadedRod& {  // with loads and holds of this question
     ArmRod& entry = impl.at(arm, options, breaks, level);
     set_loads(arm, load, entry.model, entry.rod.work().loads);
+    if (entry.lean) set_loads(arm, load, entry.lean->model, entry.lean->rod.work().loads);
     if (!impl.knows_rest) {
       std::fill(entry.rod.work().y.begin(), entry.rod.work().y.end(), 0.0);
       sweep_out(entry.model, entry.rod.work());
@@ -313,26 +347,96 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     set_holds(arm, impl, entry.rod);
     return entry.rod;
   };
+  const double wanted = options.accuracy * arm.length();
+  const bool refines = count > 1 && options.accuracy > 0;
   LoadedRod* rod = &ready(impl.level);
   if (!warm) std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
+  bool knows = warm;  // how large the error is, from the question before
+  if (const int coarser = coarser_than(impl.level); warm && refines && coarser >= 0) {
+    const double shrunk = std::min(1.0, size_of_highest(rod->model(), rod->work().y) / impl.checked_size);
+    knows = !(impl.checked * shrunk * shrunk * error_ratio(options, coarser, impl.level) <= 0.3 * wanted);
+  }
+  if (warm && !knows) {
+    const int coarser = coarser_than(impl.level);
+    LoadedRod& lighter = ready(coarser);  // what came before was harder to resolve
+    carry_over(rod->model(), rod->work(), lighter.model(), lighter.work().y);
+    impl.level = coarser;
+    rod = &lighter;
+  }
   const bool by_energy = options.balance == ArmBalance::energy;
   strain::Relaxed found =
       by_energy ? rod->relax(relax) : relax_published(arm, commands, options, relax, warm, *rod);
-  const double wanted = options.accuracy * arm.length();
-  const bool refines = count > 1 && options.accuracy > 0;
   if (!refines) impl.checked = 0;
+  // What is to be told of further steps: all iterations.
+  const auto take = [&found](const strain::Relaxed& last) {
+    const int spent = found.iterations;
+    found = last;
+    found.iterations += spent;
+  };
+  // Whether the order before does with the elements of a level; then that is the answer.
+  // @param off by how much the tip of the level is off at most [m]
+  const auto leaner_does = [&](const LoadedRod& finer, int next, const std::array<double, 3>& tip,
+                               double off) {
+    LoadedRod& lean = ready(next - 1);
+    carry_over(finer.model(), finer.work(), lean.model(), lean.work().y);
+    const strain::Relaxed other = lean.relax(relax);
+    found.iterations += other.iterations;
+    const auto there = tip_of(lean);
+    const double all = off + std::hypot(there[0] - tip[0], there[1] - tip[1], there[2] - tip[2]);
+    if (other.status != Status::converged || all > wanted) return false;
+    impl.level = next - 1;
+    impl.checked = all;
+    impl.checked_size = size_of_highest(lean.model(), lean.work().y);
+    rod = &lean;
+    found.iterations -= other.iterations;
+    take(other);
+    return true;
+  };
   while (refines && found.status == Status::converged) {
     const double size = size_of_highest(rod->model(), rod->work().y);
-    if (warm && size <= 1.5 * impl.checked_size && impl.checked <= wanted) break;
+    const double grown = std::max(1.0, size / impl.checked_size);
+    if (knows && grown <= 1.5 && impl.checked * grown * grown <= wanted) break;
+    knows = false;
     const int next = finer_than(impl.level);
-    if (next >= count) break;
+    if (next >= count && impl.level % 2 == 0) break;
+    if (next >= count) {  // nothing has more elements: back to where the last step began
+      LoadedRod& lighter = ready(impl.level - 1);
+      carry_over(rod->model(), rod->work(), lighter.model(), lighter.work().y);
+      --impl.level;
+      rod = &lighter;
+      take(lighter.relax(relax));
+      continue;
+    }
     LoadedRod& finer = ready(next);
-    carry_over(rod->model(), rod->work(), finer.model(), finer.work().y);
+    const double ratio = error_ratio(options, impl.level, next);
+    const strain::Approach near = finer.approach(*rod, 1e-3 * wanted);
+    found.iterations += near.iterations;
+    if (near.close && near.moved * ratio / (ratio - 1) <= wanted) {
+      impl.checked = near.moved * ratio / (ratio - 1);
+      impl.checked_size = size;
+      break;
+    }
+    if (near.close) {
+      const double left = near.moved / (ratio - 1);  // of the finer one
+      if (left <= wanted && near.moved < 1e-3 * arm.length() &&
+          leaner_does(finer, next, near.tip, left + near.rest))
+        break;
+      if (const int to = level_for(options, next, left, 0.5 * wanted); to != next) {
+        LoadedRod& there = ready(to);
+        carry_over(finer.model(), finer.work(), there.model(), there.work().y);
+        impl.level = to;
+        impl.checked = left;
+        rod = &there;
+        take(there.relax(relax));
+        continue;
+      }
+    } else {
+      carry_over(rod->model(), rod->work(), finer.model(), finer.work().y);
+    }
     const strain::Relaxed again = finer.relax(relax);
     found.iterations += again.iterations;
     const auto coarse = tip_of(*rod), fine = tip_of(finer);
     const double moved = std::hypot(fine[0] - coarse[0], fine[1] - coarse[1], fine[2] - coarse[2]);
-    const double ratio = error_ratio(options, impl.level);
     impl.checked = moved * ratio / (ratio - 1);
     impl.checked_size = size;
     if (again.status == Status::converged && impl.checked <= wanted) break;
@@ -344,21 +448,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     impl.checked = moved / (ratio - 1);
     impl.checked_size = size_of_highest(finer.model(), finer.work().y);
     if (found.status != Status::converged || impl.checked > wanted || moved >= 1e-3 * arm.length()) continue;
-    LoadedRod& lean = ready(next - 1);
-    carry_over(finer.model(), finer.work(), lean.model(), lean.work().y);
-    const strain::Relaxed other = lean.relax(relax);
-    found.iterations += other.iterations;
-    const auto there = tip_of(lean);
-    const double off = std::hypot(there[0] - fine[0], there[1] - fine[1], there[2] - fine[2]);
-    if (other.status == Status::converged && impl.checked + off <= wanted) {
-      impl.level = next - 1;
-      impl.checked += off;
-      impl.checked_size = size_of_highest(lean.model(), lean.work().y);
-      rod = &lean;
-      const int all = found.iterations;
-      found = other;
-      found.iterations = all;
-    }
+    leaner_does(finer, next, fine, impl.checked);
     break;
   }
   state.resolution = impl.checked;

@@ -11,7 +11,7 @@ std::size_t chunk_size(const SamplerKind& kind, std::size_t samples, std::size_t
 SamplerKind choose_sampler(const BatchQuestion& question) {
   const auto has_words = [](const auto& words) { return !words.empty(); };
   if (std::ranges::any_of(question.words, has_words)) return query_sampler(question);
-  for (const auto& quick : {rod_sampler, pose_sampler, serial_sampler})
+  for (const auto& quick : {rod_sampler, pose_sampler, serial_sampler, arm_sampler})
     if (SamplerKind kind = quick(question); kind.make) return kind;
   return query_sampler(question);
 }

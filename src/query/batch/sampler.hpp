@@ -100,6 +100,9 @@ SamplerKind pose_sampler(const BatchQuestion& question);
 /// Tendon changes of serial robots in lanes; likewise.
 SamplerKind serial_sampler(const BatchQuestion& question);
 
+/// Equilibria of arms under load, one after the other, without queries; likewise.
+SamplerKind arm_sampler(const BatchQuestion& question);
+
 /// The quickest there is.
 SINEW_API SamplerKind choose_sampler(const BatchQuestion& question);
 

@@ -1,0 +1,213 @@
+/// How arms are refined: Newton's steps by the Hessian of fewer elements, the way to a finer rod by gradients
+/// alone, and what both say of the answer.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "arms.hpp"
+#include "robot/arm_model.hpp"
+#include "strain/relax.hpp"
+
+namespace sinew::test {
+namespace arm_refine_test {
+
+using strain::LoadedRod;
+using strain::RodModel;
+
+RodModel rod_of(const Arm& arm, int order, int elements) {
+  return make_rod(arm, {ArmModel::subsegment_rod, order, elements, false});
+}
+
+void set(LoadedRod& rod, const std::vector<double>& tensions, const std::array<double, 3>& tip_force) {
+  for (std::size_t i = 0; i < tensions.size(); ++i) rod.holds[i].tension = tensions[i];
+  for (std::size_t i = 0; i < 3; ++i) rod.work().loads.back().force[i] = tip_force[i];
+}
+
+double tip_apart(const LoadedRod& a, const LoadedRod& b) {
+  const double *p = a.work().frames.back().p, *q = b.work().frames.back().p;
+  return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+}
+
+/// Whoever leans on a coarse Hessian ends at the same equilibrium.
+TEST(ArmRefine, TheHessianOfFewerElementsLeavesTheAnswer) {
+  const Arm arm = two_sections(4, 1e-4);
+  const RodModel fine = rod_of(arm, 3, 8), coarse = rod_of(arm, 3, 2);
+  std::mt19937 gen(3);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int round = 0; round < 12; ++round) {
+    LoadedRod own(fine), leaning(fine), lean(coarse);
+    std::vector<double> pulls(6);
+    for (double& pull : pulls) pull = (round < 8 ? 3 : 15) * share(gen);
+    const std::array<double, 3> force{0.1 * share(gen), 0.1 * share(gen), -0.05};
+    for (LoadedRod* rod : {&own, &leaning, &lean}) {
+      set(*rod, pulls, force);
+      if (round % 2 == 1)
+        for (std::size_t i = 0; i < 3; ++i)  // the first section's by their ends
+          rod->holds[i] = {
+              .by_tension = false, .free_length = 0.198 + 0.001 * static_cast<double>(i), .compliance = 1e-4};
+    }
+    leaning.lean_on(lean);
+    const auto alone = own.relax({}), with = leaning.relax({});
+    EXPECT_EQ(alone.status, with.status) << round;
+    EXPECT_EQ(alone.negative, with.negative) << round;
+    if (alone.status != Status::converged) continue;
+    EXPECT_LT(with.residual, 1e-10) << round;
+    EXPECT_LT(tip_apart(own, leaning), 1e-9) << round;
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(own.tensions()[i], leaning.tensions()[i], 1e-6) << round;
+  }
+}
+
+/// A straight arm under an axial force: which force buckles it is for its own Hessian to say.
+TEST(ArmRefine, BucklingIsToldAsWithoutIt) {
+  const Arm arm = two_sections(4);
+  const RodModel fine = rod_of(arm, 3, 8), coarse = rod_of(arm, 3, 2);
+  const double bending = arm.sections[0].start.bending_x, length = arm.length(),
+               critical = std::numbers::pi * std::numbers::pi * bending / (4 * length * length);
+  for (const double share : {0.5, 0.99, 0.999, 1.001, 1.01, 1.5}) {
+    LoadedRod rod(fine), lean(coarse);
+    rod.lean_on(lean);
+    for (LoadedRod* each : {&rod, &lean}) set(*each, std::vector<double>(6, 0.0), {0, 0, -share * critical});
+    strain::RelaxOptions options;
+    options.leave_saddles = false;
+    options.max_iterations = 60;  // loads are not grown then
+    const auto found = rod.relax(options);
+    EXPECT_EQ(found.negative > 0, share > 1) << share;
+    EXPECT_EQ(found.status, share > 1 ? Status::unstable : Status::converged) << share;
+  }
+}
+
+TEST(ArmRefine, GradientsAloneTellHowFarTheFinerTipIs) {
+  const Arm arm = two_sections(6, 1e-4);
+  const RodModel coarse = rod_of(arm, -1, 2), fine = rod_of(arm, 3, 3);
+  ASSERT_TRUE(is_within(coarse, fine));
+  EXPECT_FALSE(is_within(fine, coarse));
+  EXPECT_FALSE(is_within(rod_of(two_sections(5), -1, 2), fine));
+  std::mt19937 gen(5);
+  std::uniform_real_distribution<double> share(0, 1);
+  int close = 0;
+  for (int round = 0; round < 20; ++round) {
+    LoadedRod rough(coarse), finer(fine), solved(fine);
+    std::vector<double> pulls(6);
+    for (double& pull : pulls) pull = 4 * share(gen);
+    for (LoadedRod* rod : {&rough, &finer, &solved}) {
+      set(*rod, pulls, {0.05, 0.02, -0.03});
+      if (round % 2 == 1) rod->holds[4] = {.by_tension = false, .free_length = 0.397, .compliance = 1e-4};
+    }
+    ASSERT_EQ(rough.relax({}).status, Status::converged);
+    ASSERT_EQ(solved.relax({}).status, Status::converged);
+    const strain::Approach found = finer.approach(rough, 0);
+    if (!found.close) continue;
+    ++close;
+    const double moved = tip_apart(rough, solved);
+    EXPECT_GE(found.moved, 0.99 * moved) << round;
+    EXPECT_LE(found.moved, 1.12 * moved) << round;
+    EXPECT_LE(tip_apart(finer, solved), 0.06 * moved) << round;
+  }
+  EXPECT_GE(close, 15);
+}
+
+/// What is said of the tip's resolution holds against a rod far finer.
+TEST(ArmRefine, ResolutionCoversTheError) {
+  std::mt19937 gen(11);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int round = 0; round < 8; ++round) {
+    const Arm arm = two_sections(10, 1e-4);
+    std::vector<double> pulls(6);
+    for (double& pull : pulls) pull = (round < 6 ? 4 : 10) * share(gen);
+    ArmLoad load;
+    load.wrench = {0.05 * share(gen), 0.02, -0.05 * share(gen), 0, 0, 0};
+    ArmWorkspace best(arm);
+    const ArmState exact =
+        arm_forward(arm, tensions(pulls), load, {.order = 7, .elements = 28, .accuracy = 0}, best);
+    ASSERT_TRUE(exact.report.ok());
+    for (const double accuracy : {1e-4, 1e-6, 1e-7, 1e-8}) {
+      ArmWorkspace work(arm);
+      const ArmState state = arm_forward(arm, tensions(pulls), load, {.accuracy = accuracy}, work);
+      ASSERT_TRUE(state.report.ok()) << accuracy;
+      const double off = (state.tip.p - exact.tip.p).norm();
+      EXPECT_LE(off, 1.3 * state.resolution + 3e-12) << round << " " << accuracy;
+      if (round < 6 && accuracy >= 1e-7) {
+        EXPECT_LE(state.resolution, accuracy * arm.length()) << round << " " << accuracy;
+      }
+    }
+  }
+}
+
+/// An arm that is asked on and on, at tensions that grow and fall, is resolved as one that begins anew, and
+/// by no more than it then needs.
+TEST(ArmRefine, WarmAnswersAreResolvedToo) {
+  const Arm arm = two_sections(10, 1e-4);
+  ArmWorkspace warm(arm), best(arm);
+  ArmLoad load;
+  load.wrench = {0.03, 0.02, -0.02, 0, 0, 0};
+  int most = 0, last = 0;
+  for (int k = 0; k <= 40; ++k) {
+    const double size = 0.3 + 9 * std::pow(std::sin(std::numbers::pi * k / 40), 2);
+    const auto commands = tensions({size, 0.2 * size, 0, 0.1, 0.6 * size, 0.2});
+    const ArmState state = arm_forward(arm, commands, load, {.from_last = k > 0}, warm);
+    const ArmState exact = arm_forward(arm, commands, load,
+                                       {.order = 7, .elements = 24, .accuracy = 0, .from_last = k > 0}, best);
+    ASSERT_TRUE(state.report.ok() && exact.report.ok()) << k;
+    EXPECT_LE((state.tip.p - exact.tip.p).norm(), 1.3e-6 * arm.length()) << k;
+    EXPECT_TRUE(std::isfinite(state.resolution)) << k;
+    most = std::max(most, state.coordinates);
+    last = state.coordinates;
+  }
+  EXPECT_GT(most, last);
+  EXPECT_EQ(last, 300);
+}
+
+/// More tendons through a disc than a register has lanes.
+TEST(ArmRefine, GradientsOfLengthsAgainstDifferences) {
+  Arm arm = two_sections(3);
+  for (int i = 0; i < 7; ++i) arm.tendons.push_back(tendon_at(1, 0.008, 0.9 * i, 1e-4));
+  const RodModel model = rod_of(arm, 2, 2);
+  LoadedRod rod(model);
+  for (std::size_t i = 0; i < rod.holds.size(); ++i) rod.holds[i].tension = 0.3;
+  std::mt19937 gen(2);
+  std::uniform_real_distribution<double> share(-1, 1);
+  std::vector<double>& y = rod.work().y;
+  for (double& x : y) x = 0.05 * share(gen);
+  rod.evaluate();
+  rod.linearise(false);
+  const std::vector<double> by_gradient = rod.work().length_gradient;
+  rod.linearise(true);
+  for (std::size_t i = 0; i < by_gradient.size(); ++i)
+    EXPECT_NEAR(rod.work().length_gradient[i], by_gradient[i], 1e-13);
+  for (std::size_t k = 0; k < y.size(); k += 5) {
+    const double at = y[k], h = 1e-5;
+    y[k] = at + h;
+    rod.evaluate();
+    const std::vector<double> more = rod.work().lengths;
+    y[k] = at - h;
+    rod.evaluate();
+    for (std::size_t i = 0; i < more.size(); ++i)
+      EXPECT_NEAR(by_gradient[i * y.size() + k], (more[i] - rod.work().lengths[i]) / (2 * h), 1e-8);
+    y[k] = at;
+  }
+}
+
+/// One column and eight are solved by other loops.
+TEST(ArmRefine, OneSideIsSolvedAsEight) {
+  const Arm arm = two_sections(5);
+  for (const bool follows : {false, true}) {
+    const RodModel model = rod_of(arm, 3, 3);
+    LoadedRod rod(model);
+    set(rod, {2, 1, 0, 0.5, 0, 1}, {0.03, 0, 0});
+    if (follows) rod.work().loads.back().following[0] = 0.1;
+    rod.relax({});
+    rod.linearise(true);
+    ASSERT_EQ(rod.factor_all(0), 0);
+    std::mt19937 gen(4);
+    std::uniform_real_distribution<double> share(-1, 1);
+    const auto n = static_cast<std::size_t>(model.size);
+    std::vector<double> one(n * 8), eight(n * 8);
+    for (std::size_t i = 0; i < n; ++i) one[8 * i] = eight[8 * i] = share(gen);
+    rod.solve_all(one, 1, 8);
+    rod.solve_all(eight, 8, 8);
+    for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(one[8 * i], eight[8 * i], 1e-12) << i;
+  }
+}
+
+}  // namespace arm_refine_test
+}  // namespace sinew::test
