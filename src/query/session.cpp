@@ -31,7 +31,7 @@ struct Kind {
     return robot.model() == Model::prb ? of_chains : of_kinematic;
   }
   bool is_of_loads() const { return of_chains && !of_kinematic; }
-  bool is_of_serial_alone() const { return !of_chains && !of_kinematic && !of_rods; }
+  bool is_of_platforms() const { return of_chains || of_kinematic || of_rods; }
 };
 
 /// In the order of `question_kinds`, which names them.
@@ -47,6 +47,7 @@ constexpr std::array kinds{
     Kind{nullptr, answer_chains_statics, answer_rods_statics, nullptr, answer_arms_statics},
     Kind{answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, answer_arms_track},
     Kind{nullptr, nullptr, nullptr, answer_serial_diagram, nullptr},
+    Kind{nullptr, nullptr, nullptr, nullptr, answer_arms_identify},
     Kind{answer_describe, answer_describe, answer_describe, answer_serial_describe, answer_arm_describe},
 };
 
@@ -59,9 +60,11 @@ const Kind& read_kind(Reader& query, const Robot& robot) {
   const Reader word = query.required("query", meaning);
   const Kind& kind = kinds[std::min(word.choice_index(question_kinds()), kinds.size() - 1)];
   const bool is_serial = robot.serial() != nullptr;
-  if (is_serial || robot.arm() ? !kind.handler(robot) : kind.is_of_serial_alone())
+  if (is_serial || robot.arm() ? !kind.handler(robot) : !kind.is_of_platforms())
     word.fail("not_available",
-              is_serial ? fmt::format("{} is not available of serial robots in this version", word_of(kind))
+              !kind.of_serial && !kind.is_of_platforms()
+                  ? fmt::format("{} is a question to arms that bear loads", word_of(kind))
+              : is_serial ? fmt::format("{} is not available of serial robots in this version", word_of(kind))
               : robot.arm() ? fmt::format("{} is not available of arms in this version", word_of(kind))
                             : fmt::format("{} is a question to serial robots", word_of(kind)));
   return kind;
