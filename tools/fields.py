@@ -36,6 +36,9 @@ DEFINITIONS = {
         **keyed("z", "e1", "e2")["properties"], "mode": {"enum": ["tilt", "half_turn"]}}},
     "place": {"anyOf": [{"$ref": "#/definitions/pose"}, {"$ref": "#/definitions/independent"}]},
 }
+# What identify can fit: docs/identify.md.
+FITTED = (" *((sections|tendons|passages)\\.)?(bending|torsion|curvature|angle|radius|compliance|pretension|toe|offset|gain|lag|play|gravity|mass|"
+          "tip_mass|marker|base|tilt)(\\.[xyz])?")
 SHAPES = {
     "flag": {"type": "boolean"},
     "whole": {"$ref": "#/definitions/quantity"},
@@ -68,8 +71,9 @@ SHAPES = {
         "tensions": LISTS, "changes": LISTS, "wrench": NUMBERS, "following": NUMBERS,
         **{name: {**NUMBERS, "minItems": 3, "maxItems": 3} for name in ("distributed", "distributed_following", "gravity")},
         "loads": {"$ref": "#/properties/loads"}}}},
-    "names": {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]},
-    "measured_rows": {"anyOf": [{"type": "string"}, {
+    "names": {"anyOf": [{"type": "string", "pattern": f"^{FITTED}( *,{FITTED})* *$"},
+                        {"type": "array", "minItems": 1, "items": {"type": "string", "pattern": f"^{FITTED} *$"}}]},
+    "measured_rows": {"anyOf": [{"type": "string", "pattern": "\\n"}, {
         "type": "object", "required": ["pulls", "markers"], "additionalProperties": False,
         "properties": {**{name: {"type": "array", "items": NUMBERS} for name in ("pulls", "markers")}, "time": NUMBERS,
                        "blocks": {"type": "array", "items": {"type": "integer"}}}}]},

@@ -101,6 +101,13 @@ class Identify(unittest.TestCase):
         self.assertEqual(plain, self.found)
         self.assertEqual(plain.robot, self.found.robot)
 
+    def test_is_prepared(self):
+        prepared = self.robot.prepare("identify", rows={"pulls": [[0.001] + [0] * 8], "markers": [["$x", 0, 0.19]]}, fit="marker")
+        row = prepared(0.01)
+        self.assertTrue(row.ok)
+        self.assertTrue(0 < row.rms < 0.05)
+        self.assertEqual(prepared(np.array([0.01, 0.02])).rms.shape, (2,))
+
     def test_refuses_by_place(self):
         good = {name: values[:2] for name, values in self.rows.items()}
         nan = good["pulls"].copy()
