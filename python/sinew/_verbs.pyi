@@ -586,6 +586,7 @@ class Verbs:
         lengths: Lists | None = None,
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
+        want: Sequence[str] | None = None,
         samples: int | None = None,
         following: Numbers | None = None,
         distributed: Numbers | None = None,
@@ -655,6 +656,9 @@ class Verbs:
                 arm on its tip, in base axes; (3,) in the plane, (6,) in space
             gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
                 file's; (3,)
+            want (list of str): what is answered about the configuration: velocity, shape, stiffness,
+                stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are
+                added unless one of them is named
             samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
                 curve, at most, default 500
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they

@@ -97,7 +97,7 @@ return std::array{
           "a wrench that is added again and again until the robot buckles, up to `limit` times"},
     Field{"posture_threshold", quantity, angle, {.forward = of_chains, .statics = of_chains}, "turn of a joint up to which the linear model counts as valid"},
 
-    Field{"want", words, number, {.forward = of_all | of_arms, .inverse = of_all | of_arms, .velocity = of_all | of_arms, .shape = of_kinematic | of_rods | of_serial | of_arms, .statics = of_loads | of_arms},
+    Field{"want", words, number, {.forward = of_all | of_arms, .inverse = of_all | of_arms, .velocity = of_all | of_arms, .shape = of_kinematic | of_rods | of_serial | of_arms, .statics = of_loads | of_arms, .track = of_arms},
           "what is answered about the configuration: velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them is named", wants},
     Field{"all", flag, number, {.forward = of_platforms | of_arms, .inverse = of_all}, "every solution, not only the one wanted"},
     Field{"trace", flag, number, {.forward = of_kinematic}, "the residual of each iterate is answered, too"},
@@ -109,7 +109,7 @@ return std::array{
           "a direction in which the nearest type II is looked for; with the want velocity"},
     Field{"limit", quantity, number, {.forward = of_kinematic, .inverse = of_kinematic, .velocity = of_kinematic, .shape = of_kinematic, .diagram = of_serial},
           "how far to look `along` its direction; of a diagram the envelope's size"},
-    Field{"samples", whole, count, {.forward = of_kinematic | of_rods | of_serial | of_arms, .inverse = of_kinematic | of_rods | of_serial | of_arms, .velocity = of_kinematic | of_rods | of_serial | of_arms, .shape = of_kinematic | of_rods | of_serial | of_arms, .statics = of_rods | of_arms, .track = of_platforms},
+    Field{"samples", whole, count, {.forward = of_kinematic | of_rods | of_serial | of_arms, .inverse = of_kinematic | of_rods | of_serial | of_arms, .velocity = of_kinematic | of_rods | of_serial | of_arms, .shape = of_kinematic | of_rods | of_serial | of_arms, .statics = of_rods | of_arms, .track = of_platforms | of_arms},
           "points of each backbone of a shape; poses on a path, default 60; points on a curve, at most, default 500"},
 
     Field{"configuration", lists, angle, {.forward = of_serial, .velocity = of_serial, .shape = of_serial},
