@@ -178,6 +178,9 @@ std::optional<Node> OptionReader::read(const Field& field, std::string_view opti
     case Shape::growing_load:
     case Shape::settings:
       break;  // of several options
+    case Shape::measured_rows:
+    case Shape::names:
+      break;  // of identify, which reads its own
   }
   return {};
 }

@@ -147,7 +147,10 @@ std::string_view spelling(const Field& field) {
       return "\"Z, E1, E2\"";
     case Shape::places:
     case Shape::path_points:
+    case Shape::measured_rows:
       return "FILE";
+    case Shape::names:
+      return "NAMES";
     case Shape::wrench:
     case Shape::growing_load:
       return "\"FX, FY, FZ, MX, MY, MZ\"";

@@ -15,9 +15,15 @@ enum field_kind field_kind(const char* query, bool is_serial, const char* name) 
       "direction", "quaternion", "bending", "elbow", "curvature", "axial_forces", "measured_tensions",
       NULL};
   static const char* const lists[] = {"want", "with_respect_to", "slack", "poses", "loads", "times", NULL};
+  static const char* const measured_lists[] = {"time", "blocks", NULL};
+  static const char* const measured_rows[] = {"pulls", "markers", NULL};
   static const char* const robot_lists[] = {"legs", "actuated", NULL};
   static const char* const rows[] = {"tensions", "lengths", "angles", NULL};
   if (strcmp(query, "robot") == 0) return is_one_of(name, robot_lists) ? FIELD_LIST : FIELD_PLAIN;
+  if (strcmp(query, "identify") == 0) {
+    if (is_one_of(name, measured_lists)) return FIELD_LIST;
+    if (is_one_of(name, measured_rows)) return FIELD_ROWS;
+  }
   if (is_one_of(name, numbers)) return FIELD_NUMBER;
   if (is_one_of(name, vectors)) return FIELD_VECTOR;
   if (is_one_of(name, lists)) return FIELD_LIST;

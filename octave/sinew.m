@@ -9,7 +9,8 @@ classdef sinew < handle
   % Fields of a question follow as names and values:
   %
   %   a = r.forward ([0.44 0.42 0.41], "wrench", [0 0 -5 0 0 0], "want", {"stiffness"})
-  %   b = r.inverse (a.pose), r.velocity, r.statics, r.track, r.diagram, r.shape, r.describe
+  %   b = r.inverse (a.pose), r.velocity, r.statics, r.track, r.diagram, r.shape,
+  %                                       r.identify, r.describe
   %
   % A matrix with a row a configuration is answered by columns:
   %
@@ -87,6 +88,26 @@ classdef sinew < handle
     function a = shape (r, varargin)
       % Polylines for a picture: r.shape (inputs or pose, ...)
       a = r.put ('shape', varargin);
+    end
+
+    function a = identify (r, rows, varargin)
+      % Parameters of an arm, fitted to measured rows: r.identify (rows, "fit", "bending,marker")
+      %
+      % rows is a struct of pulls (n x tendons) [m], markers (n x 3) [m] and, where known, time (n) [s] and
+      % blocks (n); or a .csv file, or its text. The fitted arm is sinew (a.file).
+      if nargin < 2
+        error ('sinew:bad_input', 'identify: give the measured rows: r.identify (rows), a struct with pulls and markers, or a .csv file.');
+      end
+      rows = sinew.plain (rows);
+      if ischar (rows) && ~ any (rows(:) == sprintf ('\n'))
+        [file, why] = fopen (rows, 'r');
+        if file < 0
+          error ('sinew:bad_input', 'identify: the table %s cannot be read: %s', rows, why);
+        end
+        rows = fread (file, [1, Inf], '*char');
+        fclose (file);
+      end
+      a = r.put ('identify', [{'rows', rows}, varargin]);
     end
 
     function a = describe (r, varargin)

@@ -36,6 +36,9 @@ DEFINITIONS = {
         **keyed("z", "e1", "e2")["properties"], "mode": {"enum": ["tilt", "half_turn"]}}},
     "place": {"anyOf": [{"$ref": "#/definitions/pose"}, {"$ref": "#/definitions/independent"}]},
 }
+# What identify can fit: docs/identify.md.
+FITTED = (" *((sections|tendons|passages)\\.)?(bending|torsion|curvature|angle|radius|compliance|pretension|toe|offset|gain|lag|play|gravity|mass|"
+          "tip_mass|marker|base|tilt)(\\.[xyz])?")
 SHAPES = {
     "flag": {"type": "boolean"},
     "whole": {"$ref": "#/definitions/quantity"},
@@ -68,6 +71,12 @@ SHAPES = {
         "tensions": LISTS, "changes": LISTS, "wrench": NUMBERS, "following": NUMBERS,
         **{name: {**NUMBERS, "minItems": 3, "maxItems": 3} for name in ("distributed", "distributed_following", "gravity")},
         "loads": {"$ref": "#/properties/loads"}}}},
+    "names": {"anyOf": [{"type": "string", "pattern": f"^{FITTED}( *,{FITTED})* *$"},
+                        {"type": "array", "minItems": 1, "items": {"type": "string", "pattern": f"^{FITTED} *$"}}]},
+    "measured_rows": {"anyOf": [{"type": "string", "pattern": "\\n"}, {
+        "type": "object", "required": ["pulls", "markers"], "additionalProperties": False,
+        "properties": {**{name: {"type": "array", "items": NUMBERS} for name in ("pulls", "markers")}, "time": NUMBERS,
+                       "blocks": {"type": "array", "items": {"type": "integer"}}}}]},
     "point_loads": {"type": "array", "items": {"type": "object", "required": ["place", "wrench"], "additionalProperties": False,
                     "properties": {"place": {"$ref": "#/definitions/quantity"}, "wrench": NUMBERS,
                                    "following": {"type": "boolean"}}}},
@@ -114,6 +123,7 @@ def shown(field):
     words = {"flag": "true or false", "whole": "a whole number", "word": "a word", "words": "a list of words",
              "per_leg": "a number a leg", "inputs": "a number an input", "pairs": "two numbers a leg",
              "lists": "a list a leg or section", "growing_load": "`{\"wrench\", \"limit\"}`", "settings": "`{path: value}`", "point_loads": "a list of `{\"place\", \"wrench\"}`", "path_points": "a list of `{\"tensions\", ...}`",
+             "measured_rows": "`{\"pulls\", \"markers\", ...}` or text", "names": "names",
              "text_or_number": "text or a number", "independent": "`{\"z\", \"e1\", \"e2\"}`", "places": "a list of places",
              "target": "a place, or a map", "place": "a pose, or `{\"z\", \"e1\", \"e2\"}`", "quantity": "a number",
              "point": "three numbers", "range": "two numbers", "numbers": "numbers"}
@@ -141,6 +151,7 @@ PYTHON_KINDS = {
     "numbers": "numbers", "inputs": "numbers", "per_leg": "numbers", "signs": "numbers", "wrench": "numbers",
     "twist": "numbers", "range": "numbers", "pairs": "lists", "lists": "lists", "pose": "pose", "independent": "map",
     "start": "any", "place": "any", "places": "poses", "target": "map", "growing_load": "map", "settings": "map", "point_loads": "any", "path_points": "any",
+    "measured_rows": "rows", "names": "names",
     "text_or_number": "any",
 }
 PYTHON_UNITS = {"inputs": "m, rad", "pose": "m, rad", "independent": "m", "wrench": "N, N m", "twist": "m/s, rad/s",
@@ -150,7 +161,7 @@ PYTHON_ARRAYS = {"inputs": "(k,), or (n, k) for n rows", "point": "(3,)", "per_l
                  "pairs": "(legs, 2)", "wrench": "(3,) in the plane, (6,) in space", "twist": "(3,) in the plane, (6,) in space",
                  "range": "(2,)"}
 PYTHON_FIRST = {"forward": "inputs", "inverse": "pose", "velocity": "pose", "shape": "pose", "statics": "pose", "track": "poses",
-                "diagram": "section", "describe": "set"}
+                "diagram": "section", "identify": "rows", "describe": "set"}
 
 
 def python_table(fields, answers):

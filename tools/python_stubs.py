@@ -13,8 +13,9 @@ HEAD = '''"""Written by tools/python_stubs.py of _fields.py."""
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ._types import Lists, Number, Numbers, Pose
+from ._types import Lists, Number, Numbers, Pose, Rows
 from .answer import Answer
+from .identification import Identification
 
 class Verbs:
 '''
@@ -38,12 +39,12 @@ def method(name, fields, verbs):
         if index == 1:
             parameters.append("*")
         parameters.append(f"{field}: {fields.KINDS[fields.FIELDS[field].kind].type} | None = None")
-    if name != "describe":
+    if name not in verbs.SINGLE:
         parameters += ["outputs: Mapping[str, str] | Sequence[str] | None = None", "path: str | None = None",
                        "threads: int | None = None", "out: Any = None"]
     text = "\n".join(("        " + line).rstrip() for line in verbs.document(name).splitlines()).lstrip()
     inside = ",\n        ".join(parameters)
-    return f'    def {name}(\n        {inside},\n    ) -> Answer:\n        """{text}\n        """\n'
+    return f'    def {name}(\n        {inside},\n    ) -> {"Identification" if name == "identify" else "Answer"}:\n        """{text}\n        """\n'
 
 
 def main():

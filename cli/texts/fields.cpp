@@ -21,10 +21,10 @@ constexpr std::pair<Mechanics, std::string_view> mechanics[] = {{of_kinematic, "
 
 std::string_view name_of(FieldShape shape) {
   constexpr std::string_view names[] = {
-      "flag",   "whole",          "quantity", "word",        "words",      "point", "numbers",
-      "inputs", "per_leg",        "signs",    "pairs",       "lists",      "pose",  "independent",
-      "start",  "place",          "places",   "target",      "wrench",     "twist", "growing_load",
-      "range",  "text_or_number", "settings", "point_loads", "path_points"};
+      "flag",   "whole",          "quantity", "word",        "words",       "point",         "numbers",
+      "inputs", "per_leg",        "signs",    "pairs",       "lists",       "pose",          "independent",
+      "start",  "place",          "places",   "target",      "wrench",      "twist",         "growing_load",
+      "range",  "text_or_number", "settings", "point_loads", "path_points", "measured_rows", "names"};
   return names[static_cast<std::size_t>(shape)];
 }
 

@@ -12,10 +12,12 @@ from ._errors import InputError
 from ._sinew import version as __version__
 from .answer import Answer, Record
 from .columns import Columns, Status
+from .identification import ByRow, Identification, Parameters
 from .prepared import Prepared, Row
 from .robot import Robot, Source, robots
 
-__all__ = ["Answer", "Columns", "InputError", "Prepared", "Record", "Robot", "Row", "Status", "load", "robots"]
+__all__ = ["Answer", "ByRow", "Columns", "Identification", "InputError", "Parameters", "Prepared", "Record", "Robot", "Row", "Status", "load",
+           "robots"]
 
 
 def load(source: Source) -> Robot:

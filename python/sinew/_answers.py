@@ -59,6 +59,16 @@ OF = {
         "platform, base: (points, 2 or 3) [m]: outlines",
         "frames: list of one pose at the tip of each leg",
         RESIDUAL),
+    "identify": (
+        "robot: the fitted arm, a Robot; `asked` is that of the start, `file` its file as str, `save` writes it",
+        "parameters: table with a record each: name, unit, start, value, deviation in that unit, at_bound (bool), prior_share",
+        "errors: records before, fitted, held_out: rms, median, max, numbers [m], of distances between markers; rows and failed, int",
+        "flat: list of records: deviation, a number of assumed deviations, and `along`, a str: combinations that the rows leave open",
+        "by_row: arrays of each row: distance and held_out_distance (n,) [m], computed (n, 3) [m]",
+        "covariance: (p, p), of coordinates: logarithms of factors, else differences in the parameters' units",
+        "noise: number [m], of a coordinate of the marker",
+        "map: record, where `map` took motors and axes as the rows say: sign, mirrored, turn [rad], agreement",
+        ITERATIONS),
     "describe": (
         "kind, space: str: parallel or serial, planar or spatial",
         "inputs, pose, configuration: lists of records: name, unit, and of tendons limits (2,) [m]",

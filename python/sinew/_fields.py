@@ -26,6 +26,8 @@ KINDS = {
     "word": Kind("str", 0, "str"),
     "words": Kind("Sequence[str]", 0, "list of str"),
     "flag": Kind("bool", 0, "bool"),
+    "names": Kind("str | Sequence[str]", 0, "str, or list of str"),
+    "rows": Kind("Rows", 0, "dict of arrays, or a path"),
     "count": Kind("int", 0, "int"),
     "any": Kind("Any", 1, "number, list, dict or str"),
 }
@@ -59,11 +61,13 @@ VERBS = {name: Verb(text, answers.OF[name], _table.QUESTIONS[name]) for name, te
     ("track", "Inputs along a path of poses; of rods and chains also a curve of equilibria."),
     ("diagram", "What the tendons of one section of a serial robot leave it free to do."),
     ("shape", "Polylines for a picture."),
+    ("identify", "Parameters of an arm, fitted to measured rows."),
     ("describe", "What the robot has."),
 )}
 
 RANKS = {name: KINDS[field.kind].rank for name, field in FIELDS.items()}
-RANKS.update({"x": 0, "y": 0, "phi": 0, "z": 0, "e1": 0, "e2": 0, "position": 1, "quaternion": 1, "tilt": 0, "azimuth": 0, "torsion": 0})
+RANKS.update({"x": 0, "y": 0, "phi": 0, "z": 0, "e1": 0, "e2": 0, "position": 1, "quaternion": 1, "tilt": 0, "azimuth": 0, "torsion": 0,
+              "pulls": 2, "markers": 2, "time": 1, "blocks": 1})
 
 UNITS = {
     **{name: unit for name, unit in _table.UNITS.items() if name not in ("base_tangent", "configuration", "z")}, "quaternion": "",

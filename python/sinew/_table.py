@@ -1,11 +1,11 @@
 """Fields of questions, and which questions take them. Made by tools/fields.py of the table of fields."""
 
 FIELDS = (
-    ('model', 'word', '', "how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default), subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads"),
+    ('model', 'word', '', "how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default), subsegment_cc, cc (of identify the default) or prb"),
     ('set', 'map', '', 'changes the robot for this question alone: values by their paths in its file, such as legs[0].link.length; on the command line it may be repeated'),
     ('theta_is', 'word', '', 'what an input theta is the angle of: tangent (default) or chord'),
     ('law', 'word', '', "how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1 (tendons straight between discs)"),
-    ('max_iterations', 'count', '', 'most iterations of the solver; default 100, of rods 4000'),
+    ('max_iterations', 'count', '', 'most iterations of the solver; default 100, of rods 4000, of identify 60'),
     ('tilt', 'flag', '', 'poses of the answer have tilt, azimuth and torsion, too; in space only'),
     ('inputs', 'numbers', 'm, rad', 'in leg order: tendon_1 of each leg, of a leg on a rail its slide, of a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for n rows'),
     ('pose', 'pose', 'm, rad', 'of the platform, of a serial robot of its tip; in the plane x, y, phi, in space x, y, z and a quaternion, on the command line also a rotation vector'),
@@ -64,6 +64,11 @@ FIELDS = (
     ('range', 'numbers', '', 'how far a curve goes: 0 is its beginning, 1 what it leads to; default [0, 1]; (2,)'),
     ('backward', 'flag', '', 'a curve sets out the other way'),
     ('branches', 'flag', '', 'curves that leave it at bifurcations are followed, too'),
+    ('rows', 'rows', '', "what was measured of an arm: pulls, a row each of what every motor draws in [m], markers, a row each of a marker's x, y, z [m], where known time [s], and blocks, whole numbers that rows of one motion share; or the text of a .csv table (docs/identify.md)"),
+    ('fit', 'names', '', 'what may change, such as sections.bending,tendons.offset,marker; default what rows can usually tell (docs/identify.md)'),
+    ('noise', 'number', 'm', 'of a coordinate of the marker; default what the fit leaves'),
+    ('folds', 'count', '', 'in how many parts blocks of rows are held out in turn, and judged by a fit without them; default 5, 0 for none'),
+    ('map', 'flag', '', 'motors and axes are taken as the rows say, should pulls be paid out, or tendons turned or the other way round'),
 )
 
 QUESTIONS = {
@@ -72,8 +77,9 @@ QUESTIONS = {
     'velocity': ('pose', 'model', 'set', 'theta_is', 'law', 'max_iterations', 'tilt', 'inputs', 'independent', 'bending', 'elbow', 'curvature', 'angles', 'start', 'tensions', 'wrench', 'gravity', 'want', 'twist', 'rates', 'along', 'limit', 'samples', 'configuration', 'changes', 'following', 'distributed', 'distributed_following', 'loads', 'balance', 'order', 'elements', 'accuracy'),
     'shape': ('pose', 'model', 'set', 'theta_is', 'law', 'max_iterations', 'tilt', 'inputs', 'independent', 'bending', 'elbow', 'curvature', 'angles', 'start', 'tensions', 'wrench', 'gravity', 'want', 'twist', 'rates', 'along', 'limit', 'samples', 'configuration', 'changes', 'following', 'distributed', 'distributed_following', 'loads', 'balance', 'order', 'elements', 'accuracy'),
     'statics': ('pose', 'model', 'set', 'theta_is', 'law', 'max_iterations', 'tilt', 'inputs', 'bending', 'elbow', 'curvature', 'start', 'set_at', 'hold', 'tensions', 'lengths', 'inverse', 'axial_forces', 'measured_tensions', 'deviation', 'wrench', 'gravity', 'until', 'posture_threshold', 'want', 'twist', 'rates', 'samples', 'changes', 'position', 'following', 'distributed', 'distributed_following', 'loads', 'balance', 'order', 'elements', 'accuracy', 'force_alone'),
-    'track': ('poses', 'model', 'set', 'theta_is', 'law', 'max_iterations', 'tilt', 'inputs', 'pose', 'independent', 'bending', 'elbow', 'curvature', 'angles', 'start', 'set_at', 'hold', 'tensions', 'lengths', 'wrench', 'gravity', 'samples', 'following', 'distributed', 'distributed_following', 'loads', 'balance', 'order', 'elements', 'accuracy', 'points', 'steps', 'from_', 'to', 'objective', 'rk4_steps', 'range', 'backward', 'branches'),
+    'track': ('poses', 'model', 'set', 'theta_is', 'law', 'max_iterations', 'tilt', 'inputs', 'pose', 'independent', 'bending', 'elbow', 'curvature', 'angles', 'start', 'set_at', 'hold', 'tensions', 'lengths', 'wrench', 'gravity', 'want', 'samples', 'following', 'distributed', 'distributed_following', 'loads', 'balance', 'order', 'elements', 'accuracy', 'points', 'steps', 'from_', 'to', 'objective', 'rk4_steps', 'range', 'backward', 'branches'),
     'diagram': ('section', 'model', 'set', 'theta_is', 'max_iterations', 'tilt', 'limit', 'changes', 'measured', 'tolerance', 'envelope'),
+    'identify': ('rows', 'model', 'set', 'theta_is', 'max_iterations', 'tilt', 'fit', 'noise', 'folds', 'map'),
     'describe': ('set', 'model', 'theta_is', 'law', 'max_iterations', 'tilt'),
 }
 

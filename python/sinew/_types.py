@@ -1,4 +1,5 @@
 """Types of what questions take."""
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, Union
 
@@ -14,3 +15,5 @@ Number = Union[float, str, Array]
 Numbers = Union[Sequence[Union[float, str]], Array]
 Lists = Union[Sequence[Union[Sequence[Any], Array]], Array]
 Pose = Mapping[str, Any]
+Rows = Union[Mapping[str, Any], str, "os.PathLike[str]", Any]
+"""Measured rows: columns `pulls` (n, tendons) [m], `markers` (n, 3) [m], `time` (n,) [s], `blocks` (n,); or the path or text of a .csv table."""

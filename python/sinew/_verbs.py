@@ -12,6 +12,7 @@ from typing import Any
 from ._fields import FIELDS, KINDS, VERBS
 
 BATCH = ("outputs", "path", "threads", "out")
+SINGLE = ("describe", "identify")  # never asked of many rows at once
 _BATCH_HELP = (
     "outputs (dict or list of str): what comes out, as of `Robot.prepare`",
     'path (str): "continue", as of `Robot.prepare`',
@@ -40,7 +41,7 @@ def document(name: str) -> str:
     verb = VERBS[name]
     lines = [verb.text, "", *textwrap.wrap(_FRAMES, 100), "", "Fields, all by keyword but the first; which of them a robot takes, it says itself:"]
     lines += _entries(_field(field) for field in verb.fields)
-    if name != "describe":
+    if name not in SINGLE:
         lines += ["", *textwrap.wrap(_ARRAYS, 100), *_entries(_BATCH_HELP)]
     lines += ["", "The answer has `ok`, `status`, `message`, and, as far as the robot has them:", *_entries(verb.answer)]
     lines += ["", "Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`."]
@@ -50,7 +51,7 @@ def document(name: str) -> str:
 def _signature(name: str) -> inspect.Signature:
     kinds = inspect.Parameter
     parameters = [kinds("self", kinds.POSITIONAL_ONLY)]
-    for index, field in enumerate((*VERBS[name].fields, *(BATCH if name != "describe" else ()))):
+    for index, field in enumerate((*VERBS[name].fields, *(BATCH if name not in SINGLE else ()))):
         place = kinds.POSITIONAL_OR_KEYWORD if index == 0 else kinds.KEYWORD_ONLY
         parameters.append(kinds(field, place, default=None))
     return inspect.Signature(parameters)

@@ -2,8 +2,9 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ._types import Lists, Number, Numbers, Pose
+from ._types import Lists, Number, Numbers, Pose, Rows
 from .answer import Answer
+from .identification import Identification
 
 class Verbs:
     def forward(
@@ -58,13 +59,13 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
+                subsegment_cc, cc (of identify the default) or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             start (number, list, dict or str): where the search begins: a pose, of inverse and track inputs,
                 of a serial robot its configuration, or last, where the last question with a start ended, of
@@ -193,13 +194,13 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
+                subsegment_cc, cc (of identify the default) or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             independent (dict) [m]: in place of `pose` where hinges hold the platform in planes, or three
                 rods hold it: height and two components of its quaternion; of hinges a mode, too, tilt or
@@ -324,13 +325,13 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
+                subsegment_cc, cc (of identify the default) or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -470,13 +471,13 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
+                subsegment_cc, cc (of identify the default) or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -585,6 +586,7 @@ class Verbs:
         lengths: Lists | None = None,
         wrench: Numbers | None = None,
         gravity: Numbers | None = None,
+        want: Sequence[str] | None = None,
         samples: int | None = None,
         following: Numbers | None = None,
         distributed: Numbers | None = None,
@@ -618,13 +620,13 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
+                subsegment_cc, cc (of identify the default) or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -654,6 +656,9 @@ class Verbs:
                 arm on its tip, in base axes; (3,) in the plane, (6,) in space
             gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
                 file's; (3,)
+            want (list of str): what is answered about the configuration: velocity, shape, stiffness,
+                stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are
+                added unless one of them is named
             samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
                 curve, at most, default 500
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
@@ -733,11 +738,11 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
+                subsegment_cc, cc (of identify the default) or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             limit (number): how far to look `along` its direction; of a diagram the envelope's size
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
@@ -819,13 +824,13 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
+                subsegment_cc, cc (of identify the default) or prb
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             inputs (numbers) [m, rad]: in leg order: tendon_1 of each leg, of a leg on a rail its slide, of
                 a rod its length; where the leg has a motor, theta, an angle, before it; (k,), or (n, k) for
@@ -902,6 +907,67 @@ class Verbs:
         Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`.
         """
 
+    def identify(
+        self,
+        rows: Rows | None = None,
+        *,
+        model: str | None = None,
+        set: Mapping[str, Any] | None = None,
+        theta_is: str | None = None,
+        max_iterations: int | None = None,
+        tilt: bool | None = None,
+        fit: str | Sequence[str] | None = None,
+        noise: Number | None = None,
+        folds: int | None = None,
+        map: bool | None = None,
+    ) -> Identification:
+        """Parameters of an arm, fitted to measured rows.
+
+        Numbers are SI and radians, or text with a unit; vectors are in base axes, the linear part before
+        the angular.
+
+        Fields, all by keyword but the first; which of them a robot takes, it says itself:
+            rows (dict of arrays, or a path): what was measured of an arm: pulls, a row each of what every
+                motor draws in [m], markers, a row each of a marker's x, y, z [m], where known time [s], and
+                blocks, whole numbers that rows of one motion share; or the text of a .csv table
+                (docs/identify.md)
+            model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
+                tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
+                (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
+                subsegment_cc, cc (of identify the default) or prb
+            set (dict): changes the robot for this question alone: values by their paths in its file, such
+                as legs[0].link.length; on the command line it may be repeated
+            theta_is (str): what an input theta is the angle of: tangent (default) or chord
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
+            tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
+            fit (str, or list of str): what may change, such as sections.bending,tendons.offset,marker;
+                default what rows can usually tell (docs/identify.md)
+            noise (number) [m]: of a coordinate of the marker; default what the fit leaves
+            folds (int): in how many parts blocks of rows are held out in turn, and judged by a fit without
+                them; default 5, 0 for none
+            map (bool): motors and axes are taken as the rows say, should pulls be paid out, or tendons
+                turned or the other way round
+
+        The answer has `ok`, `status`, `message`, and, as far as the robot has them:
+            robot: the fitted arm, a Robot; `asked` is that of the start, `file` its file as str, `save`
+                writes it
+            parameters: table with a record each: name, unit, start, value, deviation in that unit, at_bound
+                (bool), prior_share
+            errors: records before, fitted, held_out: rms, median, max, numbers [m], of distances between
+                markers; rows and failed, int
+            flat: list of records: deviation, a number of assumed deviations, and `along`, a str:
+                combinations that the rows leave open
+            by_row: arrays of each row: distance and held_out_distance (n,) [m], computed (n, 3) [m]
+            covariance: (p, p), of coordinates: logarithms of factors, else differences in the parameters'
+                units
+            noise: number [m], of a coordinate of the marker
+            map: record, where `map` took motors and axes as the rows say: sign, mirrored, turn [rad],
+                agreement
+            iterations: int, of the solver
+
+        Raises `InputError` where a field is not to be read. No solution is no error: see `status`, `message`.
+        """
+
     def describe(
         self,
         set: Mapping[str, Any] | None = None,
@@ -923,11 +989,11 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads
+                subsegment_cc, cc (of identify the default) or prb
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)
-            max_iterations (int): most iterations of the solver; default 100, of rods 4000
+            max_iterations (int): most iterations of the solver; default 100, of rods 4000, of identify 60
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
 
         The answer has `ok`, `status`, `message`, and, as far as the robot has them:

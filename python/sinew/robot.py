@@ -14,6 +14,7 @@ from ._errors import InputError, from_text
 from ._fields import RANKS
 from ._verbs import Verbs
 from .answer import Answer, Record
+from .identification import Identification, rows_of
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any], "Robot"]
 _FILE, _TEXT = 0, 1
@@ -22,8 +23,8 @@ _FILE, _TEXT = 0, 1
 class Robot(Verbs):
     """A robot. It never changes, and any number of threads may use it.
 
-    Questions are methods: `forward`, `inverse`, `velocity`, `statics`, `track`, `diagram`, `shape`, `describe`. Their
-    fields are keywords; numbers are SI and radians, or text with a unit ("10 mm"). A field that is an array with one
+    Questions are methods: `forward`, `inverse`, `velocity`, `statics`, `track`, `diagram`, `shape`, `identify`,
+    `describe`. Their fields are keywords; numbers are SI and radians, or text with a unit ("10 mm"). A field that is an array with one
     dimension more than one value needs holds n rows: the answer then has arrays, see `Columns`.
     """
 
@@ -72,6 +73,8 @@ class Robot(Verbs):
         for name in ("changes", "tensions"):
             if getattr(fields.get(name), "ndim", 0) == 2 and self._is_of_tendons(name):
                 fields = {**fields, name: self._rows_of_tendons(fields[name])}
+        if query == "identify" and "rows" in fields:
+            fields = {**fields, "rows": rows_of(fields["rows"])}
         asked = self._session().ask(query, fields, RANKS)
         if asked is None:
             from .columns import ask_columns
@@ -79,7 +82,7 @@ class Robot(Verbs):
         question, text = asked
         if text.startswith('{"error"'):
             raise from_text(text, _hint_of_rows(fields))
-        return Answer(self, question, text)
+        return (Identification if query == "identify" else Answer)(self, question, text)
 
     def ask(self, question: Mapping[str, Any] | str) -> Answer:
         """A `question` as the protocol has it (docs/protocol.md): a dict, or JSON text. Its numbers are SI and radians, or text
@@ -95,7 +98,7 @@ class Robot(Verbs):
         plain = json.loads(text)
         if "error" in plain:
             raise from_text(text)
-        return Answer(self, question, text)
+        return (Identification if plain.get("query") == "identify" else Answer)(self, question, text)
 
     def prepare(self, query: str, *, outputs: Any = None, path: str | None = None, **fields: Any) -> Any:
         """A question to be put many times: a function (`Prepared`) of what stands as "$name" in its fields.

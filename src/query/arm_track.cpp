@@ -6,6 +6,7 @@
 #include "io/quantity.hpp"
 #include "query/arms.hpp"
 #include "query/handlers.hpp"
+#include "query/wants.hpp"
 #include "sinew/kinematics/arm_path.hpp"
 #include "solve/stopped.hpp"
 
@@ -52,7 +53,7 @@ std::vector<ArmStep> read_points(ArmContext& context) {
 /// A path of poses, as other robots are given; whether there is one.
 bool refuse_poses(Question& question) {
   bool is_given = false;
-  for (const char* field : {"poses", "from", "to", "samples", "objective"})
+  for (const char* field : {"poses", "from", "to", "objective"})
     if (question.query.node()->find(field))  // else it is no field of this question
       if (const auto given = question.query.optional(field)) {
         is_given = true;
@@ -88,6 +89,8 @@ void answer_arms_track(Context& asked) {
   ArmOptions options = read_arm_options(context);
   const std::vector<ArmStep> path = read_points(context);
   read_arm_start(context, options);
+  const Wants words = read_wants(context, {Want::pose}, {Want::pose, Want::shape});
+  const int samples = read_samples(context, words, 60, 2000);
   if (!context.ready()) return;
   const std::vector<ArmPathPoint> points = arm_follow(context.robot, path, options, context.work);
   const ArmPathPoint& last = points.back();
@@ -121,6 +124,12 @@ void answer_arms_track(Context& asked) {
     answer["reached"] = {{"rows", reached}, {"point", reached / steps}};
   }
   put_point(context.robot, last, answer);  // where it ends
+  if (words.has(Want::shape)) {
+    Value along = Value::list();
+    for (const std::vector<double>& tensions : last.tensions) along.push_back(Value(tensions));
+    answer["tensions_along"] = std::move(along);
+    put_arm_shape(context, samples);
+  }
   answer["motor_work"] = work;
   answer["friction_loss"] = loss;
   answer["residual"] = worst;

@@ -197,6 +197,8 @@ ArmWanted read_arm_wants(ArmContext& context, Wants usual) {
   return wanted;
 }
 
+}  // namespace
+
 void put_arm_shape(ArmContext& context, int samples) {
   const Arm& arm = context.robot;
   std::vector<double> places, ends;
@@ -242,6 +244,8 @@ void put_arm_shape(ArmContext& context, int samples) {
   answer["discs"] = std::move(discs);
   answer["frames"] = std::move(frames);
 }
+
+namespace {
 
 /// Of the equilibrium in the workspace.
 void put_arm_wants(ArmContext& context, const ArmState& state, const ArmWanted& wanted) {

@@ -31,6 +31,8 @@ void read_arm_start(ArmContext& context, ArmOptions& options);
 
 /// Numbers of all tendons as a list a section.
 Value by_end_section(const Arm& arm, std::span<const double> values);
+/// `places`, `backbones`, `tendons` and the rest of a shape, of the equilibrium in the workspace.
+void put_arm_shape(ArmContext& context, int samples);
 /// Whether friction is known of any of its tendons.
 bool has_friction(const Arm& arm);
 

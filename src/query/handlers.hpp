@@ -57,6 +57,7 @@ void answer_arms_velocity(Context& context);
 void answer_arms_shape(Context& context);
 void answer_arms_statics(Context& context);
 void answer_arms_track(Context& context);
+void answer_arms_identify(Context& context);
 /// @}
 
 void answer_describe(Context& context);  ///< of robots with a platform

@@ -31,10 +31,10 @@ struct Kind {
     return robot.model() == Model::prb ? of_chains : of_kinematic;
   }
   bool is_of_loads() const { return of_chains && !of_kinematic; }
-  bool is_of_serial_alone() const { return !of_chains && !of_kinematic && !of_rods; }
+  bool is_of_platforms() const { return of_chains || of_kinematic || of_rods; }
   /// Whether it is to an arm as a serial robot: lengths of tendons give its shape.
   bool is_of_lengths(const Robot& robot, std::string_view model) const {
-    return robot.arm() && (is_of_serial_alone() || model == "pcc" || model == "lsk");
+    return robot.arm() && (!of_arms || model == "pcc" || model == "lsk");
   }
 };
 
@@ -51,6 +51,7 @@ constexpr std::array kinds{
     Kind{nullptr, answer_chains_statics, answer_rods_statics, nullptr, answer_arms_statics},
     Kind{answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, answer_arms_track},
     Kind{nullptr, nullptr, nullptr, answer_serial_diagram, nullptr},
+    Kind{nullptr, nullptr, nullptr, nullptr, answer_arms_identify},
     Kind{answer_describe, answer_describe, answer_describe, answer_serial_describe, answer_arm_describe},
 };
 
@@ -72,9 +73,11 @@ const Kind& read_kind(Reader& query, const Robot& robot, std::string_view model)
                           word_of(kind)));
   else if (is_of_lengths)
     return kind;
-  if (is_serial || robot.arm() ? !kind.handler(robot) : kind.is_of_serial_alone())
+  if (is_serial || robot.arm() ? !kind.handler(robot) : !kind.is_of_platforms())
     word.fail("not_available",
-              is_serial ? fmt::format("{} is not available of serial robots in this version", word_of(kind))
+              !kind.of_serial && !kind.is_of_platforms()
+                  ? fmt::format("{} is a question to arms that bear loads", word_of(kind))
+              : is_serial ? fmt::format("{} is not available of serial robots in this version", word_of(kind))
               : robot.arm() ? fmt::format("{} is not available of arms in this version", word_of(kind))
                             : fmt::format("{} is a question to serial robots", word_of(kind)));
   return kind;

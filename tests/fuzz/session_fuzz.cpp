@@ -141,12 +141,12 @@ constexpr std::string_view fields[] = {"id",
                                        "sections[0].segments",
                                        "defaults.link"};
 constexpr std::string_view texts[] = {
-    "forward",  "inverse",   "velocity",  "statics",     "track",       "diagram", "shape",  "describe",
-    "cc",       "prb",       "rod",       "rigid",       "pcc",         "lsk",     "last",   "tangent",
-    "chord",    "stiffness", "stability", "margins",     "sensitivity", "M0",      "M0w",    "M1",
-    "tension",  "length",    "limits",    "singularity", "smooth",      "none",    "square", "disc",
-    "actuator", "half_turn", "tilt",      "10 mm",       "10 deg",      "1 N",     "1 N mm", "10 kg",
-    "",         "\u00e9",    "nan",       "1e999",       "1/0"};
+    "forward",  "inverse",  "velocity",  "statics",   "track",       "diagram",     "shape", "describe",
+    "identify", "cc",       "prb",       "rod",       "rigid",       "pcc",         "lsk",   "last",
+    "tangent",  "chord",    "stiffness", "stability", "margins",     "sensitivity", "M0",    "M0w",
+    "M1",       "tension",  "length",    "limits",    "singularity", "smooth",      "none",  "square",
+    "disc",     "actuator", "half_turn", "tilt",      "10 mm",       "10 deg",      "1 N",   "1 N mm",
+    "10 kg",    "",         "\u00e9",    "nan",       "1e999",       "1/0"};
 
 Json any_value(Random& random) {
   switch (below(random, 12)) {

@@ -82,6 +82,25 @@ assert (numel (path.rows), 8);
 assert (path.tip.position(1) > arm.track ('points', {point(1)}).tip.position(1) + 1e-4);
 assert (path.rows(4).end_tensions(1) < 3 && path.friction_loss > 0);
 
+% An arm fitted to measured rows: a matrix of rows, also of one; the fitted arm answers.
+measured = fullfile (fileparts (getenv ('SINEW_ROBOTS')), 'data', 'measured', 'ftdcr-v4.csv');
+real = sinew ('ftdcr-v4');
+fit = real.identify (measured, 'fit', {'bending', 'marker'}, 'folds', 0, 'max_iterations', 2);
+assert (fit.rows, 810);
+assert (numel (fit.parameters), 4);
+assert (fit.errors.fitted.rms < fit.errors.before.rms);
+assert (sinew (fit.file).forward ('changes', {[-2e-3 0 0]}, 'model', 'cc').ok);
+same = real.identify (fileread (measured), 'fit', 'bending,marker', 'folds', 0, 'max_iterations', 2);
+assert (same.errors.fitted.rms, fit.errors.fitted.rms);
+one = struct ('pulls', [1e-3 zeros(1, 8)], 'markers', [0.02 0 0.2], 'time', 0, 'blocks', 0);
+assert (real.identify (one, 'fit', 'bending', 'folds', 0).rows, 1);
+two = struct ('pulls', [1e-3 zeros(1, 8); zeros(1, 9)], 'markers', [0.02 0 0.2; 0 0.01 0.2]);
+assert (size (vertcat (real.identify (two, 'fit', 'bending').by_row.computed)), [2 3]);
+refused ('cannot be read', @() real.identify ('no_such.csv'));
+refused ('give the measured rows', @() real.identify ());
+refused ('has 8 values', @() real.identify (setfield (one, 'pulls', zeros (1, 8))));
+refused ('is NaN', @() real.identify (setfield (one, 'markers', [0 0 NaN])));
+
 % From files, texts, structs; with other values.
 here = fullfile (getenv ('SINEW_ROBOTS'), '3-rfr.yaml');
 text = fileread (here);

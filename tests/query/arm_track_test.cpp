@@ -160,12 +160,12 @@ TEST(ArmTrack, Refusals) {
   long_path["steps"] = 10000;
   for (int k = 0; k < 11; ++k) long_path["points"].push_back(good);
   EXPECT_EQ(code(two, long_path), "path_too_long");
-  for (const char* field : {"poses", "from", "to", "samples", "objective"}) {
+  for (const char* field : {"poses", "from", "to", "objective"}) {
     Json query = track(good);
     query[field] = 2;
     EXPECT_EQ(code(two, query), "unsupported") << field;
   }
-  for (const char* field : {"until", "all", "want", "pose"}) {  // of other questions: named, not ignored
+  for (const char* field : {"until", "all", "pose"}) {  // of other questions: named, not ignored
     Json query = track(good);
     query[field] = Json::object();
     EXPECT_EQ(code(two, query), "unknown_key") << field;
@@ -203,6 +203,38 @@ TEST(ArmTrack, OtherQuestionsSayThatTheyLeaveFrictionOut) {
       ask("two-segment",
           {{{"query", "track"}, {"set", set}, {"points", Json::array({{{"tensions", tensions}}})}}})[0];
   EXPECT_FALSE(path.contains("message")) << path;
+}
+
+/// Its shape is that of where the path ends, with what friction leaves of tensions from guide to guide.
+TEST(ArmTrack, ShowsWhereThePathEnds) {
+  const Json points{{{"tensions", {{4, 0, 0}}}}, {{"tensions", {{1, 0, 0}}}}};
+  const Json query{{"query", "track"},  {"set", rubbing("two-segment", 0.3)},
+                   {"points", points},  {"steps", 2},
+                   {"want", {"shape"}}, {"samples", 11}};
+  const Json path = ask("two-segment", {query})[0];
+  ASSERT_EQ(path["status"], "converged") << path;
+  const Json& along = path["tensions_along"];
+  ASSERT_EQ(along.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(along[i].front(), path["tensions"][i / 3][i % 3]);
+    EXPECT_EQ(along[i].back(), path["end_tensions"][i / 3][i % 3]);
+    EXPECT_EQ(along[i].size(), path["tendons"][i / 3][i % 3].size());  // spans, and what is before the base
+  }
+  // paid out: the motor holds least; what a guide holds back is at most what it turns by
+  for (std::size_t k = 1; k < along[0].size(); ++k)
+    EXPECT_GE(along[0][k].get<double>(), along[0][k - 1].get<double>());
+  ASSERT_EQ(path["backbones"][0].size(), 11U);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(path["backbones"][0][10][i].get<double>(), path["tip"]["position"][i].get<double>(), 1e-12);
+  Json plain = query;
+  plain.erase("want");
+  EXPECT_EQ(ask("two-segment", {plain})[0]["error"]["where"], "samples");
+  plain.erase("samples");
+  const Json without = ask("two-segment", {plain})[0];
+  EXPECT_FALSE(without.contains("backbones"));
+  EXPECT_EQ(without["rows"], path["rows"]);
+  EXPECT_EQ(code("two-segment", {{"query", "track"}, {"points", points}, {"want", {"stiffness"}}}),
+            "unsupported");
 }
 
 }  // namespace arm_track_test

@@ -167,8 +167,8 @@ TEST_F(EveryField, TheCorpusAsksEveryQueryThatARobotKnows) {
       EXPECT_FALSE(ask(session, query).contains("error")) << asked.robot << query;
     }
   }
-  EXPECT_EQ(kinds, (std::set<std::string>{"describe", "diagram", "forward", "inverse", "shape", "statics",
-                                          "track", "velocity"}));
+  EXPECT_EQ(kinds, (std::set<std::string>{"describe", "diagram", "forward", "identify", "inverse", "shape",
+                                          "statics", "track", "velocity"}));
 }
 
 }  // namespace every_field_test

@@ -119,6 +119,8 @@ TEST(Fields, KindsOfQuestionsAreAnsweredUnderTheirNames) {
         {"3-rfr", "statics", R"("tensions":[[0.5,0],[0.5,0],[0.5,0]])"},
         {"3-rfr", "track", R"("from":{"x":0,"y":0,"phi":0},"to":{"x":0.01,"y":0,"phi":0},"samples":2)"},
         {"nottingham-tpcj", "diagram", R"("section":0,"changes":[0,0,0])"},
+        {"ftdcr-v4", "identify",
+         R"("rows":{"pulls":[[0.001,0,0,0,0,0,0,0,0]],"markers":[[0.02,0,0.2]]},"fit":"bending")"},
         {"3-rfr", "describe", R"("id":1)"}}) {
     auto session = Session::open(std::string(robot)).value();
     const std::string answer = session.answer(fmt::format(R"({{"query":"{}",{}}})", kind, fields));
@@ -126,7 +128,7 @@ TEST(Fields, KindsOfQuestionsAreAnsweredUnderTheirNames) {
     EXPECT_EQ(answer.find(R"("error":)"), std::string::npos) << answer;
     EXPECT_NE(std::ranges::find(question_kinds(), std::string_view(kind)), question_kinds().end());
   }
-  EXPECT_EQ(question_kinds().size(), 8U);
+  EXPECT_EQ(question_kinds().size(), 9U);
 }
 
 }  // namespace fields_test

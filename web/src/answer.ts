@@ -4,6 +4,7 @@ import type {Json} from './client';
 import {type Described, subscript} from './described';
 import type {Ghost} from './ghost';
 import {profile} from './profile';
+import {loop} from './remembered';
 import type {State} from './state';
 import {isSlack} from './tendon_lines';
 import {format, type System, type Unit, unitName} from './units';
@@ -135,13 +136,13 @@ export class AnswerPanel {
   constructor(private readonly box: HTMLElement) {}
 
   /** @param answer of `forward`, with those of other queries as `velocity`, `reach`, `typeTwo` and `room` in it */
-  show(answer: Json, described: Described, state: State, ghost: Ghost | null, system: System): void {
+  show(answer: Json, described: Described, state: State, ghost: Ghost | null, system: System, input = 0): void {
     const sections = [poseSection(answer, ghost, described, system)];
     const margins: Section = {title: 'Margins', rows: marginRows(answer, system), bars: marginBars(answer, described, state)};
     if (margins.rows.length + margins.bars.length > 0) sections.push(margins);
-    const pulls = described.isArm ? null : effort(answer, system), curve = described.isArm && profile(answer, described, system);
+    const pulls = described.isArm ? null : effort(answer, system), curve = described.isArm && profile(answer, described, system), way = described.isArm && loop(answer, described, state, input, system);
     if (pulls) sections.push(pulls);
-    this.box.replaceChildren(...sections.map(sectionOf), ...(curve ? [curve] : []), ...(described.isArm && answer.tensions ? ofArm(answer, system).map(sectionOf) : []));
+    this.box.replaceChildren(...sections.map(sectionOf), ...(way ? [way] : []), ...(curve ? [curve] : []), ...(described.isArm && answer.tensions ? ofArm(answer, system).map(sectionOf) : []));
   }
 
   clear(): void {

@@ -2,7 +2,7 @@
 import {heldBy, loads, tipField} from './arm';
 import type {Json} from './client';
 import type {Described} from './described';
-import {bySection, wrenchOf} from './questions';
+import {bySection, everything, wrenchOf} from './questions';
 import type {Source} from './source';
 import type {State} from './state';
 
@@ -36,8 +36,16 @@ function quaternionOf([tilt = 0, azimuth = 0, torsion = 0]: number[]): number[] 
   return [c * Math.cos(torsion / 2), -s * Math.sin(half), s * Math.cos(half), c * Math.sin(torsion / 2)];
 }
 
+/** A path is a question of the protocol: the command takes it in one line. */
+function commandOfPath(source: Source, described: Described, state: State): string {
+  const set = Object.fromEntries(source.sets.map((one) => [one.slice(0, one.indexOf('=')), one.slice(one.indexOf('=') + 1)]));
+  const question = {...everything(described, state), ...(source.sets.length > 0 && {set})};
+  return `echo '${JSON.stringify(question).replaceAll("'", "'\\''")}' | sinew query ${/^[\w./-]+$/.test(source.word) ? source.word : quoted(source.word)}`;
+}
+
 /** @param start where the search has to begin so that it ends at this solution, as `--start` has it; else null */
 export function command(source: Source, described: Described, state: State, start: number[] | null): string {
+  if (state.path && state.asked === 'inputs') return commandOfPath(source, described, state);
   const isPose = state.asked === 'pose' && !described.isSerial && !described.isArm && !described.isPlanar && !described.isHeldByFew, robot = source.word;
   const told = isPose ? {...state, pose: [...state.pose.slice(0, 3), ...quaternionOf(state.pose.slice(3))]} : state;
   const words = ['sinew', state.asked === 'pose' ? 'inverse' : 'forward', /^[\w./-]+$/.test(robot) ? robot : quoted(robot),

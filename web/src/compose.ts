@@ -106,6 +106,11 @@ class Composition {
   private pulling(pulls: Pulls): void {
     const sections: Point[][][] = this.shape.tendons ?? [], all = sections.flat();
     sections.forEach((of, section) => of.forEach((points, i) => {
+      const spans = pulls.along?.[section]?.[i]?.slice(1);  // without what is between motor and base
+      if (spans && spans.length === points.length - 1) {
+        spans.forEach((tension, k) => this.pen.line(points.slice(k, k + 2), lookOf(tension, pulls, (token) => this.colour(token))));
+        return;
+      }
       const look = lookOf(pulls.tensions[section]?.[i] ?? 0, pulls, (token) => this.colour(token));
       if (points.length > 1) this.pen.line(bowed(points, all, pulls.slack[section]?.[i] ?? 0), look);
     }));

@@ -6,6 +6,7 @@ import {bearsLoad, type Described} from './described';
 import {button, byId, make} from './make';
 import {ModelTab} from './model_tab';
 import {signsOf} from './questions';
+import {rubs} from './remembered';
 import {Sense} from './sense';
 import {Sliders} from './sliders';
 import {homes, type Side, type State} from './state';
@@ -29,6 +30,10 @@ export class Controls {
   private readonly model: ModelTab;
   private readonly gravity = make('input', {type: 'checkbox', id: 'gravity'});
   private readonly gravityChoice = make('label', {className: 'choice'}, this.gravity, 'Gravity as in the file');
+  private readonly rubs = make('input', {type: 'checkbox', id: 'rubs'});
+  private readonly rubsChoice = make('label', {className: 'choice'}, this.rubs, 'Friction remembered');
+  private readonly anew = button('Forget the path', () => this.wishes.change({path: [], start: null}), 'the straight arm, free of tensions, is where the path begins again');
+  private readonly remembers = make('div', {className: 'remembers', hidden: true, title: 'Where tendons rub, where the arm is depends on how it came there: every move is followed as a path. Links do not hold it.'}, this.rubsChoice, this.anew);
   private readonly note = make('p', {className: 'note'});
   private readonly ways = (['tension', 'change'] as Held[]).map((of): [Held, HTMLButtonElement] => [of, button(of === 'tension' ? 'Tensions' : 'Length changes', () => this.holdAll(of), `all tendons are held by ${of === 'tension' ? 'their tension' : 'the change of their length'}`)]);
   private readonly held = make('div', {className: 'holding', role: 'group', ariaLabel: 'What holds the tendons'}, 'Hold', ...this.ways.map(([, one]) => one));
@@ -42,6 +47,8 @@ export class Controls {
       load: sliders('load', button('Zero', () => this.zero(), 'no load')),
     };
     byId('inputs').prepend(this.held);
+    byId('inputs').append(this.remembers);
+    this.rubs.addEventListener('change', () => wishes.change({path: this.rubs.checked ? [] : null, start: null, ...(this.rubs.checked && {asked: 'inputs' as const})}));
     this.bending = new Bending(byId('pose'), (bending) => wishes.bend(bending));
     this.model = new ModelTab(byId('model'), (part) => wishes.change(part));
     this.gravity.addEventListener('change', () => wishes.change({gravity: this.gravity.checked}));
@@ -60,6 +67,9 @@ export class Controls {
     this.sides.load.show(described.isArm ? 'Load on the tip, and at s' : 'Load on the platform', described.load, state.load);
     this.gravityChoice.hidden = !described.hasGravity;
     this.gravity.checked = state.gravity;
+    this.remembers.hidden = !rubs(described);
+    this.rubs.checked = state.path !== null;
+    this.anew.hidden = state.path === null;
     this.sense.show(described.isArm);
     const bears = bearsLoad(described, state.model);
     this.note.replaceChildren(...(bears ? [] : ['Links of this model bear no load. ', button('Take pseudo-rigid chains', () => this.wishes.change({model: 'prb'}))]));

@@ -1,5 +1,5 @@
 // What is drawn of an answer.
-import {canPlace, pointLoad} from './arm';
+import {byTendons, canPlace, pointLoad} from './arm';
 import type {Json} from './client';
 import type {Described} from './described';
 import {round} from './outline';
@@ -34,7 +34,7 @@ function ofArm(described: Described, state: State, answer: Json): Partial<Drawin
   let from = 0;
   const names = (described.answer.sections as Json[]).map(({length}, i) => ({text: `S${i + 1}`, at: placeOn(answer, (from += length) - length / 2)}));
   return {
-    canGrab: canPlace(described), names, ...(tensions && {pulls: {tensions, slack, most: above(Math.max(...tensions.flat()))}}),
+    canGrab: canPlace(described), names, ...(tensions && {pulls: {tensions, slack, most: above(Math.max(...tensions.flat(), ...(answer.tensions_along ?? []).flat())), ...(answer.tensions_along && {along: byTendons(described.answer, answer.tensions_along as number[][])})}}),
     ...(point && places && {loads: [{at: placeOn(answer, point.place), force: point.force}]}),
   };
 }

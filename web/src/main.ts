@@ -15,6 +15,7 @@ import {fillHelp, type Key, listen} from './keys';
 import {byId} from './make';
 import {margins, startOf} from './margins';
 import {everything, inputsOf, isSolved, plain, poseOf, sensing, told} from './questions';
+import {here, most as mostTurns, walked} from './remembered';
 import {type ScreenName, Screens} from './screens';
 import {findDevice} from './operate/device';
 import type {DeviceInfo} from './operate/frame';
@@ -609,8 +610,12 @@ class Page {
     const {robot, described, question, leaps} = this, state = structuredClone(this.state), begin = performance.now();
     if (!robot || !described) return;
     this.wait();
+    const point = state.path && state.asked === 'inputs' ? here(described, state) : null, path = point && walked(state.path!, point);
+    if (path && path.length > mostTurns)
+      return this.unsolved({status: 'iteration_limit', message: `the path has ${mostTurns} turns, and as many are followed: forget it to begin anew`}, question, begin);
     const [found] = await robot.ask([everything(described, state, state.start ?? undefined)]) as [Json], answer = told(found);
     if (robot !== this.robot) return;
+    if (path) state.path = path;
     const inputs = state.asked === 'pose' ? inputsOf(described, answer) : state.inputs;
     if (!isSolved(answer) || !answer.backbones || !inputs) return this.unsolved(answer, question, begin);
     state.inputs = inputs;
@@ -622,6 +627,7 @@ class Page {
     const described = this.described!, pose = poseOf(described, answer), {rival} = this;
     if (answer.pose) state.start = plain(answer.pose);
     if (isNear) this.state.start = state.start;
+    if (isNear && this.state.path && state.path) this.state.path = structuredClone(state.path);
     if (state.asked === 'inputs' && pose) state.pose = pose;
     this.shown = {described, state, answer, shape: picture, isStale: false, start: undefined};
     if (isNear && state.asked === this.state.asked) {  // else the other side was touched in the meantime
@@ -688,6 +694,7 @@ class Page {
     shown.start = start;
     this.command();
     this.link();
+    if (state.path) return this.strip.clear();  // what it follows does not rub
     await this.strip.ask(robot, described, state, touched, state.start);
     if (isOld()) return;
     const found = await margins(robot, described, state, shown.answer, touched.side === 'inputs' ? touched.index : 0);
@@ -701,7 +708,7 @@ class Page {
   /** The value nearest to what has no solution, as a button. */
   private async wayOut(question: number, ways: Way[]): Promise<void> {
     const {robot, described, shown, state, touched: {side, index}} = this, row = described?.[side][index];
-    if (!robot || !described || !shown || !row) return;
+    if (!robot || !described || !shown || !row || state.path) return;
     const from = shown.state[side][index] ?? row.home, values = state[side].map((value, i) => (i === index ? from : value));
     await this.strip.ask(robot, described, {...structuredClone(state), [side]: values}, this.touched, shown.state.start, state[side][index]!);
     if (question !== this.question) return;
@@ -743,7 +750,7 @@ class Page {
     const {described, shown, state} = this;
     if (!described || !shown) return;
     byId('answer').classList.toggle('stale', shown.isStale);
-    this.numbers.show(shown.answer, described, shown.state, this.stage.ghost, this.shell.system);
+    this.numbers.show(shown.answer, described, shown.state, this.stage.ghost, this.shell.system, this.touched.side === 'inputs' ? this.touched.index : 0);
     this.controls.showBending(described, state, shown.answer);
   }
 

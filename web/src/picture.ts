@@ -10,7 +10,12 @@ export const shownAtFirst: Layer[] = ['rods', 'tendons', 'discs', 'frames', 'gho
 export interface Part { kind: 'backbone' | 'platform' | 'tendon' | 'line' | 'disc' | 'frame'; index: number; tendon?: number }
 
 /** What each tendon pulls [N] and how much too long it is [m], a list a section; and to where the scale of tensions goes [N]. */
-export interface Pulls { tensions: number[][]; slack: number[][]; most: number }
+export interface Pulls {
+  tensions: number[][];
+  slack: number[][];
+  most: number;
+  along?: number[][][];  ///< where tendons rub: between motor and base, then from guide to guide [N]
+}
 
 export interface Drawing {
   shape: Json;             ///< an answer to `shape`

@@ -2,6 +2,7 @@
 import {heldBy, heldIn, loads, tipField, tipOf} from './arm';
 import type {Json} from './client';
 import {bearsLoad, type Described, indexOf} from './described';
+import {here, trackOf, walked} from './remembered';
 import type {Side, State} from './state';
 
 /** The wrench on the platform, or on an arm's tip; null where there is none, or the links bear none. */
@@ -81,8 +82,15 @@ function inFull(described: Described, state: State): Json {
   };
 }
 
+/** The way of an arm whose tendons rub, to what is asked now. */
+function alongPath(described: Described, state: State): Json {
+  const {wrench: _w, loads: _l, ...rest} = common(described, state), samples = samplesOf(described, state);
+  return {...trackOf(walked(state.path!, here(described, state))), ...rest, ...withTilt(described), ...(samples > 0 && hasSamples(described, state) && {samples}), want: ['shape']};
+}
+
 /** All that is shown of the side that is given. */
 export function everything(described: Described, state: State, start?: Json | string): Json {
+  if (state.path && state.asked === 'inputs') return alongPath(described, state);
   return {...(state.asked === 'pose' ? inverse(described, state) : forward(described, state, start)), ...inFull(described, state)};
 }
 

@@ -17,6 +17,7 @@ export interface State {
   joints: number;      ///< of each pseudo-rigid chain; 0: as the file says
   samples: number;     ///< points of each curve; 0: as many as is usual
   iterations: number;  ///< at most; 0: as many as is usual
+  path: Json[] | null;  ///< of an arm whose tendons rub: how it came here, point by point; null: as if they did not rub
   start: Json | null;  ///< the pose near which that of the inputs is looked for, the last solved or a chosen one; null: home
 }
 
@@ -25,7 +26,7 @@ export const homes = (rows: Row[]) => rows.map((row) => row.home);
 export function stateOf(described: Described): State {
   return {
     asked: 'inputs', inputs: homes(described.inputs), pose: homes(described.pose), load: homes(described.load), held: described.holding?.held ?? null, bending: null,
-    gravity: true, model: described.answer.model, joints: 0, samples: 0, iterations: 0, start: null,
+    gravity: true, model: described.answer.model, joints: 0, samples: 0, iterations: 0, path: null, start: null,
   };
 }
 

@@ -1,6 +1,9 @@
 // Elastic arms on the Design screen: tendons that are pulled or paid out, loads, and what is told of them.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
+import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
 import {audit, blank, differs, fill, hold, linked, looks, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
 
 const said = (page) => page.evaluate(() => window.__sinew.answer());
@@ -221,4 +224,51 @@ export async function arm_refusals(browser, url) {
     await audit(page, `arm ${name}`);
   }
   await done(/422|400/);
+}
+
+/** Tendons that rub: every move is followed as a path, which the command gives in a shell; there and back is a loop, and undo goes back along it. */
+export async function arm_friction(browser, url) {
+  const {page, done} = await open(browser, url, 'two-segment'), folder = mkdtempSync(join(tmpdir(), 'sinew-rubs-'));
+  assert.ok(await page.locator('.remembers').isHidden(), 'tendons that do not rub have nothing to remember');
+  const rubbing = (await page.evaluate(() => window.__sinew.file.text)).replace('angle: 90 deg}', 'angle: 90 deg, friction: 0.3}');
+  writeFileSync(join(folder, 'rubbing.yaml'), rubbing);
+  await then(page, () => page.evaluate((of) => {
+    const data = new DataTransfer();
+    data.items.add(new File([of], 'rubbing.yaml'));
+    window.dispatchEvent(new DragEvent('drop', {dataTransfer: data, cancelable: true}));
+  }, rubbing));
+  assert.match(await verdict(page), /SOLVED/);
+  const rubs = page.getByLabel('Friction remembered');
+  await then(page, () => rubs.click());
+  const at = async (tension) => {
+    await then(page, () => fill(page, 'inputs-0', tension));
+    return said(page);
+  };
+  const there = await at('1.5'), most = await at('4'), back = await at('1.5');
+  assert.equal(back.query, 'track');
+  assert.equal(there.status, 'converged');
+  assert.ok(Math.hypot(...back.tip.position.map((part, i) => part - there.tip.position[i])) > 5e-3, 'it came back to where it was');
+  assert.ok(most.tensions_along[0].at(-1) < 3.5 && back.tensions_along[0].at(-1) > 1.5, 'friction holds against the way it goes');
+  const text = await numbers(page), words = await page.locator('.loop svg').getAttribute('aria-label');
+  assert.match(text, /Tip from straight \[mm\] over S1 T₁, along the path/);
+  assert.match(words, /^the tip is [\d.]+ mm from straight at S1 T₁ = 1\.500 N, after 3 moves$/);
+  await rested(page);
+  await looks(page, 'arm-friction');
+  const line = await command(page);
+  assert.match(line, /^echo '\{"query":"track","points":\[.*\| sinew query rubbing\.yaml$/);
+  const printed = JSON.parse(execFileSync('/bin/sh', ['-c', line.replace('| sinew', `| '${sinew}'`)], {encoding: 'utf8', cwd: folder}));
+  near(printed.tip.position, back.tip.position, 1e-12, 'the command of the path');
+  await page.waitForTimeout(800);  // what follows without a pause is one step of undo
+  await at('1');  // straight on: no turn more
+  assert.match(await page.locator('.loop svg').getAttribute('aria-label'), /after 3 moves$/);
+  await then(page, () => page.locator('#undo').click());
+  near((await said(page)).tip.position, back.tip.position, 1e-9, 'undone along the path');
+  await then(page, () => page.getByRole('button', {name: 'Forget the path'}).click());
+  assert.match(await page.locator('.loop svg').getAttribute('aria-label'), /after 1 move$/);
+  await then(page, () => rubs.click());
+  assert.equal((await said(page)).query, 'forward');
+  assert.equal(await page.locator('.loop').count(), 0);
+  rmSync(folder, {recursive: true});
+  await audit(page, 'an arm that remembers');
+  await done();
 }

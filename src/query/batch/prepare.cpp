@@ -183,6 +183,7 @@ Outputs usual_solution(const Robot& robot, std::string_view query) {
 /// What people ask a question for, and how well it is solved, where that is not in closed form.
 Outputs usual_outputs(const Robot& robot, std::string_view query) {
   if (query == "diagram") return {{"margin", "margin"}, {"over_tension", "over_tension"}};
+  if (query == "identify") return {{"rms", "errors.fitted.rms"}, {"noise", "noise"}};
   const std::pair<std::string, std::string> residual{"residual", "residual"};
   if (robot.serial()) {
     if (query == "velocity") return {{"J", "J"}, {"K", "K"}};

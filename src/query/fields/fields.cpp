@@ -8,8 +8,8 @@ namespace {
 
 using Words = std::string_view[];
 
-constexpr std::array<std::string_view, 8> kinds{"forward", "inverse", "velocity", "shape",
-                                                "statics", "track",   "diagram",  "describe"};
+constexpr std::array<std::string_view, 9> kinds{"forward", "inverse", "velocity", "shape",   "statics",
+                                                "track",   "diagram", "identify", "describe"};
 
 constexpr unsigned of_loads = of_chains | of_rods;
 /// Of arms by pcc and lsk, too.
@@ -29,6 +29,7 @@ constexpr FieldUses always{.forward = of_all | of_arms,
                            .statics = of_loads | of_arms,
                            .track = of_platforms | of_arms,
                            .diagram = of_sections,
+                           .identify = of_arms,
                            .describe = of_all | of_arms};
 
 constexpr Words models = {"cc", "prb", "rigid", "rod", "pcc", "lsk", "subsegment_rod", "subsegment_cc"},
@@ -58,13 +59,13 @@ return std::array{
     Field{"query", word, number, always, "the kind of question", kinds},
     Field{"id", text_or_number, number, always, "repeated in the answer"},
     Field{"model", word, number, of_models,
-          "how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default), subsegment_cc, cc or prb, and by pcc or lsk an arm is asked as a serial robot, without loads", models},
+          "how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default), subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a serial robot, without loads", models},
     Field{"set", settings, number, always, "changes the robot for this question alone: values by their paths in its file, such as legs[0].link.length; on the command line it may be repeated"},
     Field{"theta_is", word, number, always, "what an input theta is the angle of: tangent (default) or chord", thetas},
     Field{"law", word, number,
           {.forward = of_chains, .inverse = of_chains, .velocity = of_chains, .shape = of_chains, .statics = of_chains, .track = of_chains, .describe = of_chains},
           "how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1 (tendons straight between discs)", laws},
-    Field{"max_iterations", whole, count, always, "most iterations of the solver; default 100, of rods 4000"},
+    Field{"max_iterations", whole, count, always, "most iterations of the solver; default 100, of rods 4000, of identify 60"},
     Field{"tilt", flag, number, always, "poses of the answer have tilt, azimuth and torsion, too; in space only"},
 
     Field{"inputs", FieldShape::inputs, length, {.forward = of_platforms, .velocity = of_kinematic | of_rods, .shape = of_platforms, .statics = of_loads, .track = of_rods},
@@ -99,7 +100,7 @@ return std::array{
           "a wrench that is added again and again until the robot buckles, up to `limit` times"},
     Field{"posture_threshold", quantity, angle, {.forward = of_chains, .statics = of_chains}, "turn of a joint up to which the linear model counts as valid"},
 
-    Field{"want", words, number, {.forward = of_all | of_arms, .inverse = of_all | of_arms, .velocity = of_all | of_arms, .shape = of_kinematic | of_rods | of_serial | of_arms, .statics = of_loads | of_arms},
+    Field{"want", words, number, {.forward = of_all | of_arms, .inverse = of_all | of_arms, .velocity = of_all | of_arms, .shape = of_kinematic | of_rods | of_serial | of_arms, .statics = of_loads | of_arms, .track = of_arms},
           "what is answered about the configuration: velocity, shape, stiffness, stability, margins, sensitivity, lines, as far as the robot has them; pose and legs are added unless one of them is named", wants},
     Field{"all", flag, number, {.forward = of_platforms | of_arms, .inverse = of_all}, "every solution, not only the one wanted"},
     Field{"trace", flag, number, {.forward = of_kinematic}, "the residual of each iterate is answered, too"},
@@ -111,7 +112,7 @@ return std::array{
           "a direction in which the nearest type II is looked for; with the want velocity"},
     Field{"limit", quantity, number, {.forward = of_kinematic, .inverse = of_kinematic, .velocity = of_kinematic, .shape = of_kinematic, .diagram = of_sections},
           "how far to look `along` its direction; of a diagram the envelope's size"},
-    Field{"samples", whole, count, {.forward = of_kinematic | of_rods | of_serial | of_arms, .inverse = of_kinematic | of_rods | of_serial | of_arms, .velocity = of_kinematic | of_rods | of_serial | of_arms, .shape = of_kinematic | of_rods | of_serial | of_arms, .statics = of_rods | of_arms, .track = of_platforms},
+    Field{"samples", whole, count, {.forward = of_kinematic | of_rods | of_serial | of_arms, .inverse = of_kinematic | of_rods | of_serial | of_arms, .velocity = of_kinematic | of_rods | of_serial | of_arms, .shape = of_kinematic | of_rods | of_serial | of_arms, .statics = of_rods | of_arms, .track = of_platforms | of_arms},
           "points of each backbone of a shape; poses on a path, default 60; points on a curve, at most, default 500"},
 
     Field{"configuration", lists, angle, {.forward = of_serial, .velocity = of_serial, .shape = of_serial},
@@ -149,6 +150,14 @@ return std::array{
     Field{"range", FieldShape::range, number, {.track = of_loads}, "how far a curve goes: 0 is its beginning, 1 what it leads to; default [0, 1]"},
     Field{"backward", flag, number, {.track = of_loads}, "a curve sets out the other way"},
     Field{"branches", flag, number, {.track = of_loads}, "curves that leave it at bifurcations are followed, too"},
+
+    Field{"rows", measured_rows, number, {.identify = of_arms},
+          "what was measured of an arm: pulls, a row each of what every motor draws in [m], markers, a row each of a marker's x, y, z [m], where known time [s], and blocks, whole numbers that rows of one motion share; or the text of a .csv table (docs/identify.md)"},
+    Field{"fit", names, number, {.identify = of_arms},
+          "what may change, such as sections.bending,tendons.offset,marker; default what rows can usually tell (docs/identify.md)"},
+    Field{"noise", quantity, length, {.identify = of_arms}, "of a coordinate of the marker; default what the fit leaves"},
+    Field{"folds", whole, count, {.identify = of_arms}, "in how many parts blocks of rows are held out in turn, and judged by a fit without them; default 5, 0 for none"},
+    Field{"map", flag, number, {.identify = of_arms}, "motors and axes are taken as the rows say, should pulls be paid out, or tendons turned or the other way round"},
 };
 }();
 // clang-format on
@@ -156,7 +165,7 @@ return std::array{
 }  // namespace
 
 unsigned FieldUses::of(std::string_view query) const {
-  const unsigned uses[] = {forward, inverse, velocity, shape, statics, track, diagram, describe};
+  const unsigned uses[] = {forward, inverse, velocity, shape, statics, track, diagram, identify, describe};
   const auto kind = std::ranges::find(kinds, query);
   return kind == kinds.end() ? 0 : uses[kind - kinds.begin()];
 }

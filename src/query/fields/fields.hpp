@@ -39,6 +39,8 @@ enum class FieldShape {
   settings,        ///< {path: value}
   point_loads,     ///< a list of {place, wrench, following}
   path_points,     ///< a list of {tensions, changes, wrench, ...}
+  measured_rows,   ///< {pulls, markers, time, blocks}, or the text of a table
+  names,           ///< names with commas between, or a list of them
 };
 
 /// Kinds of mechanics, as bits.
@@ -49,7 +51,7 @@ inline constexpr unsigned of_platforms = of_kinematic | of_chains | of_rods,
 /// Which mechanics take the field in a question of each kind.
 struct FieldUses {
   unsigned forward = 0, inverse = 0, velocity = 0, shape = 0, statics = 0, track = 0, diagram = 0,
-           describe = 0;
+           identify = 0, describe = 0;
 
   SINEW_API unsigned of(std::string_view query) const;
 };
