@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/quantity.hpp"
 #include "query/arms.hpp"
@@ -81,6 +82,19 @@ void put_point(const Arm& arm, const ArmPathPoint& point, Value& value) {
   put_number(value, "potential", state.energy);
 }
 
+/// Of one tendon, as what holds it begins to grow (+1) or to shrink (−1).
+Value one_sided(ArmContext& context, std::size_t tendon, double way) {
+  std::vector<double> direction(context.robot.tendons.size(), 0.0);
+  direction[tendon] = way;
+  const ArmPathRates rates = arm_path_rates(context.robot, direction, context.work);
+  if (!rates.regular) return {{"message", rates.message.view()}};
+  Value value{{"twist", rates.twist}, {"changes", by_end_section(context.robot, rates.changes)}};
+  if (std::ranges::all_of(rates.tensions, [](double rate) { return std::isfinite(rate); }))
+    value["tensions"] = by_end_section(context.robot, rates.tensions);
+  value["slipping"] = rates.slipping;
+  return value;
+}
+
 }  // namespace
 
 void answer_arms_track(Context& asked) {
@@ -89,7 +103,7 @@ void answer_arms_track(Context& asked) {
   ArmOptions options = read_arm_options(context);
   const std::vector<ArmStep> path = read_points(context);
   read_arm_start(context, options);
-  const Wants words = read_wants(context, {Want::pose}, {Want::pose, Want::shape});
+  const Wants words = read_wants(context, {Want::pose}, {Want::pose, Want::shape, Want::velocity});
   const int samples = read_samples(context, words, 60, 2000);
   if (!context.ready()) return;
   const std::vector<ArmPathPoint> points = arm_follow(context.robot, path, options, context.work);
@@ -129,6 +143,12 @@ void answer_arms_track(Context& asked) {
     for (const std::vector<double>& tensions : last.tensions) along.push_back(Value(tensions));
     answer["tensions_along"] = std::move(along);
     put_arm_shape(context, samples);
+  }
+  if (words.has(Want::velocity) && arrives) {
+    Value list = Value::list();
+    for (std::size_t i = 0; i < context.robot.tendons.size(); ++i)
+      list.push_back({{"growing", one_sided(context, i, 1)}, {"shrinking", one_sided(context, i, -1)}});
+    answer["one_sided"] = std::move(list);
   }
   answer["motor_work"] = work;
   answer["friction_loss"] = loss;

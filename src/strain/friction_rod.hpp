@@ -36,6 +36,17 @@ struct PathStep {
   double friction = 0;  ///< lost at guides [J]
 };
 
+/// What changes at once where inputs begin to change at some rates, one-sided.
+struct PathRates {
+  enum class Why { singular, known, no_turn, pushes, undecided };
+  Why why = Why::singular;  ///< what is not known otherwise
+  std::vector<double> y;    ///< of coordinates
+  std::vector<std::vector<double>>
+      tension;              ///< before the rod, not a number where a motor's may jump; of spans
+  std::vector<double> end;  ///< pulled in
+  int slipping = 0;         ///< guides
+};
+
 /// A rod, its tendons and what they remember.
 class FrictionRod {
  public:
@@ -67,6 +78,8 @@ class FrictionRod {
   std::span<const double> contents(std::size_t tendon) const { return now_.tendons[tendon].content; }
   /// By which it turns at every guide, that at the base first [rad].
   std::span<const double> angles(std::size_t tendon) const { return chains_[tendon].angle; }
+  /// Of the last step's inputs, tension or pulled in, at these rates; loads stay. What is remembered stays.
+  PathRates rates(std::span<const double> direction);
   /// Elastic, of loads that have a potential, and of tendons that stretch [J].
   double stored() const { return now_.stored; }
   /// @}

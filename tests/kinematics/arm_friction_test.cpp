@@ -378,5 +378,106 @@ TEST(ArmFriction, RefusesWhatDoesNotFit) {
   work.stop = StopToken();
 }
 
+/// One-sided rates against small steps of the path, on and back, held by tensions or changes.
+TEST(ArmFriction, RatesAreThoseOfSmallStepsOnAndBack) {
+  for (const int discs : {0, 8})
+    for (const TendonHeld held : {TendonHeld::tension, TendonHeld::change})
+      for (const double compliance : {5e-5, 0.0})
+        for (const bool turns : {false, true}) {
+          SCOPED_TRACE(testing::Message() << discs << " discs, change " << (held == TendonHeld::change)
+                                          << ", compliance " << compliance << ", turned " << turns);
+          const Arm arm = two_tendons(discs, 0.3, compliance, compliance > 0 ? 0.2 : 0);
+          const bool by_tension = held == TendonHeld::tension;
+          const double most = by_tension ? 4 : -0.006, turned = by_tension ? 3.7 : -0.0058;
+          std::vector<double> values = ramp(0, most, 4);
+          if (turns) values.push_back(turned);  // some guides have slipped back, others not yet
+          const ArmOptions options{.model = discs > 0 ? ArmModel::subsegment_rod : ArmModel::rod,
+                                   .accuracy = 0,
+                                   .tolerance = 1e-13};
+          const auto follow_to = [&](double by, ArmWorkspace& work) {
+            auto points = arm_follow(arm, pulls(values, held, 1), options, work);
+            if (by != 0) {
+              ArmOptions on = options;
+              on.from_last = true;
+              points = arm_follow(arm, pulls({values.back() + by}, held, 1), on, work);
+            }
+            EXPECT_TRUE(points.back().state.report.ok());
+            return points.back().state;
+          };
+          for (const double sign : {1.0, -1.0}) {
+            ArmWorkspace work(arm);
+            const ArmState here = follow_to(0, work);
+            const ArmPathRates rates = arm_path_rates(arm, std::vector<double>{sign, 0}, work);
+            ASSERT_TRUE(rates.regular) << rates.message.view();
+            // guides of a tendon that does not stretch begin to slip one by one within a few 1e-8 m
+            const double step = by_tension ? 1e-4 : 1e-8;
+            ArmWorkspace one(arm), two(arm);
+            const ArmState small = follow_to(sign * step, one), large = follow_to(2 * sign * step, two);
+            // without the term of first order in the step
+            const auto rate = [&](auto value) {
+              return (4 * (value(small) - value(here)) - (value(large) - value(here))) / (2 * step);
+            };
+            for (int k = 0; k < 3; ++k)
+              EXPECT_NEAR(rates.twist[static_cast<std::size_t>(k)],
+                          rate([&](const ArmState& state) { return state.tip.p[k]; }),
+                          2e-4 * (std::abs(rates.twist[0]) + std::abs(rates.twist[1])) + 1e-9)
+                  << sign << ' ' << k << ", slipping " << rates.slipping;
+            EXPECT_NEAR(rates.changes[0], rate([](const ArmState& state) { return state.changes[0]; }),
+                        2e-4 * std::abs(rates.changes[0]) + 1e-9);
+            if (!std::isnan(rates.tensions[0])) {
+              EXPECT_NEAR(rates.tensions[0], rate([](const ArmState& state) { return state.tensions[0]; }),
+                          2e-4 * std::abs(rates.tensions[0]) + 1e-9);
+            }
+          }
+        }
+}
+
+/// At the end of a pull all guides slip as it goes on; as it turns they stick, and the tip hardly follows.
+TEST(ArmFriction, RatesOnAndBackDiffer) {
+  const Arm arm = two_tendons(8, 0.3);
+  ArmWorkspace work(arm);
+  const std::vector<double> on{1, 0}, back{-1, 0};
+  EXPECT_NE(arm_path_rates(arm, on, work).message.view().find("follow one first"), std::string_view::npos);
+  arm_follow(arm, pulls({2, 4}, TendonHeld::tension, 1), {.tolerance = 1e-12}, work);
+  const ArmPathRates going = arm_path_rates(arm, on, work), turning = arm_path_rates(arm, back, work);
+  ASSERT_TRUE(going.regular && turning.regular);
+  const auto speed = [](const ArmPathRates& rates) {
+    return std::hypot(rates.twist[0], rates.twist[1], rates.twist[2]);
+  };
+  EXPECT_GT(going.slipping, 2 * turning.slipping);
+  EXPECT_GT(speed(going), 2 * speed(turning));
+  EXPECT_EQ(going.tensions[0], 1);
+  // along one direction they are multiples; and the path, the state and what is remembered stay
+  const ArmPathRates twice = arm_path_rates(arm, std::vector<double>{2, 0}, work);
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(twice.twist[k], 2 * going.twist[k], 1e-9 * speed(going));
+  ArmWorkspace other(arm);
+  ArmOptions from_last{.tolerance = 1e-12};
+  arm_follow(arm, pulls({2, 4}, TendonHeld::tension, 1), from_last, other);
+  from_last.from_last = true;
+  const auto asked = arm_follow(arm, pulls({3}, TendonHeld::tension, 1), from_last, work),
+             not_asked = arm_follow(arm, pulls({3}, TendonHeld::tension, 1), from_last, other);
+  EXPECT_LT(distance(asked.back().state.tip, not_asked.back().state.tip), 1e-13);
+
+  EXPECT_FALSE(arm_path_rates(arm, std::vector<double>{1}, work).regular);
+  EXPECT_FALSE(arm_path_rates(arm, std::vector<double>{1, std::nan("")}, work).regular);
+  const Arm stranger = two_tendons(8, 0.3);
+  EXPECT_FALSE(arm_path_rates(stranger, on, work).regular);
+  ArmWorkspace straight(arm);
+  arm_follow(arm, pulls({1}, TendonHeld::tension, 1), {}, straight);  // opposite ones pull alike
+  EXPECT_NE(arm_path_rates(arm, on, straight).message.view().find("does not turn"), std::string_view::npos);
+  ArmWorkspace loose(arm);
+  arm_follow(arm, pulls({3}, TendonHeld::tension, 0), {}, loose);
+  const ArmPathRates first = arm_path_rates(arm, std::vector<double>{0, 1}, loose);  // from no tension at all
+  ASSERT_TRUE(first.regular);
+  ArmWorkspace begun(arm);
+  const auto from = arm_follow(arm, pulls({3}, TendonHeld::tension, 0), {.tolerance = 1e-13}, begun).back(),
+             to = arm_follow(arm, pulls({3}, TendonHeld::tension, 1e-5), from_last, begun).back();
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR((to.state.tip.p[k] - from.state.tip.p[k]) / 1e-5, first.twist[static_cast<std::size_t>(k)],
+                1e-3 * speed(first));
+  EXPECT_NE(arm_path_rates(arm, std::vector<double>{0, -1}, loose).message.view().find("pull less"),
+            std::string_view::npos);
+}
+
 }  // namespace arm_friction_test
 }  // namespace sinew::test

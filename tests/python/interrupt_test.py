@@ -7,6 +7,8 @@ import unittest
 
 COLUMNS = "sinew.load('3pfs-g2').forward(inputs=numpy.random.default_rng(1).uniform(0.41, 0.44, (10**6, 3)))"
 ONE = "sinew.load('hexapod-torsion').forward(inputs=[0.53] * 6, all=True)"
+FIT = ("sinew.load('ftdcr-v4').identify({'pulls': [[1e-3 * (k % 9 == i) + 1e-4 * (k % 7) for i in range(9)] for k in range(600)],"
+       " 'markers': [[1e-3 * (k % 5), 1e-3 * (k % 3), 0.19] for k in range(600)]}, model='subsegment_rod', folds=50)")
 HEAD = "import numpy, signal, sinew, sys, threading\n"
 
 
@@ -25,7 +27,7 @@ class Interrupt(unittest.TestCase):
         return out, errors, program.returncode, time.monotonic() - start
 
     def test_ends_columns_and_single_solves(self):
-        for long in (COLUMNS, ONE):
+        for long in (COLUMNS, ONE, FIT):
             out, errors, code, seconds = self.run_and_interrupt(f"print('begins', flush=True)\n{long}\nprint('went on')\n")
             self.assertTrue(errors.rstrip().endswith("KeyboardInterrupt"), errors)
             self.assertEqual((out, code), ("", -signal.SIGINT))

@@ -237,5 +237,40 @@ TEST(ArmTrack, ShowsWhereThePathEnds) {
             "unsupported");
 }
 
+/// Rates of each tendon, on and back, against the next small step of the path.
+TEST(ArmTrack, HasRatesOnAndBackWhereThePathEnds) {
+  Json query{{"query", "track"}, {"set", rubbing("two-segment", 0.3)}, {"steps", 2}, {"order", 3}};
+  query["points"] = {{{"tensions", {{3, 0, 0}, {1, 0, 0.5}}}}};
+  Json asked = query;
+  asked["want"] = {"velocity"};
+  const Json path = ask("two-segment", {asked})[0];
+  ASSERT_EQ(path["status"], "converged") << path;
+  ASSERT_EQ(path["one_sided"].size(), 6U);
+  const double step = 1e-4;
+  for (const auto& [name, way] : {std::pair{"growing", 1.0}, {"shrinking", -1.0}}) {
+    Json next = query;
+    next["points"].push_back(next["points"][0]);
+    next["points"][1]["tensions"][0][0] = 3 + way * step;
+    const Json small = ask("two-segment", {next})[0];
+    const Json& rates = path["one_sided"][0][name];
+    ASSERT_TRUE(rates.contains("twist")) << rates;
+    double largest = 0;
+    for (const Json& part : rates["twist"]) largest = std::max(largest, std::abs(part.get<double>()));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(
+          (small["tip"]["position"][k].get<double>() - path["tip"]["position"][k].get<double>()) / step,
+          rates["twist"][k].get<double>(), 2e-3 * largest)
+          << name << ' ' << k;
+    EXPECT_EQ(rates["tensions"][0][0], way);
+  }
+  EXPECT_NE(path["one_sided"][0]["growing"]["twist"], path["one_sided"][0]["shrinking"]["twist"]);
+  EXPECT_NE(path["one_sided"][1]["shrinking"]["message"].get<std::string>().find("pull less"),
+            std::string::npos);
+  asked["points"] = {{{"tensions", {{0, 0, 0}, {0, 0, 0}}}}};
+  EXPECT_TRUE(ask("two-segment", {asked})[0]["one_sided"][0]["growing"].contains("twist"));
+  asked["points"] = {{{"tensions", {{1, 1, 1}, {0, 0, 0}}}}};  // straight: no guide turns a tendon yet
+  EXPECT_TRUE(ask("two-segment", {asked})[0]["one_sided"][0]["growing"].contains("message"));
+}
+
 }  // namespace arm_track_test
 }  // namespace sinew::test

@@ -2,6 +2,7 @@
 /// An arm followed along a path of inputs and loads: tendons rub at discs or in channels (Coulomb), so that
 /// where the arm is depends on how it came there. Theory: docs/theory/tendon_friction.md
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
@@ -37,12 +38,29 @@ struct ArmPathPoint {
 ///
 /// Strains have one resolution along a path: that of `options.order` and `elements`; else, where `accuracy`
 /// is not 0, finer than the coarsest. What a tendon does not stretch by is known: without friction the
-/// equilibria are those of arm_forward(). arm_rates() does not know those of tendons that rub.
+/// equilibria are those of arm_forward(). arm_rates() does not know those of tendons that rub;
+/// arm_path_rates() does.
 ///
 /// A point for every division. The answer ends with the first one that was not reached: `stalled` where no
 /// equilibrium was found, `iteration_limit` after ten times `options.max_iterations` for one; its state is
 /// the last one that was, from where a path may go on.
 SINEW_API std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> steps,
                                                const ArmOptions& options, ArmWorkspace& work);
+
+/// What changes at once as what holds the tendons begins to change, at the end of a path.
+struct ArmPathRates {
+  bool regular = false;           ///< they are known; else `message` says why not
+  FixedText<240> message;         ///< empty where they are
+  std::array<double, 6> twist{};  ///< of the tip, base axes, linear first [m/s, rad/s]
+  std::vector<double> tensions;   ///< at the motors; not a number where one jumps as its motor starts [N/s]
+  std::vector<double> changes;    ///< of the tendons [m/s]
+  int slipping = 0;               ///< guides at which tendons slip [1]
+};
+
+/// Rates at the end of the path that the workspace remembers, loads staying. They are one-sided: a guide that
+/// slips as a motor goes on sticks as it turns back, so rates of the opposite direction are others, and those
+/// of two motors do not add up. Only multiples of one direction are multiples.
+/// @param direction of what is held of every tendon by the path's last step, tension [N/s] or change [m/s]
+SINEW_API ArmPathRates arm_path_rates(const Arm& arm, std::span<const double> direction, ArmWorkspace& work);
 
 }  // namespace sinew::inline v1

@@ -6,6 +6,7 @@
 #include "kinematics/arms/arm_work.hpp"
 #include "sinew/kinematics/arm_path.hpp"
 #include "strain/friction_rod.hpp"
+#include "strain/tangent.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -226,6 +227,53 @@ std::vector<ArmPathPoint> arm_follow(const Arm& arm, std::span<const ArmStep> st
     path.load.gravity = step.load.gravity.value_or(arm.gravity);
   }
   return points;
+}
+
+ArmPathRates arm_path_rates(const Arm& arm, std::span<const double> direction, ArmWorkspace& work) {
+  using Why = strain::PathRates::Why;
+  ArmWorkspace::Impl& impl = work.impl();
+  ArmPathRates rates;
+  const auto refuse = [&](std::string_view why) {
+    rates.message = FixedText<240>(why);
+    return rates;
+  };
+  const std::size_t tendons = arm.tendons.size();
+  if (impl.robot != arm.identity) return refuse("the workspace is for another robot");
+  if (direction.size() != tendons)
+    return refuse(fmt::format("the arm has {} tendons; give a rate for each", tendons));
+  if (!std::ranges::all_of(direction, [](double rate) { return std::isfinite(rate); }))
+    return refuse("a rate is no number");
+  if (!impl.path || impl.path->between)
+    return refuse("rates with friction are of where a path ends: follow one first");
+  std::vector<double> inputs(direction.begin(), direction.end());
+  for (std::size_t i = 0; i < tendons; ++i)
+    if (impl.commands[i].held == TendonHeld::change) inputs[i] = -inputs[i];
+  ArmPath& path = *impl.path;
+  const strain::PathRates found = path.rod.rates(inputs);
+  if (found.why == Why::no_turn)
+    return refuse(
+        "a tendon that rubs does not turn at one of its guides: there friction begins with its turn");
+  if (found.why == Why::pushes) return refuse("a tendon without tension cannot pull less");
+  if (found.why == Why::undecided) return refuse("no choice of guides that slip fits this direction");
+  if (found.why != Why::known) return refuse("the equilibrium is a fold: it has no rates");
+  const int n = path.model.size;
+  std::vector<double> body(static_cast<std::size_t>(6 * n));
+  tip_twists(path.model, path.rod.work(), body.data());
+  const double* R = path.rod.work().frames.back().R;
+  for (std::size_t half = 0; half < 6; half += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      double own = 0;  // in the tip's axes
+      for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j)
+        own += body[(half + k) * static_cast<std::size_t>(n) + j] * found.y[j];
+      for (std::size_t i = 0; i < 3; ++i) rates.twist[half + i] += R[3 * i + k] * own;
+    }
+  for (std::size_t i = 0; i < tendons; ++i) {
+    rates.tensions.push_back(found.tension[i].front());
+    rates.changes.push_back(-found.end[i]);
+  }
+  rates.slipping = found.slipping;
+  rates.regular = true;
+  return rates;
 }
 
 }  // namespace sinew::inline v1
