@@ -22,11 +22,12 @@ using Handler = void (*)(Context&);
 
 /// Who answers a kind of question; null: nobody does in this version.
 struct Kind {
-  Handler of_kinematic, of_chains, of_rods, of_serial, of_arms;
+  Handler of_kinematic, of_chains, of_rods, of_serial, of_arms, of_arm_legs = nullptr;
 
   Handler handler(const Robot& robot) const {
     if (robot.serial()) return of_serial;
     if (robot.arm()) return of_arms;
+    if (robot.arm_legs()) return of_arm_legs;
     if (has_rods(robot)) return of_rods;
     return robot.model() == Model::prb ? of_chains : of_kinematic;
   }
@@ -37,17 +38,18 @@ struct Kind {
 /// In the order of `question_kinds`, which names them.
 constexpr std::array kinds{
     Kind{answer_kinematic_forward, answer_chains_forward, answer_rods_forward, answer_serial_forward,
-         answer_arms_forward},
+         answer_arms_forward, answer_arm_legs_forward},
     Kind{answer_kinematic_inverse, answer_chains_inverse, answer_rods_inverse, answer_serial_inverse,
          answer_arms_inverse},
     Kind{answer_kinematic_velocity, answer_chains_velocity, answer_rods_velocity, answer_serial_velocity,
-         answer_arms_velocity},
+         answer_arms_velocity, answer_arm_legs_velocity},
     Kind{answer_kinematic_shape, answer_chains_shape, answer_rods_shape, answer_serial_shape,
-         answer_arms_shape},
+         answer_arms_shape, answer_arm_legs_shape},
     Kind{nullptr, answer_chains_statics, answer_rods_statics, nullptr, answer_arms_statics},
     Kind{answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, answer_arms_track},
     Kind{nullptr, nullptr, nullptr, answer_serial_diagram, nullptr},
-    Kind{answer_describe, answer_describe, answer_describe, answer_serial_describe, answer_arm_describe},
+    Kind{answer_describe, answer_describe, answer_describe, answer_serial_describe, answer_arm_describe,
+         answer_arm_legs_describe},
 };
 
 std::string_view word_of(const Kind& kind) {
@@ -59,9 +61,11 @@ const Kind& read_kind(Reader& query, const Robot& robot) {
   const Reader word = query.required("query", meaning);
   const Kind& kind = kinds[std::min(word.choice_index(question_kinds()), kinds.size() - 1)];
   const bool is_serial = robot.serial() != nullptr;
-  if (is_serial || robot.arm() ? !kind.handler(robot) : kind.is_of_serial_alone())
+  if (is_serial || robot.arm() || robot.arm_legs() ? !kind.handler(robot) : kind.is_of_serial_alone())
     word.fail("not_available",
               is_serial ? fmt::format("{} is not available of serial robots in this version", word_of(kind))
+              : robot.arm_legs()
+                  ? fmt::format("{} is not available of legs of sections in this version", word_of(kind))
               : robot.arm() ? fmt::format("{} is not available of arms in this version", word_of(kind))
                             : fmt::format("{} is a question to serial robots", word_of(kind)));
   return kind;
@@ -210,7 +214,8 @@ void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
       found = true;
     }
   };
-  if (!opened.robot.serial() && !opened.robot.arm()) opened = Opened(with_changed_legs(opened.robot, choose));
+  if (!opened.robot.serial() && !opened.robot.arm() && !opened.robot.arm_legs())
+    opened = Opened(with_changed_legs(opened.robot, choose));
   if (!found) asked.fail("no_effect", "has no effect: no leg of this robot has an input theta; remove it");
 }
 
@@ -259,7 +264,8 @@ Opened* TreeSession::State::altered(Reader& query, Errors& errors) {
     return nullptr;
   }
   const Robot &before = opened.robot, &after = robot->robot;
-  if (!before.serial() != !after.serial() || !before.arm() != !after.arm()) {
+  if (!before.serial() != !after.serial() || !before.arm() != !after.arm() ||
+      !before.arm_legs() != !after.arm_legs()) {
     set->fail("wrong_kind", "it makes a robot of another kind; put the question to a file of that robot");
     return nullptr;
   }
@@ -303,7 +309,7 @@ Value TreeSession::put(const Document& document, std::optional<AnyPose>* last, C
   Reader query(document, errors);
   const Value id = read_id(query);
   const bool is_serial = state_->opened.robot.serial() != nullptr,
-             has_platform = !is_serial && !state_->opened.robot.arm();
+             has_platform = !is_serial && !state_->opened.robot.arm() && !state_->opened.robot.arm_legs();
   const Kind& kind = read_kind(query, state_->opened.robot);
   if (!errors.empty()) return refusal(id, kind, state_->opened.robot, errors);
   const auto model = has_platform ? query.optional("model") : std::nullopt;  // else the handler's

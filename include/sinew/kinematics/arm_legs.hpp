@@ -2,37 +2,17 @@
 /// Questions to a platform on arms: its equilibrium under tendons and loads. Theory: docs/theory/arm_legs.md
 #pragma once
 #include <array>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "sinew/base/export.hpp"
-#include "sinew/base/stop.hpp"
 #include "sinew/kinematics/arm.hpp"
+#include "sinew/kinematics/equilibrium.hpp"
 #include "sinew/robot/arm_legs.hpp"
+#include "sinew/robot/arm_legs_workspace.hpp"
 
 namespace sinew::inline v1 {
-
-/// Memory for questions to one platform on arms; the equilibrium that the last one found stays in it. One per
-/// thread.
-class ArmLegsWorkspace {
- public:
-  /// For this robot and its copies.
-  SINEW_API explicit ArmLegsWorkspace(const ArmLegs& robot);
-  SINEW_API ~ArmLegsWorkspace();
-  SINEW_API ArmLegsWorkspace(ArmLegsWorkspace&&) noexcept;
-  SINEW_API ArmLegsWorkspace& operator=(ArmLegsWorkspace&&) noexcept;
-
-  StopToken stop;  ///< searches end with `stopped` once it is requested
-
-  struct Impl;
-  /// What solvers keep in it.
-  Impl& impl() const { return *impl_; }
-
- private:
-  std::unique_ptr<Impl> impl_;
-};
 
 /// What acts on the platform beside its weight.
 struct ArmLegsLoad {
@@ -71,6 +51,19 @@ struct ArmLegsRates {
 };
 /// Of the equilibrium in the workspace.
 SINEW_API ArmLegsRates arm_legs_rates(const ArmLegs& robot, ArmLegsWorkspace& work);
+
+/// Where a growing load ended.
+struct ArmLegsLoadPath {
+  ArmLegsState state;  ///< the last equilibrium that holds, with the load that was reached
+  double load = 0;     ///< factor of the direction that was reached [1]
+  LoadEnd end = LoadEnd::stalled;
+  double definite_until = -1;  ///< see LoadPath [1]
+};
+/// Adds `direction` times a growing factor to the wrench of the equilibrium in the workspace, up to `limit`,
+/// or to where it gives way; at the polynomials that it was found with. Where there is none, or its stiffness
+/// is not finite, the end is `stalled` at 0.
+SINEW_API ArmLegsLoadPath arm_legs_follow_load(const ArmLegs& robot, const std::array<double, 6>& direction,
+                                               double limit, ArmLegsWorkspace& work);
 
 /// The arm of a leg in the shape of the equilibrium, for arm_frames, arm_strains and arm_tendon_lines, in
 /// base axes.

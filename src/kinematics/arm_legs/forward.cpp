@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/at.hpp"
 #include "kinematics/arm_legs/arm_group.hpp"
+#include "kinematics/load_problem.hpp"
 
 namespace sinew::inline v1 {
 
@@ -52,7 +54,7 @@ struct Found {
 Found iterate(ArmGroup& group, const ArmOptions& options, double longest_step, const StopToken& stop,
               int spent) {
   Found found;
-  double before = INFINITY;
+  double before = std::numeric_limits<double>::infinity();
   bool is_slow = false;
   for (;; ++found.iterations) {
     found.residual = group.evaluate();
@@ -282,6 +284,32 @@ ArmLegsRates arm_legs_rates(const ArmLegs&, ArmLegsWorkspace& work) {
     for (int i = 0; i < 6; ++i) rates.J[at(i * count + k)] = twist[i];
   }
   return rates;
+}
+
+ArmLegsLoadPath arm_legs_follow_load(const ArmLegs& robot, const std::array<double, 6>& direction,
+                                     double limit, ArmLegsWorkspace& work) {
+  ArmLegsWorkspace::Impl& impl = work.impl();
+  ArmLegsLoadPath path;
+  path.state = impl.state;
+  ArmGroup::Wrench load;
+  std::copy(direction.begin(), direction.end(), load.begin());
+  if (impl.level < 0 || !impl.state.report.ok() || !load.allFinite() || load.isZero(0) || !(limit > 0))
+    return path;
+  ArmGroup& group = *impl.levels[at(impl.level)];
+  group.evaluate();
+  if (!group.linearise()) return path;
+  auto places = places_of<Spatial>(group);
+  const GrownLoad grown = grow_load<Spatial>(group, places, load, limit, work.stop, {.iterations = 100000});
+  constexpr LoadEnd ends[] = {LoadEnd::limit, LoadEnd::fold,    LoadEnd::bifurcation, LoadEnd::stability,
+                              LoadEnd::limit, LoadEnd::stalled, LoadEnd::iterations,  LoadEnd::stopped};
+  path.end = ends[static_cast<int>(grown.end)];
+  path.load = grown.load;
+  path.definite_until = grown.definite_until;
+  impl.state.report.residual = group.evaluate();
+  impl.state.report.iterations += grown.iterations;
+  write_state(robot, group, impl.state);
+  path.state = impl.state;
+  return path;
 }
 
 const ArmWorkspace& arm_legs_shape(const ArmLegsWorkspace& work, std::size_t leg) {
