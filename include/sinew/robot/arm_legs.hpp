@@ -18,7 +18,7 @@ struct ArmLeg {
   Vec3<double> platform_point = Vec3<double>::Zero();  ///< where its tip is, in the platform's axes [m]
   /// Its tip is fixed to the platform; else it turns there freely, as in a ball joint.
   bool is_clamped = false;
-  SO3<double> mount = {};  ///< of a clamped tip's axes, in the platform's
+  SO3<double> mount = {};  ///< of a clamped tip's axes, in the platform's [1]
 };
 
 /// Constant once built, and shared between threads.
