@@ -200,11 +200,18 @@ Expected<OpenRobot> open_with_platform(const Arguments& arguments) {
     return tl::unexpected(Errors{{"not_available", "",
                                   fmt::format("{} is an arm without a platform; {} is for robots with one",
                                               robot->description.text("robot"), arguments.verb)}});
+  if (robot && stands_on_arms(*robot))
+    return tl::unexpected(
+        Errors{{"not_available", "",
+                fmt::format("{} stands on legs of sections; of these {} is not available in "
+                            "this version: ask forward or analyse",
+                            robot->description.text("robot"), arguments.verb)}});
   return robot;
 }
 
 Member at_home(const OpenRobot& robot) {
-  if (is_arm(robot)) return {.key = "changes", .value = list_of({})};           // as long as at rest
+  if (is_arm(robot) || stands_on_arms(robot))
+    return {.key = "changes", .value = list_of({})};                            // as long as at rest
   if (is_serial(robot)) return {.key = "configuration", .value = list_of({})};  // straight
   const Node& home = *robot.description.find("home");
   if (!robot.is_on_rods || robot.inputs.size() == 6) return {.key = "pose", .value = home};
@@ -230,7 +237,8 @@ Expected<Document> request(std::string_view query, const Arguments& arguments, c
   if (query == "statics" && arguments.has("pose")) request.member("inverse", make_node(true));
   if (is_curve && arguments.has("all")) request.member("branches", make_node(true));
   request.changes();
-  if (!arguments.has("json") && !is_serial(robot) && !is_arm(robot)) request.want_both();
+  if (!arguments.has("json") && !is_serial(robot) && !is_arm(robot) && !stands_on_arms(robot))
+    request.want_both();
   return request.done();
 }
 

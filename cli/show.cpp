@@ -216,7 +216,7 @@ std::string show_report(const Answer& answer) {
   report.iterations = static_cast<int>(answer.number("iterations").value_or(0));
   std::string text = to_string(report);
   if (!answer.number("residual")) text = "converged";  // in closed form
-  const bool is_of_arm = answer.find("tip") && answer.find("potential");
+  const bool is_of_arm = (answer.find("tip") || answer.find("reached")) && answer.find("potential");
   if (is_on_rods(answer) || is_of_arm || (answer.find("wrench_sensitivity") && !is_on_chains(answer)) ||
       answer.find("curves") || answer.find("rows[0].unstable_directions")) {
     text.resize(text.size() - 2);  // a residual of rods is relative, and has no unit

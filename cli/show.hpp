@@ -73,6 +73,9 @@ std::string show_diagram(const Answer& answer, const OpenRobot& robot, std::size
 /// @name Arms
 /// @{
 bool is_arm(const OpenRobot& robot);
+bool stands_on_arms(const OpenRobot& robot);  ///< of a platform whose legs are arms
+std::string show_arm_legs(const Answer& answer, const OpenRobot& robot);
+std::string show_arm_legs_robot(const OpenRobot& robot);
 /// What it is made of.
 std::string show_arm_robot(const OpenRobot& robot);
 /// Of a question to an arm.

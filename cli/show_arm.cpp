@@ -126,6 +126,48 @@ std::string show_measurement(const Answer& about, const OpenRobot& robot) {
 
 }  // namespace
 
+bool stands_on_arms(const OpenRobot& robot) { return robot.description.text("kind") == "arm_legs"; }
+
+std::string show_arm_legs_robot(const OpenRobot& robot) {
+  const Answer& about = robot.description;
+  std::string text = fmt::format("{}: platform on legs of sections, {} tendons, geometry: {}\n",
+                                 about.text("robot"), robot.inputs.size(), about.text("geometry"));
+  text += fmt::format("gravity: {} m/s^2, platform: {} kg\n\n", vector_text(about.find("gravity")),
+                      six_digits(about.number("platform.mass").value_or(0)));
+  TextTable table({"leg", "sections", "tendons", "length[mm]", "closure", "base[m]", "platform_point[m]"});
+  const auto& legs = about.find("legs")->items;
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    std::string tendons;
+    const auto& sections = at(legs[k], "link.sections")->items;
+    for (const Node& section : sections)
+      tendons += (tendons.empty() ? "" : "+") + six_digits(number(section, "tendons"));
+    table.add({fmt::format("legs[{}]", k), fmt::format("{}", sections.size()), tendons,
+               shown_at(legs[k], "link.length", "m"), at(legs[k], "closure.type")->text,
+               vector_text(at(legs[k], "base.point")), vector_text(at(legs[k], "platform_point"))});
+  }
+  return text + table.text();
+}
+
+std::string show_arm_legs(const Answer& answer, const OpenRobot& robot) {
+  if (!answer.find("pose")) return {};
+  std::string text = show_pose(*answer.find("pose")) + '\n' + show_tendon_states(answer, robot) + '\n';
+  TextTable table({"on the tip of", "fx[N]", "fy[N]", "fz[N]", "mx[N m]", "my[N m]", "mz[N m]"});
+  const auto& legs = answer.find("legs")->items;
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    std::vector<std::string> row{fmt::format("legs[{}]", k)};
+    for (const char* part : {"force", "moment"})
+      for (const double value : numbers(legs[k].find(part))) row.push_back(six_digits(value));
+    table.add(std::move(row));
+  }
+  text += table.text();
+  if (answer.find("load")) text += '\n' + show_load(answer);
+  text += show_arm_matrix(answer, "U", "twist of the platform by what holds each tendon");
+  text += show_arm_matrix(answer, "stiffness", "wrench on the platform by its twist: N/m, N, N m");
+  if (const auto resolution = answer.number("resolution"))
+    text += fmt::format("\nfiner polynomials move the platform by {} mm\n", six_digits(1000 * *resolution));
+  return text;
+}
+
 bool is_arm(const OpenRobot& robot) { return robot.description.text("kind") == "arm"; }
 
 std::string show_arm_robot(const OpenRobot& robot) {

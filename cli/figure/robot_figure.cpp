@@ -170,6 +170,15 @@ std::vector<Series> arm_drawing(const Answer& shape) {
   return all;
 }
 
+/// A platform on arms: a line through their tips.
+Series tips_drawing(const Answer& shape) {
+  Node outline;
+  outline.kind = Node::Kind::list;
+  for (const Node& backbone : shape.find("backbones")->items) outline.items.push_back(backbone.items.back());
+  outline.items.push_back(outline.items.front());
+  return curve(outline, Mark::line, Colour::black, 2, "platform");
+}
+
 /// Of the colours of taut tendons, where there are any.
 std::optional<ColourScale> tension_scale(const Panel& panel) {
   for (const Series& series : panel.series)
@@ -375,10 +384,11 @@ Panel space(std::vector<Series> all, std::array<Axis, 3> axes, const Answer& sha
 }  // namespace
 
 Figure robot_figure(const Answer& shape, const OpenRobot& robot, const std::optional<Eye>& eye) {
-  const bool is_row = is_serial(robot) || is_arm(robot);
-  const auto all = is_arm(robot)      ? arm_drawing(shape)
-                   : is_serial(robot) ? serial_drawing(shape)
+  const bool on_arms = stands_on_arms(robot), is_row = is_serial(robot) || is_arm(robot) || on_arms;
+  auto all = is_arm(robot) || on_arms ? arm_drawing(shape)
+             : is_serial(robot)       ? serial_drawing(shape)
                                       : drawing(shape, *robot.description.find("legs"));
+  if (on_arms) all.push_back(tips_drawing(shape));
   const auto axes = axes_around(all);
   Figure figure;
   figure.title = shape.text("robot");
@@ -393,10 +403,10 @@ Figure robot_figure(const Answer& shape, const OpenRobot& robot, const std::opti
     figure.panels = {projection(all, axes, 0, 1, starts)};
     if (robot.is_spatial) figure.panels.insert(figure.panels.begin(), projection(all, axes, 0, 2, starts));
   }
-  if (is_arm(robot)) {
+  if (is_arm(robot) || on_arms) {
     for (Panel& panel : figure.panels)
       if (const auto scale = tension_scale(panel)) panel.scale = scale;
-    if (!eye) figure.panels.push_back(curvature_panel(shape));
+    if (!eye && !on_arms) figure.panels.push_back(curvature_panel(shape));
   }
   figure.columns = static_cast<int>(figure.panels.size());
   if (!eye) figure.width = 700 * figure.columns;

@@ -349,6 +349,10 @@ int run_check(const Arguments& arguments) {
     print(arguments.has("json") ? robot->description.line() + '\n' : show_arm_robot(*robot));
     return solved;
   }
+  if (stands_on_arms(*robot)) {
+    print(arguments.has("json") ? robot->description.line() + '\n' : show_arm_legs_robot(*robot));
+    return solved;
+  }
   const Checked checked = put_questions(std::move(*robot));
   print(arguments.has("json") ? checked.robot.description.line() + '\n' : show(checked));
   if (!arguments.has("quiet")) warn(checked);

@@ -12,6 +12,7 @@ namespace {
 std::string show_configuration(const Answer& answer, const OpenRobot& robot) {
   if (is_serial(robot)) return show_serial(answer, robot);
   if (is_arm(robot)) return show_arm(answer, robot);
+  if (stands_on_arms(robot)) return show_arm_legs(answer, robot);
   const std::string query = answer.text("query");
   if (is_on_chains(answer)) return show_chains(answer, robot);
   if (answer.find("wrench_sensitivity")) return show_sensed(answer);
@@ -28,7 +29,7 @@ std::string show_configuration(const Answer& answer, const OpenRobot& robot) {
 }
 
 std::string show(const Answer& answer, const OpenRobot& robot) {
-  const bool has_platform = !is_serial(robot) && !is_arm(robot);
+  const bool has_platform = !is_serial(robot) && !is_arm(robot) && !stands_on_arms(robot);
   if (answer.text("query") == "velocity" && has_platform) return show_velocity(answer, robot);
   std::string text = show_configuration(answer, robot);
   if (answer.find("J") && has_platform) text += '\n' + show_velocity(answer, robot);

@@ -72,7 +72,8 @@ class Verbs:
                 `track` of an arm where its last path did, with what friction remembers; default the robot's
                 home
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
-                null for a tendon that `changes` has; a list each, or an array
+                of legs of sections those of leg 0 first, null for a tendon that `changes` has; a list each,
+                or an array
             wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
                 arm on its tip, in base axes; (3,) in the plane, (6,) in space
             gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
@@ -99,7 +100,7 @@ class Verbs:
                 a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its
                 extension; sections not given are straight; a list each, or an array
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
-                out, section after section; a list each, or an array
+                out, section after section, of legs of sections leg after leg; a list each, or an array
             slack (numbers) [m]: what the tendons of each section are paid out beyond its configuration; < 0
                 stiffens; (k,)
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
@@ -350,7 +351,8 @@ class Verbs:
                 `track` of an arm where its last path did, with what friction remembers; default the robot's
                 home
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
-                null for a tendon that `changes` has; a list each, or an array
+                of legs of sections those of leg 0 first, null for a tendon that `changes` has; a list each,
+                or an array
             wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
                 arm on its tip, in base axes; (3,) in the plane, (6,) in space
             gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
@@ -372,7 +374,7 @@ class Verbs:
                 a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its
                 extension; sections not given are straight; a list each, or an array
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
-                out, section after section; a list each, or an array
+                out, section after section, of legs of sections leg after leg; a list each, or an array
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
             distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)
@@ -493,7 +495,8 @@ class Verbs:
             set_at (pose) [m, rad]: the pose at which the tendons are set without load, the outer ones loose
             hold (str): what stays after `set_at` or with `pose`: tension (default) or length
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
-                null for a tendon that `changes` has; a list each, or an array
+                of legs of sections those of leg 0 first, null for a tendon that `changes` has; a list each,
+                or an array
             lengths (lists of numbers) [m]: of the tendon of each leg whose length is held; null, on the
                 command line -, leaves the other one loose; (legs, 2)
             inverse (bool): `pose` is held under the load, and the tensions for it answered
@@ -521,7 +524,7 @@ class Verbs:
             samples (int): points of each backbone of a shape; poses on a path, default 60; points on a
                 curve, at most, default 500
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
-                out, section after section; a list each, or an array
+                out, section after section, of legs of sections leg after leg; a list each, or an array
             position (numbers) [m]: of the tip of a serial robot or an arm; of statics where it was seen;
                 (3,)
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
@@ -649,7 +652,8 @@ class Verbs:
             set_at (pose) [m, rad]: the pose at which the tendons are set without load, the outer ones loose
             hold (str): what stays after `set_at` or with `pose`: tension (default) or length
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
-                null for a tendon that `changes` has; a list each, or an array
+                of legs of sections those of leg 0 first, null for a tendon that `changes` has; a list each,
+                or an array
             lengths (lists of numbers) [m]: of the tendon of each leg whose length is held; null, on the
                 command line -, leaves the other one loose; (legs, 2)
             wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
@@ -746,7 +750,7 @@ class Verbs:
             tilt (bool): poses of the answer have tilt, azimuth and torsion, too; in space only
             limit (number): how far to look `along` its direction; of a diagram the envelope's size
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
-                out, section after section; a list each, or an array
+                out, section after section, of legs of sections leg after leg; a list each, or an array
             measured (number, list, dict or str) [m]: changes that encoders read, beside those commanded
             tolerance (number) [m]: of a tendon before it counts as slack or too short; default the file's
             envelope (str): bends that a section is allowed: square, disc or actuator; default its limit
@@ -849,7 +853,8 @@ class Verbs:
                 `track` of an arm where its last path did, with what friction remembers; default the robot's
                 home
             tensions (lists of numbers) [N]: of both tendons of each leg; of an arm those of each section,
-                null for a tendon that `changes` has; a list each, or an array
+                of legs of sections those of leg 0 first, null for a tendon that `changes` has; a list each,
+                or an array
             wrench (numbers) [N, N m]: force and moment on the platform, about its reference point, of an
                 arm on its tip, in base axes; (3,) in the plane, (6,) in space
             gravity (numbers) [m/s^2]: of rods, arms and platforms that have a mass [m/s2]; default the
@@ -871,7 +876,7 @@ class Verbs:
                 a neutral backbone, beta_1, beta_2 of twin pivots; and, where its length varies, its
                 extension; sections not given are straight; a list each, or an array
             changes (lists of numbers) [m]: of a serial robot or an arm the change of each tendon, > 0 pays
-                out, section after section; a list each, or an array
+                out, section after section, of legs of sections leg after leg; a list each, or an array
             following (numbers) [N, N m]: force and moment on an arm's tip in its own axes, with which they
                 turn; (3,) in the plane, (6,) in space
             distributed (numbers) [N/m]: force on all of an arm's backbone, in base axes [N/m]; (3,)

@@ -8,6 +8,7 @@
 
 #include "io/actuation.hpp"
 #include "io/arm_backbone.hpp"
+#include "io/arm_legs_file.hpp"
 #include "io/measured/measurement.hpp"
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
@@ -59,6 +60,14 @@ class ArmReader {
       arm_.measurement = read_measurement(*measurement, arm_);  // asks how many tendons there are
     if (!has_tolerance_) arm_.tolerance = usual_tolerance(arm_.length(), arm_.motor);
     robot_.close();
+    return std::move(arm_);
+  }
+
+  /// Of a leg: what a link says of it.
+  Arm read_sections_alone() {
+    if (auto stretch = robot_.optional("stretch")) stretch_ = read_stretch(*stretch);
+    const Reader sections = robot_.required("sections", "a list, one entry a section, or {count, ...}");
+    if (sections.node()) read_sections(sections);
     return std::move(arm_);
   }
 
@@ -324,6 +333,10 @@ void ArmReader::read_properties(Reader& map, ArmTendon& tendon) {
 }
 
 }  // namespace
+
+Arm read_arm_of_leg(Reader& link, const Errors& errors) {
+  return ArmReader(link, errors).read_sections_alone();
+}
 
 bool is_arm(const Document& document) {
   if (!is_serial(document)) return false;

@@ -7,9 +7,11 @@
 #include <functional>
 #include <numbers>
 
+#include "io/arm_legs_file.hpp"
 #include "io/builtin.hpp"
 #include "io/parse.hpp"
 #include "io/read_material.hpp"
+#include "io/read_place.hpp"
 #include "io/read_pose.hpp"
 #include "io/robot_size.hpp"
 #include "robot/parallel.hpp"
@@ -20,40 +22,6 @@
 
 namespace sinew::inline v1 {
 namespace {
-
-/// `[x, y]` or `{radius, angle}`; in space `[x, y, z]` or `{radius, angle, height}`.
-template <class Space>
-Vec<double, Space::dimension> read_point(Reader point) {
-  Vec<double, Space::dimension> result;
-  if (point.is(Node::Kind::map)) {
-    const double radius =
-        point.required("radius").quantity(Dimension::length, {.low = 0, .high = Range::place().high});
-    const double angle = point.required("angle").quantity(Dimension::angle);
-    result.template head<2>() = Vec2<double>(radius * std::cos(angle), radius * std::sin(angle));
-    if constexpr (Space::dimension == 3) {
-      const auto height = point.optional("height");
-      result[2] = height ? height->quantity(Dimension::length, Range::place()) : 0;
-    }
-    point.close();
-  } else {
-    const auto values = point.array<Space::dimension>(Dimension::length, Range::place());
-    std::copy(values.begin(), values.end(), result.begin());
-  }
-  return result;
-}
-
-/// Unit vector along a list of three numbers, or at an angle in the plane of the base's x and y.
-Vec3<double> read_direction(const Reader& direction) {
-  if (!direction.is(Node::Kind::list) && direction.node()) {
-    const double angle = direction.quantity(Dimension::angle);
-    return {std::cos(angle), std::sin(angle), 0};
-  }
-  const auto [x, y, z] = direction.array<3>(Dimension::number, Range::place());
-  const Vec3<double> vector(x, y, z);
-  if (vector.norm() >= 1e-9) return vector.normalized();
-  direction.fail("no_direction", "a direction needs a component that is not 0");
-  return {0, 0, 1};
-}
 
 /// Axes at the foot of a planar leg: the clamped tangent is +y.
 template <class LegT>
@@ -591,6 +559,8 @@ Expected<Robot> read_robot(const Document& document) {
   if (!longer) return tl::unexpected(longer.error());
   const Expected<Document> whole = listed(*longer);
   if (!whole) return tl::unexpected(whole.error());
+  if (stands_on_arms(whole->root))
+    return read_arm_legs(*longer, *whole).map([](ArmLegs legs) { return Robot(std::move(legs)); });
   Errors errors;
   Reader robot =
       Reader(*longer, errors).over(whole->root);  // a shared default is named as such, and told once

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
@@ -12,24 +13,23 @@
 #include "sinew/kinematics/arm_load_path.hpp"
 
 namespace sinew::inline v1 {
-namespace {
 
-constexpr Wants arm_wants{Want::pose,      Want::velocity,  Want::shape,
-                          Want::stiffness, Want::stability, Want::margins};
-
-/// How many tendons end at each section.
-std::vector<std::size_t> tendon_counts(const Arm& arm) {
+std::vector<std::size_t> tendons_by_section(const Arm& arm) {
   std::vector<std::size_t> counts(arm.sections.size());
   for (const ArmTendon& tendon : arm.tendons) ++counts[static_cast<std::size_t>(tendon.section())];
   return counts;
 }
 
+namespace {
+
+constexpr Wants arm_wants{Want::pose,      Want::velocity,  Want::shape,
+                          Want::stiffness, Want::stability, Want::margins};
+
 /// Per section what is given of its tendons; null where nothing is.
-std::vector<std::optional<double>> read_of_tendons(const Arm& arm, const Reader& list, Dimension dimension,
-                                                   const Range& range) {
+std::vector<std::optional<double>> read_of_tendons(const std::vector<std::size_t>& counts, const Reader& list,
+                                                   Dimension dimension, const Range& range) {
   std::vector<std::optional<double>> values;
   const auto items = list.items();
-  const auto counts = tendon_counts(arm);
   if (items.size() > counts.size())
     list.fail("wrong_length",
               fmt::format("the robot has {} sections, found {} entries", counts.size(), items.size()));
@@ -50,15 +50,18 @@ std::vector<std::optional<double>> read_of_tendons(const Arm& arm, const Reader&
 }  // namespace
 
 std::vector<TendonCommand> read_arm_commands(const Arm& arm, Reader& place) {
+  return read_arm_commands(tendons_by_section(arm), place);
+}
+std::vector<TendonCommand> read_arm_commands(const std::vector<std::size_t>& counts, Reader& place) {
   const auto tensions = place.optional("tensions"), changes = place.optional("changes");
-  std::vector<TendonCommand> commands(arm.tendons.size(),
+  std::vector<TendonCommand> commands(std::accumulate(counts.begin(), counts.end(), std::size_t{0}),
                                       {changes && !tensions ? TendonHeld::change : TendonHeld::tension, 0});
   if (tensions) {
-    const auto values = read_of_tendons(arm, *tensions, Dimension::force, {.low = 0, .high = 1e9});
+    const auto values = read_of_tendons(counts, *tensions, Dimension::force, {.low = 0, .high = 1e9});
     for (std::size_t i = 0; i < commands.size(); ++i)
       if (values[i]) commands[i] = {TendonHeld::tension, *values[i]};
     if (changes) {
-      const auto others = read_of_tendons(arm, *changes, Dimension::length, Range::place());
+      const auto others = read_of_tendons(counts, *changes, Dimension::length, Range::place());
       for (std::size_t i = 0; i < commands.size(); ++i) {
         if (!others[i]) continue;
         if (values[i])
@@ -68,7 +71,7 @@ std::vector<TendonCommand> read_arm_commands(const Arm& arm, Reader& place) {
       }
     }
   } else if (changes) {
-    const auto values = read_of_tendons(arm, *changes, Dimension::length, Range::place());
+    const auto values = read_of_tendons(counts, *changes, Dimension::length, Range::place());
     for (std::size_t i = 0; i < commands.size(); ++i) commands[i].value = values[i].value_or(0);
   }
   return commands;
@@ -114,7 +117,7 @@ ArmLoad read_arm_load(const Arm& arm, Reader& place, ArmLoad load) {
   return load;
 }
 
-ArmOptions read_arm_options(ArmContext& context) {
+ArmOptions read_arm_options(Question& context) {
   ArmOptions options;
   Reader& query = context.query;
   if (const auto model = query.optional("model"))
@@ -148,9 +151,12 @@ void read_arm_start(ArmContext& context, ArmOptions& options) {
 }
 
 Value by_end_section(const Arm& arm, std::span<const double> values) {
+  return by_end_section(tendons_by_section(arm), values);
+}
+Value by_end_section(const std::vector<std::size_t>& counts, std::span<const double> values) {
   Value list = Value::list();
   std::size_t first = 0;
-  for (const std::size_t count : tendon_counts(arm)) {
+  for (const std::size_t count : counts) {
     list.push_back(Value(values.subspan(first, count)));
     first += count;
   }
@@ -213,7 +219,7 @@ void put_arm_shape(ArmContext& context, int samples) {
   Value tendons = Value::list(), frames = Value::list(), discs = Value::list(), backbones = Value::list();
   const auto lines = arm_tendon_lines(arm, context.work);
   std::size_t next = 0;
-  for (const std::size_t count : tendon_counts(arm)) {
+  for (const std::size_t count : tendons_by_section(arm)) {
     Value of_section = Value::list();
     for (std::size_t i = 0; i < count; ++i, ++next) {
       std::vector<double> numbers;

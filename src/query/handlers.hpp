@@ -60,6 +60,14 @@ void answer_arms_track(Context& context);
 void answer_arms_identify(Context& context);
 /// @}
 
+/// @name Platforms on arms
+/// @{
+void answer_arm_legs_forward(Context& context);
+void answer_arm_legs_velocity(Context& context);
+void answer_arm_legs_shape(Context& context);
+void answer_arm_legs_describe(Context& context);
+/// @}
+
 void answer_describe(Context& context);  ///< of robots with a platform
 
 }  // namespace sinew::inline v1

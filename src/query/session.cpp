@@ -22,11 +22,12 @@ using Handler = void (*)(Context&);
 
 /// Who answers a kind of question; null: nobody does in this version.
 struct Kind {
-  Handler of_kinematic, of_chains, of_rods, of_serial, of_arms;
+  Handler of_kinematic, of_chains, of_rods, of_serial, of_arms, of_arm_legs = nullptr;
 
   Handler handler(const Robot& robot) const {
     if (robot.serial()) return of_serial;
     if (robot.arm()) return of_arms;
+    if (robot.arm_legs()) return of_arm_legs;
     if (has_rods(robot)) return of_rods;
     return robot.model() == Model::prb ? of_chains : of_kinematic;
   }
@@ -41,18 +42,19 @@ struct Kind {
 /// In the order of `question_kinds`, which names them.
 constexpr std::array kinds{
     Kind{answer_kinematic_forward, answer_chains_forward, answer_rods_forward, answer_serial_forward,
-         answer_arms_forward},
+         answer_arms_forward, answer_arm_legs_forward},
     Kind{answer_kinematic_inverse, answer_chains_inverse, answer_rods_inverse, answer_serial_inverse,
          answer_arms_inverse},
     Kind{answer_kinematic_velocity, answer_chains_velocity, answer_rods_velocity, answer_serial_velocity,
-         answer_arms_velocity},
+         answer_arms_velocity, answer_arm_legs_velocity},
     Kind{answer_kinematic_shape, answer_chains_shape, answer_rods_shape, answer_serial_shape,
-         answer_arms_shape},
+         answer_arms_shape, answer_arm_legs_shape},
     Kind{nullptr, answer_chains_statics, answer_rods_statics, nullptr, answer_arms_statics},
     Kind{answer_kinematic_track, answer_chains_track, answer_rods_track, nullptr, answer_arms_track},
     Kind{nullptr, nullptr, nullptr, answer_serial_diagram, nullptr},
     Kind{nullptr, nullptr, nullptr, nullptr, answer_arms_identify},
-    Kind{answer_describe, answer_describe, answer_describe, answer_serial_describe, answer_arm_describe},
+    Kind{answer_describe, answer_describe, answer_describe, answer_serial_describe, answer_arm_describe,
+         answer_arm_legs_describe},
 };
 
 std::string_view word_of(const Kind& kind) {
@@ -73,11 +75,13 @@ const Kind& read_kind(Reader& query, const Robot& robot, std::string_view model)
                           word_of(kind)));
   else if (is_of_lengths)
     return kind;
-  if (is_serial || robot.arm() ? !kind.handler(robot) : !kind.is_of_platforms())
+  if (is_serial || robot.arm() || robot.arm_legs() ? !kind.handler(robot) : !kind.is_of_platforms())
     word.fail("not_available",
               !kind.of_serial && !kind.is_of_platforms()
                   ? fmt::format("{} is a question to arms that bear loads", word_of(kind))
               : is_serial ? fmt::format("{} is not available of serial robots in this version", word_of(kind))
+              : robot.arm_legs()
+                  ? fmt::format("{} is not available of legs of sections in this version", word_of(kind))
               : robot.arm() ? fmt::format("{} is not available of arms in this version", word_of(kind))
                             : fmt::format("{} is a question to serial robots", word_of(kind)));
   return kind;
@@ -234,7 +238,8 @@ void choose_theta(Opened& opened, const Reader& asked, ThetaIs theta_is) {
       found = true;
     }
   };
-  if (!opened.robot.serial() && !opened.robot.arm()) opened = Opened(with_changed_legs(opened.robot, choose));
+  if (!opened.robot.serial() && !opened.robot.arm() && !opened.robot.arm_legs())
+    opened = Opened(with_changed_legs(opened.robot, choose));
   if (!found) asked.fail("no_effect", "has no effect: no leg of this robot has an input theta; remove it");
 }
 
@@ -283,7 +288,8 @@ Opened* TreeSession::State::altered(Reader& query, Errors& errors) {
     return nullptr;
   }
   const Robot &before = opened.robot, &after = robot->robot;
-  if (!before.serial() != !after.serial() || !before.arm() != !after.arm()) {
+  if (!before.serial() != !after.serial() || !before.arm() != !after.arm() ||
+      !before.arm_legs() != !after.arm_legs()) {
     set->fail("wrong_kind", "it makes a robot of another kind; put the question to a file of that robot");
     return nullptr;
   }
@@ -326,7 +332,8 @@ Value TreeSession::put(const Document& document, std::optional<AnyPose>* last, C
                        bool is_only_read, Errors& errors) {
   Reader query(document, errors);
   const Value id = read_id(query);
-  const bool has_platform = !state_->opened.robot.serial() && !state_->opened.robot.arm();
+  const bool has_platform = !state_->opened.robot.serial() && !state_->opened.robot.arm() &&
+                            !state_->opened.robot.arm_legs();
   const Node* word = document.root.find("model");
   const std::string_view asked_model = word ? std::string_view(word->text) : std::string_view();
   const Kind& kind = read_kind(query, state_->opened.robot, asked_model);

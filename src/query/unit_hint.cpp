@@ -10,6 +10,7 @@
 #include "query/fields/fields.hpp"
 #include "robot/parallel.hpp"
 #include "sinew/robot/arm.hpp"
+#include "sinew/robot/arm_legs.hpp"
 
 namespace sinew::inline v1 {
 namespace {
@@ -281,6 +282,12 @@ RobotScale scale_of(const Robot& robot) {
   if (const Arm* arm = robot.arm()) {
     const double length = arm->length();
     return {.length = length, .force = arm->sections.front().start.bending_x / (length * length)};
+  }
+  if (const ArmLegs* legs = robot.arm_legs(); legs && !legs->legs.empty()) {
+    const Arm& arm = legs->legs.front().arm;
+    const double length = arm.length();
+    return {.length = length + legs->legs.front().base.p.norm(),
+            .force = arm.sections.front().start.bending_x / (length * length)};
   }
   RobotScale scale;
   const double height = std::visit(

@@ -45,7 +45,10 @@ Report explain_misfit(const Robot& robot, const Workspace& work) {
   } else {
     report.status = Status::unsupported;
     report.message.append(
-        robot.arm()
+        robot.arm_legs()
+            ? "legs of several sections have questions of their own, put to robot.arm_legs(): see "
+              "kinematics/arm_legs.hpp"
+        : robot.arm()
             ? "an arm has no legs and no platform: its questions are put to robot.arm()"
             : "a serial robot has no legs and no platform: its questions are put to robot.serial(), see "
               "kinematics/serial.hpp");

@@ -13,7 +13,8 @@ inline bool is_planar(const Robot& robot) { return robot.planar() != nullptr; }
 
 /// Whether questions about platforms may be put to this robot in this workspace.
 inline bool fits(const Robot& robot, const Workspace& work) {
-  return work.robot.get() == robot.identity() && !robot.serial() && !robot.arm() && robot.is_within_limits();
+  return work.robot.get() == robot.identity() && !robot.serial() && !robot.arm() && !robot.arm_legs() &&
+         robot.is_within_limits();
 }
 inline bool fits(const Robot& robot, const AnyPose& pose) {
   return std::holds_alternative<PlanarPose>(pose) == is_planar(robot);

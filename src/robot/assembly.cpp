@@ -8,6 +8,7 @@
 #include "robot/kinematic_group.hpp"
 #include "robot/pose.hpp"
 #include "robot/rod_work.hpp"
+#include "sinew/robot/arm_legs_workspace.hpp"
 #include "sinew/robot/arm_workspace.hpp"
 #include "sinew/robot/serial_workspace.hpp"
 
@@ -181,6 +182,7 @@ Workspace::Workspace(const Robot& any) : robot(any.shared()) {
   if (has_rods(any)) rods = std::make_unique<RodWork>(rod_group(any));
   if (any.serial()) serial = std::make_unique<SerialWorkspace>(*any.serial());
   if (any.arm()) arm = std::make_unique<ArmWorkspace>(*any.arm());
+  if (any.arm_legs()) arm_legs = std::make_unique<ArmLegsWorkspace>(*any.arm_legs());
   if (any.model() == Model::prb) arcs = std::make_unique<Workspace>(*any.as(Model::cc));
   coordinates.resize(static_cast<std::size_t>(coordinate_count(any)));
   inputs.resize(inputs_);

@@ -10,6 +10,7 @@
 #include "robot/make_chains.hpp"
 #include "sinew/base/limits.hpp"
 #include "sinew/robot/arm.hpp"
+#include "sinew/robot/arm_legs.hpp"
 #include "sinew/robot/assembly.hpp"
 #include "sinew/robot/serial.hpp"
 
@@ -22,6 +23,7 @@ struct Robot::Data {
   bool geometry_inferred;
   std::optional<SerialRobot> sections = {};
   std::optional<Arm> arm = {};
+  std::optional<ArmLegs> arm_legs = {};
   /// By the model prb: chains in place of the arcs, and the robot on these.
   std::optional<AnyChains> chains = {};
   PrbDiscretisation discretisation = {};
@@ -34,11 +36,12 @@ Robot::Robot(std::shared_ptr<const Data> data)
       spatial_(std::get_if<SpatialRobot>(&data_->legs)),
       serial_(data_->sections ? &*data_->sections : nullptr),
       arm_(data_->arm ? &*data_->arm : nullptr),
+      arm_legs_(data_->arm_legs ? &*data_->arm_legs : nullptr),
       rods_(spatial_ ? spatial_->rods : 0) {
-  model_ = data_->chains               ? Model::prb
-           : rods_ > 0 || arm_         ? Model::rod
-           : serial_ || has_arc(*this) ? Model::cc
-                                       : Model::rigid;
+  model_ = data_->chains                    ? Model::prb
+           : rods_ > 0 || arm_ || arm_legs_ ? Model::rod
+           : serial_ || has_arc(*this)      ? Model::cc
+                                            : Model::rigid;
   is_within_limits_ = with_legs(*this, [](const auto& legs) {
     int feeds = legs.rods;  // beside rods a tied leg is fed, too
     legs.for_each_closing_leg([&]<class L>(const L&, const LegPlace&, int) { feeds += L::inputs; });
@@ -70,6 +73,15 @@ Robot::Robot(Arm arm)
         return std::make_shared<const Data>(std::move(data));
       }()) {}
 
+Robot::Robot(ArmLegs legs)
+    : Robot([&] {
+        const auto& [x, y, z] = legs.gravity;
+        Data data{legs.name, SpatialRobot(),
+                  Weight{.gravity = {x, y, z}, .platform_mass = legs.platform_mass}, legs.geometry_inferred};
+        data.arm_legs = std::move(legs);
+        return std::make_shared<const Data>(std::move(data));
+      }()) {}
+
 const std::string& Robot::name() const { return data_->name; }
 const Weight& Robot::weight() const { return data_->weight; }
 bool Robot::geometry_inferred() const { return data_->geometry_inferred; }
@@ -80,6 +92,11 @@ Robot Robot::under(const Weight& weight) const {
   if (data.arm) {
     data.arm->gravity = {weight.gravity.x(), weight.gravity.y(), weight.gravity.z()};
     data.arm->identity = std::make_shared<const char>();
+  }
+  if (data.arm_legs) {
+    data.arm_legs->gravity = {weight.gravity.x(), weight.gravity.y(), weight.gravity.z()};
+    data.arm_legs->platform_mass = weight.platform_mass;
+    data.arm_legs->identity = std::make_shared<const char>();
   }
   return Robot(std::make_shared<const Data>(std::move(data)));
 }
@@ -122,12 +139,17 @@ const ChainLegs<Spatial>* Robot::spatial_chains() const {
 
 bool has_weight(const Robot& robot) {
   bool has = robot.weight().platform_mass > 0;
-  if (const Arm* arm = robot.arm()) {
-    has = arm->tip_mass > 0;
-    for (const ArmSection& section : arm->sections)
+  const auto add = [&](const Arm& arm) {
+    for (const ArmSection& section : arm.sections)
       has = has || section.start.mass > 0 || section.end.mass > 0 ||
             (section.discs.count > 0 && section.discs.mass > 0);
+  };
+  if (const Arm* arm = robot.arm()) {
+    has = arm->tip_mass > 0;
+    add(*arm);
   }
+  if (robot.arm_legs())
+    for (const ArmLeg& leg : robot.arm_legs()->legs) add(leg.arm);
   for_each_rod(robot, [&](const RodLeg& leg, const LegPlace&, int) { has = has || leg.link.density > 0; });
   return has;
 }

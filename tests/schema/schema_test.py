@@ -34,7 +34,8 @@ VALUES = ["nonsense", "-1 mm", "0 mm", "1 kg", -1, [1]]
 
 
 def files():
-    found = sorted([*ROOT.glob("robots/*.yaml"), *ROOT.glob("examples/robots/*.yaml")])
+    folders = ["robots", "examples/robots", "tests/data/robots"]
+    found = sorted(file for folder in folders for file in ROOT.glob(f"{folder}/*.yaml"))
     assert len(found) >= 12, found
     return found
 

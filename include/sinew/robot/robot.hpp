@@ -21,6 +21,7 @@ struct PlanarRobot;
 struct SpatialRobot;
 struct SerialRobot;
 struct Arm;
+struct ArmLegs;
 /// Legs as chains of rigid links: robot/chains.hpp.
 template <class Space>
 struct ChainLegs;
@@ -56,6 +57,7 @@ class Robot {
                   bool geometry_inferred = false);
   SINEW_API explicit Robot(SerialRobot sections);
   SINEW_API explicit Robot(Arm arm);
+  SINEW_API explicit Robot(ArmLegs legs);
   /// Of legs all alike; needs robot/parallel.hpp.
   template <class LegT>
   Robot(std::string name, const ParallelRobot<LegT>& legs);
@@ -79,6 +81,8 @@ class Robot {
   const SerialRobot* serial() const { return serial_; }
   /// Of a tendon-driven arm that bears loads, which has no legs and no platform; else null.
   const Arm* arm() const { return arm_; }
+  /// Of a platform on arms, whose questions are in kinematics/arm_legs.hpp; else null.
+  const ArmLegs* arm_legs() const { return arm_legs_; }
 
   /// Its legs; null of a robot of the other space.
   const PlanarRobot* planar() const { return planar_; }
@@ -111,6 +115,7 @@ class Robot {
   const SpatialRobot* spatial_ = nullptr;
   const SerialRobot* serial_ = nullptr;
   const Arm* arm_ = nullptr;
+  const ArmLegs* arm_legs_ = nullptr;
   Model model_ = Model::rigid;
   int rods_ = 0;
   bool is_within_limits_ = true;

@@ -11,6 +11,7 @@
 
 namespace sinew::inline v1 {
 
+class ArmLegsWorkspace;
 class ArmWorkspace;
 struct RodWork;
 struct SerialWorkspace;
@@ -47,10 +48,11 @@ struct Workspace {
   std::vector<int> solution_count;  ///< a leg; 1 for a leg whose inputs are another's
   std::vector<int> type_1;          ///< legs
   std::vector<LegState> legs;
-  std::unique_ptr<RodWork> rods;            ///< of a robot on rods; else null
-  std::unique_ptr<SerialWorkspace> serial;  ///< of a serial robot; else null
-  std::unique_ptr<ArmWorkspace> arm;        ///< of an arm; else null
-  ChainWork chains;                         ///< of a robot by the model prb
+  std::unique_ptr<RodWork> rods;               ///< of a robot on rods; else null
+  std::unique_ptr<SerialWorkspace> serial;     ///< of a serial robot; else null
+  std::unique_ptr<ArmWorkspace> arm;           ///< of an arm; else null
+  std::unique_ptr<ArmLegsWorkspace> arm_legs;  ///< of a platform on arms; else null
+  ChainWork chains;                            ///< of a robot by the model prb
   /// Of a robot by the model prb: that of the same on arcs, near which searches for its chains begin; else
   /// null.
   std::unique_ptr<Workspace> arcs;

@@ -10,6 +10,7 @@
 #include "query/fields/fields.hpp"
 #include "robot/chains.hpp"
 #include "sinew/robot/arm.hpp"
+#include "sinew/robot/arm_legs.hpp"
 #include "sinew/robot/assembly.hpp"
 #include "sinew/robot/serial.hpp"
 
@@ -82,6 +83,8 @@ FieldLayouts::FieldLayouts(const Robot& robot, std::string_view query)
     count(*sections);
   else if (const Arm* arm = robot.arm())
     count(*arm);
+  else if (const ArmLegs* legs = robot.arm_legs())
+    for (const ArmLeg& leg : legs->legs) count(leg.arm);
   else
     count(robot);
 }
@@ -111,9 +114,10 @@ void FieldLayouts::count(const SerialRobot& robot) {
 void FieldLayouts::count(const Arm& arm) {
   is_arm_ = true;
   freedoms_ = rows_ = 6;
-  tendons_.resize(arm.sections.size());
-  for (const ArmTendon& tendon : arm.tendons) ++tendons_[static_cast<std::size_t>(tendon.section())];
-  legs_ = inputs_ = columns_ = arm.tendons.size();
+  const std::size_t before = tendons_.size();  // of a platform, legs before this one
+  tendons_.resize(before + arm.sections.size());
+  for (const ArmTendon& tendon : arm.tendons) ++tendons_[before + static_cast<std::size_t>(tendon.section())];
+  legs_ = inputs_ = columns_ = inputs_ + arm.tendons.size();
 }
 
 FieldLayout FieldLayouts::lists(std::string_view name) const {

@@ -195,7 +195,12 @@ Outputs usual_outputs(const Robot& robot, std::string_view query) {
     return usual;
   }
   Outputs usual;
-  if (robot.arm()) {
+  if (robot.arm_legs()) {
+    usual = {{"position", "pose.position"},
+             {"quaternion", "pose.quaternion"},
+             {"tensions", "tensions"},
+             {"changes", "changes"}};
+  } else if (robot.arm()) {
     usual = {{"position", "tip.position"},
              {"quaternion", "tip.quaternion"},
              {"tensions", "tensions"},

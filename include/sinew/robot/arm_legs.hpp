@@ -1,0 +1,43 @@
+/// @file arm_legs.hpp
+/// A platform on arms: legs of elastic sections, each pulled by tendons. Theory: docs/theory/arm_legs.md
+#pragma once
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sinew/math/se3.hpp"
+#include "sinew/robot/arm.hpp"
+
+namespace sinew::inline v1 {
+
+/// An arm between the base and the platform.
+struct ArmLeg {
+  Arm arm;                ///< its gravity and what its tip carries do not count: those of the robot do
+  SE3<double> base = {};  ///< of its first section, z along the arm, base axes [m]
+  Vec3<double> platform_point = Vec3<double>::Zero();  ///< where its tip is, in the platform's axes [m]
+  /// Its tip is fixed to the platform; else it turns there freely, as in a ball joint.
+  bool is_clamped = false;
+  SO3<double> mount = {};  ///< of a clamped tip's axes, in the platform's [1]
+};
+
+/// Constant once built, and shared between threads.
+struct ArmLegs {
+  std::string name;
+  std::vector<ArmLeg> legs;
+  SpatialPose home;                        ///< of the platform, with all legs at rest
+  std::array<double, 3> gravity{0, 0, 0};  ///< base axes [m/s²]
+  double platform_mass = 0;                ///< at the platform's reference point [kg], ≥ 0
+  bool geometry_inferred = false;          ///< not printed in its source but inferred from results
+  /// One for a robot and its copies; by it a workspace knows the robot that it was made for.
+  std::shared_ptr<const char> identity = std::make_shared<const char>();
+
+  /// Tendons of all legs [1].
+  std::size_t tendons() const {
+    std::size_t count = 0;
+    for (const ArmLeg& leg : legs) count += leg.arm.tendons.size();
+    return count;
+  }
+};
+
+}  // namespace sinew::inline v1

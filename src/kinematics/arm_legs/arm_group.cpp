@@ -1,0 +1,565 @@
+#include "kinematics/arm_legs/arm_group.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/at.hpp"
+#include "strain/condense.hpp"
+#include "strain/sweep.hpp"
+
+namespace sinew::inline v1 {
+namespace {
+
+using Three3 = Mat<double, 3, 3>;
+
+/// Twice the skew part of a matrix, as a vector: of ½ [v] it is v.
+Vec3<double> axial(const Three3& m) { return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)}; }
+Three3 turn_of(const strain::RodFrame& frame) {
+  Three3 turn;
+  turn << frame.R[0], frame.R[1], frame.R[2], frame.R[3], frame.R[4], frame.R[5], frame.R[6], frame.R[7],
+      frame.R[8];
+  return turn;
+}
+Vec3<double> place_of(const strain::RodFrame& frame) { return {frame.p[0], frame.p[1], frame.p[2]}; }
+
+double worst_of(double a, double b) { return !(b <= a) ? b : a; }  // NaN wins
+
+/// Of the length's error of a tendon by its tension: what an arm yields to it, roughly [m/N].
+double yields(const Arm& arm, const ArmTendon& tendon) {
+  double sum = 0;
+  for (std::size_t m = 0; m < tendon.routes.size(); ++m) {
+    const ArmSection& section = arm.sections[m];
+    const double r = tendon.routes[m].start_radius;
+    sum += r * r * section.length / std::min(section.start.bending_x, section.start.bending_y);
+  }
+  return sum;
+}
+
+}  // namespace
+
+ArmGroup::ArmGroup(const ArmLegs& robot, const ArmBasis& basis)
+    : robot_(&robot),
+      platform_(Frame::from(robot.home)),
+      gravity_(robot.gravity) {
+  legs_.reserve(robot.legs.size());
+  for (const ArmLeg& own : robot.legs) {
+    Leg& leg = legs_.emplace_back(own);
+    ArmWorkspace::Impl& impl = leg.work.impl();
+    impl.levels.push_back(std::make_unique<ArmRod>(make_rod(own.arm, basis)));
+    impl.level = 0;
+    strain::RodWork& work = rod(leg).work();
+    const Three3 turn = own.base.R.matrix();
+    strain::RodFrame& foot = work.frames.front();
+    for (int i = 0; i < 3; ++i) {
+      foot.p[i] = own.base.p[i];
+      for (int j = 0; j < 3; ++j) foot.R[3 * i + j] = turn(i, j);
+    }
+    sweep_out(rod(leg).model(), work);
+    leg.first_feed = feeds_;
+    leg.closed = own.is_clamped ? 6 : 3;
+    for (std::size_t i = 0; i < own.arm.tendons.size(); ++i) {
+      const ArmTendon& from = own.arm.tendons[i];
+      Tendon& tendon = leg.tendons.emplace_back();
+      tendon.rest = work.lengths[i];
+      tendon.compliance = from.compliance;
+      tendon.pretension = from.pretension;
+      tendon.unit = yields(own.arm, from);
+    }
+    feeds_ += static_cast<int>(leg.tendons.size());
+    measure_closure(leg);
+    leg.gap = leg.off;
+    radius_ = std::max(radius_, own.platform_point.norm());
+    radius_ = std::max(radius_, 0.01 * own.arm.length());
+  }
+  set_share(0);
+}
+
+void ArmGroup::set_problem(std::span<const TendonCommand> commands, const Wrench& wrench,
+                           const std::array<double, 3>& gravity) {
+  for (Leg& leg : legs_)
+    for (std::size_t i = 0; i < leg.tendons.size(); ++i)
+      leg.tendons[i].command = commands[at(leg.first_feed) + i];
+  gravity_ = gravity;
+  wrench_ = wrench;
+  set_share(share_);
+}
+
+void ArmGroup::set_share(double share) {
+  share_ = share;
+  for (Leg& leg : legs_) {
+    ArmLoad load;
+    load.gravity = {share * gravity_[0], share * gravity_[1], share * gravity_[2]};
+    set_loads(leg.own->arm, load, rod(leg).model(), rod(leg).work().loads);
+    leg.tip = rod(leg).work().loads.back();
+    for (Tendon& tendon : leg.tendons) {
+      const double value = tendon.command.value;
+      if (tendon.command.held == TendonHeld::tension)
+        tendon.target = share * value;
+      else
+        tendon.free_length = tendon.rest + share * (value - tendon.compliance * tendon.pretension);
+    }
+  }
+}
+
+void ArmGroup::carry_over_from(const ArmGroup& other) {
+  platform_ = other.platform_;
+  for (std::size_t k = 0; k < legs_.size(); ++k) {
+    const Leg& from = other.legs_[k];
+    Leg& leg = legs_[k];
+    carry_over(rod(from).model(), rod(from).work(), rod(leg).model(), rod(leg).work().y);
+    leg.force = from.force;
+    leg.moment = from.moment;
+    for (std::size_t i = 0; i < leg.tendons.size(); ++i) leg.tendons[i].tension = from.tendons[i].tension;
+  }
+}
+
+const LimbTraits& ArmGroup::traits() const {
+  static constexpr LimbTraits traits{.tolerance = 1e-10, .rounding = 1e-13};
+  return traits;
+}
+
+double ArmGroup::length(int limb) const { return legs_[at(limb)].own->arm.length(); }
+double ArmGroup::stiffness(int limb) const {
+  return rod(legs_[at(limb)]).model().energy_scale * length(limb);
+}
+
+std::pair<const ArmGroup::Leg*, const ArmGroup::Tendon*> ArmGroup::find(int feed) const {
+  const auto after = std::ranges::find_if(legs_, [&](const Leg& leg) { return leg.first_feed > feed; });
+  const Leg& leg = *std::prev(after);
+  return {&leg, &leg.tendons[at(feed - leg.first_feed)]};
+}
+double ArmGroup::held(int feed) const { return find(feed).second->command.value; }
+void ArmGroup::hold(int feed, double value) {
+  const_cast<Tendon*>(find(feed).second)->command.value = value;  // of this group, which is not const here
+  set_share(share_);
+}
+
+void ArmGroup::save(LimbState& to) const {
+  to.clear();
+  to.put(platform_);
+  to.put(wrench_);
+  to.put(share_);
+  for (const Leg& leg : legs_) {
+    to.put(leg.force);
+    to.put(leg.moment);
+    to.put(std::span<const double>(rod(leg).work().y));
+    for (const Tendon& tendon : leg.tendons) {
+      to.put(tendon.command.value);
+      to.put(tendon.tension);
+    }
+  }
+}
+
+void ArmGroup::restore(const LimbState& from) {
+  LimbState::Reader reader(from);
+  reader.get(platform_);
+  reader.get(wrench_);
+  reader.get(share_);
+  for (Leg& leg : legs_) {
+    reader.get(leg.force);
+    reader.get(leg.moment);
+    reader.get(std::span<double>(rod(leg).work().y));
+    for (Tendon& tendon : leg.tendons) {
+      reader.get(tendon.command.value);
+      reader.get(tendon.tension);
+    }
+  }
+  set_share(share_);
+}
+
+auto ArmGroup::mount_of(const Leg& leg) const -> Frame {
+  return {platform_.point(leg.own->platform_point), platform_.R.compose(leg.own->mount)};
+}
+Vec3<double> ArmGroup::moment_of(const Leg& leg) const { return mount_of(leg).rotate(leg.moment); }
+
+void ArmGroup::measure_closure(Leg& leg) {
+  const Frame mount = mount_of(leg);
+  const strain::RodFrame& tip = rod(leg).work().frames.back();
+  leg.off.head<3>() = place_of(tip) - mount.p;
+  leg.off.tail<3>() = 0.5 * axial(mount.R.matrix().transpose() * turn_of(tip));
+  if (!leg.own->is_clamped) leg.off.tail<3>().setZero();
+}
+
+bool ArmGroup::mounts_hold() const {
+  return std::ranges::all_of(legs_, [&](const Leg& leg) {
+    if (!leg.own->is_clamped) return true;
+    const Three3 turn = mount_of(leg).R.matrix().transpose() * turn_of(rod(leg).work().frames.back());
+    return turn.trace() > 1;
+  });
+}
+
+auto ArmGroup::needs(const Leg& leg) const -> Wrench {
+  const Vec3<double> b = platform_.rotate(leg.own->platform_point);
+  Wrench wrench;
+  wrench.head<3>() = leg.force;
+  wrench.tail<3>() = cross(b, leg.force) + moment_of(leg);
+  return wrench;
+}
+auto ArmGroup::push(int limb) const -> Wrench { return -needs(legs_[at(limb)]); }
+auto ArmGroup::tip_wrench(int limb) const -> Wrench {
+  Wrench wrench;
+  wrench.head<3>() = legs_[at(limb)].force;
+  wrench.tail<3>() = moment_of(legs_[at(limb)]);
+  return wrench;
+}
+
+double ArmGroup::force_unit(const Leg& leg) const {
+  return rod(leg).model().energy_scale / leg.own->arm.length();
+}
+
+void ArmGroup::evaluate(Leg& leg) {
+  const strain::RodModel& model = rod(leg).model();
+  strain::RodWork& work = rod(leg).work();
+  strain::NodeLoad& tip = work.loads.back();
+  tip = leg.tip;
+  // The moment as dead forces at points of the tip: a potential that is linear in the tip's rotation.
+  const Three3 couple = 0.5 * mount_of(leg).R.matrix() * skew<double>(leg.moment);
+  for (int i = 0; i < 3; ++i) {
+    tip.force[i] += leg.force[i];
+    for (int j = 0; j < 3; ++j) tip.couple[3 * i + j] += couple(i, j);
+  }
+  sweep_out(model, work);
+  leg.taut = 0;
+  int loose = 0;
+  double error = 0;
+  const double size = leg.own->arm.length();
+  for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
+    Tendon& tendon = leg.tendons[i];
+    tendon.is_taut = false;
+    if (tendon.command.held == TendonHeld::tension) {
+      tendon.tension = tendon.target;
+      tendon.place = loose++;
+      continue;
+    }
+    const double missing = work.lengths[i] - tendon.free_length - tendon.compliance * tendon.tension;
+    tendon.is_taut = tendon.tension + missing / tendon.unit > 0;
+    tendon.place = tendon.is_taut ? leg.taut++ : -1;
+    if (tendon.is_taut)
+      error = worst_of(error, std::abs(missing) / size);
+    else
+      tendon.tension = 0;
+  }
+  const auto tension = [&](int index) { return leg.tendons[at(index)].tension; };
+  for (std::size_t i = 0; i < model.holes.size(); ++i) work.hole_tension[i] = tension(model.holes[i].tendon);
+  for (std::size_t i = 0; i < model.guides.size(); ++i)
+    work.guide_tension[i] = tension(model.guides[i].tendon);
+  sweep_back_with_hessian(model, work);
+  measure_closure(leg);
+  const Vec<double, 6> open = leg.off - (1 - share_) * leg.gap;
+  error = worst_of(error, open.head<3>().norm() / size);
+  error = worst_of(error, open.tail<3>().norm());
+  double sum = 0;
+  for (const double g : work.gradient) sum += g * g;
+  limb_error_ = worst_of(limb_error_, worst_of(error, std::sqrt(sum / model.energy_scale)));
+}
+
+double ArmGroup::evaluate(bool) {
+  balance_ = share_ * wrench_;
+  for (int i = 0; i < 3; ++i) balance_[i] += share_ * robot_->platform_mass * gravity_[at(i)];
+  limb_error_ = 0;
+  double unit = 0;
+  for (Leg& leg : legs_) {
+    evaluate(leg);
+    balance_ -= needs(leg);
+    unit = std::max(unit, force_unit(leg));
+  }
+  error_ = worst_of(limb_error_, balance_.head<3>().norm() / unit);
+  error_ = worst_of(error_, balance_.tail<3>().norm() / (unit * radius_));
+  return error_;
+}
+
+bool ArmGroup::factor(Leg& leg) {
+  const strain::RodModel& model = rod(leg).model();
+  strain::RodWork& work = rod(leg).work();
+  const int n = model.size, taut = leg.taut, all = leg.unknowns();
+  const strain::Inertia inertia = strain::factor(model, work, 0);
+  if (!inertia.ok) return false;
+  leg.negative = inertia.negative;
+  leg.B.setZero(all, n);
+  leg.L.setZero(static_cast<int>(leg.tendons.size()) - taut, n);
+  leg.r.resize(all);
+  leg.D.setZero(all, all);
+  int held = 0;
+  for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
+    Tendon& tendon = leg.tendons[i];
+    const Eigen::Map<const Eigen::RowVectorXd> row(work.length_gradient.data() + i * at(n), n);
+    if (tendon.is_taut) {
+      leg.B.row(tendon.place) = row;
+      leg.r[tendon.place] = work.lengths[i] - tendon.free_length - tendon.compliance * tendon.tension;
+      leg.D(tendon.place, tendon.place) = tendon.compliance;
+    } else if (tendon.command.held == TendonHeld::tension) {
+      leg.L.row(tendon.place) = row;
+      ++held;
+    }
+  }
+  leg.L.conservativeResize(held, n);
+  Matrix twists(6, n);
+  tip_twists(model, work, twists.data());
+  const Frame mount = mount_of(leg);
+  const Three3 tip = turn_of(work.frames.back()), turn = mount.R.matrix(), off = turn.transpose() * tip;
+  const Vec<double, 6> open = leg.off - (1 - share_) * leg.gap;
+  leg.B.middleRows(taut, 3) = -tip * twists.topRows(3);
+  leg.r.segment(taut, 3) = -open.head<3>();
+  leg.X.setZero(all, 6);
+  leg.X.block(taut, 0, 3, 3).setIdentity();
+  leg.X.block(taut, 3, 3, 3) = -skew<double>(mount.p - platform_.p);
+  if (leg.own->is_clamped) {
+    const Three3 whole = off.trace() * Three3::Identity();
+    leg.B.bottomRows(3) = -0.5 * (whole - off.transpose()) * twists.bottomRows(3);
+    leg.r.tail(3) = -open.tail<3>();
+    leg.X.block(taut + 3, 3, 3, 3) = 0.5 * (whole - off) * turn.transpose();
+  }
+  const int columns = all + held + 1, stride = (columns + strain::row - 1) / strain::row * strain::row;
+  Matrix sides = Matrix::Zero(n, stride);
+  sides.leftCols(all) = leg.B.transpose();
+  sides.middleCols(all, held) = leg.L.transpose();
+  for (int i = 0; i < n; ++i) sides(i, all + held) = -work.gradient[at(i)];
+  strain::solve(model, work, sides.data(), columns, stride);
+  leg.HB = sides.leftCols(all);
+  leg.HL = sides.middleCols(all, held);
+  leg.y0 = sides.col(all + held);
+  leg.D += leg.B * leg.HB;
+  leg.D = (0.5 * (leg.D + leg.D.transpose())).eval();
+  leg.r += leg.B * leg.y0;
+  leg.du = Vector::Zero(all);
+  return leg.D.allFinite() && leg.r.allFinite();
+}
+
+bool ArmGroup::factor_limbs() {
+  return std::ranges::all_of(legs_, [&](Leg& leg) { return factor(leg); });
+}
+
+/// Of what a leg needs of the platform's wrench, by the platform's twist, its own forces held.
+Mat<double, 6, 6> ArmGroup::curvature(const Leg& leg) const {
+  Mat<double, 6, 6> change = Mat<double, 6, 6>::Zero();
+  const Vec3<double> b = platform_.rotate(leg.own->platform_point);
+  change.bottomRightCorner<3, 3>() =
+      skew<double>(leg.force) * skew<double>(b) - 0.5 * skew<double>(moment_of(leg));
+  return change;
+}
+
+/// By which a leg's unknown forces count alike.
+ArmGroup::Vector ArmGroup::units_of(const Leg& leg) const {
+  const double energy = rod(leg).model().energy_scale, size = leg.own->arm.length();
+  Vector unit(leg.unknowns());
+  for (const Tendon& tendon : leg.tendons)
+    if (tendon.is_taut) unit[tendon.place] = std::sqrt(energy / (tendon.unit + tendon.compliance));
+  for (int i = 0; i < leg.closed; ++i) unit[leg.taut + i] = i < 3 ? energy / size : energy;
+  return unit / std::sqrt(energy);
+}
+
+/// The same of all legs, then of the platform's motion.
+ArmGroup::Vector ArmGroup::units() const {
+  int all = 6;
+  double energy = 0, size = 0;
+  for (const Leg& leg : legs_) {
+    all += leg.unknowns();
+    energy = std::max(energy, rod(leg).model().energy_scale);
+    size = std::max(size, leg.own->arm.length());
+  }
+  Vector unit(all);
+  Eigen::Index next = 0;
+  for (const Leg& leg : legs_) {
+    unit.segment(next, leg.unknowns()) = units_of(leg);
+    next += leg.unknowns();
+  }
+  unit.tail(6) << size, size, size, 1, 1, 1;
+  unit.tail(6) /= std::sqrt(energy);
+  return unit;
+}
+
+ArmGroup::Matrix ArmGroup::whole() const {
+  const Vector unit = units();
+  const auto size = unit.size();
+  Matrix whole = Matrix::Zero(size, size);
+  Eigen::Index next = 0;
+  for (const Leg& leg : legs_) {
+    const int all = leg.unknowns();
+    whole.block(next, next, all, all) = -leg.D;
+    whole.block(next, size - 6, all, 6) = leg.X;
+    whole.block(size - 6, next, 6, all) = leg.X.transpose();
+    whole.bottomRightCorner(6, 6) += curvature(leg);
+    next += all;
+  }
+  return unit.asDiagonal() * whole * unit.asDiagonal();
+}
+
+bool ArmGroup::plan() {
+  const Vector unit = units();
+  const Matrix matrix = whole();
+  if (!matrix.allFinite()) return false;
+  Vector side(unit.size());
+  Eigen::Index next = 0;
+  for (const Leg& leg : legs_) {
+    side.segment(next, leg.unknowns()) = -leg.r;
+    next += leg.unknowns();
+  }
+  side.tail(6) = balance_;
+  side = unit.asDiagonal() * side;
+  const Eigen::FullPivLU<Matrix> lu(matrix);
+  if (!(std::abs(lu.matrixLU().diagonal().tail(1)[0]) > 1e-13 * lu.maxPivot())) return false;
+  const Vector answer = unit.asDiagonal() * lu.solve(side).eval();
+  if (!answer.allFinite()) return false;
+  planned_ = answer.tail(6);
+  planned_size_ = planned_.tail<3>().norm();
+  next = 0;
+  for (Leg& leg : legs_) {
+    leg.du = answer.segment(next, leg.unknowns());
+    next += leg.unknowns();
+    const double bent = (leg.y0 - leg.HB * leg.du).norm() / std::sqrt(rod(leg).model().energy_scale);
+    planned_size_ = worst_of(planned_size_, bent);
+    planned_size_ = worst_of(planned_size_, planned_.head<3>().norm() / leg.own->arm.length());
+  }
+  return true;
+}
+
+/// By `du`. @param after the platform; by_input changes of this leg's own inputs, or none
+void ArmGroup::advance(Leg& leg, const Frame& after, Numbers by_input) {
+  Vector step = leg.y0 - leg.HB * leg.du;
+  for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
+    Tendon& tendon = leg.tendons[i];
+    if (tendon.is_taut)
+      tendon.tension += leg.du[tendon.place];
+    else if (tendon.command.held == TendonHeld::tension && !by_input.empty())
+      step -= leg.HL.col(tendon.place) * by_input[i];
+  }
+  std::vector<double>& y = rod(leg).work().y;
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] += step[static_cast<Eigen::Index>(i)];
+  leg.force += leg.du.segment(leg.taut, 3);
+  if (!leg.own->is_clamped) return;
+  // The forces that make the moment kept their directions while the platform turned.
+  const Three3 turned = (after.R.compose(leg.own->mount)).matrix().transpose() * mount_of(leg).R.matrix();
+  leg.moment =
+      0.5 * (turned.trace() * Three3::Identity() - turned.transpose()) * (leg.moment + leg.du.tail(3));
+}
+
+void ArmGroup::move_as_planned() {
+  const Frame after = platform_.displaced(planned_);
+  for (Leg& leg : legs_) advance(leg, after, {});
+  platform_ = after;
+}
+
+int ArmGroup::unstable() const {
+  const Matrix matrix = whole();
+  if (!matrix.allFinite()) return -1;
+  int count = 0;
+  for (const Leg& leg : legs_) count += leg.negative - leg.unknowns();
+  const Matrix even = 0.5 * (matrix + matrix.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(even, Eigen::EigenvaluesOnly);
+  for (const double value : found.eigenvalues()) count += value < 0;
+  return count;
+}
+
+bool ArmGroup::linearise() {
+  if (!factor_limbs()) return false;
+  stiffness_.setZero();
+  residual_ = balance_;
+  for (Leg& leg : legs_) {
+    const Vector unit = units_of(leg);
+    const Eigen::FullPivLU<Matrix> lu(unit.asDiagonal() * leg.D * unit.asDiagonal());
+    // A backbone that does not stretch and is straight holds its tip: its stiffness has no bound.
+    if (!(std::abs(lu.matrixLU().diagonal().tail(1)[0]) > 1e-13 * lu.maxPivot())) return false;
+    leg.D_inverse = unit.asDiagonal() * lu.inverse() * unit.asDiagonal();
+    stiffness_ += curvature(leg) + leg.X.transpose() * leg.D_inverse * leg.X;
+    residual_ -= leg.X.transpose() * (leg.D_inverse * leg.r);
+  }
+  return lu_.factor(stiffness_.data(), radius_);
+}
+
+auto ArmGroup::step(bool fresh) -> Twist {
+  Twist twist = Twist::Constant(not_a_number);
+  if (!fresh && !linearise()) return twist;
+  lu_.solve(residual_.data(), twist.data());
+  return twist;
+}
+
+void ArmGroup::move(const Twist& twist, Numbers by_input) {
+  const Frame after = platform_.displaced(twist);
+  for (Leg& leg : legs_) {
+    Vector side = leg.r + leg.X * twist;
+    Numbers own;
+    if (!by_input.empty()) {
+      own = Numbers(by_input.subspan(at(leg.first_feed), leg.tendons.size()));
+      for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
+        const Tendon& tendon = leg.tendons[i];
+        if (tendon.is_taut)
+          side[tendon.place] -= own[i];
+        else if (tendon.command.held == TendonHeld::tension)
+          side -= leg.B * leg.HL.col(tendon.place) * own[i];
+      }
+    }
+    leg.du = leg.D_inverse * side;
+    advance(leg, after, own);
+  }
+  platform_ = after;
+}
+
+auto ArmGroup::input_wrench_jacobian(int input) const -> Wrench {
+  const auto [leg, tendon] = find(input);
+  if (tendon->is_taut) return -leg->X.transpose() * leg->D_inverse.col(tendon->place);
+  if (tendon->command.held != TendonHeld::tension) return Wrench::Zero();  // a slack tendon does nothing
+  return -leg->X.transpose() * (leg->D_inverse * (leg->B * leg->HL.col(tendon->place)));
+}
+
+std::array<int, 2> ArmGroup::unstable_with_tip_held(int limb) const {
+  const Leg& leg = legs_[at(limb)];
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(leg.D, Eigen::EigenvaluesOnly);
+  int stiff = 0;
+  for (const double value : found.eigenvalues()) stiff += value < 0;
+  return {leg.negative - stiff, 0};
+}
+
+double ArmGroup::energy() const {
+  double sum = 0;
+  for (const Leg& leg : legs_)
+    for (const double y : rod(leg).work().y) sum += 0.5 * y * y;
+  return sum;
+}
+
+double ArmGroup::potential() const {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) sum -= (wrench_[i] + robot_->platform_mass * gravity_[at(i)]) * platform_.p[i];
+  for (const Leg& leg : legs_) {
+    const strain::RodWork& work = rod(leg).work();
+    const strain::NodeLoad& tip = work.loads.back();
+    sum += work.energy;
+    for (int i = 0; i < 3; ++i) sum += leg.force[i] * work.frames.back().p[i];
+    for (int i = 0; i < 9; ++i) sum += (tip.couple[i] - leg.tip.couple[i]) * work.frames.back().R[i];
+    for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
+      const Tendon& tendon = leg.tendons[i];
+      const double tension = tendon.tension;
+      sum += tendon.command.held == TendonHeld::tension ? tension * work.lengths[i]
+                                                        : 0.5 * tendon.compliance * tension * tension;
+    }
+  }
+  return sum;
+}
+
+double ArmGroup::tension(int feed) const { return find(feed).second->tension; }
+double ArmGroup::effort(int feed) const { return tension(feed); }
+double ArmGroup::change(int feed) const {
+  const auto [leg, tendon] = find(feed);
+  if (tendon->command.held == TendonHeld::change) return tendon->command.value;
+  const double way = rod(*leg).work().lengths[at(feed - leg->first_feed)];
+  return way - tendon->rest - tendon->compliance * (tendon->tension - tendon->pretension);
+}
+double ArmGroup::slack(int feed) const {
+  const auto [leg, tendon] = find(feed);
+  if (tendon->command.held == TendonHeld::tension || tendon->is_taut) return 0;
+  return std::max(0.0, tendon->free_length - rod(*leg).work().lengths[at(feed - leg->first_feed)]);
+}
+double ArmGroup::closing_effort(int feed) const {
+  const auto [leg, tendon] = find(feed);
+  return tendon->tension + (tendon->is_taut ? leg->D_inverse.row(tendon->place).dot(leg->r) : 0);
+}
+auto ArmGroup::effort_jacobian(int feed) const -> Twist {
+  const auto [leg, tendon] = find(feed);
+  if (!tendon->is_taut) return Twist::Zero();
+  return (leg->D_inverse.row(tendon->place) * leg->X).transpose();
+}
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,152 @@
+/// @file arm_group.hpp
+/// Arms between a base and a platform as one group of limbs. Theory: docs/theory/arm_legs.md
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kinematics/arms/arm_work.hpp"
+#include "robot/limb_group.hpp"
+#include "sinew/robot/arm_legs.hpp"
+
+namespace sinew::inline v1 {
+
+/// A feed is a tendon: those of leg 0 first. Its own states are strains, tensions where lengths are held, and
+/// what the platform exerts on the tip. Unlike other groups it allocates.
+class ArmGroup final : public LimbGroup<Spatial> {
+ public:
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using Vector = Eigen::VectorXd;
+
+  /// At rest: strains of the rest shape, the platform at home. The robot has to last as long.
+  ArmGroup(const ArmLegs& robot, const ArmBasis& basis);
+  /// What is held of all tendons, and the load of the whole.
+  void set_problem(std::span<const TendonCommand> commands, const Wrench& wrench,
+                   const std::array<double, 3>& gravity);
+  /// Only a share of inputs and loads acts, and only that share of the gaps between tips and platform at home
+  /// is closed: at 0 the rest is an equilibrium, at 1 all holds.
+  void set_share(double share);
+  double share() const { return share_; }
+  /// The state of another group of the same robot, of another basis.
+  void carry_over_from(const ArmGroup& other);
+
+  const LimbTraits& traits() const override;
+  int limbs() const override { return static_cast<int>(legs_.size()); }
+  int inputs() const override { return feeds_; }
+  double length(int limb) const override;
+  double stiffness(int limb) const override;
+  double radius() const override { return radius_; }
+
+  int feeds() const override { return feeds_; }
+  int input_of(int feed) const override { return feed; }
+  double held(int feed) const override;
+  void hold(int feed, double value) override;
+
+  const Frame& platform() const override { return platform_; }
+  Wrench wrench() const override { return wrench_; }
+  void set_wrench(const Wrench& wrench) override { wrench_ = wrench; }
+  void save(LimbState& to) const override;
+  void restore(const LimbState& from) override;
+
+  /// Of strains over √(EI/L), of lengths over a leg's length, tendons' over its tendons' distance, of forces
+  /// of the platform over EI/L²: the worst.
+  double evaluate(bool from_scratch = true) override;
+  double limb_error() const override { return limb_error_; }
+  bool linearise() override;
+  Twist step(bool fresh) override;
+  Wrench wrench_residual() const override { return residual_; }
+  void move(const Twist& twist, Numbers by_input = {}) override;
+  const SmallLu<6>& factors() const override { return lu_; }
+  MatrixView stiffness() const override { return {stiffness_.data(), 6, 6}; }
+  Wrench input_wrench_jacobian(int input) const override;
+
+  std::array<int, 2> unstable_with_tip_held(int limb) const override;
+  double energy() const override;
+
+  double effort(int feed) const override;
+  double closing_effort(int feed) const override;
+  Twist effort_jacobian(int feed) const override;
+
+  /// @name Newton's step of all at once, which the straight legs of inextensible backbones need: their own
+  /// equations at a fixed platform are singular
+  /// @{
+  bool factor_limbs();  ///< after `evaluate`
+  bool plan();          ///< after `factor_limbs`: false where the whole is singular
+  double planned_size() const { return planned_size_; }  ///< shapes as angles, turns of the platform [rad]
+  void move_as_planned();
+  int unstable() const;  ///< directions of the whole, after `factor_limbs`; −1 where it is not finite
+  /// @}
+
+  /// Whether the wrench has a moment, which in base axes has no potential.
+  bool has_potential() const { return wrench_.tail<3>().isZero(0); }
+  double potential() const;  ///< elastic, of weight, of the load's force and of tendons [J]
+  double tension(int feed) const;
+  double change(int feed) const;      ///< of its end, > 0: paid out [m]
+  double slack(int feed) const;       ///< what it is longer than its way [m]
+  Wrench push(int limb) const;        ///< of a leg on the platform, about its reference point, base axes
+  Wrench tip_wrench(int limb) const;  ///< of the platform on a tip, about the tip, base axes
+  const ArmWorkspace& shape(int limb) const { return legs_[static_cast<std::size_t>(limb)].work; }
+  /// No clamped tip stands the other way round, by 90 degrees or more, where its equations hold, too.
+  bool mounts_hold() const;
+
+ private:
+  struct Tendon {
+    TendonCommand command;
+    double rest = 0, compliance = 0, pretension = 0;
+    double free_length = 0, target = 0;  ///< at the share that acts [m], [N]
+    double tension = 0;                  ///< [N]
+    double unit = 0;                     ///< of its own length's error by tension [m/N]
+    bool is_taut = false;                ///< its length is held and it pulls
+    int place = -1;                      ///< among the unknown forces, or the held tensions
+  };
+  struct Leg {
+    const ArmLeg* own;
+    ArmWorkspace work;
+    std::vector<Tendon> tendons;
+    int first_feed = 0;
+    Vec3<double> force = Vec3<double>::Zero();    ///< of the platform on the tip, base axes [N]
+    Vec3<double> moment = Vec3<double>::Zero();   ///< the same, in the mount's axes [N m]
+    Vec<double, 6> gap = Vec<double, 6>::Zero();  ///< of the rest at home: what closes as the share grows
+    strain::NodeLoad tip;                         ///< its weight
+    Vec<double, 6> off = Vec<double, 6>::Zero();  ///< closure's error
+    int taut = 0, closed = 3;                     ///< unknown forces: of tendons, of the closure
+    Matrix B, HB;                                 ///< their rows; H⁻¹Bᵀ
+    Matrix L, HL;                                 ///< of held tensions
+    Vector y0, r;                                 ///< −H⁻¹ gradient; what is missing with it
+    Matrix D, D_inverse, X;                       ///< their compliance; rows by the platform's twist
+    int negative = 0;
+    Vector du;
+
+    int unknowns() const { return taut + closed; }
+    explicit Leg(const ArmLeg& leg) : own(&leg), work(leg.arm) {}
+  };
+  static strain::LoadedRod& rod(const Leg& leg) { return leg.work.impl().levels.front()->rod; }
+  Frame mount_of(const Leg& leg) const;
+  Vec3<double> moment_of(const Leg& leg) const;  ///< base axes
+  Wrench needs(const Leg& leg) const;
+  void measure_closure(Leg& leg);
+  void evaluate(Leg& leg);
+  bool factor(Leg& leg);
+  void advance(Leg& leg, const Frame& after, Numbers by_input);
+  Mat<double, 6, 6> curvature(const Leg& leg) const;
+  double force_unit(const Leg& leg) const;
+  Matrix whole() const;  ///< of all unknown forces and the platform, without dimension
+  Vector units() const;
+  Vector units_of(const Leg& leg) const;
+  std::pair<const Leg*, const Tendon*> find(int feed) const;
+
+  const ArmLegs* robot_;
+  std::vector<Leg> legs_;
+  Frame platform_;
+  Wrench wrench_ = Wrench::Zero();
+  std::array<double, 3> gravity_{};
+  double share_ = 0, radius_ = 0;
+  int feeds_ = 0;
+  double error_ = 0, limb_error_ = 0, planned_size_ = 0;
+  Wrench balance_ = Wrench::Zero(), residual_ = Wrench::Zero();
+  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> stiffness_ = Eigen::Matrix<double, 6, 6>::Zero();
+  SmallLu<6> lu_;
+  Twist planned_ = Twist::Zero();
+};
+
+}  // namespace sinew::inline v1

@@ -1,0 +1,134 @@
+/// A platform on legs of two sections, through the real `sinew query`.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "paths.hpp"
+#include "sinew_query.hpp"
+
+namespace sinew::test {
+namespace arm_legs_query_test {
+
+const std::string tripod = std::string(source_folder) + "/tests/data/robots/tripod-two-section.yaml";
+
+Json of_all_legs(std::initializer_list<double> section) {
+  Json lists = Json::array();
+  for (int k = 0; k < 6; ++k) lists.push_back(section);
+  return lists;
+}
+std::string status(const Json& query) {
+  const Json answer = ask(tripod, {query})[0];
+  return answer.contains("error") ? answer["error"]["code"].get<std::string>()
+                                  : answer["status"].get<std::string>();
+}
+
+TEST(ArmLegsQuery, ForwardAnswersPoseTendonsAndWhatTipsBear) {
+  const Json query{
+      {"query", "forward"},
+      {"tensions", {{1, 0, 0.3}, {0, 0.5, 0}, {0.2, 0, 0}, {0.1, 0, 0}, {0.7, 0, 0}, {0, 0.4, 0}}},
+      {"wrench", {0.05, 0, -0.1, 0, 0, 0}},
+      {"want", {"pose", "stiffness", "velocity"}}};
+  const Json answer = ask(tripod, {query})[0];
+  ASSERT_EQ(answer["status"], "converged") << answer.dump();
+  EXPECT_LT(answer["residual"], 1e-10);
+  EXPECT_TRUE(answer["stable"].get<bool>());
+  EXPECT_EQ(answer["reached"], 1);
+  ASSERT_EQ(answer["legs"].size(), 3U);
+  double down = 0, along = 0;
+  for (const Json& leg : answer["legs"]) {
+    along += leg["force"][0].get<double>();
+    down += leg["force"][2].get<double>();
+  }
+  EXPECT_NEAR(along, 0.05, 1e-9);
+  EXPECT_NEAR(down, -0.1 - 0.02 * 9.81, 1e-9);
+  ASSERT_EQ(answer["tensions"].size(), 6U);
+  EXPECT_EQ(answer["tensions"][1][1], 0.5);
+  EXPECT_EQ(answer["stiffness"].size(), 6U);
+  EXPECT_EQ(answer["U"][0].size(), 18U);
+
+  // the changes that were found, held, give the same tensions
+  const Json back{{"query", "forward"}, {"changes", answer["changes"]}, {"wrench", query["wrench"]}};
+  const Json again = ask(tripod, {back})[0];
+  ASSERT_EQ(again["status"], "converged") << again.dump();
+  for (std::size_t m = 0; m < 6; ++m)
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(again["tensions"][m][i].get<double>(), answer["tensions"][m][i].get<double>(), 1e-4);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(again["pose"]["position"][i].get<double>(), answer["pose"]["position"][i].get<double>(),
+                1e-6);
+}
+
+TEST(ArmLegsQuery, ShapeHasALineALegAndATendon) {
+  const Json answer =
+      ask(tripod, {{{"query", "shape"}, {"tensions", of_all_legs({0.5, 0.1, 0.1})}, {"samples", 11}}})[0];
+  ASSERT_EQ(answer["status"], "converged") << answer.dump();
+  ASSERT_EQ(answer["backbones"].size(), 3U);
+  EXPECT_EQ(answer["backbones"][0].size(), 11U);
+  EXPECT_EQ(answer["tendons"].size(), 6U);
+  EXPECT_EQ(answer["tendons"][5].size(), 3U);
+  EXPECT_EQ(answer["discs"].size(), 30U);
+  const double x = answer["pose"]["position"][0], z = answer["pose"]["position"][2];
+  EXPECT_NEAR(x, 0, 1e-7);  // pulled alike it stays in the middle
+  const Json tip = answer["backbones"][0][10];
+  EXPECT_NEAR(tip[0].get<double>(), 0.06, 1e-7);
+  EXPECT_NEAR(tip[2].get<double>(), z, 1e-7);
+}
+
+TEST(ArmLegsQuery, LoadsGrowUntilThePlatformGivesWay) {
+  const auto upright = [](double limit) {
+    return Json{{"query", "forward"},
+                {"gravity", {0, 0, 0}},
+                {"until", {{"wrench", {0, 0, -1, 0, 0, 0}}, {"limit", limit}}},
+                {"set",
+                 {{"legs[0].platform_point.radius", 0.08},
+                  {"legs[1].platform_point.radius", 0.08},
+                  {"legs[2].platform_point.radius", 0.08}}}};
+  };
+  const Json answer = ask(tripod, {upright(100)})[0];
+  ASSERT_EQ(answer["status"], "converged") << answer.dump();
+  const double bending = 54e9 * std::numbers::pi * std::pow(1.4e-3, 4) / 64,
+               euler = 3 * std::pow(std::numbers::pi / 0.4, 2) * bending;
+  EXPECT_EQ(answer["why"], "bifurcation");
+  EXPECT_NEAR(answer["load"].get<double>() / euler, 1, 2e-3);
+  const Json less = ask(tripod, {upright(1)})[0];
+  EXPECT_EQ(less["why"], "limit");
+  EXPECT_EQ(less["load"], 1);
+  double down = 0;
+  for (const Json& leg : less["legs"]) down += leg["force"][2].get<double>();
+  EXPECT_NEAR(down, -1, 1e-9);
+}
+
+TEST(ArmLegsQuery, WhatIsNotBuiltIsNamed) {
+  EXPECT_EQ(status({{"query", "inverse"}}), "unsupported");
+  EXPECT_EQ(status({{"query", "statics"}}), "unsupported");
+  EXPECT_EQ(status({{"query", "track"}}), "unsupported");
+  for (const char* key : {"following", "distributed", "loads", "all"})
+    EXPECT_EQ(status({{"query", "forward"}, {key, {1, 2, 3}}}), "unsupported") << key;
+  EXPECT_EQ(status({{"query", "forward"}, {"balance", "projected"}}), "unsupported");
+  EXPECT_EQ(status({{"query", "forward"}, {"nonsense", 1}}), "unknown_key");
+  EXPECT_EQ(status({{"query", "forward"}, {"tensions", {{-1, 0, 0}}}}), "out_of_range");
+  EXPECT_EQ(status({{"query", "forward"}, {"tensions", {{1, 0}}}}), "wrong_length");
+  EXPECT_EQ(status({{"query", "forward"}, {"tensions", {{1e9, 0, 0}}}}), "stalled");
+  EXPECT_EQ(status({{"query", "forward"}, {"wrench", {0, 0, -1e5, 0, 0, 0}}}), "stalled");
+}
+
+TEST(ArmLegsQuery, FilesAreRefusedWhereTheyAreWrong) {
+  const auto code = [](const char* path, const Json& value) {
+    return status({{"query", "forward"}, {"set", {{path, value}}}});
+  };
+  EXPECT_EQ(code("legs[1].link", {{"type", "rod"}}), "mixed_legs");
+  EXPECT_EQ(code("space", "planar"), "no_such_leg");
+  EXPECT_EQ(code("defaults.closure.type", "chord"), "unknown_choice");
+  EXPECT_EQ(code("legs[1].base.point.angle", "0 deg"), "coincident_base_points");
+  EXPECT_EQ(code("legs[1].base.section_x", {0, 0, 1}), "no_direction");
+  EXPECT_EQ(code("defaults.link.sections.count", 0), "out_of_range");
+  EXPECT_EQ(code("defaults.link.sections.backbone.diameter", "-1 mm"), "out_of_range");
+  EXPECT_EQ(code("defaults.link.sections.tendons", nullptr), "no_tendon");
+  EXPECT_EQ(code("legs[2].tied", 0), "not_available");
+  EXPECT_EQ(code("defaults.closure.type", "clamp"), "converged");
+  EXPECT_EQ(code("defaults.link.sections.backbone.law", "kirchhoff"), "converged");
+}
+
+}  // namespace arm_legs_query_test
+}  // namespace sinew::test
