@@ -217,6 +217,8 @@ void write_state(const Arm& arm, ArmWorkspace::Impl& impl) {
 std::string_view words_for(const strain::Relaxed& found) {
   switch (found.status) {
     case Status::stalled:
+      if (found.reached == 1)
+        return "no equilibrium was found with tendons as stiff as these: they may pull against one another";
       return "no equilibrium was found: loads and inputs led to one up to {:.0f} % of them";
     case Status::iteration_limit:
       return "the bound on iterations was met";
@@ -231,11 +233,25 @@ std::string_view words_for(const strain::Relaxed& found) {
   }
 }
 
-void set_report(Report& report, const strain::Relaxed& found) {
+/// Which tendon is too short, and by how much.
+std::string too_short(const ArmWorkspace::Impl& impl, const LoadedRod& rod) {
+  std::size_t worst = 0;
+  for (std::size_t i = 1; i < rod.holds.size(); ++i)
+    if (rod.lacks(i) > rod.lacks(worst)) worst = i;
+  return fmt::format(
+      "tendon {} does not stretch and is held too short, against others or beyond what the arm can bend: the "
+      "nearest shape that was found has its change at {:.3g} m, not at {:.3g} m",
+      worst, impl.commands[worst].value + rod.lacks(worst), impl.commands[worst].value);
+}
+
+void set_report(Report& report, const strain::Relaxed& found, const ArmWorkspace::Impl& impl,
+                const LoadedRod& rod) {
   report.status = found.status;
   report.iterations = found.iterations;
   report.residual = found.residual;
-  report.message = FixedText<240>(fmt::format(fmt::runtime(words_for(found)), 100 * found.reached));
+  report.message = FixedText<240>(found.status == Status::unreachable
+                                      ? too_short(impl, rod)
+                                      : fmt::format(fmt::runtime(words_for(found)), 100 * found.reached));
 }
 
 }  // namespace
@@ -314,7 +330,10 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     return entry.rod;
   };
   LoadedRod* rod = &ready(impl.level);
-  if (!warm) std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
+  if (warm)
+    rod->expect(rod->tensions());
+  else
+    std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
   const bool by_energy = options.balance == ArmBalance::energy;
   strain::Relaxed found =
       by_energy ? rod->relax(relax) : relax_published(arm, commands, options, relax, warm, *rod);
@@ -328,6 +347,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     if (next >= count) break;
     LoadedRod& finer = ready(next);
     carry_over(rod->model(), rod->work(), finer.model(), finer.work().y);
+    finer.expect(rod->tensions());
     const strain::Relaxed again = finer.relax(relax);
     found.iterations += again.iterations;
     const auto coarse = tip_of(*rod), fine = tip_of(finer);
@@ -346,6 +366,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     if (found.status != Status::converged || impl.checked > wanted || moved >= 1e-3 * arm.length()) continue;
     LoadedRod& lean = ready(next - 1);
     carry_over(finer.model(), finer.work(), lean.model(), lean.work().y);
+    lean.expect(finer.tensions());
     const strain::Relaxed other = lean.relax(relax);
     found.iterations += other.iterations;
     const auto there = tip_of(lean);
@@ -362,7 +383,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     break;
   }
   state.resolution = impl.checked;
-  set_report(state.report, found);
+  set_report(state.report, found, impl, *rod);
   if (!by_energy) state.report.message = FixedText<240>(published_words(found.status));
   if (refines && state.report.ok() && state.resolution > 10 * wanted) {
     state.report.status = Status::stalled;
