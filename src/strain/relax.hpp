@@ -75,7 +75,8 @@ class LoadedRod {
   double slack(std::size_t tendon) const;
   /// What a tendon held by its end is too short by, where relax() found it unreachable [m].
   double lacks(std::size_t tendon) const;
-  /// Lowest eigenvalue of the Hessian and its direction: the elastic energy alone has 1.
+  /// The least ratio of the energy's second variation to the elastic one, with its direction: without load 1,
+  /// at any resolution. Below 0 it is the ratio in the direction of the Hessian's lowest eigenvalue.
   double lowest(std::span<double> direction);
 
  private:
@@ -92,6 +93,7 @@ class LoadedRod {
   Relaxed relax_without_potential(const RelaxOptions& options);
   Relaxed search(const RelaxOptions& options);
   void find_yields();
+  void elastic(std::span<const double> x, std::span<double> y) const;
   void soften(double share, std::span<const double> expected);
   Relaxed tighten(const RelaxOptions& options, double share, std::vector<double> expected);
   Relaxed grow(const RelaxOptions& options, double softness);

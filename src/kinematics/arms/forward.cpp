@@ -212,6 +212,9 @@ void write_state(const Arm& arm, ArmWorkspace::Impl& impl) {
   }
   state.coordinates = rod.model().size;
   state.energy = rod.potential();
+  for (std::size_t i = 0; i < arm.tendons.size(); ++i)  // what a held tension would do is its motor's work
+    if (const double T = state.tensions[i]; impl.commands[i].held == TendonHeld::tension)
+      state.energy += T * (0.5 * arm.tendons[i].compliance * T - rod.work().lengths[i]);
 }
 
 std::string_view words_for(const strain::Relaxed& found) {
