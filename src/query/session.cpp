@@ -332,8 +332,8 @@ Value TreeSession::put(const Document& document, std::optional<AnyPose>* last, C
                        bool is_only_read, Errors& errors) {
   Reader query(document, errors);
   const Value id = read_id(query);
-  const bool has_platform = !state_->opened.robot.serial() && !state_->opened.robot.arm() &&
-                            !state_->opened.robot.arm_legs();
+  const bool has_platform =
+      !state_->opened.robot.serial() && !state_->opened.robot.arm() && !state_->opened.robot.arm_legs();
   const Node* word = document.root.find("model");
   const std::string_view asked_model = word ? std::string_view(word->text) : std::string_view();
   const Kind& kind = read_kind(query, state_->opened.robot, asked_model);

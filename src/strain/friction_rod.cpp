@@ -18,8 +18,9 @@ using Vector = Vec3<double>;
 using Turn = Mat<double, 3, 3>;
 using Rows = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
-/// Of a tendon that does not stretch, while it is looked for [m/N]; what it gives is taken back.
-constexpr double give = 1e-5;
+/// Of a tendon that does not stretch, while it is looked for: of what it gives way by on the straight rod.
+/// What it gives is taken back; where that is slow, it gives less, down to the second share.
+constexpr double give = 5e-3, least_give = 1e-6;
 /// Of slip, that rounding may have made [m].
 constexpr double edge = 1e-14;
 /// Of exchanges of grips; where the rod is not stable at its tensions they may not end.
@@ -114,6 +115,8 @@ void FrictionRod::forget() {
   inputs_.assign(chains_.size(), {});
   sweep_out(*model_, work_);
   lengths();
+  gradients();
+  std::vector<double> whole_gradient(work_.y.size());
   for (std::size_t i = 0; i < chains_.size(); ++i) {
     Chain& chain = chains_[i];
     Memory& memory = now_.tendons[i];
@@ -122,11 +125,21 @@ void FrictionRod::forget() {
     double sum = 0;
     for (std::size_t k = 0; k < count; ++k) sum += chain.rest[k] = chain.units[k].length;
     chain.compliance.resize(count);
-    const double whole = chain.tendon.compliance > 0 ? chain.tendon.compliance : give,
+    chain.give.resize(count);
+    std::ranges::fill(whole_gradient, 0.0);
+    for (const Unit& unit : chain.units)
+      for (std::size_t j = 0; j < unit.gradient.size(); ++j)
+        whole_gradient[at(model_->pieces[at(segments_[at(unit.segment)].piece)].first) + j] +=
+            unit.gradient[j];
+    const double yields = size_of_vector(whole_gradient),
+                 whole = chain.tendon.compliance > 0 ? chain.tendon.compliance
+                         : yields > 0                ? give * yields * yields
+                                                     : 1e-5,
                  pulled = chain.tendon.compliance + chain.tendon.outside > 0 ? chain.tendon.pretension : 0;
     memory.content.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
       chain.compliance[k] = whole * chain.rest[k] / sum;
+      if (chain.tendon.compliance <= 0) chain.give[k] = chain.compliance[k];
       memory.content[k] = chain.rest[k] - (chain.tendon.compliance > 0 ? chain.compliance[k] * pulled : 0);
       chain.offset[k] = chain.tendon.compliance > 0 ? 0 : chain.compliance[k] * pulled;
     }
@@ -765,16 +778,53 @@ Relaxed FrictionRod::flow(const RelaxOptions& options) {
   return result;
 }
 
+/// Tendons that do not stretch give way by this share of what they do at first.
+void FrictionRod::soften(double share) {
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    Chain& chain = chains_[i];
+    if (chain.tendon.compliance > 0) continue;
+    for (std::size_t k = 0; k < chain.units.size(); ++k) {
+      const double before = chain.compliance[k];
+      chain.compliance[k] = share * chain.give[k];
+      if (before > 0) chain.offset[k] *= chain.compliance[k] / before;
+    }
+  }
+}
+
 /// Tendons that do not stretch are let give way, and what they gave is taken back.
 Relaxed FrictionRod::rigid(const RelaxOptions& options, bool flows) {
   Relaxed result;
+  double share = 1, before = std::numeric_limits<double>::infinity(), lowest_failed = 0;
+  soften(share);
+  std::vector<double> y;
+  std::vector<std::vector<double>> pulls(chains_.size());
+  const auto remember_start = [&] {
+    y = work_.y;
+    for (std::size_t i = 0; i < chains_.size(); ++i) pulls[i] = chains_[i].pull;
+  };
+  const auto recall = [&] {
+    work_.y = y;
+    for (std::size_t i = 0; i < chains_.size(); ++i) chains_[i].pull = pulls[i];
+  };
+  const bool any = std::ranges::any_of(chains_, [](const Chain& c) { return c.tendon.compliance <= 0; });
   for (int round = 0; round < 40; ++round) {
-    const Relaxed one = flows ? flow(options) : newton(options);
+    RelaxOptions each = options;
+    if (any && !flows) each.tolerance = std::max(options.tolerance, std::min(1e-4, before));
+    const Relaxed one = flows ? flow(each) : newton(each);
+    if (round == 0) first_iterations_ = one.iterations;
     result.status = one.status;
     result.residual = one.residual;
     result.iterations += one.iterations;
     result.evaluations += one.evaluations;
-    if (one.status != Status::converged) break;
+    if (one.status == Status::stopped) break;
+    if (one.status != Status::converged) {
+      if (round == 0 || share >= 1) break;
+      lowest_failed = share;
+      soften(share = std::min(1.0, 10 * share));
+      recall();
+      continue;
+    }
+    remember_start();
     double off = 0;
     for (Chain& chain : chains_) {
       if (chain.tendon.compliance > 0) continue;
@@ -785,7 +835,9 @@ Relaxed FrictionRod::rigid(const RelaxOptions& options, bool flows) {
         chain.offset[k] = wanted;
       }
     }
-    if (off < 1e-13) break;
+    if (off < 1e-13 && each.tolerance <= options.tolerance) break;
+    if (off > 0.2 * before && share > least_give && 0.1 * share > 2 * lowest_failed) soften(share *= 0.1);
+    before = off;
     if (round == 39) result.status = Status::stalled;
   }
   return result;
@@ -938,7 +990,7 @@ PathStep FrictionRod::step(std::span<const TendonInput> inputs, std::span<const 
       result = sums;
       ++result.parts;
       done = share;
-      part *= iterations < 8 ? 2 : 1;
+      part *= first_iterations_ < 8 ? 2 : 1;
     } else {
       if (one.status == Status::stopped || part <= least) break;
       part = std::max(least, 0.5 * part);

@@ -113,7 +113,8 @@ class FrictionRod {
     std::vector<Unit> units;
     Vec3<double> entry = Vec3<double>::Zero();  ///< how it comes to the base
     std::vector<double> rest, compliance, offset;
-    std::vector<double> angle;               ///< at the base, then between units [rad]
+    std::vector<double> give;   ///< of spans that do not stretch, where they are looked for first
+    std::vector<double> angle;  ///< at the base, then between units [rad]
     std::vector<std::vector<double>> turns;  ///< their gradients by the coordinates from `first` on
     std::vector<int> first;
     CapstanSpans spans;
@@ -165,6 +166,7 @@ class FrictionRod {
   bool holds();
   Relaxed newton(const RelaxOptions& options);
   Relaxed flow(const RelaxOptions& options);
+  void soften(double share);
   Relaxed rigid(const RelaxOptions& options, bool flows);
   Relaxed equilibrium(const RelaxOptions& options, bool flows);
   /// @param turned guides slip by the tensions at its end alone, after those before had another direction
@@ -178,6 +180,7 @@ class FrictionRod {
   State now_;
 
   bool potential_ = true;
+  int first_iterations_ = 0;  ///< of the first round of the last equilibrium
   int columns_ = 0, stride_ = 8, negative_ = 0;
   bool same_sign_ = true;  ///< of the Jacobian's determinant as of the unloaded rod's
   double drag_ = 0;        ///< of a motion away from `anchor_`

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace sinew::inline v1::strain {
@@ -21,6 +22,9 @@ double dot(std::span<const double> a, std::span<const double> b) {
 }
 /// Eigenvalues down to this count as 0: a round rod that has buckled turns freely.
 constexpr double neutral = 1e-9;
+/// What tendons that are held by their ends are softened by, as shares of what the straight rod gives way to
+/// them: where the search begins near the answer, where it begins anywhere, and at the least.
+constexpr double little = 1e-3, much = 0.3, least = 1e-6;
 
 }  // namespace
 
@@ -59,6 +63,7 @@ LoadedRod::LoadedRod(const RodModel& model)
       tensions_(at(model.tendons), 0.0),
       offsets_(at(model.tendons), 0.0),
       stiff_(at(model.tendons), 0.0),
+      soft_(at(model.tendons), 0.0),
       stride_((model.tendons + 1 + row - 1) / row * row) {
   columns_.resize(at(model.size * stride_));
   sides_.resize(at(model.size * stride_));
@@ -71,6 +76,12 @@ double LoadedRod::slack(std::size_t i) const {
   return holds[i].by_tension ? 0 : std::max(0.0, holds[i].free_length - work_.lengths[i]);
 }
 
+double LoadedRod::lacks(std::size_t i) const {
+  return holds[i].by_tension
+             ? 0
+             : work_.lengths[i] - holds[i].free_length - std::max(0.0, holds[i].compliance) * tensions_[i];
+}
+
 void LoadedRod::spread_tensions() {
   for (std::size_t i = 0; i < model_->holes.size(); ++i)
     work_.hole_tension[i] = tensions_[at(model_->holes[i].tendon)];
@@ -79,14 +90,19 @@ void LoadedRod::spread_tensions() {
 }
 
 double LoadedRod::give(std::size_t i) const {
+  if (!searches_) return holds[i].toe > 0 ? slope_of_toe(i) : std::max(0.0, holds[i].compliance);
   if (!(holds[i].toe > 0)) return stiff_[i];
+  return slope_of_toe(i);
+}
+
+double LoadedRod::slope_of_toe(std::size_t i) const {
   const double low = holds[i].toe / (2 * stiff_[i]);  // the tension at which it becomes linear
   return tensions_[i] >= low ? stiff_[i] : stiff_[i] * std::sqrt(low / tensions_[i]);
 }
 
 double LoadedRod::evaluate() {
   sweep_out(*model_, work_);
-  double energy = work_.energy;
+  double energy = work_.energy, artificial = 0;
   for (std::size_t i = 0; i < holds.size(); ++i) {
     const TendonHold& hold = holds[i];
     if (hold.by_tension) {
@@ -100,16 +116,18 @@ double LoadedRod::evaluate() {
       } else {
         const double beyond = stretch - 0.5 * hold.toe;
         tensions_[i] = beyond / stiff_[i];
+        artificial += 0.5 * soft_[i] * tensions_[i] * tensions_[i];
         energy += 0.5 * beyond * tensions_[i] + hold.toe * hold.toe / (24 * stiff_[i]);
       }
     }
   }
   spread_tensions();
-  potential_energy_ = energy;
+  potential_energy_ = energy - artificial;
   return energy;
 }
 
 void LoadedRod::linearise(bool hessian) {
+  left_ -= hessian ? 1 : 0;
   if (hessian && !leans_)
     sweep_back_with_hessian(*model_, work_);
   else
@@ -130,6 +148,7 @@ int LoadedRod::factor_all(double shift) {
 }
 
 int LoadedRod::factor_with_tendons(double shift) {
+  --left_;
   const Inertia inertia = factor(*factors_->model_, factors_->work_, shift);
   if (!inertia.ok) return -1;
   active_.clear();
@@ -161,14 +180,6 @@ int LoadedRod::factor_with_tendons(double shift) {
     }
   }
   return work_.symmetric ? inertia.negative - negative : (inertia.negative + negative) % 2;
-}
-
-int LoadedRod::factor_exactly() {
-  std::vector<double> used = stiff_;
-  for (std::size_t i = 0; i < holds.size(); ++i) stiff_[i] = holds[i].compliance;
-  const int negative = factor_all(0);
-  stiff_ = used;
-  return negative;
 }
 
 /// With the factors of the small matrix.
@@ -214,28 +225,53 @@ void LoadedRod::answer_to_feed(int k, std::span<double> step, std::span<double> 
   for (int i = 0; i < m; ++i) pulls[at(i)] = -pulls[at(i)];
 }
 
+/// The elastic energy's second variation at rest times a vector: near the identity, but for taper and for
+/// what the quadrature makes of polynomials.
+void LoadedRod::elastic(std::span<const double> x, std::span<double> y) const {
+  std::ranges::fill(y, 0.0);
+  for (const Piece& piece : model_->pieces) {
+    const Span& last = model_->spans[at(piece.first_span + piece.spans - 1)];
+    for (int e = model_->spans[at(piece.first_span)].first_element; e < last.first_element + last.elements;
+         ++e) {
+      const Element& element = model_->elements[at(e)];
+      for (std::size_t g = 0; g < at(element.points); ++g)
+        for (std::size_t c = 0; c < 6; ++c) {
+          const std::size_t first = at(piece.first + piece.offset[c]);
+          double strain = 0;
+          for (std::size_t a = 0; a < at(piece.modes[c]); ++a) strain += element.modes[g][a] * x[first + a];
+          strain *= element.weight * element.stiffness[g][c] * piece.scale[c] * piece.scale[c];
+          for (std::size_t a = 0; a < at(piece.modes[c]); ++a) y[first + a] += element.modes[g][a] * strain;
+        }
+    }
+  }
+}
+
 double LoadedRod::lowest(std::span<double> direction) {
   double shift = 0;
   for (int tries = 0; factor_all(shift) != 0 && tries < 60; ++tries) shift = shift == 0 ? 1e-3 : 2 * shift;
-  std::vector<double> x(at(model_->size * row), 0.0);
-  for (int i = 0; i < model_->size; ++i) direction[at(i)] = 1 + 0.37 * std::sin(1.0 + 2.3 * i);
+  const std::size_t n = at(model_->size);
+  std::vector<double> x(n * row, 0.0), weighted(n);
+  for (std::size_t i = 0; i < n; ++i) direction[i] = 1 + 0.37 * std::sin(1.0 + 2.3 * static_cast<double>(i));
   double value = 0;
   for (int round = 0; round < 30; ++round) {
-    const double length = norm(direction);
-    for (int i = 0; i < model_->size; ++i) x[at(i * row)] = direction[at(i)] / length;
+    elastic(direction, weighted);
+    const double size = dot(direction, weighted);  // in elastic energy; 1 from the second round on
+    // With a shift it is the Hessian's lowest direction, else that of its ratio to the elastic energy.
+    const std::span<const double> side = shift > 0 ? direction : std::span<double>(weighted);
+    for (std::size_t i = 0; i < n; ++i) x[i * row] = side[i];
     solve_all(x, 1, row);
     double along = 0;
-    for (int i = 0; i < model_->size; ++i) {
-      along += x[at(i * row)] * direction[at(i)] / length;
-      direction[at(i)] = x[at(i * row)];
-    }
-    const double next = 1 / along - shift;
-    if (round > 2 && std::abs(next - value) < 1e-9 * (std::abs(next) + shift + 1e-3)) {
-      value = next;
-      break;
-    }
+    for (std::size_t i = 0; i < n; ++i) along += x[i * row] * side[i];
+    const double before = shift > 0 ? dot(direction, direction) : size, next = before / along - shift;
+    for (std::size_t i = 0; i < n; ++i) direction[i] = x[i * row];
+    elastic(direction, weighted);
+    const double length = std::sqrt(dot(direction, weighted));
+    for (double& v : direction) v /= length;
+    const bool ends = round > 2 && std::abs(next - value) < 1e-9 * (std::abs(next) + shift + 1e-3);
     value = next;
+    if (ends) break;
   }
+  if (shift > 0) value *= dot(direction, direction);  // of the same direction, over its elastic energy
   const double length = norm(direction);
   for (double& v : direction) v /= length;
   return value;
@@ -289,6 +325,8 @@ bool LoadedRod::same_active() const {
 bool LoadedRod::leave_saddle(Relaxed& result, double& energy) {
   std::vector<double> direction(at(model_->size));
   lowest(direction);
+  if (dot(direction, work_.gradient) > 0)  // what is left of the gradient shall help
+    for (double& x : direction) x = -x;
   std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
   const double from = energy;
   for (double length = 0.3 * std::sqrt(model_->energy_scale); length > 1e-12; length *= 0.5) {
@@ -340,7 +378,7 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       swept = false;
       continue;
     }
-    if (result.iterations >= options.max_iterations) {
+    if (result.iterations >= options.max_iterations || left_ <= 0) {
       result.status = Status::iteration_limit;
       return result;
     }
@@ -437,7 +475,7 @@ Relaxed LoadedRod::relax_residual(const RelaxOptions& options, double shift) {
       return result;
     }
     if (result.residual <= options.tolerance) return result;
-    if (result.iterations >= options.max_iterations) {
+    if (result.iterations >= options.max_iterations || left_ <= 0) {
       result.status = Status::iteration_limit;
       return result;
     }
@@ -551,40 +589,88 @@ bool LoadedRod::judge(Relaxed& result) {
   return negative == 0;
 }
 
-/// From here; tendons that do not stretch are let give way, and what they gave is taken back.
-Relaxed LoadedRod::relax_here(const RelaxOptions& options) {
+/// Tendons held by their ends give way by this share of `yields_`, where that is more than their own
+/// compliance; at `expected` tensions they are as long as they truly are.
+void LoadedRod::soften(double share, std::span<const double> expected) {
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    const TendonHold& hold = holds[i];
+    if (hold.by_tension) continue;
+    if (hold.compliance > 0)
+      soft_[i] = hold.toe > 0 ? 0 : std::max(0.0, share * yields_[i] - hold.compliance);
+    else
+      soft_[i] = std::max(share, least) * yields_[i];
+    stiff_[i] = std::max(0.0, hold.compliance) + soft_[i];
+    offsets_[i] = soft_[i] * expected[i];
+  }
+}
+
+/// From here with softened tendons; what that gave is taken back and tendons become stiffer, until they give
+/// way by their own compliance alone (the method of multipliers).
+/// @param expected their tensions, to begin with
+Relaxed LoadedRod::tighten(const RelaxOptions& options, double share, std::vector<double> expected) {
   Relaxed result;
-  for (int round = 0; round < 30; ++round) {
-    Relaxed one = potential_ ? relax_energy(options) : relax_without_potential(options);
+  double before =
+      std::numeric_limits<double>::infinity();  // what was taken back last, over a radian's length
+  double failed = 0;                            // a share that was too little to go on with
+  int failures = 0, hopeless = 0;
+  std::vector<double> y = work_.y;
+  soften(share, expected);
+  for (int round = 0; round < 60; ++round) {
+    RelaxOptions each = options;
+    if (std::ranges::any_of(soft_, [](double x) { return x > 0; }))  // else this is the last round
+      each.tolerance = std::max(options.tolerance, std::min(1e-3, 0.01 * before));
+    Relaxed one = potential_ ? relax_energy(each) : relax_without_potential(each);
     one.iterations += result.iterations;
     one.evaluations += result.evaluations;
     result = one;
+    if (one.status == Status::stopped || one.status == Status::left_domain || left_ <= 0) break;
+    if (one.status != Status::converged) {
+      if (round == 0 || ++failures > 6) break;
+      failed = share;
+      share *= std::sqrt(10.0);
+      work_.y = y;
+      soften(share, expected);
+      continue;
+    }
     double off = 0;
     for (std::size_t i = 0; i < holds.size(); ++i) {
-      if (holds[i].by_tension || holds[i].compliance > 0) continue;
-      const double wanted = std::max(0.0, offsets_[i] + work_.lengths[i] - holds[i].free_length);
-      off = std::max(off, std::abs(wanted - offsets_[i]));
-      offsets_[i] = wanted;
+      if (!(soft_[i] > 0)) continue;
+      off = std::max(off, std::abs(soft_[i] * tensions_[i] - offsets_[i]) /
+                              std::sqrt(yields_[i] * model_->energy_scale));
+      expected[i] = tensions_[i];
     }
-    if (off < 1e-12 || (result.status != Status::converged && result.status != Status::unstable)) break;
+    const bool is_small = off <= 1e-11 && (off <= 0.1 * options.tolerance || off > 0.3 * before);
+    if ((off == 0 || is_small) && each.tolerance <= options.tolerance) return result;
+    // Tensions grow and lengths do not change: no shape near by has tendons that short.
+    hopeless = share <= least && off > 0.5 * before && off > 1e-7 ? hopeless + 1 : 0;
+    if (hopeless == 3) {
+      result.status = Status::unreachable;
+      return result;
+    }
+    if ((share > little || off > 0.2 * before) && 0.1 * share > failed) share = std::max(least, 0.1 * share);
+    before = off;
+    y = work_.y;
+    soften(share, expected);
   }
+  if (result.status == Status::converged) result.status = Status::stalled;
   return result;
 }
 
-/// Loads and inputs grow from nothing, the rod follows.
-Relaxed LoadedRod::grow(const RelaxOptions& options) {
+/// Loads and inputs grow from nothing, tendons softened, the rod follows; at the end they are tightened.
+Relaxed LoadedRod::grow(const RelaxOptions& options, double softness) {
   leans_ = false;  // that rod's loads do not grow
   const std::vector<TendonHold> targets = holds;
   const std::vector<NodeLoad> loads = work_.loads;
   for (double& y : work_.y) y = 0;
-  for (std::size_t i = 0; i < holds.size(); ++i) offsets_[i] = 0;
+  std::vector<double> expected(holds.size(), 0.0);
+  soften(softness, expected);
   sweep_out(*model_, work_);
   const std::vector<double> free = work_.lengths;
   Relaxed result;
   double done = 0, step = 0.2;
   RelaxOptions each = options;
   each.max_iterations = std::min(options.max_iterations, 40);
-  std::vector<double> y = work_.y, offsets = offsets_;
+  std::vector<double> y = work_.y;
   while (done < 1) {
     const double share = std::min(1.0, done + step);
     for (std::size_t i = 0; i < holds.size(); ++i) {
@@ -598,28 +684,31 @@ Relaxed LoadedRod::grow(const RelaxOptions& options) {
       for (int i = 0; i < 3; ++i) load.moment[i] = share * loads[k].moment[i];
       for (int i = 0; i < 6; ++i) load.following[i] = share * loads[k].following[i];
     }
-    const Relaxed one = relax_here(each);
+    Relaxed one = potential_ ? relax_energy(each) : relax_without_potential(each);
     result.iterations += one.iterations;
     result.evaluations += one.evaluations;
     result.residual = one.residual;
     result.status = one.status;
     result.negative = one.negative;
-    if (one.status == Status::stopped) break;
+    if (one.status == Status::stopped || left_ <= 0) break;
     if (one.status == Status::converged) {
       done = share;
       step *= one.iterations < 8 ? 2 : 1;
       y = work_.y;
-      offsets = offsets_;
     } else {
       work_.y = y;
-      offsets_ = offsets;
       step *= 0.35;
-      if (step < 1e-3 || result.iterations > 20 * options.max_iterations) break;
+      if (step < 1e-3) break;
     }
   }
   result.reached = done;
   holds = targets;
   work_.loads = loads;
+  if (done == 1 && result.status == Status::converged) {
+    const int spent = result.iterations;
+    result = tighten(options, softness, tensions_);
+    result.iterations += spent;
+  }
   if (done < 1) {
     evaluate();
     linearise(true);
@@ -631,9 +720,12 @@ Relaxed LoadedRod::grow(const RelaxOptions& options) {
 
 Relaxed LoadedRod::relax(const RelaxOptions& options) {
   // Only tendons that pull by their stretch need the gradients of their lengths.
-  work_.finds_length_gradients =
-      std::ranges::any_of(holds, [](const TendonHold& hold) { return !hold.by_tension; });
-  const Relaxed result = relax_from_here(options);
+  const bool by_length = std::ranges::any_of(holds, [](const TendonHold& hold) { return !hold.by_tension; });
+  if (by_length) find_yields();
+  work_.finds_length_gradients = by_length;
+  searches_ = true;
+  const Relaxed result = search(options);
+  searches_ = false;
   work_.finds_length_gradients = true;
   leans_ = false;
   return result;
@@ -641,13 +733,13 @@ Relaxed LoadedRod::relax(const RelaxOptions& options) {
 
 void LoadedRod::take_holds() {
   for (std::size_t i = 0; i < holds.size(); ++i) {
-    offsets_[i] = 0;
-    stiff_[i] = holds[i].compliance > 0 ? holds[i].compliance : 1e-6;
+    offsets_[i] = soft_[i] = 0;
+    stiff_[i] = std::max(0.0, holds[i].compliance);
   }
 }
 
-Relaxed LoadedRod::relax_from_here(const RelaxOptions& options) {
-  take_holds();
+/// Near the start, then from softened tendons, then from no load.
+Relaxed LoadedRod::search(const RelaxOptions& options) {
   potential_ = true;
   for (const NodeLoad& load : work_.loads) {
     for (double x : load.moment) potential_ = potential_ && x == 0;
@@ -656,16 +748,51 @@ Relaxed LoadedRod::relax_from_here(const RelaxOptions& options) {
   work_.symmetric = potential_;
   leans_ = lean_ != nullptr && potential_;
   factors_ = nullptr;
+  std::vector<double> expected = std::move(expected_);
+  expected_.clear();
+  expected.resize(holds.size(), 0.0);
+  // in Hessians and factors: a large rod gets fewer, so that it ends in time
+  left_ = static_cast<int>(options.max_iterations * std::clamp(4000.0 / model_->size, 4.0, 20.0));
   RelaxOptions direct = options;
   direct.max_iterations = std::min(options.max_iterations, 60);
-  Relaxed result = relax_here(direct);
-  const bool ended = result.status == Status::converged || result.status == Status::stopped ||
-                     result.status == Status::left_domain;
-  if (ended || options.max_iterations <= direct.max_iterations) return result;
-  const int spent = result.iterations;
-  result = grow(options);
+  const std::vector<double> start = work_.y;
+  Relaxed result = tighten(direct, little, expected);
+  const auto ended = [&] {
+    return result.status == Status::converged || result.status == Status::stopped ||
+           result.status == Status::left_domain;
+  };
+  if (ended() || options.max_iterations <= direct.max_iterations) return result;
+  int spent = result.iterations;
+  work_.y = start;
+  result = tighten(direct, much, expected);
   result.iterations += spent;
+  if (ended() || result.status == Status::unreachable) return result;
+  for (const double share : {much, little}) {
+    spent = result.iterations;
+    result = grow(options, share);
+    result.iterations += spent;
+    if (ended()) break;
+  }
   return result;
+}
+
+/// What tendons give way by where the rod is straight and of stiffness 1 [m/N].
+void LoadedRod::find_yields() {
+  if (!yields_.empty()) return;
+  yields_.assign(holds.size(), 0.0);
+  const std::vector<double> y = work_.y;
+  std::ranges::fill(work_.y, 0.0);
+  sweep_out(*model_, work_);
+  sweep_back(*model_, work_);
+  const std::size_t n = y.size();
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const double x = work_.length_gradient[i * n + k];
+      yields_[i] += x * x;
+    }
+    if (!(yields_[i] > 0)) yields_[i] = 1e-6;
+  }
+  work_.y = y;
 }
 
 }  // namespace sinew::inline v1::strain

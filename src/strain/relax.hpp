@@ -64,6 +64,8 @@ class LoadedRod {
 
   std::vector<TendonHold> holds;
 
+  /// Tensions that the next `relax` may begin with, as those of another rod of the same arm.
+  void expect(std::span<const double> tensions) { expected_.assign(tensions.begin(), tensions.end()); }
   /// From the coordinates that stand in `work().y`.
   Relaxed relax(const RelaxOptions& options);
   /// Newton's steps of relax() take the Hessian of another rod from now on: the same coordinates and loads,
@@ -78,11 +80,9 @@ class LoadedRod {
   double evaluate();
   /// After evaluate(): gradient, and the Hessian's terms.
   void linearise(bool hessian);
-  /// Factors the Hessian with all tendons that pull by their stretch; the number of negative directions, or
-  /// −1.
+  /// Factors the Hessian with all tendons that pull by their stretch, after relax() with what they truly give
+  /// way by; the number of negative directions, or −1.
   int factor_all(double shift);
-  /// The same with what tendons truly give way by, where some do not stretch.
-  int factor_exactly();
   /// Solves with what factor_all left; a row a coordinate.
   /// @param pulls if not null: by how much the tensions of `active()` change, a row each, `stride` apart
   void solve_all(std::span<double> sides, int columns, int stride, double* pulls = nullptr);
@@ -97,7 +97,10 @@ class LoadedRod {
   std::span<const double> tensions() const { return tensions_; }
   /// What a tendon is longer than it needs to be [m]; 0 where it is taut.
   double slack(std::size_t tendon) const;
-  /// Lowest eigenvalue of the Hessian and its direction: the elastic energy alone has 1.
+  /// What a tendon held by its end is too short by, where relax() found it unreachable [m].
+  double lacks(std::size_t tendon) const;
+  /// The least ratio of the energy's second variation to the elastic one, with its direction: without load 1,
+  /// at any resolution. Below 0 it is the ratio in the direction of the Hessian's lowest eigenvalue.
   double lowest(std::span<double> direction);
 
  private:
@@ -107,6 +110,7 @@ class LoadedRod {
   void take_hessian_of_lean();
   /// How a tendon gives way at its stretch: its derivative by the tension [m/N].
   double give(std::size_t tendon) const;
+  double slope_of_toe(std::size_t tendon) const;
   bool newton_step(double& shift, double radius, std::span<double> step, int& negative);
   bool same_active() const;
   int factor_with_tendons(double shift);
@@ -115,15 +119,19 @@ class LoadedRod {
   Relaxed relax_energy(const RelaxOptions& options);
   Relaxed relax_residual(const RelaxOptions& options, double shift);
   Relaxed relax_without_potential(const RelaxOptions& options);
-  Relaxed relax_here(const RelaxOptions& options);
-  Relaxed grow(const RelaxOptions& options);
-  Relaxed relax_from_here(const RelaxOptions& options);
+  Relaxed search(const RelaxOptions& options);
+  void find_yields();
+  void elastic(std::span<const double> x, std::span<double> y) const;
+  void soften(double share, std::span<const double> expected);
+  Relaxed tighten(const RelaxOptions& options, double share, std::vector<double> expected);
+  Relaxed grow(const RelaxOptions& options, double softness);
   bool judge(Relaxed& result);
   double gradient_norm() const;
 
   void solve_small(std::span<double> t) const;
 
   bool potential_ = true;
+  bool searches_ = false;  ///< tendons may be softened
   double potential_energy_ = 0;
 
   LoadedRod* lean_ = nullptr;
@@ -134,8 +142,12 @@ class LoadedRod {
   const RodModel* model_;
   RodWork work_;
   std::vector<double> tensions_,
-      offsets_;                ///< offsets: multipliers of tendons that do not stretch, as length [m]
-  std::vector<double> stiff_;  ///< compliance used [m/N]
+      offsets_;                   ///< offsets: multipliers of tendons that do not stretch, as length [m]
+  std::vector<double> stiff_;     ///< compliance used [m/N]
+  std::vector<double> soft_;      ///< what of that is not the tendon's own [m/N]
+  std::vector<double> yields_;    ///< what the rod, straight, gives way by to each tendon [m/N]
+  std::vector<double> expected_;  ///< tensions to begin with [N]
+  int left_ = 0;                  ///< Hessians and factors that a search may still take
   std::vector<int> active_;
   std::vector<double> columns_, small_, sides_;
   std::vector<double> trial_, step_;

@@ -162,6 +162,7 @@ TEST(ArmFriction, WithoutItAPathIsReversibleAndThatOfArmForward) {
       const ArmState& alone = arm_forward(arm, steps[k].commands, steps[k].load, options, other);
       ASSERT_TRUE(alone.report.ok());
       EXPECT_LT(distance(points[k].state.tip, alone.tip), 1e-9) << k;
+      EXPECT_NEAR(points[k].state.energy, alone.energy, 1e-9) << k;
       EXPECT_LT(distance(points[k].state.tip, points[14 - k].state.tip), 1e-10) << k;
       for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_NEAR(points[k].state.tensions[i], alone.tensions[i], 1e-7);

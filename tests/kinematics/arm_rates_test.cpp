@@ -87,6 +87,40 @@ INSTANTIATE_TEST_SUITE_P(Arm, Rates,
                                          Case{ArmModel::subsegment_cc, 1e-4, true},
                                          Case{ArmModel::cc, 0, false}, Case{ArmModel::prb, 1e-4, false}));
 
+/// Without load the energy is the elastic one: the margin is 1 whatever the model, the order, the taper.
+TEST(ArmRates, MarginIsOneAtRestAtAnyResolution) {
+  for (const bool tapers : {false, true})
+    for (const ArmModel model :
+         {ArmModel::rod, ArmModel::subsegment_rod, ArmModel::subsegment_cc, ArmModel::cc, ArmModel::prb})
+      for (const int order : {-1, 1, 2, 3, 5}) {
+        Arm arm = two_sections(5, 1e-4);
+        if (tapers)
+          for (ArmSection& section : arm.sections)
+            section.end = round_section({54e9, 54e9 / 2.6, 0}, 0.001), section.round_taper = true;
+        ArmWorkspace work(arm);
+        const ArmOptions options{.model = model, .order = order, .elements = 6, .accuracy = 0};
+        ASSERT_TRUE(arm_forward(arm, tensions(std::vector<double>(6, 0.0)), {}, options, work).report.ok());
+        EXPECT_NEAR(arm_rates(arm, work).margin, 1, 1e-9) << order << " " << static_cast<int>(model);
+      }
+}
+
+/// Loaded, it does not jump where the resolution does.
+TEST(ArmRates, MarginConvergesWithTheResolution) {
+  const Arm arm = two_sections(5, 1e-4);
+  ArmLoad load;
+  load.wrench = {0.02, 0.01, -0.1};
+  std::vector<double> margins;
+  for (const auto& [order, elements] :
+       {std::pair{3, 4}, std::pair{4, 4}, std::pair{4, 8}, std::pair{6, 12}}) {
+    ArmWorkspace work(arm);
+    const ArmOptions options{.order = order, .elements = elements, .accuracy = 0};
+    ASSERT_TRUE(arm_forward(arm, tensions({2, 0, 1, 1, 0, 1}), load, options, work).report.ok());
+    margins.push_back(arm_rates(arm, work).margin);
+  }
+  for (const double margin : margins) EXPECT_NEAR(margin, margins.back(), 2e-5);
+  EXPECT_LT(margins.back(), 0.9);
+}
+
 /// A channel is not as long as the way between discs: what one model was asked does not change another's
 /// answer.
 TEST(ArmRates, ModelsDoNotShareLengthsAtRest) {

@@ -76,7 +76,8 @@ struct ArmState {
   std::vector<double> slack;     ///< what a tendon is longer than its way [m]; 0 where it is taut
   bool stable = true;            ///< as far as `stability_told`
   bool stability_told = true;    ///< false where the balance is not by energy: it has no potential
-  double energy = 0;             ///< elastic, of weight and dead forces, and of tendons [J]
+  double energy = 0;             ///< elastic, of weight, dead forces and of tendons that stretch [J]; motors
+                                 ///< that hold tensions are outside of it
   double resolution = 0;         ///< by how much the tip moves with finer polynomials [m]; 0: not asked for
   int coordinates = 0;           ///< of its strain
 };
@@ -109,8 +110,8 @@ struct ArmRates {
   std::vector<double> answers;     ///< of each tendon what is not held (change [m] or tension [N]) by what is
                                    ///< held of each, square
   std::vector<double> answers_by_wrench;  ///< the same by a wrench at the tip, 6 columns
-  double margin =
-      0;  ///< lowest eigenvalue of the stiffness over that of the unloaded arm: 0 where it buckles
+  double margin = 0;  ///< least ratio of the energy's second variation to the backbone's elastic one [1]: 1
+                      ///< of a straight arm without load, 0 where it buckles
 };
 /// Rates of the equilibrium in the workspace.
 /// @param margin whether it is wanted, which takes longer than all the rest

@@ -18,9 +18,8 @@ struct ArmLoadPath {
   /// equilibrium near by beyond), `stability` (a load without potential drives it away), `iterations`,
   /// `stalled`, `stopped`.
   LoadEnd end = LoadEnd::limit;
-  ArmState state;  ///< there
-  double margin =
-      0;  ///< there to buckling: the Hessian's lowest eigenvalue, about 1 of the elastic energy alone [1]
+  ArmState state;     ///< there
+  double margin = 0;  ///< there to buckling, as ArmRates::margin [1]
   /// Without a potential: from here on the stiffness' symmetric part is not definite [1]; below 0 where that
   /// is not so.
   double definite_until = -1;

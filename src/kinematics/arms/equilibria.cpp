@@ -40,7 +40,13 @@ std::vector<ArmState> arm_equilibria(const Arm& arm, std::span<const TendonComma
     each.from_last = true;
   }
   if (found.size() > 1 && !found.front().report.ok()) found.erase(found.begin());
-  std::ranges::stable_sort(found, {}, &ArmState::energy);
+  // by what is least at an equilibrium that holds: with the motors that hold tensions
+  std::ranges::stable_sort(found, {}, [&](const ArmState& one) {
+    double sum = one.energy;
+    for (std::size_t i = 0; i < std::min(commands.size(), one.changes.size()); ++i)
+      if (commands[i].held == TendonHeld::tension) sum += one.tensions[i] * one.changes[i];
+    return sum;
+  });
   return found;
 }
 

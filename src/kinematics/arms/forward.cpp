@@ -185,6 +185,12 @@ void carry_over(const RodModel& from, const strain::RodWork& work, const RodMode
   }
 }
 
+/// And tensions, from which those of tendons that do not stretch are found again.
+static void carry_over(const LoadedRod& from, LoadedRod& to) {
+  carry_over(from.model(), from.work(), to.model(), to.work().y);
+  to.expect(from.tensions());
+}
+
 namespace {
 
 /// Of the highest modes of bending: what a polynomial of this order may lack.
@@ -238,11 +244,16 @@ void write_state(const Arm& arm, ArmWorkspace::Impl& impl) {
   }
   state.coordinates = rod.model().size;
   state.energy = rod.potential();
+  for (std::size_t i = 0; i < arm.tendons.size(); ++i)  // what a held tension would do is its motor's work
+    if (const double T = state.tensions[i]; impl.commands[i].held == TendonHeld::tension)
+      state.energy += T * (0.5 * arm.tendons[i].compliance * T - rod.work().lengths[i]);
 }
 
 std::string_view words_for(const strain::Relaxed& found) {
   switch (found.status) {
     case Status::stalled:
+      if (found.reached == 1)
+        return "no equilibrium was found with tendons as stiff as these: they may pull against one another";
       return "no equilibrium was found: loads and inputs led to one up to {:.0f} % of them";
     case Status::iteration_limit:
       return "the bound on iterations was met";
@@ -257,11 +268,25 @@ std::string_view words_for(const strain::Relaxed& found) {
   }
 }
 
-void set_report(Report& report, const strain::Relaxed& found) {
+/// Which tendon is too short, and by how much.
+std::string too_short(const ArmWorkspace::Impl& impl, const LoadedRod& rod) {
+  std::size_t worst = 0;
+  for (std::size_t i = 1; i < rod.holds.size(); ++i)
+    if (rod.lacks(i) > rod.lacks(worst)) worst = i;
+  return fmt::format(
+      "tendon {} does not stretch and is held too short, against others or beyond what the arm can bend: the "
+      "nearest shape that was found has its change at {:.3g} m, not at {:.3g} m",
+      worst, impl.commands[worst].value + rod.lacks(worst), impl.commands[worst].value);
+}
+
+void set_report(Report& report, const strain::Relaxed& found, const ArmWorkspace::Impl& impl,
+                const LoadedRod& rod) {
   report.status = found.status;
   report.iterations = found.iterations;
   report.residual = found.residual;
-  report.message = FixedText<240>(fmt::format(fmt::runtime(words_for(found)), 100 * found.reached));
+  report.message = FixedText<240>(found.status == Status::unreachable
+                                      ? too_short(impl, rod)
+                                      : fmt::format(fmt::runtime(words_for(found)), 100 * found.reached));
 }
 
 }  // namespace
@@ -350,7 +375,10 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   const double wanted = options.accuracy * arm.length();
   const bool refines = count > 1 && options.accuracy > 0;
   LoadedRod* rod = &ready(impl.level);
-  if (!warm) std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
+  if (warm)
+    rod->expect(rod->tensions());
+  else
+    std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
   bool knows = warm;  // how large the error is, from the question before
   if (const int coarser = coarser_than(impl.level); warm && refines && coarser >= 0) {
     const double shrunk = std::min(1.0, size_of_highest(rod->model(), rod->work().y) / impl.checked_size);
@@ -359,7 +387,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   if (warm && !knows) {
     const int coarser = coarser_than(impl.level);
     LoadedRod& lighter = ready(coarser);  // what came before was harder to resolve
-    carry_over(rod->model(), rod->work(), lighter.model(), lighter.work().y);
+    carry_over(*rod, lighter);
     impl.level = coarser;
     rod = &lighter;
   }
@@ -378,7 +406,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   const auto leaner_does = [&](const LoadedRod& finer, int next, const std::array<double, 3>& tip,
                                double off) {
     LoadedRod& lean = ready(next - 1);
-    carry_over(finer.model(), finer.work(), lean.model(), lean.work().y);
+    carry_over(finer, lean);
     const strain::Relaxed other = lean.relax(relax);
     found.iterations += other.iterations;
     const auto there = tip_of(lean);
@@ -401,7 +429,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     if (next >= count && impl.level % 2 == 0) break;
     if (next >= count) {  // nothing has more elements: back to where the last step began
       LoadedRod& lighter = ready(impl.level - 1);
-      carry_over(rod->model(), rod->work(), lighter.model(), lighter.work().y);
+      carry_over(*rod, lighter);
       --impl.level;
       rod = &lighter;
       take(lighter.relax(relax));
@@ -423,7 +451,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
         break;
       if (const int to = level_for(options, next, left, 0.5 * wanted); to != next) {
         LoadedRod& there = ready(to);
-        carry_over(finer.model(), finer.work(), there.model(), there.work().y);
+        carry_over(finer, there);
         impl.level = to;
         impl.checked = left;
         rod = &there;
@@ -431,7 +459,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
         continue;
       }
     } else {
-      carry_over(rod->model(), rod->work(), finer.model(), finer.work().y);
+      carry_over(*rod, finer);
     }
     const strain::Relaxed again = finer.relax(relax);
     found.iterations += again.iterations;
@@ -452,7 +480,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     break;
   }
   state.resolution = impl.checked;
-  set_report(state.report, found);
+  set_report(state.report, found, impl, *rod);
   if (!by_energy) state.report.message = FixedText<240>(published_words(found.status));
   if (refines && state.report.ok() && state.resolution > 10 * wanted) {
     state.report.status = Status::stalled;

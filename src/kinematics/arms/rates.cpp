@@ -41,7 +41,7 @@ ArmRates arm_rates(const Arm& arm, ArmWorkspace& work, bool margin) {
   strain::LoadedRod& rod = impl.rod();
   const int n = rod.model().size;
   rod.linearise(true);
-  rates.regular = rod.factor_exactly() >= 0;
+  rates.regular = rod.factor_all(0) >= 0;
   if (!rates.regular) return rates;
   const std::vector<double> tip = tip_rows(rod);
   const double* gradients = rod.work().length_gradient.data();

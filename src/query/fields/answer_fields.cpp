@@ -50,7 +50,7 @@ return std::array{
     AnswerField{"cc_gap", number, "J", "energy of evenly bent links beyond that of chains"},
     AnswerField{"cc_gap_estimate", number, "J", "its estimate by the load"},
     AnswerField{"posture_error", number, "rad", "largest turn of a joint by the load"},
-    AnswerField{"potential", number, "J", "of rods or chains, and of the load"},
+    AnswerField{"potential", number, "J", "of rods or chains, and of the load; of arms elastic, of weight and dead forces and of tendons that stretch, without the motors that hold tensions"},
 
     AnswerField{"J", jacobian, "", "J (twist) = K (input rates)"},
     AnswerField{"K", input_jacobian, "", "J (twist) = K (input rates)"},
@@ -76,7 +76,7 @@ return std::array{
     AnswerField{"motors", tendons, "", "counts of each tendon's motor"},
     AnswerField{"slack", tendons, "m", "of each tendon"},
     AnswerField{"resolution", number, "m", "by how much finer polynomials move an arm's tip"},
-    AnswerField{"buckling_margin", number, "", "of an arm's stiffness: about 1 without load, 0 where it buckles"},
+    AnswerField{"buckling_margin", number, "", "of an arm: least ratio of its energy's second variation to the backbone's elastic one; 1 straight without load, 0 where it buckles"},
     AnswerField{"least_tension", number, "N", "of an arm's tendons"},
     AnswerField{"answer_rates", input_jacobian, "", "of an arm what its tendons answer, by what holds each"},
     AnswerField{"answers_by_wrench", input_jacobian, "", "the same by a wrench at its tip"},
