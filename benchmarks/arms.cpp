@@ -1,15 +1,20 @@
 /// Arms under load: two sections of ten discs, three tendons each, tensions that walk by about 1 %.
 /// Run: build/dev/bin/bench_arms
 /// Baselines: the equations of the published models by a dense Newton whose Jacobian is made of differences;
-/// a cold start. The last lines are the cost against the number of discs.
+/// a cold start. The last lines are the cost against the number of discs, and rows of a batch.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
+#include "io/parse.hpp"
 #include "report.hpp"
+#include "sinew/io/robot_file.hpp"
 #include "sinew/kinematics/arm.hpp"
+#include "sinew/query/batch.hpp"
 
 namespace sinew::bench {
 namespace {
@@ -101,6 +106,37 @@ void print_exponent() {
   std::printf("cost grows with discs to the power of %.2f\n", (n * sxy - sx * sy) / (n * sxx - sx * sx));
 }
 
+/// Rows of a batch on one thread: tensions of all tendons on closed walks about 2 N, 2048 rows around.
+void print_batch(const char* path) {
+  const auto question = parse_json(
+      fmt::format(R"({{"query":"forward","tensions":"$t","outputs":{{"p":"tip.position"}},"path":"{}"}})",
+                  path),
+      "query");
+  const auto robot = read_robot_file("two-segment");
+  if (!question || !robot) return;
+  const auto batch = Batch::prepare(*robot, *question);
+  if (!batch) return;
+  constexpr std::size_t rows = 4096;
+  std::vector<double> in, out(3 * rows);
+  for (std::size_t k = 0; k < rows; ++k)
+    for (std::size_t i = 0; i < 6; ++i)
+      in.push_back(2 + 1.9 * std::sin(2 * std::numbers::pi * static_cast<double>((i + 1) * k) / 2048 +
+                                      static_cast<double>(i)));
+  std::vector<std::uint8_t> statuses(rows);
+  constexpr std::ptrdiff_t number = sizeof(double);
+  const Batch::Strided<const double> from[] = {{in.data(), 6 * number}};
+  const Batch::Strided<double> to[] = {{out.data(), 3 * number}};
+  double best = 1e300;
+  for (int round = 0; round < 5; ++round) {
+    const auto start = std::chrono::steady_clock::now();
+    batch->run(rows, from, to, statuses, {.threads = 1});
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  const auto solved = std::ranges::count(statuses, static_cast<std::uint8_t>(Status::converged));
+  std::printf("batch, %s, path %s: %.0f rows a second, %td of %zu solved\n",
+              std::string(batch->method()).c_str(), path, static_cast<double>(rows) / best, solved, rows);
+}
+
 }  // namespace
 }  // namespace sinew::bench
 
@@ -119,5 +155,7 @@ int main(int argc, char** argv) {
   row("constant in a section, warm", {.model = ArmModel::cc}, "cold", {.model = ArmModel::cc}, false);
   const int status = sinew::bench::main(argc, argv);
   print_exponent();
+  print_batch("continue");
+  print_batch("anew");
   return status;
 }
