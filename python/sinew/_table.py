@@ -1,7 +1,7 @@
 """Fields of questions, and which questions take them. Made by tools/fields.py of the table of fields."""
 
 FIELDS = (
-    ('model', 'word', '', "how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default), subsegment_cc, cc (of identify the default) or prb"),
+    ('model', 'word', '', "how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default), subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a serial robot, without loads"),
     ('set', 'map', '', 'changes the robot for this question alone: values by their paths in its file, such as legs[0].link.length; on the command line it may be repeated'),
     ('theta_is', 'word', '', 'what an input theta is the angle of: tangent (default) or chord'),
     ('law', 'word', '', "how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's), M1 (tendons straight between discs)"),

@@ -59,7 +59,8 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc (of identify the default) or prb
+                subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a
+                serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -195,7 +196,8 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc (of identify the default) or prb
+                subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a
+                serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -326,7 +328,8 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc (of identify the default) or prb
+                subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a
+                serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -473,7 +476,8 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc (of identify the default) or prb
+                subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a
+                serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -623,7 +627,8 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc (of identify the default) or prb
+                subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a
+                serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -742,7 +747,8 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc (of identify the default) or prb
+                subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a
+                serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -828,7 +834,8 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc (of identify the default) or prb
+                subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a
+                serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -939,7 +946,8 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc (of identify the default) or prb
+                subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a
+                serial robot, without loads
             set (dict): changes the robot for this question alone: values by their paths in its file, such
                 as legs[0].link.length; on the command line it may be repeated
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
@@ -994,7 +1002,8 @@ class Verbs:
             model (str): how links are taken: cc (constant curvature) or prb (pseudo-rigid chains) of
                 tendon-driven ones, rigid, rod (Kirchhoff); how the tendons of a serial robot are: pcc
                 (exact) or lsk (linearised); how an arm's backbone is: rod, subsegment_rod (default),
-                subsegment_cc, cc (of identify the default) or prb
+                subsegment_cc, cc (of identify the default) or prb, and by pcc or lsk an arm is asked as a
+                serial robot, without loads
             theta_is (str): what an input theta is the angle of: tangent (default) or chord
             law (str): how chains lump springs and tendons: M0w (default, ends weighted), M0 (the paper's),
                 M1 (tendons straight between discs)

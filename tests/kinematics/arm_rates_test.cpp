@@ -25,6 +25,7 @@ class Rates : public testing::TestWithParam<Case> {};
 TEST_P(Rates, AgainstDifferences) {
   const auto [model, compliance, following] = GetParam();
   const Arm arm = two_sections(5, compliance);
+  const double wide = compliance > 0 ? 1 : 4;  // tensions of tendons that do not stretch are less exact
   std::mt19937 gen(7);
   std::uniform_real_distribution<double> share(-1, 1);
   for (int round = 0; round < 6; ++round) {
@@ -74,10 +75,10 @@ TEST_P(Rates, AgainstDifferences) {
     };
     for (std::size_t k = 0; k < 6; ++k)
       check([k](auto& moved, ArmLoad&, double by) { moved[k].value += by; },
-            commands[k].held == TendonHeld::tension ? 1e-4 : 1e-7, rates.J.data() + k, 6,
+            commands[k].held == TendonHeld::tension ? wide * 1e-4 : 1e-7, rates.J.data() + k, 6,
             rates.answers.data() + k, 6);
     for (std::size_t k = 0; k < 6; ++k)
-      check([k](auto&, ArmLoad& pushed, double by) { pushed.wrench[k] += by; }, k < 3 ? 1e-4 : 1e-5,
+      check([k](auto&, ArmLoad& pushed, double by) { pushed.wrench[k] += by; }, wide * (k < 3 ? 1e-4 : 1e-5),
             rates.compliance.data() + k, 6, rates.answers_by_wrench.data() + k, 6);
   }
 }

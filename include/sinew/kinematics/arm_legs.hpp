@@ -29,7 +29,7 @@ struct ArmLegsState {
   std::vector<double> slack;                     ///< what a tendon is longer than its way [m]; 0: it is taut
   std::vector<std::array<double, 6>> tip_loads;  ///< of the platform on every tip, base axes [N, N m]
   bool stable = false;
-  double energy = 0;      ///< elastic, of weight, of the load's force and of tendons [J]
+  double energy = 0;      ///< elastic, of weight, of the load's force and of tendons that stretch [J]
   double resolution = 0;  ///< by how much tips move with finer polynomials [m]; 0: not asked for
   double reached = 0;     ///< share of inputs and loads up to which there was an equilibrium that holds [1]
 };

@@ -529,12 +529,7 @@ double ArmGroup::potential() const {
     sum += work.energy;
     for (int i = 0; i < 3; ++i) sum += leg.force[i] * work.frames.back().p[i];
     for (int i = 0; i < 9; ++i) sum += (tip.couple[i] - leg.tip.couple[i]) * work.frames.back().R[i];
-    for (std::size_t i = 0; i < leg.tendons.size(); ++i) {
-      const Tendon& tendon = leg.tendons[i];
-      const double tension = tendon.tension;
-      sum += tendon.command.held == TendonHeld::tension ? tension * work.lengths[i]
-                                                        : 0.5 * tendon.compliance * tension * tension;
-    }
+    for (const Tendon& tendon : leg.tendons) sum += 0.5 * tendon.compliance * tendon.tension * tendon.tension;
   }
   return sum;
 }

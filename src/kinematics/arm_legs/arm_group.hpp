@@ -79,7 +79,7 @@ class ArmGroup final : public LimbGroup<Spatial> {
 
   /// Whether the wrench has a moment, which in base axes has no potential.
   bool has_potential() const { return wrench_.tail<3>().isZero(0); }
-  double potential() const;  ///< elastic, of weight, of the load's force and of tendons [J]
+  double potential() const;  ///< elastic, of weight, of the load's force and of tendons that stretch [J]
   double tension(int feed) const;
   double change(int feed) const;      ///< of its end, > 0: paid out [m]
   double slack(int feed) const;       ///< what it is longer than its way [m]
