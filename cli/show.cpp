@@ -214,14 +214,15 @@ std::string show_report(const Answer& answer) {
   Report report;
   report.residual = answer.number("residual").value_or(0);
   report.iterations = static_cast<int>(answer.number("iterations").value_or(0));
-  std::string text = to_string(report);
-  if (!answer.number("residual")) text = "converged";  // in closed form
+  const bool is_known = answer.number("residual").has_value();
+  std::string text = is_known ? to_string(report) : "converged";  // else in closed form
   const bool is_of_arm = (answer.find("tip") || answer.find("reached")) && answer.find("potential");
   if (is_on_rods(answer) || is_of_arm || (answer.find("wrench_sensitivity") && !is_on_chains(answer)) ||
       answer.find("curves") || answer.find("rows[0].unstable_directions")) {
-    text.resize(text.size() - 2);  // a residual of rods is relative, and has no unit
     if (!answer.find("curves") && (!is_of_arm || answer.find("stable")))
       text += ", stable";  // else the answer is not a converged one
+  } else if (is_known) {
+    text += " m";  // of rods and arms it is relative, and has no unit
   }
   return styled(text, Style::good) + '\n';
 }

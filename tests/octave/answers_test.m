@@ -80,7 +80,8 @@ function questions = questions_of (r)
   end
   if strcmp (d.kind, 'arm')
     f = r.forward ('changes', []);
-    questions = {ask('forward', 'changes', []), ask('inverse', 'position', f.tip.position), ask('shape', 'changes', []), ...
+    tip = round (f.tip.position * 1e6) * 1e-6;  % jsonencode writes 1e-19 as 0
+    questions = {ask('forward', 'changes', []), ask('inverse', 'position', tip), ask('shape', 'changes', []), ...
                  ask('velocity', 'changes', []), ask('track', 'from', f.tip, 'to', f.tip), ...
                  ask('track', 'points', {struct('changes', {{}})}, 'steps', 2), ask('statics'), ask('diagram')};
     return

@@ -38,6 +38,7 @@ struct ArmWorkspace::Impl {
 
   std::vector<TendonCommand> commands;  ///< of the last equilibrium
   int level = -1;                       ///< the rod that it was found with; −1: none was
+  bool balances = false;                ///< whether it was found
   double checked_size = 0;              ///< size of the highest modes when the resolution was last checked
   double checked = 0;                   ///< what that check gave [m]
   ArmState state;

@@ -375,10 +375,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   const double wanted = options.accuracy * arm.length();
   const bool refines = count > 1 && options.accuracy > 0;
   LoadedRod* rod = &ready(impl.level);
-  if (warm)
-    rod->expect(rod->tensions());
-  else
-    std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
+  if (!warm) std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
   bool knows = warm;  // how large the error is, from the question before
   if (const int coarser = coarser_than(impl.level); warm && refines && coarser >= 0) {
     const double shrunk = std::min(1.0, size_of_highest(rod->model(), rod->work().y) / impl.checked_size);
@@ -387,10 +384,14 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   if (warm && !knows) {
     const int coarser = coarser_than(impl.level);
     LoadedRod& lighter = ready(coarser);  // what came before was harder to resolve
-    carry_over(*rod, lighter);
+    carry_over(rod->model(), rod->work(), lighter.model(), lighter.work().y);
+    if (impl.balances) lighter.expect(rod->tensions());
     impl.level = coarser;
     rod = &lighter;
+  } else if (warm && impl.balances) {
+    rod->expect(rod->tensions());
   }
+  impl.balances = false;
   const bool by_energy = options.balance == ArmBalance::energy;
   strain::Relaxed found =
       by_energy ? rod->relax(relax) : relax_published(arm, commands, options, relax, warm, *rod);
@@ -480,6 +481,7 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
     break;
   }
   state.resolution = impl.checked;
+  impl.balances = found.status == Status::converged;
   set_report(state.report, found, impl, *rod);
   if (!by_energy) state.report.message = FixedText<240>(published_words(found.status));
   if (refines && state.report.ok() && state.resolution > 10 * wanted) {
