@@ -594,6 +594,7 @@ bool LoadedRod::judge(Relaxed& result) {
 void LoadedRod::soften(double share, std::span<const double> expected) {
   for (std::size_t i = 0; i < holds.size(); ++i) {
     const TendonHold& hold = holds[i];
+    soft_[i] = offsets_[i] = 0;
     if (hold.by_tension) continue;
     if (hold.compliance > 0)
       soft_[i] = hold.toe > 0 ? 0 : std::max(0.0, share * yields_[i] - hold.compliance);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "sinew_query.hpp"
 
@@ -23,6 +24,29 @@ TEST(ArmQueries, TensionsAndTheirChangesAgree) {
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(again["tip"]["position"][i].get<double>(), pulled["tip"]["position"][i].get<double>(), 1e-7);
   EXPECT_NEAR(again["tensions"][1][1].get<double>(), 2, 1e-5);
+}
+
+/// Rigid tendons are softened while they are searched for: nothing of that stays for the next question.
+TEST(ArmQueries, AnswersDoNotDependOnQuestionsBefore) {
+  const Json loose{{"query", "forward"}, {"tensions", {{0, 0, 0}, {0, 0, 0}}}},
+      pulled{{"query", "forward"}, {"tensions", {{4, 0.5, 0}, {0, 2, 1}}}},
+      short_by{{"query", "forward"},
+               {"changes", {{-0.002, nullptr, nullptr}, {0.001, 0.002, nullptr}}},
+               {"tensions", {{nullptr, 0, 0}, {nullptr, nullptr, 0.3}}}},
+      mixed{{"query", "forward"},
+            {"changes", {{nullptr, 0.012, 0.004}, {-0.004, -0.001, 0.005}}},
+            {"tensions", {{3, nullptr, nullptr}, nullptr}}},
+      back{{"query", "inverse"}, {"position", {0.01, 0.02, 0.395}}};
+  const std::vector<Json> questions{loose, pulled, short_by, mixed, back};
+  std::vector<Json> alone, all;
+  for (const Json& question : questions) alone.push_back(ask("two-segment", {question})[0]);
+  std::mt19937 random(5);
+  std::vector<std::size_t> order;
+  for (int k = 0; k < 40; ++k) order.push_back(random() % questions.size());
+  for (const std::size_t which : order) all.push_back(questions[which]);
+  const auto answers = ask("two-segment", all);
+  for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ(answers[k], alone[order[k]]) << k << all[k];
+  for (const Json& answer : alone) EXPECT_EQ(answer["status"], "converged") << answer;
 }
 
 TEST(ArmQueries, InverseIsForwardBack) {
