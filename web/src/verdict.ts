@@ -35,7 +35,8 @@ export function verdictOf(answer: Json): Verdict {
   if (answer.error?.code === 'too_slow') return verdicts.stopped!;
   if (answer.error) return {word: 'REFUSED', shape: '⊗', state: 'over', advice: ''};
   const found = verdicts[answer.status] ?? {word: String(answer.status).toUpperCase(), shape: '⊗', state: 'over', advice: ''};
-  if (answer.status === 'stalled' && answer.tensions) return {...found, advice: 'Pull less, or pay out the tendons on the other side.'};
+  const isHeldSo = answer.status === 'stalled' || (answer.status === 'unreachable' && answer.query === 'forward');
+  if (isHeldSo && answer.tensions) return {...found, advice: 'Pull less, or pay out the tendons on the other side.'};
   if (answer.status === 'converged' && answer.stable === false) return verdicts.unstable!;
   return answer.status === 'converged' && answer.stable === true ? {...found, word: 'SOLVED, STABLE'} : found;
 }

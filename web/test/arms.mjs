@@ -202,7 +202,7 @@ export async function arm_refusals(browser, url) {
   await page.evaluate(() => document.activeElement.blur());
   same(await picture(page), before);
   await then(page, () => page.getByRole('button', {name: 'Length changes'}).click());
-  await then(page, () => fill(page, 'inputs-0', '-3'));
+  await then(page, () => fill(page, 'inputs-0', '-150'));
   assert.equal(await verdict(page), 'STALLED');
   assert.match(await page.locator('#verdict .reason').innerText(), /no equilibrium was found/);
   assert.match(await page.locator('#verdict .advice').innerText(), /pay out the tendons on the other side/);
