@@ -4,6 +4,7 @@ import {execFileSync} from 'node:child_process';
 import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
+import {fileURLToPath} from 'node:url';
 import {audit, blank, differs, fill, hold, linked, looks, numbers, open, picture, rested, same, settled, shot, sinew, tab, then, verdict} from './harness.mjs';
 
 const said = (page) => page.evaluate(() => window.__sinew.answer());
@@ -270,5 +271,15 @@ export async function arm_friction(browser, url) {
   assert.equal(await page.locator('.loop').count(), 0);
   rmSync(folder, {recursive: true});
   await audit(page, 'an arm that remembers');
+  await done();
+}
+
+/** What the page cannot show it says, and shows what was there. */
+export async function arm_legs(browser, url) {
+  const {page, done} = await open(browser, url, 'two-segment'), before = await numbers(page);
+  await page.locator('#chooser').setInputFiles(fileURLToPath(new URL('../../tests/data/robots/tripod-two-section.yaml', import.meta.url)));
+  await page.locator('body', {hasText: 'the page shows no platforms on legs of several sections'}).waitFor();
+  assert.doesNotMatch(await page.locator('body').innerText(), /internal error/);
+  assert.equal(await numbers(page), before);
   await done();
 }
