@@ -151,8 +151,10 @@ class Robot(Verbs):
         return [list(itertools.islice(left, count)) for count in self._tendon_counts()]
 
     def _tendon_counts(self) -> list[int]:
-        """How many tendons end at each section."""
+        """How many tendons end at each section; of legs of sections those of leg 0 first."""
         about = self._about()._plain()
+        if about.get("kind") == "arm_legs":
+            return [section["tendons"] for leg in about["legs"] for section in leg["link"]["sections"]]
         sections = about.get("sections", [])
         if about.get("kind") == "arm":
             return [sum(tendon["section"] == m for tendon in about["tendons"]) for m in range(len(sections))]
@@ -160,7 +162,7 @@ class Robot(Verbs):
 
     def _is_of_tendons(self, name: str) -> bool:
         """Whether a field has a number of every tendon, a list a section in questions, all in a row in columns."""
-        return name in ("changes", "measured") or name == "tensions" and self._about()._plain().get("kind") == "arm"
+        return name in ("changes", "measured") or name == "tensions" and self._about()._plain().get("kind") in ("arm", "arm_legs")
 
     def _rows_of_tendons(self, changes: Any) -> Any:
         """Rows of all tendons, as columns have them (n, 15), as columns (n, 1, 15); a list a section (5, 3) as it is."""

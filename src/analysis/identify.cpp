@@ -1034,6 +1034,13 @@ Expected<Identified> identify(const MeasuredArm& given, const std::vector<FitPar
     flat.coefficients.assign(v.data(), v.data() + size);
     result.flat.push_back(std::move(flat));
   }
+  // Of those that are as flat the order would be chance.
+  std::ranges::stable_sort(result.flat, {}, [](const FlatDirection& one) {
+    const auto& c = one.coefficients;
+    const auto largest =
+        std::ranges::max_element(c, {}, [](double part) { return std::abs(part); }) - c.begin();
+    return std::pair(-std::round(1e6 * std::log(one.deviation)), largest);
+  });
   return result;
 }
 

@@ -12,7 +12,8 @@
 namespace sinew::inline v1 {
 namespace {
 
-constexpr Wants arm_legs_wants{Want::pose, Want::legs, Want::velocity, Want::shape, Want::stiffness};
+constexpr Wants arm_legs_wants{Want::pose,  Want::legs,      Want::velocity,
+                               Want::shape, Want::stiffness, Want::stability};  // that is told always
 
 /// Tendons that end at each section, sections of leg 0 first.
 std::vector<std::size_t> tendon_counts_of(const ArmLegs& robot) {
@@ -145,9 +146,9 @@ void answer_arm_legs(Context& context, Want usual) {
   const ArmLegsRates rates = arm_legs_rates(robot, work);
   if (!rates.regular) {
     context.add_message(
-        "the platform's stiffness is not finite, as of straight legs that do not stretch, or singular: it "
-        "has "
-        "no rates");
+        "the platform has no rates: its stiffness is singular, or not finite, as of straight legs that do "
+        "not "
+        "stretch");
     return;
   }
   const auto count = static_cast<Eigen::Index>(robot.tendons());

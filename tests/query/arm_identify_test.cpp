@@ -158,11 +158,11 @@ TEST(ArmIdentifyQuery, RefusesByPlace) {
   EXPECT_EQ(refused(7), "wrong_type at rows");
   EXPECT_EQ(refused(""), "no_heading at rows:0");
   EXPECT_EQ(refused("x[mm]\n1\n").substr(0, 14), "missing_column");
-  EXPECT_EQ(refused(with("pulls", {zeros})), "wrong_length at rows.markers");
+  EXPECT_EQ(refused(with("pulls", Json::array({zeros}))), "wrong_length at rows.markers");
   EXPECT_EQ(refused(with("pulls", {zeros, {0, 1}})), "wrong_length at rows.pulls[1]");
   EXPECT_EQ(refused(with("markers", {marker, {0, 0, "1 kg"}})), "wrong_dimension at rows.markers[1][2]");
   EXPECT_EQ(refused(with("markers", {marker, {0, 0, nullptr}})).substr(0, 10), "wrong_type");
-  EXPECT_EQ(refused(with("time", {0})), "wrong_length at rows.time");
+  EXPECT_EQ(refused(with("time", Json::array({0}))), "wrong_length at rows.time");
   EXPECT_EQ(refused(with("time", {1, 0})), "not_in_order at rows: row 2");
   EXPECT_EQ(refused(with("blocks", {0, 0.5})), "not_whole at rows: row 2");
   EXPECT_EQ(refused(with("tensions", {1})), "unknown_key at rows.tensions");
