@@ -254,6 +254,7 @@ std::optional<Node> OptionReader::place(std::string_view option, std::string_vie
 /// A pose; of `inverse`, and of paths, inputs; of a serial robot its configuration.
 std::optional<Node> OptionReader::start(std::string_view option, std::string_view text) {
   if (is_serial(*robot_)) return sections(option, text, Dimension::angle);
+  if (is_arm(*robot_)) return sections(option, text, Dimension::curvature);
   const bool is_of_inputs = query_ == "inverse" || (query_ == "track" && arguments_.verb != "branches");
   return is_of_inputs ? inputs(option, text) : pose(option, text);
 }

@@ -22,6 +22,8 @@ std::vector<std::size_t> tendons_by_section(const Arm& arm) {
 
 namespace {
 
+constexpr std::size_t most_parts = 1000;  // of a shape to begin at
+
 constexpr Wants arm_wants{Want::pose,      Want::velocity,  Want::shape,
                           Want::stiffness, Want::stability, Want::margins};
 
@@ -142,10 +144,25 @@ ArmOptions read_arm_options(Question& context) {
   return options;
 }
 
-void read_arm_start(ArmContext& context, ArmOptions& options) {
+void read_arm_start(ArmContext& context, ArmOptions& options, bool takes_shape) {
   options.from_last = context.continues == Continues::always && context.last != nullptr;
   const auto start = context.query.optional("start");
   if (!start) return;
+  if (start->is(Node::Kind::list)) {
+    if (!takes_shape)
+      start->fail("wrong_type", "a shape to begin at is of forward, velocity and shape; here it is last");
+    const auto parts = start->items();
+    if (parts.empty() || parts.size() > most_parts)
+      start->fail("wrong_length",
+                  fmt::format("a shape has the mean curvatures of 1 to {} equal parts of the arm, found {}",
+                              most_parts, parts.size()));
+    context.curvatures.clear();
+    for (const Reader& part : parts)
+      context.curvatures.push_back(part.array<3>(Dimension::curvature, {.low = -1e6, .high = 1e6}));
+    options.from_curvatures = context.curvatures;
+    options.from_last = false;
+    return;
+  }
   start->choice({"last"});
   options.from_last = true;
 }
@@ -306,7 +323,7 @@ void answer_arm_state(Context& asked, Want usual) {
   ArmOptions options = read_arm_options(context);
   const auto commands = read_arm_commands(context.robot, context.query);
   const ArmLoad load = read_arm_load(context.robot, context.query);
-  read_arm_start(context, options);
+  read_arm_start(context, options, true);
   bool want_all = false;
   std::optional<Until<Spatial>> until;
   if (usual == Want::pose) {
@@ -322,14 +339,28 @@ void answer_arm_state(Context& asked, Want usual) {
   const ArmState state = until ? follow(context, *until, commands, load, options)
                                : arm_forward(context.robot, commands, load, options, context.work);
   put_arm_state(context, state, state.report);
+  if (state.report.status == Status::stalled && usual == Want::pose && !want_all && !until)
+    context.add_message("all: true looks from other shapes, too");
   put_arm_wants(context, state, wanted);
   if (!want_all || state.report.status == Status::bad_input) return;
   Value solutions = Value::list();
-  for (const ArmState& other : arm_equilibria(context.robot, commands, load, options, 40, context.work))
-    solutions.push_back({{"tip", pose_value(AnyPose(spatial_pose(other.tip)))},
-                         {"tensions", by_end_section(context.robot, other.tensions)},
-                         {"potential", other.energy},
-                         {"residual", other.report.residual}});
+  bool is_continuum = false;
+  for (const auto& [other, curvatures, continuum] :
+       arm_equilibria(context.robot, commands, load, options, 40, context.work)) {
+    Value one{{"tip", pose_value(AnyPose(spatial_pose(other.tip)))},
+              {"tensions", by_end_section(context.robot, other.tensions)},
+              {"potential", other.energy},
+              {"residual", other.report.residual}};
+    std::vector<double> numbers;
+    for (const auto& of_part : curvatures) numbers.insert(numbers.end(), of_part.begin(), of_part.end());
+    if (!numbers.empty()) one["curvatures"] = Value(numbers, 3);
+    if (continuum) one["continuum"] = true;
+    is_continuum = is_continuum || continuum;
+    solutions.push_back(std::move(one));
+  }
+  if (is_continuum)
+    context.add_message(
+        "a solution with continuum is one of infinitely many, to any of which it may move freely");
   put_solutions(asked, std::move(solutions));
 }
 

@@ -10,6 +10,7 @@ namespace sinew::inline v1 {
 struct ArmContext : Question {
   const Arm& robot;
   ArmWorkspace& work;
+  std::vector<std::array<double, 3>> curvatures = {};  ///< of `start` [rad/m]
   explicit ArmContext(Context& context)
       : Question(context),
         robot(*context.robot.arm()),
@@ -31,7 +32,8 @@ ArmLoad read_arm_load(const Arm& arm, Reader& place, ArmLoad load = {});
 /// `model`, `order`, `elements`, `accuracy` and the bound on iterations.
 ArmOptions read_arm_options(Question& context);
 /// `start`: `last`, where the workspace is.
-void read_arm_start(ArmContext& context, ArmOptions& options);
+/// @param takes_shape whether it may be a shape, too: mean curvatures of equal parts
+void read_arm_start(ArmContext& context, ArmOptions& options, bool takes_shape = false);
 
 /// Numbers of all tendons as a list a section.
 Value by_end_section(const Arm& arm, std::span<const double> values);

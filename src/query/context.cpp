@@ -185,7 +185,8 @@ void add_tilt(Value& answer) {
   add_tilt_of(answer.find("pose"));
   add_tilt_of(answer.find("tip"));
   if (Value* solutions = answer.find("solutions"))
-    for (std::size_t k = 0; k < solutions->size(); ++k) add_tilt_of((*solutions)[k].find("pose"));
+    for (std::size_t k = 0; k < solutions->size(); ++k)
+      for (const char* key : {"pose", "tip"}) add_tilt_of((*solutions)[k].find(key));
 }
 
 void put_number(Value& object, Value::Key key, double value) {

@@ -156,6 +156,8 @@ void Search::field(const Field& field, const std::string& path, const Node& node
     case Shape::start:
       if (node.kind == Node::Kind::map)
         pose(path, node);
+      else if (inputs_.empty() && scale_.force > 0)
+        break;  // an arm's curvatures: its shape may bend as sharply as it likes
       else if (inputs_.empty())
         configuration(path, node);
       else

@@ -123,8 +123,9 @@ TEST(ArmAttack, RandomArms) {
     }
     const auto all =
         arm_equilibria(arm, commands, load, {.order = 3, .elements = 8, .accuracy = 0}, 30, finer);
-    const bool known = std::ranges::any_of(
-        all, [&](const ArmState& one) { return (one.tip.p - state.tip.p).norm() < 1e-3 * arm.length(); });
+    const bool known = std::ranges::any_of(all, [&](const ArmEquilibrium& one) {
+      return (one.state.tip.p - state.tip.p).norm() < 1e-3 * arm.length();
+    });
     if (known)
       ++other_branch;
     else

@@ -85,14 +85,14 @@ TEST(ArmLoadPath, ABuckledColumnSnapsThrough) {
   ArmLoad beyond = load;
   beyond.wrench[0] -= 0.05 * snap.load * 1.001;
   ArmWorkspace after(strip);
-  for (const ArmState& one : arm_equilibria(strip, {}, beyond, {.model = ArmModel::rod}, 30, after))
-    if (one.stable) {
-      EXPECT_LT(one.tip.p.x(), 0);
+  for (const ArmEquilibrium& one : arm_equilibria(strip, {}, beyond, {.model = ArmModel::rod}, 30, after))
+    if (one.state.stable) {
+      EXPECT_LT(one.state.tip.p.x(), 0);
     }
   beyond.wrench[0] += 0.05 * snap.load * 0.002;
   int both = 0;
-  for (const ArmState& one : arm_equilibria(strip, {}, beyond, {.model = ArmModel::rod}, 30, after))
-    both += one.stable;
+  for (const ArmEquilibrium& one : arm_equilibria(strip, {}, beyond, {.model = ArmModel::rod}, 30, after))
+    both += one.state.stable;
   EXPECT_EQ(both, 2);
 }
 

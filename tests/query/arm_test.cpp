@@ -114,6 +114,60 @@ TEST(ArmQueries, LoadsWhereSpansOfAChannelEnd) {
   }
 }
 
+/// Each of the solutions is where a search ends that begins at its curvatures.
+TEST(ArmQueries, SolutionsAreStarts) {
+  const Json pushed{{"query", "forward"},
+                    {"changes", {{0.01, 0.01, 0.01, 0.01}}},
+                    {"wrench", {0, 0, -60, 0, 0, 0}},
+                    {"tilt", true}};
+  Json every = pushed;
+  every["all"] = true;
+  const Json all = ask("tendon-rod", {every})[0];
+  ASSERT_GE(all["count"].get<int>(), 5) << all;
+  std::vector<Json> again;
+  for (const Json& one : all["solutions"]) {
+    EXPECT_FALSE(one.contains("continuum"));
+    EXPECT_TRUE(one["tip"].contains("azimuth"));
+    EXPECT_EQ(one["curvatures"].size(), 16U);
+    again.push_back(pushed);
+    again.back()["start"] = one["curvatures"];
+  }
+  const auto answers = ask("tendon-rod", again);
+  for (std::size_t k = 0; k < again.size(); ++k) {
+    ASSERT_EQ(answers[k]["status"], "converged") << answers[k];
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(answers[k]["tip"]["position"][i].get<double>(),
+                  all["solutions"][k]["tip"]["position"][i].get<double>(), 5e-6);
+  }
+}
+
+/// However bent the shape is at which the search begins: an equilibrium, or a word.
+TEST(ArmQueries, AnyStartEndsHonestly) {
+  std::mt19937 gen(11);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 60; ++k) {
+    Json start = Json::array();
+    const int parts = 1 + static_cast<int>(gen() % 30);
+    const double size = std::pow(10.0, static_cast<double>(gen() % 8) - 2);
+    for (int part = 0; part < parts; ++part)
+      start.push_back({size * normal(gen), size * normal(gen), size * normal(gen)});
+    const Json answer = ask("two-segment", {{{"query", "forward"},
+                                             {"tensions", {{2, 0, 0}, {0, 1, 0}}},
+                                             {"model", k % 2 ? "prb" : "subsegment_rod"},
+                                             {"start", start}}})[0];
+    if (answer.contains("error")) {
+      EXPECT_EQ(answer["error"]["code"], "out_of_range") << answer;
+      continue;
+    }
+    const auto status = answer["status"].get<std::string>();
+    if (status == "converged") {
+      EXPECT_LT(answer["residual"].get<double>(), 1e-8);
+    } else {
+      EXPECT_TRUE(status == "stalled" || status == "iteration_limit" || status == "left_domain") << status;
+    }
+  }
+}
+
 TEST(ArmQueries, Refusals) {
   const auto code = [](const Json& query) {
     const Json answer = ask("two-segment", {query})[0];
@@ -132,6 +186,15 @@ TEST(ArmQueries, Refusals) {
   EXPECT_EQ(code({{"query", "forward"}, {"model", "elastica"}}), "unknown_choice");
   EXPECT_EQ(code({{"query", "forward"}, {"want", {"legs"}}}), "unsupported");
   EXPECT_EQ(code({{"query", "track"}, {"poses", Json::array()}}), "unsupported");
+  const auto from = [&](Json start, const char* query = "forward") {
+    return code({{"query", query}, {"position", {0, 0.02, 0.39}}, {"start", std::move(start)}});
+  };
+  EXPECT_EQ(from(Json::array()), "wrong_length");
+  EXPECT_EQ(from(Json::parse("[[1, 2]]")), "wrong_length");
+  EXPECT_EQ(from(Json::parse("[1, 2, 3]")), "wrong_type");
+  EXPECT_EQ(from(Json::parse("[[1, 2, null]]")), "wrong_type");
+  EXPECT_EQ(from(Json::parse("[[1e9, 2, 3]]")), "out_of_range");
+  EXPECT_EQ(from(Json::parse("[[1, 2, 3]]"), "inverse"), "wrong_type");
   EXPECT_EQ(code({{"query", "inverse"}}), "missing_key");
   EXPECT_EQ(code({{"query", "inverse"}, {"position", {0.6, 0, 0}}}), "unreachable");
 }

@@ -50,7 +50,7 @@ export function command(source: Source, described: Described, state: State, star
   const told = isPose ? {...state, pose: [...state.pose.slice(0, 3), ...quaternionOf(state.pose.slice(3))]} : state;
   const words = ['sinew', state.asked === 'pose' ? 'inverse' : 'forward', /^[\w./-]+$/.test(robot) ? robot : quoted(robot),
                  asked(described, told, described.canBend ? state.bending : null)];
-  if (start) words.push(`--start ${list(start)}`);
+  if (start) words.push(`--start ${described.isArm ? lists(Array.from({length: start.length / 3}, (_, k) => start.slice(3 * k, 3 * k + 3))) : list(start)}`);
   if (state.model !== described.answer.model) words.push(`--model ${state.model}`);
   const wrench = wrenchOf(described, state), more = described.isArm ? loads(described, state).loads : undefined;
   if (wrench) words.push(`--wrench ${list(wrench)}`);

@@ -756,7 +756,7 @@ class Page {
 
   /** Where a search has to begin so that it ends here: as long as nobody knows whether it has to, it does. */
   private startOf(state: State, known: number[] | null | undefined): number[] | null {
-    if (known !== undefined || this.described!.isSerial || this.described!.isArm) return known ?? null;
+    if (known !== undefined || this.described!.isSerial) return known ?? null;
     if (state.asked === 'inputs') return state.start && numbersOf(state.start);
     return bearsLoad(this.described!, state.model) ? null : state.inputs;
   }

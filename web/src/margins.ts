@@ -1,7 +1,7 @@
 // What takes longer to say than where the robot is: asked when nothing moves.
 import type {Json, Robot} from './client';
 import {bearsLoad, type Described} from './described';
-import {forward, given, inverse, plain} from './questions';
+import {forward, given, inverse, plain, wrenchOf} from './questions';
 import {numbersOf, type State} from './state';
 
 /** How far the platform can go the way an input moves it before it meets a type II singularity. */
@@ -15,16 +15,17 @@ async function typeTwo(robot: Robot, described: Described, state: State, answer:
 
 /** How many times the load can be added before the robot gives way. */
 async function reach(robot: Robot, described: Described, state: State, answer: Json): Promise<Json | null> {
-  const limit = 10, [found] = await robot.ask([{...forward(described, state, plain(answer.pose)), until: {wrench: state.load, limit}}]) as [Json];
+  const limit = 10, start = described.isArm ? state.start ?? undefined : plain(answer.pose);
+  const [found] = await robot.ask([{...forward(described, state, start), until: {wrench: wrenchOf(described, state), limit}}]) as [Json];
   return found.load === undefined ? null : {load: found.load, why: found.why, limit};
 }
 
 /** @param input the one last touched */
 export async function margins(robot: Robot, described: Described, state: State, answer: Json, input: number): Promise<Json> {
   const found: Json = {};
-  if (described.isSerial || !answer.pose) return found;
+  if (described.isSerial || !(answer.pose ?? answer.tip)) return found;
   if (bearsLoad(described, state.model)) {
-    const far = state.load.some((part) => part !== 0) && answer.status === 'converged' ? await reach(robot, described, state, answer) : null;
+    const far = wrenchOf(described, state) && state.asked === 'inputs' && answer.status === 'converged' ? await reach(robot, described, state, answer) : null;
     return far ? {reach: far} : found;
   }
   const two = await typeTwo(robot, described, state, answer, input);
@@ -38,7 +39,11 @@ const isSame = (a: number[], b: number[]) => a.every((value, i) => Math.abs(valu
  * @param answer of `forward`
  */
 export async function startOf(robot: Robot, described: Described, state: State, answer: Json): Promise<number[] | null> {
-  if (described.isArm) return null;  // its search begins at rest
+  if (described.isArm) {  // its search begins at rest, or at a shape that was chosen
+    if (!state.start || state.asked === 'pose') return null;
+    const [plainly] = await robot.ask([forward(described, state)]) as [Json];
+    return plainly.tip && isSame(plainly.tip.position, answer.tip.position) ? null : numbersOf(state.start);
+  }
   if (state.asked === 'inputs') {
     if (described.isSerial || !answer.pose) return null;
     const [plainly] = await robot.ask([forward(described, state)]) as [Json], here = numbersOf(answer.pose);

@@ -32,9 +32,9 @@ export function bySection(described: Described, values: number[]): number[][] {
   return sections;
 }
 
-/** Inputs, and where a search for the pose begins: a pose, `last`, or at home. */
+/** Inputs, and where a search for the pose begins: a pose, of an arm the curvatures of its parts, `last`, or at home. */
 export function given(described: Described, state: State, start?: Json | string): Json {
-  if (described.isArm) return {...heldBy(described, state.inputs), ...common(described, state)};
+  if (described.isArm) return {...heldBy(described, state.inputs), ...(start && {start}), ...common(described, state)};
   if (described.isSerial) return {configuration: bySection(described, state.inputs), ...common(described, state)};
   return {inputs: state.inputs, ...(start && {start}), ...common(described, state)};
 }

@@ -18,7 +18,7 @@ export interface State {
   samples: number;     ///< points of each curve; 0: as many as is usual
   iterations: number;  ///< at most; 0: as many as is usual
   path: Json[] | null;  ///< of an arm whose tendons rub: how it came here, point by point; null: as if they did not rub
-  start: Json | null;  ///< the pose near which that of the inputs is looked for, the last solved or a chosen one; null: home
+  start: Json | null;  ///< the pose near which that of the inputs is looked for, the last solved or a chosen one, of an arm the curvatures of its parts in a chosen one; null: home
 }
 
 export const homes = (rows: Row[]) => rows.map((row) => row.home);
@@ -32,13 +32,19 @@ export function stateOf(described: Described): State {
 
 const numbers = (text: string | null) => text?.split(',').map(Number);
 
-/** A pose as a list, as links and commands have it. */
-export const numbersOf = (pose: Json): number[] => (pose.position ? [...pose.position, ...(pose.quaternion ?? [])] : [pose.x, pose.y, pose.phi]);
+/** A pose, or the curvatures of an arm's parts, as a list, as links and commands have it. */
+export const numbersOf = (pose: Json): number[] => (Array.isArray(pose) ? pose.flat() : pose.position ? [...pose.position, ...(pose.quaternion ?? [])] : [pose.x, pose.y, pose.phi]);
 
 function poseOf(values: number[] | undefined, isPlanar: boolean): Json | null {
   if (values?.length !== (isPlanar ? 3 : 7) || !values.every(Number.isFinite)) return null;
   const [x, y, phi] = values;
   return isPlanar ? {x, y, phi} : {position: values.slice(0, 3), quaternion: values.slice(3)};
+}
+
+/** Curvatures of an arm's parts, three numbers each. */
+function partsOf(values: number[] | undefined): Json | null {
+  if (!values || values.length === 0 || values.length % 3 !== 0 || !values.every(Number.isFinite)) return null;
+  return Array.from({length: values.length / 3}, (_, k) => values.slice(3 * k, 3 * k + 3));
 }
 
 /** `tc`: what holds the first tendon of an arm is a tension, of the second a change of its length. */
@@ -67,7 +73,8 @@ export function fromLink(link: URLSearchParams, described: Described): State {
   if (described.models.includes(link.get('model') ?? '')) state.model = link.get('model')!;
   const bending = numbers(link.get('bending'));
   if (bending?.length === described.answer.legs?.length && bending?.every((sign) => Math.abs(sign) === 1)) state.bending = bending;
-  state.start = described.isSerial || described.isArm ? null : poseOf(numbers(link.get('start')), described.isPlanar);
+  const start = numbers(link.get('start'));
+  state.start = described.isSerial ? null : described.isArm ? partsOf(start) : poseOf(start, described.isPlanar);
   state.gravity = link.get('gravity') !== 'off';
   for (const key of ['joints', 'samples', 'iterations'] as const) state[key] = Math.max(0, Math.floor(Number(link.get(key)) || 0));
   return state;

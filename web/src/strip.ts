@@ -149,7 +149,7 @@ export class Strip {
       for (let first = 0; isGoing && first <= count; first += chunk) {
         const values = Array.from({length: Math.min(chunk, count + 1 - first)}, (_, k) => (first + k === count ? end : here + Math.sign(end - here) * width * (first + k)));
         const start = (k: number) => (first + k === 0 ? pose ?? undefined : k === 0 ? found.at(-1)?.answer.pose && plain(found.at(-1)!.answer.pose) : 'last');
-        const answers = await robot.ask(values.map((value, k) => question(described, changed(state, touched.side, touched.index, value), touched.side, described.isSerial || described.isArm ? undefined : start(k))));
+        const answers = await robot.ask(values.map((value, k) => question(described, changed(state, touched.side, touched.index, value), touched.side, described.isSerial ? undefined : described.isArm ? pose ?? undefined : start(k))));
         if (run !== this.run) return;
         values.forEach((at, k) => {
           if (!isGoing) return;

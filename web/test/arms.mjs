@@ -147,6 +147,44 @@ export async function arm_loads(browser, url) {
   await done(/422|400/);
 }
 
+/** Other equilibria are small pictures to go to: a link and the command lead there as well; how much more load the arm bears is a bar. */
+export async function arm_solutions(browser, url) {
+  const {page, done} = await blank(browser), cards = page.locator('#solutions .small'), title = page.locator('#solutions h3');
+  const tipNow = async () => (await said(page)).tip.position;
+  await then(page, () => page.goto(`${url}#robot=tendon-rod&held=cccc&inputs=0.01,0.01,0.01,0.01&load=0,0,-60,0,0,0,0.25,0,0,0`));
+  await title.filter({hasText: 'Solutions (at least'}).waitFor();
+  assert.match(await title.innerText(), /^Solutions \(at least [5-9]\)$/);
+  assert.equal(await page.locator('#solutions .small[aria-current=true]').count(), 1);
+  assert.equal(await cards.count(), await page.locator('#solutions .small svg path.sk-body, #solutions .small svg path.sk-rod').count());
+  assert.match(await numbers(page), /(more load|load to [a-z_]+)\s+(> )?[\d.]+ ×/);
+  await rested(page);
+  await looks(page, 'arm-solutions');
+  assert.doesNotMatch(await command(page), /--start/);
+  const before = await tipNow(), other = cards.locator('visible=true').filter({hasNotText: 'shown'}).last();
+  await then(page, () => other.click());
+  await rested(page);
+  const there = await tipNow();
+  assert.ok(Math.hypot(...there.map((part, i) => part - before[i])) > 0.01, 'it stayed where it was');
+  assert.equal(await verdict(page), 'SOLVED, STABLE');
+  assert.match(await command(page), /--start "(-?[\d.]+, -?[\d.]+, -?[\d.]+(; )?)+"/);
+  const words = (await command(page)).replace(/^sinew/, `'${sinew}'`);
+  near(JSON.parse(execFileSync('/bin/sh', ['-c', `${words} --json`], {encoding: 'utf8'})).tip.position, there, 1e-6, words);
+  const second = await blank(browser);
+  await second.page.goto(await linked(page));
+  await settled(second.page, 0);
+  await rested(second.page);
+  near((await said(second.page)).tip.position, there, 1e-6, 'a link leads elsewhere');
+  await second.done();
+  await then(page, () => fill(page, 'inputs-0', '10.1'));  // goes on from there
+  near(await tipNow(), there, 0.02, 'it left its branch');
+  await then(page, () => page.locator('#undo').click());
+  await then(page, () => page.locator('#undo').click());
+  near(await tipNow(), before, 1e-6, 'undo leads back');
+  await then(page, () => page.goto(`${url}#robot=two-segment&inputs=0,0,0,0,0,0&load=0,0,-8,0,0,0,0.2,0,0,0`));
+  await title.filter({hasText: 'Other solutions: beside it, to which it may move freely'}).waitFor();
+  await done();
+}
+
 /** Where the tip was seen tells the force at it: that force as a load takes the tip there. */
 export async function arm_senses(browser, url) {
   const {page, done} = await open(browser, url, 'two-segment');

@@ -65,6 +65,9 @@ struct ArmOptions {
   double tolerance = 1e-10;  ///< of the residual [1]
   int max_iterations = 200;
   bool from_last = false;  ///< from where the workspace is, not from the straight arm
+  /// From the shape with these curvatures and torsions, means of as many equal parts [rad/m], in its own
+  /// axes; empty: from the straight arm. Outlives the question.
+  std::span<const std::array<double, 3>> from_curvatures = {};
 };
 
 /// An equilibrium. `tip`, tensions and lengths are those of the best iterate where it is none.
@@ -98,6 +101,11 @@ SINEW_API std::vector<SE3<double>> arm_frames(const Arm& arm, std::span<const do
 /// Strains there: stretch and shear (v), then curvature and torsion (u) [1, rad/m].
 SINEW_API std::vector<std::array<double, 6>> arm_strains(const Arm& arm, std::span<const double> places,
                                                          const ArmWorkspace& work);
+/// The mean curvature and torsion of each of so many equal parts, in its own axes [rad/m]: what takes a
+/// part's first frame to its last by one turn.
+/// @param parts at least 1
+SINEW_API std::vector<std::array<double, 3>> arm_curvatures(const Arm& arm, int parts,
+                                                            const ArmWorkspace& work);
 /// Where every tendon runs: points of its guides, base axes [m].
 SINEW_API std::vector<std::vector<Vec3<double>>> arm_tendon_lines(const Arm& arm, const ArmWorkspace& work);
 
@@ -162,10 +170,18 @@ struct ArmSensed {
 SINEW_API ArmSensed arm_sense(const Arm& arm, const ArmMeasurement& measured, const ArmLoad& load,
                               bool force_alone, const ArmOptions& options, ArmWorkspace& work);
 
-/// Equilibria found from many shapes, that of the lowest potential first. They need not be all.
+/// One of many equilibria.
+struct ArmEquilibrium {
+  ArmState state;
+  /// Of its shape, see arm_curvatures [rad/m]: a search that begins there ends there.
+  std::vector<std::array<double, 3>> curvatures = {};
+  bool continuum = false;  ///< one of infinitely many, as where a straight arm may bend to any side
+};
+/// Equilibria found from many shapes, that of the lowest potential first. They need not be all; of a
+/// continuum there is one.
 /// @param starts how many shapes
-SINEW_API std::vector<ArmState> arm_equilibria(const Arm& arm, std::span<const TendonCommand> commands,
-                                               const ArmLoad& load, const ArmOptions& options, int starts,
-                                               ArmWorkspace& work);
+SINEW_API std::vector<ArmEquilibrium> arm_equilibria(const Arm& arm, std::span<const TendonCommand> commands,
+                                                     const ArmLoad& load, const ArmOptions& options,
+                                                     int starts, ArmWorkspace& work);
 
 }  // namespace sinew::inline v1

@@ -62,6 +62,10 @@ void set_loads(const Arm& arm, const ArmLoad& load, const strain::RodModel& mode
 void carry_over(const strain::RodModel& from, const strain::RodWork& work, const strain::RodModel& to,
                 std::vector<double>& y);
 
+/// Coordinates of the shape with these mean curvatures of equal parts [rad/m].
+void take_curvatures(std::span<const std::array<double, 3>> curvatures, const strain::RodModel& model,
+                     std::vector<double>& y);
+
 /// The strain at a place from the base [m].
 /// @param near an element to look from; becomes the one that the place is in
 strain::Six strain_at(const strain::RodModel& model, const strain::RodWork& work, double place, int& near);

@@ -5,29 +5,56 @@
 #include "kinematics/arms/arm_work.hpp"
 
 namespace sinew::inline v1 {
+namespace {
 
-std::vector<ArmState> arm_equilibria(const Arm& arm, std::span<const TendonCommand> commands,
-                                     const ArmLoad& load, const ArmOptions& options, int starts,
-                                     ArmWorkspace& work) {
-  std::vector<ArmState> found;
+constexpr int parts = 16;       ///< of the shape that is told of each
+constexpr double still = 1e-6;  ///< a margin below which an equilibrium may move freely [1]
+constexpr double alike = 1e-8;  ///< potentials of one continuum differ by less, over EI/L or themselves
+
+/// What is least at an equilibrium that holds: with the motors that hold tensions [J].
+double whole_potential(const ArmState& one, std::span<const TendonCommand> commands) {
+  double sum = one.energy;
+  for (std::size_t i = 0; i < std::min(commands.size(), one.changes.size()); ++i)
+    if (commands[i].held == TendonHeld::tension) sum += one.tensions[i] * one.changes[i];
+  return sum;
+}
+
+}  // namespace
+
+std::vector<ArmEquilibrium> arm_equilibria(const Arm& arm, std::span<const TendonCommand> commands,
+                                           const ArmLoad& load, const ArmOptions& options, int starts,
+                                           ArmWorkspace& work) {
+  std::vector<ArmEquilibrium> found;
   std::mt19937 gen(1);  // the same shapes for every question
   std::normal_distribution<double> normal;
   ArmOptions each = options;
   each.from_last = false;
+  const auto is_known = [&](const ArmState& state, bool continuum) {
+    const double potential = whole_potential(state, commands);
+    return std::ranges::any_of(found, [&](const ArmEquilibrium& other) {
+      if (continuum && other.continuum) {
+        const double there = whole_potential(other.state, commands),
+                     scale = work.impl().rod().model().energy_scale + std::abs(there);
+        if (std::abs(there - potential) < alike * scale) return true;
+      }
+      return (other.state.tip.p - state.tip.p).norm() < 1e-5 * arm.length() &&
+             other.state.tip.R.compose(state.tip.R.inverse()).log().norm() < 1e-4;
+    });
+  };
   for (int start = 0; start < starts; ++start) {
     const ArmState* state = &arm_forward(arm, commands, load, each, work);
-    if (state->report.status == Status::bad_input || state->report.status == Status::stopped) {
-      found.push_back(*state);
+    if (state->report.status == Status::bad_input || state->report.status == Status::unsupported ||
+        state->report.status == Status::stopped) {
+      found.push_back({*state});
       break;
     }
     if (state->report.ok()) {
-      const bool is_new = std::ranges::none_of(found, [&](const ArmState& other) {
-        return (other.tip.p - state->tip.p).norm() < 1e-5 * arm.length() &&
-               other.tip.R.compose(state->tip.R.inverse()).log().norm() < 1e-4;
-      });
-      if (is_new) found.push_back(*state);
+      const ArmRates rates = arm_rates(arm, work);
+      const bool continuum = state->stability_told && (!rates.regular || std::abs(rates.margin) < still);
+      if (!is_known(*state, continuum))
+        found.push_back({*state, arm_curvatures(arm, parts, work), continuum});
     } else if (start == 0) {
-      found.push_back(*state);
+      found.push_back({*state});
     }
     // from another shape: bent at random, as much as a rod bends that is pushed hard
     strain::LoadedRod& rod = work.impl().rod();
@@ -39,14 +66,9 @@ std::vector<ArmState> arm_equilibria(const Arm& arm, std::span<const TendonComma
               size * normal(gen) / std::sqrt(static_cast<double>(rod.model().pieces.size())) / (1 + 3 * a);
     each.from_last = true;
   }
-  if (found.size() > 1 && !found.front().report.ok()) found.erase(found.begin());
-  // by what is least at an equilibrium that holds: with the motors that hold tensions
-  std::ranges::stable_sort(found, {}, [&](const ArmState& one) {
-    double sum = one.energy;
-    for (std::size_t i = 0; i < std::min(commands.size(), one.changes.size()); ++i)
-      if (commands[i].held == TendonHeld::tension) sum += one.tensions[i] * one.changes[i];
-    return sum;
-  });
+  if (found.size() > 1 && !found.front().state.report.ok()) found.erase(found.begin());
+  std::ranges::stable_sort(found, {},
+                           [&](const ArmEquilibrium& one) { return whole_potential(one.state, commands); });
   return found;
 }
 

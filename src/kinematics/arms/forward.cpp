@@ -376,6 +376,8 @@ const ArmState& arm_forward(const Arm& arm, std::span<const TendonCommand> comma
   const bool refines = count > 1 && options.accuracy > 0;
   LoadedRod* rod = &ready(impl.level);
   if (!warm) std::fill(rod->work().y.begin(), rod->work().y.end(), 0.0);
+  if (!warm && !options.from_curvatures.empty())
+    take_curvatures(options.from_curvatures, rod->model(), rod->work().y);
   bool knows = warm;  // how large the error is, from the question before
   if (const int coarser = coarser_than(impl.level); warm && refines && coarser >= 0) {
     const double shrunk = std::min(1.0, size_of_highest(rod->model(), rod->work().y) / impl.checked_size);
