@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-#include "analysis/arm_rows.hpp"
+#include "analysis/identify/arm_rows.hpp"
 #include "cpu_time.hpp"
 #include "measured_arms.hpp"
 #include "sanitizers.hpp"

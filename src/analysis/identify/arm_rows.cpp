@@ -1,4 +1,4 @@
-#include "analysis/arm_rows.hpp"
+#include "analysis/identify/arm_rows.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
