@@ -47,6 +47,9 @@ LoadedRod::LoadedRod(const RodModel& model)
   columns_.resize(at(model.size * stride_));
   sides_.resize(at(model.size * stride_));
   small_.resize(at(model.tendons * model.tendons));
+  assumed_.resize(holds.size());
+  then_.resize(holds.size());
+  for (auto* steps : {&first_, &best_, &lowest_}) steps->resize(at(model.size));
   trial_.resize(at(model.size));
   step_.resize(at(model.size));
 }
@@ -132,7 +135,8 @@ int LoadedRod::factor_with_tendons(double shift) {
   if (!inertia.ok) return -1;
   active_.clear();
   for (std::size_t i = 0; i < holds.size(); ++i)
-    if (!holds[i].by_tension && tensions_[i] > 0) active_.push_back(static_cast<int>(i));
+    if (assumes_ ? assumed_[i] != 0 : !holds[i].by_tension && tensions_[i] > 0)
+      active_.push_back(static_cast<int>(i));
   if (active_.empty()) return inertia.negative;
   const int n = model_->size, m = static_cast<int>(active_.size());
   for (double& x : columns_) x = 0;

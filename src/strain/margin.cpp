@@ -33,7 +33,7 @@ double LoadedRod::lowest(std::span<double> direction) {
   for (int tries = 0; factor_all(shift) != 0 && tries < 60; ++tries) shift = shift == 0 ? 1e-3 : 2 * shift;
   const std::size_t n = at(model_->size);
   std::vector<double> x(n * row, 0.0), weighted(n);
-  for (std::size_t i = 0; i < n; ++i) direction[i] = 1 + 0.37 * std::sin(1.0 + 2.3 * static_cast<double>(i));
+  some_direction(direction);
   double value = 0;
   for (int round = 0; round < 30; ++round) {
     elastic(direction, weighted);

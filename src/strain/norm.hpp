@@ -16,5 +16,9 @@ inline double dot(std::span<const double> a, std::span<const double> b) {
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
+/// A direction across no symmetry of a robot, where nothing tells one.
+inline void some_direction(std::span<double> x) {
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = 1 + 0.37 * std::sin(1.0 + 2.3 * static_cast<double>(i));
+}
 
 }  // namespace sinew::inline v1::strain

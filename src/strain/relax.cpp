@@ -12,26 +12,98 @@ namespace {
 
 /// Eigenvalues down to this count as 0: a round rod that has buckled turns freely.
 constexpr double neutral = 1e-9;
+/// Length of a step downhill from where the gradient does not tell the way, over √(EI/L).
+constexpr double saddle_step = 0.3;
+/// In which tendons that become taut or slack in a step are found.
+constexpr int most_guesses = 6;
 
 }  // namespace
 
-/// A step of at most `radius`; `shift` starts at what the last one needed.
-bool LoadedRod::newton_step(double& shift, double radius, std::span<double> step, int& negative) {
-  double low = 0, high = 0;
+/// What a tendon held by its end is longer than its free length, below 0 where it is slack [m].
+double LoadedRod::beyond(std::size_t i) const {
+  return work_.lengths[i] - holds[i].free_length + offsets_[i];
+}
+
+/// What the energy falls by in a step that was made with the tendons assumed [J], with each of them taut or
+/// slack as its linearised length has it after the step: that is left in then_.
+double LoadedRod::foreseen(std::span<const double> step, const Descent& descent) {
+  const std::size_t n = at(model_->size);
+  double change = 0.5 * dot(work_.gradient, step) - 0.5 * descent.shift * dot(step, step) + descent.surplus;
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    then_[i] = assumed_[i];
+    if (holds[i].by_tension || holds[i].toe > 0) continue;
+    const double along = dot({work_.length_gradient.data() + i * n, n}, step), here = beyond(i),
+                 there = here + along;
+    then_[i] = there > 0;
+    // Of ½ max(0, here + along)² and of what the step's own equation makes of the quadratic terms.
+    const double before = std::max(0.0, here), after = std::max(0.0, there),
+                 in_step = assumed_[i] ? along * there : 0;
+    change += 0.5 * (after * after - before * before - before * along - in_step) / stiff_[i];
+  }
+  return -change;
+}
+
+/// Where the gradient does not tell of the direction in which the energy falls most, as that of a straight
+/// column that is pushed along itself: so far in it that the step has the length asked, after a factor that
+/// is all but singular (the hard case of a trust region).
+void LoadedRod::go_along_lowest(double length, std::span<double> step, Descent& descent) {
+  const int n = model_->size;
+  // To begin with as the gradient has it; where that tells nothing, any direction will do.
+  some_direction(lowest_);
+  const double any = 1e-8 * norm(step) / std::sqrt(n);
+  for (int i = 0; i < n; ++i) lowest_[at(i)] = step[at(i)] + any * lowest_[at(i)];
+  double least = 0, before = 0;
+  for (int round = 0; round < 40 && !(round > 8 && std::abs(least - before) < 1e-2 * least); ++round) {
+    before = least;
+    const double size = norm(lowest_);
+    for (int i = 0; i < n; ++i) sides_[at(i * stride_)] = lowest_[at(i)] / size;
+    solve_all(sides_, 1, stride_);
+    for (int i = 0; i < n; ++i) lowest_[at(i)] = sides_[at(i * stride_)];
+    least = 1 / norm(lowest_);
+  }
+  const double way = dot(work_.gradient, lowest_) > 0 ? -least : least;
+  for (double& x : lowest_) x *= way;
+  const double along = dot(step, lowest_), short_by = length * length - dot(step, step);
+  if (!(short_by > 0)) return;
+  const double by = short_by / (along + std::sqrt(along * along + short_by));
+  for (int i = 0; i < n; ++i) step[at(i)] += by * lowest_[at(i)];
+  descent.surplus = 0.5 * by * least * dot(step, lowest_);
+}
+
+/// Of the quadratic model in which the tendons assumed, and no others, are taut.
+bool LoadedRod::step_with_assumed(double radius, std::span<double> step, Descent& descent) {
+  double low = 0, high = 0, &shift = descent.shift;
   shift = 0;
   for (int tries = 0; tries < 40; ++tries) {
     const int found = factor_all(shift);
-    if (tries == 0) negative = found;
+    if (tries == 0) descent.negative = found;
     if (found != 0) {  // not positive definite
       low = shift;
       shift = high > 0 ? std::sqrt(std::max(low, 1e-9 * high) * high) : std::max(1e-3, 4 * shift);
       continue;
     }
     for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = -work_.gradient[at(i)];
+    for (std::size_t k = 0; k < holds.size(); ++k) {
+      if (holds[k].by_tension || (assumed_[k] != 0) == (tensions_[k] > 0)) continue;
+      const double pull = (assumed_[k] ? beyond(k) : -beyond(k)) / stiff_[k];
+      const double* gradient = work_.length_gradient.data() + k * at(model_->size);
+      for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] -= pull * gradient[i];
+    }
     solve_all(sides_, 1, stride_);
     for (int i = 0; i < model_->size; ++i) step[at(i)] = sides_[at(i * stride_)];
     const double length = norm(step);
-    if (length <= 1.1 * radius) return true;
+    if (length <= 1.1 * radius) {
+      const double far = std::min(radius, saddle_step * std::sqrt(model_->energy_scale));
+      // where it all but turns freely, as a round rod that has buckled, there is nothing to gain
+      if (low < 1e-3 || !leaves_ || length > 0.7 * far) return true;
+      if (tries < 20 && shift > 1.3 * low) {  // more than it takes: so much shortens the step
+        high = shift;
+        shift = std::sqrt(low * high);
+        continue;
+      }
+      go_along_lowest(far, step, descent);
+      return true;
+    }
     if (shift > 0 && length <= 1.5 * radius && tries > 6) break;
     // Newton on 1/|step| with the derivative |step|' = −step·(H+shift)⁻¹step/|step|
     for (int i = 0; i < model_->size; ++i) sides_[at(i * stride_)] = step[at(i)];
@@ -46,6 +118,40 @@ bool LoadedRod::newton_step(double& shift, double radius, std::span<double> step
   const double length = norm(step);
   if (!(length > 0)) return false;
   for (double& x : step) x *= radius / length;
+  return true;
+}
+
+/// A step of at most `radius`. Where tendons become taut or slack in it, it is made anew with those, for a
+/// few rounds: of the steps found the one by which the energy is to fall most is taken.
+bool LoadedRod::newton_step(double radius, std::span<double> step, Descent& descent) {
+  for (std::size_t i = 0; i < holds.size(); ++i) assumed_[i] = !holds[i].by_tension && tensions_[i] > 0;
+  if (!step_with_assumed(radius, step, descent)) return false;
+  const double plain = -0.5 * dot(work_.gradient, step) + 0.5 * descent.shift * dot(step, step);
+  descent.predicted = foreseen(step, descent);
+  descent.factored = true;
+  if (then_ == assumed_) return true;
+  const Descent first = descent;
+  std::ranges::copy(step, first_.begin());
+  std::ranges::copy(step, best_.begin());
+  assumes_ = true;
+  for (int round = 0; round < most_guesses && then_ != assumed_ && left_ > 0; ++round) {
+    assumed_ = then_;
+    Descent other;
+    if (!step_with_assumed(radius, step, other)) break;
+    other.predicted = foreseen(step, other);
+    descent.factored = false;
+    if (!(other.predicted > descent.predicted)) continue;
+    other.negative = first.negative;
+    descent = other;
+    std::ranges::copy(step, best_.begin());
+  }
+  assumes_ = false;
+  std::ranges::copy(best_, step.begin());
+  if (descent.predicted > 0) return true;
+  descent = first;  // made shorter, a step is no longer what the model's equation says
+  descent.predicted = plain;
+  descent.factored = false;
+  std::ranges::copy(first_, step.begin());
   return true;
 }
 
@@ -67,7 +173,7 @@ bool LoadedRod::leave_saddle(Relaxed& result, double& energy) {
     for (double& x : direction) x = -x;
   std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
   const double from = energy;
-  for (double length = 0.3 * std::sqrt(model_->energy_scale); length > 1e-12; length *= 0.5) {
+  for (double length = saddle_step * std::sqrt(model_->energy_scale); length > 1e-12; length *= 0.5) {
     for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + length * direction[i];
     energy = evaluate();
     ++result.evaluations;
@@ -82,9 +188,11 @@ bool LoadedRod::leave_saddle(Relaxed& result, double& energy) {
 
 Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
   Relaxed result;
+  leaves_ = options.leave_saddles;
   const double scale = std::sqrt(model_->energy_scale), most = 1e3 * scale;
-  double radius = std::numbers::pi * scale, energy = evaluate(), shift = 0, before = 0, rate = 1;
+  double radius = std::numbers::pi * scale, energy = evaluate(), before = 0, rate = 1;
   ++result.evaluations;
+  int forgiven = 0;    // steps that raised the gradient where the energy does not tell
   bool kept = false;   // a factor of a Hessian near by, positive definite
   bool swept = false;  // the Hessian at hand is of this iterate
   for (;; ++result.iterations) {
@@ -143,13 +251,12 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       ++result.evaluations;
       continue;
     }
-    int negative = 0;
-    if (!newton_step(shift, radius, step_, negative)) {
+    Descent descent;
+    if (!newton_step(radius, step_, descent)) {
       result.status = Status::stalled;
       return result;
     }
-    const double length = norm(step_),
-                 predicted = -0.5 * dot(work_.gradient, step_) + 0.5 * shift * length * length;
+    const double length = norm(step_), predicted = descent.predicted;
     std::copy(work_.y.begin(), work_.y.end(), trial_.begin());
     for (std::size_t i = 0; i < trial_.size(); ++i) work_.y[i] = trial_[i] + step_[i];
     const double next = evaluate();
@@ -160,6 +267,12 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
       linearise(false);
       const double after = gradient_norm();
       accept = after < before * (1 - 1e-4) || after <= options.tolerance;
+      // Where tendons are stiff a step along them turns the gradient before the next one takes it away.
+      const bool is_newton = descent.shift == 0 && descent.negative == 0;
+      if (!accept && is_newton && after < 1e2 * before && forgiven < 3) {
+        accept = true;
+        ++forgiven;
+      }
       if (!accept && before < 1e3 * options.tolerance) {  // as near as rounding lets it
         energy = restore();
         result.negative = std::max(0, factor_all(0));
@@ -178,7 +291,8 @@ Relaxed LoadedRod::relax_energy(const RelaxOptions& options) {
     swept = false;
     if (accept) {
       energy = next;
-      kept = shift == 0 && negative == 0 && length < 0.1 * scale && same_active();
+      kept = descent.factored && descent.shift == 0 && descent.negative == 0 && length < 0.1 * scale &&
+             same_active();
     } else {
       energy = restore();
       swept = true;

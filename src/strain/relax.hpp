@@ -63,7 +63,6 @@ class LoadedRod {
   const RodWork& work() const { return work_; }
 
   std::vector<TendonHold> holds;
-
   /// Tensions that the next `relax` may begin with, as those of another rod of the same arm.
   void expect(std::span<const double> tensions) { expected_.assign(tensions.begin(), tensions.end()); }
   /// From the coordinates that stand in `work().y`.
@@ -111,7 +110,19 @@ class LoadedRod {
   /// How a tendon gives way at its stretch: its derivative by the tension [m/N].
   double give(std::size_t tendon) const;
   double slope_of_toe(std::size_t tendon) const;
-  bool newton_step(double& shift, double radius, std::span<double> step, int& negative);
+  /// A step downhill.
+  struct Descent {
+    int negative = 0;      ///< directions in which the energy falls, with the tendons assumed
+    double shift = 0;      ///< of the Hessian
+    double surplus = 0;    ///< what the model's energy is more than its equation says [J]
+    double predicted = 0;  ///< what the energy is to fall by [J]
+    bool factored = true;  ///< what factor_all left is of this step
+  };
+  bool newton_step(double radius, std::span<double> step, Descent& descent);
+  bool step_with_assumed(double radius, std::span<double> step, Descent& descent);
+  double beyond(std::size_t tendon) const;
+  double foreseen(std::span<const double> step, const Descent& descent);
+  void go_along_lowest(double length, std::span<double> step, Descent& descent);
   bool same_active() const;
   int factor_with_tendons(double shift);
   bool leave_saddle(Relaxed& result, double& energy);
@@ -149,6 +160,10 @@ class LoadedRod {
   std::vector<double> expected_;  ///< tensions to begin with [N]
   int left_ = 0;                  ///< Hessians and factors that a search may still take
   std::vector<int> active_;
+  bool leaves_ = true;                ///< steps may leave a saddle where the gradient does not tell the way
+  bool assumes_ = false;              ///< factor_all takes tendons as in assumed_, not as they are
+  std::vector<char> assumed_, then_;  ///< tendons that a step takes as taut; that are after it
+  std::vector<double> first_, best_, lowest_;  ///< steps
   std::vector<double> columns_, small_, sides_;
   std::vector<double> trial_, step_;
   int stride_ = 8;

@@ -127,5 +127,35 @@ TEST(ArmRigid, OnePulledTendonNeedsTheOthersLoose) {
   }
 }
 
+/// A straight arm whose tendons are locked is pushed along itself, to a thousand times the load at which it
+/// would buckle without them: the gradient tells neither that it gives way nor which tendons become taut.
+TEST(ArmRigid, LockedTendonsHoldAnArmThatIsPushed) {
+  const Arm arm = two_sections(10, 0);
+  const std::vector<TendonCommand> locked = changes(std::vector<double>(arm.tendons.size(), 0.0));
+  for (const double force : {0.1, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0}) {
+    SCOPED_TRACE(force);
+    ArmLoad load;
+    load.wrench[2] = -force;
+    ArmWorkspace work(arm);
+    const ArmState state = arm_forward(arm, locked, load, {}, work);
+    ASSERT_TRUE(state.report.ok()) << to_string(state.report);
+    EXPECT_TRUE(state.stable);
+    EXPECT_LT(state.report.iterations, 400);
+    EXPECT_LE(state.energy, force * arm.length());  // no more than straight
+    if (force < 2.5) {
+      EXPECT_GT(state.tip.p.z(), 0.99 * arm.length());  // braced near by, not fallen over
+    }
+    for (std::size_t i = 0; i < locked.size(); ++i)
+      EXPECT_TRUE(state.tensions[i] == 0 || state.slack[i] < 1e-9);
+    ArmWorkspace doubled(arm);  // an equilibrium with finer polynomials, too
+    ArmOptions fine{.order = 5, .elements = 12, .accuracy = 0};
+    const auto shape = arm_curvatures(arm, 40, work);
+    fine.from_curvatures = shape;
+    const ArmState again = arm_forward(arm, locked, load, fine, doubled);
+    ASSERT_TRUE(again.report.ok()) << to_string(again.report);
+    EXPECT_NEAR(again.energy, state.energy, 1e-5 * std::abs(state.energy));
+  }
+}
+
 }  // namespace arm_rigid_test
 }  // namespace sinew::test

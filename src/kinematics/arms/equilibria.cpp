@@ -59,6 +59,7 @@ std::vector<ArmEquilibrium> arm_equilibria(const Arm& arm, std::span<const Tendo
     // from another shape: bent at random, as much as a rod bends that is pushed hard
     strain::LoadedRod& rod = work.impl().rod();
     const double size = 2.5 * std::sqrt(rod.model().energy_scale);
+    std::ranges::fill(rod.work().y, 0.0);  // what it was twisted by would lead it to the same side again
     for (const strain::Piece& piece : rod.model().pieces)
       for (std::size_t c = 3; c < 5; ++c)
         for (int a = 0; a < piece.modes[c]; ++a)
