@@ -276,6 +276,7 @@ bool NodeBuilder::open(Node::Kind list_or_map, int line, int column) {
     node.items.reserve(usual);
   else
     node.members.reserve(usual);
+  if (open_.empty()) open_.reserve(usual);
   open_.push_back({&node});
   return true;
 }
@@ -317,9 +318,10 @@ std::optional<int> NodeBuilder::Level::line_of(std::string_view key) {
     const auto found = std::ranges::find(members, key, &Member::key);
     return found == members.end() ? std::nullopt : std::optional(found->line);
   }
-  for (; indexed < members.size(); ++indexed) lines.try_emplace(members[indexed].key, members[indexed].line);
-  const auto found = lines.find(std::string(key));
-  return found == lines.end() ? std::nullopt : std::optional(found->second);
+  if (!lines) lines = std::make_unique<std::unordered_map<std::string, int>>();
+  for (; indexed < members.size(); ++indexed) lines->try_emplace(members[indexed].key, members[indexed].line);
+  const auto found = lines->find(std::string(key));
+  return found == lines->end() ? std::nullopt : std::optional(found->second);
 }
 
 std::pair<int, int> NodeBuilder::key_place() const {

@@ -172,7 +172,7 @@ namespace {
 void add_tilt_of(Value* pose) {
   const Value* quaternion = pose ? pose->find("quaternion") : nullptr;
   if (!quaternion) return;
-  const std::vector<double>& q = quaternion->block()->numbers;
+  const std::span<const double> q = quaternion->block()->numbers();
   const TiltTorsion angles = tilt_torsion({q[0], Vec3<double>(q[1], q[2], q[3])});
   (*pose)["tilt"] = angles.tilt;
   (*pose)["azimuth"] = angles.azimuth;

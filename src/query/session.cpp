@@ -225,6 +225,7 @@ struct TreeSession::State {
 struct Session::State {
   TreeSession session;
   std::optional<AnyPose> last = {};
+  std::string text = {};  ///< of the answer last written: its memory serves the next
 };
 
 namespace {
@@ -401,7 +402,9 @@ std::string Session::answer(std::string_view text) {
   const auto document = parse_json(text, "query");
   const Value answer = document ? state_->session.answer(*document, &state_->last, Continues::where_asked)
                                 : error_answer({}, document.error());
-  return answer.json();
+  state_->text.clear();
+  answer.append_json(state_->text);
+  return state_->text;
 }
 
 Document Session::answer(const Document& query) {
