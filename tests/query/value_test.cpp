@@ -84,8 +84,8 @@ TEST(Value, AnAnswerIsWrittenBehindWhatATextHolds) {
   std::string text = "before ";
   answer.append_json(text);
   EXPECT_EQ(text, "before " + answer.json());
-  EXPECT_TRUE(text.starts_with(
-      R"(before {"a":"text \n","b":[1.0,2.5],"c":true,"d":[],"e":{},"f":7,"g":"xxxxx)"))
+  EXPECT_TRUE(
+      text.starts_with(R"(before {"a":"text \n","b":[1.0,2.5],"c":true,"d":[],"e":{},"f":7,"g":"xxxxx)"))
       << text;
   EXPECT_TRUE(text.ends_with("xxx\"}"));
 }

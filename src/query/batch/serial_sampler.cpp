@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "query/batch/query_entries.hpp"
-#include "query/serial.hpp"
+#include "query/serial/serial.hpp"
 #include "sinew/io/arm_file.hpp"
 #include "sinew/io/robot_file.hpp"
 #include "sinew/io/serial_file.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "io/measured/measurement.hpp"
-#include "query/arms.hpp"
+#include "query/arms/arms.hpp"
 #include "query/handlers.hpp"
 #include "query/identify/identification.hpp"
 #include "sinew/io/measured_arm.hpp"

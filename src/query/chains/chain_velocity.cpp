@@ -7,8 +7,8 @@
 
 #include "analysis/chain_shape.hpp"
 #include "kinematics/chain_motion.hpp"
-#include "query/chain_curves.hpp"
-#include "query/chain_velocity.hpp"
+#include "query/chains/chain_curves.hpp"
+#include "query/chains/chain_velocity.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

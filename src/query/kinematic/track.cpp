@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "io/quantity.hpp"
-#include "query/chains.hpp"
+#include "query/chains/chains.hpp"
 #include "query/context.hpp"
-#include "query/rods.hpp"
+#include "query/rods/rods.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 #include "solve/stopped.hpp"

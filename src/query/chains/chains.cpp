@@ -1,10 +1,10 @@
 /// Handlers of statics, forward and inverse on pseudo-rigid chains.
-#include "query/chains.hpp"
+#include "query/chains/chains.hpp"
 
 #include <fmt/format.h>
 
-#include "query/chain_sensing.hpp"
-#include "query/chain_solutions.hpp"
+#include "query/chains/chain_sensing.hpp"
+#include "query/chains/chain_solutions.hpp"
 
 namespace sinew::inline v1 {
 namespace chains {

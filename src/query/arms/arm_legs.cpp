@@ -3,7 +3,7 @@
 #include <array>
 
 #include "io/read_pose.hpp"
-#include "query/arms.hpp"
+#include "query/arms/arms.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
 #include "sinew/base/export.hpp"

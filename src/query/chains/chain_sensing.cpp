@@ -1,4 +1,4 @@
-#include "query/chain_sensing.hpp"
+#include "query/chains/chain_sensing.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 /// Handlers of queries to serial robots: forward, velocity, shape.
-#include "query/serial.hpp"
+#include "query/serial/serial.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "analysis/chain_shape.hpp"
-#include "query/chain_velocity.hpp"
-#include "query/chains.hpp"
+#include "query/chains/chain_velocity.hpp"
+#include "query/chains/chains.hpp"
 
 namespace sinew::inline v1::chains {
 

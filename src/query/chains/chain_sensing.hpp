@@ -1,7 +1,7 @@
 /// @file chain_sensing.hpp
 /// `statics` of pseudo-rigid chains with tensions that are measured.
 #pragma once
-#include "query/chain_answer.hpp"
+#include "query/chains/chain_answer.hpp"
 
 namespace sinew::inline v1::chains {
 

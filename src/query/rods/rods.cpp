@@ -1,4 +1,4 @@
-#include "query/rods.hpp"
+#include "query/rods/rods.hpp"
 
 #include <fmt/format.h>
 

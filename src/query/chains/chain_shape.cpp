@@ -1,6 +1,6 @@
 /// Handler of shape on pseudo-rigid chains.
 #include "analysis/chain_shape.hpp"
-#include "query/chains.hpp"
+#include "query/chains/chains.hpp"
 
 namespace sinew::inline v1 {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
-#include "query/arms.hpp"
+#include "query/arms/arms.hpp"
 #include "query/handlers.hpp"
 #include "query/loads.hpp"
 #include "sinew/kinematics/arm_load_path.hpp"

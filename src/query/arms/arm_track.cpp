@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "io/quantity.hpp"
-#include "query/arms.hpp"
+#include "query/arms/arms.hpp"
 #include "query/handlers.hpp"
 #include "query/wants.hpp"
 #include "sinew/kinematics/arm_path.hpp"

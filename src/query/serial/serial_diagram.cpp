@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "query/serial.hpp"
+#include "query/serial/serial.hpp"
 #include "tendon/state.hpp"
 
 namespace sinew::inline v1 {

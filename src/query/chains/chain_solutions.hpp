@@ -1,7 +1,7 @@
 /// @file chain_solutions.hpp
 /// `all` of forward and inverse on pseudo-rigid chains.
 #pragma once
-#include "query/chain_answer.hpp"
+#include "query/chains/chain_answer.hpp"
 
 namespace sinew::inline v1::chains {
 

@@ -1,7 +1,7 @@
 /// Handler of `describe` of serial robots.
 #include <array>
 
-#include "query/serial.hpp"
+#include "query/serial/serial.hpp"
 #include "sinew/base/export.hpp"
 
 namespace sinew::inline v1 {

@@ -1,7 +1,7 @@
 /// @file chain_curves.hpp
 /// `track` of robots on chains along loads and what tendons hold.
 #pragma once
-#include "query/chains.hpp"
+#include "query/chains/chains.hpp"
 
 namespace sinew::inline v1::chains {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "query/rods.hpp"
+#include "query/rods/rods.hpp"
 #include "sinew/kinematics/track.hpp"
 #include "solve/stopped.hpp"
 

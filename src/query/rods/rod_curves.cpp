@@ -3,7 +3,7 @@
 
 #include "io/read_pose.hpp"
 #include "query/curves.hpp"
-#include "query/rods.hpp"
+#include "query/rods/rods.hpp"
 #include "solve/stopped.hpp"
 
 namespace sinew::inline v1 {

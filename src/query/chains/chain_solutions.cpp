@@ -1,5 +1,5 @@
 /// All solutions of chains that are found.
-#include "query/chain_solutions.hpp"
+#include "query/chains/chain_solutions.hpp"
 
 #include <fmt/format.h>
 

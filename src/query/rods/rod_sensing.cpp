@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "query/rods.hpp"
+#include "query/rods/rods.hpp"
 #include "sinew/kinematics/force_sensing.hpp"
 
 namespace sinew::inline v1 {

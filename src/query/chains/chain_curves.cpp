@@ -1,8 +1,8 @@
 /// `track` of robots on chains with `to`: curves of equilibria along loads and what tendons hold.
-#include "query/chain_curves.hpp"
+#include "query/chains/chain_curves.hpp"
 
 #include "kinematics/chain_curve.hpp"
-#include "query/chain_answer.hpp"
+#include "query/chains/chain_answer.hpp"
 #include "query/curves.hpp"
 
 namespace sinew::inline v1::chains {

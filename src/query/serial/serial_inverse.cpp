@@ -5,7 +5,7 @@
 
 #include "io/read_pose.hpp"
 #include "kinematics/three_arcs.hpp"
-#include "query/serial.hpp"
+#include "query/serial/serial.hpp"
 #include "sinew/kinematics/serial_inverse.hpp"
 
 namespace sinew::inline v1 {
