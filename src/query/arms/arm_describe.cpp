@@ -1,7 +1,7 @@
 /// Handler of `describe` of arms.
 #include <cmath>
 
-#include "query/handlers.hpp"
+#include "query/arms/arms.hpp"
 #include "sinew/base/export.hpp"
 #include "sinew/robot/arm.hpp"
 
@@ -56,8 +56,9 @@ Value measurement_value(const MeasuringSetup& measurement, std::size_t tendons) 
 
 }  // namespace
 
-void answer_arm_describe(Context& context) {
-  if (!context.ready()) return;
+namespace {
+
+void describe_arm(Context& context) {
   const Arm& arm = *context.robot.arm();
   Value inputs = Value::list(), sections = Value::list(), tendons = Value::list();
   for (const ArmSection& section : arm.sections) sections.push_back(section_value(section));
@@ -94,5 +95,9 @@ void answer_arm_describe(Context& context) {
   answer["geometry"] = arm.geometry_inferred ? "inferred" : "given";
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }
+
+}  // namespace
+
+void answer_arm_describe(Context& context) { tell<describe_arm>(context); }
 
 }  // namespace sinew::inline v1

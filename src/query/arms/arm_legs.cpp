@@ -4,16 +4,12 @@
 
 #include "io/read_pose.hpp"
 #include "query/arms/arms.hpp"
-#include "query/handlers.hpp"
-#include "query/loads.hpp"
+#include "query/batch/sampler.hpp"
 #include "sinew/base/export.hpp"
 #include "sinew/kinematics/arm_legs.hpp"
 
 namespace sinew::inline v1 {
 namespace {
-
-constexpr Wants arm_legs_wants{Want::pose,  Want::legs,      Want::velocity,
-                               Want::shape, Want::stiffness, Want::stability};  // that is told always
 
 /// Tendons that end at each section, sections of leg 0 first.
 std::vector<std::size_t> tendon_counts_of(const ArmLegs& robot) {
@@ -25,13 +21,11 @@ std::vector<std::size_t> tendon_counts_of(const ArmLegs& robot) {
   return counts;
 }
 
-/// What arms alone answer.
-void refuse_of_legs(Reader& query) {
-  for (const char* key :
-       {"following", "distributed", "distributed_following", "loads", "all", "start", "balance"})
-    if (const auto asked = query.optional(key))
-      asked->fail("not_available", "is not available of legs of sections in this version; leave it out");
-}
+constexpr std::string_view not_yet = "is not available of legs of sections in this version; leave it out";
+constexpr Lack lacking[] = {
+    {"following", not_yet}, {"distributed", not_yet}, {"distributed_following", not_yet},
+    {"loads", not_yet},     {"all", not_yet},         {"start", not_yet},
+    {"balance", not_yet}};
 
 void put_points(std::vector<double>& numbers, const Vec3<double>& point) {
   numbers.insert(numbers.end(), point.begin(), point.end());
@@ -105,26 +99,38 @@ void put_legs_state(Context& context, const ArmLegs& robot, const ArmLegsState& 
   if (state.resolution > 0) answer["resolution"] = state.resolution;
 }
 
-void answer_arm_legs(Context& context, Want usual) {
-  const ArmLegs& robot = *context.robot.arm_legs();
-  refuse_of_legs(context.query);
-  ArmOptions options = read_arm_options(context);
-  if (!context.max_iterations) options.max_iterations = 2000;  // of all steps in which inputs and loads grow
-  const auto commands = read_arm_commands(tendon_counts_of(robot), context.query);
+struct ArmLegsForward {
+  ArmOptions options;
+  std::vector<TendonCommand> commands;
   ArmLegsLoad load;
+  std::optional<Until<Spatial>> until;
+  Wants wanted;
+  int samples = 0;
+};
+
+ArmLegsForward read_legs(Context& context) {
+  ArmLegsForward asked;
+  asked.options = read_arm_options(context);
+  if (!context.max_iterations)
+    asked.options.max_iterations = 2000;  // of all steps in which inputs and loads grow
+  asked.commands = read_arm_commands(tendon_counts_of(*context.robot.arm_legs()), context.query);
   if (const auto wrench = context.query.optional("wrench")) {
     const auto numbers = read_wrench<Spatial>(*wrench);
-    std::copy(numbers.begin(), numbers.end(), load.wrench.begin());
+    std::copy(numbers.begin(), numbers.end(), asked.load.wrench.begin());
   }
   if (const auto gravity = context.query.optional("gravity")) {
     const Vec3<double> g = read_gravity(*gravity);
-    load.gravity = {g[0], g[1], g[2]};
+    asked.load.gravity = {g[0], g[1], g[2]};
   }
-  std::optional<Until<Spatial>> until;
-  if (usual == Want::pose) until = read_until<Spatial>(context);
-  const Wants wanted = read_wants(context, {usual}, arm_legs_wants);
-  const int samples = read_samples(context, wanted, 60, 2000);
-  if (!context.ready()) return;
+  if (context.ask == Ask::forward) asked.until = read_until<Spatial>(context);
+  asked.wanted = read_wants(context);
+  asked.samples = read_samples(context, asked.wanted, 60, 2000);
+  return asked;
+}
+
+void answer_legs(Context& context, const ArmLegsForward& asked) {
+  const auto& [options, commands, load, until, wanted, samples] = asked;
+  const ArmLegs& robot = *context.robot.arm_legs();
   ArmLegsWorkspace& work = *context.work.arm_legs;
   work.stop = context.work.stop;
   const ArmLegsState& state = arm_legs_forward(robot, commands, load, options, work);
@@ -157,14 +163,7 @@ void answer_arm_legs(Context& context, Want usual) {
     context.answer["stiffness"] = Value(MatrixView(rates.stiffness.data(), 6, 6));
 }
 
-}  // namespace
-
-void answer_arm_legs_forward(Context& context) { answer_arm_legs(context, Want::pose); }
-void answer_arm_legs_velocity(Context& context) { answer_arm_legs(context, Want::velocity); }
-void answer_arm_legs_shape(Context& context) { answer_arm_legs(context, Want::shape); }
-
-void answer_arm_legs_describe(Context& context) {
-  if (!context.ready()) return;
+void describe_arm_legs(Context& context) {
   const ArmLegs& robot = *context.robot.arm_legs();
   Value inputs = Value::list(), legs = Value::list();
   for (std::size_t k = 0; k < robot.legs.size(); ++k) {
@@ -205,5 +204,16 @@ void answer_arm_legs_describe(Context& context) {
   answer["geometry"] = robot.geometry_inferred ? "inferred" : "given";
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }
+
+}  // namespace
+
+constexpr Handlers arm_legs_handlers{.robots = "legs of sections",
+                                     .wants = {Want::pose, Want::legs, Want::velocity, Want::shape,
+                                               Want::stiffness, Want::stability},  // that is told always
+                                     .forward = handle<read_legs, answer_legs>,
+                                     .velocity = handle<read_legs, answer_legs>,
+                                     .shape = handle<read_legs, answer_legs>,
+                                     .describe = tell<describe_arm_legs>,
+                                     .lacks = lacking};
 
 }  // namespace sinew::inline v1

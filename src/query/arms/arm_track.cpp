@@ -6,8 +6,6 @@
 
 #include "io/quantity.hpp"
 #include "query/arms/arms.hpp"
-#include "query/handlers.hpp"
-#include "query/wants.hpp"
 #include "sinew/kinematics/arm_path.hpp"
 #include "solve/stopped.hpp"
 
@@ -95,18 +93,26 @@ Value one_sided(ArmContext& context, std::size_t tendon, double way) {
   return value;
 }
 
-}  // namespace
+struct ArmTrack {
+  ArmOptions options;
+  std::vector<ArmStep> path;
+  Wants words;
+  int samples = 0;
+};
 
-void answer_arms_track(Context& asked) {
-  ArmContext context(asked);
-  if (refuse_poses(context)) return;
-  ArmOptions options = read_arm_options(context);
-  const std::vector<ArmStep> path = read_points(context);
-  read_arm_start(context, options);
-  const Wants words = read_wants(context, {Want::pose}, {Want::pose, Want::shape, Want::velocity});
-  const int samples = read_samples(context, words, 60, 2000);
-  if (!context.ready()) return;
-  const std::vector<ArmPathPoint> points = arm_follow(context.robot, path, options, context.work);
+ArmTrack read_track(ArmContext& context) {
+  ArmTrack asked;
+  asked.options = read_arm_options(context);
+  asked.path = read_points(context);
+  read_arm_start(context, asked.options);
+  asked.words = read_wants(context, {Want::pose}, {Want::pose, Want::shape, Want::velocity});
+  asked.samples = read_samples(context, asked.words, 60, 2000);
+  return asked;
+}
+
+void answer_track(ArmContext& context, const ArmTrack& asked) {
+  const std::vector<ArmStep>& path = asked.path;
+  const std::vector<ArmPathPoint> points = arm_follow(context.robot, path, asked.options, context.work);
   const ArmPathPoint& last = points.back();
   Value& answer = context.answer;
   context.report(last.state.report);
@@ -138,13 +144,13 @@ void answer_arms_track(Context& asked) {
     answer["reached"] = {{"rows", reached}, {"point", reached / steps}};
   }
   put_point(context.robot, last, answer);  // where it ends
-  if (words.has(Want::shape)) {
+  if (asked.words.has(Want::shape)) {
     Value along = Value::list();
     for (const std::vector<double>& tensions : last.tensions) along.push_back(Value(tensions));
     answer["tensions_along"] = std::move(along);
-    put_arm_shape(context, samples);
+    put_arm_shape(context, asked.samples);
   }
-  if (words.has(Want::velocity) && arrives) {
+  if (asked.words.has(Want::velocity) && arrives) {
     Value list = Value::list();
     for (std::size_t i = 0; i < context.robot.tendons.size(); ++i)
       list.push_back({{"growing", one_sided(context, i, 1)}, {"shrinking", one_sided(context, i, -1)}});
@@ -155,6 +161,12 @@ void answer_arms_track(Context& asked) {
   answer["residual"] = worst;
   answer["iterations"] = iterations;
   answer["rows"] = std::move(rows);
+}
+
+}  // namespace
+
+void answer_arms_track(Context& context) {
+  if (!refuse_poses(context)) handle<read_track, answer_track>(context);
 }
 
 }  // namespace sinew::inline v1

@@ -8,8 +8,7 @@
 #include "io/quantity.hpp"
 #include "io/read_pose.hpp"
 #include "query/arms/arms.hpp"
-#include "query/handlers.hpp"
-#include "query/loads.hpp"
+#include "query/batch/sampler.hpp"
 #include "sinew/kinematics/arm_load_path.hpp"
 
 namespace sinew::inline v1 {
@@ -21,9 +20,6 @@ std::vector<std::size_t> tendons_by_section(const Arm& arm) {
 }
 
 namespace {
-
-constexpr Wants arm_wants{Want::pose,      Want::velocity,  Want::shape,
-                          Want::stiffness, Want::stability, Want::margins};
 
 /// Per section what is given of its tendons; null where nothing is.
 std::vector<std::optional<double>> read_of_tendons(const std::vector<std::size_t>& counts, const Reader& list,
@@ -193,12 +189,8 @@ void put_arm_state(ArmContext& context, const ArmState& state, const Report& rep
   }
 }
 
-struct ArmWanted {
-  Wants words;
-  int samples = 0;
-};
-ArmWanted read_arm_wants(ArmContext& context, Wants usual) {
-  ArmWanted wanted{read_wants(context, usual, arm_wants)};
+ArmWanted read_arm_wants(ArmContext& context) {
+  ArmWanted wanted{read_wants(context)};
   wanted.samples = read_samples(context, wanted.words, 60, 2000);
   return wanted;
 }
@@ -301,36 +293,20 @@ ArmState follow(ArmContext& context, const Until<Spatial>& until, std::span<cons
   return state;
 }
 
-void answer_arm_state(Context& asked, Want usual) {
-  ArmContext context(asked);
-  ArmOptions options = read_arm_options(context);
-  const auto commands = read_arm_commands(context.robot, context.query);
-  const ArmLoad load = read_arm_load(context.robot, context.query);
-  read_arm_start(context, options);
-  bool want_all = false;
-  std::optional<Until<Spatial>> until;
-  if (usual == Want::pose) {
-    until = read_until<Spatial>(asked);
-    if (const auto all = context.query.optional("all")) {
-      want_all = all->boolean();
-      if (want_all && until)
-        all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
-    }
-  }
-  const ArmWanted wanted = read_arm_wants(context, {usual});
-  if (!context.ready()) return;
+void answer_forward(ArmContext& context, const ArmForward& asked) {
+  const auto& [options, commands, load, until, wants_all, wanted] = asked;
   const ArmState state = until ? follow(context, *until, commands, load, options)
                                : arm_forward(context.robot, commands, load, options, context.work);
   put_arm_state(context, state, state.report);
   put_arm_wants(context, state, wanted);
-  if (!want_all || state.report.status == Status::bad_input) return;
+  if (!wants_all || state.report.status == Status::bad_input) return;
   Value solutions = Value::list();
   for (const ArmState& other : arm_equilibria(context.robot, commands, load, options, 40, context.work))
     solutions.push_back({{"tip", pose_value(AnyPose(spatial_pose(other.tip)))},
                          {"tensions", by_end_section(context.robot, other.tensions)},
                          {"potential", other.energy},
                          {"residual", other.report.residual}});
-  put_solutions(asked, std::move(solutions));
+  put_solutions(context, context.work.stop, std::move(solutions));
 }
 
 ArmTarget read_arm_target(ArmContext& context) {
@@ -356,37 +332,48 @@ ArmTarget read_arm_target(ArmContext& context) {
   return target;
 }
 
-}  // namespace
-
-void answer_arms_forward(Context& context) { answer_arm_state(context, Want::pose); }
-void answer_arms_velocity(Context& context) { answer_arm_state(context, Want::velocity); }
-void answer_arms_shape(Context& context) { answer_arm_state(context, Want::shape); }
-
-void answer_arms_inverse(Context& asked) {
-  ArmContext context(asked);
+struct ArmInverseQuestion {
   ArmInverseOptions options;
-  options.arm = read_arm_options(context);
-  const ArmTarget target = read_arm_target(context);
-  const ArmLoad load = read_arm_load(context.robot, context.query);
-  read_arm_start(context, options.arm);
+  ArmTarget target;
+  ArmLoad load;
+  ArmWanted wanted;
+};
+
+ArmInverseQuestion read_inverse(ArmContext& context) {
+  ArmInverseQuestion asked;
+  asked.options.arm = read_arm_options(context);
+  asked.target = read_arm_target(context);
+  asked.load = read_arm_load(context.robot, context.query);
+  read_arm_start(context, asked.options.arm);
   if (const auto limit = context.query.optional("tension_limit"))
-    options.most_tension = limit->quantity(Dimension::force, Range::positive());
-  const ArmWanted wanted = read_arm_wants(context, {Want::pose});
-  if (!context.ready()) return;
-  const ArmInverse found = arm_inverse(context.robot, target, load, options, context.work);
+    asked.options.most_tension = limit->quantity(Dimension::force, Range::positive());
+  asked.wanted = read_arm_wants(context);
+  return asked;
+}
+
+void answer_inverse(ArmContext& context, const ArmInverseQuestion& asked) {
+  const ArmInverse found = arm_inverse(context.robot, asked.target, asked.load, asked.options, context.work);
   put_arm_state(context, found.state, found.report);
   put_number(context.answer, "residual", found.report.residual);
   context.answer["iterations"] = found.report.iterations;
-  put_arm_wants(context, found.state, wanted);
+  put_arm_wants(context, found.state, asked.wanted);
 }
 
-void answer_arms_statics(Context& asked) {
-  ArmContext context(asked);
-  ArmOptions options = read_arm_options(context);
+struct ArmSensing {
+  ArmOptions options;
   ArmMeasurement measured;
+  ArmLoad load;
+  bool force_alone = true;
+  ArmWanted wanted;
+};
+
+ArmSensing read_statics(ArmContext& context) {
+  ArmSensing asked;
+  asked.options = read_arm_options(context);
+  ArmMeasurement& measured = asked.measured;
   measured.held = read_arm_commands(context.robot, context.query);
-  const ArmLoad load = read_arm_load(context.robot, context.query);
-  read_arm_start(context, options);
+  asked.load = read_arm_load(context.robot, context.query);
+  read_arm_start(context, asked.options);
   const auto tensions = context.query.optional("measured_tensions"), tip = context.query.optional("position"),
              deviation = context.query.optional("deviation"), force = context.query.optional("force_alone");
   if (!tensions && !tip)
@@ -396,20 +383,57 @@ void answer_arms_statics(Context& asked) {
         read_forces(*tensions, context.robot.tendons.size(), Range{.low = 0, .high = 1e9}, false);
   if (tip) measured.tip = tip->array<3>(Dimension::length, Range::place());
   if (deviation) measured.tension_deviation = deviation->quantity(Dimension::force, Range::positive());
-  const bool force_alone = !force || force->boolean();
+  asked.force_alone = !force || force->boolean();
   if (tensions)
     for (std::size_t i = 0; i < measured.held.size(); ++i)
       if (measured.held[i].held == TendonHeld::tension && context.errors.empty())
         measured.answers[i] = std::nan("");  // held: it tells nothing
-  const ArmWanted wanted = read_arm_wants(context, {Want::pose});
-  if (!context.ready()) return;
-  const ArmSensed sensed = arm_sense(context.robot, measured, load, force_alone, options, context.work);
+  asked.wanted = read_arm_wants(context);
+  return asked;
+}
+
+void answer_statics(ArmContext& context, const ArmSensing& asked) {
+  const ArmSensed sensed =
+      arm_sense(context.robot, asked.measured, asked.load, asked.force_alone, asked.options, context.work);
   put_arm_state(context, sensed.state, sensed.report);
   if (sensed.report.status == Status::bad_input) return;
   context.answer["wrench"] = sensed.wrench;
   context.answer["covariance"] = Value(MatrixView(sensed.covariance.data(), 6, 6));
   put_number(context.answer, "misfit", sensed.misfit);
-  put_arm_wants(context, sensed.state, wanted);
+  put_arm_wants(context, sensed.state, asked.wanted);
 }
+
+}  // namespace
+
+ArmForward read_arm_forward(ArmContext& context) {
+  ArmForward asked;
+  asked.options = read_arm_options(context);
+  asked.commands = read_arm_commands(context.robot, context.query);
+  asked.load = read_arm_load(context.robot, context.query);
+  read_arm_start(context, asked.options);
+  if (context.ask == Ask::forward) {
+    asked.until = read_until<Spatial>(context);
+    if (const auto all = context.query.optional("all")) {
+      asked.wants_all = all->boolean();
+      if (asked.wants_all && asked.until)
+        all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
+    }
+  }
+  asked.wanted = read_arm_wants(context);
+  return asked;
+}
+
+constexpr Handlers arm_handlers{
+    .robots = "arms",
+    .wants = {Want::pose, Want::velocity, Want::shape, Want::stiffness, Want::stability, Want::margins},
+    .forward = handle<read_arm_forward, answer_forward>,
+    .inverse = handle<read_inverse, answer_inverse>,
+    .velocity = handle<read_arm_forward, answer_forward>,
+    .shape = handle<read_arm_forward, answer_forward>,
+    .statics = handle<read_statics, answer_statics>,
+    .track = answer_arms_track,
+    .identify = answer_arms_identify,
+    .describe = answer_arm_describe,
+    .plan = plan_arms};
 
 }  // namespace sinew::inline v1

@@ -1,7 +1,8 @@
 /// @file arms.hpp
 /// What the handlers of questions to arms share.
 #pragma once
-#include "query/context.hpp"
+#include "query/handlers.hpp"
+#include "query/loads.hpp"
 #include "sinew/kinematics/arm.hpp"
 
 namespace sinew::inline v1 {
@@ -32,6 +33,29 @@ ArmLoad read_arm_load(const Arm& arm, Reader& place, ArmLoad load = {});
 ArmOptions read_arm_options(Question& context);
 /// `start`: `last`, where the workspace is.
 void read_arm_start(ArmContext& context, ArmOptions& options);
+
+struct ArmWanted {
+  Wants words;
+  int samples = 0;  ///< of `shape`
+};
+
+/// A question of an equilibrium under what holds the tendons.
+struct ArmForward {
+  ArmOptions options;
+  std::vector<TendonCommand> commands;
+  ArmLoad load;
+  std::optional<Until<Spatial>> until;
+  bool wants_all = false;
+  ArmWanted wanted;
+};
+ArmForward read_arm_forward(ArmContext& context);
+
+/// @name In files of their own
+/// @{
+void answer_arms_track(Context& context);
+void answer_arms_identify(Context& context);
+void answer_arm_describe(Context& context);
+/// @}
 
 /// Numbers of all tendons as a list a section.
 Value by_end_section(const Arm& arm, std::span<const double> values);

@@ -31,7 +31,7 @@ Asked<Space> read_asked(Context& context, ChainLegs<Space>& robot) {
   if (const auto samples = query.optional("samples"))
     samples->fail("no_effect", "has no effect: a chain is drawn by its joints; remove it");
   if (asked.joints.are_given()) query.required("pose", "that the chains of these angles lead to");
-  if (asked.at.pose && asked.at.inputs)
+  if (asked.at.at.pose && asked.at.inputs)
     query.fail("ambiguous", "pose and inputs both say where the platform is; keep one");
   return asked;
 }
@@ -43,7 +43,7 @@ Report rest_under(Context& context, ChainLegs<Space>& robot, const Asked<Space>&
   ChainWork& work = work_of(context);
   const Wrench<Space> wrench = asked.wrench.value_or(Wrench<Space>::Zero());
   if (!asked.at.inputs) {
-    const Report report = rest_at(context, robot, *asked.at.pose, asked.at.branch, true, state);
+    const Report report = rest_at(context, robot, *asked.at.at.pose, asked.at.branch, true, state);
     return report.ok() ? inverse_statics(robot, wrench, state, work, asked.options) : report;
   }
   const HeldInputs held =
@@ -59,8 +59,8 @@ void answer_shape_of(Context& context, ChainLegs<Space>& robot) {
   ChainState<Space> state;
   Report report;
   if (asked.joints.are_given()) {
-    state.pose = std::get<typename Space::Pose>(*asked.at.pose);
-    report = asked.joints.at(context, robot, *asked.at.pose, state.legs);
+    state.pose = std::get<typename Space::Pose>(*asked.at.at.pose);
+    report = asked.joints.at(context, robot, *asked.at.at.pose, state.legs);
     refuse_open_legs(context, chain_rates(robot, state.pose, state.legs).closure_error);
     if (!context.errors.empty()) return;
   } else {

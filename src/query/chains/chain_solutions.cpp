@@ -40,7 +40,7 @@ void put_all_equilibria(Context& context, const ChainLegs<Space>& robot, const H
   for (const auto& one : chain_equilibria(robot, all, held.hold, load.wrench, work, load.options))
     solutions.push_back(
         solution_value({{"pose", pose_value(AnyPose(Space::tidy(one.state.pose)))}}, robot, one));
-  put_solutions(context, std::move(solutions));
+  put_solutions(context, context.work.stop, std::move(solutions));
 }
 
 template <class Space>
@@ -72,7 +72,7 @@ void put_all_inverses(Context& context, ChainLegs<Space> robot, const AnyPose& p
         fmt::format("{:.0f} branches exist; the first {:.0f} were tried", modes.count, max_inverses);
   Value solutions = Value::list();
   for (auto& [energy, one] : found) solutions.push_back(std::move(one));
-  put_solutions(context, std::move(solutions));
+  put_solutions(context, context.work.stop, std::move(solutions));
 }
 
 #define SINEW_OF(Space)                                                                     \

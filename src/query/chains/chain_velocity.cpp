@@ -89,8 +89,8 @@ void answer_velocity_of(Context& context, ChainLegs<Space>& robot) {
   Reader& query = context.query;
   const AnyPose pose = read_pose(context, query.required("pose", "pose of the platform"));
   const Joints joints(context, robot, read_branch(context));
-  const Wants wanted = read_wants(context, usual_wants | Wants{Want::velocity},
-                                  usual_wants | Wants{Want::velocity, Want::shape});
+  const Wants wanted =
+      read_wants(context, usual_of(context.ask), usual_wants | Wants{Want::velocity, Want::shape});
   const std::vector<double> twist = read_twist<Space>(context, wanted);
   if (!context.ready()) return;
   std::vector<ChainLegState> legs;

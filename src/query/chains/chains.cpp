@@ -170,12 +170,6 @@ void answer_inverse_of(Context& context, ChainLegs<Space>& robot) {
   if (wants_all) put_all_inverses(context, robot, at, branch, load);
 }
 
-}  // namespace
-
-void answer_chains_statics(Context& context) {
-  on_chains(context, [&](auto& robot) { answer_statics_of(context, robot); });
-}
-
 void answer_chains_forward(Context& context) {
   on_chains(context, [&](auto& robot) { answer_forward_of(context, robot); });
 }
@@ -183,5 +177,21 @@ void answer_chains_forward(Context& context) {
 void answer_chains_inverse(Context& context) {
   on_chains(context, [&](auto& robot) { answer_inverse_of(context, robot); });
 }
+
+void answer_chains_statics(Context& context) {
+  on_chains(context, [&](auto& robot) { answer_statics_of(context, robot); });
+}
+
+}  // namespace
+
+constexpr Handlers chain_handlers{.robots = "pseudo-rigid chains",
+                                  .wants = equilibrium_wants,
+                                  .forward = answer_chains_forward,
+                                  .inverse = answer_chains_inverse,
+                                  .velocity = answer_chains_velocity,
+                                  .shape = answer_chains_shape,
+                                  .statics = answer_chains_statics,
+                                  .track = answer_chains_track,
+                                  .describe = tell<describe_platform>};
 
 }  // namespace sinew::inline v1

@@ -8,6 +8,13 @@
 
 namespace sinew::inline v1 {
 
+/// @name In files of their own
+/// @{
+void answer_chains_velocity(Context& context);
+void answer_chains_shape(Context& context);
+void answer_chains_track(Context& context);
+/// @}
+
 /// What the handlers share.
 namespace chains {
 

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "query/handlers.hpp"
+#include "query/batch/sampler.hpp"
+#include "query/kinematic/kinematics.hpp"
 #include "query/loads.hpp"
 #include "sinew/analysis/shape.hpp"
 #include "sinew/kinematics/assembly_modes.hpp"
@@ -53,17 +54,8 @@ Value trace_value(std::span<const TraceStep> trace, int iterations) {
   return list;
 }
 
-/// What legs that bear no load can tell, with the fields of its words.
-struct KinematicWants {
-  Wants words;
-  std::vector<double> twist;   ///< of `velocity`
-  std::optional<Along> along;  ///< likewise
-  int samples = 0;             ///< of `shape`
-};
-
-KinematicWants read_kinematic_wants(Context& context, Wants usual) {
-  constexpr Wants known = usual_wants | Wants{Want::velocity, Want::shape, Want::sensitivity, Want::lines};
-  KinematicWants wanted{read_wants(context, usual, known), {}, {}, 0};
+KinematicWants read_kinematic_wants(Context& context) {
+  KinematicWants wanted{read_wants(context), {}, {}, 0};
   if (wanted.words.has(Want::velocity)) {
     if (const auto asked = context.query.optional("twist"))
       wanted.twist = asked->quantities(Dimension::number, {}, static_cast<std::size_t>(dof(context.robot)));
@@ -194,84 +186,103 @@ void put_shape(Value& answer, const AnyShape& picture) {
   std::visit([&](const auto& one) { put_shape_of(answer, one); }, picture);
 }
 
-void answer_kinematic_forward(Context& context) {
+namespace {
+
+struct KinematicForward {
   Configuration given;
-  given.inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
-  ForwardOptions options{.max_iterations = context.max_iterations.value_or(100)};
-  options.start = read_start(context);
-  std::vector<TraceStep> trace;
-  if (const auto wanted = context.query.optional("trace"))
-    if (wanted->boolean()) trace.resize(max_trace);
-  options.trace = trace;
-  const bool want_all = read_all(context);
-  const KinematicWants wanted = read_kinematic_wants(context, usual_wants);
+  int max_iterations;
+  bool wants_trace = false, wants_all = false;
+  KinematicWants wanted;
+};
+
+KinematicForward read_forward(Context& context) {
+  KinematicForward asked{.given = {}, .max_iterations = context.max_iterations.value_or(100), .wanted = {}};
+  asked.given.inputs = read_inputs(context, context.query.required("inputs", "in leg order"));
+  asked.given.start = read_start(context);
+  if (const auto trace = context.query.optional("trace")) asked.wants_trace = trace->boolean();
+  asked.wants_all = read_all(context);
+  asked.wanted = read_kinematic_wants(context);
   refuse_if_asked(context, "wrench", no_load(context));
   refuse_if_asked(context, "until", no_load(context));
-  if (!context.ready()) return;
+  return asked;
+}
 
-  if (want_all) return put_all_modes(context, wanted, given, options.start.value_or(home(context.robot)));
-  if (!options.start) options.start = context.path_start();
+void answer_forward(Context& context, const KinematicForward& asked) {
+  const Configuration& given = asked.given;
+  if (asked.wants_all)
+    return put_all_modes(context, asked.wanted, given, given.start.value_or(home(context.robot)));
+  std::vector<TraceStep> trace(asked.wants_trace ? max_trace : 0);
+  const ForwardOptions options{.start = given.start ? given.start : context.path_start(),
+                               .max_iterations = asked.max_iterations,
+                               .trace = trace};
   const Forward result = forward(context.robot, *given.inputs, options, context.work);
   context.report(result.report);
   context.remember(result.ok() ? std::optional(result.pose) : std::nullopt);
   if (result.report.status == Status::left_domain) return;  // nothing was solved
   if (result.ok())
-    put_wanted(context, wanted, given,
+    put_wanted(context, asked.wanted, given,
                {result.report, result.pose, {result.coordinates.begin(), result.coordinates.end()}});
   context.answer["residual"] = result.report.residual;
   context.answer["iterations"] = result.report.iterations;
   if (!trace.empty()) context.answer["trace"] = trace_value(trace, result.report.iterations);
 }
 
-void answer_kinematic_inverse(Context& context) {
-  const AskedPose asked = read_asked_pose(context);
-  if (!asked.pose && !context.query.has("independent"))
-    context.query.required("pose", "pose of the platform");
-  Configuration given;
-  given.branch = read_branch(context);
-  const bool want_all = read_all(context);
-  const KinematicWants wanted = read_kinematic_wants(context, usual_wants);
-  refuse_if_asked(context, "wrench", no_load(context));
-  std::vector<double> start;
-  if (const auto inputs = context.query.optional("start")) start = read_inputs(context, *inputs);
-  if (!context.ready()) return;
-
-  InverseOptions options = given.branch.options();
-  options.start = start;
-  if (!asked.report.ok()) return context.report(asked.report);
-  const AnyPose& pose = *asked.pose;
+void answer_inverse(Context& context, const KinematicInverse& asked) {
+  InverseOptions options = asked.branch.options();
+  options.start = asked.start;
+  if (!asked.at.report.ok()) return context.report(asked.at.report);
+  const AnyPose& pose = *asked.at.pose;
   const Inverse result = inverse(context.robot, pose, options, context.work);
   context.report(result.report);
   if (!result.ok()) return;
   context.answer["inputs"] = result.inputs;
-  given.inputs.emplace(result.inputs.begin(), result.inputs.end());
-  put_wanted(context, wanted, given,
+  put_wanted(context, asked.wanted,
+             {.inputs = std::vector(result.inputs.begin(), result.inputs.end()), .branch = asked.branch},
              {result.report, pose, {result.coordinates.begin(), result.coordinates.end()}});
   context.answer["residual"] = result.report.residual;
-  if (want_all) context.answer["solutions"] = all_working_modes(context, pose, given.branch);
+  if (asked.wants_all) context.answer["solutions"] = all_working_modes(context, pose, asked.branch);
 }
 
-namespace {
-
 /// Of a configuration that a question gives in whatever way.
-void answer_configuration(Context& context, Wants usual) {
-  const Configuration given = read_configuration(context);
-  const KinematicWants wanted = read_kinematic_wants(context, usual);
-  if (!context.ready()) return;
-  const Solved at = solve_configuration(context, given);
+void answer_configuration(Context& context, const KinematicConfiguration& asked) {
+  const Solved at = solve_configuration(context, asked.given);
   if (!context.errors.empty()) return;
   context.report(at.report);
   if (!at.report.ok()) return;
-  put_wanted(context, wanted, given, at);
+  put_wanted(context, asked.wanted, asked.given, at);
   context.answer["residual"] = at.report.residual;
 }
 
 }  // namespace
 
-void answer_kinematic_velocity(Context& context) {
-  answer_configuration(context, usual_wants | Wants{Want::velocity});
+KinematicInverse read_kinematic_inverse(Context& context) {
+  KinematicInverse asked;
+  asked.at = read_asked_pose(context);
+  if (!asked.at.pose && !context.query.has("independent"))
+    context.query.required("pose", "pose of the platform");
+  asked.branch = read_branch(context);
+  asked.wants_all = read_all(context);
+  asked.wanted = read_kinematic_wants(context);
+  refuse_if_asked(context, "wrench", no_load(context));
+  if (const auto inputs = context.query.optional("start")) asked.start = read_inputs(context, *inputs);
+  return asked;
 }
 
-void answer_kinematic_shape(Context& context) { answer_configuration(context, {Want::pose, Want::shape}); }
+KinematicConfiguration read_kinematic_configuration(Context& context) {
+  KinematicConfiguration asked{read_configuration(context), {}};
+  asked.wanted = read_kinematic_wants(context);
+  return asked;
+}
+
+constexpr Handlers kinematic_handlers{
+    .robots = "legs that bear no load",
+    .wants = usual_wants | Wants{Want::velocity, Want::shape, Want::sensitivity, Want::lines},
+    .forward = handle<read_forward, answer_forward>,
+    .inverse = handle<read_kinematic_inverse, answer_inverse>,
+    .velocity = handle<read_kinematic_configuration, answer_configuration>,
+    .shape = handle<read_kinematic_configuration, answer_configuration>,
+    .track = answer_kinematic_track,
+    .describe = tell<describe_platform>,
+    .plan = plan_poses};
 
 }  // namespace sinew::inline v1

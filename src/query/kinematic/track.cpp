@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "io/quantity.hpp"
-#include "query/chains/chains.hpp"
 #include "query/context.hpp"
-#include "query/rods/rods.hpp"
+#include "query/kinematic/kinematics.hpp"
 #include "sinew/kinematics/constrained_pose.hpp"
 #include "sinew/kinematics/track.hpp"
 #include "solve/stopped.hpp"
@@ -115,15 +114,27 @@ void put_end(Context& context, const Track& track, std::size_t rows, std::size_t
 
 }  // namespace
 
-void answer_kinematic_track(Context& context) {
-  const std::vector<AnyPose> poses = read_path(context);
-  const Branch branch = read_branch(context);
-  TrackOptions options{.branch = branch.options(), .objective = read_objective(context.query)};
-  std::vector<double> start;
-  if (const auto given = context.query.optional("start")) start = read_inputs(context, *given);
-  options.branch.start = start;
-  if (!context.ready()) return;
+namespace {
 
+struct KinematicTrack {
+  std::vector<AnyPose> poses;
+  Branch branch;
+  Objective objective;
+  std::vector<double> start;
+};
+
+KinematicTrack read_track(Context& context) {
+  KinematicTrack asked{.poses = read_path(context), .branch = {}, .objective = {}, .start = {}};
+  asked.branch = read_branch(context);
+  asked.objective = read_objective(context.query);
+  if (const auto given = context.query.optional("start")) asked.start = read_inputs(context, *given);
+  return asked;
+}
+
+void answer_track(Context& context, const KinematicTrack& asked) {
+  const std::vector<AnyPose>& poses = asked.poses;
+  TrackOptions options{.branch = asked.branch.options(), .objective = asked.objective};
+  options.branch.start = asked.start;
   Track track(context.robot, options, context.work);
   Value rows = Value::list();
   Report report;
@@ -140,5 +151,9 @@ void answer_kinematic_track(Context& context) {
   context.answer["residual"] = worst;
   context.answer["rows"] = std::move(rows);
 }
+
+}  // namespace
+
+void answer_kinematic_track(Context& context) { handle<read_track, answer_track>(context); }
 
 }  // namespace sinew::inline v1

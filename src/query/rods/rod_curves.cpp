@@ -53,25 +53,30 @@ void note_stopped_curve(Context& context) {
   if (Report stopped; note_stop(context.work.stop, stopped)) context.report(stopped);
 }
 
-void answer_rods_track(Context& context) {
-  if (context.query.has("from") || context.query.has("poses")) return answer_rods_path(context);
-  RodCurveQuery asked = read_rod_curve(context);
-  if (!context.ready()) return;
+namespace {
+
+void answer_curve(Context& context, const RodCurveQuery& asked) {
   const Equilibrium begin = solve(context, asked.begin);
   context.report(begin.report);
   if (!begin.is_solved()) return;
-  if (asked.wrench) asked.how.added_wrench = *asked.wrench - asked.begin.options.wrench;
-  const auto curves = equilibrium_curves(context.robot, asked.how, context.work);
-  if (curves.empty()) {
-    context.query.fail(
+  CurveOptions how = asked.how;
+  if (asked.wrench) how.added_wrench = *asked.wrench - asked.begin.options.wrench;
+  const auto curves = equilibrium_curves(context.robot, how, context.work);
+  if (curves.empty())
+    return context.query.fail(
         "no_effect",
         "nothing changes between the beginning and `to`, or its inputs are beyond what the legs "
         "can do; give other values");
-    return;
-  }
   put_curves(context, curves, [](const CurvePoint& point) {
     return Value{{"pose", pose_value(point.pose)}, {"inputs", Value(std::span<const double>(point.inputs))}};
   });
+}
+
+}  // namespace
+
+void answer_rods_track(Context& context) {
+  if (context.query.has("from") || context.query.has("poses")) return answer_rods_path(context);
+  handle<read_rod_curve, answer_curve>(context);
 }
 
 }  // namespace sinew::inline v1

@@ -31,17 +31,13 @@ SensingQuery read_sensing(Context& context) {
   asked.options.gravity = read_gravity_of(context);
   asked.options.start = read_spatial_start(context);
   if (context.max_iterations) asked.options.max_iterations = *context.max_iterations;
-  asked.wanted = read_rod_wants(context, {Want::pose});
+  asked.wanted = read_rod_wants(context);
   return asked;
 }
 
 Value rows_value(const std::array<double, 36>& numbers) { return Value(MatrixView(numbers.data(), 6, 6)); }
 
-}  // namespace
-
-void answer_rods_statics(Context& context) {
-  const SensingQuery asked = read_sensing(context);
-  if (!context.ready()) return;
+void answer_sensing(Context& context, const SensingQuery& asked) {
   EquilibriumOptions options = asked.options;
   options.warm_start = holds_last(context) || (context.path_start() && !options.start);
   const SensedWrench sensed =
@@ -60,5 +56,9 @@ void answer_rods_statics(Context& context) {
       std::ranges::all_of(sensed.covariance, [](double part) { return std::isfinite(part); }))  // of squares
     answer["covariance"] = rows_value(sensed.covariance);
 }
+
+}  // namespace
+
+void answer_rods_statics(Context& context) { handle<read_sensing, answer_sensing>(context); }
 
 }  // namespace sinew::inline v1

@@ -155,11 +155,7 @@ void put_rod_end(Context& context, const PathQuery& asked, const Equilibrium& fo
   answer["reached"] = {{"rows", rows}, {"part", part}, {"pose", pose_value(found.pose)}};
 }
 
-}  // namespace
-
-void answer_rods_path(Context& context) {
-  const PathQuery asked = read_rod_path(context);
-  if (!context.ready()) return;
+void answer_path(Context& context, const PathQuery& asked) {
   Value rows = Value::list();
   double worst = 0, length = 0;
   std::size_t unstable = 0, first_unstable = 0;
@@ -197,5 +193,9 @@ void answer_rods_path(Context& context) {
   context.answer["residual"] = worst;
   context.answer["rows"] = std::move(rows);
 }
+
+}  // namespace
+
+void answer_rods_path(Context& context) { handle<read_rod_path, answer_path>(context); }
 
 }  // namespace sinew::inline v1

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/read_pose.hpp"
+#include "query/batch/sampler.hpp"
 #include "robot/parallel.hpp"
 #include "robot/rod_work.hpp"
 #include "sinew/analysis/shape.hpp"
@@ -187,8 +188,10 @@ std::optional<SpatialPose> read_held_pose(const Context& context) {
 
 }  // namespace
 
-RodWants read_rod_wants(Context& context, Wants usual) {
-  RodWants wanted{read_wants_of_loads(context, usual), {}, 0};
+RodWants read_rod_wants(Context& context) {
+  const Wants usual = context.ask == Ask::statics ? Wants{Want::pose} : usual_of(context.ask);
+  RodWants wanted{read_wants(context, usual, equilibrium_wants), {}, 0};
+  refuse_other_sensitivity(context);
   if (wanted.words.has(Want::velocity)) {
     wanted.motion = read_motion(context);
     for (const char* key : {"along", "limit"})
@@ -322,7 +325,7 @@ void put_all(Context& context, std::span<const double> inputs, const Equilibrium
     solutions.push_back({{"pose", pose_value(one.pose)}});
     put_found(solutions.back(), one, context.robot);
   }
-  put_solutions(context, std::move(solutions));
+  put_solutions(context, context.work.stop, std::move(solutions));
 }
 
 /// @param is_held whether the one nearest to the start was found
@@ -334,50 +337,54 @@ void put_all_lengths(Context& context, const SpatialPose& pose, bool is_held,
     put_found(solutions.back(), one, context.robot);
   }
   if (solutions.size() > 0 && !is_held) context.add_message("by other ways it is held: see solutions");
-  put_solutions(context, std::move(solutions));
+  put_solutions(context, context.work.stop, std::move(solutions));
 }
 
-constexpr std::string_view inputs_rule = "rod lengths, in leg order";
+/// Of rods that hold, as they do under a load that grows.
+void follow(Context& context, const Until<Spatial>& until, Equilibrium& found) {
+  const LoadPath path = follow_load(context.robot, until.direction, until.limit, context.work);
+  context.answer["load"] = path.load;
+  context.answer["why"] = to_string(path.end);
+  if (path.definite_until >= 0) context.answer["definite_until"] = path.definite_until;
+  const Report report = found.report;
+  found = held_equilibrium(context.robot, context.work);
+  found.report = report;
+  remember_held(context, path.pose);
+  found.report.residual = path.residual;
+  if (path.end == LoadEnd::stopped) note_stop(context.work.stop, found.report);
+  if (path.end == LoadEnd::limit && path.unstable_directions > 0) {
+    found.report.status = Status::unstable;
+    found.report.message = std::string_view("at this load the robot does not hold by itself");
+  }
+}
+
+void answer_forward(Context& context, const RodForward& asked) {
+  Equilibrium found = solve(context, asked.at);
+  if (asked.until && found.is_solved()) {
+    if (note_stop(context.work.stop, found.report))
+      return put_equilibrium(context, found, asked.wanted, asked.at.options.gravity);
+    follow(context, *asked.until, found);
+  }
+  put_equilibrium(context, found, asked.wanted, asked.at.options.gravity);
+  if (asked.wants_all) put_all(context, asked.at.inputs, asked.at.options);
+}
 
 }  // namespace
 
-void answer_rods_forward(Context& context) {
-  RodQuery asked;
-  asked.inputs = read_inputs(context, context.query.required("inputs", inputs_rule));
+RodForward read_rod_forward(Context& context) {
+  RodForward asked;
+  asked.at.inputs = read_inputs(context, context.query.required("inputs", "rod lengths, in leg order"));
   if (const auto trace = context.query.optional("trace"))
     trace->fail("not_available", "the iterates of rods are not recorded; leave it out");
-  asked.options = read_equilibrium_options(context);
-  asked.options.start = read_spatial_start(context);
-  const RodWants wanted = read_rod_wants(context, usual_wants);
-  const auto until = read_until<Spatial>(context);
+  asked.at.options = read_equilibrium_options(context);
+  asked.at.options.start = read_spatial_start(context);
+  asked.wanted = read_rod_wants(context);
+  asked.until = read_until<Spatial>(context);
   const auto all = context.query.optional("all");
-  const bool want_all = all && all->boolean();
-  if (until && want_all) all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
-  if (!context.ready()) return;
-
-  Equilibrium found = solve(context, asked);
-  if (until && found.is_solved()) {
-    if (note_stop(context.work.stop, found.report)) {
-      put_equilibrium(context, found, wanted, asked.options.gravity);
-      return;
-    }
-    const LoadPath path = follow_load(context.robot, until->direction, until->limit, context.work);
-    context.answer["load"] = path.load;
-    context.answer["why"] = to_string(path.end);
-    if (path.definite_until >= 0) context.answer["definite_until"] = path.definite_until;
-    const Report report = found.report;
-    found = held_equilibrium(context.robot, context.work);
-    found.report = report;
-    remember_held(context, path.pose);
-    found.report.residual = path.residual;
-    if (path.end == LoadEnd::stopped) note_stop(context.work.stop, found.report);
-    if (path.end == LoadEnd::limit && path.unstable_directions > 0) {
-      found.report.status = Status::unstable;
-      found.report.message = std::string_view("at this load the robot does not hold by itself");
-    }
-  }
-  put_equilibrium(context, found, wanted, asked.options.gravity);
-  if (want_all) put_all(context, asked.inputs, asked.options);
+  asked.wants_all = all && all->boolean();
+  if (asked.until && asked.wants_all)
+    all->fail("ambiguous", "until follows one equilibrium, all finds many; keep one");
+  return asked;
 }
 
 RodStart read_start_of_inverse(Context& context) {
@@ -420,50 +427,71 @@ bool begin_at(Context& context, const RodStart& start, const EquilibriumOptions&
   return begun.is_solved();
 }
 
-void answer_rods_inverse(Context& context) {
-  RodQuery asked;
+namespace {
+
+struct RodInverse {
+  RodQuery at;
+  RodWants wanted;
+  RodStart start;
+  bool wants_all = false;
+};
+
+RodInverse read_inverse(Context& context) {
+  RodInverse asked;
   refuse_what_rods_lack(context);
-  asked.pose = read_held_pose(context);
+  asked.at.pose = read_held_pose(context);
   if (input_count(context.robot) == pose_inputs && !context.query.has("independent"))
     context.query.required("pose", "{position, quaternion}: what six rod lengths hold");
   else if (!context.query.has("pose") || context.query.has("independent")) {
     auto independent = context.query.required("independent", "{z, e1, e2}: what three rod lengths hold");
-    asked.independent = read_independent(context, independent);
+    asked.at.independent = read_independent(context, independent);
   }
-  asked.options = read_equilibrium_options(context);
-  const RodWants wanted = read_rod_wants(context, usual_wants);
-  const RodStart start = read_start_of_inverse(context);
+  asked.at.options = read_equilibrium_options(context);
+  asked.wanted = read_rod_wants(context);
+  asked.start = read_start_of_inverse(context);
   const auto all = context.query.optional("all");
-  const bool want_all = all && all->boolean();
-  if (want_all && input_count(context.robot) != pose_inputs)
+  asked.wants_all = all && all->boolean();
+  if (asked.wants_all && input_count(context.robot) != pose_inputs)
     all->fail("not_available", "of several solutions only the one nearest home is found; leave it out");
-  if (!context.ready()) return;
+  return asked;
+}
+
+void answer_inverse(Context& context, const RodInverse& asked) {
   Report begun;
-  asked.options.warm_start = begin_at(context, start, asked.options, begun);
+  RodQuery at = asked.at;
+  at.options.warm_start = begin_at(context, asked.start, at.options, begun);
   if (!begun.is_solved()) {
     context.report(begun);
     context.answer["message"] = "from start: " + std::string(begun.message.view());
     remember_held(context, {});
     return;
   }
-  const Equilibrium found = solve(context, asked);
-  put_equilibrium(context, found, wanted, asked.options.gravity);
-  if (want_all)
-    put_all_lengths(context, *asked.pose, found.is_solved(), asked.options);
-  else if (asked.pose && found.is_solved())
+  const Equilibrium found = solve(context, at);
+  put_equilibrium(context, found, asked.wanted, at.options.gravity);
+  if (asked.wants_all)
+    put_all_lengths(context, *at.pose, found.is_solved(), at.options);
+  else if (at.pose && found.is_solved())
     context.answer["complete"] = false;  // other lengths may hold it too
 }
 
-void answer_rods_velocity(Context& context) {
-  const RodQuery asked = read_configuration_of_rods(context);
-  const RodWants wanted = read_rod_wants(context, usual_wants | Wants{Want::velocity});
-  if (context.ready()) put_equilibrium(context, solve(context, asked), wanted, asked.options.gravity);
+RodForward read_rod_configuration(Context& context) {
+  RodForward asked;
+  asked.at = read_configuration_of_rods(context);
+  asked.wanted = read_rod_wants(context);
+  return asked;
 }
 
-void answer_rods_shape(Context& context) {
-  const RodQuery asked = read_configuration_of_rods(context);
-  const RodWants wanted = read_rod_wants(context, {Want::pose, Want::shape});
-  if (context.ready()) put_equilibrium(context, solve(context, asked), wanted, asked.options.gravity);
-}
+}  // namespace
+
+constexpr Handlers rod_handlers{.robots = "elastic rods",
+                                .wants = equilibrium_wants,
+                                .forward = handle<read_rod_forward, answer_forward>,
+                                .inverse = handle<read_inverse, answer_inverse>,
+                                .velocity = handle<read_rod_configuration, answer_forward>,
+                                .shape = handle<read_rod_configuration, answer_forward>,
+                                .statics = answer_rods_statics,
+                                .track = answer_rods_track,
+                                .describe = tell<describe_platform>,
+                                .plan = plan_rods};
 
 }  // namespace sinew::inline v1

@@ -28,6 +28,12 @@ bool holds_last(const Context& context);
 /// As Question's, of an equilibrium that the workspace holds.
 void remember_held(Context& context, const std::optional<SpatialPose>& found);
 
+/// @name In files of their own
+/// @{
+void answer_rods_statics(Context& context);
+void answer_rods_track(Context& context);
+/// @}
+
 /// `track` along poses, or along coordinates that three inputs hold: `poses`, or `from` and `to`.
 void answer_rods_path(Context& context);
 
@@ -41,7 +47,15 @@ struct RodWants {
   RodMotion motion;  ///< of `velocity`
   int samples = 0;   ///< of `shape`
 };
-RodWants read_rod_wants(Context& context, Wants usual);
+RodWants read_rod_wants(Context& context);
+/// A question of one equilibrium.
+struct RodForward {
+  RodQuery at;
+  RodWants wanted;
+  std::optional<Until<Spatial>> until;
+  bool wants_all = false;
+};
+RodForward read_rod_forward(Context& context);
 /// Of the equilibrium that the workspace holds, under this gravity.
 void put_rod_wants(Context& context, const Equilibrium& found, const RodWants& wanted,
                    const std::optional<Vec3<double>>& gravity);

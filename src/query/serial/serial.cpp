@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/quantity.hpp"
+#include "query/batch/sampler.hpp"
 #include "sinew/analysis/serial_shape.hpp"
 #include "sinew/kinematics/resolved_rate.hpp"
 
@@ -59,7 +60,7 @@ Value by_section(const SerialRobot& robot, const Values& values) {
 
 SerialConfiguration read_configuration(SerialContext& context, const Reader& list) {
   const std::size_t count = context.robot.sections.size();
-  SerialConfiguration shape{std::vector<Bend>(count, Bend::Zero()), std::vector<double>(count, 0.0)};
+  SerialConfiguration shape{{}, std::vector<Bend>(count, Bend::Zero()), std::vector<double>(count, 0.0)};
   const auto items = section_items(context, list);
   for (std::size_t m = 0; m < std::min(items.size(), count); ++m) {
     const Section& section = context.robot.sections[m];
@@ -72,8 +73,9 @@ SerialConfiguration read_configuration(SerialContext& context, const Reader& lis
     }
     const auto parts = items[m].items(has_extension ? 3 : 2);
     if (parts.size() < 2 || given != parts.size()) continue;
-    shape.bends[m] = bend_of(section, {parts[0].quantity(Dimension::angle, Range::turn()),
-                                       parts[1].quantity(Dimension::angle, Range::turn())});
+    shape.given.push_back({parts[0].quantity(Dimension::angle, Range::turn()),
+                           parts[1].quantity(Dimension::angle, Range::turn())});
+    shape.bends[m] = bend_of(section, shape.given.back());
     if (has_extension) shape.extensions[m] = parts[2].quantity(Dimension::length, Range::place());
   }
   return shape;
@@ -129,13 +131,6 @@ std::vector<double> read_changes(SerialContext& context, const Reader& list) {
   }
   return changes;
 }
-
-/// What a query gives of the robot's shape, and what became of it.
-struct Shaped : SerialConfiguration {
-  std::optional<std::vector<double>> changes;
-  std::vector<double> slack;  ///< of their tendons
-  Report report;
-};
 
 /// Reads `configuration` or `changes`; solving comes later, when all fields are read.
 Shaped read_shape(SerialContext& context) {
@@ -360,8 +355,8 @@ void put_shape_of(SerialContext& context, std::span<const Bend> bends, int sampl
 
 }  // namespace
 
-SerialWants read_serial_wants(SerialContext& context, Wants usual) {
-  SerialWants wanted{read_wants(context, usual, {Want::pose, Want::velocity, Want::shape}), {}, 0};
+SerialWants read_serial_wants(SerialContext& context) {
+  SerialWants wanted{read_wants(context), {}, 0};
   refuse_without(context, wanted.words, Want::velocity, {"twist"});
   if (wanted.words.has(Want::velocity))
     if (const auto asked = context.query.optional("twist"))
@@ -377,39 +372,44 @@ void put_serial_wants(SerialContext& context, std::span<const Bend> bends, kerne
   if (wanted.words.has(Want::shape)) put_shape_of(context, bends, wanted.samples);
 }
 
-void answer_serial_forward(Context& asked) {
-  SerialContext context(asked);
-  const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
-  Shaped shape = read_shape(context);
-  const std::vector<double> more = read_pay_out(context, shape);
-  const SerialWants wanted = read_serial_wants(context, {Want::pose});
-  if (!context.ready()) return;
-  solve_shape(context, model, shape);
-  context.report(shape.report);
-  put_configuration(context, shape.bends, model, more,
-                    shape.changes ? std::span<const double>(*shape.changes) : std::span<const double>());
-  if (shape.changes) context.answer["slack"] = by_section(context.robot, shape.slack);
-  put_serial_wants(context, shape.bends, model, wanted);
+SerialForward read_serial_forward(SerialContext& context) {
+  SerialForward asked{.model = read_tendon_model(context, kernel::Model::exact),
+                      .shape = read_shape(context)};
+  if (context.ask == Ask::forward) asked.pay_out = read_pay_out(context, asked.shape);
+  asked.wanted = read_serial_wants(context);
+  return asked;
 }
 
 namespace {
 
-/// Of a configuration, or of changes, alone what is wanted.
-void answer_serial_configuration(Context& asked, Want usual) {
-  SerialContext context(asked);
-  const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
-  Shaped shape = read_shape(context);
-  const SerialWants wanted = read_serial_wants(context, {usual});
-  if (!context.ready()) return;
-  solve_shape(context, model, shape);
+void answer_forward(SerialContext& context, const SerialForward& asked) {
+  Shaped shape = asked.shape;
+  solve_shape(context, asked.model, shape);
   context.report(shape.report);
-  put_serial_wants(context, shape.bends, model, wanted);
+  if (context.ask == Ask::forward) {
+    put_configuration(context, shape.bends, asked.model, asked.pay_out,
+                      shape.changes ? std::span<const double>(*shape.changes) : std::span<const double>());
+    if (shape.changes) context.answer["slack"] = by_section(context.robot, shape.slack);
+  }
+  put_serial_wants(context, shape.bends, asked.model, asked.wanted);
 }
+
+constexpr std::string_view bears_none =
+    "a serial robot by pcc or lsk bears no load: it takes the shape that the lengths of its tendons give; "
+    "leave it out";
+constexpr Lack lacking[] = {{"wrench", bears_none}, {"gravity", bears_none}, {"until", bears_none}};
 
 }  // namespace
 
-void answer_serial_velocity(Context& context) { answer_serial_configuration(context, Want::velocity); }
-
-void answer_serial_shape(Context& context) { answer_serial_configuration(context, Want::shape); }
+constexpr Handlers serial_handlers{.robots = "serial robots",
+                                   .wants = {Want::pose, Want::velocity, Want::shape},
+                                   .forward = handle<read_serial_forward, answer_forward>,
+                                   .inverse = answer_serial_inverse,
+                                   .velocity = handle<read_serial_forward, answer_forward>,
+                                   .shape = handle<read_serial_forward, answer_forward>,
+                                   .diagram = answer_serial_diagram,
+                                   .describe = answer_serial_describe,
+                                   .lacks = lacking,
+                                   .plan = plan_sections};
 
 }  // namespace sinew::inline v1

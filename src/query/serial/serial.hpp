@@ -35,8 +35,16 @@ std::vector<Reader> section_items(const SerialContext& context, const Reader& li
 
 /// Shape of all sections.
 struct SerialConfiguration {
+  std::vector<std::array<double, 2>> given;  ///< as a question has it, of those sections that it names
   std::vector<Bend> bends;
   std::vector<double> extensions;  ///< longer than at rest by [m]
+};
+
+/// What a query gives of the robot's shape, and what became of it.
+struct Shaped : SerialConfiguration {
+  std::optional<std::vector<double>> changes;
+  std::vector<double> slack;  ///< of their tendons
+  Report report;
 };
 
 /// Per section [θ, φ] or [β₁, β₂], and the extension where its length varies; what is not given is straight
@@ -60,9 +68,25 @@ struct SerialWants {
   std::vector<double> twist;  ///< of `velocity`
   int samples = 0;            ///< of `shape`
 };
-SerialWants read_serial_wants(SerialContext& context, Wants usual);
+SerialWants read_serial_wants(SerialContext& context);
 /// Of these bends; the workspace has the sections' lengths.
 void put_serial_wants(SerialContext& context, std::span<const Bend> bends, kernel::Model model,
                       const SerialWants& wanted);
+
+/// A question of one shape.
+struct SerialForward {
+  kernel::Model model;
+  Shaped shape;
+  std::vector<double> pay_out = {};  ///< of all tendons of a section
+  SerialWants wanted = {};
+};
+SerialForward read_serial_forward(SerialContext& context);
+
+/// @name In files of their own
+/// @{
+void answer_serial_inverse(Context& context);
+void answer_serial_diagram(Context& context);
+void answer_serial_describe(Context& context);
+/// @}
 
 }  // namespace sinew::inline v1

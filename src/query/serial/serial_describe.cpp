@@ -6,9 +6,10 @@
 
 namespace sinew::inline v1 {
 
-void answer_serial_describe(Context& asked) {
-  SerialContext context(asked);
-  if (!context.ready()) return;
+namespace {
+
+void describe_serial(Context& asked) {
+  const SerialContext context(asked);
   Value sections = Value::list(), coordinates = Value::list(), inputs = Value::list();
   for (std::size_t m = 0; m < context.robot.sections.size(); ++m) {
     const Section& section = context.robot.sections[m];
@@ -50,5 +51,9 @@ void answer_serial_describe(Context& asked) {
   answer["geometry"] = context.robot.geometry_inferred ? "inferred" : "given";
   answer["versions"] = {{"sinew", version()}, {"protocol", 1}};
 }
+
+}  // namespace
+
+void answer_serial_describe(Context& context) { tell<describe_serial>(context); }
 
 }  // namespace sinew::inline v1

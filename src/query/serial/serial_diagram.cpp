@@ -161,31 +161,42 @@ void put_outline(SerialContext& context, const Asked& asked, const TendonsTo& co
     context.answer["no_outline"] = reasons[static_cast<std::size_t>(outline.missing)];
 }
 
-}  // namespace
+struct SectionQuestion {
+  std::size_t m = 0;
+  kernel::Model model;
+  TendonsTo commanded;
+  std::optional<TendonsTo> measured;
+  double tolerance = 0;
+  Envelope envelope;
+};
 
-void answer_serial_diagram(Context& of_robot) {
-  SerialContext context(of_robot);
+SectionQuestion read_diagram(SerialContext& context) {
+  SectionQuestion asked;
   const Reader which = context.query.required("section", "0-based");
   const auto m =
       static_cast<std::size_t>(which.integer(Range::between(0, context.robot.section_count() - 1)));
-  const Section& section = context.robot.sections[m < context.robot.sections.size() ? m : 0];
-  const kernel::Model model = read_tendon_model(context, kernel::Model::linear);
-  const TendonsTo commanded =
+  asked.m = m;
+  asked.model = read_tendon_model(context, kernel::Model::linear);
+  asked.commanded =
       read_tendons(context, context.query.required("changes", "of all sections up to it, or its own"), m);
-  std::optional<TendonsTo> measured;
-  if (const auto given = context.query.optional("measured")) measured = read_tendons(context, *given, m);
+  if (const auto given = context.query.optional("measured"))
+    asked.measured = read_tendons(context, *given, m);
   const auto tolerance = context.query.optional("tolerance");
   SerialRobot judged = context.robot;
   if (tolerance) judged.tolerance = tolerance->quantity(Dimension::length, Range::not_negative());
-  const double own_tolerance = tendon_tolerance(judged);  // at least rounding
-  const Envelope envelope = read_envelope(context, section);
-  if (!context.ready()) return;
+  asked.tolerance = tendon_tolerance(judged);  // at least rounding
+  asked.envelope = read_envelope(context, context.robot.sections[m < context.robot.sections.size() ? m : 0]);
+  return asked;
+}
 
+void answer_diagram(SerialContext& context, const SectionQuestion& of) {
+  const std::size_t m = of.m;
+  const Section& section = context.robot.sections[m];
   const auto ask = [&](const TendonsTo& tendons, Asked& asked) {
     asked.question.section = section.map();
-    asked.question.envelope = envelope;
-    asked.question.tolerance = own_tolerance;
-    asked.question.model = model;
+    asked.question.envelope = of.envelope;
+    asked.question.tolerance = of.tolerance;
+    asked.question.model = of.model;
     asked.question.tendons = {
         std::span(context.work.directions).subspan(tendons.first, tendons.changes.size() - tendons.first),
         std::span(tendons.changes).subspan(tendons.first)};
@@ -194,21 +205,21 @@ void answer_serial_diagram(Context& of_robot) {
     return section_diagram(asked.question);
   };
   Asked asked(context, m);
-  const SectionDiagram diagram = ask(commanded, asked);
+  const SectionDiagram diagram = ask(of.commanded, asked);
   // An earlier section beyond its limit is not where the diagram takes it; slack there is `conditional`.
   const bool is_out = asked.earlier.status == Status::left_domain;
   context.report(is_out && diagram.report.ok() ? asked.earlier : diagram.report);
   if (diagram.report.status == Status::left_domain) return;
   put_diagram(context.answer, asked.question, diagram);
   constexpr std::string_view kinds[] = {"square", "disc", "actuator"};
-  context.answer["envelope"] = {{"kind", kinds[static_cast<std::size_t>(envelope.kind)]},
-                                {"limit", envelope.limit}};
+  context.answer["envelope"] = {{"kind", kinds[static_cast<std::size_t>(of.envelope.kind)]},
+                                {"limit", of.envelope.limit}};
   context.answer["conditional"] = asked.is_conditional;
-  if (asked.is_conditional) put_outline(context, asked, commanded, m);
-  if (measured) {
+  if (asked.is_conditional) put_outline(context, asked, of.commanded, m);
+  if (of.measured) {
     Asked of_encoders(context, m);
     Value state = Value::map();
-    const SectionDiagram read = ask(*measured, of_encoders);
+    const SectionDiagram read = ask(*of.measured, of_encoders);
     if (read.report.status == Status::left_domain)
       state = {{"status", "left_domain"}, {"message", std::string(read.report.message.view())}};
     else
@@ -216,5 +227,9 @@ void answer_serial_diagram(Context& of_robot) {
     context.answer["measured"] = std::move(state);
   }
 }
+
+}  // namespace
+
+void answer_serial_diagram(Context& context) { handle<read_diagram, answer_diagram>(context); }
 
 }  // namespace sinew::inline v1

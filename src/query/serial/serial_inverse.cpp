@@ -90,39 +90,52 @@ void answer_all(SerialContext& context, const ThreeArcs& arcs, const TipTarget& 
   context.answer["solutions"] = std::move(solutions);
 }
 
-}  // namespace
-
-void answer_serial_inverse(Context& asked) {
-  SerialContext context(asked);
-  const kernel::Model model = read_tendon_model(context, kernel::Model::exact);
-  const TipTarget target = read_target(context);
+struct SerialInverseQuestion {
+  kernel::Model model;
+  TipTarget target;
   SerialConfiguration start;
-  if (const auto given = context.query.optional("start")) start = read_configuration(context, *given);
+  std::optional<ThreeArcs> all;  ///< of which every solution is wanted
+  SerialWants wanted;
+};
+
+SerialInverseQuestion read_inverse(SerialContext& context) {
+  SerialInverseQuestion asked{.model = read_tendon_model(context, kernel::Model::exact),
+                              .target = read_target(context),
+                              .start = {},
+                              .all = {},
+                              .wanted = {}};
+  if (const auto given = context.query.optional("start")) asked.start = read_configuration(context, *given);
   const auto all = context.query.optional("all");
   const bool want_all = all && all->boolean();
-  const auto arcs = three_arcs(context.robot);
-  if (want_all && !arcs)
+  if (want_all) asked.all = three_arcs(context.robot);
+  if (want_all && !asked.all)
     all->fail("not_available",
               "every solution is found of three arcs only: three neutral sections of one segment, "
               "without discs, of fixed lengths");
-  if (want_all && !target.rotation && context.errors.empty())
+  if (want_all && !asked.target.rotation && context.errors.empty())
     all->fail("not_available", "a target that leaves turns open has a continuum of solutions; give a pose");
   for (const char* key : {"start", "max_iterations"})
     if (const auto given = context.query.optional(key); given && want_all)
       given->refuse("no_effect", "has no effect where all solutions are asked for; remove it");
-  const SerialWants wanted = read_serial_wants(context, {Want::pose});
-  if (!context.ready()) return;
-  if (want_all) return answer_all(context, *arcs, target, model, wanted);
+  asked.wanted = read_serial_wants(context);
+  return asked;
+}
 
-  SerialInverseOptions options{.start = start.bends, .start_extensions = start.extensions};
+void answer_inverse(SerialContext& context, const SerialInverseQuestion& asked) {
+  if (asked.all) return answer_all(context, *asked.all, asked.target, asked.model, asked.wanted);
+  SerialInverseOptions options{.start = asked.start.bends, .start_extensions = asked.start.extensions};
   if (context.max_iterations) options.max_iterations = *context.max_iterations;
-  const SerialInverse found = inverse(context.robot, target, options, context.work);
+  const SerialInverse found = inverse(context.robot, asked.target, options, context.work);
   context.report(found.report);
   const std::vector<Bend> bends(found.bends.begin(), found.bends.end());
-  put_configuration(context, bends, model);
+  put_configuration(context, bends, asked.model);
   context.answer["residual"] = found.report.residual;
   context.answer["iterations"] = found.report.iterations;
-  put_serial_wants(context, bends, model, wanted);
+  put_serial_wants(context, bends, asked.model, asked.wanted);
 }
+
+}  // namespace
+
+void answer_serial_inverse(Context& context) { handle<read_inverse, answer_inverse>(context); }
 
 }  // namespace sinew::inline v1
