@@ -149,8 +149,12 @@ void put_type_2_distance(Context& context, const Along& along, const Configurati
 inline constexpr int default_path_samples = 60, max_path_samples = 100000;
 /// Poses of a path: a list, or samples of a straight line.
 std::vector<AnyPose> read_path(Context& context);
+/// Where along a path of so many samples it ended, and why.
+/// @param beyond how much of the way from the last row to the next one was gone
+/// @param pose where it ended
+void put_path_end(Context& context, const Report& report, std::size_t rows, std::size_t samples,
+                  double beyond, const AnyPose& pose);
 Objective read_objective(Reader& query);
-std::string in_words(const AnyPose& pose);
 
 void put_shape(Value& answer, const AnyShape& picture);
 

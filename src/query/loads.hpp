@@ -45,6 +45,15 @@ std::optional<Until<Space>> read_until(Question& context) {
   return until;
 }
 
+/// How far a load grew, and why no further.
+template <class Path>
+void put_growth(Value& answer, const Path& path) {
+  answer["load"] = path.load;
+  answer["why"] = to_string(path.end);
+  if constexpr (requires { path.definite_until; })
+    if (path.definite_until >= 0) answer["definite_until"] = path.definite_until;
+}
+
 /// One number for all, or one each.
 std::vector<double> read_forces(const Reader& given, std::size_t count, const Range& range, bool one_for_all);
 

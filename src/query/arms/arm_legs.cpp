@@ -27,53 +27,20 @@ constexpr Lack lacking[] = {
     {"loads", not_yet},     {"all", not_yet},         {"start", not_yet},
     {"balance", not_yet}};
 
-void put_points(std::vector<double>& numbers, const Vec3<double>& point) {
-  numbers.insert(numbers.end(), point.begin(), point.end());
-}
-
 void put_legs_shape(Context& context, const ArmLegs& robot, int samples) {
-  Value backbones = Value::list(), curvatures = Value::list(), tendons = Value::list(), discs = Value::list();
+  ArmPicture picture;
   for (std::size_t k = 0; k < robot.legs.size(); ++k) {
-    const Arm& arm = robot.legs[k].arm;
-    const ArmWorkspace& work = arm_legs_shape(*context.work.arm_legs, k);
-    std::vector<double> places, backbone, curvature;
-    for (int i = 0; i < samples; ++i) places.push_back(arm.length() * i / (samples - 1));
-    for (const SE3<double>& frame : arm_frames(arm, places, work)) put_points(backbone, frame.p);
-    for (const auto& strain : arm_strains(arm, places, work))
-      curvature.insert(curvature.end(), strain.begin() + 3, strain.end());
-    backbones.push_back(Value(backbone, 3));
-    curvatures.push_back(Value(curvature, 3));
-    const auto lines = arm_tendon_lines(arm, work);
-    std::size_t next = 0;
-    for (const std::size_t count : tendons_by_section(arm)) {
-      Value of_section = Value::list();
-      for (std::size_t i = 0; i < count; ++i, ++next) {
-        std::vector<double> numbers;
-        for (const Vec3<double>& point : lines[next]) put_points(numbers, point);
-        of_section.push_back(Value(numbers, 3));
-      }
-      tendons.push_back(std::move(of_section));
-    }
-    double from = 0, around = 0;  // where a disc's size is not known: its tendons run within it
-    for (const ArmTendon& tendon : arm.tendons)
+    double around = 0;  // where a disc's size is not known: its tendons run within it
+    for (const ArmTendon& tendon : robot.legs[k].arm.tendons)
       for (const TendonRoute& route : tendon.routes)
         around = std::max({around, 1.15 * route.start_radius, 1.15 * route.end_radius});
-    for (const ArmSection& section : arm.sections) {
-      std::vector<double> at_discs;
-      for (int i = 1; i <= section.discs.count; ++i)
-        at_discs.push_back(from + section.length * i / section.discs.count);
-      for (const SE3<double>& frame : arm_frames(arm, at_discs, work))
-        discs.push_back({{"pose", pose_value(AnyPose(spatial_pose(frame)))},
-                         {"height", 0.0},
-                         {"radius", section.discs.radius > 0 ? section.discs.radius : around}});
-      from += section.length;
-    }
+    picture.add(robot.legs[k].arm, arm_legs_shape(*context.work.arm_legs, k), samples, around);
   }
   Value& answer = context.answer;
-  answer["backbones"] = std::move(backbones);
-  answer["curvatures"] = std::move(curvatures);
-  answer["tendons"] = std::move(tendons);
-  answer["discs"] = std::move(discs);
+  answer["backbones"] = std::move(picture.backbones);
+  answer["curvatures"] = std::move(picture.curvatures);
+  answer["tendons"] = std::move(picture.tendons);
+  answer["discs"] = std::move(picture.discs);
 }
 
 void put_legs_state(Context& context, const ArmLegs& robot, const ArmLegsState& state) {
@@ -139,9 +106,7 @@ void answer_legs(Context& context, const ArmLegsForward& asked) {
     std::copy(until->direction.begin(), until->direction.end(), direction.begin());
     const ArmLegsLoadPath path = arm_legs_follow_load(robot, direction, until->limit, work);
     put_legs_state(context, robot, path.state);
-    context.answer["load"] = path.load;
-    context.answer["why"] = to_string(path.end);
-    if (path.definite_until >= 0) context.answer["definite_until"] = path.definite_until;
+    put_growth(context.answer, path);
     if (path.end == LoadEnd::stopped) context.answer["status"] = to_string(Status::stopped);
   } else {
     put_legs_state(context, robot, state);

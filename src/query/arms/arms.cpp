@@ -9,6 +9,7 @@
 #include "io/read_pose.hpp"
 #include "query/arms/arms.hpp"
 #include "query/batch/sampler.hpp"
+#include "query/tip.hpp"
 #include "sinew/kinematics/arm_load_path.hpp"
 
 namespace sinew::inline v1 {
@@ -197,49 +198,67 @@ ArmWanted read_arm_wants(ArmContext& context) {
 
 }  // namespace
 
-void put_arm_shape(ArmContext& context, int samples) {
-  const Arm& arm = context.robot;
-  std::vector<double> places, ends;
+namespace {
+
+std::vector<double> numbers_of(std::span<const Vec3<double>> points) {
+  std::vector<double> numbers;
+  for (const Vec3<double>& point : points) numbers.insert(numbers.end(), point.begin(), point.end());
+  return numbers;
+}
+
+std::vector<double> places_along(const Arm& arm, int samples) {
+  std::vector<double> places;
   for (int k = 0; k < samples; ++k) places.push_back(arm.length() * k / (samples - 1));
-  double end = 0;
-  for (const ArmSection& section : arm.sections) ends.push_back(end += section.length);
+  return places;
+}
+
+}  // namespace
+
+void ArmPicture::add(const Arm& arm, const ArmWorkspace& work, int samples, double unknown_radius) {
+  const std::vector<double> places = places_along(arm, samples);
   std::vector<double> backbone, curvature;
-  for (const SE3<double>& frame : arm_frames(arm, places, context.work))
+  for (const SE3<double>& frame : arm_frames(arm, places, work))
     backbone.insert(backbone.end(), frame.p.begin(), frame.p.end());
-  for (const auto& strain : arm_strains(arm, places, context.work))
+  for (const auto& strain : arm_strains(arm, places, work))
     curvature.insert(curvature.end(), strain.begin() + 3, strain.end());
-  Value tendons = Value::list(), frames = Value::list(), discs = Value::list(), backbones = Value::list();
-  const auto lines = arm_tendon_lines(arm, context.work);
+  backbones.push_back(Value(backbone, 3));
+  curvatures.push_back(Value(curvature, 3));
+  const auto lines = arm_tendon_lines(arm, work);
   std::size_t next = 0;
   for (const std::size_t count : tendons_by_section(arm)) {
     Value of_section = Value::list();
-    for (std::size_t i = 0; i < count; ++i, ++next) {
-      std::vector<double> numbers;
-      for (const Vec3<double>& point : lines[next]) numbers.insert(numbers.end(), point.begin(), point.end());
-      of_section.push_back(Value(numbers, 3));
-    }
+    for (std::size_t i = 0; i < count; ++i, ++next) of_section.push_back(Value(numbers_of(lines[next]), 3));
     tendons.push_back(std::move(of_section));
   }
-  for (const SE3<double>& frame : arm_frames(arm, ends, context.work))
-    frames.push_back(pose_value(AnyPose(spatial_pose(frame))));
   double from = 0;
   for (const ArmSection& section : arm.sections) {
     std::vector<double> at_discs;
     for (int k = 1; k <= section.discs.count; ++k)
       at_discs.push_back(from + section.length * k / section.discs.count);
-    for (const SE3<double>& frame : arm_frames(arm, at_discs, context.work))
+    for (const SE3<double>& frame : arm_frames(arm, at_discs, work))
       discs.push_back({{"pose", pose_value(AnyPose(spatial_pose(frame)))},
                        {"height", 0.0},
-                       {"radius", section.discs.radius}});
+                       {"radius", section.discs.radius > 0 ? section.discs.radius : unknown_radius}});
     from += section.length;
   }
-  backbones.push_back(Value(backbone, 3));
+}
+
+void put_arm_shape(ArmContext& context, int samples) {
+  const Arm& arm = context.robot;
+  ArmPicture picture;
+  picture.add(arm, context.work, samples, 0);
+  std::vector<double> ends;
+  double end = 0;
+  for (const ArmSection& section : arm.sections) ends.push_back(end += section.length);
+  Value frames = Value::list();
+  for (const SE3<double>& frame : arm_frames(arm, ends, context.work))
+    frames.push_back(pose_value(AnyPose(spatial_pose(frame))));
   Value& answer = context.answer;
-  answer["places"] = places;
-  answer["backbones"] = std::move(backbones);
-  answer["curvatures"] = Value(curvature, 3);
-  answer["tendons"] = std::move(tendons);
-  answer["discs"] = std::move(discs);
+  answer["places"] = places_along(arm, samples);
+  answer["backbones"] = std::move(picture.backbones);
+  answer["curvatures"] = std::move(picture.curvatures.back());
+  answer["tendons"] = std::move(picture.tendons);
+  answer["discs"] = std::move(picture.discs);
   answer["frames"] = std::move(frames);
 }
 
@@ -286,9 +305,7 @@ ArmState follow(ArmContext& context, const Until<Spatial>& until, std::span<cons
       arm_follow_load(context.robot, commands, load, direction, until.limit, options, context.work);
   ArmState state = path.state;
   if (!state.report.ok()) return state;
-  context.answer["load"] = path.load;
-  context.answer["why"] = to_string(path.end);
-  if (path.definite_until >= 0) context.answer["definite_until"] = path.definite_until;
+  put_growth(context.answer, path);
   if (path.end == LoadEnd::stopped) state.report.status = Status::stopped;
   return state;
 }
@@ -310,25 +327,11 @@ void answer_forward(ArmContext& context, const ArmForward& asked) {
 }
 
 ArmTarget read_arm_target(ArmContext& context) {
-  ArmTarget target;
-  Reader& query = context.query;
-  const auto position = query.optional("position"), direction = query.optional("direction");
-  if (auto pose = query.optional("pose")) {
-    for (const auto& [key, other] : {std::pair{"position", &position}, {"direction", &direction}})
-      if (*other) (*other)->fail("ambiguous", fmt::format("the query gives a pose and a {}; keep one", key));
-    const SpatialPose given = read_spatial_pose(std::move(*pose));
-    target.position = {given.position[0], given.position[1], given.position[2]};
-    target.quaternion = given.quaternion;
-    return target;
-  }
-  if (!position && !direction) query.required("position", "of the tip; or a direction, or a pose");
-  if (position) target.position = position->array<3>(Dimension::length, Range::place());
-  if (direction) {
-    const auto axis = direction->array<3>(Dimension::number, Range::place());
-    if (std::hypot(axis[0], axis[1], axis[2]) < 1e-9)
-      direction->fail("no_direction", "a direction needs a length of at least 1e-9");
-    target.direction = axis;
-  }
+  const AskedTip tip = read_tip(context, true);
+  ArmTarget target{.position = tip.position, .direction = tip.direction};
+  if (!tip.pose) return target;
+  target.position = {tip.pose->position[0], tip.pose->position[1], tip.pose->position[2]};
+  target.quaternion = tip.pose->quaternion;
   return target;
 }
 

@@ -60,6 +60,13 @@ void answer_arm_describe(Context& context);
 /// Numbers of all tendons as a list a section.
 Value by_end_section(const Arm& arm, std::span<const double> values);
 Value by_end_section(const std::vector<std::size_t>& counts, std::span<const double> values);
+/// Lines and discs of arms, as shapes answer them.
+struct ArmPicture {
+  Value backbones = Value::list(), curvatures = Value::list(), tendons = Value::list(), discs = Value::list();
+
+  /// @param unknown_radius of discs of which it is not known [m]
+  void add(const Arm& arm, const ArmWorkspace& work, int samples, double unknown_radius);
+};
 /// `places`, `backbones`, `tendons` and the rest of a shape, of the equilibrium in the workspace.
 void put_arm_shape(ArmContext& context, int samples);
 /// Whether friction is known of any of its tendons.

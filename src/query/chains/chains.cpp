@@ -60,8 +60,7 @@ void load_and_answer(Context& context, const ChainLegs<Space>& robot, ChainState
   if (report.ok() && load.until) {
     const ChainLoadPath path =
         follow_load(robot, load.until->direction, load.until->limit, state, work, load.options);
-    context.answer["load"] = path.load;
-    context.answer["why"] = to_string(path.end);
+    put_growth(context.answer, path);
     report = path.report;
   }
   put_equilibrium(context, robot, state, report, &unloaded, load, work);

@@ -66,6 +66,8 @@ Objective read_objective(Reader& query) {
                                           {"none", Objective::none}});
 }
 
+namespace {
+
 std::string in_words(const AnyPose& pose) {
   if (const auto* planar = std::get_if<PlanarPose>(&pose))
     return fmt::format("x = {}, y = {}, phi = {}", human(planar->x, Dimension::length),
@@ -76,8 +78,6 @@ std::string in_words(const AnyPose& pose) {
   return fmt::format("position ({:.6g}, {:.6g}, {:.6g}) mm, rotation vector ({:.4g}, {:.4g}, {:.4g}) deg",
                      1e3 * p[0], 1e3 * p[1], 1e3 * p[2], turn[0], turn[1], turn[2]);
 }
-
-namespace {
 
 Value row_value(Context& context, const Track& track) {
   Value row{{"pose", pose_value(track.pose())},
@@ -96,23 +96,22 @@ Value row_value(Context& context, const Track& track) {
   return row;
 }
 
-/// Where along the path it ended, and why.
-void put_end(Context& context, const Track& track, std::size_t rows, std::size_t samples,
-             const Report& report) {
-  context.answer["status"] = to_string(report.status);
+}  // namespace
+
+void put_path_end(Context& context, const Report& report, std::size_t rows, std::size_t samples,
+                  double beyond, const AnyPose& pose) {
+  Value& answer = context.answer;
+  context.report(report);
   if (rows == 0) {
-    context.answer["message"] = fmt::format("the first pose: {}", report.message.view());
-    context.answer["reached"] = {{"rows", 0}, {"part", 0.0}};
+    answer["message"] = fmt::format("the first pose: {}", report.message.view());
+    answer["reached"] = {{"rows", 0}, {"part", 0.0}};
     return;
   }
-  const double part = (static_cast<double>(rows - 1) + track.progress()) / static_cast<double>(samples - 1);
-  context.answer["message"] =
-      fmt::format("the path ends between poses {} and {} of {}, {:.4g} % along it, at {}: {}", rows, rows + 1,
-                  samples, 100 * part, in_words(track.pose()), report.message.view());
-  context.answer["reached"] = {{"rows", rows}, {"part", part}, {"pose", pose_value(track.pose())}};
+  const double part = (static_cast<double>(rows - 1) + beyond) / static_cast<double>(samples - 1);
+  answer["message"] = fmt::format("the path ends between poses {} and {} of {}, {:.4g} % along it, at {}: {}",
+                                  rows, rows + 1, samples, 100 * part, in_words(pose), report.message.view());
+  answer["reached"] = {{"rows", rows}, {"part", part}, {"pose", pose_value(pose)}};
 }
-
-}  // namespace
 
 namespace {
 
@@ -147,7 +146,7 @@ void answer_track(Context& context, const KinematicTrack& asked) {
     rows.push_back(row_value(context, track));
   }
   context.report(report);
-  if (!report.ok()) put_end(context, track, rows.size(), poses.size(), report);
+  if (!report.ok()) put_path_end(context, report, rows.size(), poses.size(), track.progress(), track.pose());
   context.answer["residual"] = worst;
   context.answer["rows"] = std::move(rows);
 }

@@ -139,22 +139,6 @@ double part_of(const Held& from, const Held& to, const SpatialPose& here) {
   return square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
 }
 
-void put_rod_end(Context& context, const PathQuery& asked, const Equilibrium& found, std::size_t rows) {
-  Value& answer = context.answer;
-  context.report(found.report);
-  const std::string why(found.report.message.view());
-  if (rows == 0) {
-    answer["message"] = fmt::format("the first pose: {}", why);
-    answer["reached"] = {{"rows", 0}, {"part", 0.0}};
-    return;
-  }
-  const double beyond = part_of(asked.path[rows - 1], asked.path[rows], found.pose),
-               part = (static_cast<double>(rows - 1) + beyond) / static_cast<double>(asked.path.size() - 1);
-  answer["message"] = fmt::format("the path ends between poses {} and {} of {}, {:.4g} % along it, at {}: {}",
-                                  rows, rows + 1, asked.path.size(), 100 * part, in_words(found.pose), why);
-  answer["reached"] = {{"rows", rows}, {"part", part}, {"pose", pose_value(found.pose)}};
-}
-
 void answer_path(Context& context, const PathQuery& asked) {
   Value rows = Value::list();
   double worst = 0, length = 0;
@@ -182,7 +166,9 @@ void answer_path(Context& context, const PathQuery& asked) {
   const bool arrives = rows.size() == asked.path.size();
   remember_held(context, arrives ? std::optional(found.pose) : std::nullopt);
   if (!arrives) {
-    put_rod_end(context, asked, found, rows.size());
+    const std::size_t k = rows.size();
+    put_path_end(context, found.report, k, asked.path.size(),
+                 k > 0 ? part_of(asked.path[k - 1], asked.path[k], found.pose) : 0, found.pose);
   } else {
     context.answer["status"] = to_string(unstable > 0 ? Status::unstable : Status::converged);
     if (unstable > 0)

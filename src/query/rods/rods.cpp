@@ -343,9 +343,7 @@ void put_all_lengths(Context& context, const SpatialPose& pose, bool is_held,
 /// Of rods that hold, as they do under a load that grows.
 void follow(Context& context, const Until<Spatial>& until, Equilibrium& found) {
   const LoadPath path = follow_load(context.robot, until.direction, until.limit, context.work);
-  context.answer["load"] = path.load;
-  context.answer["why"] = to_string(path.end);
-  if (path.definite_until >= 0) context.answer["definite_until"] = path.definite_until;
+  put_growth(context.answer, path);
   const Report report = found.report;
   found = held_equilibrium(context.robot, context.work);
   found.report = report;

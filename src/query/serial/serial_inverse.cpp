@@ -3,9 +3,9 @@
 
 #include <numbers>
 
-#include "io/read_pose.hpp"
 #include "kinematics/three_arcs.hpp"
 #include "query/serial/serial.hpp"
+#include "query/tip.hpp"
 #include "sinew/kinematics/serial_inverse.hpp"
 
 namespace sinew::inline v1 {
@@ -13,28 +13,15 @@ namespace {
 
 /// `position`, `position` and `direction`, or `pose`.
 TipTarget read_target(SerialContext& context) {
+  const AskedTip tip = read_tip(context, false);
   TipTarget target{Vec3<double>::Zero()};
-  if (auto pose = context.query.optional("pose")) {
-    for (const char* key : {"position", "direction"})
-      if (const auto other = context.query.optional(key))
-        other->fail("ambiguous", fmt::format("the query gives a pose and a {}; keep one", key));
-    const SpatialPose given = read_spatial_pose(std::move(*pose));
-    const SE3<double> frame = SE3<double>::from(given);
+  if (tip.pose) {
+    const SE3<double> frame = SE3<double>::from(*tip.pose);
     target.position = frame.p;
     target.rotation = frame.R;
-    return target;
   }
-  const auto [x, y, z] =
-      context.query.required("position", "of the tip; or a pose").array<3>(Dimension::length, Range::place());
-  target.position = {x, y, z};
-  if (const auto direction = context.query.optional("direction")) {
-    const auto [u, v, w] = direction->array<3>(Dimension::number, Range::place());
-    const Vec3<double> axis(u, v, w);
-    if (axis.norm() >= 1e-9)
-      target.direction = axis.normalized();
-    else
-      direction->fail("no_direction", "a direction needs a length of at least 1e-9");
-  }
+  if (tip.position) target.position = Vec3<double>(tip.position->data());
+  if (tip.direction) target.direction = Vec3<double>(tip.direction->data()).normalized();
   return target;
 }
 
