@@ -12,7 +12,7 @@
 namespace sinew::inline v1 {
 namespace {
 
-constexpr std::size_t usual_members = 12, usual_items = 6;
+constexpr std::size_t usual_members = 12, usual_additions = 2, usual_items = 6;
 constexpr std::size_t usual_size = 1024;  ///< of the text of an answer
 
 /// All eight digits of a number below 1e8, as they are written: of pairs, each pair by itself, at once.
@@ -274,7 +274,7 @@ Value::Value(const MatrixView& matrix)
 
 Value::Value(std::initializer_list<Entry> entries) {
   Map& members = is_.emplace<Map>();
-  members.reserve(entries.size());
+  members.reserve(entries.size() + usual_additions);
   for (const Entry& entry : entries) members.push_back({entry.key.name(), std::move(entry.value)});
 }
 
