@@ -9,6 +9,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "base/same_name.hpp"
+
 namespace sinew::inline v1 {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr std::size_t usual_members = 12, usual_additions = 2, usual_items = 6;
 constexpr std::size_t usual_size = 1024;  ///< of the text of an answer
 
 /// All eight digits of a number below 1e8, as they are written: of pairs, each pair by itself, at once.
-std::uint64_t eight_digits(std::uint32_t value) {
+[[gnu::always_inline]] inline std::uint64_t eight_digits(std::uint32_t value) {
   constexpr std::uint64_t zeros = 0x3030303030303030;
   const std::uint64_t fours = value / 10000 | static_cast<std::uint64_t>(value % 10000) << 32;
   const std::uint64_t hundreds =
@@ -72,12 +74,17 @@ char* write_number(char* to, double value) {
   // as many digits as there can be, zeros at the end: they are written in pieces of one size
   const std::uint64_t all =
       decimal.significand * powers_of_ten[static_cast<std::size_t>(most_digits - count)];
-  const char first = static_cast<char>('0' + all / powers_of_ten[16]);
-  const std::uint64_t rest = all % powers_of_ten[16];
-  const std::array digits{eight_digits(static_cast<std::uint32_t>(rest / powers_of_ten[8])),
-                          eight_digits(static_cast<std::uint32_t>(rest % powers_of_ten[8]))};
+  const auto upper = static_cast<std::uint32_t>(all / powers_of_ten[8]);
+  const std::uint32_t leading = upper / 100000000;
+  const char first = static_cast<char>('0' + leading);
+  const std::uint64_t high = eight_digits(upper - 100000000 * leading),
+                      low = eight_digits(static_cast<std::uint32_t>(all % powers_of_ten[8]));
+  const auto put_pieces = [&](char* at) {
+    std::memcpy(at, &high, sizeof high);
+    std::memcpy(at + sizeof high, &low, sizeof low);
+  };
   const auto put_rest = [&](int used) {
-    std::memcpy(to, digits.data(), sizeof digits);
+    put_pieces(to);
     to += used;
   };
   if (power < -4 || power >= 16) {
@@ -100,9 +107,9 @@ char* write_number(char* to, double value) {
     *to++ = first;
     put_rest(power);
     *to++ = '.';
-    std::array<char, 2 * sizeof digits> after{};
-    std::memcpy(after.data(), digits.data(), sizeof digits);
-    std::memcpy(to, &after[static_cast<std::size_t>(power)], sizeof digits);
+    std::array<char, 2 * most_digits> after{};
+    put_pieces(after.data());
+    std::memcpy(to, &after[static_cast<std::size_t>(power)], most_digits);
     to += std::max(count - 1 - power, 1);
   }
   return to;
@@ -302,7 +309,8 @@ Value& Value::operator[](Key key) {
 Value* Value::find(std::string_view name) {
   Map* members = std::get_if<Map>(&is_);
   if (!members) return nullptr;
-  const auto found = std::ranges::find(*members, name, &Member::name);
+  const auto found =
+      std::ranges::find_if(*members, [&](const Member& member) { return is_same_name(member.name, name); });
   return found == members->end() ? nullptr : &found->value;
 }
 
