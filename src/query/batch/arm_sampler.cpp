@@ -165,7 +165,7 @@ SamplerKind plan_arms(Context& of_robot, const RowPlaces& rows) {
   if (of_robot.ask != Ask::forward) return {};
   ArmContext context(of_robot);
   const ArmForward read = read_arm_forward(context);
-  const bool is_plain = context.is_read() && !read.options.from_last && !read.until && !read.wants_all &&
+  const bool is_plain = context.is_read() && !context.query.has("start") && !read.until && !read.wants_all &&
                         read.wanted.words == usual_of(context.ask);
   if (!is_plain || !rows.are_within({"tensions", "changes", "wrench"})) return {};
   AskedArm asked{.arm = context.robot, .options = read.options, .load = read.load, .is_path = rows.is_path()};
